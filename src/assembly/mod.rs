@@ -1,0 +1,135 @@
+//! A [`Scene`](crate::scene::Scene) resolved once and completely: SI units, scene coordinates, closed outward shapes,
+//! positive masses, every default applied, every name resolved.
+
+mod polyhedron;
+mod resolve;
+
+pub use polyhedron::{Facet, Polyhedron};
+pub use resolve::resolve;
+
+use crate::{
+    error::{Finding, JsonPath},
+    scene::{ContactSpec, Friction},
+};
+use nalgebra::{Matrix3, Vector3};
+
+/// Everything the mechanics needs to know.
+#[derive(Clone, Debug)]
+pub struct Assembly {
+    /// A name for people.
+    pub name: String,
+    /// Gravity, m/s².
+    pub gravity: Vector3<f64>,
+    /// Supports and free blocks in scene order (explicit blocks first, then templates).
+    pub blocks: Vec<Block>,
+    /// Which friction acts between two blocks.
+    pub joints: JointRules,
+    /// Dead load per block, own weight included; zero on supports.
+    pub dead: Vec<Wrench>,
+    /// Live load per block (multiplied by λ); zero on supports.
+    pub live: Vec<Wrench>,
+    /// Interfaces given by hand.
+    pub given: Vec<GivenInterface>,
+    /// Contact tolerances.
+    pub contact: ContactSpec,
+    /// What was mended or assumed on the way.
+    pub findings: Vec<Finding>,
+}
+
+/// A rigid block.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Unique name.
+    pub id: String,
+    /// Where the block stands in the scene file (`blocks[3]`, `templates[0]`).
+    pub path: JsonPath,
+    /// Held in place.
+    pub support: bool,
+    /// Name of its material, if any.
+    pub material: Option<String>,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass, m.
+    pub centroid: Vector3<f64>,
+    /// Inertia about the centre of mass, kg·m².
+    pub inertia: Matrix3<f64>,
+    /// Geometry in scene coordinates.
+    pub solid: Solid,
+    /// Bounding-box diagonal, m; the length scale of every tolerance about this block.
+    pub size: f64,
+}
+
+/// The geometry of a block in scene coordinates.
+#[derive(Clone, Debug)]
+pub enum Solid {
+    /// A closed polyhedron.
+    Polyhedron(Polyhedron),
+    /// A sphere.
+    Sphere {
+        /// Centre, m.
+        center: Vector3<f64>,
+        /// Radius, m.
+        radius: f64,
+    },
+}
+
+/// A force and a moment about a block's centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench {
+    /// Force, N.
+    pub force: Vector3<f64>,
+    /// Moment about the centre of mass, N·m.
+    pub moment: Vector3<f64>,
+}
+
+impl Wrench {
+    /// No load.
+    pub fn zero() -> Self {
+        Self { force: Vector3::zeros(), moment: Vector3::zeros() }
+    }
+}
+
+impl std::ops::AddAssign for Wrench {
+    fn add_assign(&mut self, other: Self) {
+        self.force += other.force;
+        self.moment += other.moment;
+    }
+}
+
+/// An interface given by hand, its names resolved.
+#[derive(Clone, Debug)]
+pub struct GivenInterface {
+    /// Index of the first block.
+    pub a: usize,
+    /// Index of the second block.
+    pub b: usize,
+    /// Corners, m.
+    pub points: Vec<Vector3<f64>>,
+    /// Unit normal from `a` into `b`.
+    pub normal: Vector3<f64>,
+    /// Friction, joint rules already applied.
+    pub friction: Friction,
+}
+
+/// The friction between any two blocks.
+#[derive(Clone, Debug)]
+pub struct JointRules {
+    /// Rule for joints without an exception.
+    pub default: Option<Friction>,
+    /// Exceptions by material names, in file order.
+    pub by_material: Vec<([String; 2], Friction)>,
+    /// Exceptions by block indices, smaller index first.
+    pub by_blocks: std::collections::HashMap<(usize, usize), Friction>,
+}
+
+impl Assembly {
+    /// Indices of the free blocks.
+    pub fn free(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.blocks.len()).filter(|&i| !self.blocks[i].support)
+    }
+
+    /// Index of a block by name.
+    pub fn find(&self, id: &str) -> Option<usize> {
+        self.blocks.iter().position(|b| b.id == id)
+    }
+}

@@ -1,0 +1,152 @@
+//! What can go wrong on the way in, and what is worth saying although nothing went wrong.
+//!
+//! An error names the place (file, line, column, JSON path) and the remedy:
+//! `arch.json:41:18: blocks[3].density: must be > 0, got -2400; hint: kg/m³`.
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// One step into a JSON value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// A member of an object.
+    Key(String),
+    /// An element of an array.
+    Index(usize),
+}
+
+/// The way from the root of a JSON value to one of its parts, printed as `blocks[3].shape.box`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct JsonPath(pub Vec<Step>);
+
+impl JsonPath {
+    /// The root.
+    pub fn root() -> Self {
+        Self::default()
+    }
+
+    /// This path, one key further in.
+    pub fn key(&self, key: impl Into<String>) -> Self {
+        let mut steps = self.0.clone();
+        steps.push(Step::Key(key.into()));
+        Self(steps)
+    }
+
+    /// This path, one array element further in.
+    pub fn index(&self, index: usize) -> Self {
+        let mut steps = self.0.clone();
+        steps.push(Step::Index(index));
+        Self(steps)
+    }
+}
+
+impl fmt::Display for JsonPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_empty() {
+            return f.write_str("(root)");
+        }
+        for (i, step) in self.0.iter().enumerate() {
+            match step {
+                Step::Index(n) => write!(f, "[{n}]")?,
+                Step::Key(k) if k.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-') => {
+                    write!(f, "{}{k}", if i == 0 { "" } else { "." })?;
+                }
+                Step::Key(k) => write!(f, "[{k:?}]")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A scene, a result or a foreign file that cannot be used as it is.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub struct InputError {
+    /// File name as the user gave it, where there is a file.
+    pub file: Option<String>,
+    /// Line and column, counted from 1, where known.
+    pub position: Option<(usize, usize)>,
+    /// The place inside the JSON value; the root for other formats.
+    pub path: JsonPath,
+    /// What is wrong, with the offending value.
+    pub message: String,
+    /// What to do about it.
+    pub hint: Option<String>,
+}
+
+impl InputError {
+    /// An error at `path`, not yet tied to a file.
+    pub fn at(path: JsonPath, message: impl Into<String>) -> Self {
+        Self { file: None, position: None, path, message: message.into(), hint: None }
+    }
+
+    /// Adds the remedy.
+    #[must_use]
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{file}:")?;
+        }
+        if let Some((line, column)) = self.position {
+            write!(f, "{line}:{column}:")?;
+        }
+        if self.file.is_some() || self.position.is_some() {
+            f.write_str(" ")?;
+        }
+        if !self.path.0.is_empty() {
+            write!(f, "{}: ", self.path)?;
+        }
+        f.write_str(&self.message)?;
+        if let Some(hint) = &self.hint {
+            write!(f, "; hint: {hint}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Something the user should know although the work went on: a repair, a near miss, an assumption.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Finding {
+    /// What kind of thing it is, for programs.
+    pub code: FindingCode,
+    /// One sentence with its numbers, for people.
+    pub text: String,
+}
+
+/// The kinds of [`Finding`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FindingCode {
+    /// A value nobody gave was assumed.
+    Assumed,
+    /// Input geometry was mended (welded vertices, turned faces, …).
+    Mended,
+    /// Faces that are not plane are treated as plane.
+    Warped,
+    /// Gaps within the tolerance were closed.
+    GapClosed,
+    /// Faces that nearly touch were left apart.
+    NearMiss,
+    /// Blocks overlap.
+    Overlap,
+    /// Contacts without a definite normal, or below the least area, were ignored.
+    ContactIgnored,
+    /// Free blocks without a contact path to a support.
+    Floating,
+    /// Numbers that look like a slip of units.
+    Units,
+    /// Something about the way the numbers were found.
+    Numerics,
+}
+
+impl Finding {
+    /// A finding of kind `code`.
+    pub fn new(code: FindingCode, text: impl Into<String>) -> Self {
+        Self { code, text: text.into() }
+    }
+}

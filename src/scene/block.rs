@@ -1,0 +1,97 @@
+//! Blocks as the file gives them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// One rigid block.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlockSpec {
+    /// Unique name.
+    pub id: String,
+    /// Geometry in the block's own frame.
+    pub shape: Shape,
+    /// Where the origin of the block's frame lies, m.
+    #[serde(default, skip_serializing_if = "is_origin")]
+    pub at: [f64; 3],
+    /// Rotation of the block about the origin of its frame, applied before `at`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotation_deg: Option<Rotation>,
+    /// Whether the block is held in place.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub support: bool,
+    /// Name of a material.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Density, kg/m³; overrides the material's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
+    /// Mass, kg; overrides density × volume.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass: Option<f64>,
+    /// Centre of mass in the block's own frame, m; overrides the centroid of the shape.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub centroid: Option<[f64; 3]>,
+}
+
+/// Turn by `angle` degrees about `axis` (right-handed; the axis need not be of unit length).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rotation {
+    /// Direction of the axis.
+    pub axis: [f64; 3],
+    /// Angle, degrees.
+    pub angle: f64,
+}
+
+/// The shape of a block in its own frame, m.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Shape {
+    /// A box centred on the origin.
+    #[serde(rename = "box")]
+    Cuboid {
+        /// Full lengths along x, y, z.
+        size: [f64; 3],
+    },
+    /// A closed polyhedron, convex or not.
+    Polyhedron {
+        /// Corners.
+        vertices: Vec<[f64; 3]>,
+        /// Faces as loops of vertex indices, counter-clockwise seen from outside.
+        faces: Vec<Vec<usize>>,
+    },
+    /// A polygon in the x–z plane, extruded along y and centred on y = 0.
+    Prism {
+        /// Corners (x, z) in order, either way round; need not be convex.
+        polygon: Vec<[f64; 2]>,
+        /// Length along y.
+        depth: f64,
+    },
+    /// A sphere centred on the origin.
+    Sphere {
+        /// Radius.
+        radius: f64,
+    },
+}
+
+impl BlockSpec {
+    /// A free block of the given shape at the origin, everything else by default.
+    pub fn new(id: impl Into<String>, shape: Shape) -> Self {
+        Self {
+            id: id.into(),
+            shape,
+            at: [0.0; 3],
+            rotation_deg: None,
+            support: false,
+            material: None,
+            density: None,
+            mass: None,
+            centroid: None,
+        }
+    }
+}
+
+fn is_origin(at: &[f64; 3]) -> bool {
+    *at == [0.0; 3]
+}

@@ -1,0 +1,29 @@
+//! When faces touch.
+
+use crate::tolerance;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Contact tolerances, relative to the size (bounding-box diagonal) of the smaller block of a pair.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ContactSpec {
+    /// Faces closer than this × size touch; 1 to 100 times it is reported as a near miss.
+    pub gap: f64,
+    /// Faces touch only if their normals are opposite within this angle, degrees.
+    pub angle_deg: f64,
+    /// Contacts smaller than this × size² are ignored and counted.
+    pub min_area: f64,
+}
+
+impl Default for ContactSpec {
+    fn default() -> Self {
+        Self { gap: tolerance::CONTACT_GAP, angle_deg: tolerance::CONTACT_ANGLE_DEG, min_area: tolerance::CONTACT_MIN_AREA }
+    }
+}
+
+impl ContactSpec {
+    pub(super) fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}

@@ -1,0 +1,22 @@
+//! Interfaces given by hand.
+
+use super::Friction;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A contact given by hand, for joints that were discretised elsewhere. Detection skips the pair.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InterfaceSpec {
+    /// The ids of the two blocks.
+    pub between: [String; 2],
+    /// Corners of the contact, m, in scene coordinates: a convex polygon, an edge (two points) or one point.
+    pub points: Vec<[f64; 3]>,
+    /// Normal from the first block into the second; may be left out where three or more points span a plane,
+    /// and is then turned so that it points from the first block's centre to the second's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<[f64; 3]>,
+    /// Friction of this interface; overrides the joint rules.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
+}

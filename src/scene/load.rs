@@ -1,0 +1,64 @@
+//! Loads as the file gives them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Loads besides the blocks' own weight.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Loads {
+    /// Always there, like the weight.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub dead: Vec<Load>,
+    /// Multiplied by the load factor λ.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub live: Vec<Load>,
+}
+
+/// One load: a `force` and/or `moment` on a `block`, or an `acceleration` or `weight` on one block or all free blocks.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// The loaded block; every free block where absent (`acceleration` and `weight` only).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub block: Option<String>,
+    /// Force, N.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<[f64; 3]>,
+    /// Moment, N·m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moment: Option<[f64; 3]>,
+    /// Where the force acts: a point of the scene, m, or `"centroid"` (the default).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<At>,
+    /// Body force: mass × this acceleration, m/s².
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<[f64; 3]>,
+    /// Body force as multiples of the block's own weight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<[f64; 3]>,
+}
+
+/// Where a force acts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected a point [x, y, z] or \"centroid\"")]
+pub enum At {
+    /// A point of the scene, m.
+    Point([f64; 3]),
+    /// The block's centre of mass.
+    Centroid(Centroid),
+}
+
+/// The word `"centroid"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Centroid {
+    /// The block's centre of mass.
+    Centroid,
+}
+
+impl Loads {
+    pub(super) fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}

@@ -1,0 +1,95 @@
+//! What a scene file says, and nothing more (`"format": "voussoir-scene/1"`).
+//!
+//! These types mirror the JSON one to one: units as written, references by name, defaults not yet applied
+//! where they depend on anything else. [`crate::assembly::resolve`] turns a [`Scene`] into an
+//! [`Assembly`](crate::assembly::Assembly). Unknown keys are refused; writing a scene and reading it back gives the same scene.
+
+mod block;
+mod contact;
+mod interface;
+mod joint;
+mod load;
+mod read;
+pub mod template;
+
+pub use block::{BlockSpec, Rotation, Shape};
+pub use contact::ContactSpec;
+pub use interface::InterfaceSpec;
+pub use joint::{Friction, JointOverride, JointSpec, Joints, Material};
+pub use load::{At, Load, Loads};
+pub use read::{Source, read_file, read_str};
+pub use template::Template;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The version of the format, the only value of the key `format`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Format {
+    /// Version 1.
+    #[default]
+    #[serde(rename = "voussoir-scene/1")]
+    V1,
+}
+
+/// A scene: blocks given one by one, by templates, or both; SI units (m, kg, s, N), z up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// The format and its version.
+    pub format: Format,
+    /// A name for people.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// Where the geometry and the values come from.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub source: String,
+    /// Gravity, m/s².
+    #[serde(default = "standard_gravity")]
+    pub gravity: [f64; 3],
+    /// Materials by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub materials: BTreeMap<String, Material>,
+    /// How joints resist.
+    #[serde(default, skip_serializing_if = "Joints::is_empty")]
+    pub joints: Joints,
+    /// Blocks given one by one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub blocks: Vec<BlockSpec>,
+    /// Structures given by a few numbers each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub templates: Vec<Template>,
+    /// Interfaces given by hand; detection skips these pairs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub interfaces: Vec<InterfaceSpec>,
+    /// Loads besides the weight of the blocks.
+    #[serde(default, skip_serializing_if = "Loads::is_empty")]
+    pub loads: Loads,
+    /// When faces touch.
+    #[serde(default, skip_serializing_if = "ContactSpec::is_default")]
+    pub contact: ContactSpec,
+}
+
+/// 9.81 m/s² downward.
+pub fn standard_gravity() -> [f64; 3] {
+    [0.0, 0.0, -9.81]
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            format: Format::V1,
+            name: String::new(),
+            source: String::new(),
+            gravity: standard_gravity(),
+            materials: BTreeMap::new(),
+            joints: Joints::default(),
+            blocks: Vec::new(),
+            templates: Vec::new(),
+            interfaces: Vec::new(),
+            loads: Loads::default(),
+            contact: ContactSpec::default(),
+        }
+    }
+}
