@@ -14,3 +14,11 @@ pub mod generate;
 pub mod assembly;
 
 pub mod interface;
+
+pub mod program;
+
+pub mod solve;
+
+pub mod verdict;
+
+pub mod analysis;

@@ -23,3 +23,29 @@ pub const CONTACT_MIN_AREA: f64 = 1e-9;
 
 /// Near misses are reported up to this many times `contact.gap`.
 pub const NEAR_MISS_FACTOR: f64 = 100.0;
+
+/// A scene is its own mirror image when points, centres and directions agree within this × block size.
+/// Larger: skew scenes are solved as plane and their certificate fails. Smaller: plane scenes that were turned or moved
+/// (coordinates rounded at 1e-12 of the scene) are solved in space, ten times slower.
+pub const MIRROR: f64 = 1e-9;
+
+/// A block or joint moves in a mechanism if its rate exceeds this × the greatest.
+/// Larger: slow parts of a mechanism are left unnamed. Smaller: rounding of the solver names joints that rest.
+pub const MECHANISM_REST: f64 = 1e-5;
+
+/// Out-of-balance acceleration, in multiples of gravity, below which a scene counts as balanced and above which as not.
+/// Larger: arches 1e-6 below their least thickness (unbalance 2e-7) pass as stable.
+/// Smaller: the solver's last digits (1e-11) decide.
+pub const UNBALANCE: f64 = 1e-9;
+
+/// A load factor is found when its bracket is narrower than this × |λ| (plus [`LOAD_FACTOR_FLOOR`]).
+/// Larger: answers with fewer digits. Smaller: large walls go down the whole ladder for digits nobody reads.
+pub const LOAD_FACTOR_WIDTH: f64 = 1e-7;
+
+/// Absolute part of the width of a found load factor, in multiples of (total dead load / total live load); it decides
+/// where λ is zero.
+pub const LOAD_FACTOR_FLOOR: f64 = 1e-10;
+
+/// Friction cones are respected when no force lies further outside than this × the largest force.
+/// Larger: forged certificates pass. Smaller: rounding of a correct force (1e-16) written to a file fails.
+pub const CONE: f64 = 1e-12;

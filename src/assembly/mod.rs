@@ -128,6 +128,11 @@ impl Assembly {
         (0..self.blocks.len()).filter(|&i| !self.blocks[i].support)
     }
 
+    /// Weight of a block, N: mass × |gravity|.
+    pub fn weight(&self, block: usize) -> f64 {
+        self.blocks[block].mass * self.gravity.norm()
+    }
+
     /// Index of a block by name.
     pub fn find(&self, id: &str) -> Option<usize> {
         self.blocks.iter().position(|b| b.id == id)

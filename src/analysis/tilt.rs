@@ -1,0 +1,79 @@
+//! At what tilt does it fall? One load-factor program a direction.
+//!
+//! Tilting the ground by θ towards a horizontal direction `d` turns gravity to `g (cos θ ẑ↓ + sin θ d)`; forces scale, so
+//! `tan θ` is the load factor of the live load "own weight along d", the vertical load kept. Dead loads on blocks are
+//! taken as hanging weights: they must act along gravity, and turn with it.
+
+use super::{Control, LoadFactor, Outcome, limit};
+use crate::{
+    assembly::{Assembly, Wrench},
+    error::InputError,
+    interface::Interfaces,
+};
+use nalgebra::Vector3;
+
+/// The tilt limit in one direction.
+#[derive(Clone, Debug)]
+pub struct Tilt {
+    /// Unit direction perpendicular to gravity towards which the ground tips.
+    pub toward: Vector3<f64>,
+    /// `tan θ` as a load factor.
+    pub load_factor: LoadFactor,
+}
+
+impl Tilt {
+    /// The angle in degrees; 90 where the scene is wedged and stands at every tilt below, NaN where there is none.
+    pub fn angle_deg(&self) -> f64 {
+        match self.load_factor.outcome {
+            Outcome::Found => self.load_factor.value.atan().to_degrees(),
+            Outcome::Unbounded => 90.0,
+            Outcome::Impossible | Outcome::Undecided => f64::NAN,
+        }
+    }
+}
+
+/// The assembly with "own weight (and hanging dead loads) towards `toward`" as its only live load.
+///
+/// # Errors
+/// `toward` is parallel to gravity, or a dead load does not act along gravity.
+pub fn turned(assembly: &Assembly, toward: Vector3<f64>) -> Result<(Assembly, Vector3<f64>), InputError> {
+    let down = assembly.gravity.normalize();
+    let horizontal = toward - down * down.dot(&toward);
+    if !(horizontal.norm() > 1e-9 * toward.norm()) {
+        return Err(InputError::at(Default::default(), format!("cannot tilt towards {:?}: it is parallel to gravity", toward.as_slice()))
+            .hint("give a direction across gravity, such as 1,0,0"));
+    }
+    let d = horizontal.normalize();
+    let mut turned = assembly.clone();
+    for i in assembly.free() {
+        let dead = assembly.dead[i];
+        let along = down.dot(&dead.force);
+        if (dead.force - down * along).norm() > 1e-9 * dead.force.norm() {
+            return Err(InputError::at(
+                Default::default(),
+                format!("tilt turns dead loads with gravity, but the dead load on {} does not act along gravity", assembly.blocks[i].id),
+            )
+            .hint("ask `limit` with the tilting force as a live load instead"));
+        }
+        turned.live[i] = Wrench { force: d * along, moment: turn(dead.moment, down, d) };
+    }
+    Ok((turned, d))
+}
+
+/// The moment of vertical forces, once the forces are turned from `down` to `d`: `r × down F → r × d F`.
+///
+/// A vertical force's moment fixes only the horizontal part of its lever arm; the arm is taken at the height of the
+/// centre of mass, so the turned moment is about `down` alone.
+fn turn(moment: Vector3<f64>, down: Vector3<f64>, d: Vector3<f64>) -> Vector3<f64> {
+    // r⊥ F = down × (r × down F) for r ⊥ down.
+    down.cross(&moment).cross(&d)
+}
+
+/// The tilt at which the scene falls.
+///
+/// # Errors
+/// As [`turned`].
+pub fn tilt(assembly: &Assembly, interfaces: &Interfaces, toward: Vector3<f64>, control: &Control) -> Result<Tilt, InputError> {
+    let (turned, toward) = turned(assembly, toward)?;
+    Ok(Tilt { toward, load_factor: limit(&turned, interfaces, control) })
+}
