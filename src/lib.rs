@@ -22,3 +22,5 @@ pub mod solve;
 pub mod verdict;
 
 pub mod analysis;
+
+pub mod report;

@@ -49,3 +49,13 @@ pub const LOAD_FACTOR_FLOOR: f64 = 1e-10;
 /// Friction cones are respected when no force lies further outside than this × the largest force.
 /// Larger: forged certificates pass. Smaller: rounding of a correct force (1e-16) written to a file fails.
 pub const CONE: f64 = 1e-12;
+
+/// A mechanism proves instability when only contact forces above this × the total load could make up for its
+/// inadmissibility. Larger: correct mechanisms close to the limit are refused (1e-8 below the least thickness the solver
+/// reaches about 13). Smaller: a mechanism that interpenetrates could pass as a proof.
+pub const FORCE_CAP: f64 = 3.0;
+
+/// Forces that leave more than this unbalanced on some block, in multiples of gravity, bound no load factor: the
+/// first-order correction by the mechanism no longer holds. Larger: brackets that do not contain the answer.
+/// Smaller: tall walls, whose forces are hundreds of block weights, lose their brackets.
+pub const LOOSE_BALANCE: f64 = 1e-5;

@@ -2,7 +2,7 @@
 
 use super::{
     Bracket,
-    attempt::{Attempt, Control, Rung, rung, run},
+    attempt::{Attempt, Control, Rung, run, rung},
 };
 use crate::{
     assembly::Assembly,
@@ -136,7 +136,9 @@ pub(super) fn least_unbalance(
             let s = certificate::statics(assembly, interfaces, &c.forces, lambda);
             let k = certificate::kinematics(assembly, interfaces, &c.rates, &c.forces);
             upper = s.unbalance;
-            lower = ((k.dead_power - k.slack - (lambda * k.live_power).abs()) / k.norm).max(0.0);
+            if k.force_cap(assembly) >= tolerance::FORCE_CAP {
+                lower = ((k.dead_power - k.slack - (lambda * k.live_power).abs()) / k.norm).max(0.0);
+            }
             if upper < answer.unbalance.upper {
                 (answer.unbalance.upper, answer.forces, answer.load_factor) = (upper, c.forces, lambda);
                 answer.threshold = tolerance::UNBALANCE.max(s.resolution);

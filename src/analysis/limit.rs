@@ -7,14 +7,14 @@
 use super::{
     Bracket,
     assess::least_unbalance,
-    attempt::{Attempt, Control, Rung, rung, run},
+    attempt::{Attempt, Control, Rung, run, rung},
 };
 use crate::{
-    assembly::{Assembly, Wrench},
+    assembly::Assembly,
     interface::Interfaces,
     program::{self, LiveLoad, Options, Statics, Unknowns},
     tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, mechanism, mechanism::Mechanism},
+    verdict::{Forces, Rate, Verdict, certificate, check, mechanism, mechanism::Mechanism},
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -73,8 +73,7 @@ const BEFORE_DIAGNOSIS: usize = 2;
 pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
     let start = Instant::now();
     let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: true });
-    let sum = |loads: &[Wrench]| assembly.free().map(|i| size(assembly, i, &loads[i])).sum::<f64>();
-    let natural = sum(&assembly.dead) / sum(&assembly.live);
+    let natural = check::natural_factor(assembly);
     let mut answer = LoadFactor {
         outcome: Outcome::Undecided,
         value: f64::NAN,
@@ -88,7 +87,7 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     };
     let mut scale = natural;
     for (index, step) in LADDER.into_iter().enumerate() {
-        if index == BEFORE_DIAGNOSIS && diagnose(assembly, interfaces, &statics, natural, control, &mut answer) {
+        if index == BEFORE_DIAGNOSIS && diagnose(assembly, interfaces, &statics, control, &mut answer) {
             return answer;
         }
         let left = control.seconds - start.elapsed().as_secs_f64();
@@ -112,10 +111,6 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     answer
 }
 
-fn size(assembly: &Assembly, block: usize, w: &Wrench) -> f64 {
-    w.force.norm().hypot(w.moment.norm() / certificate::length_scale(assembly, block))
-}
-
 /// One attempt at program L; tightens the bracket in `answer`.
 fn climb(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
     let mut statics = statics.clone();
@@ -131,7 +126,7 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, step: 
         let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &c.rates[i]).abs()).sum();
         if k.live_power > 0.0 {
             upper = (-k.dead_power + k.slack) / k.live_power;
-            if s.unbalance <= LOOSE {
+            if s.unbalance <= tolerance::LOOSE_BALANCE.max(s.resolution) {
                 lower = lambda - hidden / k.live_power;
             }
         }
@@ -156,18 +151,8 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, step: 
     });
 }
 
-/// Forces that leave more than this (in g) unbalanced on some block bound nothing: the first-order correction no longer holds.
-const LOOSE: f64 = 1e-5;
-
 /// Is there no load factor at all, or no limit to it? Returns true where that is the answer.
-fn diagnose(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    statics: &Statics,
-    natural: f64,
-    control: &Control,
-    answer: &mut LoadFactor,
-) -> bool {
+fn diagnose(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, control: &Control, answer: &mut LoadFactor) -> bool {
     let any = least_unbalance(assembly, interfaces, statics, LiveLoad::AnyMultiple, control);
     answer.attempts.extend(any.attempts.iter().cloned());
     if any.verdict == Verdict::Unstable {
@@ -177,12 +162,8 @@ fn diagnose(
         (answer.forces, answer.rates) = (any.forces, any.rates);
         return true;
     }
-    // The live load as a dead load, in the size of the dead load, so that the same threshold applies.
-    let mut alone = assembly.clone();
-    for (dead, live) in alone.dead.iter_mut().zip(&mut alone.live) {
-        *dead = Wrench { force: live.force * natural, moment: live.moment * natural };
-        *live = Wrench::zero();
-    }
+    // The live load in the size of the dead load, so that the same threshold applies.
+    let (alone, natural) = check::live_alone(assembly);
     let wedge_statics = Statics::new(&alone, interfaces, Options { keep_all: control.keep_all, live: false });
     let wedge = least_unbalance(&alone, interfaces, &wedge_statics, LiveLoad::Absent, control);
     answer.attempts.extend(wedge.attempts.iter().cloned());

@@ -3,11 +3,13 @@
 pub mod assess;
 mod attempt;
 pub mod limit;
+mod prepare;
 pub mod tilt;
 
 pub use assess::{Assessment, assess};
 pub use attempt::{Attempt, Control};
 pub use limit::{LoadFactor, Outcome, limit};
+pub use prepare::{Model, Timings, prepare};
 pub use tilt::{Tilt, tilt};
 
 use serde::{Deserialize, Serialize};

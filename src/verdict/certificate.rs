@@ -81,8 +81,8 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
     Statics { residuals, unbalance, worst, resolution, cone_excess: if largest > 0.0 { excess / largest } else { 0.0 } }
 }
 
-/// Rounding errors counted per addition: a few units in the last place.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Rounding counted per addition: one unit in the last place.
+const ROUNDING: f64 = f64::EPSILON;
 
 fn size(assembly: &Assembly, block: usize, w: &Wrench) -> f64 {
     w.force.norm().hypot(w.moment.norm() / length_scale(assembly, block))
@@ -101,11 +101,22 @@ pub struct Kinematics {
     pub slack: f64,
     /// Largest inadmissibility `e` over the largest contact rate.
     pub inadmissibility: f64,
+    /// `Σ e`: with contact forces of at most `F` each, the inadmissibility hides at most `F` × this.
+    pub excess: f64,
+}
+
+impl Kinematics {
+    /// Unless some contact force exceeds this many times the total load, the gain of the dead load cannot be balanced:
+    /// what makes a mechanism that is admissible only up to rounding a proof.
+    pub fn force_cap(&self, assembly: &Assembly) -> f64 {
+        let total: f64 = assembly.free().map(|i| load_scale(assembly, i)).sum();
+        self.dead_power / (self.excess * total)
+    }
 }
 
 /// Re-adds powers; `forces` weigh the inadmissibility.
 pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], forces: &Forces) -> Kinematics {
-    let mut k = Kinematics { dead_power: 0.0, live_power: 0.0, norm: 0.0, slack: 0.0, inadmissibility: 0.0 };
+    let mut k = Kinematics { dead_power: 0.0, live_power: 0.0, norm: 0.0, slack: 0.0, inadmissibility: 0.0, excess: 0.0 };
     for i in assembly.free() {
         let (q, w, l) = (&rates[i], &assembly.dead[i], &assembly.live[i]);
         k.dead_power += power(w, q);
@@ -121,10 +132,12 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
             let (e, cost) = match face.friction {
                 Friction::Coefficient(mu) => {
                     let e = (mu * vt - vn).max(0.0);
+                    k.excess += e;
                     (e / mu.hypot(1.0), e * fn_)
                 }
                 Friction::Infinite => {
                     let closing = (-vn).max(0.0);
+                    k.excess += closing + vt;
                     (closing.hypot(vt), closing * fn_ + vt * (force - face.frame.n * fn_).norm())
                 }
             };

@@ -2,6 +2,8 @@
 //! [`Interfaces`](crate::interface::Interfaces) alone. Nothing here knows the program or the solver.
 
 pub mod certificate;
+pub mod check;
+pub mod evidence;
 pub mod mechanism;
 
 use nalgebra::Vector3;
