@@ -23,3 +23,14 @@ pub const CONTACT_MIN_AREA: f64 = 1e-9;
 
 /// Near misses are reported up to this many times `contact.gap`.
 pub const NEAR_MISS_FACTOR: f64 = 100.0;
+
+/// A shape thinner than this × its size is flat (thickness = volume / largest facet).
+/// Larger: thin slabs and slivers are refused. Smaller: volume, centroid and inertia are rounding noise.
+pub const FLAT: f64 = 1e-7;
+
+/// Least bounding-box diagonal of a shape, m. Inertia grows as length⁵ and has to stay clear of the smallest numbers.
+/// Larger: grains could be refused. Smaller: inertias become zero.
+pub const LEAST_SIZE: f64 = 1e-50;
+
+/// Greatest bounding-box diagonal of a shape, m. Larger: inertias become infinite.
+pub const GREATEST_SIZE: f64 = 1e50;
