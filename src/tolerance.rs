@@ -59,3 +59,13 @@ pub const FORCE_CAP: f64 = 3.0;
 /// first-order correction by the mechanism no longer holds. Larger: brackets that do not contain the answer.
 /// Smaller: tall walls, whose forces are hundreds of block weights, lose their brackets.
 pub const LOOSE_BALANCE: f64 = 1e-5;
+/// A shape thinner than this × its size is flat (thickness = volume / largest facet).
+/// Larger: thin slabs and slivers are refused. Smaller: volume, centroid and inertia are rounding noise.
+pub const FLAT: f64 = 1e-7;
+
+/// Least bounding-box diagonal of a shape, m. Inertia grows as length⁵ and has to stay clear of the smallest numbers.
+/// Larger: grains could be refused. Smaller: inertias become zero.
+pub const LEAST_SIZE: f64 = 1e-50;
+
+/// Greatest bounding-box diagonal of a shape, m. Larger: inertias become infinite.
+pub const GREATEST_SIZE: f64 = 1e50;

@@ -4,7 +4,7 @@
 mod polyhedron;
 mod resolve;
 
-pub use polyhedron::{Facet, Polyhedron};
+pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
 pub use resolve::resolve;
 
 use crate::{
