@@ -23,3 +23,11 @@ pub const CONTACT_MIN_AREA: f64 = 1e-9;
 
 /// Near misses are reported up to this many times `contact.gap`.
 pub const NEAR_MISS_FACTOR: f64 = 100.0;
+
+/// Stored contact polygons with an area below this × (their diameter)² have no definite plane and are left out by the importers.
+/// Larger: long bed joints between thin blocks vanish. Smaller: the normal of a sliver is rounding noise.
+pub const STORED_POLYGON_AREA: f64 = 1e-9;
+
+/// Blocks whose lowest corner lies within this × the height of the scene above its lowest point are proposed as supports.
+/// Larger: the first course of a tall structure is proposed with its base. Smaller: springers on ground that is not quite level are missed.
+pub const LOWEST_BAND: f64 = 0.01;
