@@ -150,6 +150,8 @@ pub enum FindingCode {
     ContactIgnored,
     /// Free blocks without a contact path to a support.
     Floating,
+    /// A given normal that points against the line from the first block's centre to the second's.
+    Orientation,
     /// Numbers that look like a slip of units.
     Units,
     /// Something about the way the numbers were found.

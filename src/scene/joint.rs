@@ -2,7 +2,11 @@
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
-use std::{borrow::Cow, collections::BTreeMap, fmt};
+use std::{
+    borrow::Cow,
+    collections::{BTreeMap, btree_map::Entry},
+    fmt,
+};
 
 /// What blocks are made of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -154,10 +158,11 @@ pub(super) fn distinct_names<'de, D: Deserializer<'de>>(deserializer: D) -> Resu
         fn visit_map<A: de::MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
             let mut named = BTreeMap::new();
             while let Some(name) = map.next_key::<String>()? {
-                if named.contains_key(&name) {
-                    map.next_value_seed(Twice)?;
-                } else {
-                    named.insert(name, map.next_value()?);
+                match named.entry(name) {
+                    Entry::Vacant(free) => {
+                        free.insert(map.next_value()?);
+                    }
+                    Entry::Occupied(_) => map.next_value_seed(Twice)?,
                 }
             }
             Ok(named)

@@ -16,6 +16,9 @@ mod source;
 mod suggest;
 pub mod template;
 
+#[cfg(test)]
+mod tests;
+
 pub use block::{BlockSpec, Rotation, Shape};
 pub use contact::ContactSpec;
 pub use interface::InterfaceSpec;

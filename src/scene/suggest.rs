@@ -3,7 +3,8 @@
 /// The remedy for a `word` that is none of `known`: the nearest of them if one is near, else all of them, else none.
 pub(crate) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     const LIST_AT_MOST: usize = 12;
-    let known: Vec<&str> = known.into_iter().collect();
+    let mut known: Vec<&str> = known.into_iter().collect();
+    known.dedup();
     // One slip in three letters is still the same word; more, and the guess is noise.
     let slips = (word.chars().count() / 3).max(1);
     let nearest = known.iter().map(|k| (strsim::damerau_levenshtein(&word.to_lowercase(), &k.to_lowercase()), *k)).min();
