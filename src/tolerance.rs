@@ -47,3 +47,14 @@ pub const SLIP_SIZE_RATIO: f64 = 1e5;
 /// Points of an interface given by hand that lie further than this × the block's size outside its bounding box are reported.
 /// Larger: a slip of units passes on small contacts. Smaller: curved blocks discretised coarsely are reported.
 pub const GIVEN_APART: f64 = 0.5;
+
+/// A shape thinner than this × its size is flat (thickness = volume / largest facet).
+/// Larger: thin slabs and slivers are refused. Smaller: volume, centroid and inertia are rounding noise.
+pub const FLAT: f64 = 1e-7;
+
+/// Least bounding-box diagonal of a shape, m. Inertia grows as length⁵ and has to stay clear of the smallest numbers.
+/// Larger: grains could be refused. Smaller: inertias become zero.
+pub const LEAST_SIZE: f64 = 1e-50;
+
+/// Greatest bounding-box diagonal of a shape, m. Larger: inertias become infinite.
+pub const GREATEST_SIZE: f64 = 1e50;
