@@ -29,7 +29,7 @@ fn obj_groups_are_blocks_where_there_are_no_objects() {
     });
     let imported = good("x.obj", text);
     assert_eq!(ids(&imported), ["a", "b"]);
-    finding(&imported, FindingCode::Converted, &["2 groups"]);
+    finding(&imported, FindingCode::Converted, &["groups (`g`)", "2 in all"]);
 }
 
 #[test]
@@ -38,7 +38,7 @@ fn obj_without_names_is_split_where_it_does_not_hang_together() {
     let imported = good("pile.obj", text);
     assert_eq!(ids(&imported), ["pile-0", "pile-1"]);
     assert!(imported.scene.blocks.iter().all(|b| volume(b) == 6.0));
-    finding(&imported, FindingCode::Converted, &["2 connected parts"]);
+    finding(&imported, FindingCode::Converted, &["connected parts", "2 in all"]);
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn obj_names_that_repeat_are_numbered_and_it_is_said() {
     let text = format!("o b\n{}o b\n{}", obj_box([0.0; 3], |i| i.to_string()), obj_box([0.0, 0.0, 3.0], |i| (i + 8).to_string()));
     let imported = good("x.obj", text);
     assert_eq!(ids(&imported), ["b", "b-2"]);
-    finding(&imported, FindingCode::Converted, &["1 blocks", "\"b\" → \"b-2\""]);
+    finding(&imported, FindingCode::Converted, &["renamed: 1 ", "\"b\" → \"b-2\""]);
 }
 
 #[test]

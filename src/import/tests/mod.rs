@@ -122,7 +122,7 @@ fn ply_box_binary(little: bool) -> Vec<u8> {
          property float z\nelement face 6\nproperty list uchar uint vertex_index\nend_header\n"
     )
     .into_bytes();
-    let mut put = |word: [u8; 4]| {
+    let put = |word: [u8; 4]| {
         let mut word = word;
         if !little {
             word.reverse();

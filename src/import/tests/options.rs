@@ -17,7 +17,7 @@ fn with(options: Options) -> Result<Imported, InputError> {
 #[test]
 fn without_supports_the_lowest_blocks_are_proposed_and_the_proposal_works() {
     let imported = with(Options::default()).expect("no support is no error");
-    let text = finding(&imported, FindingCode::Missing, &["2 lowest", "\"b0\", \"b1\"", "--support ID"]);
+    let text = finding(&imported, FindingCode::Missing, &["lowest blocks are 2 (\"b0\", \"b1\")", "--support ID"]);
     let height = text.split("--support-below ").nth(1).and_then(|t| t.split('`').next()).expect("a height is proposed");
     let height = height.parse().expect("a number");
     assert_eq!(supports(&with(Options { support_below: Some(height), ..Options::default() }).expect("works")), ["b0", "b1"]);
@@ -85,7 +85,7 @@ fn normals_of_stored_interfaces_turn_with_the_blocks_and_do_not_scale() {
     assert_eq!(imported.scene.interfaces[0].points, [[0.0, -30.0, 0.0], [10.0, -30.0, 0.0], [10.0, -30.0, 20.0]]);
     let without = import_bytes("x.json", text.as_bytes(), &Options { stored_interfaces: false, ..options }).expect("fine");
     assert!(without.scene.interfaces.is_empty());
-    finding(&without, FindingCode::LeftOut, &["1 stored interfaces", "as asked"]);
+    finding(&without, FindingCode::LeftOut, &["left out as asked", ": 1"]);
 }
 
 #[test]

@@ -69,8 +69,22 @@ fn supports_can_be_named_by_node_key() {
 }
 
 #[test]
-fn the_proposed_height_of_the_wall_selects_the_supports_stored_in_it() {
-    // The wall's own supports are its first course: stripping and proposing them again has to find the same ten.
+fn the_proposed_supports_are_those_the_structures_have() {
+    let armadillo: Vec<usize> = (0..=7).chain(79..=88).chain(217..=227).chain(328..=331).collect();
+    for (file, expected) in
+        [("cra-H.json", vec![0, 1]), ("cra-bridge.json", vec![0, 1]), ("cra-cubes.json", vec![0]), ("cra-armadillo.json", armadillo)]
+    {
+        let Some(imported) = real(file, &Options::default()) else { continue };
+        let text = finding(&imported, FindingCode::Missing, &["--support-below"]);
+        let height = text.split("--support-below ").nth(1).and_then(|t| t.split('`').next()).expect("proposed").parse().expect("a number");
+        let Some(again) = real(file, &Options { support_below: Some(height), ..Options::default() }) else { continue };
+        assert_eq!(supports(&again), expected.iter().map(usize::to_string).collect::<Vec<_>>(), "{file}");
+    }
+}
+
+#[test]
+fn a_height_selects_the_supports_stored_in_the_wall() {
+    // The wall's own supports are its first course.
     let Some(imported) = real("assembly-wall.json", &Options::default()) else { return };
     let stored = supports(&imported);
     let options = Options { support_below: Some(0.01), ..Options::default() };
