@@ -2,7 +2,7 @@
 
 use super::{
     Imported, Options, Up,
-    raw::{Raw, list},
+    raw::{Raw, list, tally},
 };
 use crate::{
     error::{Finding, FindingCode, InputError, JsonPath},
@@ -33,7 +33,7 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &Options) -> Result<Imported, 
             scene.blocks.push(BlockSpec { support: block.support, material: block.material, ..BlockSpec::new(block.id, shape) });
         }
         if !options.stored_interfaces && !file.interfaces.is_empty() {
-            let text = format!("{} stored interfaces were left out, as asked; contacts are detected instead", file.interfaces.len());
+            let text = format!("stored interfaces, left out as asked (contacts are detected instead): {}", file.interfaces.len());
             findings.push(Finding::new(FindingCode::LeftOut, text));
             continue;
         }
@@ -166,7 +166,7 @@ fn supports(scene: &mut Scene, options: &Options, findings: &mut Vec<Finding>) -
         let lowest = lows.iter().copied().fold(f64::INFINITY, f64::min);
         let text = match count {
             0 => format!("no block reaches below {height} m, where supports were asked for; the lowest corner is at {lowest} m"),
-            n => format!("{n} blocks have their lowest corner below {height} m and are supports"),
+            n => format!("blocks with their lowest corner below {height} m, now supports: {n}"),
         };
         findings.push(Finding::new(if count == 0 { FindingCode::Missing } else { FindingCode::Converted }, text));
     }
@@ -190,10 +190,10 @@ fn propose(scene: &Scene, lows: &[f64]) -> String {
     let candidates: Vec<String> = scene.blocks.iter().zip(lows).filter(|(_, low)| **low < height).map(|(b, _)| b.id.clone()).collect();
     match candidates.len() {
         0 => "no block is a support: import with `--support ID`".into(),
-        n => format!(
-            "no block is a support; the {n} lowest are {}: import with `--support ID` for each support, \
+        _ => format!(
+            "no block is a support; the lowest blocks are {}: import with `--support ID` for each support, \
              or with `--support-below {height}` for all of these",
-            list(&candidates.iter().map(|id| format!("{id:?}")).collect::<Vec<_>>())
+            tally(&candidates.iter().map(|id| format!("{id:?}")).collect::<Vec<_>>())
         ),
     }
 }

@@ -61,34 +61,36 @@ pub fn import_file(path: &Path, options: &Options) -> Result<Imported, InputErro
 /// As for [`import_file`].
 pub fn import_files<P: AsRef<Path>>(paths: &[P], options: &Options) -> Result<Imported, InputError> {
     options.check()?;
-    let mut parts = Vec::new();
-    let supports = options.support_files.iter().map(|p| (p.as_path(), true));
-    for (path, is_support) in paths.iter().map(|p| (p.as_ref(), false)).chain(supports) {
-        let name = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|e| {
-            let error = InputError::at(JsonPath::root(), format!("cannot be read: {e}")).hint("check the path and the permissions");
-            InputError { file: Some(name.clone()), ..error }
-        })?;
-        parts.push(read(&name, &bytes, is_support, options)?);
-    }
-    finish::scene(parts, options)
+    let mut files = paths.iter().map(|path| load(path.as_ref(), false, options)).collect::<Result<Vec<_>, _>>()?;
+    add_support_files(&mut files, options)?;
+    finish::scene(files, options)
 }
 
 /// Imports a file that is already in memory; `name` stands for it in messages, its extension tells the format.
 ///
 /// # Errors
-/// As for [`import_file`], which also reads [`Options::support_files`].
+/// As for [`import_file`]; the files of [`Options::support_files`] are read here too.
 pub fn import_bytes(name: &str, bytes: &[u8], options: &Options) -> Result<Imported, InputError> {
     options.check()?;
-    let mut parts = vec![read(name, bytes, false, options)?];
+    let mut files = vec![read(name, bytes, false, options)?];
+    add_support_files(&mut files, options)?;
+    finish::scene(files, options)
+}
+
+fn add_support_files(files: &mut Vec<Raw>, options: &Options) -> Result<(), InputError> {
     for path in &options.support_files {
-        let imported = std::fs::read(path).map_err(|e| InputError {
-            file: Some(path.display().to_string()),
-            ..InputError::at(JsonPath::root(), format!("cannot be read: {e}")).hint("check the path and the permissions")
-        })?;
-        parts.push(read(&path.display().to_string(), &imported, true, options)?);
+        files.push(load(path, true, options)?);
     }
-    finish::scene(parts, options)
+    Ok(())
+}
+
+fn load(path: &Path, is_support: bool, options: &Options) -> Result<Raw, InputError> {
+    let name = path.display().to_string();
+    let bytes = std::fs::read(path).map_err(|e| {
+        let error = InputError::at(JsonPath::root(), format!("cannot be read: {e}")).hint("check the path and the permissions");
+        InputError { file: Some(name.clone()), ..error }
+    })?;
+    read(&name, &bytes, is_support, options)
 }
 
 /// One file, read but not yet scaled, turned or merged with others.

@@ -7,7 +7,7 @@
 //! where its indices are positive. Only the first index of `v/t/n` matters.
 
 use super::{
-    raw::{Raw, Solid, compact, list, parts},
+    raw::{Raw, Solid, compact, parts, tally},
     text::{self, shorten},
 };
 use crate::error::{FindingCode, InputError, JsonPath};
@@ -67,7 +67,7 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
             .hint("indices count from 1 over the whole file; the file may be cut off or put together from several"));
     }
     if !unknown.is_empty() {
-        let text = format!("{} lines without a meaning for polyhedra were left out: {}", unknown.len(), list(&unknown));
+        let text = format!("lines without a meaning for polyhedra, left out: {}", tally(&unknown));
         raw.say(FindingCode::LeftOut, text);
     }
     if faces.is_empty() {
@@ -79,7 +79,7 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
     } else if groups.len() > 1 {
         raw.blocks = gather(&vertices, faces, &groups, |f| f.group);
         let count = raw.blocks.len();
-        raw.say(FindingCode::Converted, format!("no objects (`o`) in the file: its {count} groups (`g`) are the blocks"));
+        raw.say(FindingCode::Converted, format!("no objects (`o`) in the file: its groups (`g`) are the blocks, {count} in all"));
     } else {
         split(&vertices, faces, stem, &mut raw)?;
         return Ok(raw);
@@ -139,6 +139,6 @@ fn split(vertices: &[[f64; 3]], faces: Vec<Face>, stem: &str, raw: &mut Raw) -> 
         .enumerate()
         .map(|(i, faces)| compact(if count == 1 { stem.into() } else { format!("{stem}-{i:0digits$}") }, vertices, faces))
         .collect();
-    raw.say(FindingCode::Converted, format!("no objects in the file: its {count} connected parts are the blocks"));
+    raw.say(FindingCode::Converted, format!("no objects in the file: its connected parts are the blocks, {count} in all"));
     Ok(())
 }

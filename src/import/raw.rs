@@ -58,7 +58,7 @@ impl Raw {
             block.id = id;
         }
         if !renamed.is_empty() {
-            let text = format!("{} blocks had no name or one that was taken and were renamed: {}", renamed.len(), list(&renamed));
+            let text = format!("blocks without a name of their own, renamed: {}", tally(&renamed));
             self.say(FindingCode::Converted, text);
         }
     }
@@ -75,14 +75,18 @@ impl Raw {
             .collect();
         if !several.is_empty() {
             let text = format!(
-                "{} blocks consist of parts that share no corner and were kept as one rigid block each: {}; \
+                "blocks of several parts that share no corner, kept as one rigid block each: {}; \
                  if the parts are blocks of their own, export them as separate objects",
-                several.len(),
-                list(&several)
+                tally(&several)
             );
             self.say(FindingCode::Converted, text);
         }
     }
+}
+
+/// How many, and the first few of them: `12 (a, b, …)`.
+pub(super) fn tally(names: &[String]) -> String {
+    format!("{} ({})", names.len(), list(names))
 }
 
 /// The first few of many names.

@@ -77,7 +77,7 @@ fn binary(bytes: &[u8]) -> Result<Raw, InputError> {
     };
     let mut raw = Raw::default();
     if bytes.len() > length {
-        raw.say(FindingCode::LeftOut, format!("{} bytes after the last triangle were left out", bytes.len() - length));
+        raw.say(FindingCode::LeftOut, format!("bytes after the last triangle, left out: {}", bytes.len() - length));
     }
     let mut builder = Builder::default();
     for (i, triangle) in body.chunks_exact(TRIANGLE).enumerate() {
@@ -137,7 +137,7 @@ fn ascii(bytes: &[u8]) -> Result<Raw, InputError> {
     let before = raw.blocks.len();
     raw.blocks.retain(|b| !b.faces.is_empty());
     if raw.blocks.len() < before {
-        raw.say(FindingCode::LeftOut, format!("{} solids without facets were left out", before - raw.blocks.len()));
+        raw.say(FindingCode::LeftOut, format!("solids without facets, left out: {}", before - raw.blocks.len()));
     }
     Ok(raw)
 }

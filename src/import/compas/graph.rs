@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     error::{FindingCode, InputError},
-    import::raw::{Raw, Solid, list},
+    import::raw::{Raw, Solid, tally},
 };
 
 /// The blocks and interfaces of an assembly.
@@ -32,7 +32,7 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
         raw.blocks.push(Solid { support, ..mesh::read(&geometry, key.into())? });
     }
     if !bare.is_empty() {
-        raw.say(FindingCode::LeftOut, format!("{} nodes without a block were left out: {}", bare.len(), list(&bare)));
+        raw.say(FindingCode::LeftOut, format!("nodes without a block, left out: {}", tally(&bare)));
     }
     if let Some(edges) = graph.get("edge") {
         let ids: Ids = raw.blocks.iter().enumerate().map(|(i, b)| (b.id.clone(), (i, b.id.clone()))).collect();

@@ -8,7 +8,7 @@
 use super::cursor::{Cursor, describe};
 use crate::{
     error::{FindingCode, InputError},
-    import::raw::{Raw, list},
+    import::raw::{Raw, tally},
     scene::InterfaceSpec,
     tolerance,
 };
@@ -59,7 +59,7 @@ pub(super) fn read(edges: &Cursor, ids: &Ids, raw: &mut Raw) -> Result<(), Input
                 // A graph with both directions of an edge would count the contact twice.
                 let mut sorted = points.clone();
                 sorted.sort_by(|p, q| p.partial_cmp(q).unwrap_or(std::cmp::Ordering::Equal));
-                let pair = seen.entry((i.min(j).to_owned(), i.max(j).to_owned())).or_default();
+                let pair = seen.entry((*i.min(j), *i.max(j))).or_default();
                 if pair.contains(&sorted) {
                     odd.twice.push(name);
                     continue;
@@ -143,33 +143,31 @@ fn say(odd: &Odd, raw: &mut Raw) {
     if kept > 0 {
         let forces = match odd.with_forces {
             0 => String::new(),
-            n => format!("; the solved forces of {n} of them were left out"),
+            n => format!("; with solved forces, which were left out: {n}"),
         };
-        raw.say(FindingCode::Converted, format!("{kept} stored interfaces were read{forces}"));
+        raw.say(FindingCode::Converted, format!("stored interfaces, kept in place of detected contacts: {kept}{forces}"));
     }
     let mut report = |code, names: &[String], what: &str| {
         if !names.is_empty() {
-            raw.say(code, format!("{} stored interfaces {what}: {}", names.len(), list(names)));
+            raw.say(code, format!("stored interfaces {what}: {}", tally(names)));
         }
     };
     let least = tolerance::STORED_POLYGON_AREA;
+    let angle = tolerance::CONTACT_ANGLE_DEG;
     report(
         FindingCode::LeftOut,
         &odd.degenerate,
-        &format!("have no definite plane (no frame, or an area below {least:e} × diameter²) and were left out"),
+        &format!("without a definite plane (no frame, or an area below {least:e} × diameter²), left out"),
     );
-    report(FindingCode::LeftOut, &odd.twice, "are in the file twice and were taken once");
+    report(FindingCode::LeftOut, &odd.twice, "that are in the file twice, taken once");
     report(
         FindingCode::Mended,
         &odd.skew,
-        &format!(
-            "have a frame whose normal is not that of the polygon (by more than {}°); the polygon's was taken",
-            tolerance::CONTACT_ANGLE_DEG
-        ),
+        &format!("whose frame is not normal to the polygon (by more than {angle}°), given the polygon's normal"),
     );
     report(
         FindingCode::Converted,
         &odd.backwards,
-        "have a normal that points from the second block's centre to the first's; it was kept as stored, which is right for interlocking blocks only",
+        "whose normal points from the second block's centre to the first's, kept as stored, which is right for interlocking blocks only",
     );
 }

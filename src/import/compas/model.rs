@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     error::{FindingCode, InputError},
-    import::raw::{Raw, Solid, list},
+    import::raw::{Raw, Solid, tally},
     scene::Material,
 };
 use nalgebra::{Matrix4, Point3};
@@ -23,7 +23,8 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
     let graph = data.get("graph");
     let (keys, nodes) = names(graph.as_ref())?;
     let materials = materials(data, &mut raw)?;
-    let places = places(data)?;
+    let places = places(data);
+    let by_guid: HashMap<&str, &Cursor> = elements.iter().map(|(guid, element)| (guid.as_str(), element)).collect();
     let model = matrix(data)?.unwrap_or_else(Matrix4::identity);
     let mut without = Vec::new();
     let mut id_of_guid = HashMap::new();
@@ -36,7 +37,7 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
             continue;
         };
         let mut solid = mesh::read(&geometry, id.clone())?;
-        let place = places.get(guid).map_or(Ok(Matrix4::identity()), |chain| product(chain, &elements))?;
+        let place = places.get(guid).map_or(Ok(Matrix4::identity()), |chain| product(chain, &by_guid))?;
         let own = matrix(element)?.unwrap_or_else(Matrix4::identity);
         let whole = model * place * own;
         if whole != Matrix4::identity() {
@@ -54,7 +55,7 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
     found.sort_by_key(|(order, _)| *order);
     raw.blocks = found.into_iter().map(|(_, solid)| solid).collect();
     if !without.is_empty() {
-        raw.say(FindingCode::LeftOut, format!("{} elements without geometry were left out: {}", without.len(), list(&without)));
+        raw.say(FindingCode::LeftOut, format!("elements without geometry, left out: {}", tally(&without)));
     }
     if let Some(edges) = graph.and_then(|g| g.get("edge")) {
         let index: HashMap<&str, usize> = raw.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
@@ -117,7 +118,7 @@ fn materials(data: &Cursor, raw: &mut Raw) -> Result<HashMap<String, String>, In
 }
 
 /// guid → guids of its ancestors in the tree, outermost first.
-fn places(data: &Cursor) -> Result<HashMap<String, Vec<String>>, InputError> {
+fn places(data: &Cursor) -> HashMap<String, Vec<String>> {
     fn walk(node: &Cursor, above: &[String], places: &mut HashMap<String, Vec<String>>) {
         for child in node.get("children").and_then(|c| c.items()).unwrap_or_default() {
             let child = child.open();
@@ -133,13 +134,14 @@ fn places(data: &Cursor) -> Result<HashMap<String, Vec<String>>, InputError> {
     if let Some(root) = data.get("tree").and_then(|t| t.get("root")) {
         walk(&root, &[], &mut places);
     }
-    Ok(places)
+    places
 }
 
-fn product(chain: &[String], elements: &[(String, Cursor)]) -> Result<Matrix4<f64>, InputError> {
+/// The transformation of a chain of ancestors, outermost first.
+fn product(chain: &[String], elements: &HashMap<&str, &Cursor>) -> Result<Matrix4<f64>, InputError> {
     let mut product = Matrix4::identity();
     for guid in chain {
-        if let Some((_, element)) = elements.iter().find(|(g, _)| g == guid)
+        if let Some(element) = elements.get(guid.as_str())
             && let Some(matrix) = matrix(element)?
         {
             product *= matrix;
