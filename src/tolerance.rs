@@ -50,6 +50,7 @@ pub const RIM_SHARE: f64 = 0.1;
 /// Directions closer than this (radians) to a face's plane lie in it, when edges and corners are tested against faces.
 /// Larger: a corner may dig into the face. Smaller: edges in the plane, rounded, are refused.
 pub const CONTACT_ROUNDING_ANGLE: f64 = 1e-6;
+
 /// Density of a block for which the scene gives none, kg/m³: common limestone and concrete.
 pub const DEFAULT_DENSITY: f64 = 2400.0;
 
