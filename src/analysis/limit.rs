@@ -58,12 +58,12 @@ pub struct LoadFactor {
 
 /// Best first; measured on the reference cases and on walls pushed in and out of their plane.
 const LADDER: [Rung; 6] = [
-    rung(Unknowns::Rates, 16.0, 1e-9, 1e-9, true),
-    rung(Unknowns::Forces, 1.0, 1e-11, 1e-8, true),
-    rung(Unknowns::Forces, 8.0, 1e-11, 1e-9, true),
-    rung(Unknowns::Forces, 1.0, 1e-11, 1e-7, true),
-    rung(Unknowns::Rates, 1.0, 1e-11, 1e-8, true),
-    rung(Unknowns::Forces, 1.0, 1e-10, 1e-8, false),
+    rung(Unknowns::Rates, 16.0, true, 1e-9, 1e-9, true),
+    rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
+    rung(Unknowns::Forces, 8.0, true, 1e-11, 1e-9, true),
+    rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true),
+    rung(Unknowns::Rates, 1.0, false, 1e-11, 1e-8, true),
+    rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
 ];
 
 /// How many rungs are tried before asking whether the load factor is unbounded or impossible.
@@ -114,7 +114,7 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
 /// One attempt at program L; tightens the bracket in `answer`.
 fn climb(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
     let mut statics = statics.clone();
-    statics.rescale(step.unit);
+    statics.rescale(step.unit, step.local);
     let settings = crate::solve::Settings { seconds: left, ..step.settings };
     let (program, layout) = program::load_factor(&statics, scale, step.unknowns);
     let (candidate, solution) = run(assembly, interfaces, &statics, &program, &layout, &settings);

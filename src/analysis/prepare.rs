@@ -51,13 +51,13 @@ impl Model {
 /// Resolves a scene and finds its interfaces.
 ///
 /// # Errors
-/// The scene cannot be resolved.
+/// The scene cannot be resolved, or two blocks touch without a known friction.
 pub fn prepare(scene: &Scene) -> Result<Model, InputError> {
     let start = Instant::now();
     let assembly = assembly::resolve(scene)?;
     let resolve = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let interfaces = interface::detect(&assembly);
+    let interfaces = interface::detect(&assembly)?;
     let detect = start.elapsed().as_secs_f64();
     Ok(Model { assembly, interfaces, timings: Timings { resolve, detect, ..Timings::default() } })
 }
