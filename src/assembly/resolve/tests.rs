@@ -308,7 +308,8 @@ fn numbers_that_no_file_can_hold_are_refused() {
         scene
     };
     assert!(resolve(&good()).is_ok());
-    let spoil: [(&str, fn(&mut Scene, f64)); 10] = [
+    type Spoil = fn(&mut Scene, f64);
+    let spoil: [(&str, Spoil); 10] = [
         ("gravity[2]", |s, x| s.gravity[2] = x),
         ("blocks[1].at[0]", |s, x| s.blocks[1].at[0] = x),
         ("blocks[1].rotation_deg.axis[1]", |s, x| s.blocks[1].rotation_deg.as_mut().unwrap().axis[1] = x),
@@ -506,10 +507,12 @@ fn slips_of_units_are_findings_with_numbers() {
 #[test]
 fn templates_follow_the_blocks_and_their_errors_name_them() {
     let column = r#""templates": [{ "column": { "blocks": 3, "size": [1, 1, 0.5] } }],"#;
-    let a = assembly(&text(TOP, column));
+    // Templates may have a "base" of their own.
+    let text = |rest: &str| text(TOP, rest).replace("\"base\"", "\"ground\"");
+    let a = assembly(&text(column));
     assert!(a.blocks.len() >= 5 && a.blocks[0].path.to_string() == "blocks[0]");
     assert!(a.blocks[2..].iter().all(|b| b.path.to_string() == "templates[0]"));
-    let twice = error(&text(TOP, &column.replace("}],", "}, { \"column\": { \"blocks\": 1, \"size\": [1, 1, 0.5] } }],")));
+    let twice = error(&text(&column.replace("}],", "}, { \"column\": { \"blocks\": 1, \"size\": [1, 1, 0.5] } }],")));
     assert!(
         twice.starts_with("s.json:6:67: templates[1]: the id ")
             && twice.ends_with("is already that of templates[0]; hint: give the template a \"prefix\""),
