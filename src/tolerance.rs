@@ -39,8 +39,9 @@ pub const MECHANISM_REST: f64 = 1e-5;
 pub const UNBALANCE: f64 = 1e-9;
 
 /// A load factor is found when its bracket is narrower than this × |λ| (plus [`LOAD_FACTOR_FLOOR`]).
-/// Larger: answers with fewer digits. Smaller: large walls go down the whole ladder for digits nobody reads.
-pub const LOAD_FACTOR_WIDTH: f64 = 1e-7;
+/// Larger: answers with fewer digits. Smaller: walls of 10,000 blocks, whose first attempt closes to 2e-7, go down the whole
+/// ladder for digits nobody reads.
+pub const LOAD_FACTOR_WIDTH: f64 = 1e-6;
 
 /// Absolute part of the width of a found load factor, in multiples of (total dead load / total live load); it decides
 /// where λ is zero.

@@ -66,7 +66,8 @@ const LADDER: [Rung; 6] = [
     rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
 ];
 
-/// How many rungs are tried before asking whether the load factor is unbounded or impossible.
+/// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is neither where both ends
+/// of the bracket are known).
 const BEFORE_DIAGNOSIS: usize = 2;
 
 /// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
@@ -87,7 +88,10 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     };
     let mut scale = natural;
     for (index, step) in LADDER.into_iter().enumerate() {
-        if index == BEFORE_DIAGNOSIS && diagnose(assembly, interfaces, &statics, control, &mut answer) {
+        if index == BEFORE_DIAGNOSIS
+            && !answer.bracket.width().is_finite()
+            && diagnose(assembly, interfaces, &statics, control, &mut answer)
+        {
             return answer;
         }
         let left = control.seconds - start.elapsed().as_secs_f64();
