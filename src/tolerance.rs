@@ -28,9 +28,9 @@ pub const NEAR_MISS_FACTOR: f64 = 100.0;
 /// Larger: thin slabs and slivers are refused. Smaller: volume, centroid and inertia are rounding noise.
 pub const FLAT: f64 = 1e-7;
 
-/// Least bounding-box diagonal of a shape, m. Inertia grows as length⁵ and has to stay clear of the smallest numbers.
-/// Larger: grains could be refused. Smaller: inertias become zero.
-pub const LEAST_SIZE: f64 = 1e-50;
+/// Least bounding-box diagonal of a shape, m. Inertia grows as length⁵, and its square has to stay clear of the smallest numbers.
+/// Larger: grains could be refused. Smaller: norms of inertias become zero.
+pub const LEAST_SIZE: f64 = 1e-30;
 
-/// Greatest bounding-box diagonal of a shape, m. Larger: inertias become infinite.
-pub const GREATEST_SIZE: f64 = 1e50;
+/// Greatest bounding-box diagonal of a shape, m. Larger: norms of inertias become infinite. Smaller: planets are refused.
+pub const GREATEST_SIZE: f64 = 1e30;

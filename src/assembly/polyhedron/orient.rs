@@ -20,10 +20,10 @@ pub(super) fn orient(surface: &mut Surface, mends: &mut Vec<Mend>) -> Result<usi
     let count = surface.faces.len();
     let mut patches = Classes::new(count);
     for edge in edges(&list) {
-        if let [a, b] = edge {
-            if !patches.join(a.face, b.face, a.forward == b.forward) {
-                return Err(ShapeError::OneSided { face: surface.faces[a.face as usize].source });
-            }
+        if let [a, b] = edge
+            && !patches.join(a.face, b.face, a.forward == b.forward)
+        {
+            return Err(ShapeError::OneSided { face: surface.faces[a.face as usize].source });
         }
     }
     let patch: Vec<(u32, bool)> = (0..count as u32).map(|f| patches.find(f)).collect();

@@ -23,6 +23,11 @@ impl Frame {
     pub fn project(&self, p: &Vector3<f64>) -> Point2 {
         [self.t1.dot(p), self.t2.dot(p)]
     }
+
+    /// The point at `p` in the parallel plane through the origin.
+    pub fn lift(&self, p: Point2) -> Vector3<f64> {
+        self.t1 * p[0] + self.t2 * p[1]
+    }
 }
 
 /// Twice the signed area of the triangle `o a b`.
@@ -106,11 +111,11 @@ pub(super) fn straighten(points: &[Point2], tolerance: f64) -> Vec<usize> {
     let mut open = vec![(0, end), (end, n)];
     while let Some((from, to)) = open.pop() {
         let off = |i: usize| distance(at(i), at(from), at(to));
-        if let Some(worst) = (from + 1..to).max_by(|&a, &b| off(a).total_cmp(&off(b))) {
-            if off(worst) > tolerance {
-                kept[worst] = true;
-                open.extend([(from, worst), (worst, to)]);
-            }
+        if let Some(worst) = (from + 1..to).max_by(|&a, &b| off(a).total_cmp(&off(b)))
+            && off(worst) > tolerance
+        {
+            kept[worst] = true;
+            open.extend([(from, worst), (worst, to)]);
         }
     }
     // A point in an edge parallel to a chord may have been taken for its farthest point: look at each once more between its neighbours.
