@@ -24,6 +24,92 @@ pub const CONTACT_MIN_AREA: f64 = 1e-9;
 /// Near misses are reported up to this many times `contact.gap`.
 pub const NEAR_MISS_FACTOR: f64 = 100.0;
 
+/// A scene is its own mirror image when points, centres and directions agree within this × block size.
+/// Larger: skew scenes are solved as plane and their certificate fails. Smaller: plane scenes that were turned or moved
+/// (coordinates rounded at 1e-12 of the scene) are solved in space, ten times slower.
+pub const MIRROR: f64 = 1e-9;
+
+/// A block or joint moves in a mechanism if its rate exceeds this × the greatest.
+/// Larger: slow parts of a mechanism are left unnamed. Smaller: rounding of the solver names joints that rest.
+pub const MECHANISM_REST: f64 = 1e-5;
+
+/// Out-of-balance acceleration, in multiples of gravity, below which a scene counts as balanced and above which as not.
+/// Larger: arches 1e-6 below their least thickness (unbalance 2e-7) pass as stable.
+/// Smaller: the solver's last digits (1e-11) decide.
+pub const UNBALANCE: f64 = 1e-9;
+
+/// A load factor is found when its bracket is narrower than this × |λ| (plus [`LOAD_FACTOR_FLOOR`]).
+/// Larger: answers with fewer digits. Smaller: large walls go down the whole ladder for digits nobody reads.
+pub const LOAD_FACTOR_WIDTH: f64 = 1e-7;
+
+/// Absolute part of the width of a found load factor, in multiples of (total dead load / total live load); it decides
+/// where λ is zero.
+pub const LOAD_FACTOR_FLOOR: f64 = 1e-10;
+
+/// Friction cones are respected when no force lies further outside than this × the largest force.
+/// Larger: forged certificates pass. Smaller: rounding of a correct force (1e-16) written to a file fails.
+pub const CONE: f64 = 1e-12;
+
+/// A mechanism proves instability when only contact forces above this × the total load could make up for its
+/// inadmissibility. Larger: correct mechanisms close to the limit are refused (1e-8 below the least thickness the solver
+/// reaches about 13). Smaller: a mechanism that interpenetrates could pass as a proof.
+pub const FORCE_CAP: f64 = 3.0;
+
+/// Forces that leave more than this unbalanced on some block, in multiples of gravity, bound no load factor: the
+/// first-order correction by the mechanism no longer holds. Larger: brackets that do not contain the answer.
+/// Smaller: tall walls, whose forces are hundreds of block weights, lose their brackets.
+pub const LOOSE_BALANCE: f64 = 1e-5;
+/// Near misses are reported up to this × the smaller block's size at most, however coarse `contact.gap` is.
+/// Larger: with a coarse gap every face across an open joint is called a near miss and every block is compared with its second neighbours.
+/// Smaller: the default reach (100 × [`CONTACT_GAP`] = 0.01) is cut.
+pub const NEAR_MISS_LIMIT: f64 = 0.05;
+
+/// In the plane of a contact, points closer than this × the smaller block's size are one point, and a point this close to a line is on it.
+/// Larger: contact corners move, and with them the critical thickness of an arch (decided to 1e-6 of the thickness).
+/// Smaller: rounding of moved and rotated coordinates makes two corners of one.
+pub const CONTACT_WELD: f64 = 1e-9;
+
+/// Lengths below this × the largest coordinate are rounding: a floor under every contact length.
+/// Larger: real gaps far from the origin are lost. Smaller: sums of a few products of such coordinates no longer fit.
+pub const COORDINATE_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Gaps and overlaps below this × the smaller block's size are rounding: closed without a word.
+/// Larger: gaps somebody drew are closed silently. Smaller: every rotated scene reports gaps.
+pub const GAP_WORTH_TELLING: f64 = 1e-9;
+
+/// A contact no wider than `contact.gap` is the rim of two faces that only just overlap, not a bearing, where both faces are
+/// at least 1 / this times as wide. Larger: the bearing of a thin plate's edge is taken for a rim.
+/// Smaller: blocks that meet along an edge, rounded to 4–5 digits, become neighbours.
+pub const RIM_SHARE: f64 = 0.1;
+
+/// Directions closer than this (radians) to a face's plane lie in it, when edges and corners are tested against faces.
+/// Larger: a corner may dig into the face. Smaller: edges in the plane, rounded, are refused.
+pub const CONTACT_ROUNDING_ANGLE: f64 = 1e-6;
+
+/// Density of a block for which the scene gives none, kg/m³: common limestone and concrete.
+pub const DEFAULT_DENSITY: f64 = 2400.0;
+
+/// Densities outside this range, kg/m³, are reported as a likely slip of units. Below lie numbers in t/m³ or g/cm³ other than the 1 of
+/// unit problems (aerogel, the lightest solid, has about 1); above, numbers in g/m³ or lengths in mm (osmium has 22,600).
+/// Wider: a slip by a thousand passes. Narrower: cork, lead or scaled test problems are reported.
+pub const SLIP_DENSITY: std::ops::RangeInclusive<f64> = 0.999_999..=3e4;
+
+/// Strengths of gravity outside this range, m/s², are reported as a likely slip of units (9810 is mm/s², 0.00981 is km/s²).
+/// Narrower: unit gravity, the Moon (1.6) or a centrifuge (1000) are reported.
+pub const SLIP_GRAVITY: std::ops::RangeInclusive<f64> = 0.05..=5e3;
+
+/// Block sizes outside this range, m, are reported as a likely slip of units.
+/// Narrower: clay grains or mountains are reported.
+pub const SLIP_SIZE: std::ops::RangeInclusive<f64> = 1e-6..=1e4;
+
+/// A block this many times larger or smaller than the median block is reported as a likely slip of units.
+/// Larger: a slip by a million on one block passes where the block was small. Smaller: the ground slab under a heap of sand is reported.
+pub const SLIP_SIZE_RATIO: f64 = 1e5;
+
+/// Points of an interface given by hand that lie further than this × the block's size outside its bounding box are reported.
+/// Larger: a slip of units passes on small contacts. Smaller: curved blocks discretised coarsely are reported.
+pub const GIVEN_APART: f64 = 0.5;
+
 /// A shape thinner than this × its size is flat (thickness = volume / largest facet).
 /// Larger: thin slabs and slivers are refused. Smaller: volume, centroid and inertia are rounding noise.
 pub const FLAT: f64 = 1e-7;
@@ -34,3 +120,16 @@ pub const LEAST_SIZE: f64 = 1e-30;
 
 /// Greatest bounding-box diagonal of a shape, m. Larger: norms of inertias become infinite. Smaller: planets are refused.
 pub const GREATEST_SIZE: f64 = 1e30;
+/// Greatest bounding-box diagonal of a shape, m. Larger: inertias become infinite.
+pub const GREATEST_SIZE: f64 = 1e50;
+/// Template coordinates closer than this × the block length are the same line of the grid: a wall's end or the edge of an opening
+/// that falls on a joint up to rounding does not cut a sliver off the next block.
+/// Larger: openings meant to cut a thin piece lose it. Smaller: edges such as 3 × 0.1 miss the joint at 0.3 by rounding and leave slivers.
+pub const GRID_SNAP: f64 = 1e-9;
+/// Stored contact polygons with an area below this × (their diameter)² have no definite plane and are left out by the importers.
+/// Larger: long bed joints between thin blocks vanish. Smaller: the normal of a sliver is rounding noise.
+pub const STORED_POLYGON_AREA: f64 = 1e-9;
+
+/// Blocks whose lowest corner lies within this × the height of the scene above its lowest point are proposed as supports.
+/// Larger: the first course of a tall structure is proposed with its base. Smaller: springers on ground that is not quite level are missed.
+pub const LOWEST_BAND: f64 = 0.01;

@@ -28,6 +28,8 @@ pub struct Assembly {
     pub dead: Vec<Wrench>,
     /// Live load per block (multiplied by λ); zero on supports.
     pub live: Vec<Wrench>,
+    /// The dead forces that act off the centre of mass; contained in `dead`. Their heights matter when gravity turns.
+    pub dead_forces: Vec<AppliedForce>,
     /// Interfaces given by hand.
     pub given: Vec<GivenInterface>,
     /// Contact tolerances.
@@ -71,6 +73,17 @@ pub enum Solid {
         /// Radius, m.
         radius: f64,
     },
+}
+
+/// A force acting off a block's centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AppliedForce {
+    /// Index of the block.
+    pub block: usize,
+    /// Force, N.
+    pub force: Vector3<f64>,
+    /// From the centre of mass to where it acts, m.
+    pub arm: Vector3<f64>,
 }
 
 /// A force and a moment about a block's centre of mass.
@@ -128,8 +141,34 @@ impl Assembly {
         (0..self.blocks.len()).filter(|&i| !self.blocks[i].support)
     }
 
+    /// The weight of a block, N: its mass times the strength of gravity.
+    pub fn weight(&self, block: usize) -> f64 {
+        self.blocks[block].mass * self.gravity.norm()
+    }
+
+    /// The weight of a block as a load about its centre of mass; zero on supports. `dead` minus this is what loads add.
+    pub fn self_weight(&self, block: usize) -> Wrench {
+        let Block { mass, support, .. } = self.blocks[block];
+        if support { Wrench::zero() } else { Wrench { force: self.gravity * mass, moment: Vector3::zeros() } }
+    }
+
     /// Index of a block by name.
     pub fn find(&self, id: &str) -> Option<usize> {
         self.blocks.iter().position(|b| b.id == id)
+    }
+}
+
+impl JointRules {
+    /// The friction between two blocks: the rule for the two blocks, else the last rule for their materials, else the default.
+    /// `None` where no rule says any.
+    pub fn friction(&self, a: usize, b: usize, blocks: &[Block]) -> Option<Friction> {
+        if let Some(friction) = self.by_blocks.get(&(a.min(b), a.max(b))) {
+            return Some(*friction);
+        }
+        let of_materials = |[m, n]: &[String; 2]| {
+            let (one, two) = (blocks[a].material.as_ref(), blocks[b].material.as_ref());
+            (one == Some(m) && two == Some(n)) || (one == Some(n) && two == Some(m))
+        };
+        self.by_material.iter().rev().find(|(pair, _)| of_materials(pair)).map(|(_, friction)| *friction).or(self.default)
     }
 }
