@@ -48,7 +48,9 @@ fn scene(case: &Value, variant: &Value, mu: f64) -> Scene {
     }
     for b in get("blocks3d").and_then(Value::as_array).into_iter().flatten() {
         let at: Vec<f64> = (0..3).map(|k| b["origin"][k].as_f64().unwrap() + b["size"][k].as_f64().unwrap() / 2.0).collect();
-        blocks.push(json!({ "id": b["id"], "support": b["fixed"], "density": b["density"], "at": at, "shape": { "box": { "size": b["size"] } } }));
+        blocks.push(
+            json!({ "id": b["id"], "support": b["fixed"], "density": b["density"], "at": at, "shape": { "box": { "size": b["size"] } } }),
+        );
     }
     let mut value = json!({ "format": "voussoir-scene/1", "name": case["name"], "gravity": gravity, "blocks": blocks,
         "joints": { "default": { "friction": friction(mu) } } });
@@ -64,7 +66,8 @@ fn scene(case: &Value, variant: &Value, mu: f64) -> Scene {
                     value["blocks"].as_array_mut().unwrap().push(json!({ "id": c[side], "support": true, "at": [0.0, 0.0, -1000.0], "shape": { "box": { "size": [1.0, 1.0, 1.0] } } }));
                 }
             }
-            let mut contact = json!({ "between": [c["i"], c["j"]], "points": [point(&c["point"])], "normal": point(&c["normal_from_i_to_j"]) });
+            let mut contact =
+                json!({ "between": [c["i"], c["j"]], "points": [point(&c["point"])], "normal": point(&c["normal_from_i_to_j"]) });
             if let Some(mu) = c.get("mu").filter(|m| m.is_number()) {
                 contact["friction"] = mu.clone();
             }
@@ -106,7 +109,12 @@ fn close(case: &Value, got: f64, want: f64, failures: &mut Vec<String>) {
     let e = &case["expected"];
     let tol = e["tol_rel"].as_f64().map_or(0.0, |t| t * want.abs()) + e["tol_abs"].as_f64().unwrap_or(0.0);
     let ok = (got - want).abs() <= tol;
-    println!("{} {}: {got:.12} expected {want:.12} ({:.1e}, allowed {tol:.1e})", case["id"], if ok { "met" } else { "NOT MET" }, (got - want).abs());
+    println!(
+        "{} {}: {got:.12} expected {want:.12} ({:.1e}, allowed {tol:.1e})",
+        case["id"],
+        if ok { "met" } else { "NOT MET" },
+        (got - want).abs()
+    );
     if !ok {
         failures.push(format!("{}: {got} expected {want}", case["id"]));
     }
@@ -132,7 +140,11 @@ fn masonry_cases() {
     for case in file["cases"].as_array().unwrap() {
         let (e, query) = (&case["expected"], &case["query"]);
         let mu = mu_of(case);
-        if case.get("generator").is_some() && case.get("blocks").is_none() && case.get("variants").is_none() && case.get("blocks3d").is_none() {
+        if case.get("generator").is_some()
+            && case.get("blocks").is_none()
+            && case.get("variants").is_none()
+            && case.get("blocks3d").is_none()
+        {
             println!("{}: given by a generator only: see published.rs", case["id"]);
             continue;
         }
@@ -158,7 +170,9 @@ fn masonry_cases() {
                 let got = if case["id"] == "E11" { l.value / (mu * m.assembly.weight(1)) } else { l.value };
                 if l.outcome != Outcome::Found || l.value < l.bracket.lower || l.value > l.bracket.upper + 1e-9 * l.value.abs() + 1e-12 {
                     failures.push(format!("{}: {:?} {:?}", case["id"], l.outcome, l.bracket));
-                    for a in &l.attempts { println!("   {a:?}"); }
+                    for a in &l.attempts {
+                        println!("   {a:?}");
+                    }
                 }
                 close(case, got, want, &mut failures);
             }
@@ -171,7 +185,10 @@ fn masonry_cases() {
             }
             "verdict_flip" => {
                 for (k, variant) in case["variants"].as_array().into_iter().flatten().enumerate() {
-                    println!("   variant {k}: {:?}", variant.as_object().unwrap().iter().filter(|(_, v)| !v.is_array()).collect::<Vec<_>>());
+                    println!(
+                        "   variant {k}: {:?}",
+                        variant.as_object().unwrap().iter().filter(|(_, v)| !v.is_array()).collect::<Vec<_>>()
+                    );
                     let want = match variant.get("expected").or_else(|| variant.get("verdict")).and_then(Value::as_str) {
                         Some(w) if w.contains("unstable") || w.contains("infeasible") => Verdict::Unstable,
                         Some(_) => Verdict::Stable,

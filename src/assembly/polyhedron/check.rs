@@ -41,12 +41,13 @@ pub(super) fn refuse_crossed(surface: &Surface) -> Result<(), ShapeError> {
 
 fn check_face(surface: &Surface, face: &Face) -> Result<(), ShapeError> {
     let reach = tolerance::COPLANAR * surface.size;
-    let points: Vec<Vector3<f64>> = face.corners.iter().map(|&c| surface.point(c)).collect();
+    let points = || -> Vec<Vector3<f64>> { face.corners.iter().map(|&c| surface.point(c)).collect() };
     let vector = surface.area_vector(face);
     let area = vector.norm();
     let length: f64 = face.edges().map(|(a, b)| (surface.point(b) - surface.point(a)).norm()).sum();
     if area <= reach * length {
         // A needle, or two lobes that cancel.
+        let points = points();
         if spread(&points).0 <= 4.0 * reach {
             return Ok(());
         }
@@ -55,12 +56,14 @@ fn check_face(surface: &Surface, face: &Face) -> Result<(), ShapeError> {
     }
     let normal = vector / area;
     // Four left turns cannot go around twice: the common case needs nothing more.
-    if let [a, b, c, d] = points[..] {
+    if let [a, b, c, d] = face.corners[..] {
+        let [a, b, c, d] = [a, b, c, d].map(|c| surface.point(c));
         let sides = [b - a, c - b, d - c, a - d];
         if (0..4).all(|i| normal.dot(&sides[i].cross(&sides[(i + 1) % 4])) > 0.0) {
             return Ok(());
         }
     }
+    let points = points();
     let frame = Frame::around(&normal);
     let flat: Vec<Point2> = points.iter().map(|p| frame.project(p)).collect();
     if plane::convex_corners(&flat, reach).is_some() {

@@ -14,9 +14,6 @@ const CLUSTER: usize = 64;
 /// Whether all corners lie on or below each facet plane, within [`tolerance::COPLANAR`] × size (the facet's warp where that is larger),
 /// and the facets cover their hull once. To be asked about a single shell.
 pub(super) fn is_convex(surface: &Surface, regions: &[Region]) -> bool {
-    if regions.iter().any(|r| r.pieces.len() != 1) {
-        return false;
-    }
     let reach = tolerance::COPLANAR * surface.size;
     let clusters = clusters(surface);
     let below = |r: &Region| {
@@ -26,7 +23,8 @@ pub(super) fn is_convex(surface: &Surface, regions: &[Region]) -> bool {
     regions.iter().all(below) && covers_once(surface, regions)
 }
 
-/// A surface may wind around its hull twice and still lie below all its planes; its shadow then has twice the area of the hull's.
+/// Facets with all corners below them lie on the hull, which a closed surface may still cover twice; its shadow then has twice the area
+/// of the hull's.
 fn covers_once(surface: &Surface, regions: &[Region]) -> bool {
     let direction = Vector3::new(0.48, 0.6, 0.64);
     let frame = Frame::around(&direction);

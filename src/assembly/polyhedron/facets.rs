@@ -4,7 +4,7 @@ use super::{
     Facet, MassProperties, Mend, Polyhedron, ShapeError,
     outline::{Outline, outline},
     plane::Frame,
-    surface::{Surface, edges},
+    surface::{HalfEdge, Surface, edges},
 };
 use crate::tolerance;
 use nalgebra::Vector3;
@@ -30,9 +30,9 @@ pub(super) struct Region {
 /// A facet grows from its largest face over edges to faces all of whose corners lie within [`tolerance::COPLANAR`] × size of one common
 /// plane: first the plane of that face, then the area-weighted plane of what was found. As the plane does not follow the growth, a fine
 /// curved surface keeps its faces.
-pub(super) fn regions(surface: &Surface, mends: &mut Vec<Mend>) -> Vec<Region> {
+pub(super) fn regions(surface: &Surface, half_edges: &[HalfEdge], mends: &mut Vec<Mend>) -> Vec<Region> {
     let reach = tolerance::COPLANAR * surface.size;
-    let growth = Growth::new(surface, reach);
+    let growth = Growth::new(surface, half_edges, reach);
     growth.report_warped(mends);
 
     let mut order: Vec<u32> = (0..surface.faces.len() as u32).collect();
@@ -77,11 +77,10 @@ struct Growth<'a> {
 }
 
 impl<'a> Growth<'a> {
-    fn new(surface: &'a Surface, reach: f64) -> Self {
+    fn new(surface: &'a Surface, list: &[HalfEdge], reach: f64) -> Self {
         let areas: Vec<_> = surface.faces.iter().map(|f| surface.area_vector(f)).collect();
-        let list = surface.half_edges();
         let pairs = || {
-            edges(&list).filter_map(|edge| match edge {
+            edges(list).filter_map(|edge| match edge {
                 [a, b] if a.face != b.face => Some((a.face as usize, b.face as usize)),
                 _ => None,
             })

@@ -32,7 +32,7 @@ pub enum Mend {
         /// One of them, m.
         at: [f64; 3],
     },
-    /// Faces wound against the others were turned.
+    /// Some faces pointed inward, against the others, and were turned.
     Turned {
         /// How many.
         faces: usize,
@@ -96,7 +96,7 @@ impl fmt::Display for Mend {
             Mend::Turned { faces, first, of } => {
                 write!(
                     f,
-                    "{faces} of {} {} wound against the others and turned (the first is face {first})",
+                    "{faces} of {} pointed inward and {} turned outward (the first is face {first})",
                     count(*of, "face"),
                     were(*faces)
                 )
@@ -214,9 +214,9 @@ pub enum ShapeError {
         face: usize,
     },
     /// No volume.
-    #[error("the shape is flat: it is {thickness:.3e} m thick (volume / largest facet) and {size:.3e} m across")]
+    #[error("the shape is flat: {} m thick and {} m across", short(*thickness), short(*size))]
     Flat {
-        /// Thickness, m.
+        /// Thickness (distance between two planes around all corners, or volume / largest facet), m.
         thickness: f64,
         /// Bounding-box diagonal, m.
         size: f64,

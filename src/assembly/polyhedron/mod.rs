@@ -62,11 +62,11 @@ impl Polyhedron {
         let mut mends = Vec::new();
         let (mut surface, vertices) = weld::weld(vertices, faces, &mut mends)?;
         check::refuse_plane(&surface)?;
-        split::split_edges(&mut surface, &mut mends);
+        let edges = split::split_edges(&mut surface, &mut mends);
         check::refuse_crossed(&surface)?;
-        let shells = orient::orient(&mut surface, &mut mends)?;
+        let shells = orient::orient(&mut surface, &edges, &mut mends)?;
         let mass = mass::mass_properties(&surface);
-        let regions = facets::regions(&surface, &mut mends);
+        let regions = facets::regions(&surface, &edges, &mut mends);
         facets::refuse_flat(&surface, &regions, mass.volume)?;
         let convex = shells == 1 && convex::is_convex(&surface, &regions);
         if !convex {

@@ -2,7 +2,7 @@
 
 use super::{
     Mend,
-    surface::{Surface, edges},
+    surface::{HalfEdge, Surface, edges},
     weld::tidy,
 };
 use crate::tolerance;
@@ -11,11 +11,12 @@ use std::collections::HashMap;
 /// Splits edges at corners closer to them than [`tolerance::WELD`] × size.
 ///
 /// Only edges with an odd number of faces are looked at, and only their ends can lie in the middle of another: a closed surface has none.
-pub(super) fn split_edges(surface: &mut Surface, mends: &mut Vec<Mend>) {
+/// Returns the half-edges of the result.
+pub(super) fn split_edges(surface: &mut Surface, mends: &mut Vec<Mend>) -> Vec<HalfEdge> {
     let list = surface.half_edges();
     let odd: Vec<(u32, u32)> = edges(&list).filter(|e| e.len() % 2 == 1).map(|e| (e[0].low, e[0].high)).collect();
     if odd.is_empty() {
-        return;
+        return list;
     }
     let mut corners: Vec<u32> = odd.iter().flat_map(|&(a, b)| [a, b]).collect();
     corners.sort_unstable();
@@ -55,7 +56,7 @@ pub(super) fn split_edges(surface: &mut Surface, mends: &mut Vec<Mend>) {
             splits.insert((a, b), inner.into_iter().map(|(_, c)| c).collect());
         }
     }
-    let Some(at) = odd.iter().find_map(|e| splits.get(e)).map(|inner| surface.place(inner[0])) else { return };
+    let Some(at) = odd.iter().find_map(|e| splits.get(e)).map(|inner| surface.place(inner[0])) else { return list };
 
     for face in &mut surface.faces {
         if !face.edges().any(|(a, b)| splits.contains_key(&(a.min(b), a.max(b)))) {
@@ -75,4 +76,5 @@ pub(super) fn split_edges(surface: &mut Surface, mends: &mut Vec<Mend>) {
     }
     surface.faces.retain(|f| f.corners.len() >= 3);
     mends.push(Mend::Split { vertices: put, at });
+    surface.half_edges()
 }

@@ -358,7 +358,7 @@ fn single_flipped_face_is_turned() {
     shape.1[3].reverse();
     let (p, mends) = build(&shape).unwrap();
     assert_eq!(mends, [Mend::Turned { faces: 1, first: 3, of: 6 }]);
-    assert_eq!(mends[0].to_string(), "1 of 6 faces was wound against the others and turned (the first is face 3)");
+    assert_eq!(mends[0].to_string(), "1 of 6 faces pointed inward and was turned outward (the first is face 3)");
     assert_box(&p, Vector3::new(0.5, 1.0, 1.5), [1.0, 2.0, 3.0], 1e-14);
 }
 
@@ -660,6 +660,62 @@ proptest! {
     }
 
     #[test]
+    fn winding_does_not_matter(which in 0usize..6, seed in any::<u64>()) {
+        let mut shape = shapes().swap_remove(which);
+        let reference = clean(&shape);
+        for (f, face) in shape.1.iter_mut().enumerate().filter(|(f, _)| seed >> (f % 64) & 1 == 1) {
+            face.rotate_left(f % 3);
+            face.reverse();
+        }
+        let (p, mends) = build(&shape).unwrap();
+        let count = shape.1.len();
+        let turned = (0..count).filter(|f| seed >> (f % 64) & 1 == 1).count();
+        match mends[..] {
+            [] => prop_assert_eq!(turned, 0),
+            [Mend::Turned { faces, of, .. }] => prop_assert_eq!((faces, of), (turned, count)),
+            [Mend::Inverted { faces }] => prop_assert_eq!((faces, turned), (count, count)),
+            _ => prop_assert!(false, "{:?}", mends),
+        }
+        let (m, r) = (p.mass_properties(), reference.mass_properties());
+        prop_assert!((m.volume / r.volume - 1.0).abs() < 1e-13);
+        prop_assert!((m.inertia - r.inertia).norm() < 1e-13 * r.inertia.norm());
+        // A closed surface has no net area in any direction.
+        prop_assert!(p.facets.iter().map(|f| f.normal * f.area).sum::<Vector3<f64>>().norm() < 1e-12);
+    }
+
+    #[test]
+    fn two_boxes_overlap_where_no_axis_separates_them(
+        place in prop::array::uniform3(prop_oneof![(-4i8..5).prop_map(|k| f64::from(k) / 2.0), -2.0f64..2.0]),
+        size in prop::array::uniform3(prop_oneof![Just(1.0), Just(2.0), 0.2f64..3.0]),
+        turn in prop_oneof![Just([0.0; 3]), Just([0.0, 0.0, std::f64::consts::FRAC_PI_4]), prop::array::uniform3(-3.0f64..3.0)],
+        triangles in any::<bool>(),
+    ) {
+        let turn = Rotation3::from_scaled_axis(Vector3::from(turn));
+        let mut other = cuboid_at(size.map(|s| -s / 2.0), size);
+        other.0.iter_mut().for_each(|p| *p = turn * *p + Vector3::from(place));
+        let fixed = cuboid_at([-0.5, -1.0, -0.5], [1.0, 2.0, 1.0]);
+        // Separating axes of two boxes (Gottschalk, Lin & Manocha 1996).
+        let axes: Points = (0..3).map(|k| Vector3::ith(k, 1.0)).collect();
+        let own: Points = axes.iter().map(|a| turn * a).collect();
+        let crossed = axes.iter().flat_map(|a| own.iter().filter_map(|b| a.cross(b).try_normalize(1e-6)));
+        let depth = axes.iter().chain(&own).copied().chain(crossed).map(|axis| {
+            let span = |points: &Points| points.iter().map(|p| axis.dot(p)).fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
+            let ((a, b), (c, d)) = (span(&fixed.0), span(&other.0));
+            b.min(d) - a.max(c)
+        }).fold(f64::MAX, f64::min);
+        let mut shape = with(fixed, other);
+        if triangles {
+            shape.1 = shape.1.iter().flat_map(|f| [vec![f[0], f[1], f[2]], vec![f[0], f[2], f[3]]]).collect();
+        }
+        let result = build(&shape);
+        if depth > 1e-3 {
+            prop_assert!(result.is_err(), "{} deep", depth);
+        } else if depth < -1e-6 {
+            prop_assert!(result.is_ok(), "{:?}", result);
+        }
+    }
+
+    #[test]
     fn rubbish_is_refused_or_mended_but_never_panics(
         points in prop::collection::vec(prop::array::uniform3(prop_oneof![-2i8..3, Just(100i8)]), 0..14),
         faces in prop::collection::vec(prop::collection::vec(0usize..14, 0..7), 0..24),
@@ -686,4 +742,43 @@ proptest! {
             prop_assert!(p.mass_properties().volume > 0.0);
         }
     }
+}
+
+#[test]
+fn real_stones_are_closed_or_said_to_be_open() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/compas/rb3d-stones");
+    if !folder.is_dir() {
+        return eprintln!("skipped: {} is not there", folder.display());
+    }
+    // Faces wound both ways; one stone has a hole of eight edges.
+    for (name, closed) in [("stone_0.ply", false), ("stone_1.ply", true), ("stone_2.ply", true), ("stone_10.ply", true)] {
+        match build(&read_ply(&std::fs::read(folder.join(name)).unwrap())) {
+            Ok((p, mends)) => {
+                assert!(closed && matches!(mends[..], [Mend::Turned { .. }]), "{name}: {mends:?}");
+                let (net, total) = p.facets.iter().fold((Vector3::zeros(), 0.0), |(n, a), f| (n + f.normal * f.area, a + f.area));
+                assert!(net.norm() < 1e-9 * total, "{name}: {net}");
+            }
+            Err(error) => assert!(!closed && matches!(error, ShapeError::Open { edges: 8, .. }), "{name}: {error}"),
+        }
+    }
+}
+
+/// Binary little-endian PLY with double coordinates and `uchar int` faces, as these files are.
+fn read_ply(bytes: &[u8]) -> (Points, Faces) {
+    let end = b"end_header\n";
+    let mut at = bytes.windows(end.len()).position(|w| w == end).unwrap() + end.len();
+    let header = String::from_utf8_lossy(&bytes[..at]).into_owned();
+    let count = |key: &str| -> usize { header.lines().find_map(|l| l.strip_prefix(key)).unwrap().trim().parse().unwrap() };
+    let mut next = |n: usize| {
+        at += n;
+        &bytes[at - n..at]
+    };
+    let points = (0..count("element vertex")).map(|_| Vector3::from_fn(|_, _| f64::from_le_bytes(next(8).try_into().unwrap()))).collect();
+    let faces = (0..count("element face"))
+        .map(|_| {
+            let corners = next(1)[0];
+            (0..corners).map(|_| i32::from_le_bytes(next(4).try_into().unwrap()) as usize).collect()
+        })
+        .collect();
+    (points, faces)
 }
