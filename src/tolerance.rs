@@ -115,12 +115,13 @@ pub const GIVEN_APART: f64 = 0.5;
 /// Larger: thin slabs and slivers are refused. Smaller: volume, centroid and inertia are rounding noise.
 pub const FLAT: f64 = 1e-7;
 
-/// Least bounding-box diagonal of a shape, m. Inertia grows as length⁵ and has to stay clear of the smallest numbers.
-/// Larger: grains could be refused. Smaller: inertias become zero.
-pub const LEAST_SIZE: f64 = 1e-50;
+/// Least bounding-box diagonal of a shape, m. Inertia grows as length⁵, and its square has to stay clear of the smallest numbers.
+/// Larger: grains could be refused. Smaller: norms of inertias become zero.
+pub const LEAST_SIZE: f64 = 1e-30;
 
-/// Greatest bounding-box diagonal of a shape, m. Larger: inertias become infinite.
-pub const GREATEST_SIZE: f64 = 1e50;
+/// Greatest bounding-box diagonal of a shape, m. Larger: norms of inertias become infinite. Smaller: planets are refused.
+pub const GREATEST_SIZE: f64 = 1e30;
+
 /// Template coordinates closer than this × the block length are the same line of the grid: a wall's end or the edge of an opening
 /// that falls on a joint up to rounding does not cut a sliver off the next block.
 /// Larger: openings meant to cut a thin piece lose it. Smaller: edges such as 3 × 0.1 miss the joint at 0.3 by rounding and leave slivers.
