@@ -52,7 +52,7 @@ pub(super) fn tidy(polygon: &mut Vec<P2>, tol: f64) {
             let (previous, here, next) = (polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n]);
             // Never two neighbours in one sweep: each is judged by the other.
             let drop =
-                !dropped_last && !(i + 1 == n && kept.first() != Some(&polygon[0])) && distance_to_segment(here, previous, next) <= tol;
+                !(dropped_last || i + 1 == n && kept.first() != Some(&polygon[0])) && distance_to_segment(here, previous, next) <= tol;
             if !drop {
                 kept.push(here);
             }
