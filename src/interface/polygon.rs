@@ -52,7 +52,7 @@ pub(super) fn tidy(polygon: &mut Vec<P2>, tol: f64) {
             let (previous, here, next) = (polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n]);
             // Never two neighbours in one sweep: each is judged by the other.
             let drop =
-                !dropped_last && !(i + 1 == n && kept.first() != Some(&polygon[0])) && distance_to_segment(here, previous, next) <= tol;
+                !(dropped_last || i + 1 == n && kept.first() != Some(&polygon[0])) && distance_to_segment(here, previous, next) <= tol;
             if !drop {
                 kept.push(here);
             }
@@ -168,8 +168,10 @@ mod tests {
         let before = area(&circle);
         tidy(&mut circle, 1e-9);
         assert_eq!(circle.len(), n);
-        tidy(&mut circle, 1e-5);
-        assert!(circle.len() < n && (area(&circle) - before).abs() < 1e-3);
+        // Every corner lies 2e-5 off its neighbours' chord: every second one goes, the rest lie 8e-5 off.
+        tidy(&mut circle, 3e-5);
+        assert_eq!(circle.len(), n / 2);
+        assert!((area(&circle) - before).abs() < 1e-4);
     }
 
     #[test]
