@@ -38,6 +38,11 @@ impl JsonPath {
         steps.push(Step::Index(index));
         Self(steps)
     }
+
+    /// This path followed by `tail`.
+    pub fn join(&self, tail: &Self) -> Self {
+        Self(self.0.iter().chain(&tail.0).cloned().collect())
+    }
 }
 
 impl fmt::Display for JsonPath {
@@ -83,6 +88,13 @@ impl InputError {
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
+        self
+    }
+
+    /// The same error where its path is relative to the value at `prefix`.
+    #[must_use]
+    pub fn under(mut self, prefix: &JsonPath) -> Self {
+        self.path = prefix.join(&self.path);
         self
     }
 }
@@ -138,6 +150,8 @@ pub enum FindingCode {
     ContactIgnored,
     /// Free blocks without a contact path to a support.
     Floating,
+    /// A given normal that points against the line from the first block's centre to the second's.
+    Orientation,
     /// Numbers that look like a slip of units.
     Units,
     /// Something about the way the numbers were found.

@@ -4,7 +4,7 @@
 mod polyhedron;
 mod resolve;
 
-pub use polyhedron::{Facet, Polyhedron};
+pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
 pub use resolve::resolve;
 
 use crate::{
@@ -136,5 +136,20 @@ impl Assembly {
     /// Index of a block by name.
     pub fn find(&self, id: &str) -> Option<usize> {
         self.blocks.iter().position(|b| b.id == id)
+    }
+}
+
+impl JointRules {
+    /// The friction between two blocks: the rule for the two blocks, else the last rule for their materials, else the default.
+    /// `None` where no rule says any.
+    pub fn friction(&self, a: usize, b: usize, blocks: &[Block]) -> Option<Friction> {
+        if let Some(friction) = self.by_blocks.get(&(a.min(b), a.max(b))) {
+            return Some(*friction);
+        }
+        let of_materials = |[m, n]: &[String; 2]| {
+            let (one, two) = (blocks[a].material.as_ref(), blocks[b].material.as_ref());
+            (one == Some(m) && two == Some(n)) || (one == Some(n) && two == Some(m))
+        };
+        self.by_material.iter().rev().find(|(pair, _)| of_materials(pair)).map(|(_, friction)| *friction).or(self.default)
     }
 }

@@ -2,7 +2,11 @@
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
-use std::{borrow::Cow, fmt};
+use std::{
+    borrow::Cow,
+    collections::{BTreeMap, btree_map::Entry},
+    fmt,
+};
 
 /// What blocks are made of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -19,7 +23,7 @@ pub struct Joints {
     /// The rule for every joint without an exception.
     #[serde(default, skip_serializing_if = "JointSpec::is_empty")]
     pub default: JointSpec,
-    /// Exceptions; where several match a joint, the last one wins.
+    /// Exceptions; one for two blocks beats one for two materials, and among several of the same kind the last one wins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub overrides: Vec<JointOverride>,
 }
@@ -130,4 +134,39 @@ impl JsonSchema for Friction {
             "oneOf": [{ "type": "number", "minimum": 0 }, { "const": "infinite" }]
         })
     }
+}
+
+/// The error about a name that a map holds twice.
+pub(super) const GIVEN_TWICE: &str = "the name is given twice";
+
+/// Reads a map and refuses a name that is given twice (serde's own maps keep the last and say nothing).
+pub(super) fn distinct_names<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<String, Material>, D::Error> {
+    /// Stands for the value of a repeated key, so that the error lies at that key.
+    struct Twice;
+    impl<'de> de::DeserializeSeed<'de> for Twice {
+        type Value = ();
+        fn deserialize<D: Deserializer<'de>>(self, _: D) -> Result<(), D::Error> {
+            Err(de::Error::custom(GIVEN_TWICE))
+        }
+    }
+    struct Visitor;
+    impl<'de> de::Visitor<'de> for Visitor {
+        type Value = BTreeMap<String, Material>;
+        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+            f.write_str("a map")
+        }
+        fn visit_map<A: de::MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let mut named = BTreeMap::new();
+            while let Some(name) = map.next_key::<String>()? {
+                match named.entry(name) {
+                    Entry::Vacant(free) => {
+                        free.insert(map.next_value()?);
+                    }
+                    Entry::Occupied(_) => map.next_value_seed(Twice)?,
+                }
+            }
+            Ok(named)
+        }
+    }
+    deserializer.deserialize_map(Visitor)
 }

@@ -6,18 +6,28 @@
 
 mod block;
 mod contact;
+mod explain;
 mod interface;
 mod joint;
 mod load;
 mod read;
+mod schema;
+mod source;
+mod suggest;
 pub mod template;
+
+#[cfg(test)]
+mod tests;
 
 pub use block::{BlockSpec, Rotation, Shape};
 pub use contact::ContactSpec;
 pub use interface::InterfaceSpec;
 pub use joint::{Friction, JointOverride, JointSpec, Joints, Material};
 pub use load::{At, Load, Loads};
-pub use read::{Source, read_file, read_str};
+pub use read::{read_bytes, read_file, read_str};
+pub use schema::schema;
+pub use source::Source;
+pub(crate) use suggest::suggest;
 pub use template::Template;
 
 use schemars::JsonSchema;
@@ -49,7 +59,7 @@ pub struct Scene {
     #[serde(default = "standard_gravity")]
     pub gravity: [f64; 3],
     /// Materials by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(default, deserialize_with = "joint::distinct_names", skip_serializing_if = "BTreeMap::is_empty")]
     pub materials: BTreeMap<String, Material>,
     /// How joints resist.
     #[serde(default, skip_serializing_if = "Joints::is_empty")]

@@ -1,0 +1,91 @@
+//! A closed polyhedron: facets, volume, centroid, inertia.
+//!
+//! [`Polyhedron::from_faces`] takes what a file gives and either mends it, saying how ([`Mend`]), or refuses it, saying where and why
+//! ([`ShapeError`]). The stages, one file each: weld corners, split edges, orient faces, join coplanar faces to facets, weigh, test for overlap.
+//! All of them work in coordinates about the centre of the bounding box, so that a block far from the origin loses no digits.
+
+mod facets;
+mod mass;
+mod message;
+mod orient;
+mod outline;
+mod plane;
+mod surface;
+mod weld;
+
+pub use mass::MassProperties;
+pub use message::{Mend, ShapeError};
+
+use nalgebra::Vector3;
+
+/// A closed polyhedron in scene coordinates, faces outward.
+#[derive(Clone, Debug)]
+pub struct Polyhedron {
+    /// Corners, m.
+    pub vertices: Vec<Vector3<f64>>,
+    /// Maximal plane facets. Coplanar faces joined by an edge are one facet, so that nothing depends on how a face was triangulated.
+    pub facets: Vec<Facet>,
+    /// Whether the polyhedron is convex.
+    pub convex: bool,
+    /// Of the surface as given; joining facets straightens edges within tolerance and would lose digits.
+    mass: MassProperties,
+}
+
+/// A plane facet, possibly non-convex or with holes: a union of convex pieces that overlap at most along edges.
+#[derive(Clone, Debug)]
+pub struct Facet {
+    /// Outward unit normal.
+    pub normal: Vector3<f64>,
+    /// The plane is `normal · x = offset`, m.
+    pub offset: f64,
+    /// Convex pieces as loops of vertex indices, counter-clockwise seen from outside; one piece where the facet is convex.
+    pub pieces: Vec<Vec<u32>>,
+    /// Area, m².
+    pub area: f64,
+    /// Largest distance of a corner from the plane, m (0 for a plane face; larger for a warped quadrilateral).
+    pub warp: f64,
+}
+
+impl Polyhedron {
+    /// A polyhedron from corners (m) and faces, each a loop of vertex indices, ideally counter-clockwise seen from outside.
+    ///
+    /// Faces need not be convex, triangulated or plane; a face with a hole may come in parts or as one loop with a bridge to the hole.
+    /// What was mended on the way is returned beside the polyhedron.
+    ///
+    /// # Errors
+    /// A surface that encloses no definite volume: open, flat, one-sided, cutting through itself, or with unusable numbers.
+    pub fn from_faces(vertices: Vec<Vector3<f64>>, faces: &[Vec<usize>]) -> Result<(Self, Vec<Mend>), ShapeError> {
+        let mut mends = Vec::new();
+        let (mut surface, vertices) = weld::weld(vertices, faces, &mut mends)?;
+        let shells = orient::orient(&mut surface, &mut mends)?;
+        let mass = mass::mass_properties(&surface);
+        let regions = facets::regions(&surface, &mut mends);
+        facets::refuse_flat(&surface, &regions, mass.volume)?;
+        let convex = shells == 1 && facets::is_convex(&surface, &regions);
+        Ok((facets::assemble(&surface, vertices, regions, convex, mass), mends))
+    }
+
+    /// Volume, centroid and inertia for unit density.
+    pub fn mass_properties(&self) -> MassProperties {
+        self.mass
+    }
+
+    /// The corners of a piece of a facet, in order.
+    pub fn points<'a>(&'a self, piece: &'a [u32]) -> impl ExactSizeIterator<Item = Vector3<f64>> + Clone + 'a {
+        piece.iter().map(|&v| self.vertices[v as usize])
+    }
+
+    /// The corners of a facet, each once; in order around the normal where the facet is one piece.
+    pub fn facet_vertices(&self, facet: &Facet) -> Vec<Vector3<f64>> {
+        if let [piece] = facet.pieces.as_slice() {
+            return self.points(piece).collect();
+        }
+        let mut corners: Vec<u32> = facet.pieces.concat();
+        corners.sort_unstable();
+        corners.dedup();
+        self.points(&corners).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

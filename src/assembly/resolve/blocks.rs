@@ -1,0 +1,167 @@
+//! Block specs → [`Block`]s with mass, centre of mass and inertia.
+
+use super::{
+    check,
+    shape::{self, Frame},
+};
+use crate::{
+    assembly::{Block, Mend},
+    error::{Finding, FindingCode, InputError, JsonPath, Step},
+    generate,
+    scene::{BlockSpec, Scene, suggest},
+    tolerance::DEFAULT_DENSITY,
+};
+use std::collections::HashMap;
+
+/// Where a block comes from, for errors about it.
+pub(super) struct Place {
+    path: JsonPath,
+    /// The name of a block that no key of the file holds.
+    generated: Option<String>,
+}
+
+impl Place {
+    /// Turns a path relative to the block into one from the root: a block of a template has no keys of its own.
+    pub(super) fn check<T>(&self, result: Result<T, InputError>) -> Result<T, InputError> {
+        result.map_err(|e| match &self.generated {
+            None => e.under(&self.path),
+            Some(id) => InputError { message: format!("block {id:?}, {}: {}", e.path, e.message), path: self.path.clone(), ..e },
+        })
+    }
+}
+
+/// Whether a block with this path was made by a template.
+pub(super) fn from_template(path: &JsonPath) -> bool {
+    path.0.first() == Some(&Step::Key("templates".into()))
+}
+
+/// All blocks, explicit ones first, and what was mended or assumed.
+pub(super) fn resolve(scene: &Scene) -> Result<(Vec<Block>, Vec<Finding>), InputError> {
+    let root = JsonPath::root();
+    for (name, material) in &scene.materials {
+        check::positive(material.density, &root.key("materials").key(name.as_str()).key("density"), "kg/m³")?;
+    }
+    let mut blocks = Vec::with_capacity(scene.blocks.len());
+    let mut mended = Mended::default();
+    // Per block: whether its density is nobody's choice.
+    let mut assumed = Vec::with_capacity(scene.blocks.len());
+    let mut add = |spec: &BlockSpec, place: &Place| -> Result<(), InputError> {
+        let (block, no_density) = block(scene, spec, place, &mut mended)?;
+        blocks.push(block);
+        assumed.push(no_density);
+        Ok(())
+    };
+    for (i, spec) in scene.blocks.iter().enumerate() {
+        add(spec, &Place { path: root.key("blocks").index(i), generated: None })?;
+    }
+    for (i, template) in scene.templates.iter().enumerate() {
+        let path = root.key("templates").index(i);
+        for spec in generate::expand(template).map_err(|e| e.under(&path))? {
+            add(&spec, &Place { path: path.clone(), generated: Some(spec.id.clone()) })?;
+        }
+    }
+    let mut findings = mended.findings();
+    findings.extend(assumed_density(scene, &blocks, &assumed));
+    Ok((blocks, findings))
+}
+
+/// One block, and whether the default density was taken for it.
+fn block(scene: &Scene, spec: &BlockSpec, place: &Place, mended: &mut Mended) -> Result<(Block, bool), InputError> {
+    let root = JsonPath::root();
+    let frame = Frame::new(spec, place)?;
+    let body = shape::body(spec, &frame, place)?;
+    for mend in &body.mended {
+        mended.add(mend, &spec.id);
+    }
+
+    let mass = spec.mass.map(|m| place.check(check::positive(m, &root.key("mass"), "kg"))).transpose()?;
+    let own = spec.density.map(|d| place.check(check::positive(d, &root.key("density"), "kg/m³"))).transpose()?;
+    if mass.is_some() && own.is_some() {
+        return place.check(Err(InputError::at(root.key("mass"), "density and mass are both given").hint("keep one of them")));
+    }
+    let material = match &spec.material {
+        None => None,
+        Some(name) => match scene.materials.get(name) {
+            Some(material) => Some(material.density),
+            None => return place.check(Err(no_material(scene, name, &root.key("material")))),
+        },
+    };
+    let density = own.or(material);
+
+    let volume = body.properties.volume;
+    let mass = mass.unwrap_or(density.unwrap_or(DEFAULT_DENSITY) * volume);
+    // A centre of mass given by hand says nothing about the spread of the mass: the shape's inertia, scaled by the mass, is kept.
+    let inertia = body.properties.inertia * (mass / volume);
+    let own_centroid = spec.centroid.map(|c| place.check(check::vector(c, &root.key("centroid")))).transpose()?;
+    let centroid = own_centroid.map_or(body.properties.centroid, |c| frame.apply(c));
+    let computable = volume > 0.0 && mass > 0.0 && [volume, mass, body.size].iter().chain(&centroid).chain(&inertia).all(|x| x.is_finite());
+    if !computable {
+        let message = format!("the block is too small or too large to compute with: volume {volume:e} m³, mass {mass:e} kg");
+        return place.check(Err(InputError::at(root.key("shape"), message).hint("lengths are in m")));
+    }
+    let block = Block {
+        id: spec.id.clone(),
+        path: place.path.clone(),
+        support: spec.support,
+        material: spec.material.clone(),
+        mass,
+        centroid,
+        inertia,
+        solid: body.solid,
+        size: body.size,
+    };
+    Ok((block, density.is_none() && spec.mass.is_none()))
+}
+
+/// The error about a material that is not in the list.
+pub(super) fn no_material(scene: &Scene, name: &str, path: &JsonPath) -> InputError {
+    let hint = suggest(name, scene.materials.keys().map(String::as_str))
+        .unwrap_or_else(|| format!("add \"materials\": {{ {name:?}: {{ \"density\": … }} }}"));
+    InputError::at(path.clone(), format!("no material is called {name:?}")).hint(hint)
+}
+
+/// Says that a density was assumed, if that can change an answer: with one density for all and no load but the weight,
+/// forces grow with it and nothing else does.
+fn assumed_density(scene: &Scene, blocks: &[Block], assumed: &[bool]) -> Option<Finding> {
+    let free = || blocks.iter().zip(assumed).filter(|(b, _)| !b.support);
+    let (first, _) = free().find(|(_, assumed)| **assumed)?;
+    let count = free().filter(|(_, assumed)| **assumed).count();
+    let mixed = count < free().count();
+    let loaded = scene.loads.dead.iter().chain(&scene.loads.live).any(|l| l.force.is_some() || l.moment.is_some());
+    let why = match (mixed, loaded) {
+        (false, false) => return None,
+        (true, _) => "other blocks have a density or mass of their own",
+        (false, true) => "there are loads besides the weight",
+    };
+    let who = if count == 1 { format!("block {:?} has", first.id) } else { format!("{count} blocks have (the first is {:?})", first.id) };
+    let text = format!("{who} no density, mass or material: {DEFAULT_DENSITY} kg/m³ was assumed; this matters because {why}.");
+    Some(Finding::new(FindingCode::Assumed, text))
+}
+
+/// What was mended, one entry per sentence: ten thousand blocks turned inside out are one finding.
+#[derive(Default)]
+struct Mended {
+    order: Vec<String>,
+    blocks: HashMap<String, (FindingCode, String, usize)>,
+}
+
+impl Mended {
+    fn add(&mut self, mend: &Mend, id: &str) {
+        let text = mend.to_string();
+        if let Some((.., count)) = self.blocks.get_mut(&text) {
+            *count += 1;
+        } else {
+            self.order.push(text.clone());
+            self.blocks.insert(text, (mend.code(), id.to_owned(), 1));
+        }
+    }
+
+    fn findings(self) -> Vec<Finding> {
+        let tell = |text: &String| {
+            let (code, id, count) = &self.blocks[text];
+            let others = if *count > 1 { format!(" (and {} more)", count - 1) } else { String::new() };
+            Finding::new(*code, format!("Block {id:?}{others}: {text}."))
+        };
+        self.order.iter().map(tell).collect()
+    }
+}

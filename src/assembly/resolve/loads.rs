@@ -1,0 +1,82 @@
+//! Load specs → one dead and one live [`Wrench`] per block, about its centre of mass.
+//!
+//! A load is of exactly one kind: `force` and/or `moment` on a `block` (the force `at` a point, else at the centre of mass),
+//! `acceleration` a: m·a, or `weight` w: m·|g|·w. The last two act on one block or on every free block, at the centre of mass.
+
+use super::{Names, check};
+use crate::{
+    assembly::{Assembly, Wrench},
+    error::{InputError, JsonPath},
+    scene::{At, Load, Scene},
+};
+use nalgebra::Vector3;
+
+/// Dead loads (own weight included) and live loads, per block.
+pub(super) fn resolve(scene: &Scene, assembly: &Assembly, names: &Names) -> Result<(Vec<Wrench>, Vec<Wrench>), InputError> {
+    let path = JsonPath::root().key("loads");
+    let mut dead: Vec<Wrench> = (0..assembly.blocks.len()).map(|i| assembly.self_weight(i)).collect();
+    let mut live = vec![Wrench::zero(); assembly.blocks.len()];
+    for (key, loads, sum) in [("dead", &scene.loads.dead, &mut dead), ("live", &scene.loads.live, &mut live)] {
+        for (i, load) in loads.iter().enumerate() {
+            add(load, assembly, names, sum, &path.key(key).index(i))?;
+        }
+    }
+    let finite = |w: &Wrench| w.force.iter().chain(&w.moment).all(|x| x.is_finite());
+    if let Some(i) = (0..dead.len()).find(|&i| !finite(&dead[i]) || !finite(&live[i])) {
+        return Err(InputError::at(path, format!("the load on block {:?} is too large to compute with", assembly.blocks[i].id))
+            .hint("forces are in N, lengths in m, masses in kg"));
+    }
+    Ok((dead, live))
+}
+
+fn add(load: &Load, assembly: &Assembly, names: &Names, sum: &mut [Wrench], path: &JsonPath) -> Result<(), InputError> {
+    let block = load.block.as_ref().map(|id| names.find(id, &path.key("block"))).transpose()?;
+    if let Some(id) = load.block.as_ref().filter(|_| block.is_some_and(|i| assembly.blocks[i].support)) {
+        return Err(InputError::at(path.key("block"), format!("{id:?} is a support: a load on it changes nothing")).hint("remove the load"));
+    }
+    let given = |key: &str, value: Option<[f64; 3]>| value.map(|v| check::vector(v, &path.key(key))).transpose();
+    let (force, moment) = (given("force", load.force)?, given("moment", load.moment)?);
+    let (acceleration, weight) = (given("acceleration", load.acceleration)?, given("weight", load.weight)?);
+
+    let by_force = force.is_some() || moment.is_some();
+    match (by_force, acceleration, weight) {
+        (false, None, None) => {
+            return Err(
+                InputError::at(path.clone(), "the load says nothing").hint("add \"force\", \"moment\", \"acceleration\" or \"weight\"")
+            );
+        }
+        (true, None, None) | (false, Some(_), None) | (false, None, Some(_)) => {}
+        _ => {
+            return Err(
+                InputError::at(path.clone(), "one load mixes force or moment, acceleration, and weight").hint("make a load of each")
+            );
+        }
+    }
+    if [force, moment, acceleration, weight].into_iter().flatten().all(|v| v == Vector3::zeros()) {
+        return Err(InputError::at(path.clone(), "the load is zero: it does nothing").hint("remove it"));
+    }
+    if load.at.is_some() && force.is_none() {
+        return Err(InputError::at(path.key("at"), "only a force acts at a point").hint("remove \"at\""));
+    }
+
+    if by_force {
+        let Some(i) = block else {
+            return Err(InputError::at(path.clone(), "it is not said which block the force or moment acts on").hint("add \"block\": id"));
+        };
+        let force = force.unwrap_or_default();
+        let arm = match load.at {
+            None | Some(At::Centroid(_)) => Vector3::zeros(),
+            Some(At::Point(point)) => check::vector(point, &path.key("at"))? - assembly.blocks[i].centroid,
+        };
+        sum[i] += Wrench { force, moment: moment.unwrap_or_default() + arm.cross(&force) };
+        return Ok(());
+    }
+    let loaded: Vec<usize> = block.map_or_else(|| assembly.free().collect(), |i| vec![i]);
+    for i in loaded {
+        // Exactly one of the two is there.
+        let by_acceleration = acceleration.map(|a| a * assembly.blocks[i].mass);
+        let by_weight = weight.map(|w| w * assembly.weight(i));
+        sum[i] += Wrench { force: by_acceleration.or(by_weight).unwrap_or_default(), moment: Vector3::zeros() };
+    }
+    Ok(())
+}

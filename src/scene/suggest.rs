@@ -1,0 +1,41 @@
+//! "Did you mean …?" for keys and names.
+
+/// The remedy for a `word` that is none of `known`: the nearest of them if one is near, else all of them, else none.
+pub(crate) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    const LIST_AT_MOST: usize = 12;
+    let mut known: Vec<&str> = known.into_iter().collect();
+    known.dedup();
+    // One slip in three letters is still the same word; more, and the guess is noise.
+    let slips = (word.chars().count() / 3).max(1);
+    let nearest = known.iter().map(|k| (strsim::damerau_levenshtein(&word.to_lowercase(), &k.to_lowercase()), *k)).min();
+    match nearest {
+        Some((distance, name)) if distance <= slips => Some(format!("did you mean {name:?}?")),
+        None => None,
+        Some(_) => {
+            let list: Vec<String> = known.iter().take(LIST_AT_MOST).map(|k| format!("{k:?}")).collect();
+            let more = if known.len() > LIST_AT_MOST { format!(" and {} more", known.len() - LIST_AT_MOST) } else { String::new() };
+            Some(if known.len() == 1 {
+                format!("the only one known is {}", list[0])
+            } else {
+                format!("known are {}{more}", list.join(", "))
+            })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::suggest;
+
+    #[test]
+    fn names_the_nearest_or_lists_all() {
+        let known = ["density", "shape", "support"];
+        assert_eq!(suggest("densty", known).unwrap(), "did you mean \"density\"?");
+        assert_eq!(suggest("Shape", known).unwrap(), "did you mean \"shape\"?");
+        assert_eq!(suggest("colour", known).unwrap(), "known are \"density\", \"shape\", \"support\"");
+        assert_eq!(suggest("colour", ["a"]).unwrap(), "the only one known is \"a\"");
+        assert_eq!(suggest("colour", []), None);
+        let many: Vec<String> = (0..100).map(|i| format!("block number {i}")).collect();
+        assert!(suggest("x", many.iter().map(String::as_str)).unwrap().ends_with("and 88 more"));
+    }
+}
