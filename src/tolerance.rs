@@ -93,3 +93,7 @@ pub const LEAST_SIZE: f64 = 1e-50;
 
 /// Greatest bounding-box diagonal of a shape, m. Larger: inertias become infinite.
 pub const GREATEST_SIZE: f64 = 1e50;
+/// Template coordinates closer than this × the block length are the same line of the grid: a wall's end or the edge of an opening
+/// that falls on a joint up to rounding does not cut a sliver off the next block.
+/// Larger: openings meant to cut a thin piece lose it. Smaller: edges such as 3 × 0.1 miss the joint at 0.3 by rounding and leave slivers.
+pub const GRID_SNAP: f64 = 1e-9;

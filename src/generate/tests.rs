@@ -1,0 +1,1 @@
+//! Geometry against known coordinates, and refusals.
