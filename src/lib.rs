@@ -11,6 +11,8 @@ pub mod scene;
 
 pub mod generate;
 
+pub mod import;
+
 pub mod assembly;
 
 pub mod interface;

@@ -97,3 +97,10 @@ pub const GREATEST_SIZE: f64 = 1e50;
 /// that falls on a joint up to rounding does not cut a sliver off the next block.
 /// Larger: openings meant to cut a thin piece lose it. Smaller: edges such as 3 × 0.1 miss the joint at 0.3 by rounding and leave slivers.
 pub const GRID_SNAP: f64 = 1e-9;
+/// Stored contact polygons with an area below this × (their diameter)² have no definite plane and are left out by the importers.
+/// Larger: long bed joints between thin blocks vanish. Smaller: the normal of a sliver is rounding noise.
+pub const STORED_POLYGON_AREA: f64 = 1e-9;
+
+/// Blocks whose lowest corner lies within this × the height of the scene above its lowest point are proposed as supports.
+/// Larger: the first course of a tall structure is proposed with its base. Smaller: springers on ground that is not quite level are missed.
+pub const LOWEST_BAND: f64 = 0.01;
