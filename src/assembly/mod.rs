@@ -133,6 +133,12 @@ impl Assembly {
         self.blocks[block].mass * self.gravity.norm()
     }
 
+    /// The weight of a block as a load about its centre of mass; zero on supports. `dead` minus this is what loads add.
+    pub fn self_weight(&self, block: usize) -> Wrench {
+        let Block { mass, support, .. } = self.blocks[block];
+        if support { Wrench::zero() } else { Wrench { force: self.gravity * mass, moment: Vector3::zeros() } }
+    }
+
     /// Index of a block by name.
     pub fn find(&self, id: &str) -> Option<usize> {
         self.blocks.iter().position(|b| b.id == id)
