@@ -59,6 +59,33 @@ pub const FORCE_CAP: f64 = 3.0;
 /// first-order correction by the mechanism no longer holds. Larger: brackets that do not contain the answer.
 /// Smaller: tall walls, whose forces are hundreds of block weights, lose their brackets.
 pub const LOOSE_BALANCE: f64 = 1e-5;
+/// Near misses are reported up to this × the smaller block's size at most, however coarse `contact.gap` is.
+/// Larger: with a coarse gap every face across an open joint is called a near miss and every block is compared with its second neighbours.
+/// Smaller: the default reach (100 × [`CONTACT_GAP`] = 0.01) is cut.
+pub const NEAR_MISS_LIMIT: f64 = 0.05;
+
+/// In the plane of a contact, points closer than this × the smaller block's size are one point, and a point this close to a line is on it.
+/// Larger: contact corners move, and with them the critical thickness of an arch (decided to 1e-6 of the thickness).
+/// Smaller: rounding of moved and rotated coordinates makes two corners of one.
+pub const CONTACT_WELD: f64 = 1e-9;
+
+/// Lengths below this × the largest coordinate are rounding: a floor under every contact length.
+/// Larger: real gaps far from the origin are lost. Smaller: sums of a few products of such coordinates no longer fit.
+pub const COORDINATE_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Gaps and overlaps below this × the smaller block's size are rounding: closed without a word.
+/// Larger: gaps somebody drew are closed silently. Smaller: every rotated scene reports gaps.
+pub const GAP_WORTH_TELLING: f64 = 1e-9;
+
+/// A contact no wider than `contact.gap` is the rim of two faces that only just overlap, not a bearing, where both faces are
+/// at least 1 / this times as wide. Larger: the bearing of a thin plate's edge is taken for a rim.
+/// Smaller: blocks that meet along an edge, rounded to 4–5 digits, become neighbours.
+pub const RIM_SHARE: f64 = 0.1;
+
+/// Directions closer than this (radians) to a face's plane lie in it, when edges and corners are tested against faces.
+/// Larger: a corner may dig into the face. Smaller: edges in the plane, rounded, are refused.
+pub const CONTACT_ROUNDING_ANGLE: f64 = 1e-6;
+
 /// Density of a block for which the scene gives none, kg/m³: common limestone and concrete.
 pub const DEFAULT_DENSITY: f64 = 2400.0;
 

@@ -3,7 +3,21 @@
 //! Convention: the unit normal `n` points from block `a` into block `b`; contact forces are the forces **on b**;
 //! compression is `f_n ≥ 0`; the frame `(t1, t2, n)` is right-handed.
 
+mod body;
+mod clip;
 mod detect;
+mod detect_candidates;
+mod faces;
+mod features;
+mod given;
+mod limits;
+mod overlap;
+mod plane;
+mod polygon;
+mod spheres;
+mod tally;
+#[cfg(test)]
+mod tests;
 
 pub use detect::detect;
 

@@ -1,0 +1,197 @@
+//! A block made ready for detection: boxes around it and its facets, and, where asked for, its edges and corners.
+
+use crate::assembly::{Block, Facet, Polyhedron, Solid};
+use nalgebra::Vector3;
+use std::{cell::OnceCell, collections::HashMap};
+
+/// An axis-aligned box, m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    pub lo: Vector3<f64>,
+    pub hi: Vector3<f64>,
+}
+
+impl Bounds {
+    /// The box around points.
+    pub fn around<'a>(points: impl IntoIterator<Item = &'a Vector3<f64>>) -> Self {
+        let empty = Self { lo: Vector3::repeat(f64::INFINITY), hi: Vector3::repeat(f64::NEG_INFINITY) };
+        points.into_iter().fold(empty, |b, p| Self { lo: b.lo.inf(p), hi: b.hi.sup(p) })
+    }
+
+    /// This box grown by `slack` on every side.
+    pub fn loosened(&self, slack: f64) -> Self {
+        Self { lo: self.lo.add_scalar(-slack), hi: self.hi.add_scalar(slack) }
+    }
+
+    /// What two boxes have in common; inverted (`lo > hi`) where nothing.
+    pub fn common(&self, other: &Self) -> Self {
+        Self { lo: self.lo.sup(&other.lo), hi: self.hi.inf(&other.hi) }
+    }
+
+    /// Whether two boxes meet.
+    pub fn meets(&self, other: &Self) -> bool {
+        let common = self.common(other);
+        (0..3).all(|k| common.lo[k] <= common.hi[k])
+    }
+
+    /// Distance between two boxes, m; 0 where they meet.
+    pub fn distance(&self, other: &Self) -> f64 {
+        let common = self.common(other);
+        (common.lo - common.hi).map(|d| d.max(0.0)).norm()
+    }
+
+    /// The greatest absolute coordinate.
+    pub fn reach(&self) -> f64 {
+        self.lo.amax().max(self.hi.amax())
+    }
+}
+
+/// A block with its boxes.
+pub(super) struct Body<'a> {
+    pub block: &'a Block,
+    pub bounds: Bounds,
+    pub shape: Form<'a>,
+}
+
+/// The shape of a [`Body`].
+pub(super) enum Form<'a> {
+    Polyhedron(Solidity<'a>),
+    Sphere { center: Vector3<f64>, radius: f64 },
+}
+
+/// A polyhedron with a box around each facet.
+pub(super) struct Solidity<'a> {
+    pub polyhedron: &'a Polyhedron,
+    pub facet_bounds: Vec<Bounds>,
+    topology: OnceCell<Topology>,
+}
+
+/// Edges, corners and facet rims; built on first use, since most pairs meet face to face and never ask.
+pub(super) struct Topology {
+    pub edges: Vec<Edge>,
+    pub corners: Vec<Corner>,
+    /// Per facet, the sides of its pieces that are no side of another piece of the same facet.
+    pub rims: Vec<Vec<[u32; 2]>>,
+}
+
+/// An edge between two facets.
+pub(super) struct Edge {
+    pub ends: [u32; 2],
+    /// Unit directions from the edge into its two facets, perpendicular to the edge.
+    pub into: [Vector3<f64>; 2],
+    /// Whether the solid takes up less than half of the space around the edge.
+    pub convex: bool,
+}
+
+/// A corner.
+#[derive(Clone, Default)]
+pub(super) struct Corner {
+    /// Unit directions along all sides of facet pieces that leave the corner.
+    pub along: Vec<Vector3<f64>>,
+    /// Outward pseudo-normal, facet normals weighted by their angles at the corner (Bærentzen & Aanæs 2005); not of unit length.
+    pub outward: Vector3<f64>,
+}
+
+impl<'a> Body<'a> {
+    /// Makes a block ready.
+    pub fn new(block: &'a Block) -> Self {
+        match &block.solid {
+            Solid::Polyhedron(polyhedron) => Self {
+                block,
+                bounds: Bounds::around(&polyhedron.vertices),
+                shape: Form::Polyhedron(Solidity {
+                    polyhedron,
+                    facet_bounds: polyhedron
+                        .facets
+                        .iter()
+                        .map(|f| Bounds::around(f.pieces.iter().flatten().map(|&v| &polyhedron.vertices[v as usize])))
+                        .collect(),
+                    topology: OnceCell::new(),
+                }),
+            },
+            Solid::Sphere { center, radius } => Self {
+                block,
+                bounds: Bounds { lo: *center, hi: *center }.loosened(*radius),
+                shape: Form::Sphere { center: *center, radius: *radius },
+            },
+        }
+    }
+}
+
+impl Solidity<'_> {
+    /// Facets whose boxes meet `window`.
+    pub fn facets_in(&self, window: &Bounds) -> impl Iterator<Item = (usize, &Facet)> {
+        self.polyhedron.facets.iter().enumerate().filter(move |&(i, _)| self.facet_bounds[i].meets(window))
+    }
+
+    /// Position of a vertex.
+    pub fn at(&self, vertex: u32) -> Vector3<f64> {
+        self.polyhedron.vertices[vertex as usize]
+    }
+
+    /// The ends of an edge or rim segment.
+    pub fn ends(&self, segment: [u32; 2]) -> [Vector3<f64>; 2] {
+        segment.map(|v| self.at(v))
+    }
+
+    /// Edges whose boxes meet `window`.
+    pub fn edges_in(&self, window: &Bounds) -> impl Iterator<Item = &Edge> {
+        self.topology().edges.iter().filter(move |e| Bounds::around(&self.ends(e.ends)).meets(window))
+    }
+
+    /// Edges, corners and rims.
+    pub fn topology(&self) -> &Topology {
+        self.topology.get_or_init(|| Topology::of(self.polyhedron))
+    }
+}
+
+impl Topology {
+    fn of(polyhedron: &Polyhedron) -> Self {
+        let at = |v: u32| polyhedron.vertices[v as usize];
+        let sides = |piece: &[u32]| (0..piece.len()).map(|i| [piece[i], piece[(i + 1) % piece.len()]]).collect::<Vec<_>>();
+        let mut facet_of: HashMap<[u32; 2], usize> = HashMap::new();
+        let mut corners = vec![Corner::default(); polyhedron.vertices.len()];
+        for (i, facet) in polyhedron.facets.iter().enumerate() {
+            for piece in &facet.pieces {
+                for side in sides(piece) {
+                    facet_of.insert(side, i);
+                }
+                for k in 0..piece.len() {
+                    let here = at(piece[k]);
+                    let next = unit(at(piece[(k + 1) % piece.len()]) - here);
+                    let previous = unit(at(piece[(k + piece.len() - 1) % piece.len()]) - here);
+                    let corner = &mut corners[piece[k] as usize];
+                    corner.along.extend([next, previous]);
+                    corner.outward += facet.normal * previous.cross(&next).norm().atan2(previous.dot(&next));
+                }
+            }
+        }
+        let mut edges = Vec::new();
+        let mut rims = vec![Vec::new(); polyhedron.facets.len()];
+        for (i, facet) in polyhedron.facets.iter().enumerate() {
+            for [p, q] in facet.pieces.iter().flat_map(|piece| sides(piece)) {
+                let twin = facet_of.get(&[q, p]).copied();
+                if twin == Some(i) {
+                    continue;
+                }
+                rims[i].push([p, q]);
+                // Each edge once, from the side where its ends ascend.
+                if let Some(j) = twin
+                    && p < q
+                {
+                    let other = &polyhedron.facets[j];
+                    let along = at(q) - at(p);
+                    // A facet lies to the left of its sides, seen from outside.
+                    let into = [unit(facet.normal.cross(&along)), -unit(other.normal.cross(&along))];
+                    edges.push(Edge { ends: [p, q], convex: into[0].dot(&other.normal) < 0.0, into });
+                }
+            }
+        }
+        Self { edges, corners, rims }
+    }
+}
+
+/// The direction of `v`; zero where it has none.
+pub(super) fn unit(v: Vector3<f64>) -> Vector3<f64> {
+    v.try_normalize(0.0).unwrap_or_default()
+}

@@ -1,0 +1,171 @@
+//! Plane polygons: area, centroid, convex hull, least width, distance.
+//!
+//! Loops are counter-clockwise; lengths are in m in the plane of a contact.
+
+use nalgebra::Vector2;
+
+/// A point of the contact plane, m.
+pub(super) type P2 = Vector2<f64>;
+
+/// Twice the signed area of the triangle `a`, `b`, `c`; positive counter-clockwise.
+pub(super) fn cross(a: P2, b: P2, c: P2) -> f64 {
+    (b - a).perp(&(c - a))
+}
+
+/// Signed area, m²; positive counter-clockwise. Taken about the first corner, so that a far origin costs no digits.
+pub(super) fn area(polygon: &[P2]) -> f64 {
+    polygon.windows(2).skip(1).map(|w| cross(polygon[0], w[0], w[1])).sum::<f64>() / 2.0
+}
+
+/// Centroid of the area; the mean of the corners where there is no area.
+pub(super) fn centroid(polygon: &[P2]) -> P2 {
+    let Some(&origin) = polygon.first() else { return P2::zeros() };
+    let (mut twice, mut moment) = (0.0, P2::zeros());
+    for w in polygon.windows(2).skip(1) {
+        let c = cross(origin, w[0], w[1]);
+        twice += c;
+        moment += (w[0] + w[1] - origin * 2.0) * (c / 3.0);
+    }
+    if twice == 0.0 { polygon.iter().sum::<P2>() / polygon.len() as f64 } else { origin + moment / twice }
+}
+
+/// Length of the closed loop, m.
+pub(super) fn perimeter(polygon: &[P2]) -> f64 {
+    edges(polygon).map(|(p, q)| (q - p).norm()).sum()
+}
+
+/// The sides of the closed loop.
+pub(super) fn edges(polygon: &[P2]) -> impl Iterator<Item = (P2, P2)> + '_ {
+    polygon.iter().enumerate().map(|(i, &p)| (p, polygon[(i + 1) % polygon.len()]))
+}
+
+/// Removes corners that repeat a neighbour or lie on the line between their neighbours, both within `tol`.
+pub(super) fn tidy(polygon: &mut Vec<P2>, tol: f64) {
+    loop {
+        let n = polygon.len();
+        if n < 3 {
+            return;
+        }
+        let mut kept = Vec::with_capacity(n);
+        let mut dropped_last = false;
+        for i in 0..n {
+            let (previous, here, next) = (polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n]);
+            // Never two neighbours in one sweep: each is judged by the other.
+            let drop = !dropped_last && !(i + 1 == n && kept.first() != Some(&polygon[0])) && distance_to_segment(here, previous, next) <= tol;
+            if !drop {
+                kept.push(here);
+            }
+            dropped_last = drop;
+        }
+        if kept.len() == n {
+            return;
+        }
+        *polygon = kept;
+    }
+}
+
+/// The convex hull, counter-clockwise, without collinear corners (within `tol`); Andrew's monotone chain (Andrew 1979).
+pub(super) fn hull(points: &[P2], tol: f64) -> Vec<P2> {
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+    sorted.dedup();
+    if sorted.len() < 3 {
+        return sorted;
+    }
+    let mut chain: Vec<P2> = Vec::with_capacity(2 * sorted.len());
+    let mut half = |points: &mut dyn Iterator<Item = &P2>| {
+        let start = chain.len();
+        for &p in points {
+            while chain.len() >= start + 2 && cross(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0 {
+                chain.pop();
+            }
+            chain.push(p);
+        }
+        chain.pop();
+    };
+    half(&mut sorted.iter());
+    half(&mut sorted.iter().rev());
+    tidy(&mut chain, tol);
+    chain
+}
+
+/// Least width of a convex polygon: the least, over its sides, of the greatest distance of a corner from that side.
+pub(super) fn width(hull: &[P2]) -> f64 {
+    if hull.len() < 3 {
+        return 0.0;
+    }
+    edges(hull)
+        .filter(|(p, q)| p != q)
+        .map(|(p, q)| hull.iter().map(|&c| cross(p, q, c)).fold(0.0, f64::max) / (q - p).norm())
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Distance of `p` from the segment `a`–`b`.
+pub(super) fn distance_to_segment(p: P2, a: P2, b: P2) -> f64 {
+    let along = b - a;
+    let square = along.norm_squared();
+    let s = if square > 0.0 { ((p - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    (p - a - along * s).norm()
+}
+
+/// Whether `p` lies in the convex polygon, its rim widened by `tol`.
+pub(super) fn contains(polygon: &[P2], p: P2, tol: f64) -> bool {
+    edges(polygon).all(|(a, b)| cross(a, b, p) >= -tol * (b - a).norm())
+}
+
+/// Whether two convex polygons come within about `tol` of each other: no side of either separates them by more.
+pub(super) fn touch(a: &[P2], b: &[P2], tol: f64) -> bool {
+    let separates = |a: &[P2], b: &[P2]| edges(a).any(|(p, q)| b.iter().all(|&c| cross(p, q, c) < -tol * (q - p).norm()));
+    !separates(a, b) && !separates(b, a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn p(x: f64, y: f64) -> P2 {
+        P2::new(x, y)
+    }
+
+    #[test]
+    fn measures_of_a_rectangle_far_from_the_origin() {
+        let r = [p(1e4, 1e4), p(1e4 + 2.0, 1e4), p(1e4 + 2.0, 1e4 + 1.0), p(1e4, 1e4 + 1.0)];
+        assert_eq!(area(&r), 2.0);
+        assert_eq!(centroid(&r), p(1e4 + 1.0, 1e4 + 0.5));
+        assert_eq!(perimeter(&r), 6.0);
+        assert_eq!(width(&r), 1.0);
+    }
+
+    #[test]
+    fn hull_drops_inner_repeated_and_collinear_points() {
+        let points = [p(0.0, 0.0), p(1.0, 1e-13), p(2.0, 0.0), p(2.0, 1.0), p(1.0, 0.5), p(0.0, 1.0), p(0.0, 0.5), p(2.0, 1.0 - 1e-12), p(1e-13, 0.0)];
+        let h = hull(&points, 1e-9);
+        assert_eq!(h.len(), 4, "{h:?}");
+        assert!((area(&h) - 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn hull_of_a_line_has_its_two_ends() {
+        let h = hull(&[p(0.0, 0.0), p(1.0, 1.0), p(2.0, 2.0), p(0.5, 0.5)], 1e-9);
+        assert_eq!(h.len(), 2, "{h:?}");
+    }
+
+    #[test]
+    fn tidy_keeps_a_fine_circle_round() {
+        let n = 1000;
+        let mut circle: Vec<P2> = (0..n).map(|i| (i as f64 / n as f64 * std::f64::consts::TAU).sin_cos()).map(|(s, c)| p(c, s)).collect();
+        let before = area(&circle);
+        tidy(&mut circle, 1e-9);
+        assert_eq!(circle.len(), n);
+        tidy(&mut circle, 1e-5);
+        assert!(circle.len() < n && (area(&circle) - before).abs() < 1e-3);
+    }
+
+    #[test]
+    fn touching_is_told_from_being_apart() {
+        let square = |x: f64, y: f64| [p(x, y), p(x + 1.0, y), p(x + 1.0, y + 1.0), p(x, y + 1.0)];
+        assert!(touch(&square(0.0, 0.0), &square(1.0, 0.0), 1e-9));
+        assert!(touch(&square(0.0, 0.0), &square(1.0, 1.0), 1e-9));
+        assert!(!touch(&square(0.0, 0.0), &square(1.001, 0.0), 1e-9));
+    }
+}

@@ -1,0 +1,174 @@
+//! What detection closed, left apart or ignored, counted, and said in sentences.
+
+use super::{faces::Gap, limits::Limits};
+use crate::{
+    assembly::Assembly,
+    error::{Finding, FindingCode},
+};
+
+/// Running counts.
+#[derive(Debug, Default)]
+pub(super) struct Tally {
+    closed: Extreme,
+    pressed: Extreme,
+    small: Extreme,
+    /// `(gap, gap / size, a, b)`
+    near: Vec<(f64, f64, usize, usize)>,
+    /// `(depth, a, b)`
+    overlaps: Vec<(f64, usize, usize)>,
+    without_normal: Vec<(usize, usize)>,
+    held_apart: Vec<(usize, usize)>,
+}
+
+/// A count and the greatest value.
+#[derive(Debug, Default)]
+struct Extreme {
+    count: usize,
+    greatest: f64,
+}
+
+impl Extreme {
+    fn add(&mut self, value: f64) {
+        self.count += 1;
+        self.greatest = self.greatest.max(value);
+    }
+}
+
+impl Tally {
+    pub fn contact(&mut self, gap: Gap, limits: &Limits) {
+        if gap.greatest > limits.noise {
+            self.closed.add(gap.greatest);
+        }
+        if gap.least < -limits.noise {
+            self.pressed.add(-gap.least);
+        }
+    }
+
+    pub fn small(&mut self, area: f64) {
+        self.small.add(area);
+    }
+
+    pub fn near(&mut self, gap: f64, limits: &Limits, a: usize, b: usize) {
+        self.near.push((gap, gap / limits.size, a, b));
+    }
+
+    pub fn overlap(&mut self, depth: f64, a: usize, b: usize) {
+        self.overlaps.push((depth, a, b));
+    }
+
+    pub fn without_normal(&mut self, a: usize, b: usize) {
+        self.without_normal.push((a, b));
+    }
+
+    pub fn held_apart(&mut self, a: usize, b: usize) {
+        self.held_apart.push((a, b));
+    }
+
+    /// One finding per kind of thing.
+    pub fn findings(mut self, assembly: &Assembly) -> Vec<Finding> {
+        let pair = |a: usize, b: usize| format!("{} and {}", assembly.blocks[a].id, assembly.blocks[b].id);
+        let tolerance = short(assembly.contact.gap);
+        let mut findings = Vec::new();
+        if self.closed.count + self.pressed.count > 0 {
+            let parts = [(&self.closed, "open gap", "open gaps"), (&self.pressed, "overlap", "overlaps")];
+            let parts: Vec<String> = parts
+                .iter()
+                .filter(|(e, ..)| e.count > 0)
+                .map(|(e, one, many)| format!("{} {} (up to {} m)", e.count, if e.count == 1 { one } else { many }, short(e.greatest)))
+                .collect();
+            let text = format!("closed {}, all within contact.gap ({tolerance} × the smaller block's size)", parts.join(" and "));
+            findings.push(Finding::new(FindingCode::GapClosed, text));
+        }
+        if !self.near.is_empty() {
+            self.near.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.2, x.3).cmp(&(y.2, y.3))));
+            let (least, greatest) = (self.near[0].0, self.near[self.near.len() - 1].0);
+            let all = self.near.iter().map(|n| n.1).fold(0.0, f64::max);
+            let worst: Vec<String> = self.near.iter().take(3).map(|&(gap, _, a, b)| format!("{} ({} m)", pair(a, b), short(gap))).collect();
+            let text = format!(
+                "{} of blocks nearly touch and were left apart: gaps from {} to {} m; nearest: {}. If they should touch, raise contact.gap from {tolerance} to {}",
+                pairs(self.near.len()),
+                short(least),
+                short(greatest),
+                worst.join(", "),
+                round_up(all),
+            );
+            findings.push(Finding::new(FindingCode::NearMiss, text));
+        }
+        if !self.overlaps.is_empty() {
+            self.overlaps.sort_by(|x, y| y.0.total_cmp(&x.0).then((x.1, x.2).cmp(&(y.1, y.2))));
+            let worst: Vec<String> = self.overlaps.iter().take(3).map(|&(d, a, b)| format!("{} ({} m)", pair(a, b), short(d))).collect();
+            let text = format!(
+                "{} of blocks overlap by more than contact.gap ({tolerance} × size), by up to {} m; no contact was made of the overlapping faces. Deepest: {}",
+                pairs(self.overlaps.len()),
+                short(self.overlaps[0].0),
+                worst.join(", "),
+            );
+            findings.push(Finding::new(FindingCode::Overlap, text));
+        }
+        if let Some(&(a, b)) = self.without_normal.first() {
+            let text = format!(
+                "{} of blocks touch only along an edge or at a corner, such as {}; such a touch has no definite normal and carries nothing here (usual between diagonal neighbours)",
+                pairs(self.without_normal.len()),
+                pair(a, b)
+            );
+            findings.push(Finding::new(FindingCode::ContactIgnored, text));
+        }
+        if self.small.count > 0 {
+            let text = format!(
+                "ignored {} contact area{} below contact.min_area ({} × size²), the largest of {} m²",
+                self.small.count,
+                if self.small.count == 1 { "" } else { "s" },
+                short(assembly.contact.min_area),
+                short(self.small.greatest)
+            );
+            findings.push(Finding::new(FindingCode::ContactIgnored, text));
+        }
+        if let Some(&(a, b)) = self.held_apart.first() {
+            let text = format!(
+                "{} of blocks, such as {}, are closer than contact.gap ({tolerance} × size) but held apart by a thin block between them: not joined",
+                pairs(self.held_apart.len()),
+                pair(a, b)
+            );
+            findings.push(Finding::new(FindingCode::ContactIgnored, text));
+        }
+        findings
+    }
+}
+
+fn pairs(count: usize) -> String {
+    if count == 1 { "1 pair".into() } else { format!("{count} pairs") }
+}
+
+/// Three significant digits.
+fn short(x: f64) -> String {
+    if x == 0.0 || (1e-3..1e4).contains(&x.abs()) {
+        let digits = if x == 0.0 { 0 } else { (2 - x.abs().log10().floor() as i32).max(0) as usize };
+        let text = format!("{x:.digits$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+    } else {
+        let text = format!("{x:.2e}");
+        text.replace(".00e", "e").replacen("0e", "e", usize::from(text.contains('.') && !text.contains(".00e")))
+    }
+}
+
+/// A little above `x`, to two digits: a tolerance that includes it.
+fn round_up(x: f64) -> String {
+    let unit = 10f64.powf(x.log10().floor() - 1.0);
+    short((x / unit * 1.000001).ceil() * unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_rounded_up_values_include_what_they_came_from() {
+        let cases = [(0.0, "0"), (0.05, "0.05"), (1.0, "1"), (123.456, "123"), (1e-6, "1e-6"), (2.5e-7, "2.5e-7"), (1.234e-5, "1.23e-5"), (1e-4, "1e-4"), (10.0, "10"), (1e10, "1e10")];
+        for (x, text) in cases {
+            assert_eq!(short(x), text);
+        }
+        for x in [1e-4, 2.8867e-3, 9.99e-3, 0.01] {
+            assert!(round_up(x).parse::<f64>().unwrap() > x);
+        }
+    }
+}
