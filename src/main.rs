@@ -1,1 +1,35 @@
-fn main() {}
+//! The command line: parse, dispatch, exit code.
+
+mod cli;
+
+use clap::Parser;
+use cli::{
+    args::{Cli, Verb},
+    exit::Exit,
+    terminal::{self, Terminal},
+};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = match Cli::try_parse() {
+        Ok(arguments) => arguments,
+        Err(answer) => return terminal::usage(&answer).into(),
+    };
+    let terminal = Terminal::new(arguments.color);
+    let result = match arguments.verb {
+        Verb::Assess(a) => cli::assess::run(&a, &terminal),
+        Verb::Limit(a) => cli::limit::run(&a, &terminal),
+        Verb::Tilt(a) => cli::tilt::run(&a, &terminal),
+        Verb::Generate(a) => cli::generate::run(&a),
+        Verb::Import(a) => cli::import::run(&a),
+        Verb::Check(a) => cli::check::run(&a, &terminal),
+        Verb::Schema => cli::schema::run(),
+    };
+    match result {
+        Ok(exit) => exit.into(),
+        Err(error) => {
+            terminal::error(&error);
+            Exit::Usage.into()
+        }
+    }
+}

@@ -121,7 +121,6 @@ pub const LEAST_SIZE: f64 = 1e-30;
 
 /// Greatest bounding-box diagonal of a shape, m. Larger: norms of inertias become infinite. Smaller: planets are refused.
 pub const GREATEST_SIZE: f64 = 1e30;
-
 /// Template coordinates closer than this × the block length are the same line of the grid: a wall's end or the edge of an opening
 /// that falls on a joint up to rounding does not cut a sliver off the next block.
 /// Larger: openings meant to cut a thin piece lose it. Smaller: edges such as 3 × 0.1 miss the joint at 0.3 by rounding and leave slivers.

@@ -46,8 +46,10 @@ pub struct Attempt {
     /// Seconds.
     pub seconds: f64,
     /// Recomputed lower end.
+    #[serde(deserialize_with = "super::ends::lower")]
     pub lower: f64,
     /// Recomputed upper end.
+    #[serde(deserialize_with = "super::ends::upper")]
     pub upper: f64,
 }
 

@@ -2,6 +2,7 @@
 
 pub mod assess;
 mod attempt;
+mod ends;
 pub mod limit;
 mod prepare;
 pub mod tilt;
@@ -18,8 +19,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bracket {
     /// Lower end.
+    #[serde(deserialize_with = "ends::lower")]
     pub lower: f64,
     /// Upper end.
+    #[serde(deserialize_with = "ends::upper")]
     pub upper: f64,
 }
 

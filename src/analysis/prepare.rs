@@ -2,8 +2,9 @@
 
 use crate::{
     assembly::{self, Assembly},
-    error::{Finding, InputError},
+    error::{Finding, FindingCode, InputError},
     interface::{self, Interfaces},
+    program,
     scene::Scene,
 };
 use serde::{Deserialize, Serialize};
@@ -51,13 +52,29 @@ impl Model {
 /// Resolves a scene and finds its interfaces.
 ///
 /// # Errors
-/// The scene cannot be resolved, or two blocks touch without a known friction.
+/// The scene cannot be resolved, or its contacts cannot be found.
 pub fn prepare(scene: &Scene) -> Result<Model, InputError> {
     let start = Instant::now();
     let assembly = assembly::resolve(scene)?;
     let resolve = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let interfaces = interface::detect(&assembly)?;
+    let mut interfaces = interface::detect(&assembly)?;
+    interfaces.findings.extend(floating(&assembly, &interfaces));
     let detect = start.elapsed().as_secs_f64();
     Ok(Model { assembly, interfaces, timings: Timings { resolve, detect, ..Timings::default() } })
+}
+
+/// Says which free blocks nothing holds.
+fn floating(assembly: &Assembly, interfaces: &Interfaces) -> Option<Finding> {
+    const NAMED: usize = 8;
+    let loose: Vec<&str> = program::floating(assembly, interfaces).into_iter().flatten().map(|i| assembly.blocks[i].id.as_str()).collect();
+    let more = loose.len().saturating_sub(NAMED);
+    let names = loose[..loose.len() - more].join(", ");
+    let text = match (loose.len(), more) {
+        (0, _) => return None,
+        (1, _) => format!("a free block touches nothing that is held: {names}"),
+        (n, 0) => format!("{n} free blocks have no contact path to a support: {names}"),
+        (n, more) => format!("{n} free blocks have no contact path to a support: {names} and {more} more"),
+    };
+    Some(Finding::new(FindingCode::Floating, text))
 }

@@ -1,6 +1,10 @@
 //! Answers for people and for programs. No mechanics here: one file per format.
 
+pub mod json;
+pub mod read;
 pub mod result;
 pub mod text;
+pub mod verify;
 
 pub use result::ResultFile;
+pub use verify::verify;

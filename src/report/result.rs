@@ -40,6 +40,9 @@ pub struct ResultFile {
     /// Tilt: every direction asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<Direction>,
+    /// Limit and tilt, where asked as well: whether it stands under its dead load alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dead_load: Option<Direction>,
     /// The mechanism in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
@@ -151,11 +154,11 @@ pub struct Certificate {
     pub verified: Vec<String>,
 }
 
-/// One direction of a tilt.
+/// An answer beside the main one, with the evidence for it: one direction of a tilt, or the dead load alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Direction {
-    /// The answer in this direction.
+    /// The answer.
     pub answer: Answer,
     /// The evidence for it.
     pub certificate: Certificate,
@@ -226,6 +229,7 @@ impl ResultFile {
             answer,
             certificate,
             directions: Vec::new(),
+            dead_load: None,
             mechanism: None,
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),
@@ -237,17 +241,7 @@ impl ResultFile {
 
     /// The result of `assess`; where its verification fails the verdict becomes undecided and the failures become warnings.
     pub fn assessment(scene: &Scene, model: &Model, a: &Assessment) -> Self {
-        let claim = match a.verdict {
-            Verdict::Stable => Some(Claim::Stable),
-            Verdict::Unstable => Some(Claim::Unstable),
-            Verdict::Undecided => None,
-        };
-        let (mut certificate, findings) = certify(model, claim, &a.forces, None, &a.rates);
-        let mut verdict = a.verdict;
-        if !findings.fails.is_empty() {
-            (verdict, certificate.claim) = (Verdict::Undecided, None);
-        }
-        let answer = Answer { verdict: Some(verdict), unbalance: Some(a.unbalance), ..Answer::default() };
+        let (answer, certificate, findings) = assessment(model, a);
         let mut file = Self::new(Question::Assess, scene, model, answer, certificate);
         file.mechanism = a.mechanism.as_ref().map(|m| words(model, m));
         file.left_out.clone_from(&a.left_out);
@@ -301,10 +295,35 @@ impl ResultFile {
         Some(file)
     }
 
+    /// Adds whether it stands under its dead load alone to a result of `limit` or `tilt`.
+    #[must_use]
+    pub fn with_dead_load(mut self, model: &Model, a: &Assessment) -> Self {
+        let (answer, certificate, findings) = assessment(model, a);
+        self.dead_load = Some(Direction { answer, certificate });
+        self.trace.extend(a.attempts.iter().cloned());
+        self.warn(&findings);
+        self
+    }
+
     fn warn(&mut self, findings: &Findings) {
         let code = crate::error::FindingCode::Numerics;
         self.warnings.extend(findings.fails.iter().map(|f| Finding::new(code, format!("certificate refused: {f}"))));
     }
+}
+
+fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) {
+    let claim = match a.verdict {
+        Verdict::Stable => Some(Claim::Stable),
+        Verdict::Unstable => Some(Claim::Unstable),
+        Verdict::Undecided => None,
+    };
+    let (mut certificate, findings) = certify(model, claim, &a.forces, None, &a.rates);
+    let mut verdict = a.verdict;
+    if !findings.fails.is_empty() {
+        (verdict, certificate.claim) = (Verdict::Undecided, None);
+    }
+    let answer = Answer { verdict: Some(verdict), unbalance: Some(a.unbalance), ..Answer::default() };
+    (answer, certificate, findings)
 }
 
 fn load_factor(model: &Model, l: &LoadFactor) -> (Answer, Certificate, Findings) {
@@ -333,7 +352,7 @@ fn load_factor(model: &Model, l: &LoadFactor) -> (Answer, Certificate, Findings)
     (answer, certificate, findings)
 }
 
-fn words(model: &Model, m: &Mechanism) -> MechanismWords {
+pub(super) fn words(model: &Model, m: &Mechanism) -> MechanismWords {
     let id = |i: usize| model.assembly.blocks[i].id.clone();
     MechanismWords {
         moving: m.moving.iter().map(|&i| id(i)).collect(),

@@ -1,0 +1,254 @@
+//! Every argument of every verb, and nothing else.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+use voussoir::{import::Up, scene::Friction};
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    yes, or done
+  1    a clean negative answer: it falls, a requirement is not met, a result is refuted, a scene has slips
+  2    the command line or an input file is wrong, or a file cannot be written
+  3    undecided: the question was asked properly and stayed open
+  130  interrupted
+
+Results go to standard output, everything else to standard error. `-` stands for standard input or output.";
+
+/// Tells whether things made of rigid pieces that only touch stand or fall, and proves it.
+#[derive(Debug, Parser)]
+#[command(name = "voussoir", version, after_help = EXIT_CODES, arg_required_else_help = true, max_term_width = 110)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub verb: Verb,
+    /// Colour of text; NO_COLOR is respected.
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = Color::Auto)]
+    pub color: Color,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Color {
+    /// On a terminal.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Does it stand under its dead load?
+    ///
+    /// Exit code 0 if it stands, 1 if it falls, 3 if that stays open.
+    Assess(Assess),
+    /// How large may the live load grow?
+    ///
+    /// The greatest load factor λ under which contact forces inside the friction cones balance the dead load and λ × the live load,
+    /// between a lower and an upper bound, with the mechanism by which the structure fails. Sliding is associative.
+    /// Exit code 0 if λ is found or has no limit, 1 if λ is below --require or no λ lets it stand, 3 if that stays open.
+    Limit(Limit),
+    /// At what tilt does it fall?
+    ///
+    /// The ground is tipped towards a direction until the structure fails; own weight and dead loads turn with gravity, live loads are left
+    /// out. The least tilt of all directions is the answer. Exit codes as for `limit`.
+    Tilt(Tilt),
+    /// Make a scene from a template.
+    ///
+    /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON on the right:
+    /// `voussoir generate arch voussoirs=31 thickness=0.6`. A key set to `null` is left out.
+    Generate(Generate),
+    /// Make a scene from files of other programs: COMPAS JSON, OBJ, PLY, STL.
+    ///
+    /// What was assumed or left out is said on standard error.
+    Import(Import),
+    /// Verify a saved result without a solver, or look for slips in a scene.
+    ///
+    /// A result is verified from the scene inside it, or from --scene: forces are added up block by block, powers of the mechanism joint by
+    /// joint, and every word of the answer is compared. Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing.
+    /// Of a scene, near misses, overlaps, loose blocks and slips of units are listed. Exit code 0 if there is none, 1 otherwise.
+    Check(Check),
+    /// Print the JSON Schema of scenes.
+    Schema,
+}
+
+#[derive(Debug, Args)]
+pub struct Assess {
+    #[command(flatten)]
+    pub common: Common,
+}
+
+#[derive(Debug, Args)]
+pub struct Limit {
+    #[command(flatten)]
+    pub common: Common,
+    /// The load factor that is needed: exit code 1 if the greatest one is below, 3 if it cannot be told from it.
+    #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = finite)]
+    pub require: Option<f64>,
+    /// Do not ask as well whether it stands without its live load.
+    #[arg(long)]
+    pub skip_dead: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Tilt {
+    #[command(flatten)]
+    pub common: Common,
+    /// Tip towards this direction (its part across gravity); may be given several times.
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
+    pub toward: Vec<[f64; 3]>,
+    /// Tip towards this many directions, evenly spread, the first along x.
+    #[arg(long, value_name = "N", default_value_t = 8, conflicts_with = "toward", value_parser = clap::value_parser!(u16).range(1..=3600))]
+    pub all: u16,
+    /// The tilt that is needed, in degrees: exit code 1 if the least one is below, 3 if it cannot be told from it.
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = finite)]
+    pub require: Option<f64>,
+    /// Do not ask as well whether it stands when level.
+    #[arg(long)]
+    pub skip_dead: bool,
+}
+
+/// What every question takes.
+#[derive(Debug, Args)]
+pub struct Common {
+    /// The scene (JSON), `-` for standard input.
+    pub scene: PathBuf,
+    /// Print the result as one JSON object and nothing else.
+    #[arg(long)]
+    pub json: bool,
+    /// Write the result, with the scene and its proof, to this file for `voussoir check`.
+    #[arg(long, value_name = "FILE")]
+    pub save: Option<PathBuf>,
+    /// Solve the scene in full, without leaving out what symmetry or missing friction make needless.
+    #[arg(long)]
+    pub keep_all: bool,
+    /// Stop trying after this many seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub time_limit: Option<f64>,
+    /// Lists in full, and every attempt at the program.
+    #[arg(short, long)]
+    pub verbose: bool,
+    /// The first line only.
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Generate {
+    /// The template; --list shows them.
+    #[arg(required_unless_present = "list")]
+    pub template: Option<String>,
+    /// What differs from the template's own values.
+    #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
+    pub set: Vec<(String, String)>,
+    /// List the templates with their values.
+    #[arg(long, conflicts_with_all = ["template", "set", "output"])]
+    pub list: bool,
+    /// Coefficient of friction of every joint, or `infinite`.
+    #[arg(long, value_name = "MU", default_value = "0.7", value_parser = friction)]
+    pub friction: Friction,
+    /// Density of every block, kg/m³.
+    #[arg(long, value_name = "DENSITY", value_parser = positive)]
+    pub density: Option<f64>,
+    /// Name of the scene.
+    #[arg(long)]
+    pub name: Option<String>,
+    /// Write the blocks themselves in place of the template.
+    #[arg(long)]
+    pub expand: bool,
+    /// Write the scene to this file; standard output by default.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct Import {
+    /// The files; PLY and STL hold one block each.
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Write the scene to this file; standard output by default.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// A block that is held in place; may be given several times.
+    #[arg(long, value_name = "ID")]
+    pub support: Vec<String>,
+    /// Hold blocks whose lowest corner lies below this height, in m of the scene.
+    #[arg(long, value_name = "Z", allow_negative_numbers = true, value_parser = finite)]
+    pub support_below: Option<f64>,
+    /// A file whose blocks are all held in place; may be given several times.
+    #[arg(long, value_name = "FILE")]
+    pub supports_file: Vec<PathBuf>,
+    /// Coefficient of friction of every joint, or `infinite`.
+    #[arg(long, value_name = "MU", value_parser = friction)]
+    pub friction: Option<Friction>,
+    /// Density of every block, kg/m³, in place of what the file says.
+    #[arg(long, value_name = "DENSITY", value_parser = positive)]
+    pub density: Option<f64>,
+    /// Multiply coordinates: 0.001 for a file in millimetres.
+    #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = positive)]
+    pub scale: f64,
+    /// The axis of the file that points up: x, y, z, -x, -y or -z.
+    #[arg(long, value_name = "AXIS", default_value = "z", allow_hyphen_values = true, value_parser = up)]
+    pub up: Up,
+    /// How far apart faces may be and still touch, relative to the smaller block's size.
+    #[arg(long, value_name = "GAP", value_parser = not_negative)]
+    pub gap: Option<f64>,
+    /// Leave out the interfaces stored in the file: all contacts are detected.
+    #[arg(long)]
+    pub no_stored_interfaces: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Check {
+    /// A result or a scene (JSON), `-` for standard input.
+    pub file: PathBuf,
+    /// Verify the result against this scene, not the one inside it.
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    text.trim().parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| "not a finite number".into())
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|v| *v > 0.0).ok_or_else(|| "not a number > 0".into())
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|v| *v >= 0.0).ok_or_else(|| "not a number >= 0".into())
+}
+
+fn friction(text: &str) -> Result<Friction, String> {
+    match text {
+        "infinite" => Ok(Friction::Infinite),
+        _ => not_negative(text).map(Friction::Coefficient).map_err(|_| "not a coefficient >= 0 or `infinite`".into()),
+    }
+}
+
+fn direction(text: &str) -> Result<[f64; 3], String> {
+    let parts: Result<Vec<f64>, String> = text.split(',').map(finite).collect();
+    match parts.map_err(|_| "not two or three numbers with commas between, such as 1,0")?[..] {
+        [x, y] => Ok([x, y, 0.0]),
+        [x, y, z] => Ok([x, y, z]),
+        _ => Err("not two or three numbers with commas between, such as 1,0".into()),
+    }
+}
+
+fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.is_empty() => Ok((key.into(), value.into())),
+        _ => Err("not of the form key=value".into()),
+    }
+}
+
+fn up(text: &str) -> Result<Up, String> {
+    match text.to_ascii_lowercase().trim_start_matches('+') {
+        "x" => Ok(Up::X),
+        "y" => Ok(Up::Y),
+        "z" => Ok(Up::Z),
+        "-x" => Ok(Up::MinusX),
+        "-y" => Ok(Up::MinusY),
+        "-z" => Ok(Up::MinusZ),
+        _ => Err("not one of x, y, z, -x, -y, -z".into()),
+    }
+}

@@ -1,0 +1,21 @@
+//! Verifying a saved result.
+
+use crate::cli::{exit::Exit, input, terminal::Terminal};
+use std::path::Path;
+use voussoir::report::{ResultFile, text, verify};
+
+pub fn run(file: &ResultFile, scene: Option<&Path>, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let verification = match scene {
+        None => verify(file, &file.scene.input)?,
+        Some(path) => {
+            let (scene, source) = input::scene(path)?;
+            verify(file, &scene).map_err(|e| e.located(&source))?
+        }
+    };
+    terminal.page(&text::verification(file, &verification))?;
+    Ok(match (verification.refuted(), verification.claimed) {
+        (true, _) => Exit::No,
+        (false, true) => Exit::Yes,
+        (false, false) => Exit::Undecided,
+    })
+}

@@ -1,0 +1,26 @@
+//! Looking for slips in a scene.
+
+use crate::cli::{exit::Exit, terminal::Terminal};
+use voussoir::{
+    analysis::prepare,
+    error::{Finding, FindingCode},
+    report::text,
+    scene::{Scene, Source},
+};
+
+pub fn run(scene: &Scene, source: &Source, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let model = prepare(scene).map_err(|e| e.located(source))?;
+    let (slips, notes): (Vec<Finding>, Vec<Finding>) = model.findings().cloned().partition(is_slip);
+    terminal.page(&text::inspection(&model, &slips, &notes))?;
+    Ok(if slips.is_empty() { Exit::Yes } else { Exit::No })
+}
+
+/// Whether a finding is likely a mistake in the scene, and not only worth knowing.
+fn is_slip(finding: &Finding) -> bool {
+    use FindingCode as Code;
+    match finding.code {
+        Code::NearMiss | Code::Overlap | Code::Floating | Code::Orientation | Code::Units | Code::Warped | Code::Missing => true,
+        Code::Assumed | Code::Mended | Code::GapClosed | Code::ContactIgnored => false,
+        Code::Numerics | Code::LeftOut | Code::Converted => false,
+    }
+}

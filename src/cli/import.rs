@@ -1,0 +1,27 @@
+//! `voussoir import`
+
+use super::{args::Import, exit::Exit, output::Sink, terminal};
+use voussoir::{
+    import::{Options, import_files},
+    report::json,
+};
+
+pub fn run(args: &Import) -> anyhow::Result<Exit> {
+    let sink = Sink::open(args.output.as_deref())?;
+    let options = Options {
+        supports: args.support.clone(),
+        support_below: args.support_below,
+        support_files: args.supports_file.clone(),
+        friction: args.friction,
+        density: args.density,
+        scale: args.scale,
+        up: args.up,
+        gap: args.gap,
+        stored_interfaces: !args.no_stored_interfaces,
+        ..Options::default()
+    };
+    let imported = import_files(&args.files, &options)?;
+    terminal::notes(&imported.findings);
+    sink.write(&json::pretty(&imported.scene)?)?;
+    Ok(Exit::Yes)
+}

@@ -1,0 +1,37 @@
+//! `voussoir limit`
+
+use super::{
+    args::Limit,
+    exit::Exit,
+    question::{Question, requirement},
+    terminal::Terminal,
+};
+use voussoir::{
+    analysis::{Outcome, assess, limit},
+    assembly::Wrench,
+    error::{InputError, JsonPath},
+    report::ResultFile,
+};
+
+pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let question = Question::open(&args.common)?;
+    let (assembly, interfaces) = (&question.model.assembly, &question.model.interfaces);
+    if assembly.live.iter().all(|w| *w == Wrench::zero()) {
+        let error = InputError::at(JsonPath::root().key("loads").key("live"), "there is no live load on a free block to ask about").hint(
+            "add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } (the weight of every block, sideways), or ask `voussoir tilt`",
+        );
+        return Err(question.refuse(error));
+    }
+    let answer = limit(assembly, interfaces, &question.control());
+    // Where the answer itself says that λ = 0 is too much, there is nothing left to ask.
+    let settled = answer.outcome == Outcome::Impossible || (answer.outcome == Outcome::Found && answer.bracket.upper < 0.0);
+    let dead = (!settled && !args.skip_dead).then(|| assess(assembly, interfaces, &question.control()));
+    let file = question.answer(terminal, || {
+        let file = ResultFile::load_factor(&question.scene, &question.model, &answer);
+        match &dead {
+            Some(dead) => file.with_dead_load(&question.model, dead),
+            None => file,
+        }
+    })?;
+    Ok(requirement(&file, args.require, |lambda| lambda))
+}

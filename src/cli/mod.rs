@@ -1,0 +1,15 @@
+//! Arguments, terminal and exit codes; one file per verb. No mechanics: what is asked is a call to the library.
+
+pub mod args;
+pub mod assess;
+pub mod check;
+pub mod exit;
+pub mod generate;
+pub mod import;
+mod input;
+pub mod limit;
+mod output;
+mod question;
+pub mod schema;
+pub mod terminal;
+pub mod tilt;

@@ -1,0 +1,106 @@
+//! What the three questions have in common: the scene in, the answer out.
+
+use super::{args::Common, exit::Exit, input, output::Sink, terminal, terminal::Terminal};
+use anyhow::bail;
+use std::time::Instant;
+use voussoir::{
+    analysis::{Control, Model, Outcome, prepare},
+    report::{
+        ResultFile, json,
+        text::{self, Options},
+    },
+    scene::{Scene, Source},
+    verdict::Verdict,
+};
+
+/// A scene that is ready for a question.
+pub struct Question<'a> {
+    common: &'a Common,
+    save: Option<Sink>,
+    source: Source,
+    start: Instant,
+    /// The scene as read.
+    pub scene: Scene,
+    /// The scene resolved, with its interfaces.
+    pub model: Model,
+}
+
+impl<'a> Question<'a> {
+    /// Opens what will be written, then reads and prepares the scene.
+    pub fn open(common: &'a Common) -> anyhow::Result<Self> {
+        if common.save.as_ref().is_some_and(|p| p.as_os_str() == "-") {
+            bail!("--save takes a file; --json prints the result");
+        }
+        let same = |a: &std::path::Path, b: &std::path::Path| a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b);
+        if let Some(save) = common.save.as_ref().filter(|save| same(save, &common.scene)) {
+            bail!("--save {} would replace the scene by its result", save.display());
+        }
+        let save = common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+        let start = Instant::now();
+        let (scene, source) = input::scene(&common.scene)?;
+        let read = start.elapsed().as_secs_f64();
+        let mut model = prepare(&scene).map_err(|e| e.located(&source))?;
+        model.timings.read = read;
+        Ok(Self { common, save, source, start: Instant::now(), scene, model })
+    }
+
+    /// What is left of the time for programs.
+    pub fn control(&self) -> Control {
+        let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.start.elapsed().as_secs_f64()).max(0.0));
+        Control { keep_all: self.common.keep_all, seconds }
+    }
+
+    /// An error in the scene, with its place.
+    pub fn refuse(&self, error: voussoir::error::InputError) -> anyhow::Error {
+        error.located(&self.source).into()
+    }
+
+    /// Packs the answer with its proof, saves it and prints it. `pack` verifies, which is timed apart from solving.
+    pub fn answer(&self, terminal: &Terminal, pack: impl FnOnce() -> ResultFile) -> anyhow::Result<ResultFile> {
+        let solve = self.start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let mut file = pack();
+        file.timings.solve = solve;
+        file.timings.check = start.elapsed().as_secs_f64();
+        if self.save.is_some() || self.common.json {
+            let text = json::pretty(&file)?;
+            if let Some(save) = &self.save {
+                save.write(&text)?;
+            }
+            if self.common.json {
+                terminal::print(&text)?;
+                return Ok(file);
+            }
+        }
+        let scene = match self.common.scene.to_string_lossy() {
+            name if name == "-" => "SCENE".into(),
+            name if name.contains(char::is_whitespace) => format!("'{name}'"),
+            name => name.into_owned(),
+        };
+        terminal.page(&text::render(&file, &scene, Options { verbose: self.common.verbose, brief: self.common.quiet }))?;
+        Ok(file)
+    }
+}
+
+/// The exit code of a verdict.
+pub fn verdict(verdict: Option<Verdict>) -> Exit {
+    match verdict {
+        Some(Verdict::Stable) => Exit::Yes,
+        Some(Verdict::Unstable) => Exit::No,
+        Some(Verdict::Undecided) | None => Exit::Undecided,
+    }
+}
+
+/// The exit code of a load factor, read through `scale`, against what is required of it. A requirement inside the bracket is not decided.
+pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f64) -> Exit {
+    let Some(l) = file.answer.load_factor else { return Exit::Undecided };
+    let (lower, upper) = (l.lower.map(scale), l.upper.map(scale));
+    match (l.status, require) {
+        (Outcome::Undecided, _) => Exit::Undecided,
+        (Outcome::Impossible, _) => Exit::No,
+        (Outcome::Unbounded, _) | (Outcome::Found, None) => Exit::Yes,
+        (Outcome::Found, Some(r)) if lower.is_some_and(|l| l >= r) => Exit::Yes,
+        (Outcome::Found, Some(r)) if upper.is_some_and(|u| u < r) => Exit::No,
+        (Outcome::Found, Some(_)) => Exit::Undecided,
+    }
+}

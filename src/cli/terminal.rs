@@ -1,0 +1,101 @@
+//! Standard output and standard error. A reader that went away is no error, on either.
+
+use super::{args::Color, exit::Exit};
+use anyhow::Context;
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use voussoir::{
+    error::{Finding, InputError},
+    report::text::{Page, Role},
+};
+
+/// How pages look.
+pub struct Terminal {
+    color: bool,
+}
+
+impl Terminal {
+    /// Colour as asked for; by default on a terminal, unless `NO_COLOR` is set (<https://no-color.org>).
+    pub fn new(color: Color) -> Self {
+        let set = |name: &str| std::env::var_os(name).is_some_and(|v| !v.is_empty());
+        let dumb = std::env::var_os("TERM").is_some_and(|t| t == "dumb");
+        Self {
+            color: match color {
+                Color::Always => true,
+                Color::Never => false,
+                Color::Auto => io::stdout().is_terminal() && !set("NO_COLOR") && !dumb,
+            },
+        }
+    }
+
+    /// Prints a page on standard output.
+    pub fn page(&self, page: &Page) -> anyhow::Result<()> {
+        if !self.color {
+            return print(&page.to_string());
+        }
+        let mut text = String::new();
+        for line in &page.lines {
+            for span in line {
+                match style(span.role) {
+                    Some(code) if !span.text.trim().is_empty() => text.push_str(&format!("\x1b[{code}m{}\x1b[0m", span.text)),
+                    _ => text.push_str(&span.text),
+                }
+            }
+            text.push('\n');
+        }
+        print(&text)
+    }
+}
+
+/// Select graphic rendition parameters (ECMA-48).
+fn style(role: Role) -> Option<&'static str> {
+    match role {
+        Role::Plain => None,
+        Role::Name | Role::Value => Some("1"),
+        Role::Good => Some("1;32"),
+        Role::Bad => Some("1;31"),
+        Role::Unsure => Some("1;33"),
+        Role::Label => Some("2"),
+        Role::Command => Some("36"),
+    }
+}
+
+/// Prints text on standard output.
+pub fn print(text: &str) -> anyhow::Result<()> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(()),
+        other => other.context("cannot write to standard output"),
+    }
+}
+
+/// Prints a line on standard error.
+pub fn say(text: &str) {
+    // Where standard error is gone, nobody can be told.
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+/// Prints findings on standard error.
+pub fn notes<'a>(findings: impl IntoIterator<Item = &'a Finding>) {
+    findings.into_iter().for_each(|f| say(&format!("note: {}", f.text)));
+}
+
+/// Prints an error: what is wrong and where, then what to do about it.
+pub fn error(error: &anyhow::Error) {
+    let hint = error.downcast_ref::<InputError>().and_then(|e| e.hint.clone());
+    match error.downcast_ref::<InputError>() {
+        Some(input) => say(&format!("error: {}", InputError { hint: None, ..input.clone() })),
+        None => say(&format!("error: {error:#}")),
+    }
+    if let Some(hint) = hint {
+        say(&format!("hint: {hint}"));
+    }
+}
+
+/// Prints what the argument parser answers: help and version on standard output, errors on standard error.
+pub fn usage(answer: &clap::Error) -> Exit {
+    match answer.print() {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Exit::Usage,
+        _ if answer.use_stderr() => Exit::Usage,
+        _ => Exit::Yes,
+    }
+}

@@ -1,0 +1,40 @@
+//! JSON text → [`ResultFile`], with errors that name file, line and column.
+
+use super::ResultFile;
+use crate::{
+    error::{InputError, JsonPath},
+    scene::Source,
+};
+use serde::Deserialize;
+
+/// Whether a text calls itself a result, whatever its version.
+pub fn is_result(text: &str) -> bool {
+    #[derive(Deserialize)]
+    struct Head {
+        format: String,
+    }
+    serde_json::from_str::<Head>(text).is_ok_and(|head| head.format.starts_with("voussoir-result/"))
+}
+
+/// Reads a result from text; `name` stands for the file in messages.
+///
+/// # Errors
+/// The text is not JSON, or is not a result of a version this program knows.
+pub fn read_str(name: impl Into<String>, text: impl Into<String>) -> Result<ResultFile, InputError> {
+    let source = Source::new(name, text);
+    let mut deserializer = serde_json::Deserializer::from_str(&source.text);
+    serde_path_to_error::deserialize(&mut deserializer)
+        .map_err(|e| (e.path().to_string(), e.into_inner()))
+        .and_then(|file| deserializer.end().map(|()| file).map_err(|e| (String::new(), e)))
+        .map_err(|(path, e): (String, serde_json::Error)| {
+            let place = if path.is_empty() || path == "." { String::new() } else { format!("{path}: ") };
+            // The position is given in front, once.
+            let message = e.to_string();
+            let message = message.split(" at line ").next().unwrap_or(&message);
+            InputError {
+                file: Some(source.name.clone()),
+                position: Some((e.line(), e.column())),
+                ..InputError::at(JsonPath::root(), format!("{place}{message}")).hint("save the result anew with --save")
+            }
+        })
+}

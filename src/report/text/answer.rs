@@ -1,0 +1,176 @@
+//! The first line and the sentences below it.
+
+use super::{
+    Options, cut,
+    number::{bracketed, decimals, ends, point},
+    page::{Page, Role},
+};
+use crate::{
+    analysis::Outcome,
+    report::result::{Answer, LoadFactorAnswer, Question, ResultFile},
+    verdict::{Verdict, check::Claim},
+};
+
+/// The answer in one line.
+pub(super) fn title(page: &mut Page, file: &ResultFile) {
+    let (text, role) = match file.question {
+        Question::Assess => match file.answer.verdict {
+            Some(Verdict::Stable) => ("stands".to_string(), Role::Good),
+            Some(Verdict::Unstable) => ("falls".to_string(), Role::Bad),
+            Some(Verdict::Undecided) | None => ("undecided".to_string(), Role::Unsure),
+        },
+        Question::Limit => match (status(&file.answer), found(&file.answer)) {
+            (Outcome::Found, Some((value, lower, upper))) => {
+                let role = if upper < 0.0 { Role::Bad } else { Role::Value };
+                (format!("λ = {}", bracketed(value, lower, upper)), role)
+            }
+            (Outcome::Unbounded, _) => ("the live load wedges: it can grow without limit".to_string(), Role::Good),
+            (Outcome::Impossible, _) => ("falls, whatever the live load".to_string(), Role::Bad),
+            _ => ("undecided".to_string(), Role::Unsure),
+        },
+        Question::Tilt => {
+            let toward = file.answer.toward.map(|d| format!(" towards {}", point(d))).unwrap_or_default();
+            match (status(&file.answer), found(&file.answer)) {
+                (Outcome::Found, Some((_, _, upper))) if upper < 0.0 => ("falls even when level".to_string(), Role::Bad),
+                (Outcome::Found, Some(l)) => (format!("falls at a tilt of {}°{toward}", degrees(l)), Role::Value),
+                (Outcome::Unbounded, _) => ("stands at every tilt below 90°".to_string(), Role::Good),
+                (Outcome::Impossible, _) => (format!("falls, however it is tilted{toward}"), Role::Bad),
+                _ => (format!("undecided{toward}"), Role::Unsure),
+            }
+        }
+    };
+    page.title(&file.scene.name, text, role);
+}
+
+/// The sentences that say what the answer rests on and what it does not say.
+pub(super) fn why(page: &mut Page, file: &ResultFile) {
+    if file.question == Question::Assess {
+        return verdict(page, &file.answer);
+    }
+    let tilt = file.question == Question::Tilt;
+    match (status(&file.answer), found(&file.answer)) {
+        (Outcome::Found, Some((value, lower, upper))) => {
+            let [low, high] = ends(value, lower, upper);
+            if tilt {
+                page.paragraph(&format!(
+                    "Tilting by θ adds tan θ × the weight sideways. The greatest tan θ is {} (between {low} and {high}).",
+                    bracketed(value, lower, upper)
+                ));
+            } else {
+                page.paragraph(&format!(
+                    "Contact forces inside the friction cones balance the dead load and λ × the live load up to λ = {}, between {low} and {high}; beyond it the mechanism below moves.{}",
+                    bracketed(value, lower, upper),
+                    unit(file)
+                ));
+            }
+            page.paragraph(
+                "Sliding counts as associative (a joint that slides opens as well): for dry friction this is an upper bound, and a mechanism that slides may need less.",
+            );
+        }
+        (Outcome::Unbounded, _) => {
+            page.paragraph("Contact forces balance the live load by itself, so that any multiple of it can be added.");
+            if let Some(Claim::Unbounded { standing }) = file.certificate.claim {
+                page.paragraph(&format!("It stands at λ = {standing:.6} and at every greater λ."));
+            }
+        }
+        (Outcome::Impossible, _) => page.paragraph(
+            "The mechanism below gains power under the dead load and none under the live load: no multiple of the live load holds it.",
+        ),
+        _ => {
+            let l = file.answer.load_factor.as_ref();
+            let end = |e: Option<f64>| e.map_or("unknown".to_string(), |v| format!("{v:.9}"));
+            page.paragraph(&format!(
+                "No attempt closed the bracket of the load factor, and none showed that there is no limit or no answer. Lower end {}, upper end {}.",
+                end(l.and_then(|l| l.lower)),
+                end(l.and_then(|l| l.upper))
+            ));
+        }
+    }
+    dead_load(page, file);
+}
+
+fn verdict(page: &mut Page, answer: &Answer) {
+    let (lower, upper) = answer.unbalance.map_or((0.0, f64::NAN), |b| (b.lower, b.upper));
+    match answer.verdict {
+        Some(Verdict::Stable) => {
+            page.paragraph(&format!(
+                "Contact forces inside every friction cone balance every block, up to {upper:.1e} of its weight."
+            ));
+            page.paragraph(
+                "This says that the joints can carry the load; it does not exclude that they need a pre-stress which nobody applied.",
+            );
+        }
+        Some(Verdict::Unstable) => page.paragraph(&format!(
+            "No contact forces inside the friction cones balance the loads: whatever they are, some block is left with at least {lower:.1e} of its weight. The mechanism below moves by itself, which proves it."
+        )),
+        Some(Verdict::Undecided) | None => page.paragraph(&format!(
+            "The least part of its weight with which some block is left lies between {lower:.1e} and {upper:.1e}; it is too close to the line between standing and falling, or the solver lost its way."
+        )),
+    }
+}
+
+/// What λ multiplies.
+fn unit(file: &ResultFile) -> &'static str {
+    let live = &file.scene.input.loads.live;
+    match live.as_slice() {
+        [one] if one.weight.is_some_and(|w| (w.iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 1e-12) => {
+            " The live load is the weight of the blocks, so λ is an acceleration in multiples of gravity."
+        }
+        _ => "",
+    }
+}
+
+fn dead_load(page: &mut Page, file: &ResultFile) {
+    let place = if file.question == Question::Tilt { "When level" } else { "Without its live load" };
+    let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);
+    let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict) {
+        Some(Verdict::Stable) => format!("{place} it stands."),
+        Some(Verdict::Unstable) => format!("{place} it falls."),
+        Some(Verdict::Undecided) => format!("{place} it is undecided whether it stands."),
+        None if negative => format!("{place} it falls: the greatest λ is below zero."),
+        None if status(&file.answer) == Outcome::Impossible => format!("{place} it falls as well."),
+        None => return,
+    };
+    page.paragraph(&text);
+}
+
+/// Every direction of a tilt.
+pub(super) fn directions(page: &mut Page, file: &ResultFile, options: Options) {
+    // Eight directions are what is asked for by default: they are shown in full.
+    let options = Options { verbose: options.verbose || file.directions.len() <= 8, ..options };
+    let width = file.directions.iter().filter_map(|d| d.answer.toward).map(|d| point(d).chars().count()).max().unwrap_or(0);
+    let lines: Vec<String> = file
+        .directions
+        .iter()
+        .map(|d| {
+            let toward = d.answer.toward.map(point).unwrap_or_default();
+            let answer = match (status(&d.answer), found(&d.answer)) {
+                (Outcome::Found, Some(l)) => format!("{}°", degrees(l)),
+                (Outcome::Unbounded, _) => "stands at every tilt below 90°".into(),
+                (Outcome::Impossible, _) => "falls at every tilt".into(),
+                _ => "undecided".into(),
+            };
+            format!("{toward:<width$}  {answer}")
+        })
+        .collect();
+    page.row("towards", cut(&lines, options));
+}
+
+fn status(answer: &Answer) -> Outcome {
+    answer.load_factor.map_or(Outcome::Undecided, |l| l.status)
+}
+
+/// Value and bracket where a load factor was found.
+fn found(answer: &Answer) -> Option<(f64, f64, f64)> {
+    match answer.load_factor? {
+        LoadFactorAnswer { status: Outcome::Found, value: Some(v), lower: Some(l), upper: Some(u), .. } => Some((v, l, u)),
+        _ => None,
+    }
+}
+
+/// The angle of a load factor, with the digits its bracket supports.
+fn degrees((value, lower, upper): (f64, f64, f64)) -> String {
+    let [v, l, u] = [value, lower, upper].map(|x| x.atan().to_degrees());
+    // Nobody reads an angle to more than a millionth of a degree.
+    format!("{v:.*}", decimals(v, l, u).min(6))
+}

@@ -1,0 +1,54 @@
+//! What `check` found, for people.
+
+use super::{
+    number::count,
+    page::{Page, Role},
+};
+use crate::{
+    analysis::Model,
+    error::Finding,
+    report::{result::ResultFile, verify::Verification},
+};
+
+/// The verification of a result: what holds and what fails, part by part.
+pub fn verification(file: &ResultFile, verification: &Verification) -> Page {
+    let mut page = Page::default();
+    let (text, role) = match (verification.refuted(), verification.claimed) {
+        (true, _) => ("refuted", Role::Bad),
+        (false, true) => ("proved", Role::Good),
+        (false, false) => ("claims nothing", Role::Unsure),
+    };
+    page.title(&file.scene.name, text, role);
+    for (title, findings) in &verification.parts {
+        page.blank();
+        page.paragraph(title);
+        page.row("fails", findings.fails.iter().cloned());
+        page.row("holds", findings.holds.iter().cloned());
+    }
+    page
+}
+
+/// A scene's likely mistakes, and what else is worth knowing about it.
+pub fn inspection(model: &Model, slips: &[Finding], notes: &[Finding]) -> Page {
+    let mut page = Page::default();
+    match slips.len() {
+        0 => page.title(&model.assembly.name, "nothing suspicious", Role::Good),
+        n => page.title(&model.assembly.name, count(n, "finding"), Role::Bad),
+    }
+    page.blank();
+    page.row("findings", slips.iter().map(|f| f.text.clone()));
+    page.row("note", notes.iter().map(|f| f.text.clone()));
+    let supports = model.assembly.blocks.iter().filter(|b| b.support).count();
+    let interfaces = &model.interfaces.list;
+    page.row(
+        "scene",
+        [format!(
+            "{} ({}), {}, {}",
+            count(model.assembly.blocks.len(), "block"),
+            count(supports, "support"),
+            count(interfaces.len(), "interface"),
+            count(model.contact_points(), "contact point")
+        )],
+    );
+    page
+}

@@ -1,0 +1,32 @@
+//! The mechanism in words.
+
+use super::{
+    Options, cut,
+    number::{count, point},
+    page::Page,
+};
+use crate::{
+    report::result::{JointWords, ResultFile},
+    verdict::mechanism::Motion,
+};
+
+/// Which blocks move, and which joints hinge, slide or part.
+pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
+    let Some(m) = &file.mechanism else { return };
+    let free = file.scene.blocks - file.scene.supports.min(file.scene.blocks);
+    let fastest: Vec<&str> = m.moving.iter().take(if options.verbose { usize::MAX } else { 4 }).map(String::as_str).collect();
+    let text = format!("{} of {} move, the fastest first: {}", m.moving.len(), count(free, "free block"), fastest.join(", "));
+    page.row("mechanism", [if fastest.len() < m.moving.len() { format!("{text}, …") } else { text }]);
+    for (label, motion) in
+        [("hinges", Motion::Hinge), ("slides", Motion::Slide), ("slip hinges", Motion::HingeAndSlide), ("parts", Motion::Part)]
+    {
+        let joints: Vec<&JointWords> = m.joints.iter().filter(|j| j.motion == motion).collect();
+        let width = joints.iter().map(|j| between(j).chars().count()).max().unwrap_or(0);
+        let lines: Vec<String> = joints.iter().map(|j| format!("{:<width$}  at {}", between(j), point(j.at))).collect();
+        page.row(label, cut(&lines, options));
+    }
+}
+
+fn between(j: &JointWords) -> String {
+    format!("{} | {}", j.between[0], j.between[1])
+}

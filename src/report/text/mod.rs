@@ -1,0 +1,129 @@
+//! Answers as text for people: the answer first, then why, then what next.
+
+mod answer;
+mod check;
+mod mechanism;
+pub mod number;
+mod page;
+
+pub use check::{inspection, verification};
+pub use page::{Page, Role, Span};
+
+use super::result::{Question, ResultFile};
+use crate::{analysis::Attempt, error::Finding};
+use number::{count, seconds};
+
+/// How much is said.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Lists in full, and every attempt at a program.
+    pub verbose: bool,
+    /// The first line only.
+    pub brief: bool,
+}
+
+/// A list shows this many items unless everything is asked for.
+const SHOWN: usize = 6;
+
+/// A result as a page. `scene` stands for the scene in the commands that may come next.
+pub fn render(file: &ResultFile, scene: &str, options: Options) -> Page {
+    let mut page = Page::default();
+    answer::title(&mut page, file);
+    if options.brief {
+        return page;
+    }
+    page.blank();
+    answer::why(&mut page, file);
+    page.blank();
+    mechanism::rows(&mut page, file, options);
+    answer::directions(&mut page, file, options);
+    page.row("proof", cut(&file.certificate.verified, options));
+    let s = &file.scene;
+    page.row(
+        "scene",
+        [format!(
+            "{} ({}), {}, {}",
+            count(s.blocks, "block"),
+            count(s.supports, "support"),
+            count(s.interfaces, "interface"),
+            count(s.contact_points, "contact point")
+        )],
+    );
+    page.row("left out", cut(&file.left_out, options));
+    page.row("note", notes(&file.warnings, options));
+    page.row("time", [time(file)]);
+    if options.verbose {
+        page.row("attempts", file.trace.iter().map(attempt));
+    }
+    page.blank();
+    next(&mut page, file, scene);
+    page
+}
+
+/// Findings as lines of text.
+pub fn notes(findings: &[Finding], options: Options) -> Vec<String> {
+    cut(&findings.iter().map(|f| f.text.clone()).collect::<Vec<_>>(), options)
+}
+
+/// A list that ends with how much of it is not shown.
+fn cut(items: &[String], options: Options) -> Vec<String> {
+    // One line says "and 1 more" in as much room as the item itself takes.
+    let shown = if options.verbose || items.len() <= SHOWN + 1 { items.len() } else { SHOWN };
+    let mut list = items[..shown].to_vec();
+    if shown < items.len() {
+        list.push(format!("… and {} more (--verbose for all)", items.len() - shown));
+    }
+    list
+}
+
+fn time(file: &ResultFile) -> String {
+    let t = &file.timings;
+    let stages = [("read", t.read), ("resolve", t.resolve), ("interfaces", t.detect), ("solve", t.solve), ("check", t.check)];
+    let list: Vec<String> = stages.iter().filter(|s| s.1 > 0.0).map(|(name, s)| format!("{name} {}", seconds(*s))).collect();
+    format!("{} ({})", seconds(stages.iter().map(|s| s.1).sum()), list.join(", "))
+}
+
+fn attempt(a: &Attempt) -> String {
+    let status = format!("{:?}", a.engine_status);
+    format!(
+        "{}: {} unknowns, {} rows, tolerance {:.0e}, regularisation {:.0e}: {} iterations, {}, {status}, bracket {:.9e} to {:.9e}",
+        a.program,
+        a.size[0],
+        a.size[1],
+        a.tolerance,
+        a.regularization,
+        a.iterations,
+        seconds(a.seconds),
+        a.lower,
+        a.upper
+    )
+}
+
+fn next(page: &mut Page, file: &ResultFile, scene: &str) {
+    let verb = match file.question {
+        Question::Assess => "assess",
+        Question::Limit => "limit",
+        Question::Tilt => "tilt",
+    };
+    let mut label = "next";
+    let mut command = |command: String, purpose: &str| {
+        page.command(label, &command, purpose);
+        label = "";
+    };
+    if file.certificate.claim.is_none() {
+        command(format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
+        command(format!("voussoir {verb} {scene} --verbose"), "every attempt at it");
+        return;
+    }
+    if file.question == Question::Assess {
+        let loaded = file.scene.input.loads.live.is_empty();
+        let falls = file.answer.verdict == Some(crate::verdict::Verdict::Unstable);
+        match (falls, loaded) {
+            (true, _) => command(format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps"),
+            (false, true) => command(format!("voussoir tilt {scene}"), "at what tilt it falls"),
+            (false, false) => command(format!("voussoir limit {scene}"), "how far the live load can grow"),
+        }
+    }
+    command(format!("voussoir {verb} {scene} --save result.json"), "keep the answer with its proof");
+    command("voussoir check result.json".into(), "verify it again, without a solver");
+}

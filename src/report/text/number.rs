@@ -1,0 +1,111 @@
+//! Numbers for people: as many digits as are known, no more.
+
+/// More digits than this are not shown, however narrow the bracket.
+const DIGITS: i32 = 10;
+
+/// Decimals that a bracket supports: its width is at most one unit of the last one.
+pub fn decimals(value: f64, lower: f64, upper: f64) -> usize {
+    let leading = |v: f64| v.abs().log10().floor().clamp(-300.0, 300.0) as i32;
+    let width = upper - lower;
+    let size = value.abs().max(lower.abs()).max(upper.abs());
+    let size = if size > 0.0 && size.is_finite() { leading(size) } else { 0 };
+    let most = DIGITS - 1 - size;
+    let known = if width > 0.0 && width.is_finite() { -(width.log10().ceil().clamp(-300.0, 300.0) as i32) } else { most };
+    usize::try_from(known.min(most)).unwrap_or(0)
+}
+
+/// A value with the digits its bracket supports.
+pub fn bracketed(value: f64, lower: f64, upper: f64) -> String {
+    fixed(value, decimals(value, lower, upper))
+}
+
+/// The ends of a bracket, rounded outwards so that what is printed encloses the value as well.
+pub fn ends(value: f64, lower: f64, upper: f64) -> [String; 2] {
+    let d = (decimals(value, lower, upper) + 2).min(300);
+    let unit = 10f64.powi(-(d as i32));
+    let outwards = |v: f64, way: f64| {
+        let text = fixed(v, d);
+        // Decimal rounding goes to nearest: one unit further out if it went in.
+        let rounded: f64 = text.parse().unwrap_or(v);
+        if (rounded - v) * way < 0.0 { fixed(rounded + way * unit, d) } else { text }
+    };
+    [outwards(lower, -1.0), outwards(upper, 1.0)]
+}
+
+fn fixed(value: f64, decimals: usize) -> String {
+    // Far from one, decimals would be all zeros; the last digit of the mantissa has the same unit.
+    if value != 0.0 && !(1e-4..1e12).contains(&value.abs()) {
+        let digits = (decimals as i32 + value.abs().log10().floor() as i32).clamp(0, 15) as usize;
+        return format!("{value:.digits$e}");
+    }
+    let text = format!("{value:.decimals$}");
+    if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') { text.trim_start_matches('-').to_string() } else { text }
+}
+
+/// A few digits, for lengths and directions: `1.25`, `-0.5`, `0`.
+pub fn short(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value:.0}").trim_start_matches('-').to_string();
+    }
+    if !(1e-3..1e6).contains(&value.abs()) {
+        return format!("{value:.3e}");
+    }
+    let digits = (3 - value.abs().log10().floor() as i32).max(0) as usize;
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+}
+
+/// A point or a direction. Coordinates that are rounding beside the others are written 0.
+pub fn point(p: [f64; 3]) -> String {
+    let size = p.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    let p = p.map(|c| if c.abs() <= 1e-9 * size { 0.0 } else { c });
+    format!("({}, {}, {})", short(p[0]), short(p[1]), short(p[2]))
+}
+
+/// A time.
+pub fn seconds(s: f64) -> String {
+    if s >= 100.0 {
+        format!("{s:.0} s")
+    } else if s >= 1.0 {
+        format!("{s:.1} s")
+    } else if s >= 0.0995 {
+        format!("{:.0} ms", s * 1e3)
+    } else {
+        format!("{:.1} ms", s * 1e3)
+    }
+}
+
+/// `1 block`, `2 blocks`.
+pub fn count(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shows_the_digits_that_the_bracket_supports() {
+        assert_eq!(bracketed(0.149_969_235_5, 0.149_969_235, 0.149_969_236), "0.149969236");
+        assert_eq!(bracketed(0.002, 0.001_999_999, 0.002_000_001), "0.00200");
+        assert_eq!(bracketed(12345.678, 12000.0, 13000.0), "12346");
+        assert_eq!(bracketed(0.5, 0.5, 0.5), "0.5000000000");
+        assert_eq!(bracketed(2.3456e-7, 2.3455e-7, 2.3457e-7), "2.346e-7");
+        assert_eq!(bracketed(-1e-14, -1e-10, 1e-10), "0.000000000");
+    }
+
+    #[test]
+    fn printed_ends_enclose_the_bracket() {
+        for (lower, upper) in [(0.149_969_235_2, 0.149_969_235_9), (-0.3, 0.7), (1.0, 1.0), (-2.5e-9, 3.5e-9), (2.345e-7, 2.346e-7), (99.999_999, 100.000_001)] {
+            let [l, u] = ends(0.5 * (lower + upper), lower, upper);
+            assert!(l.parse::<f64>().unwrap() <= lower && u.parse::<f64>().unwrap() >= upper, "{l} {u}");
+        }
+    }
+
+    #[test]
+    fn short_numbers() {
+        let all = [1.25, -0.5, 0.0, -0.0, 1.0 / 3.0, 123_456.0, 1e-9, 2.0].map(short);
+        assert_eq!(all, ["1.25", "-0.5", "0", "0", "0.3333", "123456", "1.000e-9", "2"]);
+        assert_eq!(point([1.0, 1e-17, -2.0]), "(1, 0, -2)");
+    }
+}

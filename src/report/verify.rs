@@ -1,0 +1,243 @@
+//! Verifying a saved result from the scene: every claim with its evidence, and every word and number of the answer
+//! against the claim. Nothing that the file says about itself is believed.
+
+use super::{
+    ResultFile,
+    result::{Answer, Certificate, Direction, LoadFactorAnswer, Question, words},
+};
+use crate::{
+    analysis::{Model, Outcome, prepare, tilt::turned},
+    error::InputError,
+    scene::Scene,
+    tolerance,
+    verdict::{
+        Forces, Rate, Verdict, certificate,
+        check::{self, Claim, Findings},
+        evidence::{read_forces, read_rates},
+        mechanism,
+    },
+};
+use nalgebra::Vector3;
+use std::collections::BTreeSet;
+
+/// Saved and recomputed numbers of the answer agree within this × their size. Larger: edited digits pass.
+/// Smaller: rounding of another machine's arithmetic is taken for tampering.
+const SAME: f64 = 1e-6;
+
+/// What the verification of a result found.
+#[derive(Clone, Debug, Default)]
+pub struct Verification {
+    /// A title and the findings for each part of the result.
+    pub parts: Vec<(String, Findings)>,
+    /// Whether the main answer claims anything; an undecided one does not.
+    pub claimed: bool,
+}
+
+impl Verification {
+    /// Whether any part fails.
+    pub fn refuted(&self) -> bool {
+        self.parts.iter().any(|(_, f)| !f.fails.is_empty())
+    }
+
+    /// Whether the answer is proved: it claims something, and every part holds.
+    pub fn proved(&self) -> bool {
+        self.claimed && !self.refuted()
+    }
+
+    fn part(&mut self, title: impl Into<String>, findings: Findings) {
+        self.parts.push((title.into(), findings));
+    }
+}
+
+/// Verifies a result against a scene: the one inside it, or one that the reader trusts more.
+///
+/// # Errors
+/// The scene cannot be resolved.
+pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputError> {
+    let model = prepare(scene)?;
+    let mut all = Verification { claimed: file.certificate.claim.is_some(), parts: vec![("scene".into(), counts(file, &model))] };
+    match file.question {
+        Question::Assess | Question::Limit => {
+            let (mut f, rates) = answer(&model, file.question, &file.answer, &file.certificate);
+            mechanism_words(&mut f, file, &model, rates.as_deref());
+            all.part("answer", f);
+            let stray = !file.directions.is_empty() || (file.question == Question::Assess && file.dead_load.is_some());
+            if stray {
+                all.part("form", failure("the file holds answers to a question that was not asked"));
+            }
+        }
+        Question::Tilt => tilts(&mut all, file, &model),
+    }
+    if let Some(dead) = &file.dead_load {
+        all.part("dead load alone", answer(&model, Question::Assess, &dead.answer, &dead.certificate).0);
+    }
+    Ok(all)
+}
+
+fn failure(text: impl Into<String>) -> Findings {
+    Findings { holds: Vec::new(), fails: vec![text.into()] }
+}
+
+fn require(f: &mut Findings, ok: bool, text: impl Into<String>) {
+    if ok { &mut f.holds } else { &mut f.fails }.push(text.into());
+}
+
+fn counts(file: &ResultFile, model: &Model) -> Findings {
+    let mut f = Findings::default();
+    let s = &file.scene;
+    let supports = model.assembly.blocks.iter().filter(|b| b.support).count();
+    let here = [model.assembly.blocks.len(), supports, model.interfaces.list.len(), model.contact_points()];
+    let said = [s.blocks, s.supports, s.interfaces, s.contact_points];
+    let words = |c: [usize; 4]| format!("{} blocks ({} supports), {} interfaces, {} contact points", c[0], c[1], c[2], c[3]);
+    if here == said {
+        f.holds.push(words(here));
+    } else {
+        f.fails.push(format!("the scene has {}; the result is about {}", words(here), words(said)));
+    }
+    f
+}
+
+/// The directions of a tilt, each with its turned loads, and the least of them as the answer.
+fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
+    let main = Direction { answer: file.answer.clone(), certificate: file.certificate.clone() };
+    let list = if file.directions.is_empty() { std::slice::from_ref(&main) } else { &file.directions };
+    // A direction without an angle comes first: it must not hide behind the others.
+    let key = |d: &Direction| d.answer.tilt_deg.unwrap_or(f64::NEG_INFINITY);
+    let least = (0..list.len()).min_by(|&i, &j| key(&list[i]).total_cmp(&key(&list[j]))).unwrap_or(0);
+    if !file.directions.is_empty() {
+        let mut f = Findings::default();
+        require(&mut f, main == list[least], format!("the answer is the least of {} directions, with its evidence", list.len()));
+        all.part("answer", f);
+    }
+    for (index, direction) in list.iter().enumerate() {
+        let toward = direction.answer.toward.unwrap_or_default();
+        let title = format!("tilt towards {}", super::text::number::point(toward));
+        match turned(&model.assembly, Vector3::from(toward)) {
+            Err(e) => all.part(title, failure(e.to_string())),
+            Ok((assembly, _)) => {
+                let turned = Model { assembly, interfaces: model.interfaces.clone(), timings: model.timings };
+                let (mut f, rates) = answer(&turned, Question::Tilt, &direction.answer, &direction.certificate);
+                if index == least {
+                    mechanism_words(&mut f, file, &turned, rates.as_deref());
+                }
+                all.part(title, f);
+            }
+        }
+    }
+}
+
+/// One answer with its evidence; gives back the rates where they could be read.
+fn answer(model: &Model, question: Question, answer: &Answer, evidence: &Certificate) -> (Findings, Option<Vec<Rate>>) {
+    let mut f = Findings::default();
+    says_what_is_claimed(&mut f, question, answer, evidence.claim.as_ref());
+    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    let read = || -> Result<(Forces, Option<Forces>, Vec<Rate>), String> {
+        let base = evidence.base.as_ref().map(|b| read_forces(assembly, interfaces, b)).transpose()?;
+        Ok((read_forces(assembly, interfaces, &evidence.forces)?, base, read_rates(assembly, &evidence.rates)?))
+    };
+    let (forces, base, rates) = match read() {
+        Ok(evidence) => evidence,
+        Err(e) => {
+            f.fails.push(e);
+            return (f, None);
+        }
+    };
+    if let Some(claim) = &evidence.claim {
+        let claimed = check::verify(assembly, interfaces, claim, &forces, base.as_ref(), &rates);
+        f.holds.extend(claimed.holds);
+        f.fails.extend(claimed.fails);
+        if matches!(claim, Claim::Stable | Claim::Unstable) {
+            unbalance(&mut f, model, answer, &forces, &rates);
+        }
+    }
+    (f, Some(rates))
+}
+
+/// The words and numbers of an answer are those of its claim.
+fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, claim: Option<&Claim>) {
+    let form = match question {
+        Question::Assess => answer.verdict.is_some() && answer.load_factor.is_none(),
+        Question::Limit | Question::Tilt => answer.verdict.is_none() && answer.unbalance.is_none() && answer.load_factor.is_some(),
+    } && (question == Question::Tilt || answer.tilt_deg.is_none() && answer.toward.is_none());
+    if !form {
+        f.fails.push("the answer is not one to its question".into());
+        return;
+    }
+    let said = answer.load_factor.as_ref();
+    let numbers = |l: &LoadFactorAnswer| (l.value, l.lower, l.upper);
+    let agrees = match (answer.verdict, said.map(|l| l.status), claim) {
+        (Some(Verdict::Stable), None, Some(Claim::Stable)) | (Some(Verdict::Unstable), None, Some(Claim::Unstable)) => true,
+        (Some(Verdict::Undecided), None, None) | (None, Some(Outcome::Undecided), None) => {
+            f.holds.push("undecided: nothing is claimed".into());
+            return;
+        }
+        (None, Some(Outcome::Found), Some(&Claim::LoadFactor { value, lower, upper })) => {
+            said.map(numbers) == Some((Some(value), Some(lower), Some(upper)))
+        }
+        (None, Some(Outcome::Unbounded), Some(Claim::Unbounded { .. })) | (None, Some(Outcome::Impossible), Some(Claim::Impossible)) => {
+            said.map(numbers) == Some((None, None, None))
+        }
+        _ => false,
+    };
+    let claim_words = match claim {
+        None => "nothing".into(),
+        Some(Claim::Stable) => "that it stands".into(),
+        Some(Claim::Unstable) => "that it falls".into(),
+        Some(Claim::LoadFactor { value, .. }) => format!("the load factor {value}"),
+        Some(Claim::Unbounded { .. }) => "that the live load has no limit".into(),
+        Some(Claim::Impossible) => "that it falls whatever the live load".into(),
+    };
+    if agrees {
+        f.holds.push(format!("the answer says what the certificate claims: {claim_words}"));
+    } else {
+        f.fails.push(format!("the answer does not say what the certificate claims: {claim_words}"));
+    }
+    if question == Question::Tilt {
+        let angle = match claim {
+            Some(&Claim::LoadFactor { value, .. }) => Some(value.atan().to_degrees()),
+            Some(Claim::Unbounded { .. }) => Some(90.0),
+            _ => None,
+        };
+        let same = match (angle, answer.tilt_deg) {
+            (Some(a), Some(b)) => (a - b).abs() <= 1e-9,
+            (a, b) => a == b,
+        };
+        require(f, same, "the tilt is the arc tangent of the load factor");
+    }
+}
+
+/// The bracket of the unbalance is the one that the evidence gives.
+fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, rates: &[Rate]) {
+    let Some(said) = answer.unbalance else {
+        f.fails.push("the answer does not say how far it is out of balance".into());
+        return;
+    };
+    let upper = certificate::statics(&model.assembly, &model.interfaces, forces, 0.0).unbalance;
+    let k = certificate::kinematics(&model.assembly, &model.interfaces, rates, forces);
+    let (lower, slack) = if k.norm > 0.0 { (k.dead_power.max(0.0) / k.norm, k.slack / k.norm) } else { (0.0, 0.0) };
+    // Rates that prove nothing because they part what is pressed together bound nothing: the lower end is then 0.
+    let near = |a: f64, b: f64, extra: f64| (a - b).abs() <= SAME * a.abs() + tolerance::UNBALANCE + extra;
+    let ok = near(upper, said.upper, 0.0) && (near(lower, said.lower, slack) || said.lower == 0.0);
+    require(
+        f,
+        ok,
+        format!(
+            "least unbalance between {:.3e} and {:.3e} g, recomputed between {lower:.3e} and {upper:.3e} g",
+            said.lower, said.upper
+        ),
+    );
+}
+
+/// The mechanism in words is the one of the rates.
+fn mechanism_words(f: &mut Findings, file: &ResultFile, model: &Model, rates: Option<&[Rate]>) {
+    let (Some(said), Some(rates)) = (&file.mechanism, rates) else { return };
+    let here = words(model, &mechanism::read(&model.assembly, &model.interfaces, rates));
+    let moving = |w: &super::result::MechanismWords| w.moving.iter().cloned().collect::<BTreeSet<String>>();
+    let joints =
+        |w: &super::result::MechanismWords| w.joints.iter().map(|j| (j.between.clone(), j.motion)).collect::<BTreeSet<([String; 2], _)>>();
+    require(
+        f,
+        moving(said) == moving(&here) && joints(said) == joints(&here),
+        format!("the mechanism in words is that of the rates: {} blocks move, {} joints", here.moving.len(), here.joints.len()),
+    );
+}
