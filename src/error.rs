@@ -156,6 +156,12 @@ pub enum FindingCode {
     Units,
     /// Something about the way the numbers were found.
     Numerics,
+    /// Something that is needed later was not given.
+    Missing,
+    /// A part of a foreign file has no counterpart in a scene, or is unusable, and was left out.
+    LeftOut,
+    /// How a foreign file was read where there was a choice.
+    Converted,
 }
 
 impl Finding {

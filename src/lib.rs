@@ -11,6 +11,18 @@ pub mod scene;
 
 pub mod generate;
 
+pub mod import;
+
 pub mod assembly;
 
 pub mod interface;
+
+pub mod program;
+
+pub mod solve;
+
+pub mod verdict;
+
+pub mod analysis;
+
+pub mod report;

@@ -24,6 +24,42 @@ pub const CONTACT_MIN_AREA: f64 = 1e-9;
 /// Near misses are reported up to this many times `contact.gap`.
 pub const NEAR_MISS_FACTOR: f64 = 100.0;
 
+/// A scene is its own mirror image when points, centres and directions agree within this × block size.
+/// Larger: skew scenes are solved as plane and their certificate fails. Smaller: plane scenes that were turned or moved
+/// (coordinates rounded at 1e-12 of the scene) are solved in space, ten times slower.
+pub const MIRROR: f64 = 1e-9;
+
+/// A block or joint moves in a mechanism if its rate exceeds this × the greatest.
+/// Larger: slow parts of a mechanism are left unnamed. Smaller: rounding of the solver names joints that rest.
+pub const MECHANISM_REST: f64 = 1e-5;
+
+/// Out-of-balance acceleration, in multiples of gravity, below which a scene counts as balanced and above which as not.
+/// Larger: arches 1e-6 below their least thickness (unbalance 2e-7) pass as stable.
+/// Smaller: the solver's last digits (1e-11) decide.
+pub const UNBALANCE: f64 = 1e-9;
+
+/// A load factor is found when its bracket is narrower than this × |λ| (plus [`LOAD_FACTOR_FLOOR`]).
+/// Larger: answers with fewer digits. Smaller: walls of 10,000 blocks, whose first attempt closes to 2e-7, go down the whole
+/// ladder for digits nobody reads.
+pub const LOAD_FACTOR_WIDTH: f64 = 1e-6;
+
+/// Absolute part of the width of a found load factor, in multiples of (total dead load / total live load); it decides
+/// where λ is zero.
+pub const LOAD_FACTOR_FLOOR: f64 = 1e-10;
+
+/// Friction cones are respected when no force lies further outside than this × the largest force.
+/// Larger: forged certificates pass. Smaller: rounding of a correct force (1e-16) written to a file fails.
+pub const CONE: f64 = 1e-12;
+
+/// A mechanism proves instability when only contact forces above this × the total load could make up for its
+/// inadmissibility. Larger: correct mechanisms close to the limit are refused (1e-8 below the least thickness the solver
+/// reaches about 13). Smaller: a mechanism that interpenetrates could pass as a proof.
+pub const FORCE_CAP: f64 = 3.0;
+
+/// Forces that leave more than this unbalanced on some block, in multiples of gravity, bound no load factor: the
+/// first-order correction by the mechanism no longer holds. Larger: brackets that do not contain the answer.
+/// Smaller: tall walls, whose forces are hundreds of block weights, lose their brackets.
+pub const LOOSE_BALANCE: f64 = 1e-5;
 /// Near misses are reported up to this × the smaller block's size at most, however coarse `contact.gap` is.
 /// Larger: with a coarse gap every face across an open joint is called a near miss and every block is compared with its second neighbours.
 /// Smaller: the default reach (100 × [`CONTACT_GAP`] = 0.01) is cut.
@@ -85,3 +121,14 @@ pub const LEAST_SIZE: f64 = 1e-50;
 
 /// Greatest bounding-box diagonal of a shape, m. Larger: inertias become infinite.
 pub const GREATEST_SIZE: f64 = 1e50;
+/// Template coordinates closer than this × the block length are the same line of the grid: a wall's end or the edge of an opening
+/// that falls on a joint up to rounding does not cut a sliver off the next block.
+/// Larger: openings meant to cut a thin piece lose it. Smaller: edges such as 3 × 0.1 miss the joint at 0.3 by rounding and leave slivers.
+pub const GRID_SNAP: f64 = 1e-9;
+/// Stored contact polygons with an area below this × (their diameter)² have no definite plane and are left out by the importers.
+/// Larger: long bed joints between thin blocks vanish. Smaller: the normal of a sliver is rounding noise.
+pub const STORED_POLYGON_AREA: f64 = 1e-9;
+
+/// Blocks whose lowest corner lies within this × the height of the scene above its lowest point are proposed as supports.
+/// Larger: the first course of a tall structure is proposed with its base. Smaller: springers on ground that is not quite level are missed.
+pub const LOWEST_BAND: f64 = 0.01;

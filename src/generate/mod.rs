@@ -1,21 +1,120 @@
 //! Templates → blocks. One file per template.
+//!
+//! Everything here is plain geometry in SI units. Arches, flat arches and stacks are symmetric or stepped along x, with z up and the depth along y
+//! centred on y = 0. What is symmetric about x = 0 is so to the last bit: the right half is computed, the left half is its mirror image.
+
+mod angle;
+mod arch;
+mod barrel;
+mod check;
+mod column;
+mod dome;
+mod flat_arch;
+mod midline;
+mod stack;
+mod wall;
 
 use crate::{
-    error::InputError,
-    scene::{BlockSpec, Shape, Template},
+    error::{InputError, JsonPath},
+    scene::{BlockSpec, Shape, Template, template},
 };
+
+/// The most blocks one template may make. More is taken for a slip (a count of 10⁹ would otherwise end in memory exhaustion).
+pub const MAX_BLOCKS: usize = 1_000_000;
 
 /// The blocks of a template, in order.
 ///
 /// # Errors
-/// A parameter is out of its range; the path is relative to the template (`column.blocks`).
+/// A parameter is out of its range, or does not go with the others; the path is relative to the template (`arch.voussoirs`).
 pub fn expand(template: &Template) -> Result<Vec<BlockSpec>, InputError> {
-    match template {
-        Template::Column(c) => Ok((0..c.blocks)
-            .map(|i| BlockSpec {
-                at: [0.0, 0.0, c.size[2] * (i as f64 + 0.5)],
-                ..BlockSpec::new(format!("b{i:02}"), Shape::Cuboid { size: c.size })
-            })
-            .collect()),
+    let (mut blocks, prefix, at, material) = match template {
+        Template::Arch(t) => (arch::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Barrel(t) => (barrel::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Column(t) => (column::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Dome(t) => (dome::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::FlatArch(t) => (flat_arch::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Stack(t) => (stack::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Wall(t) => (wall::blocks(t)?, &t.prefix, t.at, &t.material),
+    };
+    let root = JsonPath::root().key(template.name());
+    if at.iter().any(|c| !c.is_finite()) {
+        return Err(InputError::at(root.key("at"), format!("must be three finite numbers, got {at:?}")));
     }
+    for block in &mut blocks {
+        block.id.insert_str(0, prefix);
+        block.at = std::array::from_fn(|k| block.at[k] + at[k]);
+        block.material.clone_from(material);
+        if !is_finite(block) {
+            return Err(InputError::at(root, format!("block {:?} has coordinates beyond the range of numbers", block.id))
+                .hint("lengths are in m; use numbers of moderate size"));
+        }
+    }
+    Ok(blocks)
 }
+
+/// The keys of all templates.
+pub fn template_names() -> Vec<&'static str> {
+    examples().iter().map(Template::name).collect()
+}
+
+/// A template with sensible values, as the scene file spells it: `{"column": {"blocks": 8, "size": [1, 1, 0.5]}}`.
+/// Optional fields are left out, and may be added; a field set to `null` counts as left out.
+pub fn default_template(name: &str) -> Option<serde_json::Value> {
+    examples().iter().find(|t| t.name() == name).and_then(|t| serde_json::to_value(t).ok())
+}
+
+/// One template of each kind, of about the proportions of real ones; all of them stand with a friction of 0.7.
+pub fn examples() -> Vec<Template> {
+    vec![
+        Template::Arch(template::Arch { radius: Some(5.0), thickness: 0.8, depth: 1.0, voussoirs: 27, ..Default::default() }),
+        Template::Barrel(template::Barrel {
+            radius: Some(3.0),
+            thickness: 0.45,
+            depth: 6.0,
+            voussoirs: 15,
+            courses: 6,
+            ..Default::default()
+        }),
+        Template::Column(template::Column { blocks: 8, size: [1.0, 1.0, 0.5], ..Default::default() }),
+        Template::Dome(template::Dome { radius: 5.0, thickness: 0.5, rings: 8, segments: 24, ..Default::default() }),
+        Template::FlatArch(template::FlatArch {
+            span: 3.0,
+            height: 0.8,
+            depth: 0.6,
+            voussoirs: 9,
+            center_depth: Some(3.0),
+            ..Default::default()
+        }),
+        Template::Stack(template::Stack { blocks: 10, size: [1.0, 1.0, 0.2], shift: Some(0.05), ..Default::default() }),
+        Template::Wall(template::Wall { size: [1.0, 0.5, 0.4], courses: 8, blocks: 10, ..Default::default() }),
+    ]
+}
+
+fn is_finite(block: &BlockSpec) -> bool {
+    let all = |c: &[f64]| c.iter().all(|x| x.is_finite());
+    all(&block.at)
+        && match &block.shape {
+            Shape::Cuboid { size } => all(size),
+            Shape::Polyhedron { vertices, .. } => vertices.iter().all(|v| all(v)),
+            Shape::Prism { polygon, depth } => depth.is_finite() && polygon.iter().all(|p| all(p)),
+            Shape::Sphere { radius } => radius.is_finite(),
+        }
+}
+
+/// A support of the given shape.
+fn support(id: impl Into<String>, shape: Shape) -> BlockSpec {
+    BlockSpec { support: true, ..BlockSpec::new(id, shape) }
+}
+
+/// `v07`: a letter and a number, padded with zeros so that `count` of them sort by name.
+fn numbered(letter: &str, index: usize, count: usize) -> String {
+    format!("{letter}{index:0width$}", width = digits(count))
+}
+
+/// Digits of the largest index among `count`, at least 2.
+fn digits(count: usize) -> usize {
+    count.saturating_sub(1).max(10).ilog10() as usize + 1
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,1 +1,3 @@
-//! One integration binary.
+//! One integration binary: tests by behaviour.
+
+mod reference;

@@ -1,0 +1,178 @@
+//! Does it stand under its dead load? Program V, its bracket recomputed from the scene.
+
+use super::{
+    Bracket,
+    attempt::{Attempt, Control, Rung, run, rung},
+};
+use crate::{
+    assembly::Assembly,
+    interface::Interfaces,
+    program::{self, LiveLoad, Options, Statics, Unknowns},
+    tolerance,
+    verdict::{Forces, Rate, Verdict, certificate, mechanism, mechanism::Mechanism},
+};
+use nalgebra::Vector3;
+use std::time::Instant;
+
+/// The answer of [`assess`], with its evidence.
+#[derive(Clone, Debug)]
+pub struct Assessment {
+    /// Does it stand?
+    pub verdict: Verdict,
+    /// Bracket of the least unbalance, in multiples of gravity.
+    pub unbalance: Bracket,
+    /// The unbalance that separates stable from unstable: [`tolerance::UNBALANCE`], or the rounding of the scene's own
+    /// coordinates where that is larger.
+    pub threshold: f64,
+    /// The forces that leave the upper end of the bracket.
+    pub forces: Forces,
+    /// The load factor of these forces: 0 except inside `limit`, where any multiple of the live load may help.
+    pub(super) load_factor: f64,
+    /// The rates that prove the lower end (all zero where it is zero).
+    pub rates: Vec<Rate>,
+    /// The mechanism, where it is unstable.
+    pub mechanism: Option<Mechanism>,
+    /// Free blocks without a contact path to a support, by groups.
+    pub floating: Vec<Vec<usize>>,
+    /// What was tried.
+    pub attempts: Vec<Attempt>,
+    /// What the scene did not need.
+    pub left_out: Vec<String>,
+}
+
+/// Best first; measured on the reference cases.
+const LADDER: [Rung; 6] = [
+    rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
+    rung(Unknowns::Rates, 1.0, true, 1e-11, 1e-8, true),
+    rung(Unknowns::Forces, 4.0, true, 1e-12, 1e-9, true),
+    rung(Unknowns::Forces, 1.0, false, 1e-12, 1e-7, true),
+    rung(Unknowns::Rates, 8.0, false, 1e-12, 1e-9, true),
+    rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
+];
+
+/// Decides whether an assembly stands under its dead load.
+pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> Assessment {
+    let floating = program::floating(assembly, interfaces);
+    if let Some(answer) = falls_freely(assembly, interfaces, &floating) {
+        return answer;
+    }
+    let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: false });
+    let mut answer = least_unbalance(assembly, interfaces, &statics, LiveLoad::Absent, control);
+    answer.floating = floating;
+    answer
+}
+
+/// Blocks that touch nothing that is held fall with 1 g: no program is needed to see it.
+fn falls_freely(assembly: &Assembly, interfaces: &Interfaces, floating: &[Vec<usize>]) -> Option<Assessment> {
+    let mut rates = vec![Rate::zero(); assembly.blocks.len()];
+    for group in floating {
+        let force: Vector3<f64> = group.iter().map(|&i| assembly.dead[i].force).sum();
+        let weight: f64 = group.iter().map(|&i| certificate::load_scale(assembly, i)).sum();
+        if force.norm() > 1e-6 * weight {
+            group.iter().for_each(|&i| rates[i].velocity = force.normalize());
+        }
+    }
+    let forces: Forces = interfaces.list.iter().map(|f| vec![Vector3::zeros(); f.points.len()]).collect();
+    let kinematics = certificate::kinematics(assembly, interfaces, &rates, &forces);
+    if kinematics.norm == 0.0 {
+        return None;
+    }
+    let statics = certificate::statics(assembly, interfaces, &forces, 0.0);
+    let count: usize = floating.iter().map(Vec::len).sum();
+    Some(Assessment {
+        verdict: Verdict::Unstable,
+        unbalance: Bracket { lower: kinematics.dead_power / kinematics.norm, upper: statics.unbalance },
+        threshold: tolerance::UNBALANCE,
+        mechanism: Some(mechanism::read(assembly, interfaces, &rates)),
+        forces,
+        load_factor: 0.0,
+        rates,
+        floating: floating.to_vec(),
+        attempts: Vec::new(),
+        left_out: vec![format!("the whole program: {count} free blocks have no contact path to a support")],
+    })
+}
+
+/// Program V down the ladder until its bracket decides.
+pub(super) fn least_unbalance(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    statics: &Statics,
+    live: LiveLoad,
+    control: &Control,
+) -> Assessment {
+    let start = Instant::now();
+    let zero: Forces = interfaces.list.iter().map(|f| vec![Vector3::zeros(); f.points.len()]).collect();
+    let unloaded = certificate::statics(assembly, interfaces, &zero, 0.0);
+    let mut answer = Assessment {
+        verdict: Verdict::Undecided,
+        unbalance: Bracket { lower: 0.0, upper: unloaded.unbalance },
+        threshold: tolerance::UNBALANCE,
+        forces: zero,
+        load_factor: 0.0,
+        rates: vec![Rate::zero(); assembly.blocks.len()],
+        mechanism: None,
+        floating: Vec::new(),
+        attempts: Vec::new(),
+        left_out: statics.left_out.clone(),
+    };
+    for step in LADDER {
+        // With a free load factor only the force form yields its value.
+        if live == LiveLoad::AnyMultiple && step.unknowns == Unknowns::Rates {
+            continue;
+        }
+        let left = control.seconds - start.elapsed().as_secs_f64();
+        if left <= 0.0 {
+            break;
+        }
+        let mut statics = statics.clone();
+        statics.rescale(step.unit, step.local);
+        let settings = crate::solve::Settings { seconds: left, ..step.settings };
+        let (program, layout) = program::unbalance(&statics, live, step.unknowns);
+        let (candidate, solution) = run(assembly, interfaces, &statics, &program, &layout, &settings);
+        let (mut lower, mut upper) = (0.0, f64::INFINITY);
+        if let Some(c) = candidate {
+            let lambda = if live == LiveLoad::AnyMultiple { c.solution.x.last().copied().unwrap_or(0.0) } else { 0.0 };
+            let s = certificate::statics(assembly, interfaces, &c.forces, lambda);
+            let k = certificate::kinematics(assembly, interfaces, &c.rates, &c.forces);
+            upper = s.unbalance;
+            if k.force_cap(assembly) >= tolerance::FORCE_CAP {
+                lower = ((k.dead_power - k.slack - (lambda * k.live_power).abs()) / k.norm).max(0.0);
+            }
+            if upper < answer.unbalance.upper {
+                (answer.unbalance.upper, answer.forces, answer.load_factor) = (upper, c.forces, lambda);
+                answer.threshold = tolerance::UNBALANCE.max(s.resolution);
+            }
+            if lower > answer.unbalance.lower {
+                (answer.unbalance.lower, answer.rates) = (lower, c.rates);
+            }
+        }
+        answer.attempts.push(Attempt {
+            program: format!("least unbalance in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
+            force_unit: statics.unit / statics.free.iter().map(|f| f.weight).sum::<f64>(),
+            tolerance: settings.tolerance,
+            regularization: settings.regularization,
+            engine_status: solution.status,
+            iterations: solution.trace.len(),
+            size: [program.matrix.columns, program.matrix.rows],
+            seconds: solution.seconds,
+            lower,
+            upper,
+        });
+        let b = answer.unbalance;
+        answer.verdict = if b.upper <= answer.threshold {
+            Verdict::Stable
+        } else if b.lower > answer.threshold {
+            Verdict::Unstable
+        } else {
+            Verdict::Undecided
+        };
+        if answer.verdict != Verdict::Undecided {
+            break;
+        }
+    }
+    if answer.verdict == Verdict::Unstable {
+        answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
+    }
+    answer
+}

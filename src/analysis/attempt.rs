@@ -1,0 +1,96 @@
+//! One run of a program, and the ladder of attempts.
+//!
+//! An attempt's worth is its bracket, recomputed from the scene; the engine's word is recorded and never decides.
+
+use crate::{
+    assembly::Assembly,
+    interface::Interfaces,
+    program::{ConicProgram, Layout, Statics, Unknowns},
+    solve::{self, Settings, Solution, Status},
+    verdict::{Forces, Rate},
+};
+use serde::{Deserialize, Serialize};
+
+/// What the caller may change about a question.
+#[derive(Clone, Copy, Debug)]
+pub struct Control {
+    /// Leave nothing out, for comparison.
+    pub keep_all: bool,
+    /// Stop trying after this many seconds and return the best bracket so far.
+    pub seconds: f64,
+}
+
+impl Default for Control {
+    fn default() -> Self {
+        Self { keep_all: false, seconds: f64::INFINITY }
+    }
+}
+
+/// A record of one attempt.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attempt {
+    /// Which program, in which unknowns.
+    pub program: String,
+    /// Force unit over the total load of the free blocks.
+    pub force_unit: f64,
+    /// The engine's tolerance.
+    pub tolerance: f64,
+    /// The engine's regularisation.
+    pub regularization: f64,
+    /// The engine's word.
+    pub engine_status: Status,
+    /// Iterations.
+    pub iterations: usize,
+    /// Unknowns and rows of the program.
+    pub size: [usize; 2],
+    /// Seconds.
+    pub seconds: f64,
+    /// Recomputed lower end.
+    pub lower: f64,
+    /// Recomputed upper end.
+    pub upper: f64,
+}
+
+/// One step of a ladder.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rung {
+    pub unknowns: Unknowns,
+    /// Factor on the force unit.
+    pub unit: f64,
+    /// Whether small blocks get units of their own.
+    pub local: bool,
+    pub settings: Settings,
+}
+
+pub(super) const fn rung(unknowns: Unknowns, unit: f64, local: bool, tolerance: f64, regularization: f64, equilibrate: bool) -> Rung {
+    Rung { unknowns, unit, local, settings: Settings { tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY } }
+}
+
+/// Forces and rates of a solved program in our signs and units.
+pub(super) struct Candidate {
+    pub solution: Solution,
+    pub forces: Forces,
+    pub rates: Vec<Rate>,
+}
+
+/// Solves a program and reads the candidate; `None` where the engine left no finite numbers.
+pub(super) fn run(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    statics: &Statics,
+    program: &ConicProgram,
+    layout: &Layout,
+    settings: &Settings,
+) -> (Option<Candidate>, Solution) {
+    let solution = solve::solve(program, settings);
+    if !solution.is_finite() {
+        return (None, solution);
+    }
+    let forces = statics.forces(interfaces, layout.forces(&solution.x, &solution.z));
+    let rates = statics
+        .rates(assembly.blocks.len(), layout.rates(&solution.x, &solution.z))
+        .into_iter()
+        .map(|(velocity, spin)| Rate { velocity, spin })
+        .collect();
+    (Some(Candidate { solution: solution.clone(), forces, rates }), solution)
+}

@@ -1,0 +1,183 @@
+//! How large may the live load grow? Program L, λ's bracket recomputed from the scene.
+//!
+//! Forces that balance up to a residual `r` bound λ from below by `λ − |r·q|`, a mechanism `q` with inadmissibility `e`
+//! bounds it from above by `(−w·q + Σ e f_n) / ℓ·q`; both corrections are first-order in the residuals and are of the size
+//! of the rounding where the bracket is accepted.
+
+use super::{
+    Bracket,
+    assess::least_unbalance,
+    attempt::{Attempt, Control, Rung, run, rung},
+};
+use crate::{
+    assembly::Assembly,
+    interface::Interfaces,
+    program::{self, LiveLoad, Options, Statics, Unknowns},
+    tolerance,
+    verdict::{Forces, Rate, Verdict, certificate, check, mechanism, mechanism::Mechanism},
+};
+use serde::{Deserialize, Serialize};
+use std::time::Instant;
+
+/// What became of the load factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// The greatest load factor, in a narrow bracket.
+    Found,
+    /// The live load can grow without limit: contact forces balance it by themselves (wedged).
+    Unbounded,
+    /// No multiple of the live load lets the scene stand.
+    Impossible,
+    /// The bracket did not close.
+    Undecided,
+}
+
+/// The answer of [`limit`], with its evidence.
+#[derive(Clone, Debug)]
+pub struct LoadFactor {
+    /// What became of it.
+    pub outcome: Outcome,
+    /// The load factor (of the forces); NaN where there is none.
+    pub value: f64,
+    /// Its bracket; infinite ends where nothing is known.
+    pub bracket: Bracket,
+    /// Found: forces at `value`. Unbounded: forces that balance the live load alone. Otherwise the best there is.
+    pub forces: Forces,
+    /// Unbounded: forces at the load factor `standing`, under which the scene stands.
+    pub base: Option<(f64, Forces)>,
+    /// Found: the collapse mechanism. Impossible: rates that gain power whatever the multiple.
+    pub rates: Vec<Rate>,
+    /// The mechanism in words.
+    pub mechanism: Option<Mechanism>,
+    /// What was tried.
+    pub attempts: Vec<Attempt>,
+    /// What the scene did not need.
+    pub left_out: Vec<String>,
+}
+
+/// Best first; measured on the reference cases and on walls pushed in and out of their plane.
+const LADDER: [Rung; 6] = [
+    rung(Unknowns::Rates, 16.0, true, 1e-9, 1e-9, true),
+    rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
+    rung(Unknowns::Forces, 8.0, true, 1e-11, 1e-9, true),
+    rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true),
+    rung(Unknowns::Rates, 1.0, false, 1e-11, 1e-8, true),
+    rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
+];
+
+/// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is neither where both ends
+/// of the bracket are known).
+const BEFORE_DIAGNOSIS: usize = 2;
+
+/// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
+pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
+    let start = Instant::now();
+    let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: true });
+    let natural = check::natural_factor(assembly);
+    let mut answer = LoadFactor {
+        outcome: Outcome::Undecided,
+        value: f64::NAN,
+        bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
+        forces: interfaces.list.iter().map(|f| vec![nalgebra::Vector3::zeros(); f.points.len()]).collect(),
+        base: None,
+        rates: vec![Rate::zero(); assembly.blocks.len()],
+        mechanism: None,
+        attempts: Vec::new(),
+        left_out: statics.left_out.clone(),
+    };
+    let mut scale = natural;
+    for (index, step) in LADDER.into_iter().enumerate() {
+        if index == BEFORE_DIAGNOSIS
+            && !answer.bracket.width().is_finite()
+            && diagnose(assembly, interfaces, &statics, control, &mut answer)
+        {
+            return answer;
+        }
+        let left = control.seconds - start.elapsed().as_secs_f64();
+        if left <= 0.0 {
+            break;
+        }
+        climb(assembly, interfaces, &statics, step, scale, left, &mut answer);
+        let value = answer.value.abs();
+        if answer.bracket.width() <= tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural {
+            answer.outcome = Outcome::Found;
+            break;
+        }
+        // Once its size is known, scale the live load so that the factor is near one.
+        if value.is_finite() && value > 1e-6 * natural {
+            scale = value;
+        }
+    }
+    if answer.outcome == Outcome::Found {
+        answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
+    }
+    answer
+}
+
+/// One attempt at program L; tightens the bracket in `answer`.
+fn climb(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
+    let mut statics = statics.clone();
+    statics.rescale(step.unit, step.local);
+    let settings = crate::solve::Settings { seconds: left, ..step.settings };
+    let (program, layout) = program::load_factor(&statics, scale, step.unknowns);
+    let (candidate, solution) = run(assembly, interfaces, &statics, &program, &layout, &settings);
+    let (mut lower, mut upper) = (f64::NEG_INFINITY, f64::INFINITY);
+    if let Some(c) = candidate {
+        let lambda = scale * if step.unknowns == Unknowns::Forces { c.solution.x[statics.matrix.columns] } else { -c.solution.z[0] };
+        let k = certificate::kinematics(assembly, interfaces, &c.rates, &c.forces);
+        let s = certificate::statics(assembly, interfaces, &c.forces, lambda);
+        let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &c.rates[i]).abs()).sum();
+        if k.live_power > 0.0 {
+            upper = (-k.dead_power + k.slack) / k.live_power;
+            if s.unbalance <= tolerance::LOOSE_BALANCE.max(s.resolution) {
+                lower = lambda - hidden / k.live_power;
+            }
+        }
+        if lower > answer.bracket.lower {
+            (answer.bracket.lower, answer.value, answer.forces) = (lower, lambda, c.forces);
+        }
+        if upper < answer.bracket.upper {
+            (answer.bracket.upper, answer.rates) = (upper, c.rates);
+        }
+    }
+    answer.attempts.push(Attempt {
+        program: format!("load factor in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
+        force_unit: statics.unit / statics.free.iter().map(|f| f.weight).sum::<f64>(),
+        tolerance: settings.tolerance,
+        regularization: settings.regularization,
+        engine_status: solution.status,
+        iterations: solution.trace.len(),
+        size: [program.matrix.columns, program.matrix.rows],
+        seconds: solution.seconds,
+        lower,
+        upper,
+    });
+}
+
+/// Is there no load factor at all, or no limit to it? Returns true where that is the answer.
+fn diagnose(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, control: &Control, answer: &mut LoadFactor) -> bool {
+    let any = least_unbalance(assembly, interfaces, statics, LiveLoad::AnyMultiple, control);
+    answer.attempts.extend(any.attempts.iter().cloned());
+    if any.verdict == Verdict::Unstable {
+        answer.outcome = Outcome::Impossible;
+        answer.bracket = Bracket { lower: f64::NEG_INFINITY, upper: f64::NEG_INFINITY };
+        answer.mechanism = any.mechanism;
+        (answer.forces, answer.rates) = (any.forces, any.rates);
+        return true;
+    }
+    // The live load in the size of the dead load, so that the same threshold applies.
+    let (alone, natural) = check::live_alone(assembly);
+    let wedge_statics = Statics::new(&alone, interfaces, Options { keep_all: control.keep_all, live: false });
+    let wedge = least_unbalance(&alone, interfaces, &wedge_statics, LiveLoad::Absent, control);
+    answer.attempts.extend(wedge.attempts.iter().cloned());
+    if wedge.verdict == Verdict::Stable && any.verdict == Verdict::Stable {
+        answer.outcome = Outcome::Unbounded;
+        answer.value = f64::NAN;
+        answer.bracket = Bracket { lower: f64::INFINITY, upper: f64::INFINITY };
+        answer.base = Some((any.load_factor, any.forces));
+        answer.forces = wedge.forces.iter().map(|f| f.iter().map(|v| v / natural).collect()).collect();
+        return true;
+    }
+    false
+}

@@ -1,0 +1,31 @@
+//! Questions and answers: the only place where the stages are composed.
+
+pub mod assess;
+mod attempt;
+pub mod limit;
+mod prepare;
+pub mod tilt;
+
+pub use assess::{Assessment, assess};
+pub use attempt::{Attempt, Control};
+pub use limit::{LoadFactor, Outcome, limit};
+pub use prepare::{Model, Timings, prepare};
+pub use tilt::{Tilt, tilt};
+
+use serde::{Deserialize, Serialize};
+
+/// Two ends that enclose a value.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bracket {
+    /// Lower end.
+    pub lower: f64,
+    /// Upper end.
+    pub upper: f64,
+}
+
+impl Bracket {
+    /// Upper minus lower end.
+    pub fn width(&self) -> f64 {
+        self.upper - self.lower
+    }
+}

@@ -1,0 +1,82 @@
+//! At what tilt does it fall? One load-factor program a direction.
+//!
+//! Tilting the ground by θ towards a horizontal direction `d` turns gravity to `g (cos θ ẑ↓ + sin θ d)`; forces scale, so
+//! `tan θ` is the load factor of the live load "own weight along d", the vertical load kept. Dead loads on blocks are
+//! taken as hanging weights: they must act along gravity, and turn with it.
+
+use super::{Control, LoadFactor, Outcome, limit};
+use crate::{
+    assembly::{Assembly, Wrench},
+    error::InputError,
+    interface::Interfaces,
+};
+use nalgebra::Vector3;
+
+/// The tilt limit in one direction.
+#[derive(Clone, Debug)]
+pub struct Tilt {
+    /// Unit direction perpendicular to gravity towards which the ground tips.
+    pub toward: Vector3<f64>,
+    /// `tan θ` as a load factor.
+    pub load_factor: LoadFactor,
+}
+
+impl Tilt {
+    /// The angle in degrees; 90 where the scene is wedged and stands at every tilt below, NaN where there is none.
+    pub fn angle_deg(&self) -> f64 {
+        match self.load_factor.outcome {
+            Outcome::Found => self.load_factor.value.atan().to_degrees(),
+            Outcome::Unbounded => 90.0,
+            Outcome::Impossible | Outcome::Undecided => f64::NAN,
+        }
+    }
+}
+
+/// The assembly with "own weight (and hanging dead loads) towards `toward`" as its only live load.
+///
+/// # Errors
+/// `toward` is parallel to gravity, or a dead load does not act along gravity.
+pub fn turned(assembly: &Assembly, toward: Vector3<f64>) -> Result<(Assembly, Vector3<f64>), InputError> {
+    let down = assembly.gravity.normalize();
+    let horizontal = toward - down * down.dot(&toward);
+    if !(horizontal.norm() > 1e-9 * toward.norm()) {
+        return Err(InputError::at(Default::default(), format!("cannot tilt towards {:?}: it is parallel to gravity", toward.as_slice()))
+            .hint("give a direction across gravity, such as 1,0,0"));
+    }
+    let d = horizontal.normalize();
+    let mut turned = assembly.clone();
+    let mut moments: Vec<Vector3<f64>> = assembly.dead.iter().map(|w| w.moment).collect();
+    for applied in &assembly.dead_forces {
+        moments[applied.block] -= applied.arm.cross(&applied.force);
+    }
+    for i in assembly.free() {
+        let Wrench { force, moment } = assembly.dead[i];
+        let along = down.dot(&force);
+        let across = (force - down * along).norm();
+        if across > ALONG * force.norm() || moments[i].norm() > ALONG * (moment.norm() + force.norm() * assembly.blocks[i].size) {
+            return Err(InputError::at(
+                Default::default(),
+                format!("tilt turns dead loads with gravity, but the dead load on {:?} is not a hanging weight", assembly.blocks[i].id),
+            )
+            .hint("give it as a force along gravity, or ask `limit` with the tilting force as a live load"));
+        }
+        turned.live[i] = Wrench { force: d * along, moment: Vector3::zeros() };
+    }
+    for applied in &assembly.dead_forces {
+        turned.live[applied.block].moment += applied.arm.cross(&(d * down.dot(&applied.force)));
+    }
+    Ok((turned, d))
+}
+
+/// A dead load hangs when it lies along gravity within this share of its size. Larger: inclined loads would be turned as
+/// if they hung. Smaller: rounding of a rotated scene refuses true weights.
+const ALONG: f64 = 1e-9;
+
+/// The tilt at which the scene falls.
+///
+/// # Errors
+/// As [`turned`].
+pub fn tilt(assembly: &Assembly, interfaces: &Interfaces, toward: Vector3<f64>, control: &Control) -> Result<Tilt, InputError> {
+    let (turned, toward) = turned(assembly, toward)?;
+    Ok(Tilt { toward, load_factor: limit(&turned, interfaces, control) })
+}

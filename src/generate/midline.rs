@@ -1,0 +1,242 @@
+//! Mid-lines of arches and vaults: which fields give them, their joints, their height over the springing.
+//!
+//! A place on the mid-line is named by u from −1 (left springing) over 0 (crown) to 1 (right springing). Only u ≥ 0 is computed.
+
+use super::{
+    angle::{cos_deg, sin_deg},
+    check::Place,
+};
+use crate::{error::InputError, scene::template::Profile};
+
+/// A point (x, z), m.
+pub type Point = [f64; 2];
+
+/// A joint: its intrados and its extrados end.
+pub type Joint = [Point; 2];
+
+/// The fields that give a mid-line, as arch and barrel have them.
+#[derive(Clone, Copy)]
+pub struct Fields {
+    pub profile: Profile,
+    pub radius: Option<f64>,
+    pub embrace_deg: Option<f64>,
+    pub eccentricity: Option<f64>,
+    pub span: Option<f64>,
+    pub rise: Option<f64>,
+}
+
+/// A mid-line with its numbers checked.
+#[derive(Clone, Copy)]
+pub enum Midline {
+    /// Circle about the origin, to `half_deg` on either side of the crown.
+    Circular { radius: f64, half_deg: f64 },
+    /// The right half is a circle about (−eccentricity, 0), from z = 0 to x = 0.
+    Pointed { radius: f64, eccentricity: f64 },
+    /// (half_span sin s, rise cos s).
+    Elliptical { half_span: f64, rise: f64 },
+    /// z = rise (1 − (x / half_span)²).
+    Parabolic { half_span: f64, rise: f64 },
+}
+
+impl Fields {
+    /// Checks which fields are there and their ranges.
+    pub fn resolve(&self, place: &Place) -> Result<Midline, InputError> {
+        for (field, value) in [("radius", self.radius), ("span", self.span), ("rise", self.rise)] {
+            if let Some(value) = value {
+                place.length(field, value)?;
+            }
+        }
+        if self.profile != Profile::Circular {
+            self.refuse(place, "embrace_deg", self.embrace_deg)?;
+        }
+        if self.profile != Profile::Pointed {
+            self.refuse(place, "eccentricity", self.eccentricity)?;
+        }
+        match self.profile {
+            Profile::Circular if self.by_radius(place)? => self.circle(place),
+            Profile::Pointed if self.by_radius(place)? => self.two_circles(place),
+            Profile::Circular => {
+                let (half_span, rise) = self.half_span_and_rise(place)?;
+                self.refuse_with_span(place, "embrace_deg", self.embrace_deg)?;
+                // Inscribed angle: the springing sees the crown under half the half embrace angle.
+                let half_deg = 2.0 * rise.atan2(half_span).to_degrees();
+                Ok(Midline::Circular { radius: (half_span * half_span / rise + rise) / 2.0, half_deg })
+            }
+            Profile::Pointed => {
+                let (half_span, rise) = self.half_span_and_rise(place)?;
+                self.refuse_with_span(place, "eccentricity", self.eccentricity)?;
+                if rise < half_span {
+                    return Err(place.error(
+                        "rise",
+                        format!("a pointed arch rises at least half its span ({half_span}), got {rise}"),
+                        "use profile circular or elliptical for a lower arch",
+                    ));
+                }
+                // R − e = half span, R² − e² = rise².
+                let sum = rise / half_span * rise;
+                Ok(Midline::Pointed { radius: (sum + half_span) / 2.0, eccentricity: (sum - half_span) / 2.0 })
+            }
+            Profile::Elliptical => {
+                self.refuse(place, "radius", self.radius)?;
+                let (half_span, rise) = self.half_span_and_rise(place)?;
+                Ok(Midline::Elliptical { half_span, rise })
+            }
+            Profile::Parabolic => {
+                self.refuse(place, "radius", self.radius)?;
+                let (half_span, rise) = self.half_span_and_rise(place)?;
+                Ok(Midline::Parabolic { half_span, rise })
+            }
+        }
+    }
+
+    fn circle(&self, place: &Place) -> Result<Midline, InputError> {
+        let radius = self.radius.unwrap_or_default();
+        let embrace = self.embrace_deg.unwrap_or(180.0);
+        if !(embrace > 0.0 && embrace < 360.0) {
+            return Err(place.error("embrace_deg", format!("must lie between 0 and 360, got {embrace}"), "180 is a semicircle"));
+        }
+        Ok(Midline::Circular { radius, half_deg: embrace / 2.0 })
+    }
+
+    fn two_circles(&self, place: &Place) -> Result<Midline, InputError> {
+        let radius = self.radius.unwrap_or_default();
+        match self.eccentricity {
+            Some(e) if e >= 0.0 && e < radius => Ok(Midline::Pointed { radius, eccentricity: e }),
+            Some(e) => Err(place.error(
+                "eccentricity",
+                format!("must lie between 0 and the radius {radius}, got {e}"),
+                "the right half is centred at x = −eccentricity; 0 is a semicircle",
+            )),
+            None => Err(place.error("eccentricity", "missing", "a pointed arch needs it with radius, or span and rise in place of both")),
+        }
+    }
+
+    /// Whether a circular or pointed arch is given by its radius; otherwise it is by span and rise.
+    fn by_radius(&self, place: &Place) -> Result<bool, InputError> {
+        match (self.radius, self.span.or(self.rise)) {
+            (Some(_), Some(_)) => Err(place.error("radius", "excludes span and rise", "give the radius, or span and rise, not both")),
+            (None, None) => Err(place.error("radius", "missing", "give radius, or span and rise of the mid-line")),
+            (radius, _) => Ok(radius.is_some()),
+        }
+    }
+
+    fn half_span_and_rise(&self, place: &Place) -> Result<(f64, f64), InputError> {
+        match (self.span, self.rise) {
+            (Some(span), Some(rise)) => Ok((span / 2.0, rise)),
+            (span, _) => Err(place.error(
+                if span.is_none() { "span" } else { "rise" },
+                "missing",
+                format!("{} needs span and rise of the mid-line", self.called()),
+            )),
+        }
+    }
+
+    fn called(&self) -> &'static str {
+        match self.profile {
+            Profile::Circular => "a circular arch",
+            Profile::Pointed => "a pointed arch",
+            Profile::Elliptical => "an elliptical arch",
+            Profile::Parabolic => "a parabolic arch",
+        }
+    }
+
+    fn refuse(&self, place: &Place, field: &str, value: Option<f64>) -> Result<(), InputError> {
+        if value.is_none() {
+            return Ok(());
+        }
+        let uses = match self.profile {
+            Profile::Circular => "radius and embrace_deg, or span and rise",
+            Profile::Pointed => "radius and eccentricity, or span and rise",
+            Profile::Elliptical | Profile::Parabolic => "span and rise",
+        };
+        Err(place.error(field, format!("{} has no {field}", self.called()), format!("it is given by {uses}")))
+    }
+
+    fn refuse_with_span(&self, place: &Place, field: &str, value: Option<f64>) -> Result<(), InputError> {
+        match value {
+            None => Ok(()),
+            Some(_) => {
+                Err(place.error(field, format!("span and rise already give the arch; {field} excludes them"), format!("leave {field} out")))
+            }
+        }
+    }
+}
+
+impl Midline {
+    /// The joint normal to the mid-line at u = (2j − n) / n, with half the thickness on either side.
+    pub fn radial_joint(&self, j: usize, n: usize, thickness: f64) -> Joint {
+        mirrored(j, n, |u| [self.offset(u, -thickness / 2.0), self.offset(u, thickness / 2.0)])
+    }
+
+    /// The point of the mid-line at (2j − n) / n of the half span.
+    pub fn point_over(&self, j: usize, n: usize) -> Point {
+        let [point, _] = mirrored(j, n, |u| {
+            let x = self.half_span() * u;
+            [[x, self.height(x)]; 2]
+        });
+        point
+    }
+
+    /// Half the distance between the ends of the mid-line, m.
+    pub fn half_span(&self) -> f64 {
+        match *self {
+            Midline::Circular { radius, half_deg } => radius * sin_deg(half_deg),
+            Midline::Pointed { radius, eccentricity } => radius - eccentricity,
+            Midline::Elliptical { half_span, .. } | Midline::Parabolic { half_span, .. } => half_span,
+        }
+    }
+
+    /// z of the mid-line over x ≥ 0 (its upper branch).
+    fn height(&self, x: f64) -> f64 {
+        let circle = |radius: f64, x: f64| ((radius - x) * (radius + x)).max(0.0).sqrt();
+        match *self {
+            Midline::Circular { radius, .. } => circle(radius, x),
+            Midline::Pointed { radius, eccentricity } => circle(radius, x + eccentricity),
+            Midline::Elliptical { half_span, rise } => rise * circle(1.0, x / half_span),
+            Midline::Parabolic { half_span, rise } => rise * (1.0 - (x / half_span).powi(2)),
+        }
+    }
+
+    /// The point at distance `out` from the mid-line, outwards along its normal at u in [0, 1].
+    fn offset(&self, u: f64, out: f64) -> Point {
+        match *self {
+            Midline::Circular { radius, half_deg } => {
+                let (r, angle) = (radius + out, half_deg * u);
+                [r * sin_deg(angle), r * cos_deg(angle)]
+            }
+            Midline::Pointed { radius, eccentricity } => {
+                let r = radius + out;
+                if u == 0.0 {
+                    return [0.0, ((r - eccentricity) * (r + eccentricity)).max(0.0).sqrt()];
+                }
+                let (sin, cos) = ((eccentricity / radius).acos() * (1.0 - u)).sin_cos();
+                [r * cos - eccentricity, r * sin]
+            }
+            Midline::Elliptical { half_span: a, rise: b } => {
+                let (sin, cos) = (sin_deg(90.0 * u), cos_deg(90.0 * u));
+                along([a * sin, b * cos], [b * sin, a * cos], out)
+            }
+            Midline::Parabolic { half_span: a, rise } => along([a * u, rise * (1.0 - u * u)], [2.0 * rise * u, a], out),
+        }
+    }
+}
+
+/// `point` moved by `distance` in a direction of any length.
+fn along(point: Point, direction: Point, distance: f64) -> Point {
+    let length = direction[0].hypot(direction[1]);
+    [point[0] + distance * direction[0] / length, point[1] + distance * direction[1] / length]
+}
+
+/// Evaluates on the right half (u ≥ 0) and mirrors to the left.
+pub fn mirrored(j: usize, n: usize, right: impl Fn(f64) -> Joint) -> Joint {
+    if 2 * j >= n {
+        return right((2 * j - n) as f64 / n as f64);
+    }
+    right((n - 2 * j) as f64 / n as f64).map(mirror)
+}
+
+/// The mirror image of a point in x = 0.
+pub fn mirror([x, z]: Point) -> Point {
+    // Subtracted, so that the crown does not become -0.
+    [0.0 - x, z]
+}

@@ -1,0 +1,208 @@
+//! Files → one scene: scale and rotation, supports, friction, density, and what is still missing.
+
+use super::{
+    Imported, Options, Up,
+    raw::{Raw, list, tally},
+};
+use crate::{
+    error::{Finding, FindingCode, InputError, JsonPath},
+    scene::{BlockSpec, Material, Scene, Shape},
+    tolerance,
+};
+use std::collections::{BTreeMap, HashSet};
+
+/// Name of the material that carries [`Options::density`].
+const MATERIAL: &str = "block";
+
+/// The scene of all files.
+pub(super) fn scene(mut files: Vec<Raw>, options: &Options) -> Result<Imported, InputError> {
+    let mut findings = name_files_apart(&mut files)?;
+    name_materials_apart(&mut files);
+    let mut scene = Scene { source: source(&files, options), ..Scene::default() };
+    scene.name = files.first().map(|f| f.stem.clone()).unwrap_or_default();
+    scene.joints.default.friction = options.friction;
+    if let Some(gap) = options.gap {
+        scene.contact.gap = gap;
+    }
+    for file in files {
+        findings.extend(file.findings);
+        scene.materials.extend(file.materials);
+        for mut block in file.blocks {
+            place(&mut block.vertices, options).map_err(|v| beyond(&file.origin, &block.id, v, options))?;
+            let shape = Shape::Polyhedron { vertices: block.vertices, faces: block.faces };
+            scene.blocks.push(BlockSpec { support: block.support, material: block.material, ..BlockSpec::new(block.id, shape) });
+        }
+        if !options.stored_interfaces && !file.interfaces.is_empty() {
+            let text = format!("stored interfaces, left out as asked (contacts are detected instead): {}", file.interfaces.len());
+            findings.push(Finding::new(FindingCode::LeftOut, text));
+            continue;
+        }
+        for mut interface in file.interfaces {
+            place(&mut interface.points, options).map_err(|v| beyond(&file.origin, &interface.between.join("–"), v, options))?;
+            interface.normal = interface.normal.map(|n| options.up.rotate(n));
+            scene.interfaces.push(interface);
+        }
+    }
+    if let Some(density) = options.density {
+        scene.materials = [(MATERIAL.to_string(), Material { density })].into();
+        scene.blocks.iter_mut().for_each(|b| b.material = Some(MATERIAL.into()));
+    }
+    supports(&mut scene, options, &mut findings)?;
+    if options.friction.is_none() {
+        findings.push(Finding::new(
+            FindingCode::Missing,
+            "the friction of the joints is not known: the scene cannot be assessed before it is given; \
+             import with `--friction MU` or set joints.default.friction",
+        ));
+    }
+    Ok(Imported { scene, findings })
+}
+
+/// Puts the file's name before its ids where two files use the same one.
+fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
+    let Some(clash) = clash(files) else { return Ok(Vec::new()) };
+    let mut prefixes: Vec<String> = Vec::new();
+    for file in files.iter_mut() {
+        let mut prefix = file.stem.clone();
+        let mut number = 2;
+        while prefixes.contains(&prefix) {
+            prefix = format!("{}{number}", file.stem);
+            number += 1;
+        }
+        // Where the only block of a file bears the file's name, that name is enough.
+        let rename = |id: &str| if id == file.stem { prefix.clone() } else { format!("{prefix}-{id}") };
+        file.blocks.iter_mut().for_each(|b| b.id = rename(&b.id));
+        for end in file.interfaces.iter_mut().flat_map(|i| &mut i.between) {
+            *end = rename(end);
+        }
+        prefixes.push(prefix);
+    }
+    if let Some(still) = self::clash(files) {
+        return Err(
+            InputError::at(JsonPath::root(), format!("two files lead to the same block id {still:?}")).hint("rename one of the files")
+        );
+    }
+    let text = format!("two files have a block {clash:?}: the ids of every file got its name in front ({})", list(&prefixes));
+    Ok(vec![Finding::new(FindingCode::Converted, text)])
+}
+
+/// An id that is used twice.
+fn clash(files: &[Raw]) -> Option<String> {
+    let mut ids = HashSet::new();
+    files.iter().flat_map(|f| &f.blocks).find(|b| !ids.insert(b.id.as_str())).map(|b| b.id.clone())
+}
+
+/// Renames materials that have the same name but another density than in a file before.
+fn name_materials_apart(files: &mut [Raw]) {
+    let mut all: BTreeMap<String, Material> = BTreeMap::new();
+    for file in files {
+        for (name, material) in std::mem::take(&mut file.materials) {
+            let mut unique = name.clone();
+            let mut number = 2;
+            while all.get(&unique).is_some_and(|m| *m != material) {
+                unique = format!("{name}-{number}");
+                number += 1;
+            }
+            for block in file.blocks.iter_mut().filter(|b| b.material.as_ref() == Some(&name)) {
+                block.material = Some(unique.clone());
+            }
+            all.insert(unique.clone(), material.clone());
+            file.materials.insert(unique, material);
+        }
+    }
+}
+
+/// Where the scene comes from, in words.
+fn source(files: &[Raw], options: &Options) -> String {
+    let mut text = format!("imported from {}", files.iter().map(|f| f.origin.as_str()).collect::<Vec<_>>().join(", "));
+    if options.scale != 1.0 {
+        text.push_str(&format!("; coordinates × {}", options.scale));
+    }
+    match options.up {
+        Up::Z => {}
+        Up::X => text.push_str("; x up turned to z"),
+        Up::Y => text.push_str("; y up turned to z"),
+        Up::MinusX => text.push_str("; −x up turned to z"),
+        Up::MinusY => text.push_str("; −y up turned to z"),
+        Up::MinusZ => text.push_str("; −z up turned to z"),
+    }
+    text
+}
+
+/// Scale and rotation; a coordinate that is no longer finite comes back.
+fn place(points: &mut [[f64; 3]], options: &Options) -> Result<(), f64> {
+    for point in points {
+        *point = options.up.rotate(point.map(|c| c * options.scale));
+        if let Some(&bad) = point.iter().find(|c| !c.is_finite()) {
+            return Err(bad);
+        }
+    }
+    Ok(())
+}
+
+fn beyond(origin: &str, what: &str, value: f64, options: &Options) -> InputError {
+    let message = format!("{origin}: {what:?} has the coordinate {value} after multiplication by {}", options.scale);
+    InputError::at(JsonPath::root(), message).hint("look for damaged coordinates, or choose a smaller scale")
+}
+
+/// Supports by name and by height, and a word where there is none.
+fn supports(scene: &mut Scene, options: &Options, findings: &mut Vec<Finding>) -> Result<(), InputError> {
+    for id in &options.supports {
+        let Some(block) = scene.blocks.iter_mut().find(|b| b.id == *id) else {
+            let known: Vec<String> = scene.blocks.iter().map(|b| format!("{:?}", b.id)).collect();
+            return Err(
+                InputError::at(JsonPath::root(), format!("support {id:?}: no such block")).hint(format!("the blocks are {}", list(&known)))
+            );
+        };
+        block.support = true;
+    }
+    let lows: Vec<f64> = scene.blocks.iter().map(|b| corners(&b.shape).map(|p| p[2]).fold(f64::INFINITY, f64::min)).collect();
+    if let Some(height) = options.support_below {
+        let mut count = 0;
+        for (block, _) in scene.blocks.iter_mut().zip(&lows).filter(|(_, low)| **low < height) {
+            block.support = true;
+            count += 1;
+        }
+        let lowest = lows.iter().copied().fold(f64::INFINITY, f64::min);
+        let text = match count {
+            0 => format!("no block reaches below {height} m, where supports were asked for; the lowest corner is at {lowest} m"),
+            n => format!("blocks with their lowest corner below {height} m, now supports: {n}"),
+        };
+        findings.push(Finding::new(if count == 0 { FindingCode::Missing } else { FindingCode::Converted }, text));
+    }
+    if scene.blocks.iter().all(|b| !b.support) {
+        findings.push(Finding::new(FindingCode::Missing, propose(scene, &lows)));
+    } else if scene.blocks.iter().all(|b| b.support) {
+        findings.push(Finding::new(FindingCode::Missing, "every block is a support: there is nothing that could move"));
+    }
+    Ok(())
+}
+
+/// The lowest blocks, as candidates for supports.
+fn propose(scene: &Scene, lows: &[f64]) -> String {
+    let lowest = lows.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = scene.blocks.iter().flat_map(|b| corners(&b.shape).map(|p| p[2])).fold(f64::NEG_INFINITY, f64::max);
+    let band = lowest + tolerance::LOWEST_BAND * (highest - lowest);
+    // Few digits to type, where they select the same blocks.
+    let short = format!("{band:.3}").parse().unwrap_or(band);
+    let selects = |z: f64| lows.iter().map(|&low| low < z).collect::<Vec<_>>();
+    let height = if selects(short) == selects(band) { short } else { band };
+    let candidates: Vec<String> = scene.blocks.iter().zip(lows).filter(|(_, low)| **low < height).map(|(b, _)| b.id.clone()).collect();
+    match candidates.len() {
+        0 => "no block is a support: import with `--support ID`".into(),
+        _ => format!(
+            "no block is a support; the lowest blocks are {}: import with `--support ID` for each support, \
+             or with `--support-below {height}` for all of these",
+            tally(&candidates.iter().map(|id| format!("{id:?}")).collect::<Vec<_>>())
+        ),
+    }
+}
+
+fn corners(shape: &Shape) -> impl Iterator<Item = [f64; 3]> + '_ {
+    let vertices: &[[f64; 3]] = match shape {
+        Shape::Polyhedron { vertices, .. } => vertices,
+        // Importers make polyhedra only.
+        _ => &[],
+    };
+    vertices.iter().copied()
+}

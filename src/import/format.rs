@@ -1,0 +1,65 @@
+//! Which format a file has.
+
+use super::stl;
+use crate::error::{InputError, JsonPath};
+use std::{fmt, path::Path};
+
+/// A foreign file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// JSON written by COMPAS: Assembly, CRA_Assembly, BlockModel, lists of meshes.
+    Compas,
+    /// Wavefront OBJ.
+    Obj,
+    /// Polygon file format (Stanford).
+    Ply,
+    /// Stereolithography.
+    Stl,
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Format::Compas => "COMPAS JSON",
+            Format::Obj => "OBJ",
+            Format::Ply => "PLY",
+            Format::Stl => "STL",
+        })
+    }
+}
+
+impl Format {
+    /// The format the user asked for, else by the extension, else by the content.
+    pub(super) fn of(path: &Path, bytes: &[u8], asked: Option<Format>) -> Result<Format, InputError> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        asked
+            .or(match extension.as_deref() {
+                Some("json") => Some(Format::Compas),
+                Some("obj") => Some(Format::Obj),
+                Some("ply") => Some(Format::Ply),
+                Some("stl") => Some(Format::Stl),
+                _ => None,
+            })
+            .or_else(|| Format::by_content(bytes))
+            .ok_or_else(|| {
+                InputError::at(JsonPath::root(), "neither the extension nor the content tells the format")
+                    .hint("known formats are COMPAS JSON, OBJ, PLY and STL; name the file .json, .obj, .ply or .stl")
+            })
+    }
+
+    fn by_content(bytes: &[u8]) -> Option<Format> {
+        let text = bytes.trim_ascii_start();
+        let statement = |line: &[u8]| [&b"v "[..], b"o ", b"g ", b"f ", b"mtllib "].iter().any(|s| line.starts_with(s));
+        if text.starts_with(b"{") || text.starts_with(b"[") {
+            Some(Format::Compas)
+        } else if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r\n") {
+            Some(Format::Ply)
+        } else if stl::looks_like(bytes) {
+            Some(Format::Stl)
+        } else if text.split(|&b| b == b'\n').take(100).any(|line| statement(line.trim_ascii_start())) {
+            Some(Format::Obj)
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Foreign files → [`Scene`].
+//!
+//! | format | what is read | a block is |
+//! |---|---|---|
+//! | COMPAS JSON | Assembly, CRA_Assembly, BlockModel, lists of meshes; versions 0.x, 1 and 2 | a node of the graph, an element, a mesh |
+//! | OBJ | polygons as they are, objects and groups | an object, else a group, else a connected part |
+//! | PLY | ASCII and binary, both byte orders | a file |
+//! | STL | ASCII and binary | a `solid`, a binary file |
+//!
+//! Importers say what the file says: faces keep their corners and their order, nothing is welded, turned or closed. Whether a block is a
+//! proper solid is judged later, by [`crate::assembly::resolve`], for scenes of every origin alike. What a scene needs and the file does
+//! not have (supports, friction) is taken from [`Options`]; what is still missing then is a [`Finding`], not an error.
+//!
+//! Coordinates of the scene = rotation that brings [`Options::up`] to z × [`Options::scale`] × coordinates of the file.
+
+mod compas;
+mod finish;
+mod format;
+mod obj;
+mod options;
+mod ply;
+mod raw;
+mod stl;
+mod text;
+
+#[cfg(test)]
+mod tests;
+
+pub use format::Format;
+pub use options::{Options, Up};
+
+use crate::{
+    error::{Finding, InputError, JsonPath},
+    scene::Scene,
+};
+use raw::Raw;
+use std::path::Path;
+
+/// A scene made from foreign files, and what is worth knowing about the way there.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The scene.
+    pub scene: Scene,
+    /// What was read how, what was left out, what is still missing.
+    pub findings: Vec<Finding>,
+}
+
+/// Imports one file (and the files of [`Options::support_files`]).
+///
+/// # Errors
+/// A file cannot be read or makes no sense; an option is out of its range or names a block that is not there.
+pub fn import_file(path: &Path, options: &Options) -> Result<Imported, InputError> {
+    import_files(&[path], options)
+}
+
+/// Imports several files into one scene, in order; the files of [`Options::support_files`] come last and all their blocks are supports.
+///
+/// Where two files use the same id, the ids of every file get its name in front (`blocks-12`), and a finding says so.
+///
+/// # Errors
+/// As for [`import_file`].
+pub fn import_files<P: AsRef<Path>>(paths: &[P], options: &Options) -> Result<Imported, InputError> {
+    options.check()?;
+    let mut files = paths.iter().map(|path| load(path.as_ref(), false, options)).collect::<Result<Vec<_>, _>>()?;
+    add_support_files(&mut files, options)?;
+    finish::scene(files, options)
+}
+
+/// Imports a file that is already in memory; `name` stands for it in messages, its extension tells the format.
+///
+/// # Errors
+/// As for [`import_file`]; the files of [`Options::support_files`] are read here too.
+pub fn import_bytes(name: &str, bytes: &[u8], options: &Options) -> Result<Imported, InputError> {
+    options.check()?;
+    let mut files = vec![read(name, bytes, false, options)?];
+    add_support_files(&mut files, options)?;
+    finish::scene(files, options)
+}
+
+fn add_support_files(files: &mut Vec<Raw>, options: &Options) -> Result<(), InputError> {
+    for path in &options.support_files {
+        files.push(load(path, true, options)?);
+    }
+    Ok(())
+}
+
+fn load(path: &Path, is_support: bool, options: &Options) -> Result<Raw, InputError> {
+    let name = path.display().to_string();
+    let bytes = std::fs::read(path).map_err(|e| {
+        let error = InputError::at(JsonPath::root(), format!("cannot be read: {e}")).hint("check the path and the permissions");
+        InputError { file: Some(name.clone()), ..error }
+    })?;
+    read(&name, &bytes, is_support, options)
+}
+
+/// One file, read but not yet scaled, turned or merged with others.
+fn read(name: &str, bytes: &[u8], is_support: bool, options: &Options) -> Result<Raw, InputError> {
+    let path = Path::new(name);
+    let stem = path.file_stem().map_or_else(|| "block".into(), |s| s.to_string_lossy().into_owned());
+    let result = Format::of(path, bytes, options.format).and_then(|format| {
+        let mut raw = match format {
+            Format::Compas => compas::read(bytes),
+            Format::Obj => obj::read(bytes, &stem),
+            Format::Ply => ply::read(bytes, &stem),
+            Format::Stl => stl::read(bytes, &stem),
+        }?;
+        if raw.blocks.is_empty() {
+            return Err(InputError::at(JsonPath::root(), format!("no blocks found in this {format} file"))
+                .hint("export the blocks as closed meshes, and check that this is the right file"));
+        }
+        raw.stem = stem;
+        raw.origin = format!("{} ({format})", path.file_name().map_or_else(|| name.into(), |f| f.to_string_lossy()));
+        raw.blocks.iter_mut().for_each(|b| b.support |= is_support);
+        Ok(raw)
+    });
+    result.map_err(|e| InputError { file: Some(name.into()), ..e })
+}

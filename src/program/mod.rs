@@ -1,0 +1,62 @@
+//! The conic programs, engine-neutral.
+//!
+//! [`Statics`] is the equilibrium of the free blocks, reduced and scaled: `A x + w + λ ℓ = 0` with `x` in a product of
+//! standard cones. Rows are divided by each block's own load (moments also by its size), columns by one force unit;
+//! with raw newtons an interior-point solver reports success on wrong answers.
+//! From it come program **V**, the least unbalance ([`unbalance`]), and program **L**, the load factor ([`load_factor`]),
+//! each in the forces or, dually, in the rates of the blocks.
+//!
+//! Signs: a contact force acts on block `b` along `n` (from `a` into `b`); rates are power-conjugate to wrenches, so that
+//! `v = Aᵀ q` is the rate of separation and sliding of the contacts, opening positive.
+
+mod carried;
+mod conic;
+mod load_factor;
+mod planar;
+mod reach;
+mod statics;
+mod unbalance;
+
+pub use conic::{Cone, ConicProgram, Sparse};
+pub use load_factor::load_factor;
+pub use planar::Plane;
+pub use reach::floating;
+pub use statics::{Bearing, BearingCone, FreeBlock, Options, Statics};
+pub use unbalance::{LiveLoad, unbalance};
+
+/// Which unknowns a program is written in; the others come out as multipliers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknowns {
+    /// Contact forces. Converges on walls pushed in their plane, where the other stalls.
+    Forces,
+    /// Rates of the blocks: half the size. Best on walls pushed out of their plane.
+    Rates,
+}
+
+/// Where the forces and the rates stand in the vectors of a solved program.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    unknowns: Unknowns,
+    /// First entry of the forces (in `x` for [`Unknowns::Forces`], in `z` for [`Unknowns::Rates`]).
+    forces: usize,
+    /// Number of force entries.
+    force_count: usize,
+    /// First entry of the rates.
+    rates: usize,
+    /// Number of rate entries.
+    rate_count: usize,
+}
+
+impl Layout {
+    /// Scaled forces `x` (columns of [`Statics`]) of a solution given as primal `x` and dual `z`.
+    pub fn forces<'a>(&self, x: &'a [f64], z: &'a [f64]) -> &'a [f64] {
+        let source = if self.unknowns == Unknowns::Forces { x } else { z };
+        &source[self.forces..self.forces + self.force_count]
+    }
+
+    /// Scaled rates (rows of [`Statics`]).
+    pub fn rates<'a>(&self, x: &'a [f64], z: &'a [f64]) -> &'a [f64] {
+        let source = if self.unknowns == Unknowns::Forces { z } else { x };
+        &source[self.rates..self.rates + self.rate_count]
+    }
+}

@@ -1,0 +1,349 @@
+//! The result file (`"format": "voussoir-result/1"`): the question, the answer and its evidence, complete enough to be
+//! verified without a solver.
+
+use crate::{
+    analysis::{Assessment, Attempt, Bracket, LoadFactor, Model, Outcome, Tilt, Timings},
+    error::Finding,
+    scene::Scene,
+    verdict::{
+        Forces, Rate, Verdict,
+        check::{Claim, Findings, verify},
+        evidence::{BlockRate, ContactForces, write_forces, write_rates},
+        mechanism::{Mechanism, Motion},
+    },
+};
+use serde::{Deserialize, Serialize};
+
+/// The version of the format.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Format {
+    /// Version 1.
+    #[default]
+    #[serde(rename = "voussoir-result/1")]
+    V1,
+}
+
+/// A saved answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultFile {
+    /// The format and its version.
+    pub format: Format,
+    /// What was asked.
+    pub question: Question,
+    /// The scene.
+    pub scene: SceneSummary,
+    /// The answer to the question; of a tilt in several directions, the least.
+    pub answer: Answer,
+    /// The evidence for `answer`.
+    pub certificate: Certificate,
+    /// Tilt: every direction asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub directions: Vec<Direction>,
+    /// The mechanism in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mechanism: Option<MechanismWords>,
+    /// What the scene did not need.
+    pub left_out: Vec<String>,
+    /// What the user should know.
+    pub warnings: Vec<Finding>,
+    /// Seconds per stage.
+    pub timings: Timings,
+    /// Every attempt at a program.
+    pub trace: Vec<Attempt>,
+    /// Versions.
+    pub versions: Versions,
+}
+
+/// What was asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Question {
+    /// Does it stand?
+    Assess,
+    /// How large may the live load grow?
+    Limit,
+    /// At what tilt does it fall?
+    Tilt,
+}
+
+/// The scene a result is about.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneSummary {
+    /// Its name.
+    pub name: String,
+    /// Number of blocks, supports included.
+    pub blocks: usize,
+    /// Number of supports.
+    pub supports: usize,
+    /// Number of interfaces.
+    pub interfaces: usize,
+    /// Number of contact points.
+    pub contact_points: usize,
+    /// The scene itself, so that the result can be verified on its own.
+    pub input: Scene,
+}
+
+/// An answer. Of the fields only those that belong to the question are present.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Answer {
+    /// Does it stand?
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
+    /// Bracket of the least unbalance, in multiples of gravity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unbalance: Option<Bracket>,
+    /// The load factor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load_factor: Option<LoadFactorAnswer>,
+    /// The tilt at which it falls, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tilt_deg: Option<f64>,
+    /// The direction of the tilt.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub toward: Option<[f64; 3]>,
+}
+
+/// A load factor.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoadFactorAnswer {
+    /// What became of it.
+    pub status: Outcome,
+    /// The law of sliding it holds for: `associative` is an upper bound for the others.
+    pub law: Law,
+    /// The value, where found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// Lower end of its bracket.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lower: Option<f64>,
+    /// Upper end of its bracket.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub upper: Option<f64>,
+}
+
+/// A law of sliding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Law {
+    /// Sliding lifts by μ × the sliding rate.
+    Associative,
+}
+
+/// The evidence for an answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Certificate {
+    /// What is claimed; absent where the question stayed undecided.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub claim: Option<Claim>,
+    /// Static side: forces per contact.
+    pub forces: Vec<ContactForces>,
+    /// Unbounded: forces at a load factor at which the scene stands.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<Vec<ContactForces>>,
+    /// Kinematic side: rates per moving block.
+    pub rates: Vec<BlockRate>,
+    /// What the verification found before the result was written.
+    pub verified: Vec<String>,
+}
+
+/// One direction of a tilt.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Direction {
+    /// The answer in this direction.
+    pub answer: Answer,
+    /// The evidence for it.
+    pub certificate: Certificate,
+}
+
+/// A mechanism with names.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MechanismWords {
+    /// Moving blocks, the fastest first.
+    pub moving: Vec<String>,
+    /// Moving joints.
+    pub joints: Vec<JointWords>,
+}
+
+/// A joint of a mechanism with names.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointWords {
+    /// The blocks.
+    pub between: [String; 2],
+    /// What it does.
+    pub motion: Motion,
+    /// Where, m.
+    pub at: [f64; 3],
+}
+
+/// Versions of what made a result.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Versions {
+    /// This program.
+    pub voussoir: String,
+}
+
+impl Default for Versions {
+    fn default() -> Self {
+        Self { voussoir: env!("CARGO_PKG_VERSION").to_string() }
+    }
+}
+
+/// Verifies a claim and packs it with its evidence. The findings say whether it holds.
+pub fn certify(model: &Model, claim: Option<Claim>, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> (Certificate, Findings) {
+    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    let findings = claim.map(|c| verify(assembly, interfaces, &c, forces, base, rates)).unwrap_or_default();
+    let certificate = Certificate {
+        claim,
+        forces: write_forces(assembly, interfaces, forces),
+        base: base.map(|f| write_forces(assembly, interfaces, f)),
+        rates: write_rates(assembly, rates),
+        verified: findings.holds.clone(),
+    };
+    (certificate, findings)
+}
+
+impl ResultFile {
+    fn new(question: Question, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
+        Self {
+            format: Format::V1,
+            question,
+            scene: SceneSummary {
+                name: scene.name.clone(),
+                blocks: model.assembly.blocks.len(),
+                supports: model.assembly.blocks.iter().filter(|b| b.support).count(),
+                interfaces: model.interfaces.list.len(),
+                contact_points: model.contact_points(),
+                input: scene.clone(),
+            },
+            answer,
+            certificate,
+            directions: Vec::new(),
+            mechanism: None,
+            left_out: Vec::new(),
+            warnings: model.findings().cloned().collect(),
+            timings: model.timings,
+            trace: Vec::new(),
+            versions: Versions::default(),
+        }
+    }
+
+    /// The result of `assess`; where its verification fails the verdict becomes undecided and the failures become warnings.
+    pub fn assessment(scene: &Scene, model: &Model, a: &Assessment) -> Self {
+        let claim = match a.verdict {
+            Verdict::Stable => Some(Claim::Stable),
+            Verdict::Unstable => Some(Claim::Unstable),
+            Verdict::Undecided => None,
+        };
+        let (mut certificate, findings) = certify(model, claim, &a.forces, None, &a.rates);
+        let mut verdict = a.verdict;
+        if !findings.fails.is_empty() {
+            (verdict, certificate.claim) = (Verdict::Undecided, None);
+        }
+        let answer = Answer { verdict: Some(verdict), unbalance: Some(a.unbalance), ..Answer::default() };
+        let mut file = Self::new(Question::Assess, scene, model, answer, certificate);
+        file.mechanism = a.mechanism.as_ref().map(|m| words(model, m));
+        file.left_out.clone_from(&a.left_out);
+        file.trace.clone_from(&a.attempts);
+        file.warn(&findings);
+        file
+    }
+
+    /// The result of `limit`.
+    pub fn load_factor(scene: &Scene, model: &Model, l: &LoadFactor) -> Self {
+        let (answer, certificate, findings) = load_factor(model, l);
+        let mut file = Self::new(Question::Limit, scene, model, answer, certificate);
+        file.mechanism = l.mechanism.as_ref().map(|m| words(model, m));
+        file.left_out.clone_from(&l.left_out);
+        file.trace.clone_from(&l.attempts);
+        file.warn(&findings);
+        file
+    }
+
+    /// The result of `tilt`; `turned` are the models with the turned loads, one per direction. The least tilt is the answer.
+    pub fn tilt(scene: &Scene, turned: &[(Model, Tilt)]) -> Option<Self> {
+        let mut all = Findings::default();
+        let directions: Vec<Direction> = turned
+            .iter()
+            .map(|(model, t)| {
+                let (mut answer, certificate, findings) = load_factor(model, &t.load_factor);
+                all.fails.extend(findings.fails);
+                answer.toward = Some(t.toward.into());
+                let status = answer.load_factor.map(|l| l.status);
+                answer.tilt_deg = match status {
+                    Some(Outcome::Found) => Some(t.angle_deg()),
+                    Some(Outcome::Unbounded) => Some(90.0),
+                    _ => None,
+                };
+                Direction { answer, certificate }
+            })
+            .collect();
+        // A direction without an answer governs: it must not hide behind the others.
+        let key = |d: &Direction| d.answer.tilt_deg.unwrap_or(f64::NEG_INFINITY);
+        let least = (0..directions.len()).min_by(|&i, &j| key(&directions[i]).total_cmp(&key(&directions[j])))?;
+        let (model, tilt) = &turned[least];
+        let mut file = Self::new(Question::Tilt, scene, model, directions[least].answer.clone(), directions[least].certificate.clone());
+        file.timings.solve = turned.iter().map(|(m, _)| m.timings.solve).sum();
+        file.mechanism = tilt.load_factor.mechanism.as_ref().map(|m| words(model, m));
+        file.left_out.clone_from(&tilt.load_factor.left_out);
+        file.trace = turned.iter().flat_map(|(_, t)| t.load_factor.attempts.iter().cloned()).collect();
+        if directions.len() > 1 {
+            file.directions = directions;
+        }
+        file.warn(&all);
+        Some(file)
+    }
+
+    fn warn(&mut self, findings: &Findings) {
+        let code = crate::error::FindingCode::Numerics;
+        self.warnings.extend(findings.fails.iter().map(|f| Finding::new(code, format!("certificate refused: {f}"))));
+    }
+}
+
+fn load_factor(model: &Model, l: &LoadFactor) -> (Answer, Certificate, Findings) {
+    let claim = match l.outcome {
+        Outcome::Found => Some(Claim::LoadFactor { value: l.value, lower: l.bracket.lower, upper: l.bracket.upper }),
+        Outcome::Unbounded => l.base.as_ref().map(|(standing, _)| Claim::Unbounded { standing: *standing }),
+        Outcome::Impossible => Some(Claim::Impossible),
+        Outcome::Undecided => None,
+    };
+    let (mut certificate, findings) = certify(model, claim, &l.forces, l.base.as_ref().map(|b| &b.1), &l.rates);
+    let mut status = l.outcome;
+    if !findings.fails.is_empty() {
+        (status, certificate.claim) = (Outcome::Undecided, None);
+    }
+    let finite = |v: f64| v.is_finite().then_some(v);
+    let answer = Answer {
+        load_factor: Some(LoadFactorAnswer {
+            status,
+            law: Law::Associative,
+            value: (status == Outcome::Found).then_some(l.value),
+            lower: finite(l.bracket.lower),
+            upper: finite(l.bracket.upper),
+        }),
+        ..Answer::default()
+    };
+    (answer, certificate, findings)
+}
+
+fn words(model: &Model, m: &Mechanism) -> MechanismWords {
+    let id = |i: usize| model.assembly.blocks[i].id.clone();
+    MechanismWords {
+        moving: m.moving.iter().map(|&i| id(i)).collect(),
+        joints: m
+            .joints
+            .iter()
+            .map(|j| {
+                let face = &model.interfaces.list[j.interface];
+                JointWords { between: [id(face.a), id(face.b)], motion: j.motion, at: j.at.into() }
+            })
+            .collect(),
+    }
+}

@@ -1,0 +1,103 @@
+//! The arch.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// An arch of straight-chord voussoirs, `v00`, `v01`, … from left (x < 0) to right, on two supports `springer_left` and `springer_right`.
+///
+/// The mid-line lies in the x–z plane, symmetric about x = 0. A circular arch has the centre of its circle at the origin; the other profiles
+/// have the ends of their mid-line at z = 0. The mid-line is divided equally in angle (circular, pointed), in the eccentric angle s of
+/// (a sin s, b cos s) (elliptical) or in x (parabolic, and every profile with vertical joints).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Arch {
+    /// Put before the ids of the blocks.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub prefix: String,
+    /// Where the origin of the template lies, m.
+    #[serde(default, skip_serializing_if = "super::is_origin")]
+    pub at: [f64; 3],
+    /// Name of the material of all blocks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Shape of the mid-line.
+    #[serde(default, skip_serializing_if = "super::is_default")]
+    pub profile: Profile,
+    /// Radius of the mid-line, m (circular and pointed).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Angle at the centre between the two springing joints (circular, with `radius`); 180 where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub embrace_deg: Option<f64>,
+    /// Distance of the two centres from the axis, m (pointed, with `radius`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub eccentricity: Option<f64>,
+    /// Distance between the ends of the mid-line, m (every profile; then `rise` too).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub span: Option<f64>,
+    /// Height of the crown of the mid-line above its ends, m (with `span`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rise: Option<f64>,
+    /// Direction of the joints.
+    #[serde(default, skip_serializing_if = "super::is_default")]
+    pub joints: JointDirection,
+    /// Thickness, m, measured as `thickness_along` says.
+    pub thickness: f64,
+    /// How the thickness is measured; `normal` with radial joints, `vertical` with vertical joints where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thickness_along: Option<ThicknessAlong>,
+    /// Length along y, m.
+    pub depth: f64,
+    /// Number of voussoirs in the whole arch; even for a pointed arch, whose crown joint is vertical.
+    pub voussoirs: usize,
+    /// Free blocks under the springings in place of the springers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub buttresses: Option<Buttresses>,
+}
+
+/// Shape of an arch's mid-line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Profile {
+    /// Part of a circle, by `radius` and `embrace_deg`, or by `span` and `rise`.
+    #[default]
+    Circular,
+    /// Two arcs that meet at the crown, by `radius` and `eccentricity`, or by `span` and `rise`.
+    Pointed,
+    /// Half an ellipse, by `span` and `rise`.
+    Elliptical,
+    /// A parabola, by `span` and `rise`.
+    Parabolic,
+}
+
+/// Direction of an arch's joints.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JointDirection {
+    /// Normal to the mid-line (the crown joint of a pointed arch is vertical).
+    #[default]
+    Radial,
+    /// Vertical.
+    Vertical,
+}
+
+/// How an arch's thickness is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ThicknessAlong {
+    /// Normal to the mid-line. With vertical joints (circular arches up to 180°): a ring between two circles, cut by vertical joints at equal
+    /// angles of the intrados; the springing joints stay radial, the extrados is drawn as 4 chords a voussoir, 8 in the two outer ones.
+    Normal,
+    /// Along z (vertical joints only): intrados and extrados are the mid-line moved down and up by half of it.
+    Vertical,
+}
+
+/// Free rectangular blocks `buttress_left` and `buttress_right` under the springings, inner face flush with the intrados, on a support `ground`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Buttresses {
+    /// Width along x, m.
+    pub width: f64,
+    /// Height, m.
+    pub height: f64,
+}

@@ -1,0 +1,49 @@
+//! The barrel vault.
+
+use super::Profile;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A barrel vault: an arch with radial joints drawn out along y, in running bond, on two continuous supports `springer_left` and `springer_right`.
+///
+/// Strip `i` (from left to right) runs along the vault between two bed joints; its blocks are `v<i>_<k>` with `k` along y.
+/// Every other strip, starting with the second, has half blocks at both ends.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Barrel {
+    /// Put before the ids of the blocks.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub prefix: String,
+    /// Where the origin of the template lies, m.
+    #[serde(default, skip_serializing_if = "super::is_origin")]
+    pub at: [f64; 3],
+    /// Name of the material of all blocks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Shape of the mid-line.
+    #[serde(default, skip_serializing_if = "super::is_default")]
+    pub profile: Profile,
+    /// Radius of the mid-line, m (circular and pointed).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Angle at the centre between the two springing joints (circular, with `radius`); 180 where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub embrace_deg: Option<f64>,
+    /// Distance of the two centres from the axis, m (pointed, with `radius`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub eccentricity: Option<f64>,
+    /// Distance between the ends of the mid-line, m (every profile; then `rise` too).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub span: Option<f64>,
+    /// Height of the crown of the mid-line above its ends, m (with `span`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rise: Option<f64>,
+    /// Thickness normal to the mid-line, m.
+    pub thickness: f64,
+    /// Length of the vault along y, m.
+    pub depth: f64,
+    /// Number of strips from springing to springing; even for a pointed vault.
+    pub voussoirs: usize,
+    /// Number of whole blocks along y.
+    pub courses: usize,
+}

@@ -1,0 +1,38 @@
+//! The dome.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A spherical dome of rings on a ring of supports, closed by a keystone or open at an oculus; the centre of the sphere is the origin.
+///
+/// The corners of the blocks lie on the spheres of radius ± thickness / 2. Every ring is cut into the same number of segments and the cuts
+/// of all rings lie in the same meridian planes: only so are the bed joints, which lie on cones, met by plane faces that fit each other
+/// exactly. Blocks are `r<ring>_<segment>`, rings from the bottom up, segments counter-clockwise from the x axis; the supports are
+/// `springer_<segment>`, the closing block is `keystone`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Dome {
+    /// Put before the ids of the blocks.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub prefix: String,
+    /// Where the origin of the template lies, m.
+    #[serde(default, skip_serializing_if = "super::is_origin")]
+    pub at: [f64; 3],
+    /// Name of the material of all blocks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Radius of the mid-surface at the corners, m.
+    pub radius: f64,
+    /// Thickness along the radius at the corners, m.
+    pub thickness: f64,
+    /// Number of rings, the keystone not counted.
+    pub rings: usize,
+    /// Number of voussoirs in a ring, at least 3.
+    pub segments: usize,
+    /// Angle between the axis and the lowest bed joint; 90 (a hemisphere) where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springing_deg: Option<f64>,
+    /// Angle between the axis and the edge of the oculus; where absent the dome is closed by a keystone as wide as a ring is high.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub oculus_deg: Option<f64>,
+}

@@ -1,0 +1,31 @@
+//! The flat arch.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A flat arch (platbande) of voussoirs `v00`, `v01`, … from left to right between the supports `abutment_left` and `abutment_right`;
+/// intrados at z = 0, extrados at z = `height`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FlatArch {
+    /// Put before the ids of the blocks.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub prefix: String,
+    /// Where the origin of the template lies, m.
+    #[serde(default, skip_serializing_if = "super::is_origin")]
+    pub at: [f64; 3],
+    /// Name of the material of all blocks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Distance between the abutments at mid-height, m.
+    pub span: f64,
+    /// Height, m.
+    pub height: f64,
+    /// Length along y, m.
+    pub depth: f64,
+    /// Number of voussoirs, equally wide at mid-height.
+    pub voussoirs: usize,
+    /// Depth below mid-height of the point through which all joints pass, m; more than half the height. Vertical joints where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center_depth: Option<f64>,
+}

@@ -1,0 +1,74 @@
+//! Templates: structures given by a few numbers. The geometry is made in [`crate::generate`].
+//!
+//! Lengths in m, angles in degrees, z up, the span of arches and walls along x and their depth along y, centred on y = 0.
+//! Every template takes three optional fields of its own: `prefix` (put before the ids of its blocks, so that one scene can hold
+//! two arches), `at` (where its origin lies) and `material` (of all its blocks).
+
+mod arch;
+mod barrel;
+mod column;
+mod dome;
+mod flat_arch;
+mod stack;
+mod wall;
+
+pub use arch::{Arch, Buttresses, JointDirection, Profile, ThicknessAlong};
+pub use barrel::Barrel;
+pub use column::Column;
+pub use dome::Dome;
+pub use flat_arch::FlatArch;
+pub use stack::Stack;
+pub use wall::{Opening, Wall, WallBase, WallEnd};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A structure given by a few numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Template {
+    /// An arch of voussoirs on two springers, or on buttresses.
+    Arch(Arch),
+    /// A barrel vault: an arch drawn out along y, laid in running bond.
+    Barrel(Barrel),
+    /// Blocks on top of each other.
+    Column(Column),
+    /// A spherical dome of rings.
+    Dome(Dome),
+    /// A flat arch (platbande) between two abutments.
+    FlatArch(FlatArch),
+    /// Blocks on top of each other, each shifted against the one below.
+    Stack(Stack),
+    /// A wall of one leaf in running bond.
+    Wall(Wall),
+}
+
+impl Template {
+    /// The key of this template in a scene file.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Template::Arch(_) => "arch",
+            Template::Barrel(_) => "barrel",
+            Template::Column(_) => "column",
+            Template::Dome(_) => "dome",
+            Template::FlatArch(_) => "flat_arch",
+            Template::Stack(_) => "stack",
+            Template::Wall(_) => "wall",
+        }
+    }
+}
+
+/// Is this the origin, the default of `at`?
+fn is_origin(at: &[f64; 3]) -> bool {
+    *at == [0.0; 3]
+}
+
+/// Is this zero, the default of a number?
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
+}
+
+/// Is this the default of its type?
+fn is_default<T: Default + PartialEq>(x: &T) -> bool {
+    *x == T::default()
+}

@@ -1,0 +1,85 @@
+//! Solving a conic program. What comes back is a candidate, never an answer: every verdict is recomputed from the scene.
+
+mod clarabel;
+
+pub use self::clarabel::solve;
+
+use serde::{Deserialize, Serialize};
+
+/// What the engine said. Only ever reported, never decided on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// Within its own tolerances.
+    Solved,
+    /// Within its own reduced tolerances, or stopped near them.
+    AlmostSolved,
+    /// Says that no point satisfies the constraints.
+    PrimalInfeasible,
+    /// Says that the objective is unbounded.
+    DualInfeasible,
+    /// Ran into its limit of iterations or time.
+    Limit,
+    /// Lost its way numerically.
+    Stalled,
+    /// Refused the program.
+    Refused,
+}
+
+/// Settings of one solve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Tolerance on gap and feasibility, relative and absolute in the scaled program.
+    pub tolerance: f64,
+    /// Static regularisation of the KKT system.
+    pub regularization: f64,
+    /// Whether the engine rescales rows and columns once more.
+    pub equilibrate: bool,
+    /// Most iterations.
+    pub iterations: u32,
+    /// Most seconds.
+    pub seconds: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { tolerance: 1e-10, regularization: 1e-8, equilibrate: true, iterations: 200, seconds: f64::INFINITY }
+    }
+}
+
+/// One interior-point iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Iteration {
+    /// Seconds since the start of the solve.
+    pub seconds: f64,
+    /// Primal objective.
+    pub primal: f64,
+    /// Dual objective.
+    pub dual: f64,
+    /// Primal residual.
+    pub primal_residual: f64,
+    /// Dual residual.
+    pub dual_residual: f64,
+}
+
+/// What the engine left behind.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// Primal variables; empty where the program was refused.
+    pub x: Vec<f64>,
+    /// Multipliers.
+    pub z: Vec<f64>,
+    /// The engine's word.
+    pub status: Status,
+    /// The iterations.
+    pub trace: Vec<Iteration>,
+    /// Seconds, set-up included.
+    pub seconds: f64,
+}
+
+impl Solution {
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        !self.x.is_empty() && self.x.iter().chain(&self.z).all(|v| v.is_finite())
+    }
+}

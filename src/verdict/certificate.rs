@@ -1,0 +1,162 @@
+//! Re-adding forces and powers block by block.
+//!
+//! *Static side.* Contact forces inside their friction cones leave each free block the wrench
+//! `r_i = w_i + λ ℓ_i + Σ` contact wrenches. Its size is `max(‖force‖, ‖moment‖ / (size / 2))`-like: the norm of (force; moment / L)
+//! over the block's load, in multiples of g. *Kinematic side.* Rates `q` separate the contacts at `v`; for every
+//! admissible force `f·v ≥ −e f_n` with `e = max(0, μ‖v_t‖ − v_n)`, the inadmissibility. So for any equilibrium
+//! `w·q + λ ℓ·q ≤ Σ e f_n`: a mechanism with `e = 0` that gains power proves instability (Heyman 1966; Livesley 1978).
+
+use super::{Forces, Rate};
+use crate::{
+    assembly::{Assembly, Wrench},
+    interface::Interfaces,
+    scene::Friction,
+};
+use nalgebra::Vector3;
+
+/// Force scale of a free block, N: the greater of its weight and its dead load.
+pub fn load_scale(assembly: &Assembly, block: usize) -> f64 {
+    assembly.weight(block).max(assembly.dead[block].force.norm())
+}
+
+/// Length scale of a block's moments, m.
+pub fn length_scale(assembly: &Assembly, block: usize) -> f64 {
+    0.5 * assembly.blocks[block].size
+}
+
+/// What forces leave unbalanced.
+#[derive(Clone, Debug)]
+pub struct Statics {
+    /// Wrench left on each block, N and N·m; zero on supports.
+    pub residuals: Vec<Wrench>,
+    /// Largest unbalance over the free blocks, in multiples of the block's load (g).
+    pub unbalance: f64,
+    /// The block of the largest unbalance.
+    pub worst: usize,
+    /// What rounding of coordinates and forces alone can amount to on any block, in multiples of its load.
+    pub resolution: f64,
+    /// Largest distance of a force outside its friction cone, over the largest force.
+    pub cone_excess: f64,
+}
+
+/// Re-adds the contact forces at load factor `lambda`.
+pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Statics {
+    let n = assembly.blocks.len();
+    let mut residuals: Vec<Wrench> = (0..n)
+        .map(|i| Wrench {
+            force: assembly.dead[i].force + assembly.live[i].force * lambda,
+            moment: assembly.dead[i].moment + assembly.live[i].moment * lambda,
+        })
+        .collect();
+    let mut rounding: Vec<f64> = residuals.iter().map(|r| r.force.norm()).collect();
+    let (mut excess, mut largest) = (0.0_f64, 0.0_f64);
+    for (face, forces) in interfaces.list.iter().zip(forces) {
+        for (point, force) in face.points.iter().zip(forces) {
+            let normal = face.frame.n.dot(force);
+            let shear = (force - face.frame.n * normal).norm();
+            largest = largest.max(force.norm());
+            excess = excess.max(match face.friction {
+                Friction::Coefficient(mu) => (-normal).max((shear - mu * normal) / mu.hypot(1.0)),
+                Friction::Infinite => -normal,
+            });
+            for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
+                let arm = point - assembly.blocks[block].centroid;
+                residuals[block] += Wrench { force: force * sign, moment: arm.cross(force) * sign };
+                rounding[block] += force.norm() * (1.0 + point.amax() / length_scale(assembly, block));
+            }
+        }
+    }
+    let (mut unbalance, mut worst, mut resolution) = (0.0, 0, 0.0_f64);
+    for i in 0..n {
+        if assembly.blocks[i].support {
+            residuals[i] = Wrench::zero();
+            continue;
+        }
+        let u = size(assembly, i, &residuals[i]) / load_scale(assembly, i);
+        resolution = resolution.max(ROUNDING * rounding[i] / load_scale(assembly, i));
+        if u > unbalance || u.is_nan() {
+            (unbalance, worst) = (u, i);
+        }
+    }
+    Statics { residuals, unbalance, worst, resolution, cone_excess: if largest > 0.0 { excess / largest } else { 0.0 } }
+}
+
+/// Rounding counted per addition: one unit in the last place.
+const ROUNDING: f64 = f64::EPSILON;
+
+fn size(assembly: &Assembly, block: usize, w: &Wrench) -> f64 {
+    w.force.norm().hypot(w.moment.norm() / length_scale(assembly, block))
+}
+
+/// What a set of rates gains and where it is inadmissible.
+#[derive(Clone, Debug)]
+pub struct Kinematics {
+    /// Power of the dead load, `w·q`.
+    pub dead_power: f64,
+    /// Power of the live load, `ℓ·q`.
+    pub live_power: f64,
+    /// `Σ` load scale × ‖(velocity; spin × L)‖ over the free blocks: the power that an unbalance of 1 g everywhere would have.
+    pub norm: f64,
+    /// `Σ e f_n` with the given forces: the power that the inadmissibility may hide.
+    pub slack: f64,
+    /// Largest inadmissibility `e` over the largest contact rate.
+    pub inadmissibility: f64,
+    /// `Σ e`: with contact forces of at most `F` each, the inadmissibility hides at most `F` × this.
+    pub excess: f64,
+}
+
+impl Kinematics {
+    /// Unless some contact force exceeds this many times the total load, the gain of the dead load cannot be balanced:
+    /// what makes a mechanism that is admissible only up to rounding a proof.
+    pub fn force_cap(&self, assembly: &Assembly) -> f64 {
+        let total: f64 = assembly.free().map(|i| load_scale(assembly, i)).sum();
+        self.dead_power / (self.excess * total)
+    }
+}
+
+/// Re-adds powers; `forces` weigh the inadmissibility.
+pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], forces: &Forces) -> Kinematics {
+    let mut k = Kinematics { dead_power: 0.0, live_power: 0.0, norm: 0.0, slack: 0.0, inadmissibility: 0.0, excess: 0.0 };
+    for i in assembly.free() {
+        let (q, w, l) = (&rates[i], &assembly.dead[i], &assembly.live[i]);
+        k.dead_power += power(w, q);
+        k.live_power += power(l, q);
+        k.norm += load_scale(assembly, i) * q.velocity.norm().hypot(q.spin.norm() * length_scale(assembly, i));
+    }
+    let (mut worst, mut fastest) = (0.0_f64, 0.0_f64);
+    for (face, forces) in interfaces.list.iter().zip(forces) {
+        for (point, force) in face.points.iter().zip(forces) {
+            let v = at(assembly, rates, face.b, point) - at(assembly, rates, face.a, point);
+            let (vn, fn_) = (face.frame.n.dot(&v), face.frame.n.dot(force).max(0.0));
+            let vt = (v - face.frame.n * vn).norm();
+            let (e, cost) = match face.friction {
+                Friction::Coefficient(mu) => {
+                    let e = (mu * vt - vn).max(0.0);
+                    k.excess += e;
+                    (e / mu.hypot(1.0), e * fn_)
+                }
+                Friction::Infinite => {
+                    let closing = (-vn).max(0.0);
+                    k.excess += closing + vt;
+                    (closing.hypot(vt), closing * fn_ + vt * (force - face.frame.n * fn_).norm())
+                }
+            };
+            worst = worst.max(e);
+            fastest = fastest.max(v.norm());
+            k.slack += cost;
+        }
+    }
+    k.inadmissibility = if fastest > 0.0 { worst / fastest } else { 0.0 };
+    k
+}
+
+/// Velocity of a point moving with a block.
+pub fn at(assembly: &Assembly, rates: &[Rate], block: usize, point: &Vector3<f64>) -> Vector3<f64> {
+    let q = &rates[block];
+    q.velocity + q.spin.cross(&(point - assembly.blocks[block].centroid))
+}
+
+/// Power of a wrench on a rate.
+pub fn power(w: &Wrench, q: &Rate) -> f64 {
+    w.force.dot(&q.velocity) + w.moment.dot(&q.spin)
+}

@@ -1,0 +1,184 @@
+//! Verifying a claim from the scene, the forces and the rates: no program, no solver, no trust in any saved number
+//! but the forces and the rates themselves.
+
+use super::{Forces, Rate, certificate};
+use crate::{
+    assembly::{Assembly, Wrench},
+    interface::Interfaces,
+    tolerance,
+};
+use serde::{Deserialize, Serialize};
+
+/// What is claimed about a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Claim {
+    /// The forces balance the dead load inside the friction cones.
+    Stable,
+    /// The mechanism gains power under the dead load: nothing balances it.
+    Unstable,
+    /// The forces balance the dead load and `value` × the live load; the mechanism admits no more than `upper`.
+    LoadFactor {
+        /// Claimed load factor.
+        value: f64,
+        /// Claimed lower end.
+        lower: f64,
+        /// Claimed upper end.
+        upper: f64,
+    },
+    /// The forces balance the live load alone (and other forces the scene at load factor `standing`).
+    Unbounded {
+        /// A load factor at which the scene stands.
+        standing: f64,
+    },
+    /// The mechanism gains power under the dead load and none under the live load.
+    Impossible,
+}
+
+/// What the recomputation gave, one line of text each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// What holds, with its number.
+    pub holds: Vec<String>,
+    /// What does not, with its number.
+    pub fails: Vec<String>,
+}
+
+impl Findings {
+    fn require(&mut self, ok: bool, text: String) {
+        if ok { &mut self.holds } else { &mut self.fails }.push(text);
+    }
+
+    /// Whether the claim is proved.
+    pub fn proved(&self) -> bool {
+        self.fails.is_empty() && !self.holds.is_empty()
+    }
+}
+
+/// Verifies a claim. `base` are the forces at `standing` of [`Claim::Unbounded`].
+pub fn verify(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    claim: &Claim,
+    forces: &Forces,
+    base: Option<&Forces>,
+    rates: &[Rate],
+) -> Findings {
+    let mut f = Findings::default();
+    match *claim {
+        Claim::Stable => balanced(&mut f, assembly, interfaces, forces, 0.0),
+        Claim::Unstable => gains(&mut f, assembly, interfaces, rates),
+        Claim::LoadFactor { value, lower, upper } => load_factor(&mut f, assembly, interfaces, forces, rates, [value, lower, upper]),
+        Claim::Unbounded { standing } => {
+            match base {
+                Some(base) => balanced(&mut f, assembly, interfaces, base, standing),
+                None => f.fails.push("forces at a load factor at which the scene stands are missing".into()),
+            }
+            let (alone, factor) = live_alone(assembly);
+            let scaled = forces.iter().map(|p| p.iter().map(|v| v * factor).collect()).collect();
+            balanced(&mut f, &alone, interfaces, &scaled, 0.0);
+        }
+        Claim::Impossible => {
+            gains(&mut f, assembly, interfaces, rates);
+            let k = certificate::kinematics(assembly, interfaces, rates, forces);
+            let natural = natural_factor(assembly);
+            let reach = (k.dead_power / k.live_power).abs() / natural;
+            f.require(
+                reach >= REACH,
+                format!("the live load gains no power: the proof holds for load factors up to {reach:.1e} × dead / live load"),
+            );
+        }
+    }
+    f
+}
+
+/// "Impossible" is proved when no load factor below this × (dead / live load) helps. Larger: rounding of ℓ·q = 0 fails a
+/// correct proof. Smaller: a load factor that does help could be missed.
+const REACH: f64 = 1e6;
+
+/// Total dead over total live load: the size a load factor has when both weigh the same.
+pub fn natural_factor(assembly: &Assembly) -> f64 {
+    let sum = |loads: &[Wrench]| {
+        assembly.free().map(|i| loads[i].force.norm().hypot(loads[i].moment.norm() / certificate::length_scale(assembly, i))).sum::<f64>()
+    };
+    sum(&assembly.dead) / sum(&assembly.live)
+}
+
+/// The assembly with its live load, brought to the size of the dead load, in place of the dead load; and that factor.
+pub fn live_alone(assembly: &Assembly) -> (Assembly, f64) {
+    let factor = natural_factor(assembly);
+    let mut alone = assembly.clone();
+    for (dead, live) in alone.dead.iter_mut().zip(&mut alone.live) {
+        *dead = Wrench { force: live.force * factor, moment: live.moment * factor };
+        *live = Wrench::zero();
+    }
+    (alone, factor)
+}
+
+fn balanced(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) {
+    let s = certificate::statics(assembly, interfaces, forces, lambda);
+    let threshold = tolerance::UNBALANCE.max(s.resolution);
+    f.require(
+        s.unbalance <= threshold,
+        format!(
+            "forces balance every free block: largest unbalance {:.1e} g, on {}, allowed {threshold:.1e}",
+            s.unbalance, assembly.blocks[s.worst].id
+        ),
+    );
+    cones(f, &s);
+}
+
+fn cones(f: &mut Findings, s: &certificate::Statics) {
+    f.require(
+        s.cone_excess <= tolerance::CONE,
+        format!("forces lie in their friction cones: largest excess {:.1e} of the largest force", s.cone_excess),
+    );
+}
+
+fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) {
+    let none: Forces = interfaces.list.iter().map(|i| vec![nalgebra::Vector3::zeros(); i.points.len()]).collect();
+    let k = certificate::kinematics(assembly, interfaces, rates, &none);
+    let resolution = certificate::statics(assembly, interfaces, &none, 0.0).resolution;
+    let gain = k.dead_power / k.norm;
+    let threshold = tolerance::UNBALANCE.max(resolution);
+    f.require(gain > threshold, format!("the mechanism gains power: {gain:.3e} g, at least {threshold:.1e} needed"));
+    let cap = k.force_cap(assembly);
+    f.require(
+        cap >= tolerance::FORCE_CAP,
+        format!("the mechanism is admissible: only contact forces above {cap:.1e} × the total load could hide behind its rounding"),
+    );
+}
+
+fn load_factor(
+    f: &mut Findings,
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    forces: &Forces,
+    rates: &[Rate],
+    [value, lower, upper]: [f64; 3],
+) {
+    let s = certificate::statics(assembly, interfaces, forces, value);
+    cones(f, &s);
+    let k = certificate::kinematics(assembly, interfaces, rates, forces);
+    let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
+    f.require(k.live_power > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));
+    let natural = natural_factor(assembly);
+    let width = |v: f64| tolerance::LOAD_FACTOR_WIDTH * v.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
+    let loose = tolerance::LOOSE_BALANCE.max(s.resolution);
+    f.require(
+        s.unbalance <= loose,
+        format!(
+            "forces balance every free block at λ = {value}: largest unbalance {:.1e} g, on {}, allowed {loose:.1e}",
+            s.unbalance, assembly.blocks[s.worst].id
+        ),
+    );
+    let (low, high) = (value - hidden / k.live_power, (-k.dead_power + k.slack) / k.live_power);
+    f.require(
+        low >= lower - width(value) && high <= upper + width(value),
+        format!("bracket recomputed: [{low:.12}, {high:.12}], claimed [{lower:.12}, {upper:.12}]"),
+    );
+    f.require(
+        (lower..=upper).contains(&value) || (value - lower).abs().min((value - upper).abs()) <= width(value),
+        format!("λ = {value:.12} lies in its bracket"),
+    );
+}

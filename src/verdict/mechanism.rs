@@ -1,0 +1,91 @@
+//! Reading a collapse mechanism: which blocks move, which joints hinge, slide or part.
+
+use super::{Rate, certificate};
+use crate::{
+    assembly::Assembly,
+    interface::{Interface, Interfaces},
+    scene::Friction,
+    tolerance,
+};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// What a joint does in a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Motion {
+    /// Turns about an edge or a corner that stays in contact.
+    Hinge,
+    /// Slides (with the associated lift μ‖v_t‖ that limit analysis gives a sliding joint).
+    Slide,
+    /// Turns about an edge that slides.
+    HingeAndSlide,
+    /// Parts over its whole area.
+    Part,
+}
+
+/// A joint that moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MovingJoint {
+    /// Index of the interface.
+    pub interface: usize,
+    /// What it does.
+    pub motion: Motion,
+    /// Where it keeps contact (mean of the closed or sliding corners), or its middle where it parts, m.
+    pub at: Vector3<f64>,
+}
+
+/// A collapse mechanism in words.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mechanism {
+    /// Blocks that move, the fastest first.
+    pub moving: Vec<usize>,
+    /// Joints that move, in interface order.
+    pub joints: Vec<MovingJoint>,
+}
+
+/// Reads the rates of a mechanism.
+pub fn read(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Mechanism {
+    let speed = |i: usize| rates[i].velocity.norm().hypot(rates[i].spin.norm() * certificate::length_scale(assembly, i));
+    let fastest = assembly.free().map(speed).fold(0.0, f64::max);
+    let mut moving: Vec<usize> = assembly.free().filter(|&i| speed(i) > tolerance::MECHANISM_REST * fastest).collect();
+    moving.sort_by(|&i, &j| speed(j).total_cmp(&speed(i)).then(i.cmp(&j)));
+    let joints = (0..interfaces.list.len())
+        .filter_map(|k| joint(assembly, &interfaces.list[k], rates, fastest).map(|(motion, at)| MovingJoint { interface: k, motion, at }))
+        .collect();
+    Mechanism { moving, joints }
+}
+
+fn joint(assembly: &Assembly, face: &Interface, rates: &[Rate], fastest: f64) -> Option<(Motion, Vector3<f64>)> {
+    let rest = tolerance::MECHANISM_REST * fastest;
+    // Per corner: does it keep contact (closed or sliding), and how fast does it slide?
+    let corners: Vec<(Vector3<f64>, bool, f64, f64)> = face
+        .points
+        .iter()
+        .map(|p| {
+            let v = certificate::at(assembly, rates, face.b, p) - certificate::at(assembly, rates, face.a, p);
+            let vn = face.frame.n.dot(&v);
+            let vt = (v - face.frame.n * vn).norm();
+            let lift = match face.friction {
+                Friction::Coefficient(mu) => mu * vt,
+                Friction::Infinite => 0.0,
+            };
+            (*p, vn - lift <= rest, vt, vn)
+        })
+        .collect();
+    if corners.iter().all(|c| c.2 <= rest && c.3 <= rest) {
+        return None;
+    }
+    let kept: Vec<_> = corners.iter().filter(|c| c.1).collect();
+    let mean = |points: &mut dyn Iterator<Item = Vector3<f64>>, n: usize| points.sum::<Vector3<f64>>() / n as f64;
+    if kept.is_empty() {
+        return Some((Motion::Part, mean(&mut corners.iter().map(|c| c.0), corners.len())));
+    }
+    let slides = kept.iter().any(|c| c.2 > rest);
+    let motion = match (kept.len() == corners.len(), slides) {
+        (true, true) => Motion::Slide,
+        (_, false) => Motion::Hinge,
+        (false, true) => Motion::HingeAndSlide,
+    };
+    Some((motion, mean(&mut kept.iter().map(|c| c.0), kept.len())))
+}

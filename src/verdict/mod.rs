@@ -1,0 +1,41 @@
+//! Verdicts and the evidence for them, recomputed from [`Assembly`](crate::assembly::Assembly) and
+//! [`Interfaces`](crate::interface::Interfaces) alone. Nothing here knows the program or the solver.
+
+pub mod certificate;
+pub mod check;
+pub mod evidence;
+pub mod mechanism;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Does it stand?
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Admissible contact forces balance the loads. Proof: the forces.
+    Stable,
+    /// No admissible contact forces balance the loads, whatever the law of sliding inside the cone. Proof: the mechanism.
+    Unstable,
+    /// The bracket straddles the tolerance.
+    Undecided,
+}
+
+/// Forces on block `b` at each contact point of each interface, N.
+pub type Forces = Vec<Vec<Vector3<f64>>>;
+
+/// The rate of motion of a block; the scale is arbitrary, common to all blocks of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rate {
+    /// Velocity of the centre of mass.
+    pub velocity: Vector3<f64>,
+    /// Spin.
+    pub spin: Vector3<f64>,
+}
+
+impl Rate {
+    /// At rest.
+    pub fn zero() -> Self {
+        Self { velocity: Vector3::zeros(), spin: Vector3::zeros() }
+    }
+}
