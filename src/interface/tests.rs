@@ -131,6 +131,7 @@ fn assembly(shapes: &[Shape]) -> Assembly {
         blocks,
         joints: JointRules { default: rule, by_material: Vec::new(), by_blocks: HashMap::new() },
         dead: none.clone(),
+        dead_forces: Vec::new(),
         live: none,
         given: Vec::new(),
         contact: ContactSpec::default(),
