@@ -1,7 +1,9 @@
 //! Questions and answers: the only place where the stages are composed.
 
 pub mod assess;
+mod anderson;
 mod attempt;
+pub mod coulomb;
 mod ends;
 pub mod limit;
 mod prepare;

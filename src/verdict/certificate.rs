@@ -160,3 +160,48 @@ pub fn at(assembly: &Assembly, rates: &[Rate], block: usize, point: &Vector3<f64
 pub fn power(w: &Wrench, q: &Rate) -> f64 {
     w.force.dot(&q.velocity) + w.moment.dot(&q.spin)
 }
+
+/// How exactly forces and rates obey Signorini's and Coulomb's laws together: the natural map
+/// `‖f − P_K(f − ρ (u + μ‖u_t‖ n))‖ / F` over all contact points (Acary, Brémond & Huber 2018), zero for an exact solution.
+///
+/// `u` are the rates of the joints. The law does not change when `u` is multiplied, so `ρ` brings `u` to the size `F` of the
+/// forces, the greater of `‖f‖` and the norm of the dead loads: a measure without units. `None` where nothing moves.
+pub fn natural_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<f64> {
+    let loads: f64 = assembly.free().map(|i| assembly.dead[i].force.norm_squared()).sum();
+    let size = forces.iter().flatten().map(Vector3::norm_squared).sum::<f64>().max(loads).sqrt();
+    let joint = |face: &crate::interface::Interface, p: &Vector3<f64>| at(assembly, rates, face.b, p) - at(assembly, rates, face.a, p);
+    let speed = interfaces.list.iter().flat_map(|face| face.points.iter().map(move |p| joint(face, p).norm_squared())).sum::<f64>().sqrt();
+    if speed == 0.0 {
+        return None;
+    }
+    let mut sum = 0.0;
+    for (face, forces) in interfaces.list.iter().zip(forces) {
+        for (point, force) in face.points.iter().zip(forces) {
+            let u = joint(face, point) * (size / speed);
+            let n = face.frame.n;
+            let slide = (u - n * n.dot(&u)).norm();
+            let shift = match face.friction {
+                Friction::Coefficient(mu) => mu * slide,
+                Friction::Infinite => 0.0,
+            };
+            sum += (force - onto_cone(force - u - n * shift, n, face.friction)).norm_squared();
+        }
+    }
+    Some(sum.sqrt() / size)
+}
+
+/// The point of the friction cone about `n` nearest to `f`.
+pub fn onto_cone(f: Vector3<f64>, n: Vector3<f64>, friction: Friction) -> Vector3<f64> {
+    let normal = n.dot(&f);
+    let tangential = f - n * normal;
+    let Friction::Coefficient(mu) = friction else { return tangential + n * normal.max(0.0) };
+    let t = tangential.norm();
+    if t <= mu * normal {
+        return f;
+    }
+    if mu * t <= -normal {
+        return Vector3::zeros();
+    }
+    let on = (normal + mu * t) / (1.0 + mu * mu);
+    n * on + tangential * (mu * on / t)
+}
