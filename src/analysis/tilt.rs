@@ -82,7 +82,8 @@ pub fn tilt(assembly: &Assembly, interfaces: &Interfaces, toward: Vector3<f64>, 
 pub fn directions(gravity: Vector3<f64>, count: usize) -> Vec<Vector3<f64>> {
     let down = gravity.normalize();
     let across = |axis: Vector3<f64>| axis - down * down.dot(&axis);
-    let e1 = [Vector3::x(), Vector3::y()].map(across).into_iter().find(|v| v.norm() > 0.5).unwrap_or_else(|| across(Vector3::z())).normalize();
+    let e1 =
+        [Vector3::x(), Vector3::y()].map(across).into_iter().find(|v| v.norm() > 0.5).unwrap_or_else(|| across(Vector3::z())).normalize();
     let e2 = e1.cross(&down);
     // Exact along the axes: what is 1e-16 there is rounding of the cosine.
     let clean = |c: f64| if c.abs() < 1e-15 { 0.0 } else { c };

@@ -21,10 +21,10 @@ pub fn run(args: &Generate) -> anyhow::Result<Exit> {
         return Ok(Exit::Yes);
     };
     let Some(mut template) = default_template(name) else {
-        bail!(InputError::at(Default::default(), format!("there is no template `{name}`")).hint(format!(
-            "the templates are {}",
-            template_names().join(", ")
-        )));
+        bail!(
+            InputError::at(Default::default(), format!("there is no template `{name}`"))
+                .hint(format!("the templates are {}", template_names().join(", ")))
+        );
     };
     let sink = Sink::open(args.output.as_deref())?;
     let values = template.get_mut(name).context("the template has no values")?;
@@ -62,7 +62,8 @@ fn set(value: &mut Value, key: &str, new: Value) -> anyhow::Result<()> {
         }
         if let Value::Array(list) = place {
             let count = list.len();
-            place = step.parse().ok().and_then(|i: usize| list.get_mut(i)).with_context(|| format!("{key}: the list has {count} entries"))?;
+            place =
+                step.parse().ok().and_then(|i: usize| list.get_mut(i)).with_context(|| format!("{key}: the list has {count} entries"))?;
         } else {
             if !place.is_object() {
                 *place = Value::Object(Map::new());

@@ -221,10 +221,7 @@ fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, 
     require(
         f,
         ok,
-        format!(
-            "least unbalance between {:.3e} and {:.3e} g, recomputed between {lower:.3e} and {upper:.3e} g",
-            said.lower, said.upper
-        ),
+        format!("least unbalance between {:.3e} and {:.3e} g, recomputed between {lower:.3e} and {upper:.3e} g", said.lower, said.upper),
     );
 }
 

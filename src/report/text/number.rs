@@ -96,7 +96,14 @@ mod tests {
 
     #[test]
     fn printed_ends_enclose_the_bracket() {
-        for (lower, upper) in [(0.149_969_235_2, 0.149_969_235_9), (-0.3, 0.7), (1.0, 1.0), (-2.5e-9, 3.5e-9), (2.345e-7, 2.346e-7), (99.999_999, 100.000_001)] {
+        for (lower, upper) in [
+            (0.149_969_235_2, 0.149_969_235_9),
+            (-0.3, 0.7),
+            (1.0, 1.0),
+            (-2.5e-9, 3.5e-9),
+            (2.345e-7, 2.346e-7),
+            (99.999_999, 100.000_001),
+        ] {
             let [l, u] = ends(0.5 * (lower + upper), lower, upper);
             assert!(l.parse::<f64>().unwrap() <= lower && u.parse::<f64>().unwrap() >= upper, "{l} {u}");
         }
