@@ -76,11 +76,8 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
         }
         let friction = assembly.joints.friction(a, b, &assembly.blocks).ok_or_else(|| {
             let (one, other) = (&assembly.blocks[a].id, &assembly.blocks[b].id);
-            InputError::at(
-                JsonPath::root(),
-                format!("blocks {one:?} and {other:?} touch, and nothing says what friction acts between them"),
-            )
-            .hint("give joints.default.friction, or a joint override for these blocks or their materials")
+            InputError::at(JsonPath::root(), format!("blocks {one:?} and {other:?} touch, and nothing says what friction acts between them"))
+                .hint("give joints.default.friction, or a joint override for these blocks or their materials")
         })?;
         for contact in meeting.contacts {
             tally.contact(contact.gap, &limits);

@@ -283,8 +283,9 @@ pub(super) fn meet_without_normal(a: &Solidity, b: &Solidity, window: &Bounds, l
     edge_pairs(a, b, window, limits.gap).iter().any(|(ea, eb)| {
         let ([pa, qa], [pb, qb]) = (a.ends(ea.ends), b.ends(eb.ends));
         let (ta, tb) = nearest_of_lines(pa, qa, pb, qb);
-        let crossing =
-            (0.0..=1.0).contains(&ta) && (0.0..=1.0).contains(&tb) && (pa + (qa - pa) * ta - pb - (qb - pb) * tb).norm() <= limits.gap;
+        let crossing = (0.0..=1.0).contains(&ta)
+            && (0.0..=1.0).contains(&tb)
+            && (pa + (qa - pa) * ta - pb - (qb - pb) * tb).norm() <= limits.gap;
         crossing
             || [pa, qa].iter().any(|&p| distance_to_segment(p, pb, qb) <= limits.gap)
             || [pb, qb].iter().any(|&p| distance_to_segment(p, pa, qa) <= limits.gap)

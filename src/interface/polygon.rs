@@ -51,8 +51,7 @@ pub(super) fn tidy(polygon: &mut Vec<P2>, tol: f64) {
         for i in 0..n {
             let (previous, here, next) = (polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n]);
             // Never two neighbours in one sweep: each is judged by the other.
-            let drop =
-                !dropped_last && !(i + 1 == n && kept.first() != Some(&polygon[0])) && distance_to_segment(here, previous, next) <= tol;
+            let drop = !dropped_last && !(i + 1 == n && kept.first() != Some(&polygon[0])) && distance_to_segment(here, previous, next) <= tol;
             if !drop {
                 kept.push(here);
             }
@@ -139,17 +138,7 @@ mod tests {
 
     #[test]
     fn hull_drops_inner_repeated_and_collinear_points() {
-        let points = [
-            p(0.0, 0.0),
-            p(1.0, 1e-13),
-            p(2.0, 0.0),
-            p(2.0, 1.0),
-            p(1.0, 0.5),
-            p(0.0, 1.0),
-            p(0.0, 0.5),
-            p(2.0, 1.0 - 1e-12),
-            p(1e-13, 0.0),
-        ];
+        let points = [p(0.0, 0.0), p(1.0, 1e-13), p(2.0, 0.0), p(2.0, 1.0), p(1.0, 0.5), p(0.0, 1.0), p(0.0, 0.5), p(2.0, 1.0 - 1e-12), p(1e-13, 0.0)];
         let h = hull(&points, 1e-9);
         assert_eq!(h.len(), 4, "{h:?}");
         assert!((area(&h) - 2.0).abs() < 1e-9);

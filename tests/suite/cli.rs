@@ -450,9 +450,9 @@ fn loads_without_limit_and_without_answer_are_proved_as_well() {
     bad["certificate"]["claim"]["unbounded"]["standing"] = json!(-1e3);
     desk.checked(NO, &bad);
 
-    // Nothing pushes the upper block back: it leans out of its support.
+    // The upper block leans out of its support along x, and the live load acts along y.
     scene["templates"] = json!([{ "stack": { "blocks": 2, "size": [1, 1, 0.2], "shift": 0.6 } }]);
-    scene["loads"] = json!({ "live": [{ "weight": [0, 0, -1] }] });
+    scene["loads"] = json!({ "live": [{ "weight": [0, 1, 0] }] });
     let result = desk.saved(NO, &["limit", &desk.write("out.json", &scene)]);
     assert_eq!(result["answer"]["load_factor"]["status"], "impossible", "{}", result["answer"]);
     desk.checked(YES, &result);
@@ -533,7 +533,7 @@ fn templates_are_changed_by_key() {
             "radius=null",
             "span=8",
             "rise=3",
-            "profile=parabolic",
+            "profile=elliptical",
             "buttresses={\"width\":2,\"height\":3}",
             "buttresses.height=4",
             "--friction",
