@@ -1,1 +1,77 @@
-fn main() {}
+//! Time per stage against the number of blocks, on running-bond walls, and the figures that the README quotes.
+//!
+//! `cargo bench` prints them; one thread throughout. Nothing here asserts a time.
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use std::{hint::black_box, process::Command, time::Duration};
+use voussoir::{
+    analysis::{self, Control},
+    assembly, interface,
+    program::{self, Options, Statics, Unknowns},
+    report::ResultFile,
+    scene::{Scene, read_str},
+    verdict::check,
+};
+
+/// A wall of `courses` free courses of `length` blocks of 1 × 0.5 × 0.4 m on a fixed course, pushed along x or y.
+fn wall(courses: usize, length: usize, push: [f64; 3]) -> Scene {
+    let text = format!(
+        r#"{{ "format": "voussoir-scene/1", "joints": {{ "default": {{ "friction": 0.6 }} }},
+        "templates": [ {{ "wall": {{ "size": [1, 0.5, 0.4], "courses": {courses}, "blocks": {length}, "first": "half", "base": "course" }} }} ],
+        "loads": {{ "live": [ {{ "weight": {push:?} }} ] }} }}"#
+    );
+    read_str("bench", text).expect("the bench scene is well formed").0
+}
+
+/// Courses × blocks of the walls each stage is timed on.
+const WALLS: [usize; 3] = [10, 20, 40];
+
+fn stages(c: &mut Criterion) {
+    let mut group = c.benchmark_group("stages");
+    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
+    for n in WALLS {
+        let scene = wall(n, n, [1.0, 0.0, 0.0]);
+        let model = analysis::prepare(&scene).expect("the bench scene resolves");
+        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let blocks = assembly.blocks.len();
+        group.bench_function(BenchmarkId::new("resolve", blocks), |b| b.iter(|| assembly::resolve(black_box(&scene))));
+        group.bench_function(BenchmarkId::new("detect", blocks), |b| b.iter(|| interface::detect(black_box(assembly))));
+        group.bench_function(BenchmarkId::new("build", blocks), |b| {
+            b.iter(|| program::load_factor(&Statics::new(assembly, interfaces, Options { keep_all: false, live: true }), 1.0, Unknowns::Rates))
+        });
+        group.bench_function(BenchmarkId::new("assess", blocks), |b| {
+            b.iter(|| analysis::assess(assembly, interfaces, &Control::default()))
+        });
+        group.bench_function(BenchmarkId::new("limit in plane", blocks), |b| {
+            b.iter(|| analysis::limit(assembly, interfaces, &Control::default()))
+        });
+        let answer = analysis::limit(assembly, interfaces, &Control::default());
+        let claim = check::Claim::LoadFactor { value: answer.value, lower: answer.bracket.lower, upper: answer.bracket.upper };
+        group.bench_function(BenchmarkId::new("check", blocks), |b| {
+            b.iter(|| check::verify(assembly, interfaces, &claim, &answer.forces, None, &answer.rates))
+        });
+        group.bench_function(BenchmarkId::new("result file", blocks), |b| b.iter(|| ResultFile::load_factor(&scene, &model, &answer)));
+    }
+    group.finish();
+}
+
+fn figures(c: &mut Criterion) {
+    let mut group = c.benchmark_group("figures");
+    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(3));
+    let scene = wall(199, 100, [1.0, 0.0, 0.0]);
+    let large = assembly::resolve(&scene).expect("the bench scene resolves");
+    group.bench_function(format!("interfaces of a wall of {} blocks", large.blocks.len()), |b| b.iter(|| interface::detect(black_box(&large))));
+    let scene = wall(12, 12, [0.0, 1.0, 0.0]);
+    let model = analysis::prepare(&scene).expect("the bench scene resolves");
+    group.bench_function(format!("limit out of plane, {} blocks", model.assembly.blocks.len()), |b| {
+        b.iter(|| analysis::limit(&model.assembly, &model.interfaces, &Control::default()))
+    });
+    let arch = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/semicircular-arch-thick.json");
+    group.bench_function("whole process: assess an arch of 27 voussoirs", |b| {
+        b.iter(|| Command::new(env!("CARGO_BIN_EXE_voussoir")).args(["assess", arch, "--quiet"]).output().expect("the program runs"))
+    });
+    group.finish();
+}
+
+criterion_group!(benches, stages, figures);
+criterion_main!(benches);

@@ -39,8 +39,9 @@ pub const MECHANISM_REST: f64 = 1e-5;
 pub const UNBALANCE: f64 = 1e-9;
 
 /// A load factor is found when its bracket is narrower than this × |λ| (plus [`LOAD_FACTOR_FLOOR`]).
-/// Larger: answers with fewer digits. Smaller: large walls go down the whole ladder for digits nobody reads.
-pub const LOAD_FACTOR_WIDTH: f64 = 1e-7;
+/// Larger: answers with fewer digits. Smaller: walls of 10,000 blocks, whose first attempt closes to 2e-7, go down the whole
+/// ladder for digits nobody reads.
+pub const LOAD_FACTOR_WIDTH: f64 = 1e-6;
 
 /// Absolute part of the width of a found load factor, in multiples of (total dead load / total live load); it decides
 /// where λ is zero.
@@ -114,12 +115,12 @@ pub const GIVEN_APART: f64 = 0.5;
 /// Larger: thin slabs and slivers are refused. Smaller: volume, centroid and inertia are rounding noise.
 pub const FLAT: f64 = 1e-7;
 
-/// Least bounding-box diagonal of a shape, m. Inertia grows as length⁵ and has to stay clear of the smallest numbers.
-/// Larger: grains could be refused. Smaller: inertias become zero.
-pub const LEAST_SIZE: f64 = 1e-50;
+/// Least bounding-box diagonal of a shape, m. Inertia grows as length⁵, and its square has to stay clear of the smallest numbers.
+/// Larger: grains could be refused. Smaller: norms of inertias become zero.
+pub const LEAST_SIZE: f64 = 1e-30;
 
-/// Greatest bounding-box diagonal of a shape, m. Larger: inertias become infinite.
-pub const GREATEST_SIZE: f64 = 1e50;
+/// Greatest bounding-box diagonal of a shape, m. Larger: norms of inertias become infinite. Smaller: planets are refused.
+pub const GREATEST_SIZE: f64 = 1e30;
 /// Template coordinates closer than this × the block length are the same line of the grid: a wall's end or the edge of an opening
 /// that falls on a joint up to rounding does not cut a sliver off the next block.
 /// Larger: openings meant to cut a thin piece lose it. Smaller: edges such as 3 × 0.1 miss the joint at 0.3 by rounding and leave slivers.

@@ -42,12 +42,12 @@ pub struct Assessment {
 
 /// Best first; measured on the reference cases.
 const LADDER: [Rung; 6] = [
-    rung(Unknowns::Forces, 1.0, 1e-11, 1e-8, true),
-    rung(Unknowns::Rates, 1.0, 1e-11, 1e-8, true),
-    rung(Unknowns::Forces, 4.0, 1e-12, 1e-9, true),
-    rung(Unknowns::Forces, 1.0, 1e-12, 1e-7, true),
-    rung(Unknowns::Rates, 8.0, 1e-12, 1e-9, true),
-    rung(Unknowns::Forces, 1.0, 1e-10, 1e-8, false),
+    rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
+    rung(Unknowns::Rates, 1.0, true, 1e-11, 1e-8, true),
+    rung(Unknowns::Forces, 4.0, true, 1e-12, 1e-9, true),
+    rung(Unknowns::Forces, 1.0, false, 1e-12, 1e-7, true),
+    rung(Unknowns::Rates, 8.0, false, 1e-12, 1e-9, true),
+    rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
 ];
 
 /// Decides whether an assembly stands under its dead load.
@@ -126,7 +126,7 @@ pub(super) fn least_unbalance(
             break;
         }
         let mut statics = statics.clone();
-        statics.rescale(step.unit);
+        statics.rescale(step.unit, step.local);
         let settings = crate::solve::Settings { seconds: left, ..step.settings };
         let (program, layout) = program::unbalance(&statics, live, step.unknowns);
         let (candidate, solution) = run(assembly, interfaces, &statics, &program, &layout, &settings);

@@ -59,11 +59,13 @@ pub(super) struct Rung {
     pub unknowns: Unknowns,
     /// Factor on the force unit.
     pub unit: f64,
+    /// Whether small blocks get units of their own.
+    pub local: bool,
     pub settings: Settings,
 }
 
-pub(super) const fn rung(unknowns: Unknowns, unit: f64, tolerance: f64, regularization: f64, equilibrate: bool) -> Rung {
-    Rung { unknowns, unit, settings: Settings { tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY } }
+pub(super) const fn rung(unknowns: Unknowns, unit: f64, local: bool, tolerance: f64, regularization: f64, equilibrate: bool) -> Rung {
+    Rung { unknowns, unit, local, settings: Settings { tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY } }
 }
 
 /// Forces and rates of a solved program in our signs and units.

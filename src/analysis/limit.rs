@@ -58,15 +58,16 @@ pub struct LoadFactor {
 
 /// Best first; measured on the reference cases and on walls pushed in and out of their plane.
 const LADDER: [Rung; 6] = [
-    rung(Unknowns::Rates, 16.0, 1e-9, 1e-9, true),
-    rung(Unknowns::Forces, 1.0, 1e-11, 1e-8, true),
-    rung(Unknowns::Forces, 8.0, 1e-11, 1e-9, true),
-    rung(Unknowns::Forces, 1.0, 1e-11, 1e-7, true),
-    rung(Unknowns::Rates, 1.0, 1e-11, 1e-8, true),
-    rung(Unknowns::Forces, 1.0, 1e-10, 1e-8, false),
+    rung(Unknowns::Rates, 16.0, true, 1e-9, 1e-9, true),
+    rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
+    rung(Unknowns::Forces, 8.0, true, 1e-11, 1e-9, true),
+    rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true),
+    rung(Unknowns::Rates, 1.0, false, 1e-11, 1e-8, true),
+    rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
 ];
 
-/// How many rungs are tried before asking whether the load factor is unbounded or impossible.
+/// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is neither where both ends
+/// of the bracket are known).
 const BEFORE_DIAGNOSIS: usize = 2;
 
 /// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
@@ -87,7 +88,10 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     };
     let mut scale = natural;
     for (index, step) in LADDER.into_iter().enumerate() {
-        if index == BEFORE_DIAGNOSIS && diagnose(assembly, interfaces, &statics, control, &mut answer) {
+        if index == BEFORE_DIAGNOSIS
+            && !answer.bracket.width().is_finite()
+            && diagnose(assembly, interfaces, &statics, control, &mut answer)
+        {
             return answer;
         }
         let left = control.seconds - start.elapsed().as_secs_f64();
@@ -114,7 +118,7 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
 /// One attempt at program L; tightens the bracket in `answer`.
 fn climb(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
     let mut statics = statics.clone();
-    statics.rescale(step.unit);
+    statics.rescale(step.unit, step.local);
     let settings = crate::solve::Settings { seconds: left, ..step.settings };
     let (program, layout) = program::load_factor(&statics, scale, step.unknowns);
     let (candidate, solution) = run(assembly, interfaces, &statics, &program, &layout, &settings);

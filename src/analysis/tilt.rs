@@ -45,29 +45,32 @@ pub fn turned(assembly: &Assembly, toward: Vector3<f64>) -> Result<(Assembly, Ve
     }
     let d = horizontal.normalize();
     let mut turned = assembly.clone();
+    let mut moments: Vec<Vector3<f64>> = assembly.dead.iter().map(|w| w.moment).collect();
+    for applied in &assembly.dead_forces {
+        moments[applied.block] -= applied.arm.cross(&applied.force);
+    }
     for i in assembly.free() {
-        let dead = assembly.dead[i];
-        let along = down.dot(&dead.force);
-        if (dead.force - down * along).norm() > 1e-9 * dead.force.norm() {
+        let Wrench { force, moment } = assembly.dead[i];
+        let along = down.dot(&force);
+        let across = (force - down * along).norm();
+        if across > ALONG * force.norm() || moments[i].norm() > ALONG * (moment.norm() + force.norm() * assembly.blocks[i].size) {
             return Err(InputError::at(
                 Default::default(),
-                format!("tilt turns dead loads with gravity, but the dead load on {} does not act along gravity", assembly.blocks[i].id),
+                format!("tilt turns dead loads with gravity, but the dead load on {:?} is not a hanging weight", assembly.blocks[i].id),
             )
-            .hint("ask `limit` with the tilting force as a live load instead"));
+            .hint("give it as a force along gravity, or ask `limit` with the tilting force as a live load"));
         }
-        turned.live[i] = Wrench { force: d * along, moment: turn(dead.moment, down, d) };
+        turned.live[i] = Wrench { force: d * along, moment: Vector3::zeros() };
+    }
+    for applied in &assembly.dead_forces {
+        turned.live[applied.block].moment += applied.arm.cross(&(d * down.dot(&applied.force)));
     }
     Ok((turned, d))
 }
 
-/// The moment of vertical forces, once the forces are turned from `down` to `d`: `r × down F → r × d F`.
-///
-/// A vertical force's moment fixes only the horizontal part of its lever arm; the arm is taken at the height of the
-/// centre of mass, so the turned moment is about `down` alone.
-fn turn(moment: Vector3<f64>, down: Vector3<f64>, d: Vector3<f64>) -> Vector3<f64> {
-    // r⊥ F = down × (r × down F) for r ⊥ down.
-    down.cross(&moment).cross(&d)
-}
+/// A dead load hangs when it lies along gravity within this share of its size. Larger: inclined loads would be turned as
+/// if they hung. Smaller: rounding of a rotated scene refuses true weights.
+const ALONG: f64 = 1e-9;
 
 /// The tilt at which the scene falls.
 ///

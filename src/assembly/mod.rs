@@ -28,6 +28,8 @@ pub struct Assembly {
     pub dead: Vec<Wrench>,
     /// Live load per block (multiplied by λ); zero on supports.
     pub live: Vec<Wrench>,
+    /// The dead forces that act off the centre of mass; contained in `dead`. Their heights matter when gravity turns.
+    pub dead_forces: Vec<AppliedForce>,
     /// Interfaces given by hand.
     pub given: Vec<GivenInterface>,
     /// Contact tolerances.
@@ -71,6 +73,17 @@ pub enum Solid {
         /// Radius, m.
         radius: f64,
     },
+}
+
+/// A force acting off a block's centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AppliedForce {
+    /// Index of the block.
+    pub block: usize,
+    /// Force, N.
+    pub force: Vector3<f64>,
+    /// From the centre of mass to where it acts, m.
+    pub arm: Vector3<f64>,
 }
 
 /// A force and a moment about a block's centre of mass.
@@ -128,7 +141,7 @@ impl Assembly {
         (0..self.blocks.len()).filter(|&i| !self.blocks[i].support)
     }
 
-    /// Weight of a block, N: mass × |gravity|.
+    /// The weight of a block, N: its mass times the strength of gravity.
     pub fn weight(&self, block: usize) -> f64 {
         self.blocks[block].mass * self.gravity.norm()
     }

@@ -155,7 +155,9 @@ impl Fields {
     fn refuse_with_span(&self, place: &Place, field: &str, value: Option<f64>) -> Result<(), InputError> {
         match value {
             None => Ok(()),
-            Some(_) => Err(place.error(field, format!("span and rise already give the arch; {field} excludes them"), format!("leave {field} out"))),
+            Some(_) => {
+                Err(place.error(field, format!("span and rise already give the arch; {field} excludes them"), format!("leave {field} out")))
+            }
         }
     }
 }
@@ -232,7 +234,6 @@ pub fn mirrored(j: usize, n: usize, right: impl Fn(f64) -> Joint) -> Joint {
     }
     right((n - 2 * j) as f64 / n as f64).map(mirror)
 }
-
 
 /// The mirror image of a point in x = 0.
 pub fn mirror([x, z]: Point) -> Point {

@@ -60,7 +60,11 @@ fn check(place: &Place, wall: &Wall) -> Result<Vec<Hole>, InputError> {
     place.total("openings", &[wall.courses, wall.openings.len()])?;
     for (field, rake) in [("rake_left", wall.rake_left), ("rake_right", wall.rake_right)] {
         if !(rake.is_finite() && rake >= 0.0) {
-            return Err(place.error(field, format!("must be ≥ 0, got {rake}"), "in blocks per course; 0.5 moves the end in by half a block"));
+            return Err(place.error(
+                field,
+                format!("must be ≥ 0, got {rake}"),
+                "in blocks per course; 0.5 moves the end in by half a block",
+            ));
         }
     }
     let last = ends(wall, wall.courses - 1);
@@ -126,7 +130,8 @@ fn snap(x: f64) -> f64 {
 fn cut(ends: &Range<f64>, moved: bool, holes: &[&Range<f64>]) -> Vec<Range<f64>> {
     let offset = if moved { 0.5 } else { 0.0 };
     let grid = ((ends.start - offset).floor() as i64..=(ends.end - offset).ceil() as i64).map(|k| k as f64 + offset);
-    let mut marks: Vec<f64> = grid.chain(holes.iter().flat_map(|h| [h.start, h.end])).filter(|x| *x > ends.start && *x < ends.end).collect();
+    let mut marks: Vec<f64> =
+        grid.chain(holes.iter().flat_map(|h| [h.start, h.end])).filter(|x| *x > ends.start && *x < ends.end).collect();
     marks.extend([ends.start, ends.end]);
     marks.sort_by(f64::total_cmp);
     marks.dedup_by(|b, a| *b - *a <= GRID_SNAP);

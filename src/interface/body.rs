@@ -1,8 +1,15 @@
 //! A block made ready for detection: boxes around it and its facets, and, where asked for, its edges and corners.
 
-use crate::assembly::{Block, Facet, Polyhedron, Solid};
+use crate::{
+    assembly::{Block, Facet, Polyhedron, Solid},
+    tolerance::COPLANAR,
+};
 use nalgebra::Vector3;
-use std::{cell::OnceCell, collections::HashMap};
+use std::{
+    cell::OnceCell,
+    collections::{BTreeSet, HashMap, HashSet},
+    f64::consts::PI,
+};
 
 /// An axis-aligned box, m.
 #[derive(Clone, Copy, Debug)]
@@ -148,46 +155,81 @@ impl Solidity<'_> {
 impl Topology {
     fn of(polyhedron: &Polyhedron) -> Self {
         let at = |v: u32| polyhedron.vertices[v as usize];
-        let sides = |piece: &[u32]| (0..piece.len()).map(|i| [piece[i], piece[(i + 1) % piece.len()]]).collect::<Vec<_>>();
-        let mut facet_of: HashMap<[u32; 2], usize> = HashMap::new();
         let mut corners = vec![Corner::default(); polyhedron.vertices.len()];
+        let mut sides = Vec::new();
         for (i, facet) in polyhedron.facets.iter().enumerate() {
             for piece in &facet.pieces {
-                for side in sides(piece) {
-                    facet_of.insert(side, i);
-                }
                 for k in 0..piece.len() {
-                    let here = at(piece[k]);
-                    let next = unit(at(piece[(k + 1) % piece.len()]) - here);
-                    let previous = unit(at(piece[(k + piece.len() - 1) % piece.len()]) - here);
-                    let corner = &mut corners[piece[k] as usize];
+                    let (here, ahead, behind) = (piece[k], piece[(k + 1) % piece.len()], piece[(k + piece.len() - 1) % piece.len()]);
+                    let (next, previous) = (unit(at(ahead) - at(here)), unit(at(behind) - at(here)));
+                    let corner = &mut corners[here as usize];
                     corner.along.extend([next, previous]);
                     corner.outward += facet.normal * previous.cross(&next).norm().atan2(previous.dot(&next));
+                    sides.push(Side { ends: [here, ahead], facet: i });
                 }
             }
         }
+        split(polyhedron, &mut sides, &mut corners);
+        let facet_of: HashMap<[u32; 2], usize> = sides.iter().map(|s| (s.ends, s.facet)).collect();
         let mut edges = Vec::new();
         let mut rims = vec![Vec::new(); polyhedron.facets.len()];
-        for (i, facet) in polyhedron.facets.iter().enumerate() {
-            for [p, q] in facet.pieces.iter().flat_map(|piece| sides(piece)) {
-                let twin = facet_of.get(&[q, p]).copied();
-                if twin == Some(i) {
-                    continue;
-                }
-                rims[i].push([p, q]);
-                // Each edge once, from the side where its ends ascend.
-                if let Some(j) = twin
-                    && p < q
-                {
-                    let other = &polyhedron.facets[j];
-                    let along = at(q) - at(p);
-                    // A facet lies to the left of its sides, seen from outside.
-                    let into = [unit(facet.normal.cross(&along)), -unit(other.normal.cross(&along))];
-                    edges.push(Edge { ends: [p, q], convex: into[0].dot(&other.normal) < 0.0, into });
-                }
+        for &Side { ends: [p, q], facet: i } in &sides {
+            let twin = facet_of.get(&[q, p]).copied();
+            if twin == Some(i) {
+                continue;
+            }
+            rims[i].push([p, q]);
+            // Each edge once, from the side where its ends ascend.
+            if let Some(j) = twin
+                && p < q
+            {
+                let (one, other) = (&polyhedron.facets[i].normal, &polyhedron.facets[j].normal);
+                let along = at(q) - at(p);
+                // A facet lies to the left of its sides, seen from outside.
+                let into = [unit(one.cross(&along)), -unit(other.cross(&along))];
+                edges.push(Edge { ends: [p, q], convex: into[0].dot(other) < 0.0, into });
             }
         }
         Self { edges, corners, rims }
+    }
+}
+
+/// A side of a facet piece, the piece on its left.
+#[derive(Clone, Copy)]
+struct Side {
+    ends: [u32; 2],
+    facet: usize,
+}
+
+/// Splits sides at corners that lie on them. A corner where two facets meet the straight side of a third is no corner of the third:
+/// its side has to be cut there to find its neighbours.
+fn split(polyhedron: &Polyhedron, sides: &mut Vec<Side>, corners: &mut [Corner]) {
+    let at = |v: u32| polyhedron.vertices[v as usize];
+    let bounds = Bounds::around(&polyhedron.vertices);
+    // Corners this close to a straight side were taken out of it when facets were joined.
+    let tol = 2.0 * COPLANAR * (bounds.hi - bounds.lo).norm();
+    let known: HashSet<[u32; 2]> = sides.iter().map(|s| s.ends).collect();
+    let (whole, single): (Vec<Side>, Vec<Side>) = sides.iter().partition(|s| known.contains(&[s.ends[1], s.ends[0]]));
+    let loose: BTreeSet<u32> = single.iter().flat_map(|s| s.ends).collect();
+    *sides = whole;
+    for Side { ends: [p, q], facet } in single {
+        let (start, along) = (at(p), unit(at(q) - at(p)));
+        let length = (at(q) - at(p)).norm();
+        let mut cuts: Vec<(f64, u32)> = loose
+            .iter()
+            .map(|&v| ((at(v) - start).dot(&along), v))
+            .filter(|&(t, v)| t > tol && t < length - tol && (at(v) - start - along * t).norm() <= tol)
+            .collect();
+        cuts.sort_by(|x, y| x.0.total_cmp(&y.0));
+        let mut from = p;
+        for (_, v) in cuts {
+            let normal = polyhedron.facets[facet].normal;
+            corners[v as usize].along.push(unit(normal.cross(&along)));
+            corners[v as usize].outward += normal * PI;
+            sides.push(Side { ends: [from, v], facet });
+            from = v;
+        }
+        sides.push(Side { ends: [from, q], facet });
     }
 }
 

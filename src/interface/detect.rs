@@ -76,8 +76,11 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
         }
         let friction = assembly.joints.friction(a, b, &assembly.blocks).ok_or_else(|| {
             let (one, other) = (&assembly.blocks[a].id, &assembly.blocks[b].id);
-            InputError::at(JsonPath::root(), format!("blocks {one:?} and {other:?} touch, and nothing says what friction acts between them"))
-                .hint("give joints.default.friction, or a joint override for these blocks or their materials")
+            InputError::at(
+                JsonPath::root(),
+                format!("blocks {one:?} and {other:?} touch, and nothing says what friction acts between them"),
+            )
+            .hint("give joints.default.friction, or a joint override for these blocks or their materials")
         })?;
         for contact in meeting.contacts {
             tally.contact(contact.gap, &limits);
@@ -171,12 +174,13 @@ fn polyhedra(a: &Body, p: &Solidity, b: &Body, q: &Solidity, limits: &Limits) ->
     let facing = faces::facing(p, q, &window(limits.near), limits);
     let convex = p.polyhedron.convex && q.polyhedron.convex;
     let on_faces = !facing.contacts.is_empty();
-    let mut meeting = Meeting { small: facing.small, ..Meeting::default() };
+    let mut meeting = Meeting { small: facing.small.iter().map(|f| f.area).collect(), ..Meeting::default() };
 
     // Two convex blocks that meet face to face meet nowhere else.
     let close = a.bounds.distance(&b.bounds) <= limits.gap;
     if close && !(convex && on_faces) {
-        let touches = features::touches(p, q, &window(limits.gap), limits, &facing.contacts);
+        let known = facing.contacts.iter().chain(&facing.small);
+        let touches = features::touches(p, q, &window(limits.gap), limits, &|p, n| known.clone().any(|f| f.covers(p, n, limits)));
         meeting.contacts.extend(touches.into_iter().map(|t| of_touch(t, 1.0)));
         let common = a.bounds.common(&b.bounds);
         if (!convex || meeting.contacts.is_empty()) && (0..3).all(|k| common.hi[k] - common.lo[k] > limits.gap) {
@@ -184,6 +188,7 @@ fn polyhedra(a: &Body, p: &Solidity, b: &Body, q: &Solidity, limits: &Limits) ->
         }
         meeting.without_normal = !on_faces
             && meeting.contacts.is_empty()
+            && meeting.small.is_empty()
             && meeting.overlap.is_none()
             && features::meet_without_normal(p, q, &window(limits.gap), limits);
     }

@@ -25,8 +25,8 @@ pub(super) struct Facing {
     pub contacts: Vec<FaceContact>,
     /// The nearest pair of facing facets left apart.
     pub near: Option<NearMiss>,
-    /// Areas of contacts below `min_area`, m².
-    pub small: Vec<f64>,
+    /// Contacts below `min_area`: ignored, but known, so that their corners are not found again.
+    pub small: Vec<FaceContact>,
 }
 
 /// A contact of two blocks on one plane.
@@ -104,12 +104,24 @@ pub(super) fn facing(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limit
             continue;
         }
         if contact.area < limits.min_area {
-            facing.small.push(contact.area);
+            facing.small.push(contact);
         } else {
             facing.contacts.push(contact);
         }
     }
+    drop_far_sides(&mut facing.contacts, limits);
     facing
+}
+
+/// Two plates thinner than the gap tolerance meet twice within it: face to face, and back to back as if each had gone through the
+/// other. Of contacts with opposite normals only the one that closes less is kept.
+fn drop_far_sides(contacts: &mut Vec<FaceContact>, limits: &Limits) {
+    let closes: Vec<(Plane, f64)> = contacts.iter().map(|c| (c.plane, c.gap.mean.abs())).collect();
+    contacts.retain(|c| {
+        !closes.iter().any(|(plane, less)| {
+            *less < c.gap.mean.abs() && plane.frame.n.dot(&c.plane.frame.n) < -0.9 && plane.height(c.plane.origin).abs() <= 2.0 * limits.gap
+        })
+    });
 }
 
 /// Lays two facets over each other; `None` where they have no area in common.
@@ -277,7 +289,8 @@ impl FaceContact {
 
     /// Whether `p`, touched along a normal `n`, lies on this contact already.
     pub fn covers(&self, p: Vector3<f64>, n: &Vector3<f64>, limits: &Limits) -> bool {
-        self.plane.frame.n.dot(n) > 0.9
+        self.hull.len() > 2
+            && self.plane.frame.n.dot(n) > 0.9
             && self.plane.height(p).abs() <= limits.gap
             && polygon::contains(&self.hull, self.plane.flat(p), limits.gap)
     }

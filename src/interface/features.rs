@@ -11,7 +11,7 @@
 
 use super::{
     body::{Bounds, Edge, Solidity, unit},
-    faces::{FaceContact, Gap},
+    faces::Gap,
     limits::Limits,
     plane::Plane,
     polygon::{self, P2},
@@ -45,12 +45,15 @@ impl Segment {
     }
 }
 
-/// All touches of edges and corners that do not lie on one of the `faces` already.
-pub(super) fn touches(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limits, faces: &[FaceContact]) -> Vec<Touch> {
+/// Whether a point, touched along a normal, lies on a contact already found.
+pub(super) type Known<'a> = &'a dyn Fn(Vector3<f64>, &Vector3<f64>) -> bool;
+
+/// All touches of edges and corners that are not `known` already.
+pub(super) fn touches(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limits, known: Known) -> Vec<Touch> {
     let mut segments = Vec::new();
     edges_on_facets(a, b, -1.0, window, limits, &mut segments);
     edges_on_facets(b, a, 1.0, window, limits, &mut segments);
-    segments.retain(|s| !faces.iter().any(|f| s.ends.iter().all(|&p| f.covers(p, &s.n, limits))));
+    segments.retain(|s| !s.ends.iter().all(|&p| known(p, &s.n)));
     let mut touches: Vec<Touch> = by_line(segments, limits);
 
     let mut points = Vec::new();
@@ -59,8 +62,7 @@ pub(super) fn touches(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limi
     crossing_edges(a, b, window, limits, &mut points);
     for point in points {
         let p = point.points[0];
-        let known = faces.iter().any(|f| f.covers(p, &point.n, limits)) || touches.iter().any(|t| t.covers(p, &point.n, limits));
-        if !known {
+        if !known(p, &point.n) && !touches.iter().any(|t| t.covers(p, &point.n, limits)) {
             touches.push(point);
         }
     }
@@ -283,9 +285,8 @@ pub(super) fn meet_without_normal(a: &Solidity, b: &Solidity, window: &Bounds, l
     edge_pairs(a, b, window, limits.gap).iter().any(|(ea, eb)| {
         let ([pa, qa], [pb, qb]) = (a.ends(ea.ends), b.ends(eb.ends));
         let (ta, tb) = nearest_of_lines(pa, qa, pb, qb);
-        let crossing = (0.0..=1.0).contains(&ta)
-            && (0.0..=1.0).contains(&tb)
-            && (pa + (qa - pa) * ta - pb - (qb - pb) * tb).norm() <= limits.gap;
+        let crossing =
+            (0.0..=1.0).contains(&ta) && (0.0..=1.0).contains(&tb) && (pa + (qa - pa) * ta - pb - (qb - pb) * tb).norm() <= limits.gap;
         crossing
             || [pa, qa].iter().any(|&p| distance_to_segment(p, pb, qb) <= limits.gap)
             || [pb, qb].iter().any(|&p| distance_to_segment(p, pa, qa) <= limits.gap)

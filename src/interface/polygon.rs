@@ -51,7 +51,8 @@ pub(super) fn tidy(polygon: &mut Vec<P2>, tol: f64) {
         for i in 0..n {
             let (previous, here, next) = (polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n]);
             // Never two neighbours in one sweep: each is judged by the other.
-            let drop = !dropped_last && !(i + 1 == n && kept.first() != Some(&polygon[0])) && distance_to_segment(here, previous, next) <= tol;
+            let drop =
+                !(dropped_last || i + 1 == n && kept.first() != Some(&polygon[0])) && distance_to_segment(here, previous, next) <= tol;
             if !drop {
                 kept.push(here);
             }
@@ -138,7 +139,17 @@ mod tests {
 
     #[test]
     fn hull_drops_inner_repeated_and_collinear_points() {
-        let points = [p(0.0, 0.0), p(1.0, 1e-13), p(2.0, 0.0), p(2.0, 1.0), p(1.0, 0.5), p(0.0, 1.0), p(0.0, 0.5), p(2.0, 1.0 - 1e-12), p(1e-13, 0.0)];
+        let points = [
+            p(0.0, 0.0),
+            p(1.0, 1e-13),
+            p(2.0, 0.0),
+            p(2.0, 1.0),
+            p(1.0, 0.5),
+            p(0.0, 1.0),
+            p(0.0, 0.5),
+            p(2.0, 1.0 - 1e-12),
+            p(1e-13, 0.0),
+        ];
         let h = hull(&points, 1e-9);
         assert_eq!(h.len(), 4, "{h:?}");
         assert!((area(&h) - 2.0).abs() < 1e-9);
@@ -157,8 +168,10 @@ mod tests {
         let before = area(&circle);
         tidy(&mut circle, 1e-9);
         assert_eq!(circle.len(), n);
-        tidy(&mut circle, 1e-5);
-        assert!(circle.len() < n && (area(&circle) - before).abs() < 1e-3);
+        // Every corner lies 2e-5 off its neighbours' chord: every second one goes, the rest lie 8e-5 off.
+        tidy(&mut circle, 3e-5);
+        assert_eq!(circle.len(), n / 2);
+        assert!((area(&circle) - before).abs() < 1e-4);
     }
 
     #[test]

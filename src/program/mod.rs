@@ -9,6 +9,7 @@
 //! Signs: a contact force acts on block `b` along `n` (from `a` into `b`); rates are power-conjugate to wrenches, so that
 //! `v = Aᵀ q` is the rate of separation and sliding of the contacts, opening positive.
 
+mod carried;
 mod conic;
 mod load_factor;
 mod planar;

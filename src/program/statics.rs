@@ -1,6 +1,6 @@
 //! The equilibrium of the free blocks, reduced and scaled.
 
-use super::{conic::Sparse, planar, planar::Plane};
+use super::{carried::carried, conic::Sparse, planar, planar::Plane};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::Interfaces,
@@ -52,6 +52,10 @@ pub struct Bearing {
     pub basis: Vec<Vector3<f64>>,
     /// The cone the columns lie in.
     pub cone: BearingCone,
+    /// Force unit of the columns, N.
+    pub unit: f64,
+    /// Load that presumably passes here, N ([`carried`](super::carried)).
+    presumed: f64,
 }
 
 /// `A x + w + λ ℓ = 0`, reduced and scaled. `A` has `d·n_free` rows, `d` = 6 in space and 3 in a plane.
@@ -69,7 +73,7 @@ pub struct Statics {
     pub dead: Vec<f64>,
     /// Scaled live load.
     pub live: Vec<f64>,
-    /// Force unit of the columns, N.
+    /// Common force unit of the columns, N.
     pub unit: f64,
     /// What was left out, one line each.
     pub left_out: Vec<String>,
@@ -95,7 +99,7 @@ impl Statics {
             row_of[f.block] = Some(row);
         }
 
-        let bearings = bearings(assembly, interfaces, plane, options);
+        let mut bearings = bearings(assembly, interfaces, plane, options);
         let dimension = if plane.is_some() { 3 } else { 6 };
         let columns = bearings.last().map_or(0, |b| b.column + b.basis.len());
         let total: f64 = free.iter().map(|f| f.weight).sum();
@@ -111,8 +115,11 @@ impl Statics {
             left_out: Vec::new(),
             rates_per_block: dimension,
         };
-        for bearing in &bearings {
+        let load = carried(assembly, interfaces, |i| row_of[i].map_or(0.0, |row: usize| this.free[row].weight));
+        for bearing in &mut bearings {
             let face = &interfaces.list[bearing.interface];
+            bearing.presumed = load[face.a].min(load[face.b]);
+            bearing.unit = this.unit;
             let point = 0.5 * (face.points[bearing.points[0]] + face.points[bearing.points[1]]);
             for (k, force) in bearing.basis.iter().enumerate() {
                 for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
@@ -174,11 +181,18 @@ impl Statics {
         }
     }
 
-    /// Multiplies the force unit (columns) by `factor`.
-    pub fn rescale(&mut self, factor: f64) {
+    /// Multiplies the force unit by `factor`. With `local` units, no bearing's unit exceeds [`LOCAL_UNIT`] × the load that
+    /// presumably passes there: without it a grain on a mountain is lost in the mountain's unit.
+    pub fn rescale(&mut self, factor: f64, local: bool) {
         self.unit *= factor;
-        for v in &mut self.matrix.v {
-            *v *= factor;
+        let mut by = vec![1.0; self.matrix.columns];
+        for bearing in &mut self.bearings {
+            let unit = if local { self.unit.min(LOCAL_UNIT * bearing.presumed) } else { self.unit };
+            by[bearing.column..bearing.column + bearing.basis.len()].fill(unit / bearing.unit);
+            bearing.unit = unit;
+        }
+        for (j, v) in self.matrix.j.iter().zip(&mut self.matrix.v) {
+            *v *= by[*j];
         }
     }
 
@@ -190,7 +204,7 @@ impl Statics {
             let n = bearing.basis.len();
             c[..n].copy_from_slice(&x[bearing.column..bearing.column + n]);
             project(bearing.cone, &mut c[..n]);
-            let force = bearing.basis.iter().zip(&c).map(|(b, c)| b * (c * self.unit)).sum::<Vector3<f64>>();
+            let force = bearing.basis.iter().zip(&c).map(|(b, c)| b * (c * bearing.unit)).sum::<Vector3<f64>>();
             for k in bearing.points {
                 forces[bearing.interface][k] += 0.5 * force;
             }
@@ -213,6 +227,10 @@ impl Statics {
         rates
     }
 }
+
+/// Greatest local unit, in presumed loads. Larger: blocks 1e9 times smaller than their neighbours are lost.
+/// Smaller: ordinary walls get uneven units and stall.
+const LOCAL_UNIT: f64 = 1e5;
 
 /// Force unit = this × total load / number of interfaces on supports. Greater: the residual in block weights is lost.
 /// Smaller: the interior-point path is cut short before tall stacks are resolved.
@@ -250,7 +268,7 @@ fn bearings(assembly: &Assembly, interfaces: &Interfaces, plane: Option<Plane>, 
             }
         };
         for points in points {
-            list.push(Bearing { interface: index, points, column, basis: basis.clone(), cone });
+            list.push(Bearing { interface: index, points, column, basis: basis.clone(), cone, unit: 1.0, presumed: 0.0 });
             column += basis.len();
         }
     }

@@ -299,7 +299,7 @@ fn complaint(root: &Value, schema: &Value, value: &Value) -> Option<String> {
         }
         return schema.get("items").and_then(|s| list.iter().find_map(|v| complaint(root, s, v)));
     }
-    let Some(map) = value.as_object() else { return None };
+    let map = value.as_object()?;
     for key in schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str) {
         if !map.contains_key(key) {
             return Some(format!("{key} is missing"));

@@ -1,3 +1,4 @@
-//! One integration binary.
+//! One integration binary: tests by behaviour.
 
 mod cli;
+mod reference;

@@ -3,8 +3,8 @@
 use super::{
     Facet, MassProperties, Mend, Polyhedron, ShapeError,
     outline::{Outline, outline},
-    plane::{self, Frame, Point2},
-    surface::{Surface, edges},
+    plane::Frame,
+    surface::{HalfEdge, Surface, edges},
 };
 use crate::tolerance;
 use nalgebra::Vector3;
@@ -30,9 +30,9 @@ pub(super) struct Region {
 /// A facet grows from its largest face over edges to faces all of whose corners lie within [`tolerance::COPLANAR`] × size of one common
 /// plane: first the plane of that face, then the area-weighted plane of what was found. As the plane does not follow the growth, a fine
 /// curved surface keeps its faces.
-pub(super) fn regions(surface: &Surface, mends: &mut Vec<Mend>) -> Vec<Region> {
+pub(super) fn regions(surface: &Surface, half_edges: &[HalfEdge], mends: &mut Vec<Mend>) -> Vec<Region> {
     let reach = tolerance::COPLANAR * surface.size;
-    let growth = Growth::new(surface, reach);
+    let growth = Growth::new(surface, half_edges, reach);
     growth.report_warped(mends);
 
     let mut order: Vec<u32> = (0..surface.faces.len() as u32).collect();
@@ -77,11 +77,10 @@ struct Growth<'a> {
 }
 
 impl<'a> Growth<'a> {
-    fn new(surface: &'a Surface, reach: f64) -> Self {
+    fn new(surface: &'a Surface, list: &[HalfEdge], reach: f64) -> Self {
         let areas: Vec<_> = surface.faces.iter().map(|f| surface.area_vector(f)).collect();
-        let list = surface.half_edges();
         let pairs = || {
-            edges(&list).filter_map(|edge| match edge {
+            edges(list).filter_map(|edge| match edge {
                 [a, b] if a.face != b.face => Some((a.face as usize, b.face as usize)),
                 _ => None,
             })
@@ -194,28 +193,6 @@ pub(super) fn refuse_flat(surface: &Surface, regions: &[Region], volume: f64) ->
     let largest = regions.iter().map(|r| r.area).fold(0.0, f64::max);
     let thickness = if largest > 0.0 { volume / largest } else { 0.0 };
     if thickness > tolerance::FLAT * surface.size { Ok(()) } else { Err(ShapeError::Flat { thickness, size: surface.size }) }
-}
-
-/// Whether all corners lie on or below each facet plane, within the tolerance (the facet's warp where that is larger), and the facets
-/// cover their hull once. Ask it only about a single shell.
-pub(super) fn is_convex(surface: &Surface, regions: &[Region]) -> bool {
-    let reach = tolerance::COPLANAR * surface.size;
-    regions.iter().all(|r| r.pieces.len() == 1)
-        && regions.iter().all(|r| {
-            let most = r.offset + reach.max(r.warp * (1.0 + 1e-9));
-            surface.points.iter().all(|p| r.normal.dot(p) <= most)
-        })
-        && covers_once(surface, regions)
-}
-
-/// A surface may wind around its hull twice and still lie below all its planes; its shadow then has twice the area of the hull's.
-fn covers_once(surface: &Surface, regions: &[Region]) -> bool {
-    let direction = Vector3::new(0.48, 0.6, 0.64);
-    let frame = Frame::around(&direction);
-    let shadow: f64 = regions.iter().map(|r| r.area * r.normal.dot(&direction).max(0.0)).sum();
-    let points: Vec<Point2> = surface.points.iter().map(|p| frame.project(p)).collect();
-    let hull: Vec<Point2> = plane::hull(&points).into_iter().map(|i| points[i]).collect();
-    shadow < 1.5 * plane::area(&hull)
 }
 
 /// The polyhedron over `regions`, with the corners that they use, as given in the file.

@@ -32,7 +32,7 @@ pub enum Mend {
         /// One of them, m.
         at: [f64; 3],
     },
-    /// Faces wound against the others were turned.
+    /// Some faces pointed inward, against the others, and were turned.
     Turned {
         /// How many.
         faces: usize,
@@ -96,7 +96,7 @@ impl fmt::Display for Mend {
             Mend::Turned { faces, first, of } => {
                 write!(
                     f,
-                    "{faces} of {} {} wound against the others and turned (the first is face {first})",
+                    "{faces} of {} pointed inward and {} turned outward (the first is face {first})",
                     count(*of, "face"),
                     were(*faces)
                 )
@@ -131,13 +131,17 @@ pub enum ShapeError {
         /// Greatest diagonal, m.
         most: f64,
     },
-    /// There are no faces, or more than can be numbered.
-    #[error("the shape has {vertices} vertices and {faces} faces, which cannot enclose a volume")]
+    /// There are no faces, or more than one block can have.
+    #[error(
+        "the shape has {vertices} vertices and {faces} faces; it needs at least one face and at most {most} vertices and corners of faces"
+    )]
     Count {
         /// How many vertices.
         vertices: usize,
         /// How many faces.
         faces: usize,
+        /// Most vertices, and most corners of all faces together.
+        most: usize,
     },
     /// A face refers to a vertex that is not there.
     #[error("face {face} refers to vertex {index}, but there are only {vertices} vertices (counted from 0)")]
@@ -210,9 +214,9 @@ pub enum ShapeError {
         face: usize,
     },
     /// No volume.
-    #[error("the shape is flat: it is {thickness:.3e} m thick (volume / largest facet) and {size:.3e} m across")]
+    #[error("the shape is flat: {} m thick and {} m across", short(*thickness), short(*size))]
     Flat {
-        /// Thickness, m.
+        /// Thickness (distance between two planes around all corners, or volume / largest facet), m.
         thickness: f64,
         /// Bounding-box diagonal, m.
         size: f64,
@@ -245,7 +249,7 @@ impl ShapeError {
         match self {
             Self::NotFinite { .. } => "write coordinates as finite numbers in metres",
             Self::OutOfRange { .. } => "coordinates are metres; check the unit and that the vertices differ",
-            Self::Count { .. } => "give at least 4 vertices and 4 faces; each face is a list of vertex indices",
+            Self::Count { .. } => "a block needs at least 4 faces, each a list of vertex indices; simplify scans before use",
             Self::NoSuchVertex { .. } => "vertex indices are counted from 0; files that count from 1 need 1 subtracted",
             Self::TooFewCorners { .. } => "leave the face out or list at least three different vertices",
             Self::CrossedFace { .. } => "list the corners in order around the face",

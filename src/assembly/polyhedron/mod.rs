@@ -4,12 +4,16 @@
 //! ([`ShapeError`]). The stages, one file each: weld corners, split edges, orient faces, join coplanar faces to facets, weigh, test for overlap.
 //! All of them work in coordinates about the centre of the bounding box, so that a block far from the origin loses no digits.
 
+mod check;
+mod convex;
 mod facets;
 mod mass;
 mod message;
 mod orient;
 mod outline;
+mod overlap;
 mod plane;
+mod split;
 mod surface;
 mod weld;
 
@@ -57,11 +61,17 @@ impl Polyhedron {
     pub fn from_faces(vertices: Vec<Vector3<f64>>, faces: &[Vec<usize>]) -> Result<(Self, Vec<Mend>), ShapeError> {
         let mut mends = Vec::new();
         let (mut surface, vertices) = weld::weld(vertices, faces, &mut mends)?;
-        let shells = orient::orient(&mut surface, &mut mends)?;
+        check::refuse_plane(&surface)?;
+        let edges = split::split_edges(&mut surface, &mut mends);
+        check::refuse_crossed(&surface)?;
+        let shells = orient::orient(&mut surface, &edges, &mut mends)?;
         let mass = mass::mass_properties(&surface);
-        let regions = facets::regions(&surface, &mut mends);
+        let regions = facets::regions(&surface, &edges, &mut mends);
         facets::refuse_flat(&surface, &regions, mass.volume)?;
-        let convex = shells == 1 && facets::is_convex(&surface, &regions);
+        let convex = shells == 1 && convex::is_convex(&surface, &regions);
+        if !convex {
+            overlap::refuse_overlap(&surface, &regions)?;
+        }
         Ok((facets::assemble(&surface, vertices, regions, convex, mass), mends))
     }
 

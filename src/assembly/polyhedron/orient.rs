@@ -7,23 +7,22 @@ use super::{
 use nalgebra::Vector3;
 use std::{collections::HashMap, f64::consts::PI};
 
-/// Checks that the surface is closed, winds its faces consistently and outward, and returns the number of closed shells.
+/// Checks that the surface with the half-edges `list` is closed, winds its faces consistently and outward, and returns the number of closed shells.
 ///
 /// * Every edge must have an even number of faces.
 /// * Across an edge with two faces these must run opposite ways; faces connected so are a patch, wound as most of its faces are.
 /// * A shell (a patch closed by itself, or several that close each other) winds outward, where its signed volume is positive;
 ///   one inside another winds the other way round, as a cavity.
-pub(super) fn orient(surface: &mut Surface, mends: &mut Vec<Mend>) -> Result<usize, ShapeError> {
-    let list = surface.half_edges();
-    refuse_odd(surface, &list)?;
+pub(super) fn orient(surface: &mut Surface, list: &[HalfEdge], mends: &mut Vec<Mend>) -> Result<usize, ShapeError> {
+    refuse_odd(surface, list)?;
 
     let count = surface.faces.len();
     let mut patches = Classes::new(count);
-    for edge in edges(&list) {
-        if let [a, b] = edge {
-            if !patches.join(a.face, b.face, a.forward == b.forward) {
-                return Err(ShapeError::OneSided { face: surface.faces[a.face as usize].source });
-            }
+    for edge in edges(list) {
+        if let [a, b] = edge
+            && !patches.join(a.face, b.face, a.forward == b.forward)
+        {
+            return Err(ShapeError::OneSided { face: surface.faces[a.face as usize].source });
         }
     }
     let patch: Vec<(u32, bool)> = (0..count as u32).map(|f| patches.find(f)).collect();
@@ -39,7 +38,7 @@ pub(super) fn orient(surface: &mut Surface, mends: &mut Vec<Mend>) -> Result<usi
     for (f, &(root, _)) in patch.iter().enumerate() {
         shells.join(f as u32, root, false);
     }
-    for edge in edges(&list).filter(|e| e.len() > 2) {
+    for edge in edges(list).filter(|e| e.len() > 2) {
         pair_up(surface, edge, &patch, &turn, &mut shells)?;
     }
     let (shell, shells) = shells.number();

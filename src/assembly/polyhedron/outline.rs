@@ -91,9 +91,9 @@ fn loops(surface: &Surface, boundary: &[(u32, u32)], frame: &Frame) -> Vec<Vec<u
             walk.push(from);
             let begin = boundary.partition_point(|e| e.0 < to);
             let end = begin + boundary[begin..].partition_point(|e| e.0 == to);
-            let ahead = (begin..end).filter(|&e| !gone[e]);
+            let mut ahead = (begin..end).filter(|&e| !gone[e]);
             let next = if end - begin == 1 {
-                ahead.last()
+                ahead.next()
             } else {
                 let at = frame.project(&surface.point(to));
                 let angle = |corner: u32| {

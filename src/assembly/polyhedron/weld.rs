@@ -11,6 +11,9 @@ use std::collections::HashMap;
 /// Below this, comparing all pairs is faster than a hash grid.
 const FEW: usize = 32;
 
+/// Most vertices, and most corners of all faces together: keeps numbers of corners within 32 bits everywhere and memory within some GB.
+const MOST: usize = 1 << 25;
+
 /// Checks the numbers and indices, welds vertices closer than [`tolerance::WELD`] × size, drops unused vertices and faces without extent.
 ///
 /// Returns the surface in coordinates about its centre, and the corners in scene coordinates as the file gave them.
@@ -22,10 +25,9 @@ pub(super) fn weld(
     if let Some(vertex) = vertices.iter().position(|v| !v.iter().all(|x| x.is_finite())) {
         return Err(ShapeError::NotFinite { vertex });
     }
-    let refused = ShapeError::Count { vertices: vertices.len(), faces: faces.len() };
-    // u32::MAX itself marks "none" in tables below.
-    if faces.is_empty() || vertices.len() >= u32::MAX as usize || faces.len() >= u32::MAX as usize {
-        return Err(refused);
+    let corners = faces.iter().map(Vec::len).sum::<usize>();
+    if faces.is_empty() || vertices.len().max(corners) > MOST {
+        return Err(ShapeError::Count { vertices: vertices.len(), faces: faces.len(), most: MOST });
     }
     let used = used(vertices.len(), faces)?;
     let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));

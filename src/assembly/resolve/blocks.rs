@@ -43,12 +43,12 @@ pub(super) fn resolve(scene: &Scene) -> Result<(Vec<Block>, Vec<Finding>), Input
     }
     let mut blocks = Vec::with_capacity(scene.blocks.len());
     let mut mended = Mended::default();
-    // Per block: whether its density is nobody's choice.
-    let mut assumed = Vec::with_capacity(scene.blocks.len());
+    // Per block: its density, where somebody chose one.
+    let mut chosen = Vec::with_capacity(scene.blocks.len());
     let mut add = |spec: &BlockSpec, place: &Place| -> Result<(), InputError> {
-        let (block, no_density) = block(scene, spec, place, &mut mended)?;
+        let (block, density) = block(scene, spec, place, &mut mended)?;
         blocks.push(block);
-        assumed.push(no_density);
+        chosen.push(density);
         Ok(())
     };
     for (i, spec) in scene.blocks.iter().enumerate() {
@@ -61,12 +61,12 @@ pub(super) fn resolve(scene: &Scene) -> Result<(Vec<Block>, Vec<Finding>), Input
         }
     }
     let mut findings = mended.findings();
-    findings.extend(assumed_density(scene, &blocks, &assumed));
+    findings.extend(assumed_density(scene, &blocks, &chosen));
     Ok((blocks, findings))
 }
 
-/// One block, and whether the default density was taken for it.
-fn block(scene: &Scene, spec: &BlockSpec, place: &Place, mended: &mut Mended) -> Result<(Block, bool), InputError> {
+/// One block, and its density where the scene gives it (as such, by a material, or as a mass).
+fn block(scene: &Scene, spec: &BlockSpec, place: &Place, mended: &mut Mended) -> Result<(Block, Option<f64>), InputError> {
     let root = JsonPath::root();
     let frame = Frame::new(spec, place)?;
     let body = shape::body(spec, &frame, place)?;
@@ -110,7 +110,8 @@ fn block(scene: &Scene, spec: &BlockSpec, place: &Place, mended: &mut Mended) ->
         solid: body.solid,
         size: body.size,
     };
-    Ok((block, density.is_none() && spec.mass.is_none()))
+    let chosen = if spec.mass.is_some() { Some(mass / volume) } else { density };
+    Ok((block, chosen))
 }
 
 /// The error about a material that is not in the list.
@@ -122,18 +123,20 @@ pub(super) fn no_material(scene: &Scene, name: &str, path: &JsonPath) -> InputEr
 
 /// Says that a density was assumed, if that can change an answer: with one density for all and no load but the weight,
 /// forces grow with it and nothing else does.
-fn assumed_density(scene: &Scene, blocks: &[Block], assumed: &[bool]) -> Option<Finding> {
-    let free = || blocks.iter().zip(assumed).filter(|(b, _)| !b.support);
-    let (first, _) = free().find(|(_, assumed)| **assumed)?;
-    let count = free().filter(|(_, assumed)| **assumed).count();
-    let mixed = count < free().count();
+fn assumed_density(scene: &Scene, blocks: &[Block], chosen: &[Option<f64>]) -> Option<Finding> {
+    let free = || blocks.iter().zip(chosen).filter(|(b, _)| !b.support);
+    let mut assumed = free().filter(|(_, density)| density.is_none());
+    let (first, _) = assumed.next()?;
+    let count = 1 + assumed.count();
+    // Mass over volume gives a density back up to rounding.
+    let mixed = free().filter_map(|(_, density)| *density).any(|d| (d / DEFAULT_DENSITY - 1.0).abs() > 1e-12);
     let loaded = scene.loads.dead.iter().chain(&scene.loads.live).any(|l| l.force.is_some() || l.moment.is_some());
     let why = match (mixed, loaded) {
         (false, false) => return None,
-        (true, _) => "other blocks have a density or mass of their own",
+        (true, _) => "other blocks have another density",
         (false, true) => "there are loads besides the weight",
     };
-    let who = if count == 1 { format!("block {:?} has", first.id) } else { format!("{count} blocks have (the first is {:?})", first.id) };
+    let who = if count == 1 { format!("Block {:?} has", first.id) } else { format!("{count} blocks have (the first is {:?})", first.id) };
     let text = format!("{who} no density, mass or material: {DEFAULT_DENSITY} kg/m³ was assumed; this matters because {why}.");
     Some(Finding::new(FindingCode::Assumed, text))
 }

@@ -5,20 +5,33 @@
 
 use super::{Names, check};
 use crate::{
-    assembly::{Assembly, Wrench},
+    assembly::{AppliedForce, Assembly, Wrench},
     error::{InputError, JsonPath},
     scene::{At, Load, Scene},
 };
 use nalgebra::Vector3;
 
-/// Dead loads (own weight included) and live loads, per block.
-pub(super) fn resolve(scene: &Scene, assembly: &Assembly, names: &Names) -> Result<(Vec<Wrench>, Vec<Wrench>), InputError> {
+/// The loads of an assembly, per block.
+pub(super) struct Resolved {
+    /// Dead loads, own weight included.
+    pub dead: Vec<Wrench>,
+    /// Live loads.
+    pub live: Vec<Wrench>,
+    /// Dead forces off the centre of mass, contained in `dead`.
+    pub dead_forces: Vec<AppliedForce>,
+}
+
+/// Resolves dead and live loads.
+pub(super) fn resolve(scene: &Scene, assembly: &Assembly, names: &Names) -> Result<Resolved, InputError> {
     let path = JsonPath::root().key("loads");
     let mut dead: Vec<Wrench> = (0..assembly.blocks.len()).map(|i| assembly.self_weight(i)).collect();
     let mut live = vec![Wrench::zero(); assembly.blocks.len()];
-    for (key, loads, sum) in [("dead", &scene.loads.dead, &mut dead), ("live", &scene.loads.live, &mut live)] {
+    let (mut dead_forces, mut live_forces) = (Vec::new(), Vec::new());
+    for (key, loads, sum, forces) in
+        [("dead", &scene.loads.dead, &mut dead, &mut dead_forces), ("live", &scene.loads.live, &mut live, &mut live_forces)]
+    {
         for (i, load) in loads.iter().enumerate() {
-            add(load, assembly, names, sum, &path.key(key).index(i))?;
+            forces.extend(add(load, assembly, names, sum, &path.key(key).index(i))?);
         }
     }
     let finite = |w: &Wrench| w.force.iter().chain(&w.moment).all(|x| x.is_finite());
@@ -26,10 +39,11 @@ pub(super) fn resolve(scene: &Scene, assembly: &Assembly, names: &Names) -> Resu
         return Err(InputError::at(path, format!("the load on block {:?} is too large to compute with", assembly.blocks[i].id))
             .hint("forces are in N, lengths in m, masses in kg"));
     }
-    Ok((dead, live))
+    Ok(Resolved { dead, live, dead_forces })
 }
 
-fn add(load: &Load, assembly: &Assembly, names: &Names, sum: &mut [Wrench], path: &JsonPath) -> Result<(), InputError> {
+/// Adds one load to `sum`; returns its force where that acts off the centre of mass.
+fn add(load: &Load, assembly: &Assembly, names: &Names, sum: &mut [Wrench], path: &JsonPath) -> Result<Option<AppliedForce>, InputError> {
     let block = load.block.as_ref().map(|id| names.find(id, &path.key("block"))).transpose()?;
     if let Some(id) = load.block.as_ref().filter(|_| block.is_some_and(|i| assembly.blocks[i].support)) {
         return Err(InputError::at(path.key("block"), format!("{id:?} is a support: a load on it changes nothing")).hint("remove the load"));
@@ -69,7 +83,7 @@ fn add(load: &Load, assembly: &Assembly, names: &Names, sum: &mut [Wrench], path
             Some(At::Point(point)) => check::vector(point, &path.key("at"))? - assembly.blocks[i].centroid,
         };
         sum[i] += Wrench { force, moment: moment.unwrap_or_default() + arm.cross(&force) };
-        return Ok(());
+        return Ok((arm != Vector3::zeros()).then_some(AppliedForce { block: i, force, arm }));
     }
     let loaded: Vec<usize> = block.map_or_else(|| assembly.free().collect(), |i| vec![i]);
     for i in loaded {
@@ -78,5 +92,5 @@ fn add(load: &Load, assembly: &Assembly, names: &Names, sum: &mut [Wrench], path
         let by_weight = weight.map(|w| w * assembly.weight(i));
         sum[i] += Wrench { force: by_acceleration.or(by_weight).unwrap_or_default(), moment: Vector3::zeros() };
     }
-    Ok(())
+    Ok(None)
 }

@@ -52,6 +52,7 @@ pub fn resolve(scene: &Scene) -> Result<Assembly, InputError> {
         gravity,
         dead: Vec::new(),
         live: Vec::new(),
+        dead_forces: Vec::new(),
         given: Vec::new(),
         contact: scene.contact.clone(),
         findings,
@@ -59,8 +60,8 @@ pub fn resolve(scene: &Scene) -> Result<Assembly, InputError> {
         blocks,
     };
     let (given, told) = given::resolve(scene, &assembly, &names)?;
-    let (dead, live) = loads::resolve(scene, &assembly, &names)?;
-    (assembly.given, assembly.dead, assembly.live) = (given, dead, live);
+    let loads = loads::resolve(scene, &assembly, &names)?;
+    (assembly.given, assembly.dead, assembly.live, assembly.dead_forces) = (given, loads.dead, loads.live, loads.dead_forces);
     assembly.findings.extend(told);
     assembly.findings.extend(units::slips(&assembly));
     Ok(assembly)

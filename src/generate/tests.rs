@@ -1,1 +1,0 @@
-//! Geometry against known coordinates, and refusals.
