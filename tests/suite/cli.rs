@@ -560,6 +560,7 @@ fn templates_are_changed_by_key() {
         (&["cathedral"], "arch"),
         (&["arch", "--friction", "-1"], "friction"),
         (&["arch", "--density", "0"], "density"),
+        (&["arch", "--density", "-1"], "density"),
     ] {
         let answer = expect(USAGE, voussoir(&[&["generate"], wrong].concat()));
         assert!(err(&answer).contains(said) && out(&answer).is_empty(), "{wrong:?}: {}", err(&answer));
