@@ -37,11 +37,16 @@ fn stages(c: &mut Criterion) {
         group.bench_function(BenchmarkId::new("resolve", blocks), |b| b.iter(|| assembly::resolve(black_box(&scene))));
         group.bench_function(BenchmarkId::new("detect", blocks), |b| b.iter(|| interface::detect(black_box(assembly))));
         group.bench_function(BenchmarkId::new("build", blocks), |b| {
-            b.iter(|| program::load_factor(&Statics::new(assembly, interfaces, Options { keep_all: false, live: true }), 1.0, Unknowns::Rates))
+            b.iter(|| {
+                program::load_factor(
+                    &Statics::new(assembly, interfaces, Options { keep_all: false, live: true, split: false }),
+                    1.0,
+                    Unknowns::Rates,
+                )
+            })
         });
-        group.bench_function(BenchmarkId::new("assess", blocks), |b| {
-            b.iter(|| analysis::assess(assembly, interfaces, &Control::default()))
-        });
+        group
+            .bench_function(BenchmarkId::new("assess", blocks), |b| b.iter(|| analysis::assess(assembly, interfaces, &Control::default())));
         group.bench_function(BenchmarkId::new("limit in plane", blocks), |b| {
             b.iter(|| analysis::limit(assembly, interfaces, &Control::default()))
         });
@@ -60,7 +65,9 @@ fn figures(c: &mut Criterion) {
     group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(3));
     let scene = wall(199, 100, [1.0, 0.0, 0.0]);
     let large = assembly::resolve(&scene).expect("the bench scene resolves");
-    group.bench_function(format!("interfaces of a wall of {} blocks", large.blocks.len()), |b| b.iter(|| interface::detect(black_box(&large))));
+    group.bench_function(format!("interfaces of a wall of {} blocks", large.blocks.len()), |b| {
+        b.iter(|| interface::detect(black_box(&large)))
+    });
     let scene = wall(12, 12, [0.0, 1.0, 0.0]);
     let model = analysis::prepare(&scene).expect("the bench scene resolves");
     group.bench_function(format!("limit out of plane, {} blocks", model.assembly.blocks.len()), |b| {

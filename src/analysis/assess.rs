@@ -56,7 +56,7 @@ pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -
     if let Some(answer) = falls_freely(assembly, interfaces, &floating) {
         return answer;
     }
-    let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: false });
+    let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: false, split: false });
     let mut answer = least_unbalance(assembly, interfaces, &statics, LiveLoad::Absent, control);
     answer.floating = floating;
     answer

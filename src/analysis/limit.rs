@@ -73,7 +73,7 @@ const BEFORE_DIAGNOSIS: usize = 2;
 /// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
 pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
     let start = Instant::now();
-    let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: true });
+    let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: true, split: false });
     let natural = check::natural_factor(assembly);
     let mut answer = LoadFactor {
         outcome: Outcome::Undecided,
@@ -168,7 +168,7 @@ fn diagnose(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, con
     }
     // The live load in the size of the dead load, so that the same threshold applies.
     let (alone, natural) = check::live_alone(assembly);
-    let wedge_statics = Statics::new(&alone, interfaces, Options { keep_all: control.keep_all, live: false });
+    let wedge_statics = Statics::new(&alone, interfaces, Options { keep_all: control.keep_all, live: false, split: false });
     let wedge = least_unbalance(&alone, interfaces, &wedge_statics, LiveLoad::Absent, control);
     answer.attempts.extend(wedge.attempts.iter().cloned());
     if wedge.verdict == Verdict::Stable && any.verdict == Verdict::Stable {

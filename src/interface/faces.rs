@@ -3,7 +3,8 @@
 //! Two facets face each other where their normals are opposite within the angle. Each convex piece of one is cut by each convex
 //! piece of the other in a plane between them, and the gap is measured **at the corners of what is left**, not at the corners of
 //! the facets: a slab may be a hundred thousand times longer than the block it carries. They touch where the gap is within the
-//! tolerance at all these corners.
+//! tolerance at all these corners. Facets that are not plane stand for their mean planes, and the tolerance grows by their warp:
+//! two blocks that share part of a warped joint have different mean planes there.
 //!
 //! All facet pairs of two blocks that touch on one plane make one contact: its points are the convex hull, exact for rigid blocks
 //! with Coulomb friction, because a force at an inner point is a combination of forces at the hull's corners.
@@ -88,7 +89,9 @@ pub(super) fn facing(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limit
                 continue;
             }
             let Some(overlay) = overlay(a, b, [i, j], limits) else { continue };
-            if overlay.gap.least >= -limits.gap && overlay.gap.greatest <= limits.gap {
+            // The plane of a warped facet is known no better than its warp.
+            let reach = limits.gap + fa.warp + fb.warp;
+            if overlay.gap.least >= -reach && overlay.gap.greatest <= reach {
                 touching.push(overlay);
             } else if overlay.gap.least >= -limits.gap && overlay.gap.least <= limits.near {
                 let closer = facing.near.is_none_or(|n| overlay.gap.mean < n.gap);
@@ -291,7 +294,7 @@ impl FaceContact {
     pub fn covers(&self, p: Vector3<f64>, n: &Vector3<f64>, limits: &Limits) -> bool {
         self.hull.len() > 2
             && self.plane.frame.n.dot(n) > 0.9
-            && self.plane.height(p).abs() <= limits.gap
+            && self.plane.height(p).abs() <= limits.gap.max(-self.gap.least).max(self.gap.greatest)
             && polygon::contains(&self.hull, self.plane.flat(p), limits.gap)
     }
 }

@@ -3,6 +3,7 @@
 //! Convex blocks: the separating-axis theorem. Two convex polyhedra are apart by the greatest separation over the normals of their
 //! facets and the common perpendiculars of those edges whose normal arcs cross (Gottschalk, Lin & Manocha 1996; arcs: Gregorius 2013);
 //! its negative is the depth. Parry's expanding-polytope answer is not asked: near touching it may return a wrong normal.
+//! Facets that are not plane stand for their mean planes, so that the depth is good to their warp.
 //!
 //! Non-convex blocks: points of one, corners, parts of edges and points just under the faces, are looked for inside the other. The depth found is a
 //! lower bound; an overlap that is deeper than the tolerance at none of these points is missed.

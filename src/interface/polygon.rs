@@ -51,8 +51,8 @@ pub(super) fn tidy(polygon: &mut Vec<P2>, tol: f64) {
         for i in 0..n {
             let (previous, here, next) = (polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n]);
             // Never two neighbours in one sweep: each is judged by the other.
-            let drop =
-                !(dropped_last || i + 1 == n && kept.first() != Some(&polygon[0])) && distance_to_segment(here, previous, next) <= tol;
+            let neighbour_dropped = dropped_last || (i + 1 == n && kept.first() != Some(&polygon[0]));
+            let drop = !neighbour_dropped && distance_to_segment(here, previous, next) <= tol;
             if !drop {
                 kept.push(here);
             }

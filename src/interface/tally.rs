@@ -76,7 +76,10 @@ impl Tally {
                 .filter(|(e, ..)| e.count > 0)
                 .map(|(e, one, many)| format!("{} {} (up to {} m)", e.count, if e.count == 1 { one } else { many }, short(e.greatest)))
                 .collect();
-            let text = format!("closed {}, all within contact.gap ({tolerance} × the smaller block's size)", parts.join(" and "));
+            let text = format!(
+                "closed {}, all within contact.gap ({tolerance} × the smaller block's size) or the warp of the faces",
+                parts.join(" and ")
+            );
             findings.push(Finding::new(FindingCode::GapClosed, text));
         }
         if !self.near.is_empty() {

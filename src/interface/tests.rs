@@ -131,6 +131,7 @@ fn assembly(shapes: &[Shape]) -> Assembly {
         blocks,
         joints: JointRules { default: rule, by_material: Vec::new(), by_blocks: HashMap::new() },
         dead: none.clone(),
+        dead_forces: Vec::new(),
         live: none,
         given: Vec::new(),
         contact: ContactSpec::default(),
@@ -345,6 +346,25 @@ fn near_misses_are_reported_with_the_remedy_that_closes_them() {
     let mut scene = assembly(&shapes);
     scene.contact.gap = remedy;
     assert_eq!(detect(&scene).unwrap().list.len(), 1);
+}
+
+#[test]
+fn blocks_that_share_part_of_a_warped_joint_touch() {
+    // Between them the saddle z = 0.02 x y; over different parts of it the mean planes differ by 0.005.
+    let saddle = |x0: f64, x1: f64, flat: f64, up: bool| {
+        let corners = [(x0, 0.0), (x1, 0.0), (x1, 1.0), (x0, 1.0)];
+        let joint = corners.iter().map(|&(x, y)| v(x, y, 0.02 * x * y));
+        let outer = corners.iter().map(|&(x, y)| v(x, y, flat));
+        let points = if up { joint.chain(outer).collect() } else { outer.chain(joint).collect() };
+        let mut faces: Vec<Vec<usize>> = vec![vec![3, 2, 1, 0], vec![4, 5, 6, 7]];
+        faces.extend((0..4).map(|i| vec![i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i]));
+        Shape::Mesh(points, faces)
+    };
+    let found = found(&[saddle(0.0, 1.0, -1.0, false), saddle(0.5, 1.5, 1.0, true)]);
+    assert_eq!(found.list.len(), 1, "{found:?}");
+    assert_eq!(found.list[0].kind, ContactKind::Face);
+    assert!((found.list[0].area - 0.5).abs() < 1e-3);
+    assert!(says(&found, FindingCode::GapClosed)[0].contains("0.005"), "{:?}", found.findings);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! A conic program without an engine: `min cᵀx` subject to `b − G x ∈ K`.
+//! A conic program without an engine: `min ½ xᵀ diag(p) x + cᵀx` subject to `b − G x ∈ K`.
 
 /// A sparse matrix as a list of entries (row, column, value); equal places add up.
 #[derive(Clone, Debug, Default)]
@@ -58,9 +58,11 @@ impl Cone {
     }
 }
 
-/// `min cᵀx` subject to `b − G x ∈ K`. Its multipliers `z ∈ K*` satisfy `Gᵀ z + c = 0`.
+/// `min ½ xᵀ diag(p) x + cᵀx` subject to `b − G x ∈ K`. Its multipliers `z ∈ K*` satisfy `p x + c + Gᵀ z = 0`.
 #[derive(Clone, Debug)]
 pub struct ConicProgram {
+    /// Diagonal `p ≥ 0` of the quadratic part; empty where there is none.
+    pub quadratic: Vec<f64>,
     /// Objective `c`.
     pub objective: Vec<f64>,
     /// Constraint matrix `G`.
@@ -74,7 +76,7 @@ pub struct ConicProgram {
 impl ConicProgram {
     /// A program in `columns` variables with no rows yet and a zero objective.
     pub(super) fn new(columns: usize) -> Self {
-        Self { objective: vec![0.0; columns], matrix: Sparse::zeros(0, columns), rhs: Vec::new(), cones: Vec::new() }
+        Self { quadratic: Vec::new(), objective: vec![0.0; columns], matrix: Sparse::zeros(0, columns), rhs: Vec::new(), cones: Vec::new() }
     }
 
     /// Appends a cone with right-hand side zero; returns its first row.

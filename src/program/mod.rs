@@ -11,6 +11,7 @@
 
 mod carried;
 mod conic;
+pub mod coulomb;
 mod load_factor;
 mod planar;
 mod reach;

@@ -15,6 +15,9 @@ pub struct Options {
     pub keep_all: bool,
     /// Whether the live load takes part (it must then lie in the plane of a plane scene).
     pub live: bool,
+    /// Whether columns are the normal and tangential forces themselves, friction left to the caller
+    /// ([`coulomb`](super::coulomb)), instead of coordinates of the friction cone.
+    pub split: bool,
 }
 
 /// A free block and the scales of its rows.
@@ -243,6 +246,8 @@ fn bearings(assembly: &Assembly, interfaces: &Interfaces, plane: Option<Plane>, 
         let n = face.frame.n;
         let (basis, cone) = match (plane, face.friction) {
             (_, Friction::Coefficient(mu)) if mu == 0.0 && !options.keep_all => (vec![n], BearingCone::Rays),
+            (Some(p), _) if options.split => (vec![n, p.axis.cross(&n)], BearingCone::Rough),
+            (None, _) if options.split => (vec![n, face.frame.t1, face.frame.t2], BearingCone::Rough),
             (Some(p), Friction::Coefficient(mu)) => {
                 let t = p.axis.cross(&n);
                 let scale = 1.0 / mu.hypot(1.0);

@@ -2,7 +2,7 @@
 
 mod clarabel;
 
-pub use self::clarabel::solve;
+pub use self::clarabel::{Session, solve};
 
 use serde::{Deserialize, Serialize};
 
