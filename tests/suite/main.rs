@@ -1,3 +1,8 @@
 //! One integration binary: tests by behaviour.
 
+mod ask;
+
+mod analytic;
+mod published;
 mod reference;
+mod scenes;
