@@ -1,4 +1,9 @@
 //! One integration binary: tests by behaviour.
 
+mod ask;
+
+mod analytic;
 mod cli;
+mod published;
 mod reference;
+mod scenes;
