@@ -5,5 +5,6 @@ mod ask;
 mod analytic;
 mod cli;
 mod published;
+mod readme;
 mod reference;
 mod scenes;

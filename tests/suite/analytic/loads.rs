@@ -97,7 +97,7 @@ fn dead_loads_count_as_weight() {
 fn a_hanging_load_turns_with_gravity() {
     // W at half height, P hung at (x, z): moments about the edge b / 2 vanish at tan θ = (W b / 2 + P (b / 2 − x)) / |W h / 2 + P z|
     // (x = 0 where the load hangs so low that the block tips backwards).
-    for (p, x, z) in [(1e-3, 0.0, 0.0), (3.0, 0.0, 2.0), (3.0, 0.0, -1.0), (1.0, 0.4, 5.0), (0.5, -0.5, 2.0)] {
+    for (p, x, z) in [(1e-3_f64, 0.0_f64, 0.0_f64), (3.0, 0.0, 2.0), (3.0, 0.0, -1.0), (1.0, 0.4, 5.0), (0.5, -0.5, 2.0)] {
         let hung = scene(
             50.0,
             json!([ground(), cuboid("block", [1.0, 1.0, 2.0], [0.0; 3])]),
