@@ -1,6 +1,48 @@
 //! # voussoir
 //!
-//! Tells whether things made of rigid pieces that only touch stand or fall, and proves it.
+//! Tells whether things made of rigid pieces that only touch (arches, walls, vaults, domes, rock blocks, heaps of grains)
+//! stand or fall, and proves it.
+//!
+//! Each stage is one module and hands the next a plain value; nothing reaches back:
+//!
+//! ```text
+//! JSON ─▶ scene::Scene ─▶ assembly::Assembly ─▶ interface::Interfaces ─▶ program ─▶ solve ─▶ verdict ─▶ analysis ─▶ report
+//!              ▲
+//!   generate, import
+//! ```
+//!
+//! ```
+//! let (scene, _) = voussoir::scene::read_file("structures/oppenheim-arch.json".as_ref())?;
+//! let model = voussoir::analysis::prepare(&scene)?;
+//! let answer = voussoir::analysis::limit(&model.assembly, &model.interfaces, &Default::default());
+//! assert!((answer.value - 0.373_611_692).abs() < 1e-8 && answer.bracket.lower <= answer.value);
+//! # Ok::<(), voussoir::error::InputError>(())
+//! ```
+//!
+//! A verdict carries its evidence, and the evidence is checked without the program that found it:
+//!
+//! ```
+//! use voussoir::{analysis, scene, verdict::{Verdict, check}};
+//! let (scene, _) = scene::read_file("structures/semicircular-arch-thin.json".as_ref())?;
+//! let model = analysis::prepare(&scene)?;
+//! let answer = analysis::assess(&model.assembly, &model.interfaces, &Default::default());
+//! assert_eq!(answer.verdict, Verdict::Unstable);
+//! let claim = check::Claim::Unstable;
+//! assert!(check::verify(&model.assembly, &model.interfaces, &claim, &answer.forces, None, &answer.rates).proved());
+//! # Ok::<(), voussoir::error::InputError>(())
+//! ```
+//!
+//! | convention | |
+//! |---|---|
+//! | units | SI: m, kg, s, N; degrees only in scene files and reports, and then in the name |
+//! | axes | z up; gravity 9.81 m/s² downward unless the scene says otherwise |
+//! | interface | unit normal `n` from block `a` into block `b`; frame `(t1, t2, n)` right-handed |
+//! | contact force | the force on `b`; compression `f_n ≥ 0`, `‖f_t‖ ≤ μ f_n` |
+//! | wrench | (force; moment about the block's centre of mass) |
+//! | rates | (velocity of the centre of mass; spin), power-conjugate to wrenches; contacts open at `v_n > 0` |
+//! | gap | > 0 open, < 0 overlap |
+//! | equilibrium | `A f + w + λ ℓ = 0`: contact forces, dead load, live load |
+//! | unbalance | in multiples of each block's own load (g) |
 
 #![warn(missing_docs)]
 

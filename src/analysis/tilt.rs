@@ -39,7 +39,8 @@ impl Tilt {
 pub fn turned(assembly: &Assembly, toward: Vector3<f64>) -> Result<(Assembly, Vector3<f64>), InputError> {
     let down = assembly.gravity.normalize();
     let horizontal = toward - down * down.dot(&toward);
-    if !(horizontal.norm() > 1e-9 * toward.norm()) {
+    let across = horizontal.norm() / toward.norm();
+    if across.is_nan() || across <= 1e-9 {
         return Err(InputError::at(Default::default(), format!("cannot tilt towards {:?}: it is parallel to gravity", toward.as_slice()))
             .hint("give a direction across gravity, such as 1,0,0"));
     }

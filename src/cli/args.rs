@@ -20,18 +20,15 @@ Results go to standard output, everything else to standard error. `-` stands for
 pub struct Cli {
     #[command(subcommand)]
     pub verb: Verb,
-    /// Colour of text; NO_COLOR is respected.
-    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = Color::Auto)]
+    /// Colour of text: auto (on a terminal, unless NO_COLOR is set), always or never.
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = Color::Auto, hide_possible_values = true)]
     pub color: Color,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Color {
-    /// On a terminal.
     Auto,
-    /// Always.
     Always,
-    /// Never.
     Never,
 }
 
@@ -122,7 +119,7 @@ pub struct Common {
     #[arg(long)]
     pub keep_all: bool,
     /// Stop trying after this many seconds.
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     pub time_limit: Option<f64>,
     /// Lists in full, and every attempt at the program.
     #[arg(short, long)]
@@ -144,10 +141,10 @@ pub struct Generate {
     #[arg(long, conflicts_with_all = ["template", "set", "output"])]
     pub list: bool,
     /// Coefficient of friction of every joint, or `infinite`.
-    #[arg(long, value_name = "MU", default_value = "0.7", value_parser = friction)]
+    #[arg(long, value_name = "MU", default_value = "0.7", allow_negative_numbers = true, value_parser = friction)]
     pub friction: Friction,
     /// Density of every block, kg/m³.
-    #[arg(long, value_name = "DENSITY", value_parser = positive)]
+    #[arg(long, value_name = "DENSITY", allow_negative_numbers = true, value_parser = positive)]
     pub density: Option<f64>,
     /// Name of the scene.
     #[arg(long)]
@@ -178,19 +175,19 @@ pub struct Import {
     #[arg(long, value_name = "FILE")]
     pub supports_file: Vec<PathBuf>,
     /// Coefficient of friction of every joint, or `infinite`.
-    #[arg(long, value_name = "MU", value_parser = friction)]
+    #[arg(long, value_name = "MU", allow_negative_numbers = true, value_parser = friction)]
     pub friction: Option<Friction>,
     /// Density of every block, kg/m³, in place of what the file says.
-    #[arg(long, value_name = "DENSITY", value_parser = positive)]
+    #[arg(long, value_name = "DENSITY", allow_negative_numbers = true, value_parser = positive)]
     pub density: Option<f64>,
     /// Multiply coordinates: 0.001 for a file in millimetres.
-    #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = positive)]
+    #[arg(long, value_name = "S", default_value_t = 1.0, allow_negative_numbers = true, value_parser = positive)]
     pub scale: f64,
     /// The axis of the file that points up: x, y, z, -x, -y or -z.
     #[arg(long, value_name = "AXIS", default_value = "z", allow_hyphen_values = true, value_parser = up)]
     pub up: Up,
     /// How far apart faces may be and still touch, relative to the smaller block's size.
-    #[arg(long, value_name = "GAP", value_parser = not_negative)]
+    #[arg(long, value_name = "GAP", allow_negative_numbers = true, value_parser = not_negative)]
     pub gap: Option<f64>,
     /// Leave out the interfaces stored in the file: all contacts are detected.
     #[arg(long)]

@@ -32,6 +32,7 @@ impl Sink {
             Ok(m) if !m.is_file() => return Ok(Self::Device(target)),
             Ok(_) => drop(OpenOptions::new().append(true).open(&target).with_context(context)?),
             Err(_) if target.file_name().is_none() => bail!("{}: cannot be written: it names no file", path.display()),
+            Err(_) if !folder(&target).is_dir() => bail!("{}: cannot be written: there is no such folder", path.display()),
             Err(_) => {}
         }
         beside(&target).with_context(context)?;
@@ -51,9 +52,12 @@ impl Sink {
     }
 }
 
+fn folder(target: &Path) -> &Path {
+    target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
 /// An empty file beside the target, gone when dropped.
 fn beside(target: &Path) -> std::io::Result<tempfile::NamedTempFile> {
-    let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".voussoir-").suffix(".tmp");
     #[cfg(unix)]
@@ -62,7 +66,7 @@ fn beside(target: &Path) -> std::io::Result<tempfile::NamedTempFile> {
         // Less what the user's mask takes away, as for any new file.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder)
+    builder.tempfile_in(folder(target))
 }
 
 fn replace(target: &Path, text: &str) -> std::io::Result<()> {

@@ -17,10 +17,7 @@
 //! Sources: Haslinger 1983 (fixed point on the Tresca limit), Acary, Brémond & Huber 2018 (natural map), Gilbert, Casapulla &
 //! Ahmed 2006 (sequence of convex programs for non-associative limit analysis).
 
-use super::{
-    Cone, ConicProgram, Options, Statics,
-    unbalance::copy,
-};
+use super::{Cone, ConicProgram, Options, Statics, unbalance::copy};
 use crate::{assembly::Assembly, interface::Interfaces, scene::Friction};
 use nalgebra::Vector3;
 
@@ -247,7 +244,13 @@ impl Contacts {
             let x = &mut f[p.column..=p.column + p.tangents];
             x[0] = x[0].max(0.0);
             let t = x[1..].iter().map(|v| v * v).sum::<f64>().sqrt();
-            let limit = if p.mu.is_finite() { p.mu * x[0] } else if x[0] > 0.0 { f64::INFINITY } else { 0.0 };
+            let limit = if p.mu.is_finite() {
+                p.mu * x[0]
+            } else if x[0] > 0.0 {
+                f64::INFINITY
+            } else {
+                0.0
+            };
             if t > limit {
                 x[1..].iter_mut().for_each(|v| *v *= limit / t);
             }
@@ -299,4 +302,3 @@ fn ends_are_all(statics: &Statics, interfaces: &Interfaces) -> bool {
     }
     seen.iter().zip(&interfaces.list).all(|(&n, f)| n == f.points.len())
 }
-

@@ -1,3 +1,10 @@
 //! One integration binary: tests by behaviour.
 
+mod ask;
+
+mod analytic;
+mod cli;
+mod published;
+mod readme;
 mod reference;
+mod scenes;

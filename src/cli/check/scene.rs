@@ -19,8 +19,8 @@ pub fn run(scene: &Scene, source: &Source, terminal: &Terminal) -> anyhow::Resul
 fn is_slip(finding: &Finding) -> bool {
     use FindingCode as Code;
     match finding.code {
-        Code::NearMiss | Code::Overlap | Code::Floating | Code::Orientation | Code::Units | Code::Warped | Code::Missing => true,
-        Code::Assumed | Code::Mended | Code::GapClosed | Code::ContactIgnored => false,
+        Code::NearMiss | Code::Overlap | Code::Floating | Code::Orientation | Code::Units | Code::Missing => true,
+        Code::Assumed | Code::Mended | Code::Warped | Code::GapClosed | Code::ContactIgnored => false,
         Code::Numerics | Code::LeftOut | Code::Converted => false,
     }
 }

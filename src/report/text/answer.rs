@@ -1,7 +1,7 @@
 //! The first line and the sentences below it.
 
 use super::{
-    Options, cut,
+    Options, SHOWN, cut,
     number::{bracketed, decimals, ends, point},
     page::{Page, Role},
 };
@@ -63,9 +63,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
                     unit(file)
                 ));
             }
-            page.paragraph(
-                "Sliding counts as associative (a joint that slides opens as well): for dry friction this is an upper bound, and a mechanism that slides may need less.",
-            );
+            page.paragraph("Sliding counts as associative (a joint that slides opens as well): for dry friction this is an upper bound.");
         }
         (Outcome::Unbounded, _) => {
             page.paragraph("Contact forces balance the live load by itself, so that any multiple of it can be added.");
@@ -76,6 +74,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         (Outcome::Impossible, _) => page.paragraph(
             "The mechanism below gains power under the dead load and none under the live load: no multiple of the live load holds it.",
         ),
+        _ if file.trace.is_empty() => page.paragraph("The time limit left no time for an attempt."),
         _ => {
             let l = file.answer.load_factor.as_ref();
             let end = |e: Option<f64>| e.map_or("unknown".to_string(), |v| format!("{v:.9}"));
@@ -153,7 +152,7 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: Options) {
             format!("{toward:<width$}  {answer}")
         })
         .collect();
-    page.row("towards", cut(&lines, options));
+    page.row("towards", cut(&lines, SHOWN, options));
 }
 
 fn status(answer: &Answer) -> Outcome {

@@ -1,7 +1,7 @@
 //! The mechanism in words.
 
 use super::{
-    Options, cut,
+    Options, SHOWN, cut,
     number::{count, point},
     page::Page,
 };
@@ -23,7 +23,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
         let joints: Vec<&JointWords> = m.joints.iter().filter(|j| j.motion == motion).collect();
         let width = joints.iter().map(|j| between(j).chars().count()).max().unwrap_or(0);
         let lines: Vec<String> = joints.iter().map(|j| format!("{:<width$}  at {}", between(j), point(j.at))).collect();
-        page.row(label, cut(&lines, options));
+        page.row(label, cut(&lines, SHOWN, options));
     }
 }
 

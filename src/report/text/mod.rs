@@ -10,7 +10,7 @@ pub use check::{inspection, verification};
 pub use page::{Page, Role, Span};
 
 use super::result::{Question, ResultFile};
-use crate::{analysis::Attempt, error::Finding};
+use crate::{analysis::Attempt, verdict::Verdict};
 use number::{count, seconds};
 
 /// How much is said.
@@ -24,6 +24,8 @@ pub struct Options {
 
 /// A list shows this many items unless everything is asked for.
 const SHOWN: usize = 6;
+/// So many findings are shown, which take several lines each.
+const NOTES: usize = 3;
 
 /// A result as a page. `scene` stands for the scene in the commands that may come next.
 pub fn render(file: &ResultFile, scene: &str, options: Options) -> Page {
@@ -37,7 +39,7 @@ pub fn render(file: &ResultFile, scene: &str, options: Options) -> Page {
     page.blank();
     mechanism::rows(&mut page, file, options);
     answer::directions(&mut page, file, options);
-    page.row("proof", cut(&file.certificate.verified, options));
+    page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
     page.row(
         "scene",
@@ -49,8 +51,8 @@ pub fn render(file: &ResultFile, scene: &str, options: Options) -> Page {
             count(s.contact_points, "contact point")
         )],
     );
-    page.row("left out", cut(&file.left_out, options));
-    page.row("note", notes(&file.warnings, options));
+    page.row("left out", cut(&file.left_out, SHOWN, options));
+    page.row("note", cut(&file.warnings.iter().map(|f| f.text.clone()).collect::<Vec<_>>(), NOTES, options));
     page.row("time", [time(file)]);
     if options.verbose {
         page.row("attempts", file.trace.iter().map(attempt));
@@ -60,15 +62,10 @@ pub fn render(file: &ResultFile, scene: &str, options: Options) -> Page {
     page
 }
 
-/// Findings as lines of text.
-pub fn notes(findings: &[Finding], options: Options) -> Vec<String> {
-    cut(&findings.iter().map(|f| f.text.clone()).collect::<Vec<_>>(), options)
-}
-
-/// A list that ends with how much of it is not shown.
-fn cut(items: &[String], options: Options) -> Vec<String> {
-    // One line says "and 1 more" in as much room as the item itself takes.
-    let shown = if options.verbose || items.len() <= SHOWN + 1 { items.len() } else { SHOWN };
+/// The first items of a list, and how many there are more.
+fn cut(items: &[String], most: usize, options: Options) -> Vec<String> {
+    // "and 1 more" takes the line that the item itself would.
+    let shown = if options.verbose || items.len() <= most + 1 { items.len() } else { most };
     let mut list = items[..shown].to_vec();
     if shown < items.len() {
         list.push(format!("… and {} more (--verbose for all)", items.len() - shown));
@@ -105,25 +102,20 @@ fn next(page: &mut Page, file: &ResultFile, scene: &str) {
         Question::Limit => "limit",
         Question::Tilt => "tilt",
     };
-    let mut label = "next";
-    let mut command = |command: String, purpose: &str| {
-        page.command(label, &command, purpose);
-        label = "";
-    };
+    let look = (format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
     if file.certificate.claim.is_none() {
-        command(format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
-        command(format!("voussoir {verb} {scene} --verbose"), "every attempt at it");
-        return;
+        return page.commands("next", &[look, (format!("voussoir {verb} {scene} --verbose"), "every attempt at it")]);
     }
+    let mut list = Vec::new();
     if file.question == Question::Assess {
-        let loaded = file.scene.input.loads.live.is_empty();
-        let falls = file.answer.verdict == Some(crate::verdict::Verdict::Unstable);
-        match (falls, loaded) {
-            (true, _) => command(format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps"),
-            (false, true) => command(format!("voussoir tilt {scene}"), "at what tilt it falls"),
-            (false, false) => command(format!("voussoir limit {scene}"), "how far the live load can grow"),
-        }
+        let falls = file.answer.verdict == Some(Verdict::Unstable);
+        list.push(match (falls, file.scene.input.loads.live.is_empty()) {
+            (true, _) => look,
+            (false, true) => (format!("voussoir tilt {scene}"), "at what tilt it falls"),
+            (false, false) => (format!("voussoir limit {scene}"), "how far the live load can grow"),
+        });
     }
-    command(format!("voussoir {verb} {scene} --save result.json"), "keep the answer with its proof");
-    command("voussoir check result.json".into(), "verify it again, without a solver");
+    list.push((format!("voussoir {verb} {scene} --save result.json"), "keep the answer with its proof"));
+    list.push(("voussoir check result.json".into(), "verify it again, without a solver"));
+    page.commands("next", &list);
 }

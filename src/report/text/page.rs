@@ -5,7 +5,7 @@ use std::fmt;
 /// Sentences are broken to lines of this many characters.
 const WIDTH: usize = 110;
 /// Column in which the text of a labelled row starts.
-const COLUMN: usize = 12;
+const COLUMN: usize = 14;
 
 /// What a piece of text is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,11 +73,14 @@ impl Page {
         }
     }
 
-    /// A row with something to type and what it is good for.
-    pub(super) fn command(&mut self, label: &str, command: &str, purpose: &str) {
-        let room = COLUMN - 2;
-        let (label, command) = (span(format!("  {label:<room$}"), Role::Label), span(command, Role::Command));
-        self.lines.push(vec![label, command, span(format!("   {purpose}"), Role::Plain)]);
+    /// Rows with something to type and what it is good for.
+    pub(super) fn commands(&mut self, label: &str, commands: &[(String, &str)]) {
+        let (room, width) = (COLUMN - 2, commands.iter().map(|(c, _)| c.chars().count()).max().unwrap_or(0));
+        for (i, (command, purpose)) in commands.iter().enumerate() {
+            let label = span(format!("  {:<room$}", if i == 0 { label } else { "" }), Role::Label);
+            let gap = " ".repeat(width - command.chars().count() + 3);
+            self.lines.push(vec![label, span(command, Role::Command), span(format!("{gap}{purpose}"), Role::Plain)]);
+        }
     }
 }
 

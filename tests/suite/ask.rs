@@ -1,0 +1,148 @@
+//! Asking questions in tests. Every answer is packed into a result, written, read back and proved from the scene alone
+//! before its value is compared: an answer without a proof fails, whatever its digits.
+
+use serde_json::{Value, json};
+use voussoir::{
+    analysis::{Control, Model, Outcome, assess, limit, prepare, tilt},
+    report::{self, ResultFile},
+    scene::{Scene, read_str},
+    verdict::Verdict,
+};
+
+/// A scene in units of its own (density 1 kg/m³, gravity 1 m/s²) with one friction; `more` adds or replaces keys.
+pub fn scene(friction: f64, blocks: Value, more: Value) -> Scene {
+    let mut value = json!({
+        "format": "voussoir-scene/1", "gravity": [0, 0, -1], "materials": { "unit": { "density": 1 } },
+        "joints": { "default": { "friction": number_or_infinite(friction) } }, "blocks": blocks,
+    });
+    for (key, part) in more.as_object().expect("an object") {
+        value[key] = part.clone();
+    }
+    for block in value["blocks"].as_array_mut().expect("a list") {
+        if ["density", "mass", "material"].iter().all(|k| block.get(k).is_none()) {
+            block["material"] = json!("unit");
+        }
+    }
+    read(value)
+}
+
+/// A scene from one template in units of its own.
+pub fn template(friction: f64, template: Value, more: Value) -> Scene {
+    let mut template = template;
+    for parameters in template.as_object_mut().expect("an object").values_mut() {
+        parameters["material"] = json!("unit");
+    }
+    let mut more = more;
+    more["templates"] = json!([template]);
+    scene(friction, json!([]), more)
+}
+
+fn read(value: Value) -> Scene {
+    read_str("test", value.to_string()).unwrap_or_else(|e| panic!("{e}\n{value}")).0
+}
+
+fn number_or_infinite(friction: f64) -> Value {
+    if friction.is_infinite() { json!("infinite") } else { json!(friction) }
+}
+
+/// A live load of each block's own weight along `direction`.
+pub fn push(direction: [f64; 3]) -> Value {
+    json!({ "loads": { "live": [{ "weight": direction }] } })
+}
+
+/// A box by its size and the centre of its bottom face.
+pub fn cuboid(id: &str, size: [f64; 3], foot: [f64; 3]) -> Value {
+    json!({ "id": id, "shape": { "box": { "size": size } }, "at": [foot[0], foot[1], foot[2] + size[2] / 2.0] })
+}
+
+/// A prism of depth 1.
+pub fn prism(id: &str, polygon: &[[f64; 2]]) -> Value {
+    json!({ "id": id, "shape": { "prism": { "polygon": polygon, "depth": 1.0 } } })
+}
+
+/// A sphere.
+pub fn sphere(id: &str, radius: f64, at: [f64; 3]) -> Value {
+    json!({ "id": id, "shape": { "sphere": { "radius": radius } }, "at": at })
+}
+
+/// The block as a support.
+pub fn fixed(mut block: Value) -> Value {
+    block["support"] = json!(true);
+    block
+}
+
+/// A support with its top at z = 0.
+pub fn ground() -> Value {
+    fixed(cuboid("ground", [40.0, 40.0, 1.0], [0.0, 0.0, -1.0]))
+}
+
+/// Resolves and detects.
+pub fn model(scene: &Scene) -> Model {
+    prepare(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name))
+}
+
+/// Writes a result, reads it back and proves it from the scene alone.
+pub fn prove(scene: &Scene, file: &ResultFile) {
+    let text = report::json::pretty(file).expect("JSON");
+    let read = report::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let found = report::verify(&read, scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let fails: Vec<_> = found.parts.iter().flat_map(|(part, f)| f.fails.iter().map(move |text| format!("{part}: {text}"))).collect();
+    assert!(found.proved(), "{}: not proved: {fails:#?}\nwarnings {:#?}\ntrace {:#?}", scene.name, file.warnings, file.trace);
+}
+
+/// Does it stand? With proof.
+pub fn stands(scene: &Scene) -> bool {
+    let model = model(scene);
+    let answer = assess(&model.assembly, &model.interfaces, &Control::default());
+    prove(scene, &ResultFile::assessment(scene, &model, &answer));
+    match answer.verdict {
+        Verdict::Stable => true,
+        Verdict::Unstable => false,
+        Verdict::Undecided => panic!("{}: undecided, {:?}", scene.name, answer.unbalance),
+    }
+}
+
+/// What becomes of the load factor, with its value where there is one, the bracket containing it. With proof.
+pub fn outcome(scene: &Scene) -> (Outcome, f64) {
+    let model = model(scene);
+    let answer = limit(&model.assembly, &model.interfaces, &Control::default());
+    prove(scene, &ResultFile::load_factor(scene, &model, &answer));
+    (answer.outcome, answer.value)
+}
+
+/// The load factor, with proof.
+pub fn load_factor(scene: &Scene) -> f64 {
+    let (outcome, value) = outcome(scene);
+    assert_eq!(outcome, Outcome::Found, "{}", scene.name);
+    value
+}
+
+/// The tilt in degrees towards a direction, 90 where it is wedged, with proof.
+pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
+    let mut model = model(scene);
+    let answer = tilt(&model.assembly, &model.interfaces, toward.into(), &Control::default()).expect("a tilt");
+    model.assembly = tilt::turned(&model.assembly, toward.into()).expect("a tilt").0;
+    let angle = answer.angle_deg();
+    prove(scene, &ResultFile::tilt(scene, &[(model, answer)]).expect("a direction"));
+    angle
+}
+
+/// `got` is `want` within a relative tolerance.
+#[track_caller]
+pub fn close(what: &str, got: f64, want: f64, tolerance: f64) {
+    let error = (got - want).abs();
+    assert!(
+        error <= tolerance * want.abs(),
+        "{what}: {got:.12}, expected {want:.12}: off by {error:.1e}, allowed {:.1e}",
+        tolerance * want.abs()
+    );
+    println!("{what}: {got:.12}, expected {want:.12}: off by {error:.1e}");
+}
+
+/// The verdict on the two sides of a critical value.
+#[track_caller]
+pub fn flips(what: &str, make: impl Fn(f64) -> Scene, stands_at: f64, falls_at: f64) {
+    assert!(stands(&make(stands_at)), "{what}: must stand at {stands_at}");
+    assert!(!stands(&make(falls_at)), "{what}: must fall at {falls_at}");
+    println!("{what}: stands at {stands_at}, falls at {falls_at}");
+}

@@ -1,0 +1,621 @@
+//! The command line by behaviour: exit codes, what is printed where, files written whole or not at all, and saved results
+//! that are refused as soon as anything in them is changed.
+
+use serde_json::{Value, json};
+use std::{
+    fs,
+    io::Write,
+    path::{Path, PathBuf},
+    process::{Command, Output, Stdio},
+};
+use tempfile::TempDir;
+
+const YES: i32 = 0;
+const NO: i32 = 1;
+const USAGE: i32 = 2;
+const UNDECIDED: i32 = 3;
+
+fn command() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
+    command.env_remove("NO_COLOR").stdin(Stdio::null());
+    command
+}
+
+fn voussoir(args: &[&str]) -> Output {
+    ended(command().args(args).output().unwrap())
+}
+
+fn with_input(args: &[&str], input: &str) -> Output {
+    let mut child = command().args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    ended(child.wait_with_output().unwrap())
+}
+
+/// Whatever was asked, no panic.
+fn ended(output: Output) -> Output {
+    assert!(!err(&output).contains("panicked"), "{}", err(&output));
+    output
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("ended by a signal")
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[track_caller]
+fn expect(wanted: i32, output: Output) -> Output {
+    assert_eq!(code(&output), wanted, "stdout: {}\nstderr: {}", out(&output), err(&output));
+    output
+}
+
+/// A folder with scenes: `arch` stands, `thin` falls, `pushed` has a live load.
+struct Desk(TempDir);
+
+impl Desk {
+    fn new() -> Self {
+        let desk = Self(TempDir::new().unwrap());
+        expect(YES, voussoir(&["generate", "arch", "voussoirs=15", "--density", "2400", "--expand", "-o", &desk.at("arch.json")]));
+        expect(YES, voussoir(&["generate", "arch", "voussoirs=15", "thickness=0.3", "-o", &desk.at("thin.json")]));
+        let mut pushed = desk.read("arch.json");
+        pushed["loads"] = json!({ "live": [{ "weight": [1, 0, 0] }] });
+        desk.write("pushed.json", &pushed);
+        desk
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn at(&self, name: &str) -> String {
+        self.path(name).to_str().unwrap().to_string()
+    }
+
+    fn read(&self, name: &str) -> Value {
+        serde_json::from_str(&fs::read_to_string(self.path(name)).unwrap()).unwrap()
+    }
+
+    fn write(&self, name: &str, value: &Value) -> String {
+        fs::write(self.path(name), value.to_string()).unwrap();
+        self.at(name)
+    }
+
+    /// Asks a question, saves the result and reads it.
+    fn saved(&self, wanted: i32, question: &[&str]) -> Value {
+        let result = self.at("saved.json");
+        expect(wanted, voussoir(&[question, &["--save", &result, "-q"]].concat()));
+        self.read("saved.json")
+    }
+
+    #[track_caller]
+    fn checked(&self, wanted: i32, result: &Value) -> String {
+        let file = self.write("checked.json", result);
+        out(&expect(wanted, voussoir(&["check", &file])))
+    }
+
+    fn files(&self) -> Vec<String> {
+        let mut names: Vec<String> =
+            fs::read_dir(self.0.path()).unwrap().map(|e| e.unwrap().file_name().to_str().unwrap().to_string()).collect();
+        names.sort();
+        names
+    }
+}
+
+fn norm(v: &Value) -> f64 {
+    v.as_array().unwrap().iter().map(|c| c.as_f64().unwrap().powi(2)).sum::<f64>().sqrt()
+}
+
+/// The greatest force of a certificate: contact and point.
+fn greatest_force(certificate: &Value) -> (usize, usize) {
+    let contacts = certificate["forces"].as_array().unwrap();
+    let mut greatest = (0, 0, 0.0);
+    for (i, contact) in contacts.iter().enumerate() {
+        for (j, force) in contact["forces"].as_array().unwrap().iter().enumerate() {
+            if norm(force) > greatest.2 {
+                greatest = (i, j, norm(force));
+            }
+        }
+    }
+    (greatest.0, greatest.1)
+}
+
+fn scale(v: &mut Value, factor: f64) {
+    v.as_array_mut().unwrap().iter_mut().for_each(|c| *c = json!(c.as_f64().unwrap() * factor));
+}
+
+#[test]
+fn exit_codes_say_what_the_answer_is() {
+    let desk = Desk::new();
+    let (arch, thin, pushed) = (desk.at("arch.json"), desk.at("thin.json"), desk.at("pushed.json"));
+    expect(YES, voussoir(&["assess", &arch]));
+    expect(NO, voussoir(&["assess", &thin]));
+    expect(UNDECIDED, voussoir(&["assess", &arch, "--time-limit", "1e-9"]));
+    expect(YES, voussoir(&["limit", &pushed]));
+    expect(YES, voussoir(&["limit", &pushed, "--require", "0.1"]));
+    expect(NO, voussoir(&["limit", &pushed, "--require", "0.9"]));
+    expect(YES, voussoir(&["tilt", &arch, "--toward", "-1,0", "--require", "5"]));
+    expect(NO, voussoir(&["tilt", &arch, "--toward", "1,0,0", "--require", "45"]));
+    expect(USAGE, voussoir(&["limit", &arch]));
+    expect(USAGE, voussoir(&["assess", &desk.at("none.json")]));
+    expect(USAGE, voussoir(&["tilt", &arch, "--toward", "0,0,1"]));
+    for wrong in [
+        &["nonsense"][..],
+        &["assess"],
+        &["assess", &arch, "--nonsense"],
+        &["assess", &arch, "--time-limit", "0"],
+        &["tilt", &arch, "--all", "0"],
+        &["tilt", &arch, "--toward", "1"],
+        &["tilt", &arch, "--require", "NaN"],
+        &[],
+    ] {
+        let answer = expect(USAGE, voussoir(wrong));
+        assert!(out(&answer).is_empty() && !err(&answer).is_empty());
+    }
+    for fine in [&["--help"][..], &["help", "limit"], &["--version"], &["schema"], &["generate", "--list"]] {
+        let answer = expect(YES, voussoir(fine));
+        assert!(!out(&answer).is_empty() && err(&answer).is_empty());
+    }
+}
+
+#[test]
+fn a_requirement_inside_the_bracket_is_not_rounded_up() {
+    let desk = Desk::new();
+    let value = desk.saved(YES, &["limit", &desk.at("pushed.json")])["answer"]["load_factor"]["upper"].as_f64().unwrap();
+    expect(UNDECIDED, voussoir(&["limit", &desk.at("pushed.json"), "--require", &format!("{value:.17}")]));
+}
+
+#[test]
+fn a_block_tips_over_its_edge_or_slides() {
+    let desk = Desk::new();
+    for (height, mu, tangent) in [(4.0, "0.7", 0.25), (0.5, "0.3", 0.3)] {
+        let size = format!("size=[1,1,{height}]");
+        let scene = desk.at("block.json");
+        expect(YES, voussoir(&["generate", "column", "blocks=1", &size, "--friction", mu, "-o", &scene]));
+        let result = desk.saved(YES, &["tilt", &scene]);
+        assert_eq!(result["directions"].as_array().unwrap().len(), 8);
+        let angle = result["answer"]["tilt_deg"].as_f64().unwrap();
+        assert!((angle - f64::atan(tangent).to_degrees()).abs() < 1e-6, "{angle}");
+        assert_eq!(result["dead_load"]["answer"]["verdict"], "stable");
+    }
+}
+
+#[test]
+fn json_is_one_object_and_nothing_else() {
+    let desk = Desk::new();
+    for (wanted, args) in [
+        (YES, vec!["assess", "arch.json"]),
+        (NO, vec!["assess", "thin.json"]),
+        (UNDECIDED, vec!["limit", "pushed.json", "--time-limit", "1e-9"]),
+        (YES, vec!["limit", "pushed.json"]),
+        (YES, vec!["tilt", "arch.json", "--all", "4"]),
+    ] {
+        let answer = ended(command().current_dir(desk.0.path()).args(&args).arg("--json").output().unwrap());
+        let answer = expect(wanted, answer);
+        let value: Value = serde_json::from_str(&out(&answer)).unwrap();
+        assert_eq!(value["format"], "voussoir-result/1");
+        assert_eq!(value["question"], args[0]);
+        assert!(err(&answer).is_empty());
+        // What is printed can be piped into the check.
+        let check = if wanted == UNDECIDED { UNDECIDED } else { YES };
+        expect(check, with_input(&["check", "-"], &out(&answer)));
+    }
+}
+
+#[test]
+fn scenes_come_from_standard_input() {
+    let scene = out(&expect(YES, voussoir(&["generate", "column"])));
+    let answer = expect(YES, with_input(&["assess", "-"], &scene));
+    assert!(out(&answer).starts_with("Column: stands\n"), "{}", out(&answer));
+    let answer = expect(USAGE, with_input(&["assess", "-"], &scene[..scene.len() / 2]));
+    assert!(err(&answer).contains("standard input:") && err(&answer).contains("hint: "), "{}", err(&answer));
+}
+
+#[test]
+fn text_says_the_answer_first_and_what_next() {
+    let desk = Desk::new();
+    let text = out(&expect(YES, voussoir(&["assess", &desk.at("arch.json")])));
+    assert!(text.starts_with("Arch: stands\n\n"), "{text}");
+    assert!(text.contains("17 blocks (2 supports), 16 interfaces, 64 contact points") && text.contains("voussoir tilt "), "{text}");
+    assert!(text.lines().count() < 24 && !text.contains('\x1b'), "{text}");
+    let text = out(&expect(YES, voussoir(&["assess", &desk.at("arch.json"), "--verbose"])));
+    assert!(text.contains("iterations"), "{text}");
+    let text = out(&expect(NO, voussoir(&["assess", &desk.at("thin.json"), "--color", "always"])));
+    assert!(text.contains("\x1b[1;31mfalls") && text.contains("hinges"), "{text}");
+    let text = out(&expect(YES, voussoir(&["limit", &desk.at("pushed.json"), "--quiet"])));
+    assert!(text.starts_with("Arch: λ = 0.1") && text.lines().count() == 1, "{text}");
+}
+
+#[test]
+fn digits_beyond_the_bracket_are_not_shown() {
+    let desk = Desk::new();
+    let text = out(&expect(YES, voussoir(&["limit", &desk.at("pushed.json"), "-q"])));
+    let shown = text.trim().rsplit(' ').next().unwrap();
+    let answer = &desk.saved(YES, &["limit", &desk.at("pushed.json")])["answer"]["load_factor"];
+    let width = answer["upper"].as_f64().unwrap() - answer["lower"].as_f64().unwrap();
+    let decimals = shown.split_once('.').unwrap().1.len() as i32;
+    assert!(10f64.powi(-decimals) >= width && decimals >= 5, "{shown} ± {width}");
+}
+
+#[test]
+fn results_are_written_whole_or_not_at_all() {
+    let desk = Desk::new();
+    let before = desk.files();
+    // The target is tried before anything is read.
+    for target in ["no-folder/r.json", ""] {
+        let answer = expect(USAGE, voussoir(&["assess", &desk.at("none.json"), "--save", &desk.at(target)]));
+        assert!(err(&answer).contains("cannot be written") && out(&answer).is_empty(), "{}", err(&answer));
+    }
+    // A question that fails leaves what was there.
+    fs::write(desk.path("old.json"), "old").unwrap();
+    expect(USAGE, voussoir(&["limit", &desk.at("arch.json"), "--save", &desk.at("old.json")]));
+    assert_eq!(fs::read_to_string(desk.path("old.json")).unwrap(), "old");
+    expect(USAGE, voussoir(&["limit", &desk.at("arch.json"), "--save", &desk.at("new.json")]));
+    expect(NO, voussoir(&["assess", &desk.at("thin.json"), "--save", &desk.at("old.json")]));
+    assert_eq!(desk.read("old.json")["answer"]["verdict"], "unstable");
+    fs::remove_file(desk.path("old.json")).unwrap();
+    assert_eq!(desk.files(), before, "something was left behind");
+    // Neither the scene nor standard output is a place for a result.
+    let scene = fs::read(desk.path("arch.json")).unwrap();
+    expect(USAGE, voussoir(&["assess", &desk.at("arch.json"), "--save", &desk.at("arch.json")]));
+    expect(USAGE, voussoir(&["assess", &desk.at("arch.json"), "--save", "-"]));
+    assert_eq!(fs::read(desk.path("arch.json")).unwrap(), scene);
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_stays_what_it_is() {
+    use std::os::unix::fs::{FileTypeExt, symlink};
+    let desk = Desk::new();
+    expect(YES, voussoir(&["assess", &desk.at("arch.json"), "--save", "/dev/null"]));
+    assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+    fs::write(desk.path("real.json"), "").unwrap();
+    symlink(desk.path("real.json"), desk.path("link.json")).unwrap();
+    expect(YES, voussoir(&["assess", &desk.at("arch.json"), "--save", &desk.at("link.json")]));
+    assert!(fs::symlink_metadata(desk.path("link.json")).unwrap().is_symlink());
+    assert_eq!(desk.read("real.json")["question"], "assess");
+}
+
+#[test]
+fn a_reader_that_went_away_is_no_error() {
+    let desk = Desk::new();
+    let arch = desk.at("arch.json");
+    let pushed = desk.at("pushed.json");
+    for (wanted, args) in [
+        (YES, vec!["--help"]),
+        (YES, vec!["schema"]),
+        (YES, vec!["assess", &arch, "--json"]),
+        (YES, vec!["tilt", &arch]),
+        (NO, vec!["limit", &pushed, "--require", "1"]),
+        (YES, vec!["generate", "wall", "--expand"]),
+        (USAGE, vec!["assess", "none.json"]),
+        (USAGE, vec!["nonsense"]),
+    ] {
+        for both in [false, true] {
+            let mut command = command();
+            command.args(&args).stdout(closed_pipe());
+            if both {
+                command.stderr(closed_pipe());
+            }
+            expect(wanted, ended(command.output().unwrap()));
+        }
+    }
+}
+
+/// The writing end of a pipe nobody reads.
+fn closed_pipe() -> Stdio {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    writer.into()
+}
+
+#[test]
+fn a_stable_result_is_refused_after_any_change() {
+    let desk = Desk::new();
+    let good = desk.saved(YES, &["assess", &desk.at("arch.json")]);
+    assert!(desk.checked(YES, &good).starts_with("Arch: proved\n"));
+    let (i, j) = greatest_force(&good["certificate"]);
+    type Change<'a> = (&'a str, Box<dyn Fn(&mut Value) + 'a>);
+    let changes: Vec<Change> = vec![
+        ("one force", Box::new(|r| scale(&mut r["certificate"]["forces"][i]["forces"][j], 1.0 + 1e-6))),
+        ("one force turned", Box::new(|r| scale(&mut r["certificate"]["forces"][i]["forces"][j], -1.0))),
+        ("a contact dropped", Box::new(|r| drop(r["certificate"]["forces"].as_array_mut().unwrap().remove(i)))),
+        ("a point moved", Box::new(|r| scale(&mut r["certificate"]["forces"][i]["points"][j], 1.001))),
+        ("a force dropped", Box::new(|r| drop(r["certificate"]["forces"][i]["forces"].as_array_mut().unwrap().remove(j)))),
+        ("an unknown block", Box::new(|r| r["certificate"]["forces"][i]["between"][0] = json!("nobody"))),
+        ("the verdict", Box::new(|r| r["answer"]["verdict"] = json!("unstable"))),
+        ("the verdict undecided", Box::new(|r| r["answer"]["verdict"] = json!("undecided"))),
+        ("the claim", Box::new(|r| r["certificate"]["claim"] = json!("unstable"))),
+        ("verdict and claim", Box::new(|r| (r["answer"]["verdict"], r["certificate"]["claim"]) = (json!("unstable"), json!("unstable")))),
+        ("no claim", Box::new(|r| drop(r["certificate"].as_object_mut().unwrap().remove("claim")))),
+        ("no verdict", Box::new(|r| drop(r["answer"].as_object_mut().unwrap().remove("verdict")))),
+        ("no unbalance", Box::new(|r| drop(r["answer"].as_object_mut().unwrap().remove("unbalance")))),
+        ("the unbalance", Box::new(|r| r["answer"]["unbalance"]["upper"] = json!(1e-3))),
+        ("a count", Box::new(|r| r["scene"]["contact_points"] = json!(1))),
+        ("another question", Box::new(|r| r["question"] = json!("limit"))),
+        ("a density", Box::new(|r| r["scene"]["input"]["blocks"][5]["density"] = json!(2400.01))),
+        ("the friction", Box::new(|r| r["scene"]["input"]["joints"]["default"]["friction"] = json!(0.01))),
+        ("a load", Box::new(|r| r["scene"]["input"]["loads"] = json!({"dead": [{"block": "v05", "force": [1, 0, 0]}]}))),
+    ];
+    for (what, change) in changes {
+        let mut bad = good.clone();
+        change(&mut bad);
+        assert_ne!(bad, good, "{what}");
+        let text = desk.checked(NO, &bad);
+        assert!(text.starts_with("Arch: refuted\n") && text.contains("fails"), "{what}: {text}");
+    }
+}
+
+#[test]
+fn an_unstable_result_is_refused_after_any_change() {
+    let desk = Desk::new();
+    let good = desk.saved(NO, &["assess", &desk.at("thin.json")]);
+    desk.checked(YES, &good);
+    let changed = |change: &dyn Fn(&mut Value)| {
+        let mut bad = good.clone();
+        change(&mut bad);
+        assert_ne!(bad, good);
+        desk.checked(NO, &bad);
+    };
+    changed(&|r| scale(&mut r["certificate"]["rates"][3]["velocity"], 1.001));
+    changed(&|r| scale(&mut r["certificate"]["rates"][3]["spin"], 0.5));
+    changed(&|r| drop(r["certificate"]["rates"].as_array_mut().unwrap().remove(0)));
+    changed(&|r| r["certificate"]["rates"][0]["block"] = json!("springer_left"));
+    changed(&|r| r["answer"]["verdict"] = json!("stable"));
+    changed(&|r| (r["answer"]["verdict"], r["certificate"]["claim"]) = (json!("stable"), json!("stable")));
+    changed(&|r| r["answer"]["unbalance"]["lower"] = json!(1.0));
+    changed(&|r| drop(r["mechanism"]["moving"].as_array_mut().unwrap().remove(0)));
+    changed(&|r| r["mechanism"]["joints"][0]["motion"] = json!("slide"));
+    changed(&|r| r["scene"]["input"]["templates"][0]["arch"]["thickness"] = json!(0.8));
+}
+
+#[test]
+fn a_load_factor_is_refused_after_any_change() {
+    let desk = Desk::new();
+    let good = desk.saved(YES, &["limit", &desk.at("pushed.json")]);
+    desk.checked(YES, &good);
+    let (i, j) = greatest_force(&good["certificate"]);
+    let changed = |change: &dyn Fn(&mut Value)| {
+        let mut bad = good.clone();
+        change(&mut bad);
+        assert_ne!(bad, good);
+        desk.checked(NO, &bad);
+    };
+    let more = |v: &mut Value| *v = json!(v.as_f64().unwrap() * 1.001);
+    changed(&|r| more(&mut r["answer"]["load_factor"]["value"]));
+    changed(&|r| more(&mut r["certificate"]["claim"]["load_factor"]["value"]));
+    changed(&|r| {
+        for end in ["value", "lower", "upper"] {
+            more(&mut r["answer"]["load_factor"][end]);
+            more(&mut r["certificate"]["claim"]["load_factor"][end]);
+        }
+    });
+    changed(&|r| r["answer"]["load_factor"]["status"] = json!("unbounded"));
+    changed(&|r| drop(r["answer"]["load_factor"].as_object_mut().unwrap().remove("upper")));
+    changed(&|r| scale(&mut r["certificate"]["forces"][i]["forces"][j], 1.01));
+    changed(&|r| scale(&mut r["certificate"]["rates"][2]["velocity"], 1.01));
+    changed(&|r| r["scene"]["input"]["blocks"][5]["density"] = json!(2500));
+    changed(&|r| r["scene"]["input"]["loads"]["live"][0]["weight"] = json!([1.01, 0, 0]));
+    changed(&|r| r["dead_load"]["answer"]["verdict"] = json!("unstable"));
+    changed(&|r| drop(r["dead_load"]["certificate"].as_object_mut().unwrap().remove("claim")));
+    changed(&|r| r["answer"]["tilt_deg"] = json!(10));
+}
+
+#[test]
+fn a_tilt_is_refused_after_any_change() {
+    let desk = Desk::new();
+    let good = desk.saved(YES, &["tilt", &desk.at("arch.json"), "--all", "4"]);
+    desk.checked(YES, &good);
+    let changed = |change: &dyn Fn(&mut Value)| {
+        let mut bad = good.clone();
+        change(&mut bad);
+        assert_ne!(bad, good);
+        desk.checked(NO, &bad);
+    };
+    changed(&|r| r["answer"]["tilt_deg"] = json!(r["answer"]["tilt_deg"].as_f64().unwrap() + 1e-6));
+    changed(&|r| {
+        // The strongest direction in place of the weakest.
+        let list = r["directions"].as_array().unwrap();
+        let angle = |d: &Value| d["answer"]["tilt_deg"].as_f64().unwrap();
+        let strongest = list.iter().max_by(|a, b| angle(a).total_cmp(&angle(b))).unwrap().clone();
+        r["answer"] = strongest["answer"].clone();
+        r["certificate"] = strongest["certificate"].clone();
+    });
+    changed(&|r| r["directions"][1]["answer"]["toward"] = json!([0.6, 0.8, 0.0]));
+    changed(&|r| r["directions"][1]["answer"]["toward"] = json!([0.0, 0.0, 1.0]));
+    changed(&|r| drop(r["directions"][1]["answer"].as_object_mut().unwrap().remove("toward")));
+    changed(&|r| scale(&mut r["directions"][2]["certificate"]["rates"][0]["velocity"], 1.1));
+    let one = desk.saved(YES, &["tilt", &desk.at("arch.json"), "--toward", "1,1", "--skip-dead"]);
+    assert!(one.get("directions").is_none() && one.get("dead_load").is_none());
+    desk.checked(YES, &one);
+}
+
+#[test]
+fn loads_without_limit_and_without_answer_are_proved_as_well() {
+    let desk = Desk::new();
+    let mut scene: Value = serde_json::from_str(&out(&expect(YES, voussoir(&["generate", "column", "blocks=3"])))).unwrap();
+    scene["loads"] = json!({ "live": [{ "weight": [0.1, 0, -1] }] });
+    let result = desk.saved(YES, &["limit", &desk.write("down.json", &scene), "--require", "1e9"]);
+    assert_eq!(result["answer"]["load_factor"]["status"], "unbounded");
+    desk.checked(YES, &result);
+    let mut bad = result.clone();
+    bad["certificate"].as_object_mut().unwrap().remove("base");
+    desk.checked(NO, &bad);
+    let mut bad = result;
+    bad["certificate"]["claim"]["unbounded"]["standing"] = json!(-1e3);
+    desk.checked(NO, &bad);
+
+    // The upper block leans out of its support along x, and the live load acts along y.
+    scene["templates"] = json!([{ "stack": { "blocks": 2, "size": [1, 1, 0.2], "shift": 0.6 } }]);
+    scene["loads"] = json!({ "live": [{ "weight": [0, 1, 0] }] });
+    let result = desk.saved(NO, &["limit", &desk.write("out.json", &scene)]);
+    assert_eq!(result["answer"]["load_factor"]["status"], "impossible", "{}", result["answer"]);
+    desk.checked(YES, &result);
+}
+
+#[test]
+fn a_result_is_verified_against_the_scene_that_the_reader_trusts() {
+    let desk = Desk::new();
+    let mut result = desk.saved(YES, &["assess", &desk.at("arch.json")]);
+    // The scene inside is not looked at.
+    result["scene"]["input"]["blocks"][5]["density"] = json!(1.0);
+    let file = desk.write("doubtful.json", &result);
+    expect(NO, voussoir(&["check", &file]));
+    expect(YES, voussoir(&["check", &file, "--scene", &desk.at("arch.json")]));
+    expect(NO, voussoir(&["check", &file, "--scene", &desk.at("thin.json")]));
+    expect(USAGE, voussoir(&["check", &file, "--scene", &desk.at("none.json")]));
+    expect(USAGE, voussoir(&["check", &desk.at("arch.json"), "--scene", &desk.at("arch.json")]));
+}
+
+#[test]
+fn damaged_results_are_input_errors() {
+    let desk = Desk::new();
+    let good = desk.saved(YES, &["assess", &desk.at("arch.json")]);
+    let mut bad = good.clone();
+    bad["surplus"] = json!(1);
+    expect(USAGE, voussoir(&["check", &desk.write("bad.json", &bad)]));
+    let mut bad = good.clone();
+    bad["certificate"]["forces"][0]["forces"][0] = json!([null, 0, 0]);
+    let answer = expect(USAGE, voussoir(&["check", &desk.write("bad.json", &bad)]));
+    assert!(err(&answer).contains("certificate.forces[0].forces[0][0]"), "{}", err(&answer));
+    let mut bad = good.clone();
+    bad["scene"]["input"]["blocks"] = json!([]);
+    expect(USAGE, voussoir(&["check", &desk.write("bad.json", &bad)]));
+    let text = good.to_string();
+    for end in [1, text.len() / 3, text.len() - 2] {
+        expect(USAGE, with_input(&["check", "-"], &text[..end]));
+    }
+    expect(USAGE, with_input(&["check", "-"], ""));
+    expect(USAGE, with_input(&["assess", "-"], &text));
+}
+
+#[test]
+fn a_scene_is_searched_for_slips() {
+    let desk = Desk::new();
+    let text = out(&expect(YES, voussoir(&["check", &desk.at("arch.json")])));
+    assert!(text.contains("17 blocks (2 supports)"), "{text}");
+    let mut scene = desk.read("arch.json");
+    scene["blocks"].as_array_mut().unwrap().push(json!({ "id": "kite", "shape": { "box": { "size": [1, 1, 1] } }, "at": [0, 0, 99] }));
+    let file = desk.write("loose.json", &scene);
+    let text = out(&expect(NO, voussoir(&["check", &file])));
+    assert!(text.contains("kite"), "{text}");
+    // It falls freely, and the answer says which.
+    let text = out(&expect(NO, voussoir(&["assess", &file])));
+    assert!(text.contains("kite"), "{text}");
+    let result = desk.saved(NO, &["assess", &file]);
+    desk.checked(YES, &result);
+}
+
+#[test]
+fn templates_are_changed_by_key() {
+    let list = out(&expect(YES, voussoir(&["generate", "--list"])));
+    assert!(list.lines().count() >= 5);
+    for line in list.lines() {
+        let name = line.split(' ').next().unwrap();
+        let scene = out(&expect(YES, voussoir(&["generate", name, "--name", "T"])));
+        let answer = expect(YES, with_input(&["assess", "-", "-q"], &scene));
+        assert_eq!(out(&answer), "T: stands\n", "{name}");
+        let blocks = out(&expect(YES, voussoir(&["generate", name, "--expand", "--density", "1800"])));
+        let blocks: Value = serde_json::from_str(&blocks).unwrap();
+        assert!(blocks.get("templates").is_none() && blocks["materials"].as_object().unwrap().len() == 1, "{name}");
+        assert!(blocks["blocks"].as_array().unwrap().iter().all(|b| b["material"].is_string()), "{name}");
+    }
+    let scene: Value = serde_json::from_str(&out(&expect(
+        YES,
+        voussoir(&[
+            "generate",
+            "arch",
+            "radius=null",
+            "span=8",
+            "rise=3",
+            "profile=elliptical",
+            "buttresses={\"width\":2,\"height\":3}",
+            "buttresses.height=4",
+            "--friction",
+            "infinite",
+        ]),
+    )))
+    .unwrap();
+    assert_eq!(scene["templates"][0]["arch"]["buttresses"], json!({ "width": 2.0, "height": 4.0 }));
+    assert_eq!(scene["joints"]["default"]["friction"], "infinite");
+
+    let deep = vec!["a"; 5000].join(".") + "=1";
+    for (wrong, said) in [
+        (&["arch", "voussiors=9"][..], "voussiors"),
+        (&["arch", "voussoirs=many"], "voussoirs"),
+        (&["arch", "voussoirs=-3"], "voussoirs"),
+        (&["arch", "thickness=-1"], "thickness"),
+        (&["arch", "thickness=1e400"], "thickness"),
+        (&["arch", "voussoirs=100000000"], "voussoirs"),
+        (&["arch", "radius"], "key=value"),
+        (&["arch", "=1"], "key=value"),
+        (&["column", "size.7=1"], "size.7"),
+        (&["arch", "at.7=1"], "arch.at"),
+        (&["arch", &deep], "not a key"),
+        (&["cathedral"], "arch"),
+        (&["arch", "--friction", "-1"], "friction"),
+        (&["arch", "--density", "0"], "density"),
+        (&["arch", "--density", "-1"], "density"),
+    ] {
+        let answer = expect(USAGE, voussoir(&[&["generate"], wrong].concat()));
+        assert!(err(&answer).contains(said) && out(&answer).is_empty(), "{wrong:?}: {}", err(&answer));
+    }
+}
+
+#[test]
+fn meshes_become_scenes() {
+    let desk = Desk::new();
+    let mut text = String::new();
+    for (name, z, first) in [("ground", -1.0, 1), ("stone", 0.0, 9)] {
+        text.push_str(&format!("o {name}\n"));
+        for k in 0..8 {
+            text.push_str(&format!("v {} {} {}\n", k & 1, k >> 1 & 1, z + f64::from(k >> 2)));
+        }
+        for face in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+            text.push_str(&format!("f {}\n", face.map(|i: i32| (i + first).to_string()).join(" ")));
+        }
+    }
+    let obj = desk.at("stone.obj");
+    fs::write(&obj, text).unwrap();
+    let scene = desk.at("stone.json");
+    for support in [["--support", "ground"], ["--support-below", "-0.5"]] {
+        expect(YES, voussoir(&[&["import", &obj, "--friction", "0.5", "-o", &scene], &support[..]].concat()));
+        assert_eq!(desk.read("stone.json")["blocks"].as_array().unwrap().len(), 2);
+        let result = desk.saved(YES, &["tilt", &scene, "--toward", "1,0"]);
+        assert!((result["answer"]["load_factor"]["value"].as_f64().unwrap() - 0.5).abs() < 1e-7);
+    }
+    // What is missing is said, on standard error alone.
+    let answer = expect(YES, voussoir(&["import", &obj]));
+    assert!(err(&answer).contains("note: ") && serde_json::from_str::<Value>(&out(&answer)).is_ok());
+    expect(USAGE, voussoir(&["import", &obj, "--support", "nobody"]));
+    expect(USAGE, voussoir(&["import", &desk.at("none.obj")]));
+    expect(USAGE, voussoir(&["import", &obj, "--up", "w"]));
+    expect(USAGE, voussoir(&["import"]));
+}
+
+#[test]
+fn errors_name_the_place_and_the_remedy() {
+    let desk = Desk::new();
+    let mut scene = desk.read("arch.json");
+    scene["blocks"][3]["density"] = json!(-2400);
+    fs::write(desk.path("bad.json"), serde_json::to_string_pretty(&scene).unwrap()).unwrap();
+    let answer = expect(USAGE, voussoir(&["assess", &desk.at("bad.json")]));
+    let lines: Vec<String> = err(&answer).lines().map(str::to_string).collect();
+    let file = Path::new(&desk.at("bad.json")).display().to_string();
+    let place = lines[0].strip_prefix(&format!("error: {file}:")).expect(&lines[0]);
+    let mut parts = place.splitn(3, ':');
+    assert!(parts.next().unwrap().parse::<usize>().unwrap() > 10 && parts.next().unwrap().parse::<usize>().is_ok(), "{place}");
+    assert!(parts.next().unwrap().starts_with(" blocks[3].density: "), "{place}");
+    assert!(lines[1].starts_with("hint: ") && lines.len() == 2, "{lines:?}");
+}
+
+#[test]
+fn the_schema_is_json() {
+    let schema: Value = serde_json::from_str(&out(&expect(YES, voussoir(&["schema"])))).unwrap();
+    assert!(schema["properties"]["blocks"].is_object());
+}

@@ -1,0 +1,90 @@
+//! The README is tested: every `console` block is run and its output compared.
+
+use std::{path::Path, process::Command};
+
+fn readme() -> String {
+    std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap()
+}
+
+/// Commands of the console blocks with the output printed under each.
+fn examples(text: &str) -> Vec<(String, String)> {
+    let mut list: Vec<(String, String)> = Vec::new();
+    let mut inside = false;
+    for line in text.lines() {
+        match line {
+            "```console" => inside = true,
+            "```" => inside = false,
+            _ if !inside => {}
+            _ => match (line.strip_prefix("$ "), list.last_mut()) {
+                (Some(command), _) => list.push((command.to_string(), String::new())),
+                (None, Some((_, output))) => {
+                    output.push_str(line);
+                    output.push('\n');
+                }
+                (None, None) => panic!("output before a command: {line}"),
+            },
+        }
+    }
+    list
+}
+
+/// Times change from run to run: the `time` line is dropped, its continuation with it.
+fn without_times(text: &str) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut skip = false;
+    for line in text.lines().map(str::trim_end) {
+        skip = line.trim_start().starts_with("time ") || (skip && line.starts_with("        "));
+        if !skip && !line.is_empty() {
+            lines.push(line.to_string());
+        }
+    }
+    lines
+}
+
+fn run(command: &str, folder: &Path) -> String {
+    let program = env!("CARGO_BIN_EXE_voussoir");
+    let words = command.replace("cargo run --release -- ", "voussoir ");
+    let line: Vec<&str> = words.split(' ').map(|w| if w == "voussoir" { program } else { w }).collect();
+    let line = line.join(" ");
+    let output = Command::new("bash").args(["-c", &line]).current_dir(folder).env("NO_COLOR", "1").env_remove("COLUMNS").output().unwrap();
+    assert!(output.status.code().is_some_and(|c| c != 127 && c != 101), "{command}: {output:?}");
+    String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap()
+}
+
+#[test]
+fn every_console_block_prints_what_it_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let structures = folder.path().join("structures");
+    std::fs::create_dir(&structures).unwrap();
+    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/structures")).unwrap() {
+        let path = entry.unwrap().path();
+        std::fs::copy(&path, structures.join(path.file_name().unwrap())).unwrap();
+    }
+    let examples = examples(&readme());
+    assert!(examples.len() >= 7, "only {} commands found", examples.len());
+    for (command, printed) in examples {
+        let (want, got) = (without_times(&printed), without_times(&run(&command, folder.path())));
+        assert_eq!(want, got, "README.md, `{command}`: put the right-hand output into the README if it is what you want");
+    }
+}
+
+#[test]
+fn the_first_screen_holds_the_two_commands() {
+    let text = readme();
+    let first: Vec<&str> = text.lines().take(60).collect();
+    assert!(first.iter().any(|l| l.starts_with("$ cargo run --release -- assess structures/")));
+    assert!(first.contains(&"cargo test"), "`.ci/run` takes its test command from here");
+}
+
+#[test]
+fn the_scene_and_the_library_example_work() {
+    let text = readme();
+    let block = |kind: &str| text.split(&format!("```{kind}\n")).nth(1).and_then(|t| t.split("```").next()).unwrap().to_string();
+    let (scene, _) = voussoir::scene::read_str("README.md", block("json")).unwrap();
+    let model = voussoir::analysis::prepare(&scene).unwrap();
+    assert_eq!(model.assembly.blocks.len(), 30);
+    let tour = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/lib.rs")).unwrap();
+    for line in block("rust").lines() {
+        assert!(tour.contains(line), "the crate tour in src/lib.rs does not hold: {line}");
+    }
+}
