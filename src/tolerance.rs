@@ -132,3 +132,23 @@ pub const STORED_POLYGON_AREA: f64 = 1e-9;
 /// Blocks whose lowest corner lies within this × the height of the scene above its lowest point are proposed as supports.
 /// Larger: the first course of a tall structure is proposed with its base. Smaller: springers on ground that is not quite level are missed.
 pub const LOWEST_BAND: f64 = 0.01;
+
+/// A fixed point of Coulomb's law counts as settled when the friction limits change by less than this, in mean block loads.
+/// Larger: states that still wander are read. Smaller: the engine's noise at small ε (1e-4) counts as wandering.
+pub const COULOMB_SETTLED: f64 = 1e-3;
+
+/// A state rests when its acceleration falls below this × the one at ten times the ε. Larger: slow motions pass for rest.
+/// Smaller: soft, tall structures at rest stay undecided (exact proportionality gives 0.1).
+pub const ACCELERATION_FALLS: f64 = 0.2;
+
+/// A state may move only when its acceleration stays above this × the one at ten times the ε. Larger: moving states that
+/// ε still slows down stay undecided. Smaller: structures at rest that are soft at large ε could pass for moving.
+pub const ACCELERATION_STAYS: f64 = 0.8;
+
+/// A motion obeys Coulomb's law when its natural map is below this. Larger: the sinking of soft contacts passes for motion.
+/// Smaller: motions computed at ε = 1e-5 are refused.
+pub const MOTION_LAW: f64 = 1e-3;
+
+/// A state without pre-stress moves when some block is left with at least this much of its load. Larger: slow slides at
+/// the edge of friction are refused. Smaller: what the regularisation leaves at rest (1e-4) could be taken for motion.
+pub const LEAST_MOTION: f64 = 1e-3;

@@ -1,8 +1,10 @@
-//! Does it stand under its dead load? Program V, its bracket recomputed from the scene.
+//! Does it stand under its dead load? Program V, its bracket recomputed from the scene; then, where admissible forces exist
+//! and contacts form closed chains that could hold a pre-stress, the state under dry friction (program C).
 
 use super::{
     Bracket,
-    attempt::{Attempt, Control, Rung, run, rung},
+    attempt::{Attempt, Control, Law, Rung, run, rung},
+    coulomb::{Motion, State, state},
 };
 use crate::{
     assembly::Assembly,
@@ -32,6 +34,8 @@ pub struct Assessment {
     pub rates: Vec<Rate>,
     /// The mechanism, where it is unstable.
     pub mechanism: Option<Mechanism>,
+    /// The state under dry friction, where it had to be computed.
+    pub state: Option<State>,
     /// Free blocks without a contact path to a support, by groups.
     pub floating: Vec<Vec<usize>>,
     /// What was tried.
@@ -59,7 +63,30 @@ pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -
     let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: false, split: false });
     let mut answer = least_unbalance(assembly, interfaces, &statics, LiveLoad::Absent, control);
     answer.floating = floating;
+    if answer.verdict == Verdict::Stable && control.law == Law::Coulomb {
+        settle(assembly, interfaces, control, &mut answer);
+    }
     answer
+}
+
+/// Admissible forces exist: are they such as the loads produce?
+fn settle(assembly: &Assembly, interfaces: &Interfaces, control: &Control, answer: &mut Assessment) {
+    if program::is_forest(assembly, interfaces) {
+        let text = "the state under dry friction: contacts form no closed chain, so statics alone fixes what each one carries";
+        answer.left_out.push(text.into());
+        return;
+    }
+    let state = state(assembly, interfaces, control);
+    answer.verdict = match state.motion {
+        Motion::Rests => Verdict::Stable,
+        Motion::Moves => Verdict::Conditional,
+        Motion::Undecided => Verdict::Undecided,
+    };
+    if state.motion == Motion::Moves {
+        answer.rates = certificate::motion(assembly, interfaces, &state.forces).rates;
+        answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
+    }
+    answer.state = Some(state);
 }
 
 /// Blocks that touch nothing that is held fall with 1 g: no program is needed to see it.
@@ -87,6 +114,7 @@ fn falls_freely(assembly: &Assembly, interfaces: &Interfaces, floating: &[Vec<us
         forces,
         load_factor: 0.0,
         rates,
+        state: None,
         floating: floating.to_vec(),
         attempts: Vec::new(),
         left_out: vec![format!("the whole program: {count} free blocks have no contact path to a support")],
@@ -112,6 +140,7 @@ pub(super) fn least_unbalance(
         load_factor: 0.0,
         rates: vec![Rate::zero(); assembly.blocks.len()],
         mechanism: None,
+        state: None,
         floating: Vec::new(),
         attempts: Vec::new(),
         left_out: statics.left_out.clone(),

@@ -11,9 +11,22 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 
+/// How a joint slides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Law {
+    /// A joint that slides opens by μ × the slip. Admissible forces are then enough to stand.
+    Associative,
+    /// Dry friction: a joint slides without opening. Forces must also be such as the loads produce.
+    #[default]
+    Coulomb,
+}
+
 /// What the caller may change about a question.
 #[derive(Clone, Copy, Debug)]
 pub struct Control {
+    /// How joints slide.
+    pub law: Law,
     /// Leave nothing out, for comparison.
     pub keep_all: bool,
     /// Stop trying after this many seconds and return the best bracket so far.
@@ -22,7 +35,7 @@ pub struct Control {
 
 impl Default for Control {
     fn default() -> Self {
-        Self { keep_all: false, seconds: f64::INFINITY }
+        Self { law: Law::Coulomb, keep_all: false, seconds: f64::INFINITY }
     }
 }
 

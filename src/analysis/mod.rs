@@ -1,7 +1,6 @@
 //! Questions and answers: the only place where the stages are composed.
 
 pub mod assess;
-mod anderson;
 mod attempt;
 pub mod coulomb;
 mod ends;
@@ -10,7 +9,7 @@ mod prepare;
 pub mod tilt;
 
 pub use assess::{Assessment, assess};
-pub use attempt::{Attempt, Control};
+pub use attempt::{Attempt, Control, Law};
 pub use limit::{LoadFactor, Outcome, limit};
 pub use prepare::{Model, Timings, prepare};
 pub use tilt::{Tilt, tilt};

@@ -32,11 +32,26 @@ pub enum Color {
     Never,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Law {
+    Associative,
+    Coulomb,
+}
+
+impl From<Law> for voussoir::analysis::Law {
+    fn from(law: Law) -> Self {
+        match law {
+            Law::Associative => Self::Associative,
+            Law::Coulomb => Self::Coulomb,
+        }
+    }
+}
+
 #[derive(Debug, Subcommand)]
 pub enum Verb {
     /// Does it stand under its dead load?
     ///
-    /// Exit code 0 if it stands, 1 if it falls, 3 if that stays open.
+    /// Exit code 0 if it stands, 1 if it falls or stands only with a pre-stress that nobody applied, 3 if that stays open.
     Assess(Assess),
     /// How large may the live load grow?
     ///
@@ -118,6 +133,10 @@ pub struct Common {
     /// Solve the scene in full, without leaving out what symmetry or missing friction make needless.
     #[arg(long)]
     pub keep_all: bool,
+    /// How joints slide when it is asked whether the scene stands: `coulomb` (dry friction) also asks whether the loads produce the
+    /// forces that hold it, `associative` only whether such forces exist.
+    #[arg(long, value_enum, value_name = "LAW", default_value_t = Law::Coulomb, hide_possible_values = true)]
+    pub law: Law,
     /// Stop trying after this many seconds.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     pub time_limit: Option<f64>,

@@ -47,7 +47,7 @@ impl<'a> Question<'a> {
     /// What is left of the time for programs.
     pub fn control(&self) -> Control {
         let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.start.elapsed().as_secs_f64()).max(0.0));
-        Control { keep_all: self.common.keep_all, seconds }
+        Control { law: self.common.law.into(), keep_all: self.common.keep_all, seconds }
     }
 
     /// An error in the scene, with its place.
@@ -86,7 +86,7 @@ impl<'a> Question<'a> {
 pub fn verdict(verdict: Option<Verdict>) -> Exit {
     match verdict {
         Some(Verdict::Stable) => Exit::Yes,
-        Some(Verdict::Unstable) => Exit::No,
+        Some(Verdict::Unstable | Verdict::Conditional) => Exit::No,
         Some(Verdict::Undecided) | None => Exit::Undecided,
     }
 }

@@ -19,7 +19,6 @@
 
 use super::{Cone, ConicProgram, Options, Statics, unbalance::copy};
 use crate::{assembly::Assembly, interface::Interfaces, scene::Friction};
-use nalgebra::Vector3;
 
 /// A contact point of programs C and D.
 #[derive(Clone, Debug)]
@@ -257,42 +256,6 @@ impl Contacts {
         }
         f
     }
-
-    /// How exactly forces and joint rates obey the law: the natural map `‖f − P_K(f − (u + μ‖u_t‖ n))‖ / ‖f‖`, with `u` brought to
-    /// the size of `f` where it is larger (the law is homogeneous in `u`). Zero for an exact solution (Acary, Brémond & Huber 2018).
-    pub fn natural_map(&self, f: &[f64], u: &[f64]) -> f64 {
-        let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let (nf, nu) = (norm(f), norm(u));
-        if nf == 0.0 {
-            return if nu == 0.0 { 0.0 } else { f64::INFINITY };
-        }
-        let scale = if nu > nf { nf / nu } else { 1.0 };
-        let mut sum = 0.0;
-        for p in &self.points {
-            let at = |v: &[f64], k: usize| if k <= p.tangents { v[p.column + k] } else { 0.0 };
-            let (fv, uv) = (Vector3::new(at(f, 0), at(f, 1), at(f, 2)), Vector3::new(at(u, 0), at(u, 1), at(u, 2)) * scale);
-            let shift = if p.mu.is_finite() { p.mu * uv.y.hypot(uv.z) } else { 0.0 };
-            let moved = fv - uv - Vector3::x() * shift;
-            sum += (fv - onto_cone(moved, p.mu)).norm_squared();
-        }
-        sum.sqrt() / nf
-    }
-}
-
-/// Nearest point of the cone `‖t‖ ≤ μ n` (components `n, t1, t2`).
-fn onto_cone(x: Vector3<f64>, mu: f64) -> Vector3<f64> {
-    let t = x.y.hypot(x.z);
-    if mu.is_infinite() {
-        return if x.x > 0.0 { x } else { Vector3::new(0.0, x.y, x.z) };
-    }
-    if t <= mu * x.x {
-        return x;
-    }
-    if mu * t <= -x.x {
-        return Vector3::zeros();
-    }
-    let n = (x.x + mu * t) / (1.0 + mu * mu);
-    Vector3::new(n, mu * n * x.y / t, mu * n * x.z / t)
 }
 
 fn ends_are_all(statics: &Statics, interfaces: &Interfaces) -> bool {

@@ -21,7 +21,7 @@ mod unbalance;
 pub use conic::{Cone, ConicProgram, Sparse};
 pub use load_factor::load_factor;
 pub use planar::Plane;
-pub use reach::floating;
+pub use reach::{floating, is_forest};
 pub use statics::{Bearing, BearingCone, FreeBlock, Options, Statics};
 pub use unbalance::{LiveLoad, unbalance};
 

@@ -2,7 +2,7 @@
 //! verified without a solver.
 
 use crate::{
-    analysis::{Assessment, Attempt, Bracket, LoadFactor, Model, Outcome, Tilt, Timings},
+    analysis::{Assessment, Attempt, Bracket, Law, LoadFactor, Model, Outcome, Tilt, Timings, coulomb},
     error::Finding,
     scene::Scene,
     verdict::{
@@ -43,6 +43,9 @@ pub struct ResultFile {
     /// Limit and tilt, where asked as well: whether it stands under its dead load alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead_load: Option<Direction>,
+    /// The state under dry friction, where it had to be computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coulomb_state: Option<CoulombState>,
     /// The mechanism in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
@@ -128,14 +131,6 @@ pub struct LoadFactorAnswer {
     pub upper: Option<f64>,
 }
 
-/// A law of sliding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Law {
-    /// Sliding lifts by μ × the sliding rate.
-    Associative,
-}
-
 /// The evidence for an answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -145,7 +140,7 @@ pub struct Certificate {
     pub claim: Option<Claim>,
     /// Static side: forces per contact.
     pub forces: Vec<ContactForces>,
-    /// Unbounded: forces at a load factor at which the scene stands.
+    /// Unbounded: forces at a load factor at which the scene stands. Conditional: the forces without the pre-stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<Vec<ContactForces>>,
     /// Kinematic side: rates per moving block.
@@ -162,6 +157,16 @@ pub struct Direction {
     pub answer: Answer,
     /// The evidence for it.
     pub certificate: Certificate,
+}
+
+/// The state under dry friction (program C). Where it rests it is computed, not proved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CoulombState {
+    /// What it does.
+    pub motion: coulomb::Motion,
+    /// The continuation in ε.
+    pub steps: Vec<coulomb::Step>,
 }
 
 /// A mechanism with names.
@@ -230,6 +235,7 @@ impl ResultFile {
             certificate,
             directions: Vec::new(),
             dead_load: None,
+            coulomb_state: None,
             mechanism: None,
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),
@@ -244,6 +250,7 @@ impl ResultFile {
         let (answer, certificate, findings) = assessment(model, a);
         let mut file = Self::new(Question::Assess, scene, model, answer, certificate);
         file.mechanism = a.mechanism.as_ref().map(|m| words(model, m));
+        file.coulomb_state = a.state.as_ref().map(|s| CoulombState { motion: s.motion, steps: s.steps.clone() });
         file.left_out.clone_from(&a.left_out);
         file.trace.clone_from(&a.attempts);
         file.warn(&findings);
@@ -315,9 +322,12 @@ fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) 
     let claim = match a.verdict {
         Verdict::Stable => Some(Claim::Stable),
         Verdict::Unstable => Some(Claim::Unstable),
+        Verdict::Conditional => Some(Claim::Conditional),
         Verdict::Undecided => None,
     };
-    let (mut certificate, findings) = certify(model, claim, &a.forces, None, &a.rates);
+    // Of a conditional verdict the base are the forces without the pre-stress.
+    let base = a.state.as_ref().filter(|_| a.verdict == Verdict::Conditional).map(|s| &s.forces);
+    let (mut certificate, findings) = certify(model, claim, &a.forces, base, &a.rates);
     let mut verdict = a.verdict;
     if !findings.fails.is_empty() {
         (verdict, certificate.claim) = (Verdict::Undecided, None);

@@ -146,7 +146,7 @@ fn answer(model: &Model, question: Question, answer: &Answer, evidence: &Certifi
         let claimed = check::verify(assembly, interfaces, claim, &forces, base.as_ref(), &rates);
         f.holds.extend(claimed.holds);
         f.fails.extend(claimed.fails);
-        if matches!(claim, Claim::Stable | Claim::Unstable) {
+        if matches!(claim, Claim::Stable | Claim::Conditional | Claim::Unstable) {
             unbalance(&mut f, model, answer, &forces, &rates);
         }
     }
@@ -166,7 +166,9 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
     let said = answer.load_factor.as_ref();
     let numbers = |l: &LoadFactorAnswer| (l.value, l.lower, l.upper);
     let agrees = match (answer.verdict, said.map(|l| l.status), claim) {
-        (Some(Verdict::Stable), None, Some(Claim::Stable)) | (Some(Verdict::Unstable), None, Some(Claim::Unstable)) => true,
+        (Some(Verdict::Stable), None, Some(Claim::Stable))
+        | (Some(Verdict::Conditional), None, Some(Claim::Conditional))
+        | (Some(Verdict::Unstable), None, Some(Claim::Unstable)) => true,
         (Some(Verdict::Undecided), None, None) | (None, Some(Outcome::Undecided), None) => {
             f.holds.push("undecided: nothing is claimed".into());
             return;
@@ -182,6 +184,7 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
     let claim_words = match claim {
         None => "nothing".into(),
         Some(Claim::Stable) => "that it stands".into(),
+        Some(Claim::Conditional) => "that it stands only with a pre-stress".into(),
         Some(Claim::Unstable) => "that it falls".into(),
         Some(Claim::LoadFactor { value, .. }) => format!("the load factor {value}"),
         Some(Claim::Unbounded { .. }) => "that the live load has no limit".into(),

@@ -205,3 +205,29 @@ pub fn onto_cone(f: Vector3<f64>, n: Vector3<f64>, friction: Friction) -> Vector
     let on = (normal + mu * t) / (1.0 + mu * mu);
     n * on + tangential * (mu * on / t)
 }
+
+/// The motion that contact forces leave the blocks in.
+#[derive(Clone, Debug)]
+pub struct Released {
+    /// Largest acceleration, in multiples of gravity ([`Statics::unbalance`]).
+    pub acceleration: f64,
+    /// How far forces and motion are from Coulomb's law together ([`natural_map`]).
+    pub natural_map: f64,
+    /// The motion, each block's unbalance over the square of its load scale.
+    pub rates: Vec<Rate>,
+}
+
+/// The motion that starts from rest under contact forces, and how exactly the two obey Coulomb's law.
+///
+/// Each block moves by its own unbalance; a block's inertia is taken as its load scale squared, in force and, with its length
+/// scale, in moment. The law of contact does not depend on that choice, only the speeds do.
+pub fn motion(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Released {
+    let s = statics(assembly, interfaces, forces, 0.0);
+    let mut rates = vec![Rate::zero(); assembly.blocks.len()];
+    for i in assembly.free() {
+        let (w, l) = (load_scale(assembly, i), length_scale(assembly, i));
+        rates[i] = Rate { velocity: s.residuals[i].force / (w * w), spin: s.residuals[i].moment / (w * l * w * l) };
+    }
+    let natural_map = natural_map(assembly, interfaces, forces, &rates).unwrap_or(f64::INFINITY);
+    Released { acceleration: s.unbalance, natural_map, rates }
+}

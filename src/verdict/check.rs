@@ -15,6 +15,9 @@ use serde::{Deserialize, Serialize};
 pub enum Claim {
     /// The forces balance the dead load inside the friction cones.
     Stable,
+    /// The forces balance the dead load inside the friction cones, but the base forces, which need no pre-stress, leave a motion
+    /// that obeys Coulomb's law with them.
+    Conditional,
     /// The mechanism gains power under the dead load: nothing balances it.
     Unstable,
     /// The forces balance the dead load and `value` × the live load; the mechanism admits no more than `upper`.
@@ -67,6 +70,13 @@ pub fn verify(
     let mut f = Findings::default();
     match *claim {
         Claim::Stable => balanced(&mut f, assembly, interfaces, forces, 0.0),
+        Claim::Conditional => {
+            balanced(&mut f, assembly, interfaces, forces, 0.0);
+            match base {
+                Some(base) => moves(&mut f, assembly, interfaces, base, rates),
+                None => f.fails.push("the forces without the pre-stress are missing".into()),
+            }
+        }
         Claim::Unstable => gains(&mut f, assembly, interfaces, rates),
         Claim::LoadFactor { value, lower, upper } => load_factor(&mut f, assembly, interfaces, forces, rates, [value, lower, upper]),
         Claim::Unbounded { standing } => {
@@ -90,6 +100,28 @@ pub fn verify(
         }
     }
     f
+}
+
+/// Forces from which a motion starts that obeys Coulomb's law with them.
+fn moves(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, base: &Forces, rates: &[Rate]) {
+    cones(f, &certificate::statics(assembly, interfaces, base, 0.0));
+    let m = certificate::motion(assembly, interfaces, base);
+    f.require(
+        m.acceleration >= tolerance::LEAST_MOTION,
+        format!("without a pre-stress a block is left with {:.3e} g, at least {:.0e} needed", m.acceleration, tolerance::LEAST_MOTION),
+    );
+    f.require(
+        m.natural_map <= tolerance::MOTION_LAW,
+        format!("forces and motion obey Coulomb's law: natural map {:.1e}, allowed {:.0e}", m.natural_map, tolerance::MOTION_LAW),
+    );
+    let dot = |a: &[Rate], b: &[Rate]| -> f64 {
+        assembly
+            .free()
+            .map(|i| a[i].velocity.dot(&b[i].velocity) + a[i].spin.dot(&b[i].spin) * certificate::length_scale(assembly, i).powi(2))
+            .sum()
+    };
+    let cosine = dot(rates, &m.rates) / (dot(rates, rates) * dot(&m.rates, &m.rates)).sqrt();
+    f.require(cosine >= 1.0 - tolerance::MOTION_LAW, format!("the rates are that motion: cosine {cosine:.6}"));
 }
 
 /// "Impossible" is proved when no load factor below this × (dead / live load) helps. Larger: rounding of ℓ·q = 0 fails a

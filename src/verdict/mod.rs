@@ -15,6 +15,9 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Admissible contact forces balance the loads. Proof: the forces.
     Stable,
+    /// Admissible forces exist, but only with a pre-stress that the loads do not produce: with dry friction and none applied,
+    /// the scene moves. Proof: the forces, and a motion that obeys Coulomb's law.
+    Conditional,
     /// No admissible contact forces balance the loads, whatever the law of sliding inside the cone. Proof: the mechanism.
     Unstable,
     /// The bracket straddles the tolerance.

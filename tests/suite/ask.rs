@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Model, Outcome, assess, limit, prepare, tilt},
+    analysis::{Control, Law, Model, Outcome, assess, limit, prepare, tilt},
     report::{self, ResultFile},
     scene::{Scene, read_str},
     verdict::Verdict,
@@ -90,16 +90,18 @@ pub fn prove(scene: &Scene, file: &ResultFile) {
     assert!(found.proved(), "{}: not proved: {fails:#?}\nwarnings {:#?}\ntrace {:#?}", scene.name, file.warnings, file.trace);
 }
 
-/// Does it stand? With proof.
-pub fn stands(scene: &Scene) -> bool {
+/// The verdict by a law of sliding, with proof.
+pub fn verdict(scene: &Scene, law: Law) -> Verdict {
     let model = model(scene);
-    let answer = assess(&model.assembly, &model.interfaces, &Control::default());
+    let answer = assess(&model.assembly, &model.interfaces, &Control { law, ..Control::default() });
+    assert_ne!(answer.verdict, Verdict::Undecided, "{}: {:?} {:?}", scene.name, answer.unbalance, answer.state.map(|s| s.steps));
     prove(scene, &ResultFile::assessment(scene, &model, &answer));
-    match answer.verdict {
-        Verdict::Stable => true,
-        Verdict::Unstable => false,
-        Verdict::Undecided => panic!("{}: undecided, {:?}", scene.name, answer.unbalance),
-    }
+    answer.verdict
+}
+
+/// Are there admissible forces (associative law)? With proof.
+pub fn stands(scene: &Scene) -> bool {
+    verdict(scene, Law::Associative) == Verdict::Stable
 }
 
 /// What becomes of the load factor, with its value where there is one, the bracket containing it. With proof.

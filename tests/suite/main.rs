@@ -4,6 +4,7 @@ mod ask;
 
 mod analytic;
 mod cli;
+mod coulomb;
 mod published;
 mod readme;
 mod reference;

@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Model, Outcome, assess, limit, prepare},
+    analysis::{Control, Law, Model, Outcome, assess, limit, prepare},
     scene::{Scene, read_str},
     verdict::Verdict,
 };
@@ -94,7 +94,7 @@ fn model(scene: &Scene) -> Model {
 
 fn verdict(case: &Value, variant: &Value, mu: f64) -> Verdict {
     let m = model(&scene(case, variant, mu));
-    assess(&m.assembly, &m.interfaces, &Control::default()).verdict
+    assess(&m.assembly, &m.interfaces, &Control { law: Law::Associative, ..Control::default() }).verdict
 }
 
 fn mu_of(case: &Value) -> f64 {

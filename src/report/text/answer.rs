@@ -8,6 +8,7 @@ use super::{
 use crate::{
     analysis::Outcome,
     report::result::{Answer, LoadFactorAnswer, Question, ResultFile},
+    tolerance,
     verdict::{Verdict, check::Claim},
 };
 
@@ -16,6 +17,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
     let (text, role) = match file.question {
         Question::Assess => match file.answer.verdict {
             Some(Verdict::Stable) => ("stands".to_string(), Role::Good),
+            Some(Verdict::Conditional) => ("stands only with a pre-stress".to_string(), Role::Bad),
             Some(Verdict::Unstable) => ("falls".to_string(), Role::Bad),
             Some(Verdict::Undecided) | None => ("undecided".to_string(), Role::Unsure),
         },
@@ -45,7 +47,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
 /// The sentences that say what the answer rests on and what it does not say.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
     if file.question == Question::Assess {
-        return verdict(page, &file.answer);
+        return verdict(page, file);
     }
     let tilt = file.question == Question::Tilt;
     match (status(&file.answer), found(&file.answer)) {
@@ -88,23 +90,53 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     dead_load(page, file);
 }
 
-fn verdict(page: &mut Page, answer: &Answer) {
+fn verdict(page: &mut Page, file: &ResultFile) {
+    let answer = &file.answer;
     let (lower, upper) = answer.unbalance.map_or((0.0, f64::NAN), |b| (b.lower, b.upper));
     match answer.verdict {
         Some(Verdict::Stable) => {
             page.paragraph(&format!(
                 "Contact forces inside every friction cone balance every block, up to {upper:.1e} of its weight."
             ));
-            page.paragraph(
-                "This says that the joints can carry the load; it does not exclude that they need a pre-stress which nobody applied.",
-            );
+            page.paragraph(&settled(file));
+        }
+        Some(Verdict::Conditional) => {
+            page.paragraph(&format!(
+                "Contact forces inside every friction cone balance every block, up to {upper:.1e} of its weight, but the loads do not produce them: they need a pre-stress that nobody applied."
+            ));
+            let left = file.coulomb_state.as_ref().and_then(|s| s.steps.last()).map_or(f64::NAN, |s| s.acceleration);
+            page.paragraph(&format!(
+                "Without it the motion below starts, with {left:.2} g on some block, and obeys Coulomb's law. It is not safe."
+            ));
         }
         Some(Verdict::Unstable) => page.paragraph(&format!(
             "No contact forces inside the friction cones balance the loads: whatever they are, some block is left with at least {lower:.1e} of its weight. The mechanism below moves by itself, which proves it."
         )),
+        Some(Verdict::Undecided) if file.coulomb_state.is_some() && upper <= tolerance::UNBALANCE => page.paragraph(
+            "Admissible contact forces exist, but whether the loads produce them did not come out: the state under dry friction neither came to rest nor to a motion.",
+        ),
         Some(Verdict::Undecided) | None => page.paragraph(&format!(
             "The least part of its weight with which some block is left lies between {lower:.1e} and {upper:.1e}; it is too close to the line between standing and falling, or the solver lost its way."
         )),
+    }
+}
+
+/// What makes admissible forces count.
+fn settled(file: &ResultFile) -> String {
+    match &file.coulomb_state {
+        Some(state) => {
+            let step = state.steps.last();
+            format!(
+                "The loads produce such forces by themselves: with dry friction, on contacts that yield a little, the blocks come to rest (what is left, {:.0e} g, falls with the compliance).",
+                step.map_or(f64::NAN, |s| s.acceleration)
+            )
+        }
+        None if file.left_out.iter().any(|l| l.starts_with("the state under dry friction")) => {
+            "No pre-stress is possible: contacts form no closed chain.".into()
+        }
+        None => {
+            "This says that the joints can carry the load; it does not exclude that they need a pre-stress which nobody applied.".into()
+        }
     }
 }
 
@@ -124,6 +156,7 @@ fn dead_load(page: &mut Page, file: &ResultFile) {
     let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);
     let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict) {
         Some(Verdict::Stable) => format!("{place} it stands."),
+        Some(Verdict::Conditional) => format!("{place} it stands only with a pre-stress that nobody applied."),
         Some(Verdict::Unstable) => format!("{place} it falls."),
         Some(Verdict::Undecided) => format!("{place} it is undecided whether it stands."),
         None if negative => format!("{place} it falls: the greatest λ is below zero."),

@@ -108,7 +108,7 @@ fn next(page: &mut Page, file: &ResultFile, scene: &str) {
     }
     let mut list = Vec::new();
     if file.question == Question::Assess {
-        let falls = file.answer.verdict == Some(Verdict::Unstable);
+        let falls = matches!(file.answer.verdict, Some(Verdict::Unstable | Verdict::Conditional));
         list.push(match (falls, file.scene.input.loads.live.is_empty()) {
             (true, _) => look,
             (false, true) => (format!("voussoir tilt {scene}"), "at what tilt it falls"),

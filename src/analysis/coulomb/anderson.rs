@@ -42,9 +42,4 @@ impl Anderson {
         self.last = Some((x, f));
         next.iter().map(|v| v.max(0.0)).collect()
     }
-
-    /// Forgets the past, after a jump.
-    pub fn restart(&mut self) {
-        *self = Self::default();
-    }
 }

@@ -1,0 +1,89 @@
+//! The fixed point of one program: friction held, solved, held anew.
+
+use super::anderson::Anderson;
+use crate::{
+    program::coulomb::{Aim, Contacts, Hold},
+    solve::{Session, Settings, Solution},
+};
+
+/// Where an iteration ended.
+#[derive(Clone, Debug)]
+pub(super) struct FixedPoint {
+    /// Forces per column in mean block loads, cut back into the friction cones.
+    pub forces: Vec<f64>,
+    /// Rates of the blocks per row.
+    pub rates: Vec<f64>,
+    /// Last change of what was held, in mean block loads.
+    pub change: f64,
+    /// Convex programs solved.
+    pub solves: usize,
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    /// Change of what is held, absolute, in mean block loads: a measure relative to the current value would let blocks that
+    /// are squeezed by ever smaller forces hang.
+    pub change: f64,
+    /// Most convex programs.
+    pub solves: usize,
+}
+
+/// Iterates from the limits or sliding rates `start`. `None` where the engine refuses the program or leaves no numbers.
+pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>, stop: Stop, settings: &Settings) -> Option<FixedPoint> {
+    let mut held = start;
+    let mut program = contacts.program(aim, hold, &held);
+    let mut session = Session::new(&program, settings)?;
+    let mut anderson = Anderson::default();
+    let mut best: Option<FixedPoint> = None;
+    for k in 1..=stop.solves {
+        let solution = session.solve();
+        if !solution.is_finite() {
+            break;
+        }
+        let (forces, rates) = read(contacts, aim, &solution);
+        let next = match hold {
+            Hold::Limits => contacts.limits(&forces),
+            Hold::SlidingRates => contacts.sliding(&joint_rates(contacts, aim, &forces, &rates)),
+        };
+        let change = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        // The last iterate is kept unless an earlier one was much better: near the end the change is the engine's noise.
+        if best.as_ref().is_none_or(|b| change < 10.0 * b.change) {
+            best = Some(FixedPoint { forces: contacts.cut(&forces), rates, change, solves: k });
+        } else if let Some(best) = &mut best {
+            best.solves = k;
+        }
+        if change <= stop.change {
+            break;
+        }
+        held = anderson.next(&held, &next);
+        contacts.hold(&mut program, hold, &held);
+        let accepted = match hold {
+            Hold::Limits => session.set_rhs(&program.rhs),
+            Hold::SlidingRates => session.set_objective(&program.objective),
+        };
+        if !accepted {
+            break;
+        }
+    }
+    best
+}
+
+fn read(contacts: &Contacts, aim: Aim, solution: &Solution) -> (Vec<f64>, Vec<f64>) {
+    let forces = solution.x[..contacts.statics.matrix.columns].to_vec();
+    let rates = match aim {
+        Aim::State(epsilon) => contacts.residual(&forces, 0.0).iter().map(|r| r / epsilon).collect(),
+        Aim::LoadFactor(..) => solution.z[..contacts.statics.matrix.rows].to_vec(),
+    };
+    (forces, rates)
+}
+
+/// `u`, the compliance of the contacts included.
+fn joint_rates(contacts: &Contacts, aim: Aim, forces: &[f64], rates: &[f64]) -> Vec<f64> {
+    let weight = if let Aim::LoadFactor(delta, _) = aim { delta } else { 1.0 };
+    let mut u = contacts.joint_rates(rates);
+    for ((u, c), f) in u.iter_mut().zip(&contacts.compliance).zip(forces) {
+        *u += weight * c * f;
+    }
+    u
+}

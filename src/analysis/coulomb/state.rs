@@ -1,0 +1,136 @@
+//! Program C: do the loads themselves produce the forces that hold the scene?
+//!
+//! Admissible forces may need a pre-stress that nobody applied: a block between two posts is held by any squeeze, but
+//! nothing squeezes it. The state of the scene on slightly compliant contacts answers it. What balances leaves an
+//! acceleration that falls with ε; what does not keeps it, and is then a motion that obeys Coulomb's law with the forces at hand.
+//! *Proved:* a state that moves is a solution of the law (its natural map is recomputed from the forces). *Computed, not proved:*
+//! that a state at rest is the one the loads produce; rest under a pre-stress and motion are often both exact solutions.
+
+use super::fixed_point::{FixedPoint, Stop, iterate};
+use crate::{
+    analysis::attempt::Control,
+    assembly::Assembly,
+    interface::Interfaces,
+    program::coulomb::{Aim, Contacts, Hold},
+    solve::Settings,
+    tolerance,
+    verdict::{Forces, certificate},
+};
+use serde::{Deserialize, Serialize};
+use std::time::Instant;
+
+/// What the state does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Motion {
+    /// It rests: the acceleration vanishes with ε.
+    Rests,
+    /// It moves: the acceleration stays, and obeys the law.
+    Moves,
+    /// Neither could be told.
+    Undecided,
+}
+
+/// One ε of the continuation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Step {
+    /// Regularisation ε.
+    pub epsilon: f64,
+    /// Largest acceleration left on a block, in multiples of gravity.
+    pub acceleration: f64,
+    /// Last change of the friction limits, in mean block loads.
+    pub change: f64,
+    /// How far the forces and that acceleration are from Coulomb's law ([`certificate::natural_map`]).
+    pub natural_map: f64,
+    /// Convex programs solved.
+    pub solves: usize,
+    /// Seconds.
+    pub seconds: f64,
+}
+
+/// The state of a scene under its dead load with dry friction.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// What it does.
+    pub motion: Motion,
+    /// The continuation in ε.
+    pub steps: Vec<Step>,
+    /// Contact forces of the last step, N.
+    pub forces: Forces,
+}
+
+/// The ε of the continuation.
+const EPSILONS: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
+
+/// When a fixed point has settled.
+const STOP: Stop = Stop { change: 1e-5, solves: 25 };
+
+/// Computes the state.
+pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> State {
+    let begin = Instant::now();
+    let contacts = Contacts::new(assembly, interfaces, control.keep_all, false);
+    let settings = Settings { tolerance: 1e-10, regularization: 1e-8, ..Settings::default() };
+    let mut answer = State { motion: Motion::Undecided, steps: Vec::new(), forces: Vec::new() };
+    let still = vec![0.0; contacts.points.len()];
+    let once = Stop { solves: 1, ..STOP };
+    // The associative state is the first guess of the friction limits.
+    let mut last = iterate(&contacts, Aim::State(EPSILONS[0]), Hold::SlidingRates, still, once, &settings);
+    for epsilon in EPSILONS {
+        let left = control.seconds - begin.elapsed().as_secs_f64();
+        let Some(from) = last.take().filter(|_| left > 0.0) else { break };
+        let start = Instant::now();
+        let settings = Settings { seconds: left, ..settings };
+        let Some(point) = settled(&contacts, Aim::State(epsilon), &from, &settings) else { break };
+        answer.forces = contacts.statics.forces(interfaces, &point.forces);
+        let moved = certificate::motion(assembly, interfaces, &answer.forces);
+        answer.steps.push(Step {
+            epsilon,
+            acceleration: moved.acceleration,
+            change: point.change,
+            natural_map: moved.natural_map,
+            solves: point.solves,
+            seconds: start.elapsed().as_secs_f64(),
+        });
+        last = Some(point);
+        answer.motion = decide(&answer.steps);
+        if answer.motion != Motion::Undecided {
+            break;
+        }
+    }
+    answer
+}
+
+/// The fixed point on the limits; where it does not settle, the twin on the sliding rates has a try.
+fn settled(contacts: &Contacts, aim: Aim, from: &FixedPoint, settings: &Settings) -> Option<FixedPoint> {
+    let by_limits = iterate(contacts, aim, Hold::Limits, contacts.limits(&from.forces), STOP, settings)?;
+    if by_limits.change <= tolerance::COULOMB_SETTLED {
+        return Some(by_limits);
+    }
+    let by_rates = iterate(contacts, aim, Hold::SlidingRates, contacts.sliding(&contacts.joint_rates(&by_limits.rates)), STOP, settings);
+    match by_rates {
+        Some(twin) if twin.change <= STOP.change => Some(FixedPoint { solves: twin.solves + by_limits.solves, ..twin }),
+        _ => Some(by_limits),
+    }
+}
+
+fn decide(steps: &[Step]) -> Motion {
+    let [.., before, last] = steps else { return Motion::Undecided };
+    if before.change > tolerance::COULOMB_SETTLED || last.change > tolerance::COULOMB_SETTLED {
+        return Motion::Undecided;
+    }
+    // An acceleration that grew as ε fell is the engine's noise: it is no measure for the next one.
+    if steps.len() > 2 && before.acceleration > 2.0 * steps[steps.len() - 3].acceleration {
+        return Motion::Undecided;
+    }
+    let ratio = last.acceleration / before.acceleration;
+    if ratio < tolerance::ACCELERATION_FALLS {
+        Motion::Rests
+    } else if ratio > tolerance::ACCELERATION_STAYS
+        && last.natural_map <= tolerance::MOTION_LAW
+        && last.acceleration >= tolerance::LEAST_MOTION
+    {
+        Motion::Moves
+    } else {
+        Motion::Undecided
+    }
+}

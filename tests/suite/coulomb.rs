@@ -1,0 +1,158 @@
+//! Dry friction: which scenes stand by themselves, and which only with a pre-stress that nobody applied.
+
+use crate::ask::{cuboid, fixed, prism, sphere, verdict};
+use proptest::prelude::*;
+use serde_json::{Value, json};
+use voussoir::{
+    analysis::{Control, Law, assess, coulomb, prepare},
+    import::{self, Options, Up},
+    scene::{Friction, Scene, read_str},
+    verdict::{
+        Verdict,
+        check::{Claim, verify},
+    },
+};
+
+fn scene(mu: f64, blocks: Value) -> Scene {
+    let text = json!({ "format": "voussoir-scene/1", "joints": { "default": { "friction": mu } }, "blocks": blocks });
+    read_str("test", text.to_string()).unwrap().0
+}
+
+/// Case A22 (model H of Kao et al., Computer-Aided Design 146, 2022): a bar that just fills the gap of two posts.
+fn squeezed(mu: f64, density: f64) -> Scene {
+    let mut bar = cuboid("bar", [1.8, 1.0, 0.8], [0.0, 0.0, 0.2]);
+    bar["density"] = json!(density);
+    let post = |id: &str, x: f64| fixed(cuboid(id, [0.2, 1.0, 2.4], [x, 0.0, -1.0]));
+    scene(mu, json!([post("left", -1.0), post("right", 1.0), bar]))
+}
+
+#[test]
+fn a_block_between_two_posts_needs_a_squeeze_at_every_density_and_friction() {
+    for mu in [0.05, 0.5, 0.84, 1.4] {
+        for density in [1e-3, 1.0, 1e6] {
+            let scene = squeezed(mu, density);
+            assert_eq!(verdict(&scene, Law::Coulomb), Verdict::Conditional, "μ {mu}, density {density}");
+            assert_eq!(verdict(&scene, Law::Associative), Verdict::Stable, "μ {mu}, density {density}");
+        }
+    }
+}
+
+/// Case A23 (model A, same source): a trapezoid between posts that lean inwards by 30°: forces exist from μ = tan 30° on.
+#[test]
+fn a_trapezoid_between_leaning_posts_needs_a_squeeze() {
+    let s = 30f64.to_radians().tan();
+    let at = |mu: f64| {
+        let half = |z: f64| 1.0 - s * z;
+        scene(
+            mu,
+            json!([
+                fixed(prism("left", &[[-3.0, -1.0], [-half(-1.0), -1.0], [-half(1.0), 1.0], [-3.0, 1.0]])),
+                fixed(prism("right", &[[half(-1.0), -1.0], [3.0, -1.0], [3.0, 1.0], [half(1.0), 1.0]])),
+                prism("block", &[[-half(-0.4), -0.4], [half(-0.4), -0.4], [half(0.4), 0.4], [-half(0.4), 0.4]]),
+            ]),
+        )
+    };
+    for (mu, want) in [(0.5, Verdict::Unstable), (0.65, Verdict::Conditional), (0.84, Verdict::Conditional), (2.0, Verdict::Conditional)] {
+        assert_eq!(verdict(&at(mu), Law::Coulomb), want, "μ {mu}");
+    }
+}
+
+/// Case A25: the mirror image, a keystone, wedges itself by its weight.
+#[test]
+fn a_keystone_stands_by_its_weight() {
+    let s = 30f64.to_radians().tan();
+    let half = |z: f64| 1.0 + s * z;
+    for mu in [0.0, 0.3, 1e6] {
+        let scene = scene(
+            mu,
+            json!([
+                fixed(prism("left", &[[-3.0, -1.0], [-half(-1.0), -1.0], [-half(1.0), 1.0], [-3.0, 1.0]])),
+                fixed(prism("right", &[[half(-1.0), -1.0], [3.0, -1.0], [3.0, 1.0], [half(1.0), 1.0]])),
+                prism("block", &[[-half(-0.4), -0.4], [half(-0.4), -0.4], [half(0.4), 0.4], [-half(0.4), 0.4]]),
+            ]),
+        );
+        assert_eq!(verdict(&scene, Law::Coulomb), Verdict::Stable, "μ {mu}");
+    }
+}
+
+#[test]
+fn a_sphere_between_two_walls_needs_a_squeeze() {
+    let wall = |id: &str, x: f64| fixed(cuboid(id, [1.0, 4.0, 4.0], [x, 0.0, -2.0]));
+    let scene = scene(0.7, json!([wall("left", -1.5), wall("right", 1.5), sphere("sphere", 1.0, [0.0, 0.0, 0.0])]));
+    assert_eq!(verdict(&scene, Law::Coulomb), Verdict::Conditional);
+}
+
+/// Frame H, shelves, bridge, cubes, wedge blocks (public samples of compas_cra 0.8; friction as there).
+#[test]
+fn samples_of_coupled_rigid_block_analysis() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/compas/");
+    if !std::path::Path::new(folder).exists() {
+        println!("skipped: no ../shared/data/compas");
+        return;
+    }
+    let cases: [(&str, &[&str], f64, Up, Verdict); 7] = [
+        ("cra-H", &["0", "1"], 0.84, Up::Z, Verdict::Conditional),
+        ("cra-shelf", &["0"], 0.9, Up::Z, Verdict::Conditional),
+        ("cra-shelf-stable", &["0"], 0.9, Up::Z, Verdict::Stable),
+        ("cra-bridge", &["0", "1"], 0.9, Up::Z, Verdict::Stable),
+        ("cra-cubes", &["0"], 0.84, Up::Z, Verdict::Stable),
+        ("cra-type-b", &["0", "1"], 0.84, Up::Y, Verdict::Conditional),
+        ("cra-type-b", &["0", "1"], 0.84, Up::MinusX, Verdict::Stable),
+    ];
+    for (name, supports, mu, up, want) in cases {
+        for density in [1e-3, 1.0, 1e6] {
+            let options = Options {
+                supports: supports.iter().map(|s| s.to_string()).collect(),
+                friction: Some(Friction::Coefficient(mu)),
+                density: Some(density),
+                up,
+                ..Options::default()
+            };
+            let scene = import::import_file(format!("{folder}{name}.json").as_ref(), &options).unwrap().scene;
+            assert_eq!(verdict(&scene, Law::Coulomb), want, "{name} up {up:?} density {density}");
+        }
+    }
+}
+
+/// A conditional verdict is refused with the forces of another state, with other rates, or without the base.
+#[test]
+fn conditional_certificates_reject_corruption() {
+    let scene = squeezed(0.5, 2400.0);
+    let model = prepare(&scene).unwrap();
+    let (a, i) = (&model.assembly, &model.interfaces);
+    let answer = assess(a, i, &Control::default());
+    let state = answer.state.clone().unwrap();
+    assert_eq!(state.motion, coulomb::Motion::Moves);
+    let proved = |base: Option<&_>, forces: &_, rates: &[_]| verify(a, i, &Claim::Conditional, forces, base, rates).proved();
+    assert!(proved(Some(&state.forces), &answer.forces, &answer.rates));
+    assert!(!proved(None, &answer.forces, &answer.rates));
+    // Balanced forces leave no motion; half of them leave one that does not obey the law: the joints would slip under their limit.
+    assert!(!proved(Some(&answer.forces), &answer.forces, &answer.rates));
+    let half = answer.forces.iter().map(|f| f.iter().map(|v| v * 0.5).collect()).collect();
+    assert!(!proved(Some(&half), &answer.forces, &answer.rates));
+    let mut still = answer.rates.clone();
+    still.iter_mut().for_each(|r| r.velocity = nalgebra::Vector3::x());
+    assert!(!proved(Some(&state.forces), &answer.forces, &still));
+    assert!(!proved(Some(&state.forces), &state.forces, &answer.rates));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    /// More friction never lowers the verdict of an unconfined column.
+    #[test]
+    fn more_friction_never_harms_a_column(shift in -0.3..0.3f64, lean in 0.0..0.4f64, mu in 0.05..1.0f64, more in 0.0..1.0f64) {
+        let block = |k: usize| {
+            let mut b = cuboid(&format!("b{k}"), [1.0, 1.0, 0.5], [shift * k as f64, 0.0, 0.5 * k as f64]);
+            b["support"] = json!(k == 0);
+            b
+        };
+        let tilted = |mu: f64| {
+            let mut s = scene(mu, json!([block(0), block(1), block(2)]));
+            s.gravity = [lean, 0.0, -1.0];
+            let model = prepare(&s).unwrap();
+            assess(&model.assembly, &model.interfaces, &Control::default()).verdict
+        };
+        prop_assert!(!(tilted(mu) == Verdict::Stable && tilted(mu + more) != Verdict::Stable));
+    }
+}
