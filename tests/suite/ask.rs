@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, Model, Outcome, assess, limit, prepare, tilt},
+    analysis::{Control, Law, LoadFactor, Model, Outcome, assess, limit, prepare, tilt},
     report::{self, ResultFile},
     scene::{Scene, read_str},
     verdict::Verdict,
@@ -104,11 +104,17 @@ pub fn stands(scene: &Scene) -> bool {
     verdict(scene, Law::Associative) == Verdict::Stable
 }
 
-/// What becomes of the load factor, with its value where there is one, the bracket containing it. With proof.
-pub fn outcome(scene: &Scene) -> (Outcome, f64) {
+/// The answer about the load factor, with proof.
+fn answer(scene: &Scene) -> LoadFactor {
     let model = model(scene);
     let answer = limit(&model.assembly, &model.interfaces, &Control::default());
     prove(scene, &ResultFile::load_factor(scene, &model, &answer));
+    answer
+}
+
+/// What becomes of the load factor, with its value where there is one, with proof.
+pub fn outcome(scene: &Scene) -> (Outcome, f64) {
+    let answer = answer(scene);
     (answer.outcome, answer.value)
 }
 
@@ -117,6 +123,28 @@ pub fn load_factor(scene: &Scene) -> f64 {
     let (outcome, value) = outcome(scene);
     assert_eq!(outcome, Outcome::Found, "{}", scene.name);
     value
+}
+
+/// The load factor is `want` within a relative tolerance, and its proved bracket contains `want` up to `rounding` (relative: the digits of
+/// `want`, or of the coordinates).
+#[track_caller]
+pub fn bracketed(what: &str, scene: &Scene, want: f64, tolerance: f64, rounding: f64) {
+    let LoadFactor { outcome, value, bracket, .. } = answer(scene);
+    assert_eq!(outcome, Outcome::Found, "{what}");
+    close(what, value, want, tolerance);
+    let slack = rounding * want.abs();
+    assert!(
+        bracket.lower - slack <= want && want <= bracket.upper + slack,
+        "{what}: {want:.12} is outside [{:.12}, {:.12}] by more than {slack:.1e}",
+        bracket.lower,
+        bracket.upper
+    );
+}
+
+/// The load factor is `want` within a relative tolerance, and its proved bracket contains `want` up to 1e-10 of it.
+#[track_caller]
+pub fn exact(what: &str, scene: &Scene, want: f64, tolerance: f64) {
+    bracketed(what, scene, want, tolerance, 1e-10);
 }
 
 /// The tilt in degrees towards a direction, 90 where it is wedged, with proof.

@@ -9,7 +9,8 @@
 //! | `spheres` | R02–R09, R12–R14: discs and spheres |
 //! | `loads` | load factors that are negative, without limit or impossible; hanging loads; masses and centroids given by hand |
 //!
-//! Not asked: R10 and R11 (rolling arm: no such joint law yet); the zero-dilatancy values of E05–E09, R16, R17, A22, A23, A26.
+//! Not asked: R10 and R11 (rolling arm: no such joint law yet); the zero-dilatancy load factors of E05–E09, R16, R17, A26; verdicts by
+//! that law are in `coulomb`.
 
 mod blocks;
 mod interfaces;
