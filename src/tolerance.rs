@@ -152,3 +152,19 @@ pub const MOTION_LAW: f64 = 1e-3;
 /// A state without pre-stress moves when some block is left with at least this much of its load. Larger: slow slides at
 /// the edge of friction are refused. Smaller: what the regularisation leaves at rest (1e-4) could be taken for motion.
 pub const LEAST_MOTION: f64 = 1e-3;
+
+/// Where a joint of a mechanism closes by more than this × the speed of its two blocks, that is no rounding of their speeds.
+/// Larger: a block squeezed at μ = 1e-5 could be "proved" to fall. Smaller: rounding counts as [`COARSE_FORCE_CAP`] demands.
+pub const ADMISSIBLE: f64 = 1e-7;
+
+/// As [`FORCE_CAP`], for the joints that close by more than rounding of the speeds of their own blocks. Larger: correct
+/// mechanisms with thousands of resting blocks are refused. Smaller: blocks squeezed at μ = 1e-3 could be "proved" to fall.
+pub const COARSE_FORCE_CAP: f64 = 1e3;
+
+/// Rounding of coordinates and forces excuses at most this unbalance, in multiples of gravity. Larger: a forged force of
+/// 1e16 excuses anything. Smaller: mass ratios of 1e12 stay undecided.
+pub const RESOLUTION: f64 = 1e-3;
+
+/// The inadmissibility of a mechanism may hide at most this share of a load factor if every contact carried the largest
+/// force. Larger: a forged mechanism that closes unloaded joints passes. Smaller: walls of 10,000 blocks are refused.
+pub const LOAD_FACTOR_BEHIND: f64 = 1e-3;

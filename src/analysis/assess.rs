@@ -145,6 +145,7 @@ pub(super) fn least_unbalance(
         attempts: Vec::new(),
         left_out: statics.left_out.clone(),
     };
+    let mut balanced = unloaded.balanced;
     for step in LADDER {
         // With a free load factor only the force form yields its value.
         if live == LiveLoad::AnyMultiple && step.unknowns == Unknowns::Rates {
@@ -165,12 +166,13 @@ pub(super) fn least_unbalance(
             let s = certificate::statics(assembly, interfaces, &c.forces, lambda);
             let k = certificate::kinematics(assembly, interfaces, &c.rates, &c.forces);
             upper = s.unbalance;
-            if k.force_cap(assembly) >= tolerance::FORCE_CAP {
+            if k.is_admissible(assembly) {
                 lower = ((k.dead_power - k.slack - (lambda * k.live_power).abs()) / k.norm).max(0.0);
             }
             if upper < answer.unbalance.upper {
                 (answer.unbalance.upper, answer.forces, answer.load_factor) = (upper, c.forces, lambda);
                 answer.threshold = tolerance::UNBALANCE.max(s.resolution);
+                balanced = s.balanced;
             }
             if lower > answer.unbalance.lower {
                 (answer.unbalance.lower, answer.rates) = (lower, c.rates);
@@ -189,7 +191,7 @@ pub(super) fn least_unbalance(
             upper,
         });
         let b = answer.unbalance;
-        answer.verdict = if b.upper <= answer.threshold {
+        answer.verdict = if balanced {
             Verdict::Stable
         } else if b.lower > answer.threshold {
             Verdict::Unstable

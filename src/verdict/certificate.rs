@@ -11,6 +11,7 @@ use crate::{
     assembly::{Assembly, Wrench},
     interface::Interfaces,
     scene::Friction,
+    tolerance,
 };
 use nalgebra::Vector3;
 
@@ -35,8 +36,11 @@ pub struct Statics {
     pub worst: usize,
     /// What rounding of coordinates and forces alone can amount to on any block, in multiples of its load.
     pub resolution: f64,
-    /// Largest distance of a force outside its friction cone, over the largest force.
+    /// Largest distance of a force outside its friction cone, over that very force: a large force elsewhere makes no room for
+    /// a small one that pulls.
     pub cone_excess: f64,
+    /// Whether every block is balanced, each up to [`tolerance::UNBALANCE`] or what rounding of its own forces amounts to.
+    pub balanced: bool,
 }
 
 /// Re-adds the contact forces at load factor `lambda`.
@@ -49,16 +53,19 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
         })
         .collect();
     let mut rounding: Vec<f64> = residuals.iter().map(|r| r.force.norm()).collect();
-    let (mut excess, mut largest) = (0.0_f64, 0.0_f64);
+    let mut excess = 0.0_f64;
     for (face, forces) in interfaces.list.iter().zip(forces) {
         for (point, force) in face.points.iter().zip(forces) {
             let normal = face.frame.n.dot(force);
             let shear = (force - face.frame.n * normal).norm();
-            largest = largest.max(force.norm());
-            excess = excess.max(match face.friction {
+            let outside = match face.friction {
                 Friction::Coefficient(mu) => (-normal).max((shear - mu * normal) / mu.hypot(1.0)),
                 Friction::Infinite => -normal,
-            });
+            };
+            // A NaN is as far outside as can be.
+            if !(outside <= 0.0) {
+                excess = if outside.is_nan() { f64::INFINITY } else { excess.max(outside / force.norm()) };
+            }
             for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
                 let arm = point - assembly.blocks[block].centroid;
                 residuals[block] += Wrench { force: force * sign, moment: arm.cross(force) * sign };
@@ -66,19 +73,22 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             }
         }
     }
-    let (mut unbalance, mut worst, mut resolution) = (0.0, 0, 0.0_f64);
+    let (mut unbalance, mut worst, mut resolution, mut balanced) = (0.0, 0, 0.0_f64, true);
     for i in 0..n {
         if assembly.blocks[i].support {
             residuals[i] = Wrench::zero();
             continue;
         }
         let u = size(assembly, i, &residuals[i]) / load_scale(assembly, i);
-        resolution = resolution.max(ROUNDING * rounding[i] / load_scale(assembly, i));
-        if u > unbalance || u.is_nan() {
+        let rounding = (ROUNDING * rounding[i] / load_scale(assembly, i)).min(tolerance::RESOLUTION);
+        resolution = resolution.max(rounding);
+        balanced &= u <= tolerance::UNBALANCE.max(rounding);
+        // A NaN is the worst there is, and stays.
+        if !(u <= unbalance) && !f64::is_nan(unbalance) {
             (unbalance, worst) = (u, i);
         }
     }
-    Statics { residuals, unbalance, worst, resolution, cone_excess: if largest > 0.0 { excess / largest } else { 0.0 } }
+    Statics { residuals, unbalance, worst, resolution, cone_excess: excess, balanced }
 }
 
 /// Rounding counted per addition: one unit in the last place.
@@ -99,10 +109,13 @@ pub struct Kinematics {
     pub norm: f64,
     /// `Σ e f_n` with the given forces: the power that the inadmissibility may hide.
     pub slack: f64,
-    /// Largest inadmissibility `e` over the largest contact rate.
+    /// Largest inadmissibility `e` over the fastest speed at a contact.
     pub inadmissibility: f64,
     /// `Σ e`: with contact forces of at most `F` each, the inadmissibility hides at most `F` × this.
     pub excess: f64,
+    /// The part of `excess` from contacts where `e` is more than rounding of the speeds of the two blocks
+    /// ([`tolerance::ADMISSIBLE`]): blocks that should rest, or joints that are made to close.
+    pub coarse: f64,
 }
 
 impl Kinematics {
@@ -112,17 +125,27 @@ impl Kinematics {
         let total: f64 = assembly.free().map(|i| load_scale(assembly, i)).sum();
         self.dead_power / (self.excess * total)
     }
+
+    /// Whether the mechanism is admissible up to rounding: small against its gain for contact forces of the size of the total
+    /// load, and, where it is not small against the speeds of the very blocks that touch, for much larger ones. A block
+    /// squeezed at low friction needs large forces; falling straight down closes none of its joints by much.
+    pub fn is_admissible(&self, assembly: &Assembly) -> bool {
+        let coarse = Self { excess: self.coarse, ..self.clone() };
+        self.force_cap(assembly) >= tolerance::FORCE_CAP
+            && (self.coarse == 0.0 || coarse.force_cap(assembly) >= tolerance::COARSE_FORCE_CAP)
+    }
 }
 
 /// Re-adds powers; `forces` weigh the inadmissibility.
 pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], forces: &Forces) -> Kinematics {
-    let mut k = Kinematics { dead_power: 0.0, live_power: 0.0, norm: 0.0, slack: 0.0, inadmissibility: 0.0, excess: 0.0 };
+    let mut k = Kinematics { dead_power: 0.0, live_power: 0.0, norm: 0.0, slack: 0.0, inadmissibility: 0.0, excess: 0.0, coarse: 0.0 };
     for i in assembly.free() {
         let (q, w, l) = (&rates[i], &assembly.dead[i], &assembly.live[i]);
         k.dead_power += power(w, q);
         k.live_power += power(l, q);
         k.norm += load_scale(assembly, i) * q.velocity.norm().hypot(q.spin.norm() * length_scale(assembly, i));
     }
+    let speed = |i: usize, p: &Vector3<f64>| at(assembly, rates, i, p).norm();
     let (mut worst, mut fastest) = (0.0_f64, 0.0_f64);
     for (face, forces) in interfaces.list.iter().zip(forces) {
         for (point, force) in face.points.iter().zip(forces) {
@@ -141,9 +164,13 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
                     (closing.hypot(vt), closing * fn_ + vt * (force - face.frame.n * fn_).norm())
                 }
             };
-            worst = worst.max(e);
-            fastest = fastest.max(v.norm());
+            let local = speed(face.a, point).max(speed(face.b, point));
+            if !(e <= tolerance::ADMISSIBLE * local) {
+                k.coarse += e;
+            }
             k.slack += cost;
+            worst = worst.max(e);
+            fastest = fastest.max(local);
         }
     }
     k.inadmissibility = if fastest > 0.0 { worst / fastest } else { 0.0 };

@@ -57,38 +57,54 @@ pub fn write_rates(assembly: &Assembly, rates: &[Rate]) -> Vec<BlockRate> {
 /// A contact that the scene does not have, or has at other points; numbers that are not finite.
 pub fn read_forces(assembly: &Assembly, interfaces: &Interfaces, saved: &[ContactForces]) -> Result<Forces, String> {
     let mut forces: Forces = interfaces.list.iter().map(|f| vec![Vector3::zeros(); f.points.len()]).collect();
-    let mut by_pair: std::collections::HashMap<(&str, &str), Vec<usize>> = Default::default();
+    let mut by_pair: std::collections::HashMap<(&str, &str), Vec<Option<usize>>> = Default::default();
     for (k, face) in interfaces.list.iter().enumerate() {
-        by_pair.entry((&assembly.blocks[face.a].id, &assembly.blocks[face.b].id)).or_default().push(k);
+        by_pair.entry((&assembly.blocks[face.a].id, &assembly.blocks[face.b].id)).or_default().push(Some(k));
     }
     for contact in saved {
         let [a, b] = &contact.between;
         if contact.points.len() != contact.forces.len() {
             return Err(format!("contact {a} | {b}: {} points but {} forces", contact.points.len(), contact.forces.len()));
         }
-        for (point, force) in contact.points.iter().zip(&contact.forces) {
-            let (point, force) = (Vector3::from(*point), Vector3::from(*force));
-            if !force.iter().chain(&point).all(|v| v.is_finite()) {
-                return Err(format!("contact {a} | {b}: a number is not finite"));
-            }
-            if force == Vector3::zeros() {
-                continue;
-            }
-            let place = by_pair.get(&(a.as_str(), b.as_str())).into_iter().flatten().find_map(|&k| {
-                let face = &interfaces.list[k];
-                let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size);
-                let near = |p: &Vector3<f64>| (p - point).norm() <= tolerance::WELD * size;
-                face.points.iter().position(near).map(|p| (k, p))
-            });
-            match place {
-                // Two interfaces of a pair may share a corner; the one whose cone holds the force is tried by the checks.
-                Some((k, p)) if forces[k][p] == Vector3::zeros() => forces[k][p] = force,
-                Some((k, p)) => forces[k][p] += force,
-                None => return Err(format!("contact {a} | {b}: the scene has no contact point at {:?}", point.as_slice())),
+        let numbers = contact.points.iter().chain(&contact.forces).flatten();
+        if !numbers.clone().all(|v| v.is_finite()) {
+            return Err(format!("contact {a} | {b}: a number is not finite"));
+        }
+        if contact.forces.iter().flatten().all(|v| *v == 0.0) {
+            continue;
+        }
+        // The whole contact has to fit: two interfaces of a pair may share corners.
+        let candidates = by_pair.get_mut(&(a.as_str(), b.as_str())).into_iter().flatten();
+        let fit = candidates.filter_map(|k| Some((places(assembly, interfaces, (*k)?, &contact.points)?, k))).next();
+        let Some((places, slot)) = fit else {
+            return Err(format!("contact {a} | {b}: the scene has no such contact, or has it twice in the result"));
+        };
+        if let Some(k) = slot.take() {
+            for (place, force) in places.into_iter().zip(&contact.forces) {
+                forces[k][place] = Vector3::from(*force);
             }
         }
     }
     Ok(forces)
+}
+
+/// Where each saved point stands among the points of an interface; `None` unless they are the same points.
+fn places(assembly: &Assembly, interfaces: &Interfaces, k: usize, saved: &[[f64; 3]]) -> Option<Vec<usize>> {
+    let face = &interfaces.list[k];
+    let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size);
+    let mut free = vec![true; face.points.len()];
+    if saved.len() != free.len() {
+        return None;
+    }
+    saved
+        .iter()
+        .map(|p| {
+            let near = |q: &Vector3<f64>| (q - Vector3::from(*p)).norm() <= tolerance::WELD * size;
+            let place = (0..free.len()).find(|&i| free[i] && near(&face.points[i]))?;
+            free[place] = false;
+            Some(place)
+        })
+        .collect()
 }
 
 /// Fits saved rates to the blocks of the scene.

@@ -3,9 +3,15 @@
 mod ask;
 
 mod analytic;
+mod bad_input;
+mod certificates;
 mod cli;
 mod coulomb;
+mod determinism;
+mod invariance;
+mod layering;
 mod published;
 mod readme;
+mod real;
 mod reference;
 mod scenes;

@@ -1,0 +1,140 @@
+//! The rules that keep the house honest, held by reading the source.
+
+use std::path::{Path, PathBuf};
+
+fn sources(folder: &str) -> Vec<(PathBuf, String)> {
+    let mut list = Vec::new();
+    let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)];
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(std::fs::read_dir(&path).unwrap().map(|e| e.unwrap().path()));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            let text = std::fs::read_to_string(&path).unwrap();
+            list.push((path.strip_prefix(env!("CARGO_MANIFEST_DIR")).unwrap().to_path_buf(), code(&text)));
+        }
+    }
+    list.sort();
+    assert!(!list.is_empty());
+    list
+}
+
+/// The program text without comments and without the tests at its foot.
+fn code(text: &str) -> String {
+    let text = text.split("#[cfg(test)]").next().unwrap_or_default();
+    text.lines().map(|l| if l.trim_start().starts_with("//") { "" } else { l }).collect::<Vec<_>>().join("\n")
+}
+
+fn is_test(path: &Path) -> bool {
+    path.components().any(|c| c.as_os_str() == "tests") || path.file_stem().is_some_and(|s| s.to_string_lossy().contains("tests"))
+}
+
+fn order() -> Vec<String> {
+    let lib = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/lib.rs")).unwrap();
+    lib.lines().filter_map(|l| l.strip_prefix("pub mod ")).map(|m| m.trim_end_matches(';').to_string()).collect()
+}
+
+/// The module of a file: `src/scene/read.rs` → `scene`.
+fn module(path: &Path) -> String {
+    let part = path.components().nth(1).unwrap().as_os_str().to_string_lossy().into_owned();
+    part.trim_end_matches(".rs").to_string()
+}
+
+/// Modules named after `crate::`, in paths and in grouped imports.
+fn used(text: &str, order: &[String]) -> Vec<String> {
+    let mut found = Vec::new();
+    for (at, _) in text.match_indices("crate::") {
+        let rest = &text[at + "crate::".len()..];
+        let group = if let Some(inner) = rest.strip_prefix('{') {
+            let mut depth = 1;
+            let end = inner.find(|c| {
+                depth += i32::from(c == '{') - i32::from(c == '}');
+                depth == 0
+            });
+            &inner[..end.unwrap_or(inner.len())]
+        } else {
+            rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default()
+        };
+        let mut depth = 0;
+        let mut names = vec![String::new()];
+        for c in group.chars() {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            match c {
+                ',' if depth == 0 => names.push(String::new()),
+                _ => names.last_mut().unwrap().push(c),
+            }
+        }
+        for name in names {
+            let first = name.trim().split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default().to_string();
+            if order.contains(&first) {
+                found.push(first);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn a_module_uses_only_modules_above_it() {
+    let order = order();
+    assert!(order.len() >= 12, "{order:?}");
+    for (path, text) in sources("src") {
+        let own = module(&path);
+        let Some(rank) = order.iter().position(|m| *m == own) else { continue };
+        for other in used(&text, &order) {
+            let above = order.iter().position(|m| *m == other).unwrap();
+            assert!(above <= rank || is_test(&path), "{}: {own} uses {other}, which is declared below it", path.display());
+        }
+    }
+}
+
+#[test]
+fn certificates_never_see_the_program() {
+    for (path, text) in sources("src/verdict") {
+        for word in ["program", "solve::", "Statics::new", "clarabel"] {
+            assert!(
+                !text.contains(&format!("crate::{word}")) && !text.contains(&format!("    {word},")),
+                "{} names {word}",
+                path.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn one_engine_one_adapter() {
+    for (path, text) in sources("src") {
+        let name = path.to_string_lossy().replace('\\', "/");
+        for (engine, home) in [("clarabel", "src/solve/"), ("parry3d", "src/interface/detect"), ("clap", "src/cli/")] {
+            let named = text.contains(&format!("{engine}::")) || text.contains(&format!("use {engine}"));
+            assert!(!named || name.starts_with(home) || (engine == "clap" && name == "src/main.rs"), "{name} names {engine}");
+        }
+    }
+}
+
+/// Files that may stop the program, each with its reason.
+const MAY_PANIC: [(&str, &str); 1] =
+    [("src/assembly/resolve/shape.rs", "spheres are handled before the match, which the compiler cannot see")];
+
+#[test]
+fn nothing_in_the_library_panics_on_purpose() {
+    for (path, text) in sources("src") {
+        let name = path.to_string_lossy().replace('\\', "/");
+        if is_test(&path) || MAY_PANIC.iter().any(|(file, _)| *file == name) {
+            continue;
+        }
+        for word in [".unwrap()", ".expect(", "panic!(", "todo!(", "unimplemented!(", "unreachable!("] {
+            assert!(!text.contains(word), "{name} holds {word}");
+        }
+    }
+}
+
+#[test]
+fn files_stay_small_and_main_smaller() {
+    for (path, text) in sources("src") {
+        let lines = text.lines().count();
+        assert!(lines <= 600 || is_test(&path), "{}: {lines} lines", path.display());
+        if path.ends_with("main.rs") {
+            assert!(lines <= 60);
+        }
+    }
+}
