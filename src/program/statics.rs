@@ -184,7 +184,7 @@ impl Statics {
         }
     }
 
-    /// Multiplies the force unit by `factor`. With `local` units, no bearing's unit exceeds [`LOCAL_UNIT`] × the load that
+    /// Multiplies the force unit by `factor`. With `local` units, no bearing's unit exceeds `LOCAL_UNIT` × the load that
     /// presumably passes there: without it a grain on a mountain is lost in the mountain's unit.
     pub fn rescale(&mut self, factor: f64, local: bool) {
         self.unit *= factor;

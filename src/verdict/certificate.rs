@@ -63,8 +63,10 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
                 Friction::Infinite => -normal,
             };
             // A NaN is as far outside as can be.
-            if !(outside <= 0.0) {
-                excess = if outside.is_nan() { f64::INFINITY } else { excess.max(outside / force.norm()) };
+            if outside.is_nan() {
+                excess = f64::INFINITY;
+            } else if outside > 0.0 {
+                excess = excess.max(outside / force.norm());
             }
             for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
                 let arm = point - assembly.blocks[block].centroid;
@@ -84,7 +86,7 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
         resolution = resolution.max(rounding);
         balanced &= u <= tolerance::UNBALANCE.max(rounding);
         // A NaN is the worst there is, and stays.
-        if !(u <= unbalance) && !f64::is_nan(unbalance) {
+        if (u > unbalance || u.is_nan()) && !f64::is_nan(unbalance) {
             (unbalance, worst) = (u, i);
         }
     }
@@ -165,7 +167,7 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
                 }
             };
             let local = speed(face.a, point).max(speed(face.b, point));
-            if !(e <= tolerance::ADMISSIBLE * local) {
+            if e > tolerance::ADMISSIBLE * local || e.is_nan() {
                 k.coarse += e;
             }
             k.slack += cost;

@@ -135,7 +135,7 @@ fn load_factors_need_both_sides() {
     }
     let good = claim(v, b.lower, b.upper);
     assert!(!proved(&m, good, &zeros(&m), None, &l.rates));
-    assert!(!proved(&m, good, &l.forces, None, &vec![Rate::zero(); l.rates.len()]));
+    assert!(!proved(&m, good, &l.forces, None, &scaled(&l.rates, 0.0)));
     assert!(!proved(&m, good, &l.forces, None, &scaled(&l.rates, -1.0)));
     assert!(!proved(&m, Claim::Unbounded { standing: 0.0 }, &l.forces, Some(&l.forces), &l.rates));
     assert!(!proved(&m, Claim::Impossible, &l.forces, None, &l.rates));
@@ -197,7 +197,7 @@ fn unbounded_and_impossible_are_proved_and_not_forged() {
     assert_eq!(l.outcome, Outcome::Impossible);
     assert!(proved(&m, Claim::Impossible, &l.forces, None, &l.rates));
     assert!(!proved(&m, Claim::Impossible, &l.forces, None, &scaled(&l.rates, -1.0)));
-    assert!(!proved(&m, Claim::Impossible, &l.forces, None, &vec![Rate::zero(); 3]));
+    assert!(!proved(&m, Claim::Impossible, &l.forces, None, &scaled(&l.rates, 0.0)));
     // Without a live load nothing is unbounded and nothing impossible.
     let still = model(&scene(0.4, json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [0.0; 3])]), json!({})));
     let a = assess(&still.assembly, &still.interfaces, &associative());

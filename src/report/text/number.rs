@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn shows_the_digits_that_the_bracket_supports() {
-        assert_eq!(bracketed(0.149_969_235_5, 0.149_969_235, 0.149_969_236), "0.149969236");
+        assert_eq!(bracketed(0.149_969_235_7, 0.149_969_235, 0.149_969_236), "0.149969236");
         assert_eq!(bracketed(0.002, 0.001_999_999, 0.002_000_001), "0.00200");
         assert_eq!(bracketed(12345.678, 12000.0, 13000.0), "12346");
         assert_eq!(bracketed(0.5, 0.5, 0.5), "0.5000000000");
