@@ -35,7 +35,12 @@ pub fn ends(value: f64, lower: f64, upper: f64) -> [String; 2] {
 fn fixed(value: f64, decimals: usize) -> String {
     // Far from one, decimals would be all zeros; the last digit of the mantissa has the same unit.
     if value != 0.0 && !(1e-4..1e12).contains(&value.abs()) {
-        let digits = (decimals as i32 + value.abs().log10().floor() as i32).clamp(0, 15) as usize;
+        let digits = decimals as i32 + value.abs().log10().floor() as i32;
+        if digits < 0 && value.abs() < 1.0 {
+            // Less than the last digit that is known.
+            return format!("{:.decimals$}", 0.0);
+        }
+        let digits = digits.clamp(0, 15) as usize;
         return format!("{value:.digits$e}");
     }
     let text = format!("{value:.decimals$}");
@@ -87,7 +92,7 @@ mod tests {
     #[test]
     fn shows_the_digits_that_the_bracket_supports() {
         assert_eq!(bracketed(0.149_969_235_7, 0.149_969_235, 0.149_969_236), "0.149969236");
-        assert_eq!(bracketed(0.002, 0.001_999_999, 0.002_000_001), "0.00200");
+        assert_eq!(bracketed(0.002, 0.001_999_999, 0.002_000_001), "0.00200000");
         assert_eq!(bracketed(12345.678, 12000.0, 13000.0), "12346");
         assert_eq!(bracketed(0.5, 0.5, 0.5), "0.5000000000");
         assert_eq!(bracketed(2.3456e-7, 2.3455e-7, 2.3457e-7), "2.346e-7");
