@@ -101,7 +101,7 @@ impl Tally {
             self.overlaps.sort_by(|x, y| y.0.total_cmp(&x.0).then((x.1, x.2).cmp(&(y.1, y.2))));
             let worst: Vec<String> = self.overlaps.iter().take(3).map(|&(d, a, b)| format!("{} ({} m)", pair(a, b), short(d))).collect();
             let text = format!(
-                "{} of blocks overlap by more than contact.gap ({tolerance} × size), by up to {} m; no contact was made of the overlapping faces. Deepest: {}",
+                "{} of blocks overlap by more than contact.gap ({tolerance} × size), by up to {} m; no contact was made of the overlapping faces. Mend the geometry, or raise contact.gap to close them. Deepest: {}",
                 pairs(self.overlaps.len()),
                 short(self.overlaps[0].0),
                 worst.join(", "),
