@@ -168,3 +168,11 @@ pub const RESOLUTION: f64 = 1e-3;
 /// The inadmissibility of a mechanism may hide at most this share of a load factor if every contact carried the largest
 /// force. Larger: a forged mechanism that closes unloaded joints passes. Smaller: walls of 10,000 blocks are refused.
 pub const LOAD_FACTOR_BEHIND: f64 = 1e-3;
+
+/// A load factor with dry friction is found when forces and mechanism obey Coulomb's law to this (natural map). Larger:
+/// mechanisms that still lift where they slide pass. Smaller: δ must fall to where the engine's noise rules.
+pub const DRY_LAW: f64 = 1e-4;
+
+/// Forces of a load factor with dry friction balance each block up to this, in multiples of its load. Larger: values of
+/// iterations that still wander. Smaller: the engine's noise at small δ (1e-5) leaves walls undecided.
+pub const DRY_BALANCE: f64 = 1e-4;

@@ -133,8 +133,9 @@ pub struct Common {
     /// Solve the scene in full, without leaving out what symmetry or missing friction make needless.
     #[arg(long)]
     pub keep_all: bool,
-    /// How joints slide when it is asked whether the scene stands: `coulomb` (dry friction) also asks whether the loads produce the
-    /// forces that hold it, `associative` only whether such forces exist.
+    /// How joints slide: `coulomb` (dry friction) also asks whether the loads produce the forces that hold the scene, and for the load
+    /// factor of joints that slide without opening (many convex programs: on large walls minutes); `associative` only whether such forces exist, and for
+    /// the bound.
     #[arg(long, value_enum, value_name = "LAW", default_value_t = Law::Coulomb, hide_possible_values = true)]
     pub law: Law,
     /// Stop trying after this many seconds.

@@ -7,7 +7,7 @@ use super::{
     terminal::Terminal,
 };
 use voussoir::{
-    analysis::{Outcome, assess, limit},
+    analysis::{Law, Outcome, assess, coulomb, limit},
     assembly::Wrench,
     error::{InputError, JsonPath},
     report::ResultFile,
@@ -26,8 +26,14 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     // Where the answer itself says that λ = 0 is too much, there is nothing left to ask.
     let settled = answer.outcome == Outcome::Impossible || (answer.outcome == Outcome::Found && answer.bracket.upper < 0.0);
     let dead = (!settled && !args.skip_dead).then(|| assess(assembly, interfaces, &question.control()));
+    let ask_dry = question.control().law == Law::Coulomb && matches!(answer.outcome, Outcome::Found | Outcome::Unbounded);
+    let dry = ask_dry.then(|| coulomb::load_factor(assembly, interfaces, &answer, &question.control()));
     let file = question.answer(terminal, || {
         let file = ResultFile::load_factor(&question.scene, &question.model, &answer);
+        let file = match &dry {
+            Some(dry) => file.with_dry(&question.model, dry),
+            None => file,
+        };
         match &dead {
             Some(dead) => file.with_dead_load(&question.model, dead),
             None => file,

@@ -1,18 +1,18 @@
 //! `voussoir tilt`
 
 use super::{
-    args::Tilt,
+    args::Tilt as Arguments,
     exit::Exit,
     question::{Question, requirement},
     terminal::Terminal,
 };
 use anyhow::Context;
 use voussoir::{
-    analysis::{Model, assess, tilt, tilt::directions, tilt::turned},
+    analysis::{Law, Model, Outcome, Tilt, assess, coulomb, tilt, tilt::directions, tilt::turned},
     report::ResultFile,
 };
 
-pub fn run(args: &Tilt, terminal: &Terminal) -> anyhow::Result<Exit> {
+pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let question = Question::open(&args.common)?;
     let model = &question.model;
     let toward = if args.toward.is_empty() {
@@ -27,7 +27,13 @@ pub fn run(args: &Tilt, terminal: &Terminal) -> anyhow::Result<Exit> {
         answers.push((Model { assembly, interfaces: model.interfaces.clone(), timings: model.timings }, answer));
     }
     let dead = (!args.skip_dead).then(|| assess(&model.assembly, &model.interfaces, &question.control()));
-    let packed = ResultFile::tilt(&question.scene, &answers).context("no direction to tilt towards")?;
+    let mut packed = ResultFile::tilt(&question.scene, &answers).context("no direction to tilt towards")?;
+    let least = answers.iter().find(|(_, t)| Some(<[f64; 3]>::from(t.toward)) == packed.answer.toward);
+    let bounded = |t: &Tilt| matches!(t.load_factor.outcome, Outcome::Found | Outcome::Unbounded);
+    if let Some((turned, least)) = least.filter(|(_, t)| question.control().law == Law::Coulomb && bounded(t)) {
+        let dry = coulomb::load_factor(&turned.assembly, &turned.interfaces, &least.load_factor, &question.control());
+        packed = packed.with_dry(turned, &dry);
+    }
     let file = question.answer(terminal, || match &dead {
         Some(dead) => packed.with_dead_load(model, dead),
         None => packed,

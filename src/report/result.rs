@@ -43,6 +43,9 @@ pub struct ResultFile {
     /// Limit and tilt, where asked as well: whether it stands under its dead load alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead_load: Option<Direction>,
+    /// Limit, and the least direction of a tilt: the load factor with dry friction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dry: Option<DryResult>,
     /// The state under dry friction, where it had to be computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coulomb_state: Option<CoulombState>,
@@ -169,6 +172,24 @@ pub struct CoulombState {
     pub steps: Vec<coulomb::Step>,
 }
 
+/// A load factor with dry friction (program D).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DryResult {
+    /// How it was found.
+    pub found: coulomb::Found,
+    /// The value, where found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// How far forces and mechanism are from Coulomb's law.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub natural_map: Option<f64>,
+    /// Convex programs solved for it.
+    pub solves: usize,
+    /// The evidence.
+    pub certificate: Certificate,
+}
+
 /// A mechanism with names.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -235,6 +256,7 @@ impl ResultFile {
             certificate,
             directions: Vec::new(),
             dead_load: None,
+            dry: None,
             coulomb_state: None,
             mechanism: None,
             left_out: Vec::new(),
@@ -308,6 +330,27 @@ impl ResultFile {
         let (answer, certificate, findings) = assessment(model, a);
         self.dead_load = Some(Direction { answer, certificate });
         self.trace.extend(a.attempts.iter().cloned());
+        self.warn(&findings);
+        self
+    }
+
+    /// Adds the load factor with dry friction; undecided where its verification fails.
+    #[must_use]
+    pub fn with_dry(mut self, model: &Model, d: &coulomb::DryLoadFactor) -> Self {
+        let found = d.found != coulomb::Found::Undecided;
+        let claim = found.then_some(Claim::DryLoadFactor { value: d.value });
+        let (mut certificate, findings) = certify(model, claim, &d.forces, None, &d.rates);
+        let proved = found && findings.fails.is_empty();
+        if !proved {
+            certificate.claim = None;
+        }
+        self.dry = Some(DryResult {
+            found: if proved { d.found } else { coulomb::Found::Undecided },
+            value: proved.then_some(d.value),
+            natural_map: d.natural_map.is_finite().then_some(d.natural_map),
+            solves: d.solves,
+            certificate,
+        });
         self.warn(&findings);
         self
     }

@@ -3,10 +3,10 @@
 
 use super::{
     ResultFile,
-    result::{Answer, Certificate, Direction, LoadFactorAnswer, Question, words},
+    result::{Answer, Certificate, Direction, DryResult, LoadFactorAnswer, Question, words},
 };
 use crate::{
-    analysis::{Model, Outcome, prepare, tilt::turned},
+    analysis::{Model, Outcome, coulomb::Found, prepare, tilt::turned},
     error::InputError,
     scene::Scene,
     tolerance,
@@ -71,7 +71,43 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
     if let Some(dead) = &file.dead_load {
         all.part("dead load alone", answer(&model, Question::Assess, &dead.answer, &dead.certificate).0);
     }
+    if let Some(dry) = &file.dry {
+        let toward = file.answer.toward.map(Vector3::from);
+        let loaded = match (file.question, toward) {
+            (Question::Tilt, Some(toward)) => turned(&model.assembly, toward).map(|(assembly, _)| Model { assembly, ..model.clone() }),
+            _ => Ok(model.clone()),
+        };
+        let findings = match (file.question, loaded) {
+            (Question::Assess, _) => failure("the file holds a load factor that was not asked for"),
+            (_, Err(e)) => failure(e.to_string()),
+            (_, Ok(model)) => dry_friction(&model, dry),
+        };
+        all.part("dry friction", findings);
+    }
     Ok(all)
+}
+
+/// A load factor with dry friction, from its own forces and rates.
+fn dry_friction(model: &Model, dry: &DryResult) -> Findings {
+    match (&dry.certificate.claim, dry.value) {
+        (None, None) if dry.found == Found::Undecided => {
+            Findings { holds: vec!["undecided: nothing is claimed".into()], fails: Vec::new() }
+        }
+        (Some(claim @ Claim::DryLoadFactor { value }), Some(said)) if *value == said && dry.found != Found::Undecided => {
+            let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+            let read = || {
+                Ok::<_, String>((
+                    read_forces(assembly, interfaces, &dry.certificate.forces)?,
+                    read_rates(assembly, &dry.certificate.rates)?,
+                ))
+            };
+            match read() {
+                Ok((forces, rates)) => check::verify(assembly, interfaces, claim, &forces, None, &rates),
+                Err(e) => failure(e),
+            }
+        }
+        _ => failure("the load factor with dry friction is not the one its certificate claims"),
+    }
 }
 
 fn failure(text: impl Into<String>) -> Findings {
@@ -187,6 +223,7 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
         Some(Claim::Conditional) => "that it stands only with a pre-stress".into(),
         Some(Claim::Unstable) => "that it falls".into(),
         Some(Claim::LoadFactor { value, .. }) => format!("the load factor {value}"),
+        Some(Claim::DryLoadFactor { value }) => format!("the load factor {value} with dry friction"),
         Some(Claim::Unbounded { .. }) => "that the live load has no limit".into(),
         Some(Claim::Impossible) => "that it falls whatever the live load".into(),
     };

@@ -29,6 +29,12 @@ pub enum Claim {
         /// Claimed upper end.
         upper: f64,
     },
+    /// The forces balance the dead load and `value` × the live load, and the mechanism, driven by the live load, obeys
+    /// Coulomb's law with them: a load factor with dry friction (not the only one, perhaps).
+    DryLoadFactor {
+        /// Claimed load factor.
+        value: f64,
+    },
     /// The forces balance the live load alone (and other forces the scene at load factor `standing`).
     Unbounded {
         /// A load factor at which the scene stands.
@@ -79,6 +85,7 @@ pub fn verify(
         }
         Claim::Unstable => gains(&mut f, assembly, interfaces, rates),
         Claim::LoadFactor { value, lower, upper } => load_factor(&mut f, assembly, interfaces, forces, rates, [value, lower, upper]),
+        Claim::DryLoadFactor { value } => dry(&mut f, assembly, interfaces, forces, rates, value),
         Claim::Unbounded { standing } => {
             match base {
                 Some(base) => balanced(&mut f, assembly, interfaces, base, standing),
@@ -101,6 +108,24 @@ pub fn verify(
         }
     }
     f
+}
+
+/// Forces and a mechanism that obey Coulomb's law together.
+fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], value: f64) {
+    let s = certificate::statics(assembly, interfaces, forces, value);
+    cones(f, &s);
+    let allowed = tolerance::DRY_BALANCE.max(s.resolution);
+    f.require(
+        s.unbalance <= allowed,
+        format!("forces balance every free block at λ = {value}: largest unbalance {:.1e} g, allowed {allowed:.0e}", s.unbalance),
+    );
+    let k = certificate::kinematics(assembly, interfaces, rates, forces);
+    f.require(k.live_power > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));
+    let map = certificate::natural_map(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY);
+    f.require(
+        map <= tolerance::DRY_LAW,
+        format!("forces and mechanism obey Coulomb's law: natural map {map:.1e}, allowed {:.0e}", tolerance::DRY_LAW),
+    );
 }
 
 /// Forces from which a motion starts that obeys Coulomb's law with them.

@@ -1,11 +1,12 @@
 //! Dry friction: which scenes stand by themselves, and which only with a pre-stress that nobody applied.
 
-use crate::ask::{cuboid, fixed, prism, sphere, verdict};
+use crate::ask::{self, cuboid, fixed, prism, sphere, verdict};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, assess, coulomb, prepare},
+    analysis::{Control, Law, assess, coulomb, limit, prepare},
     import::{self, Options, Up},
+    report::ResultFile,
     scene::{Friction, Scene, read_str},
     verdict::{
         Verdict,
@@ -154,5 +155,75 @@ proptest! {
             assess(&model.assembly, &model.interfaces, &Control::default()).verdict
         };
         prop_assert!(!(tilted(mu) == Verdict::Stable && tilted(mu + more) != Verdict::Stable));
+    }
+}
+
+/// Load factors with dry friction, proved: at most the associative ones.
+fn dry(scene: &Scene) -> (f64, f64, usize) {
+    let model = prepare(scene).unwrap();
+    let l = limit(&model.assembly, &model.interfaces, &Control::default());
+    let d = coulomb::load_factor(&model.assembly, &model.interfaces, &l, &Control::default());
+    let file = ResultFile::load_factor(scene, &model, &l).with_dry(&model, &d);
+    ask::prove(scene, &file);
+    assert_eq!(file.dry.unwrap().value, Some(d.value), "{}: natural map {:.1e}", scene.name, d.natural_map);
+    assert!(l.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.value.abs(), "{}: {} above {}", scene.name, d.value, l.value);
+    (d.value, l.value, d.solves)
+}
+
+fn structure(name: &str) -> Scene {
+    let path = format!("{}/structures/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    voussoir::scene::read_file(path.as_ref()).unwrap().0
+}
+
+/// Walls of Ferris & Tin-Loi (Int. J. Mech. Sci. 43, 2001): bands of known complementary solutions (cases D02, D03, D05).
+#[test]
+fn walls_that_slide_without_opening() {
+    for (name, low, high) in [
+        ("running-bond-wall", 0.5490546221, 0.5685641772),
+        ("wall-with-openings", 0.3504801178, 0.3629337261),
+        ("wall-with-two-openings", 0.2089209914, 0.2163445799),
+    ] {
+        let (value, bound, solves) = dry(&structure(name));
+        println!("{name}: {value:.7} (associative {bound:.7}), {solves} convex programs");
+        assert!((low..=high).contains(&value), "{name}: {value}");
+        assert!(solves <= 30, "{name}: {solves} convex programs");
+    }
+}
+
+/// Case A26: a block in a slot with a tight roof slides at λ = μ, though dilatancy would wedge it for ever.
+#[test]
+fn a_block_under_a_roof_slides_at_its_friction() {
+    let (value, bound, _) = dry(&structure("block-under-roof"));
+    assert!(bound.is_nan(), "associative: without limit");
+    assert!((value - 0.4).abs() < 1e-5, "{value}");
+}
+
+/// Cases R16, R17, E05 (conventional wedge theory): along a trough whose faces lean by a against the horizontal, tan θ = μ / cos a.
+#[test]
+fn a_block_in_a_trough_slides_by_wedge_theory() {
+    for (mu, a) in [(0.5, 45.0_f64), (0.2, 30.0)] {
+        let a = a.to_radians();
+        let (s, c) = (a.sin(), a.cos());
+        let face = |id: &str, side: f64| {
+            json!({ "between": ["ground", "block"], "normal": [-side * s, 0.0, c],
+                "points": [[side * 0.2 * c, -5.0, 0.2 * s], [side * 1.2 * c, -5.0, 1.2 * s], [side * 1.2 * c, 5.0, 1.2 * s], [side * 0.2 * c, 5.0, 0.2 * s]],
+                "friction": mu, "_": id })
+        };
+        let strip = |mut v: Value| {
+            v.as_object_mut().unwrap().remove("_");
+            v
+        };
+        let mut block = cuboid("block", [2.0, 10.0, 1.0], [0.0, 0.0, 0.0]);
+        block["centroid"] = json!([0.0, 0.0, 0.0]);
+        let text = json!({ "format": "voussoir-scene/1", "gravity": [0, 0, -1],
+            "blocks": [fixed(cuboid("ground", [9.0, 20.0, 1.0], [0.0, 0.0, -3.0])), block],
+            "interfaces": [strip(face("l", -1.0)), strip(face("r", 1.0))],
+            "loads": { "live": [{ "weight": [0, 1, 0] }] } });
+        let scene = read_str("trough", text.to_string()).unwrap().0;
+        let (value, bound, _) = dry(&scene);
+        let want = mu / c;
+        let associative = mu / (c * (1.0 - (mu * a.tan()).powi(2)).sqrt());
+        assert!((value - want).abs() < 1e-5, "μ {mu}: {value}, expected {want}");
+        assert!((bound - associative).abs() < 1e-6, "μ {mu}: {bound}, expected {associative}");
     }
 }

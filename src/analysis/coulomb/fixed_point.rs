@@ -13,6 +13,8 @@ pub(super) struct FixedPoint {
     pub forces: Vec<f64>,
     /// Rates of the blocks per row.
     pub rates: Vec<f64>,
+    /// The load factor (0 for a state).
+    pub lambda: f64,
     /// Last change of what was held, in mean block loads.
     pub change: f64,
     /// Convex programs solved.
@@ -41,7 +43,7 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
         if !solution.is_finite() {
             break;
         }
-        let (forces, rates) = read(contacts, aim, &solution);
+        let (forces, rates, lambda) = read(contacts, aim, &solution);
         let next = match hold {
             Hold::Limits => contacts.limits(&forces),
             Hold::SlidingRates => contacts.sliding(&joint_rates(contacts, aim, &forces, &rates)),
@@ -49,7 +51,7 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
         let change = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         // The last iterate is kept unless an earlier one was much better: near the end the change is the engine's noise.
         if best.as_ref().is_none_or(|b| change < 10.0 * b.change) {
-            best = Some(FixedPoint { forces: contacts.cut(&forces), rates, change, solves: k });
+            best = Some(FixedPoint { forces: contacts.cut(&forces), rates, lambda, change, solves: k });
         } else if let Some(best) = &mut best {
             best.solves = k;
         }
@@ -69,13 +71,15 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
     best
 }
 
-fn read(contacts: &Contacts, aim: Aim, solution: &Solution) -> (Vec<f64>, Vec<f64>) {
+fn read(contacts: &Contacts, aim: Aim, solution: &Solution) -> (Vec<f64>, Vec<f64>, f64) {
     let forces = solution.x[..contacts.statics.matrix.columns].to_vec();
-    let rates = match aim {
-        Aim::State(epsilon) => contacts.residual(&forces, 0.0).iter().map(|r| r / epsilon).collect(),
-        Aim::LoadFactor(..) => solution.z[..contacts.statics.matrix.rows].to_vec(),
+    let (rates, lambda) = match aim {
+        Aim::State(epsilon) => (contacts.residual(&forces, 0.0).iter().map(|r| r / epsilon).collect(), 0.0),
+        Aim::LoadFactor(_, scale) => {
+            (solution.z[..contacts.statics.matrix.rows].to_vec(), scale * solution.x[contacts.statics.matrix.columns])
+        }
     };
-    (forces, rates)
+    (forces, rates, lambda)
 }
 
 /// `u`, the compliance of the contacts included.

@@ -2,6 +2,8 @@
 
 mod anderson;
 mod fixed_point;
+mod load_factor;
 mod state;
 
+pub use load_factor::{DryLoadFactor, Found, load_factor};
 pub use state::{Motion, State, Step, state};

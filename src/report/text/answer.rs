@@ -6,7 +6,7 @@ use super::{
     page::{Page, Role},
 };
 use crate::{
-    analysis::Outcome,
+    analysis::{Outcome, coulomb::Found},
     report::result::{Answer, LoadFactorAnswer, Question, ResultFile},
     tolerance,
     verdict::{Verdict, check::Claim},
@@ -65,7 +65,9 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
                     unit(file)
                 ));
             }
-            page.paragraph("Sliding counts as associative (a joint that slides opens as well): for dry friction this is an upper bound.");
+            page.paragraph(
+                "Sliding counts as associative here (a joint that slides opens as well): for dry friction this is an upper bound.",
+            );
         }
         (Outcome::Unbounded, _) => {
             page.paragraph("Contact forces balance the live load by itself, so that any multiple of it can be added.");
@@ -87,6 +89,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
             ));
         }
     }
+    dry(page, file);
     dead_load(page, file);
 }
 
@@ -149,6 +152,21 @@ fn unit(file: &ResultFile) -> &'static str {
         }
         _ => "",
     }
+}
+
+/// The load factor with dry friction.
+fn dry(page: &mut Page, file: &ResultFile) {
+    let Some(dry) = &file.dry else { return };
+    let words = |v: f64| if file.question == Question::Tilt { format!("{:.6}°", v.atan().to_degrees()) } else { format!("λ = {v:.7}") };
+    let text = match (dry.found, dry.value) {
+        (Found::NothingSlides, Some(_)) => "In the mechanism nothing slides, so with dry friction it is the same.".to_string(),
+        (Found::FixedPoint, Some(v)) => format!(
+            "With dry friction (joints slide without opening): {}. Forces and a mechanism that obey Coulomb's law together prove that it is one; there may be others, none above the associative one.",
+            words(v)
+        ),
+        _ => format!("With dry friction no value came out: after {} convex programs the friction limits had not settled.", dry.solves),
+    };
+    page.paragraph(&text);
 }
 
 fn dead_load(page: &mut Page, file: &ResultFile) {
