@@ -165,6 +165,11 @@ pub const COARSE_FORCE_CAP: f64 = 1e3;
 /// 1e16 excuses anything. Smaller: mass ratios of 1e12 stay undecided.
 pub const RESOLUTION: f64 = 1e-3;
 
+/// Contact forces excuse an unbalance as rounding only up to this × the total load of the free blocks. Larger: a squeeze that
+/// nobody applies (1e12 weights) excuses a block that slides. Smaller: blocks held by friction coefficients of 1e-3 far from
+/// the origin stay undecided.
+pub const ROUNDING_FORCE: f64 = 1e3;
+
 /// The inadmissibility of a mechanism may hide at most this share of a load factor if every contact carried the largest
 /// force. Larger: a forged mechanism that closes unloaded joints passes. Smaller: walls of 10,000 blocks are refused.
 pub const LOAD_FACTOR_BEHIND: f64 = 1e-3;

@@ -53,6 +53,7 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
         })
         .collect();
     let mut rounding: Vec<f64> = residuals.iter().map(|r| r.force.norm()).collect();
+    let most = tolerance::ROUNDING_FORCE * assembly.free().map(|i| load_scale(assembly, i)).sum::<f64>();
     let mut excess = 0.0_f64;
     for (face, forces) in interfaces.list.iter().zip(forces) {
         for (point, force) in face.points.iter().zip(forces) {
@@ -71,7 +72,7 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
                 let arm = point - assembly.blocks[block].centroid;
                 residuals[block] += Wrench { force: force * sign, moment: arm.cross(force) * sign };
-                rounding[block] += force.norm() * (1.0 + point.amax() / length_scale(assembly, block));
+                rounding[block] += force.norm().min(most) * (1.0 + point.amax() / length_scale(assembly, block));
             }
         }
     }

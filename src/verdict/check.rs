@@ -246,5 +246,10 @@ fn load_factor(
         low >= lower - width(value) && high <= upper + width(value),
         format!("bracket recomputed: [{low:.12}, {high:.12}], claimed [{lower:.12}, {upper:.12}]"),
     );
+    // A bracket may be true and wide; a load factor below the limit is still not the limit. NaN is not narrow.
+    let (open, narrow) = (high - low, 2.0 * width(value));
+    if open.is_nan() || open > narrow {
+        f.fails.push(format!("the two sides do not meet: bracket {open:.1e} wide, allowed {narrow:.1e}"));
+    }
     f.require(lower - width(value) <= value && value <= upper + width(value), format!("λ = {value:.12} lies in its bracket"));
 }

@@ -253,3 +253,48 @@ proptest! {
         prop_assert!(proved(&m, Claim::Stable, &a.forces, None, &a.rates));
     }
 }
+
+/// Half of the load factor, with honest forces at half and the true mechanism: a true bracket, but not the limit.
+#[test]
+fn a_load_factor_in_a_wide_bracket_is_not_found() {
+    let m = model(&arch(0.15));
+    let l = limit(&m.assembly, &m.interfaces, &Control::default());
+    let half = 0.5 * l.value;
+    let mut at_half = m.clone();
+    for i in 0..at_half.assembly.blocks.len() {
+        let live = at_half.assembly.live[i];
+        at_half.assembly.dead[i] += Wrench { force: live.force * half, moment: live.moment * half };
+    }
+    let a = assess(&at_half.assembly, &at_half.interfaces, &associative());
+    assert_eq!(a.verdict, Verdict::Stable);
+    for (lower, upper) in [(half, l.bracket.upper), (half, f64::INFINITY), (f64::NEG_INFINITY, f64::INFINITY)] {
+        let got = verify(&m.assembly, &m.interfaces, &Claim::LoadFactor { value: half, lower, upper }, &a.forces, None, &l.rates);
+        println!("{lower} {upper}: {got:?}");
+        assert!(!got.proved(), "[{lower}, {upper}] passes for {half}; the limit is {}", l.value);
+    }
+}
+
+/// Ice on ice, squeezed between two posts, on ground that slopes by 1e-4 along the posts: it slides, however it is squeezed.
+#[test]
+fn a_huge_squeeze_excuses_no_unbalance() {
+    let post = |id: &str, x: f64| fixed(cuboid(id, [1.0, 1.0, 1.0], [x, 0.0, 0.0]));
+    let mut s =
+        scene(0.0, json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [0.0; 3]), post("left", -1.0), post("right", 1.0)]), json!({}));
+    s.gravity = [0.0, 1e-4, -1.0];
+    let m = model(&s);
+    let a = assess(&m.assembly, &m.interfaces, &associative());
+    println!("{:?} {:?} threshold {:.1e}", a.verdict, a.unbalance, a.threshold);
+    assert_eq!(a.verdict, Verdict::Unstable);
+    let (block, w) = (m.assembly.find("block").unwrap(), m.assembly.weight(1));
+    for squeeze in [1e6, 1e9, 1e10, 1e11, 1e12, 1e14] {
+        let mut forces = zeros(&m);
+        for (face, forces) in m.interfaces.list.iter().zip(&mut forces) {
+            let share = if face.frame.n.x.abs() > 0.5 { squeeze } else { 1.0 } * w / face.points.len() as f64;
+            forces.iter_mut().for_each(|f| *f = face.frame.n * share);
+            assert!(face.a == block || face.b == block);
+        }
+        let got = verify(&m.assembly, &m.interfaces, &Claim::Stable, &forces, None, &a.rates);
+        println!("squeeze {squeeze:.0e}: {got:?}");
+        assert!(!got.proved(), "squeezed by {squeeze:.0e} weights an unstable block is proved stable");
+    }
+}
