@@ -75,9 +75,9 @@ pub fn verify(
 ) -> Findings {
     let mut f = Findings::default();
     match *claim {
-        Claim::Stable => balanced(&mut f, assembly, interfaces, forces, 0.0),
+        Claim::Stable => balanced(&mut f, "", assembly, interfaces, forces, 0.0),
         Claim::Conditional => {
-            balanced(&mut f, assembly, interfaces, forces, 0.0);
+            balanced(&mut f, "", assembly, interfaces, forces, 0.0);
             match base {
                 Some(base) => moves(&mut f, assembly, interfaces, base, rates),
                 None => f.fails.push("the forces without the pre-stress are missing".into()),
@@ -88,13 +88,13 @@ pub fn verify(
         Claim::DryLoadFactor { value } => dry(&mut f, assembly, interfaces, forces, rates, value),
         Claim::Unbounded { standing } => {
             match base {
-                Some(base) => balanced(&mut f, assembly, interfaces, base, standing),
+                Some(base) => balanced(&mut f, "at a load factor at which it stands, ", assembly, interfaces, base, standing),
                 None => f.fails.push("forces at a load factor at which the scene stands are missing".into()),
             }
             let (alone, factor) = live_alone(assembly);
             f.require(factor.is_finite() && factor > 0.0, "there is a live load".into());
             let scaled = forces.iter().map(|p| p.iter().map(|v| v * factor).collect()).collect();
-            balanced(&mut f, &alone, interfaces, &scaled, 0.0);
+            balanced(&mut f, "under the live load alone, ", &alone, interfaces, &scaled, 0.0);
         }
         Claim::Impossible => {
             gains(&mut f, assembly, interfaces, rates);
@@ -113,7 +113,7 @@ pub fn verify(
 /// Forces and a mechanism that obey Coulomb's law together.
 fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], value: f64) {
     let s = certificate::statics(assembly, interfaces, forces, value);
-    cones(f, &s);
+    cones(f, "", &s);
     let allowed = tolerance::DRY_BALANCE.max(s.resolution);
     f.require(
         s.unbalance <= allowed,
@@ -130,7 +130,7 @@ fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &
 
 /// Forces from which a motion starts that obeys Coulomb's law with them.
 fn moves(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, base: &Forces, rates: &[Rate]) {
-    cones(f, &certificate::statics(assembly, interfaces, base, 0.0));
+    cones(f, "without a pre-stress, ", &certificate::statics(assembly, interfaces, base, 0.0));
     let m = certificate::motion(assembly, interfaces, base);
     f.require(
         m.acceleration >= tolerance::LEAST_MOTION,
@@ -173,23 +173,24 @@ pub fn live_alone(assembly: &Assembly) -> (Assembly, f64) {
     (alone, factor)
 }
 
-fn balanced(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) {
+/// `when` says which of several sets of forces is meant.
+fn balanced(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) {
     let s = certificate::statics(assembly, interfaces, forces, lambda);
     let threshold = tolerance::UNBALANCE.max(s.resolution);
     f.require(
         s.balanced,
         format!(
-            "forces balance every free block: largest unbalance {:.1e} g, on {}, allowed {threshold:.1e}",
+            "{when}forces balance every free block: largest unbalance {:.1e} g, on {}, allowed {threshold:.1e}",
             s.unbalance, assembly.blocks[s.worst].id
         ),
     );
-    cones(f, &s);
+    cones(f, when, &s);
 }
 
-fn cones(f: &mut Findings, s: &certificate::Statics) {
+fn cones(f: &mut Findings, when: &str, s: &certificate::Statics) {
     f.require(
         s.cone_excess <= tolerance::CONE,
-        format!("forces lie in their friction cones: largest excess {:.1e} of the force", s.cone_excess),
+        format!("{when}forces lie in their friction cones: largest excess {:.1e} of the force", s.cone_excess),
     );
 }
 
@@ -201,13 +202,15 @@ fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: 
     let threshold = tolerance::UNBALANCE.max(resolution);
     f.require(gain > threshold, format!("the mechanism gains power: {gain:.3e} g, at least {threshold:.1e} needed"));
     let cap = k.force_cap(assembly);
-    f.require(
-        k.is_admissible(assembly),
+    let closing = if cap.is_infinite() {
+        "no joint closes".to_string()
+    } else {
         format!(
-            "the mechanism is admissible: joints close by at most {:.1e} of its speed; only contact forces above {cap:.1e} × the total load could hide behind that",
+            "joints close by at most {:.1e} of its speed; only contact forces above {cap:.1e} × the total load could hide behind that",
             k.inadmissibility
-        ),
-    );
+        )
+    };
+    f.require(k.is_admissible(assembly), format!("the mechanism is admissible: {closing}"));
 }
 
 fn load_factor(
@@ -219,7 +222,7 @@ fn load_factor(
     [value, lower, upper]: [f64; 3],
 ) {
     let s = certificate::statics(assembly, interfaces, forces, value);
-    cones(f, &s);
+    cones(f, "", &s);
     let k = certificate::kinematics(assembly, interfaces, rates, forces);
     let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
     f.require(k.live_power > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));

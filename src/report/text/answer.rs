@@ -2,7 +2,7 @@
 
 use super::{
     Options, SHOWN, cut,
-    number::{bracketed, decimals, ends, point},
+    number::{bracketed, decimals, ends, fixed, point},
     page::{Page, Role},
 };
 use crate::{
@@ -70,9 +70,9 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
             );
         }
         (Outcome::Unbounded, _) => {
-            page.paragraph("Contact forces balance the live load by itself, so that any multiple of it can be added.");
+            page.paragraph("Contact forces balance the live load by itself, so that any multiple of it can be added. Sliding counts as associative here (a joint that slides opens as well): with dry friction there may be a limit.");
             if let Some(Claim::Unbounded { standing }) = file.certificate.claim {
-                page.paragraph(&format!("It stands at λ = {standing:.6} and at every greater λ."));
+                page.paragraph(&format!("It stands at λ = {} and at every greater λ.", fixed(standing, 6)));
             }
         }
         (Outcome::Impossible, _) => page.paragraph(
@@ -160,10 +160,13 @@ fn dry(page: &mut Page, file: &ResultFile) {
     let words = |v: f64| if file.question == Question::Tilt { format!("{:.6}°", v.atan().to_degrees()) } else { format!("λ = {v:.7}") };
     let text = match (dry.found, dry.value) {
         (Found::NothingSlides, Some(_)) => "In the mechanism nothing slides, so with dry friction it is the same.".to_string(),
-        (Found::FixedPoint, Some(v)) => format!(
-            "With dry friction (joints slide without opening): {}. Forces and a mechanism that obey Coulomb's law together prove that it is one; there may be others, none above the associative one.",
-            words(v)
-        ),
+        (Found::FixedPoint, Some(v)) => {
+            let others = if status(&file.answer) == Outcome::Found { ", none above the associative one" } else { "" };
+            format!(
+                "With dry friction (joints slide without opening): {}. Forces and a mechanism that obey Coulomb's law together prove that it is one; there may be others{others}.",
+                words(v)
+            )
+        }
         _ => format!("With dry friction no value came out: after {} convex programs the friction limits had not settled.", dry.solves),
     };
     page.paragraph(&text);

@@ -15,7 +15,8 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
     let Some(m) = &file.mechanism else { return };
     let free = file.scene.blocks - file.scene.supports.min(file.scene.blocks);
     let fastest: Vec<&str> = m.moving.iter().take(if options.verbose { usize::MAX } else { 4 }).map(String::as_str).collect();
-    let text = format!("{} of {} move, the fastest first: {}", m.moving.len(), count(free, "free block"), fastest.join(", "));
+    let verb = if m.moving.len() == 1 { "moves" } else { "move, the fastest first" };
+    let text = format!("{} of {} {verb}: {}", m.moving.len(), count(free, "free block"), fastest.join(", "));
     page.row("mechanism", [if fastest.len() < m.moving.len() { format!("{text}, …") } else { text }]);
     for (label, motion) in
         [("hinges", Motion::Hinge), ("slides", Motion::Slide), ("slip hinges", Motion::HingeAndSlide), ("parts", Motion::Part)]

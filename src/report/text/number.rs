@@ -32,7 +32,8 @@ pub fn ends(value: f64, lower: f64, upper: f64) -> [String; 2] {
     [outwards(lower, -1.0), outwards(upper, 1.0)]
 }
 
-fn fixed(value: f64, decimals: usize) -> String {
+/// A value with so many decimals, without the sign of a negative zero.
+pub fn fixed(value: f64, decimals: usize) -> String {
     // Far from one, decimals would be all zeros; the last digit of the mantissa has the same unit.
     if value != 0.0 && !(1e-4..1e12).contains(&value.abs()) {
         let digits = decimals as i32 + value.abs().log10().floor() as i32;
