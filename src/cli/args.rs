@@ -25,6 +25,9 @@ pub struct Cli {
     pub color: Color,
 }
 
+/// So many directions a tilt is asked for where nothing is said.
+pub const DIRECTIONS: u16 = 8;
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Color {
     Auto,
@@ -109,7 +112,7 @@ pub struct Tilt {
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub toward: Vec<[f64; 3]>,
     /// Tip towards this many directions, evenly spread, the first along x.
-    #[arg(long, value_name = "N", default_value_t = 8, conflicts_with = "toward", value_parser = clap::value_parser!(u16).range(1..=3600))]
+    #[arg(long, value_name = "N", default_value_t = DIRECTIONS, conflicts_with = "toward", value_parser = clap::value_parser!(u16).range(1..=3600))]
     pub all: u16,
     /// The tilt that is needed, in degrees: exit code 1 if the least one is below, 3 if it cannot be told from it.
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = finite)]

@@ -1,6 +1,7 @@
 //! `voussoir limit`
 
 use super::{
+    again::skip_dead,
     args::Limit,
     exit::Exit,
     question::{Question, requirement},
@@ -28,7 +29,7 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     let dead = (!settled && !args.skip_dead).then(|| assess(assembly, interfaces, &question.control()));
     let ask_dry = question.control().law == Law::Coulomb && matches!(answer.outcome, Outcome::Found | Outcome::Unbounded);
     let dry = ask_dry.then(|| coulomb::load_factor(assembly, interfaces, &answer, &question.control()));
-    let file = question.answer(terminal, || {
+    let file = question.answer(terminal, &skip_dead(args.skip_dead), || {
         let file = ResultFile::load_factor(&question.scene, &question.model, &answer);
         let file = match &dry {
             Some(dry) => file.with_dry(&question.model, dry),

@@ -1,5 +1,6 @@
 //! Arguments, terminal and exit codes; one file per verb. No mechanics: what is asked is a call to the library.
 
+pub mod again;
 pub mod args;
 pub mod assess;
 pub mod check;

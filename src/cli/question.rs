@@ -7,7 +7,7 @@ use voussoir::{
     analysis::{Control, Model, Outcome, prepare},
     report::{
         ResultFile, json,
-        text::{self, Options},
+        text::{self, Asked, Options},
     },
     scene::{Scene, Source},
     verdict::Verdict,
@@ -55,8 +55,9 @@ impl<'a> Question<'a> {
         error.located(&self.source).into()
     }
 
-    /// Packs the answer with its proof, saves it and prints it. `pack` verifies, which is timed apart from solving.
-    pub fn answer(&self, terminal: &Terminal, pack: impl FnOnce() -> ResultFile) -> anyhow::Result<ResultFile> {
+    /// Packs the answer with its proof, saves it and prints it. `pack` verifies, which is timed apart from solving; `own` are the
+    /// verb's own options that change the answer.
+    pub fn answer(&self, terminal: &Terminal, own: &[String], pack: impl FnOnce() -> ResultFile) -> anyhow::Result<ResultFile> {
         let solve = self.start.elapsed().as_secs_f64();
         let start = Instant::now();
         let mut file = pack();
@@ -74,12 +75,21 @@ impl<'a> Question<'a> {
         }
         let scene = match self.common.scene.to_string_lossy() {
             name if name == "-" => "SCENE".into(),
-            name if name.contains(char::is_whitespace) => format!("'{name}'"),
-            name => name.into_owned(),
+            name => quoted(&name),
         };
-        terminal.page(&text::render(&file, &scene, Options { verbose: self.common.verbose, brief: self.common.quiet }))?;
+        let asked = Asked { scene: &scene, options: &[own, &self.common.options()].concat().join(" ") };
+        let options = Options { verbose: self.common.verbose, brief: self.common.quiet };
+        terminal.page(&text::render(&file, asked, options, terminal.layout(&self.common.scene)))?;
         Ok(file)
     }
+}
+
+/// A word as a shell takes it whole.
+fn quoted(word: &str) -> String {
+    if word.chars().all(|c| c.is_alphanumeric() || "/._-+=:,@%\\".contains(c)) {
+        return word.to_string();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 /// The exit code of a verdict.

@@ -2,10 +2,13 @@
 
 use super::{args::Color, exit::Exit};
 use anyhow::Context;
-use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::{
+    io::{self, ErrorKind, IsTerminal, Write},
+    path::Path,
+};
 use voussoir::{
     error::{Finding, InputError},
-    report::text::{Page, Role},
+    report::text::{Layout, Page, Role, printable},
 };
 
 /// How pages look.
@@ -25,6 +28,14 @@ impl Terminal {
                 Color::Auto => io::stdout().is_terminal() && !set("NO_COLOR") && !dumb,
             },
         }
+    }
+
+    /// Fits pages to the terminal, where standard output is one, and says what stands for a scene without a name: its file's.
+    pub fn layout<'a>(&self, file: &'a Path) -> Layout<'a> {
+        let unnamed = if file.as_os_str() == "-" { "standard input" } else { file.file_name().and_then(|n| n.to_str()).unwrap_or("") };
+        let usual = Layout::default().width;
+        let width = terminal_size::terminal_size_of(io::stdout()).map_or(usual, |(columns, _)| usize::from(columns.0).min(usual));
+        Layout { unnamed, width }
     }
 
     /// Prints a page on standard output.
@@ -71,7 +82,8 @@ pub fn print(text: &str) -> anyhow::Result<()> {
 /// Prints a line on standard error.
 pub fn say(text: &str) {
     // Where standard error is gone, nobody can be told.
-    let _ = writeln!(io::stderr().lock(), "{text}");
+    let lines: Vec<_> = text.split('\n').map(printable).collect();
+    let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));
 }
 
 /// Prints findings on standard error.

@@ -34,7 +34,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         let dry = coulomb::load_factor(&turned.assembly, &turned.interfaces, &least.load_factor, &question.control());
         packed = packed.with_dry(turned, &dry);
     }
-    let file = question.answer(terminal, || match &dead {
+    let file = question.answer(terminal, &args.options(), || match &dead {
         Some(dead) => packed.with_dead_load(model, dead),
         None => packed,
     })?;

@@ -619,3 +619,47 @@ fn the_schema_is_json() {
     let schema: Value = serde_json::from_str(&out(&expect(YES, voussoir(&["schema"])))).unwrap();
     assert!(schema["properties"]["blocks"].is_object());
 }
+
+#[test]
+fn the_commands_that_come_next_ask_the_same_question() {
+    let text = out(&expect(YES, structure(&["tilt", "--toward", "1,0", "--law", "associative"], "block-on-tilting-table")));
+    assert!(text.contains("block-on-tilting-table.json --toward 1,0 --law associative --save result.json"), "{text}");
+    let text = out(&expect(YES, structure(&["tilt", "--toward", "1,0,0.5", "--skip-dead"], "block-on-tilting-table")));
+    assert!(text.contains(" --toward 1,0,0.5 --skip-dead --save "), "{text}");
+    let text = out(&expect(YES, structure(&["tilt"], "block-on-tilting-table")));
+    assert!(text.contains("block-on-tilting-table.json --save "), "{text}");
+}
+
+#[test]
+fn paths_are_quoted_where_a_shell_would_split_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("it's $HOME.json");
+    fs::copy(concat!(env!("CARGO_MANIFEST_DIR"), "/structures/column.json"), &path).unwrap();
+    let text = out(&expect(YES, voussoir(&["assess", path.to_str().unwrap()])));
+    assert!(text.contains(r"/it'\''s $HOME.json' --save"), "{text}");
+}
+
+#[test]
+fn no_limit_is_not_said_where_dry_friction_has_one() {
+    let first = out(&structure(&["limit", "--quiet"], "block-under-roof"));
+    assert!(first.contains("with dry friction λ = 0.4000000") && !first.contains("without limit"), "{first}");
+    let first = out(&structure(&["limit", "--quiet", "--law", "associative"], "block-under-roof"));
+    assert!(first.contains("without limit"), "{first}");
+}
+
+#[test]
+fn a_scene_without_a_name_is_called_by_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("nameless.json");
+    let scene = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.7 } }, "templates": [ { "column": { "blocks": 2, "size": [1, 1, 0.5] } } ] }"#;
+    fs::write(&path, scene).unwrap();
+    let path = path.to_str().unwrap();
+    assert_eq!(out(&voussoir(&["assess", "--quiet", path])), "nameless.json: stands\n");
+    assert!(out(&voussoir(&["check", path])).starts_with("nameless.json: "));
+    assert_eq!(out(&with_input(&["assess", "--quiet", "-"], scene)), "standard input: stands\n");
+}
+
+fn structure(args: &[&str], name: &str) -> Output {
+    let path = format!("{}/structures/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    voussoir(&[args, &[path.as_str()]].concat())
+}

@@ -51,6 +51,22 @@ fn run(command: &str, folder: &Path) -> String {
     String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap()
 }
 
+/// Lines that only one side has, with what to do about them.
+fn difference(command: &str, want: &[String], got: &[String]) -> String {
+    let only = |sign: &str, these: &[String], those: &[String]| -> Vec<String> {
+        these.iter().filter(|l| !those.contains(l)).map(|l| format!("{sign} {l}")).collect()
+    };
+    let mut lines = only("-", want, got);
+    lines.extend(only("+", got, want));
+    if lines.is_empty() {
+        lines.push("the same lines in another order or number".into());
+    }
+    format!(
+        "README.md does not hold what `{command}` prints:\n{}\nIf the lines with + are right, run the command with NO_COLOR=1 and paste its output into the README.",
+        lines.join("\n")
+    )
+}
+
 #[test]
 fn every_console_block_prints_what_it_says() {
     let folder = tempfile::tempdir().unwrap();
@@ -64,7 +80,7 @@ fn every_console_block_prints_what_it_says() {
     assert!(examples.len() >= 7, "only {} commands found", examples.len());
     for (command, printed) in examples {
         let (want, got) = (without_times(&printed), without_times(&run(&command, folder.path())));
-        assert_eq!(want, got, "README.md, `{command}`: put the right-hand output into the README if it is what you want");
+        assert!(want == got, "{}", difference(&command, &want, &got));
     }
 }
 

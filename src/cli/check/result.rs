@@ -4,7 +4,7 @@ use crate::cli::{exit::Exit, input, terminal::Terminal};
 use std::path::Path;
 use voussoir::report::{ResultFile, text, verify};
 
-pub fn run(file: &ResultFile, scene: Option<&Path>, terminal: &Terminal) -> anyhow::Result<Exit> {
+pub fn run(file: &ResultFile, scene: Option<&Path>, terminal: &Terminal, layout: text::Layout) -> anyhow::Result<Exit> {
     let verification = match scene {
         None => verify(file, &file.scene.input)?,
         Some(path) => {
@@ -12,7 +12,7 @@ pub fn run(file: &ResultFile, scene: Option<&Path>, terminal: &Terminal) -> anyh
             verify(file, &scene).map_err(|e| e.located(&source))?
         }
     };
-    terminal.page(&text::verification(file, &verification))?;
+    terminal.page(&text::verification(file, &verification, layout))?;
     Ok(match (verification.refuted(), verification.claimed) {
         (true, _) => Exit::No,
         (false, true) => Exit::Yes,

@@ -8,10 +8,10 @@ use voussoir::{
     scene::{Scene, Source},
 };
 
-pub fn run(scene: &Scene, source: &Source, terminal: &Terminal) -> anyhow::Result<Exit> {
+pub fn run(scene: &Scene, source: &Source, terminal: &Terminal, layout: text::Layout) -> anyhow::Result<Exit> {
     let model = prepare(scene).map_err(|e| e.located(source))?;
     let (slips, notes): (Vec<Finding>, Vec<Finding>) = model.findings().cloned().partition(is_slip);
-    terminal.page(&text::inspection(&model, &slips, &notes))?;
+    terminal.page(&text::inspection(&model, &slips, &notes, layout))?;
     Ok(if slips.is_empty() { Exit::Yes } else { Exit::No })
 }
 

@@ -26,7 +26,10 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 let role = if upper < 0.0 { Role::Bad } else { Role::Value };
                 (format!("λ = {}", bracketed(value, lower, upper)), role)
             }
-            (Outcome::Unbounded, _) => ("the live load wedges: it can grow without limit".to_string(), Role::Good),
+            (Outcome::Unbounded, _) => match dry_value(file) {
+                Some(v) => (format!("the live load wedges where joints open as they slide; with dry friction λ = {v:.7}"), Role::Value),
+                None => ("the live load wedges: it can grow without limit".to_string(), Role::Good),
+            },
             (Outcome::Impossible, _) => ("falls, whatever the live load".to_string(), Role::Bad),
             _ => ("undecided".to_string(), Role::Unsure),
         },
@@ -35,7 +38,15 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
             match (status(&file.answer), found(&file.answer)) {
                 (Outcome::Found, Some((_, _, upper))) if upper < 0.0 => ("falls even when level".to_string(), Role::Bad),
                 (Outcome::Found, Some(l)) => (format!("falls at a tilt of {}°{toward}", degrees(l)), Role::Value),
-                (Outcome::Unbounded, _) => ("stands at every tilt below 90°".to_string(), Role::Good),
+                (Outcome::Unbounded, _) => match dry_value(file) {
+                    Some(v) => {
+                        let angle = v.atan().to_degrees();
+                        let text =
+                            format!("stands at every tilt where joints open as they slide; falls at {angle:.6}°{toward} with dry friction");
+                        (text, Role::Value)
+                    }
+                    None => ("stands at every tilt below 90°".to_string(), Role::Good),
+                },
                 (Outcome::Impossible, _) => (format!("falls, however it is tilted{toward}"), Role::Bad),
                 _ => (format!("undecided{toward}"), Role::Unsure),
             }
@@ -170,6 +181,11 @@ fn dry(page: &mut Page, file: &ResultFile) {
         _ => format!("With dry friction no value came out: after {} convex programs the friction limits had not settled.", dry.solves),
     };
     page.paragraph(&text);
+}
+
+/// The load factor with dry friction, where it is proved to be one of its own.
+fn dry_value(file: &ResultFile) -> Option<f64> {
+    file.dry.as_ref().filter(|d| d.found == Found::FixedPoint)?.value
 }
 
 fn dead_load(page: &mut Page, file: &ResultFile) {

@@ -2,7 +2,7 @@
 
 use super::{
     number::count,
-    page::{Page, Role},
+    page::{Layout, Page, Role},
 };
 use crate::{
     analysis::Model,
@@ -11,8 +11,8 @@ use crate::{
 };
 
 /// The verification of a result: what holds and what fails, part by part.
-pub fn verification(file: &ResultFile, verification: &Verification) -> Page {
-    let mut page = Page::default();
+pub fn verification(file: &ResultFile, verification: &Verification, layout: Layout) -> Page {
+    let mut page = Page::new(layout);
     let (text, role) = match (verification.refuted(), verification.claimed) {
         (true, _) => ("refuted", Role::Bad),
         (false, true) => ("proved", Role::Good),
@@ -29,8 +29,8 @@ pub fn verification(file: &ResultFile, verification: &Verification) -> Page {
 }
 
 /// A scene's likely mistakes, and what else is worth knowing about it.
-pub fn inspection(model: &Model, slips: &[Finding], notes: &[Finding]) -> Page {
-    let mut page = Page::default();
+pub fn inspection(model: &Model, slips: &[Finding], notes: &[Finding], layout: Layout) -> Page {
+    let mut page = Page::new(layout);
     match slips.len() {
         0 => page.title(&model.assembly.name, "nothing suspicious", Role::Good),
         n => page.title(&model.assembly.name, count(n, "finding"), Role::Bad),

@@ -7,7 +7,7 @@ pub mod number;
 mod page;
 
 pub use check::{inspection, verification};
-pub use page::{Page, Role, Span};
+pub use page::{Layout, Page, Role, Span, printable};
 
 use super::result::{Question, ResultFile};
 use crate::{analysis::Attempt, verdict::Verdict};
@@ -22,14 +22,23 @@ pub struct Options {
     pub brief: bool,
 }
 
+/// How a question was put, for the commands that may come next.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// The scene, as one types it.
+    pub scene: &'a str,
+    /// The options that another answer would need to be the same, as one types them.
+    pub options: &'a str,
+}
+
 /// A list shows this many items unless everything is asked for.
 const SHOWN: usize = 6;
 /// So many findings are shown, which take several lines each.
 const NOTES: usize = 3;
 
-/// A result as a page. `scene` stands for the scene in the commands that may come next.
-pub fn render(file: &ResultFile, scene: &str, options: Options) -> Page {
-    let mut page = Page::default();
+/// A result as a page.
+pub fn render(file: &ResultFile, asked: Asked, options: Options, layout: Layout) -> Page {
+    let mut page = Page::new(layout);
     answer::title(&mut page, file);
     if options.brief {
         return page;
@@ -58,7 +67,7 @@ pub fn render(file: &ResultFile, scene: &str, options: Options) -> Page {
         page.row("attempts", file.trace.iter().map(attempt));
     }
     page.blank();
-    next(&mut page, file, scene);
+    next(&mut page, file, asked);
     page
 }
 
@@ -96,15 +105,18 @@ fn attempt(a: &Attempt) -> String {
     )
 }
 
-fn next(page: &mut Page, file: &ResultFile, scene: &str) {
+fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
+    let scene = asked.scene;
     let verb = match file.question {
         Question::Assess => "assess",
         Question::Limit => "limit",
         Question::Tilt => "tilt",
     };
+    let again =
+        if asked.options.is_empty() { format!("voussoir {verb} {scene}") } else { format!("voussoir {verb} {scene} {}", asked.options) };
     let look = (format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
     if file.certificate.claim.is_none() {
-        return page.commands("next", &[look, (format!("voussoir {verb} {scene} --verbose"), "every attempt at it")]);
+        return page.commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
     }
     let mut list = Vec::new();
     if file.question == Question::Assess {
@@ -115,7 +127,7 @@ fn next(page: &mut Page, file: &ResultFile, scene: &str) {
             (false, false) => (format!("voussoir limit {scene}"), "how far the live load can grow"),
         });
     }
-    list.push((format!("voussoir {verb} {scene} --save result.json"), "keep the answer with its proof"));
+    list.push((format!("{again} --save result.json"), "keep the answer with its proof"));
     list.push(("voussoir check result.json".into(), "verify it again, without a solver"));
     page.commands("next", &list);
 }

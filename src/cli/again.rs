@@ -1,0 +1,28 @@
+//! The options that would have to be given again for the same answer, as typed.
+
+use super::args::{Common, DIRECTIONS, Law, Tilt};
+
+/// As typed, where it was given.
+pub fn skip_dead(given: bool) -> Vec<String> {
+    if given { vec!["--skip-dead".into()] } else { Vec::new() }
+}
+
+impl Tilt {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let toward =
+            self.toward.iter().map(|[x, y, z]| if *z == 0.0 { format!("--toward {x},{y}") } else { format!("--toward {x},{y},{z}") });
+        let all = (self.all != DIRECTIONS).then(|| format!("--all {}", self.all));
+        toward.chain(all).chain(skip_dead(self.skip_dead)).collect()
+    }
+}
+
+impl Common {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let law = matches!(self.law, Law::Associative).then(|| "--law associative".into());
+        let keep_all = self.keep_all.then(|| "--keep-all".into());
+        let time_limit = self.time_limit.map(|s| format!("--time-limit {s}"));
+        [law, keep_all, time_limit].into_iter().flatten().collect()
+    }
+}
