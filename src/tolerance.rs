@@ -181,3 +181,7 @@ pub const DRY_LAW: f64 = 1e-4;
 /// Forces of a load factor with dry friction balance each block up to this, in multiples of its load. Larger: values of
 /// iterations that still wander. Smaller: the engine's noise at small δ (1e-5) leaves walls undecided.
 pub const DRY_BALANCE: f64 = 1e-4;
+
+/// A compressive strength is respected when the pressures use no more than 1 + this of it. Larger: crushing that counts.
+/// Smaller: the engine's last digits, amplified where a small part of a joint carries, refuse correct forces.
+pub const CRUSHING: f64 = 1e-7;

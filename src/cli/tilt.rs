@@ -8,7 +8,10 @@ use super::{
 };
 use anyhow::Context;
 use voussoir::{
-    analysis::{Law, Model, Outcome, Tilt, assess, coulomb, tilt, tilt::directions, tilt::turned},
+    analysis::{
+        Law, Outcome, Tilt, assess, tilt,
+        tilt::{directions, tilted},
+    },
     report::ResultFile,
 };
 
@@ -23,16 +26,15 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let mut answers = Vec::with_capacity(toward.len());
     for direction in toward {
         let answer = tilt(&model.assembly, &model.interfaces, direction, &question.control())?;
-        let (assembly, _) = turned(&model.assembly, direction)?;
-        answers.push((Model { assembly, interfaces: model.interfaces.clone(), timings: model.timings }, answer));
+        answers.push((tilted(model, direction, answer.load_factor.value)?, answer));
     }
     let dead = (!args.skip_dead).then(|| assess(&model.assembly, &model.interfaces, &question.control()));
     let mut packed = ResultFile::tilt(&question.scene, &answers).context("no direction to tilt towards")?;
     let least = answers.iter().find(|(_, t)| Some(<[f64; 3]>::from(t.toward)) == packed.answer.toward);
     let bounded = |t: &Tilt| matches!(t.load_factor.outcome, Outcome::Found | Outcome::Unbounded);
     if let Some((turned, least)) = least.filter(|(_, t)| question.control().law == Law::Coulomb && bounded(t)) {
-        let dry = coulomb::load_factor(&turned.assembly, &turned.interfaces, &least.load_factor, &question.control());
-        packed = packed.with_dry(turned, &dry);
+        let dry = tilt::dry(&turned.assembly, &model.interfaces, &least.load_factor, &question.control());
+        packed = packed.with_dry(&tilted(model, least.toward, dry.value)?, &dry);
     }
     let file = question.answer(terminal, &args.options(), || match &dead {
         Some(dead) => packed.with_dead_load(model, dead),

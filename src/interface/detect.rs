@@ -74,7 +74,7 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
         if meeting.contacts.is_empty() {
             continue;
         }
-        let friction = assembly.joints.friction(a, b, &assembly.blocks).ok_or_else(|| {
+        let law = assembly.joints.law(a, b, &assembly.blocks).ok_or_else(|| {
             let (one, other) = (&assembly.blocks[a].id, &assembly.blocks[b].id);
             InputError::at(
                 JsonPath::root(),
@@ -94,7 +94,7 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
                 patches: contact.patches,
                 pieces: contact.pieces,
                 gap: contact.gap.mean,
-                friction,
+                law,
             });
         }
     }

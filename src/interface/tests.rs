@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::{
-    assembly::{Assembly, Block, JointRules, Mend, Polyhedron, Solid, Wrench},
+    assembly::{Assembly, Block, JointLaw, JointRules, Mend, Polyhedron, Solid, Wrench},
     error::{FindingCode, InputError, JsonPath},
-    scene::ContactSpec,
+    scene::{ContactSpec, Friction},
 };
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
@@ -124,7 +124,7 @@ fn assembly(shapes: &[Shape]) -> Assembly {
         })
         .collect();
     let none = vec![Wrench::zero(); blocks.len()];
-    let rule = Some(Friction::Coefficient(0.6));
+    let rule = Some(JointLaw::dry(Friction::Coefficient(0.6)));
     Assembly {
         name: String::new(),
         gravity: v(0.0, 0.0, -9.81),
@@ -634,8 +634,8 @@ fn touching_pair_without_friction_is_an_error_that_names_both() {
     scene.joints.default = None;
     let InputError { message, hint, path, .. } = detect(&scene).unwrap_err();
     assert!(message.contains("\"b0\"") && message.contains("\"b1\"") && hint.is_some() && path == JsonPath::root());
-    scene.joints.by_blocks.insert((0, 1), Friction::Infinite);
-    assert_eq!(detect(&scene).unwrap().list[0].friction, Friction::Infinite);
+    scene.joints.by_blocks.insert((0, 1), JointLaw::dry(Friction::Infinite));
+    assert_eq!(detect(&scene).unwrap().list[0].law.friction, Friction::Infinite);
 }
 
 #[test]
@@ -646,12 +646,12 @@ fn interface_given_by_hand_replaces_detection() {
         b: 0,
         points: vec![v(0.0, 0.0, 1.0), v(0.5, 0.0, 1.0), v(0.5, 0.5, 1.0), v(0.0, 0.5, 1.0)],
         normal: v(0.0, 0.0, -1.0),
-        friction: Friction::Coefficient(0.1),
+        law: JointLaw::dry(Friction::Coefficient(0.1)),
     });
     let found = detect(&scene).unwrap();
     assert_eq!(found.list.len(), 1);
     let i = &found.list[0];
-    assert_eq!((i.a, i.b, i.kind, i.friction, i.patches), (1, 0, ContactKind::Given, Friction::Coefficient(0.1), 1));
+    assert_eq!((i.a, i.b, i.kind, i.law.friction, i.patches), (1, 0, ContactKind::Given, Friction::Coefficient(0.1), 1));
     assert!(near(i.area, 0.25) && near(hull_area(i), 0.25), "turned counter-clockwise around the normal");
 }
 

@@ -6,7 +6,7 @@ use super::{
     result::{Answer, Certificate, Direction, DryResult, LoadFactorAnswer, Question, words},
 };
 use crate::{
-    analysis::{Model, Outcome, coulomb::Found, prepare, tilt::turned},
+    analysis::{Model, Outcome, coulomb::Found, prepare, tilt::tilted},
     error::InputError,
     scene::Scene,
     tolerance,
@@ -74,7 +74,7 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
     if let Some(dry) = &file.dry {
         let toward = file.answer.toward.map(Vector3::from);
         let loaded = match (file.question, toward) {
-            (Question::Tilt, Some(toward)) => turned(&model.assembly, toward).map(|(assembly, _)| Model { assembly, ..model.clone() }),
+            (Question::Tilt, Some(toward)) => tilted(&model, toward, dry.value.unwrap_or(0.0)),
             _ => Ok(model.clone()),
         };
         let findings = match (file.question, loaded) {
@@ -148,10 +148,10 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
     for (index, direction) in list.iter().enumerate() {
         let toward = direction.answer.toward.unwrap_or_default();
         let title = format!("tilt towards {}", super::text::number::point(toward));
-        match turned(&model.assembly, Vector3::from(toward)) {
+        let load_factor = direction.answer.load_factor.and_then(|l| l.value).unwrap_or(0.0);
+        match tilted(model, Vector3::from(toward), load_factor) {
             Err(e) => all.part(title, failure(e.to_string())),
-            Ok((assembly, _)) => {
-                let turned = Model { assembly, interfaces: model.interfaces.clone(), timings: model.timings };
+            Ok(turned) => {
                 let (mut f, rates) = answer(&turned, Question::Tilt, &direction.answer, &direction.certificate);
                 if index == least {
                     mechanism_words(&mut f, file, &turned, rates.as_deref());
@@ -254,7 +254,7 @@ fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, 
     };
     let upper = certificate::statics(&model.assembly, &model.interfaces, forces, 0.0).unbalance;
     let k = certificate::kinematics(&model.assembly, &model.interfaces, rates, forces);
-    let (lower, slack) = if k.norm > 0.0 { (k.dead_power.max(0.0) / k.norm, k.slack / k.norm) } else { (0.0, 0.0) };
+    let (lower, slack) = if k.norm > 0.0 { (k.gain().max(0.0) / k.norm, k.slack / k.norm) } else { (0.0, 0.0) };
     // Rates that prove nothing because they part what is pressed together bound nothing: the lower end is then 0.
     let near = |a: f64, b: f64, extra: f64| (a - b).abs() <= SAME * a.abs() + tolerance::UNBALANCE + extra;
     let ok = near(upper, said.upper, 0.0) && (near(lower, said.lower, slack) || said.lower == 0.0);

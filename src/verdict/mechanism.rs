@@ -66,7 +66,7 @@ fn joint(assembly: &Assembly, face: &Interface, rates: &[Rate], fastest: f64) ->
             let v = certificate::at(assembly, rates, face.b, p) - certificate::at(assembly, rates, face.a, p);
             let vn = face.frame.n.dot(&v);
             let vt = (v - face.frame.n * vn).norm();
-            let lift = match face.friction {
+            let lift = match face.law.friction {
                 Friction::Coefficient(mu) => mu * vt,
                 Friction::Infinite => 0.0,
             };

@@ -149,9 +149,9 @@ pub fn exact(what: &str, scene: &Scene, want: f64, tolerance: f64) {
 
 /// The tilt in degrees towards a direction, 90 where it is wedged, with proof.
 pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
-    let mut model = model(scene);
+    let model = model(scene);
     let answer = tilt(&model.assembly, &model.interfaces, toward.into(), &Control::default()).expect("a tilt");
-    model.assembly = tilt::turned(&model.assembly, toward.into()).expect("a tilt").0;
+    let model = tilt::tilted(&model, toward.into(), answer.load_factor.value).expect("a tilt");
     let angle = answer.angle_deg();
     prove(scene, &ResultFile::tilt(scene, &[(model, answer)]).expect("a direction"));
     angle

@@ -129,7 +129,7 @@ fn conditional_certificates_reject_corruption() {
     assert!(!proved(None, &answer.forces, &answer.rates));
     // Balanced forces leave no motion; half of them leave one that does not obey the law: the joints would slip under their limit.
     assert!(!proved(Some(&answer.forces), &answer.forces, &answer.rates));
-    let half = answer.forces.iter().map(|f| f.iter().map(|v| v * 0.5).collect()).collect();
+    let half = answer.forces.iter().map(|f| f.iter().map(|&v| v * 0.5).collect()).collect();
     assert!(!proved(Some(&half), &answer.forces, &answer.rates));
     let mut still = answer.rates.clone();
     still.iter_mut().for_each(|r| r.velocity = nalgebra::Vector3::x());

@@ -15,3 +15,4 @@ mod readme;
 mod real;
 mod reference;
 mod scenes;
+mod strength;

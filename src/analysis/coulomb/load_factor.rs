@@ -6,7 +6,7 @@
 //! without dilatancy are not unique (Ferris & Tin-Loi 2001; Gilbert, Casapulla & Ahmed 2006); the associative value bounds
 //! them all from above. A run that does not settle is undecided and gives no number.
 
-use super::fixed_point::{FixedPoint, Stop, iterate};
+use super::fixed_point::{FixedPoint, Stop, iterate, within_strength};
 use crate::{
     analysis::{Control, LoadFactor, Outcome},
     assembly::Assembly,
@@ -14,7 +14,7 @@ use crate::{
     program::coulomb::{Aim, Contacts, Hold},
     solve::Settings,
     tolerance,
-    verdict::{Forces, Rate, certificate, check},
+    verdict::{Forces, Rate, certificate, check, law},
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -38,7 +38,7 @@ pub struct DryLoadFactor {
     pub found: Found,
     /// The value; NaN where undecided.
     pub value: f64,
-    /// How far forces and mechanism are from Coulomb's law ([`certificate::natural_map`]).
+    /// How far forces and mechanism are from Coulomb's law ([`law::natural_map`]).
     pub natural_map: f64,
     /// Convex programs solved.
     pub solves: usize,
@@ -54,7 +54,7 @@ const STAGES: [(f64, Stop); 3] =
 
 /// The load factor with dry friction; `associative` is the answer of [`limit`](crate::analysis::limit()) for the same model.
 pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
-    let map = |forces: &Forces, rates: &[Rate]| certificate::natural_map(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY);
+    let map = |forces: &Forces, rates: &[Rate]| law::natural_map(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY);
     let mut answer = DryLoadFactor {
         found: Found::Undecided,
         value: f64::NAN,
@@ -74,10 +74,10 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
         }
     }
     let start = Instant::now();
-    let contacts = Contacts::new(assembly, interfaces, control.keep_all, true);
+    let mut contacts = Contacts::new(assembly, interfaces, control.keep_all, true);
     let settings = Settings { tolerance: 1e-11, regularization: 1e-9, ..Settings::default() };
     let scale = check::natural_factor(assembly);
-    let still = vec![0.0; contacts.points.len()];
+    let still = vec![0.0; contacts.discs().count()];
     let first = Stop { change: 0.0, solves: 1 };
     let mut last = iterate(&contacts, Aim::LoadFactor(STAGES[0].0, scale), Hold::SlidingRates, still, first, &settings);
     for (delta, stop) in STAGES {
@@ -85,7 +85,9 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
         let Some(from) = last.take().filter(|_| left > 0.0) else { return answer };
         let settings = Settings { seconds: left, ..settings };
         answer.solves += from.solves;
-        last = iterate(&contacts, Aim::LoadFactor(delta, scale), Hold::Limits, contacts.limits(&from.forces), stop, &settings);
+        last = within_strength(&mut contacts, interfaces, |c| {
+            iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, &settings)
+        });
     }
     let Some(FixedPoint { forces, rates, lambda, solves, .. }) = last else { return answer };
     answer.solves += solves;
@@ -94,7 +96,7 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
         contacts.statics.rates(assembly.blocks.len(), &rates).into_iter().map(|(velocity, spin)| Rate { velocity, spin }).collect();
     answer.natural_map = map(&answer.forces, &answer.rates);
     let s = certificate::statics(assembly, interfaces, &answer.forces, lambda);
-    if answer.natural_map <= tolerance::DRY_LAW && s.unbalance <= tolerance::DRY_BALANCE.max(s.resolution) {
+    if answer.natural_map <= tolerance::DRY_LAW && s.is_within_strength() && s.unbalance <= tolerance::DRY_BALANCE.max(s.resolution) {
         (answer.found, answer.value) = (Found::FixedPoint, lambda);
     }
     answer

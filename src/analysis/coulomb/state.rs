@@ -6,7 +6,7 @@
 //! *Proved:* a state that moves is a solution of the law (its natural map is recomputed from the forces). *Computed, not proved:*
 //! that a state at rest is the one the loads produce; rest under a pre-stress and motion are often both exact solutions.
 
-use super::fixed_point::{FixedPoint, Stop, iterate};
+use super::fixed_point::{FixedPoint, Stop, iterate, within_strength};
 use crate::{
     analysis::attempt::Control,
     assembly::Assembly,
@@ -14,7 +14,7 @@ use crate::{
     program::coulomb::{Aim, Contacts, Hold},
     solve::Settings,
     tolerance,
-    verdict::{Forces, certificate},
+    verdict::{Forces, law},
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -40,7 +40,7 @@ pub struct Step {
     pub acceleration: f64,
     /// Last change of the friction limits, in mean block loads.
     pub change: f64,
-    /// How far the forces and that acceleration are from Coulomb's law ([`certificate::natural_map`]).
+    /// How far the forces and that acceleration are from Coulomb's law ([`law::natural_map`]).
     pub natural_map: f64,
     /// Convex programs solved.
     pub solves: usize,
@@ -68,10 +68,10 @@ const STOP: Stop = Stop { change: 1e-5, solves: 25 };
 /// Computes the state.
 pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> State {
     let begin = Instant::now();
-    let contacts = Contacts::new(assembly, interfaces, control.keep_all, false);
+    let mut contacts = Contacts::new(assembly, interfaces, control.keep_all, false);
     let settings = Settings { tolerance: 1e-10, regularization: 1e-8, ..Settings::default() };
     let mut answer = State { motion: Motion::Undecided, steps: Vec::new(), forces: Vec::new() };
-    let still = vec![0.0; contacts.points.len()];
+    let still = vec![0.0; contacts.discs().count()];
     let once = Stop { solves: 1, ..STOP };
     // The associative state is the first guess of the friction limits.
     let mut last = iterate(&contacts, Aim::State(EPSILONS[0]), Hold::SlidingRates, still, once, &settings);
@@ -80,9 +80,10 @@ pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
         let Some(from) = last.take().filter(|_| left > 0.0) else { break };
         let start = Instant::now();
         let settings = Settings { seconds: left, ..settings };
-        let Some(point) = settled(&contacts, Aim::State(epsilon), &from, &settings) else { break };
+        let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, &settings));
+        let Some(point) = point else { break };
         answer.forces = contacts.statics.forces(interfaces, &point.forces);
-        let moved = certificate::motion(assembly, interfaces, &answer.forces);
+        let moved = law::motion(assembly, interfaces, &answer.forces);
         answer.steps.push(Step {
             epsilon,
             acceleration: moved.acceleration,
