@@ -115,7 +115,7 @@ pub fn verify(
 /// Forces and a mechanism that obey Coulomb's law together.
 fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], value: f64) {
     let s = certificate::statics(assembly, interfaces, forces, value);
-    cones(f, "", &s);
+    cones(f, "", assembly, interfaces, &s);
     let allowed = tolerance::DRY_BALANCE.max(s.resolution);
     f.require(
         s.unbalance <= allowed,
@@ -132,7 +132,7 @@ fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &
 
 /// Forces from which a motion starts that obeys Coulomb's law with them.
 fn moves(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, base: &Forces, rates: &[Rate]) {
-    cones(f, "without a pre-stress, ", &certificate::statics(assembly, interfaces, base, 0.0));
+    cones(f, "without a pre-stress, ", assembly, interfaces, &certificate::statics(assembly, interfaces, base, 0.0));
     let m = law::motion(assembly, interfaces, base);
     f.require(
         m.acceleration >= tolerance::LEAST_MOTION,
@@ -186,16 +186,18 @@ fn balanced(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Inte
             s.unbalance, assembly.blocks[s.worst].id
         ),
     );
-    cones(f, when, &s);
+    cones(f, when, assembly, interfaces, &s);
 }
 
-fn cones(f: &mut Findings, when: &str, s: &certificate::Statics) {
+fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, s: &certificate::Statics) {
     f.require(
         s.cone_excess <= tolerance::CONE,
         format!("{when}forces lie in their friction cones: largest excess {:.1e} of the force", s.cone_excess),
     );
     if s.crushing > 0.0 {
-        f.require(s.is_within_strength(), format!("{when}no joint is pressed beyond its strength: at most {:.6} of it", s.crushing));
+        let (used, joint) = (100.0 * s.crushing, joint(assembly, interfaces, s.most_pressed));
+        let text = format!("{when}no joint is pressed beyond its compressive strength: at most {used:.4} % of it, in {joint}");
+        f.require(s.is_within_strength(), text);
     }
 }
 
@@ -220,6 +222,12 @@ fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: 
     f.require(k.is_admissible(assembly), format!("the mechanism is admissible: {closing}"));
 }
 
+/// The two blocks of a joint.
+fn joint(assembly: &Assembly, interfaces: &Interfaces, k: usize) -> String {
+    let face = &interfaces.list[k];
+    format!("{} | {}", assembly.blocks[face.a].id, assembly.blocks[face.b].id)
+}
+
 /// The power of ten next to a number.
 fn decade(x: f64, round: fn(f64) -> f64) -> f64 {
     10f64.powf(round(x.log10()))
@@ -234,7 +242,7 @@ fn load_factor(
     [value, lower, upper]: [f64; 3],
 ) {
     let s = certificate::statics(assembly, interfaces, forces, value);
-    cones(f, "", &s);
+    cones(f, "", assembly, interfaces, &s);
     let k = certificate::kinematics(assembly, interfaces, rates, forces);
     let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
     f.require(k.live_power > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));
