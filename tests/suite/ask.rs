@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Law, LoadFactor, Model, Outcome, assess, limit, prepare, tilt},
-    report::{self, ResultFile},
+    report::{self, Leaning, ResultFile},
     scene::{Scene, read_str},
     verdict::Verdict,
 };
@@ -153,7 +153,7 @@ pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
     let answer = tilt(&model.assembly, &model.interfaces, toward.into(), &Control::default()).expect("a tilt");
     let model = tilt::tilted(&model, toward.into(), answer.load_factor.value).expect("a tilt");
     let angle = answer.angle_deg();
-    prove(scene, &ResultFile::tilt(scene, &[(model, answer)]).expect("a direction"));
+    prove(scene, &ResultFile::tilt(scene, &[Leaning { model, tilt: answer, dry: None }]).expect("a direction"));
     angle
 }
 

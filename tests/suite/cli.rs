@@ -170,6 +170,22 @@ fn a_requirement_inside_the_bracket_is_not_rounded_up() {
     expect(UNDECIDED, voussoir(&["limit", &desk.at("pushed.json"), "--require", &format!("{value:.17}")]));
 }
 
+/// A block in a groove and a block under a roof: the bound meets what dry friction does not.
+#[test]
+fn a_bound_alone_meets_no_requirement() {
+    let scene = |name: &str| format!("{}/structures/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    for (name, bound_only, both, neither) in [("block-in-groove", "0.75", "0.7", "0.9"), ("block-under-roof", "1", "0.399", "-")] {
+        expect(NO, voussoir(&["limit", &scene(name), "--require", bound_only]));
+        expect(YES, voussoir(&["limit", &scene(name), "--require", bound_only, "--law", "associative"]));
+        expect(YES, voussoir(&["limit", &scene(name), "--require", both]));
+        if neither != "-" {
+            expect(NO, voussoir(&["limit", &scene(name), "--require", neither, "--law", "associative"]));
+        }
+        let first = out(&expect(YES, voussoir(&["limit", &scene(name), "--quiet"])));
+        assert!(first.contains("dry friction"), "{first}");
+    }
+}
+
 #[test]
 fn a_block_tips_over_its_edge_or_slides() {
     let desk = Desk::new();

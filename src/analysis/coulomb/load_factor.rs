@@ -6,12 +6,18 @@
 //! without dilatancy are not unique (Ferris & Tin-Loi 2001; Gilbert, Casapulla & Ahmed 2006); the associative value bounds
 //! them all from above. A run that does not settle is undecided and gives no number.
 
-use super::fixed_point::{FixedPoint, Stop, iterate, within_strength};
+use super::{
+    fixed_point::{FixedPoint, Stop, iterate, within_strength},
+    state::{Motion, state},
+};
 use crate::{
     analysis::{Control, LoadFactor, Outcome},
     assembly::Assembly,
     interface::Interfaces,
-    program::coulomb::{Aim, Contacts, Hold},
+    program::{
+        coulomb::{Aim, Contacts, Hold},
+        is_forest,
+    },
     solve::Settings,
     tolerance,
     verdict::{Forces, Rate, certificate, check, law},
@@ -27,6 +33,8 @@ pub enum Found {
     NothingSlides,
     /// A fixed point on the friction limits.
     FixedPoint,
+    /// The live load alone comes to rest on forces that it produces itself: no limit. Computed, not proved.
+    Unlimited,
     /// It did not settle: there is no value.
     Undecided,
 }
@@ -73,6 +81,10 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
             return answer;
         }
     }
+    if associative.outcome == Outcome::Unbounded && rests_alone(assembly, interfaces, control) {
+        answer.found = Found::Unlimited;
+        return answer;
+    }
     let start = Instant::now();
     let mut contacts = Contacts::new(assembly, interfaces, control.keep_all, true);
     let settings = Settings { tolerance: 1e-11, regularization: 1e-9, ..Settings::default() };
@@ -100,4 +112,11 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
         (answer.found, answer.value) = (Found::FixedPoint, lambda);
     }
     answer
+}
+
+/// Whether the live load alone, on joints without any strength, produces the forces that balance it.
+fn rests_alone(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> bool {
+    let (alone, _) = check::live_alone(assembly);
+    let (unlimited, _) = interfaces.unlimited();
+    is_forest(&alone, &unlimited) || state(&alone, &unlimited, control).motion == Motion::Rests
 }
