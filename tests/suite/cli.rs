@@ -423,6 +423,32 @@ fn a_load_factor_is_refused_after_any_change() {
 }
 
 #[test]
+fn a_load_factor_with_dry_friction_is_refused_after_any_change() {
+    let desk = Desk::new();
+    let good = desk.saved(YES, &["limit", concat!(env!("CARGO_MANIFEST_DIR"), "/structures/block-in-groove.json")]);
+    desk.checked(YES, &good);
+    let (i, j) = greatest_force(&good["dry"]["certificate"]);
+    let changed = |change: &dyn Fn(&mut Value)| {
+        let mut bad = good.clone();
+        change(&mut bad);
+        assert_ne!(bad, good);
+        desk.checked(NO, &bad);
+    };
+    changed(&|r| r["dry"]["value"] = json!(0.75));
+    changed(&|r| {
+        r["dry"]["value"] = json!(0.71);
+        r["dry"]["certificate"]["claim"]["dry_load_factor"]["value"] = json!(0.71);
+    });
+    changed(&|r| drop(r["dry"]["certificate"].as_object_mut().unwrap().remove("claim")));
+    changed(&|r| r["dry"]["found"] = json!("undecided"));
+    changed(&|r| r["dry"]["found"] = json!("unlimited"));
+    changed(&|r| scale(&mut r["dry"]["certificate"]["forces"][i]["forces"][j], 1.01));
+    changed(&|r| r["dry"]["certificate"]["forces"] = r["certificate"]["forces"].clone());
+    // The associative mechanism lifts where it slides.
+    changed(&|r| r["dry"]["certificate"]["rates"] = r["certificate"]["rates"].clone());
+}
+
+#[test]
 fn a_tilt_is_refused_after_any_change() {
     let desk = Desk::new();
     let good = desk.saved(YES, &["tilt", &desk.at("arch.json"), "--all", "4"]);
