@@ -211,6 +211,6 @@ proptest! {
         let d = coulomb::load_factor(&model.assembly, &model.interfaces, &l, &Control::default());
         prop_assert!(d.found != coulomb::Found::Undecided, "natural map {:.1e} after {} programs", d.natural_map, d.solves);
         ask::prove(&scene, &ResultFile::load_factor(&scene, &model, &l).with_dry(&model, &d));
-        prop_assert!(!(d.value > l.bracket.upper * (1.0 + 1e-6)), "{} above {}", d.value, l.bracket.upper);
+        prop_assert!(d.value.is_nan() || d.value <= l.bracket.upper * (1.0 + 1e-6), "{} above {}", d.value, l.bracket.upper);
     }
 }
