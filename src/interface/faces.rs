@@ -3,8 +3,9 @@
 //! Two facets face each other where their normals are opposite within the angle. Each convex piece of one is cut by each convex
 //! piece of the other in a plane between them, and the gap is measured **at the corners of what is left**, not at the corners of
 //! the facets: a slab may be a hundred thousand times longer than the block it carries. They touch where the gap is within the
-//! tolerance at all these corners. Facets that are not plane stand for their mean planes, and the tolerance grows by their warp:
-//! two blocks that share part of a warped joint have different mean planes there.
+//! tolerance at all these corners. Facets that are not plane stand for their mean planes, and both tolerances grow with their warp:
+//! two blocks that share part of a warped joint have different mean planes there, apart by up to the warp and leaning from each
+//! other by up to twice the warp over the width of the facet.
 //!
 //! All facet pairs of two blocks that touch on one plane make one contact: its points are the convex hull, exact for rigid blocks
 //! with Coulomb friction, because a force at an inner point is a combination of forces at the hull's corners.
@@ -58,12 +59,31 @@ pub(super) struct Gap {
 /// Facing facets that nearly touch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NearMiss {
-    /// Mean gap, m.
+    /// Mean gap, m; negative where they overlap.
     pub gap: f64,
+    /// What would join them.
+    pub closing: Closing,
     /// A point between the facets.
     pub at: Vector3<f64>,
     /// Normal from `a` into `b`.
     pub n: Vector3<f64>,
+}
+
+/// What would have to be tolerated for two blocks to touch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Closing {
+    /// Gap or overlap at the corner where it is greatest, less the warp, m.
+    pub gap: f64,
+    /// `|n_a + n_b|`, less what the warp explains.
+    pub lean: f64,
+}
+
+impl Closing {
+    /// Whether facets with these gaps, which do not touch, nearly do.
+    fn is_near(&self, gap: &Gap, limits: &Limits) -> bool {
+        // Facets that are parallel enough nearly touch with their nearest corner, others only as a whole.
+        self.gap <= limits.near || self.lean <= limits.chord && gap.least >= -limits.near && gap.least <= limits.near
+    }
 }
 
 /// What two facets have in common, seen along their normals.
@@ -85,18 +105,20 @@ pub(super) fn facing(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limit
     let of_b: Vec<_> = b.facets_in(window).collect();
     for (i, fa) in a.facets_in(window) {
         for &(j, fb) in &of_b {
-            if !limits.opposite(&fa.normal, &fb.normal) || a.facet_bounds[i].distance(&b.facet_bounds[j]) > limits.near {
+            // The plane of a warped facet is known no better than its warp, and its direction no better than its twist.
+            let lean = limits.lean(&fa.normal, &fb.normal, a.facet_twist[i] + b.facet_twist[j]);
+            if lean > limits.near_chord || a.facet_bounds[i].distance(&b.facet_bounds[j]) > limits.near {
                 continue;
             }
             let Some(overlay) = overlay(a, b, [i, j], limits) else { continue };
-            // The plane of a warped facet is known no better than its warp.
-            let reach = limits.gap + fa.warp + fb.warp;
-            if overlay.gap.least >= -reach && overlay.gap.greatest <= reach {
+            let closing = Closing { gap: overlay.gap.greatest.max(-overlay.gap.least) - fa.warp - fb.warp, lean };
+            if closing.gap <= limits.gap && lean <= limits.chord {
                 touching.push(overlay);
-            } else if overlay.gap.least >= -limits.gap && overlay.gap.least <= limits.near {
-                let closer = facing.near.is_none_or(|n| overlay.gap.mean < n.gap);
-                if closer && overlay.area >= limits.min_area && !is_rim(&join(&[&overlay], limits), &overlay, a, b, limits) {
-                    facing.near = Some(NearMiss { gap: overlay.gap.mean, at: overlay.centroid, n: overlay.n });
+            } else if closing.is_near(&overlay.gap, limits) && facing.near.is_none_or(|n| closing.gap < n.closing.gap) {
+                // Not what would be no contact even if it were closed.
+                let closed = Limits { gap: closing.gap.max(limits.gap), ..*limits };
+                if overlay.area >= limits.min_area && !is_rim(&join(&[&overlay], limits), &overlay, a, b, &closed) {
+                    facing.near = Some(NearMiss { gap: overlay.gap.mean, closing, at: overlay.centroid, n: overlay.n });
                 }
             }
         }
