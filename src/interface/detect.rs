@@ -206,7 +206,7 @@ fn polyhedra(a: &Body, p: &Solidity, b: &Body, q: &Solidity, limits: &Limits) ->
             && meeting.overlap.is_none()
             && features::meet_without_normal(p, q, &window(limits.gap), limits);
     }
-    if !on_faces && meeting.overlap.is_none() {
+    if meeting.overlap.is_none() {
         meeting.near = facing.near.map(|n| Near { gap: n.gap, closing: n.closing, plane: Some(Plane::new(n.at, n.n)) });
     }
     meeting.contacts.extend(facing.contacts.iter().map(|f| of_face(f, limits)));

@@ -101,7 +101,7 @@ struct Overlay {
 /// Matches all facets of `a` with all facets of `b`.
 pub(super) fn facing(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limits) -> Facing {
     let mut facing = Facing::default();
-    let mut touching = Vec::new();
+    let (mut touching, mut apart) = (Vec::new(), Vec::new());
     let of_b: Vec<_> = b.facets_in(window).collect();
     for (i, fa) in a.facets_in(window) {
         for &(j, fb) in &of_b {
@@ -114,12 +114,8 @@ pub(super) fn facing(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limit
             let closing = Closing { gap: overlay.gap.greatest.max(-overlay.gap.least) - fa.warp - fb.warp, lean };
             if closing.gap <= limits.gap && lean <= limits.chord {
                 touching.push(overlay);
-            } else if closing.is_near(&overlay.gap, limits) && facing.near.is_none_or(|n| closing.gap < n.closing.gap) {
-                // Not what would be no contact even if it were closed.
-                let closed = Limits { gap: closing.gap.max(limits.gap), ..*limits };
-                if overlay.area >= limits.min_area && !is_rim(&join(&[&overlay], limits), &overlay, a, b, &closed) {
-                    facing.near = Some(NearMiss { gap: overlay.gap.mean, closing, at: overlay.centroid, n: overlay.n });
-                }
+            } else if overlay.area >= limits.min_area && closing.is_near(&overlay.gap, limits) {
+                apart.push((closing, overlay));
             }
         }
     }
@@ -135,7 +131,31 @@ pub(super) fn facing(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limit
         }
     }
     drop_far_sides(&mut facing.contacts, limits);
+    // Convex blocks that meet face to face meet nowhere else.
+    if facing.contacts.is_empty() || !(a.polyhedron.convex && b.polyhedron.convex) {
+        apart.sort_by(|(x, _), (y, _)| x.gap.total_cmp(&y.gap));
+        facing.near = apart.iter().find_map(|(closing, overlay)| near_miss(*closing, overlay, &facing.contacts, a, b, limits));
+    }
     facing
+}
+
+/// A near miss of two facets, unless a contact lies there already or there would be none even if they were closed.
+fn near_miss(
+    closing: Closing,
+    overlay: &Overlay,
+    contacts: &[FaceContact],
+    a: &Solidity,
+    b: &Solidity,
+    limits: &Limits,
+) -> Option<NearMiss> {
+    let closed = Limits { gap: closing.gap.max(limits.gap), ..*limits };
+    let known = contacts.iter().any(|c| c.covers(overlay.centroid, &overlay.n, limits));
+    (!known && !is_rim(&join(&[overlay], limits), overlay, a, b, &closed)).then_some(NearMiss {
+        gap: overlay.gap.mean,
+        closing,
+        at: overlay.centroid,
+        n: overlay.n,
+    })
 }
 
 /// Two plates thinner than the gap tolerance meet twice within it: face to face, and back to back as if each had gone through the

@@ -171,12 +171,12 @@ impl Tally {
 /// The tolerances that join all of these.
 fn remedy(apart: impl IntoIterator<Item = Apart>, assembly: &Assembly) -> String {
     let (gap, angle) = apart.into_iter().fold((0.0, 0.0), |(g, a): (f64, f64), x| (g.max(x.relative), a.max(x.angle.unwrap_or(0.0))));
-    let raise = |name: &str, from: f64, to: f64| format!("raise contact.{name} from {} to {}", short(from), round_up(to));
+    let raise = |name: &str, from: f64, to: f64| format!("contact.{name} from {} to {}", short(from), round_up(to));
     let spec = &assembly.contact;
     match (gap > spec.gap, angle > spec.angle_deg) {
-        (true, true) => format!("{} and {}", raise("gap", spec.gap, gap), raise("angle_deg", spec.angle_deg, angle)),
-        (false, true) => raise("angle_deg", spec.angle_deg, angle),
-        _ => raise("gap", spec.gap, gap),
+        (true, true) => format!("raise {} and {}", raise("gap", spec.gap, gap), raise("angle_deg", spec.angle_deg, angle)),
+        (false, true) => format!("raise {}", raise("angle_deg", spec.angle_deg, angle)),
+        _ => format!("raise {}", raise("gap", spec.gap, gap)),
     }
 }
 
