@@ -149,7 +149,8 @@ fn near_miss(
     limits: &Limits,
 ) -> Option<NearMiss> {
     let closed = Limits { gap: closing.gap.max(limits.gap), ..*limits };
-    let known = contacts.iter().any(|c| c.covers(overlay.centroid, &overlay.n, limits));
+    // Where the blocks touch already, facets that lean only belong to the same rounded surface.
+    let known = contacts.iter().any(|c| closing.lean > limits.chord || c.covers(overlay.centroid, &overlay.n, limits));
     (!known && !is_rim(&join(&[overlay], limits), overlay, a, b, &closed)).then_some(NearMiss {
         gap: overlay.gap.mean,
         closing,

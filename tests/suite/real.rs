@@ -137,14 +137,14 @@ fn warped_joints_of_the_armadillo_vault_are_found_at_any_gap() {
 fn vaults_stand_under_dry_friction_at_any_density() {
     let Some(folder) = folder() else { return };
     let vault = |density: f64| read(folder.join("assembly-crossvault.json"), &Options { density: Some(density), ..options(&[], 0.7) });
-    let mut armadillo = armadillo(&folder, 1e6);
+    let mut armadillo = armadillo(&folder, 1.0);
     armadillo.contact.gap = 0.05;
-    let scenes = [vault(1e-3), vault(1.0), vault(1e6), armadillo];
+    let scenes = [vault(1e-3), vault(1e6), armadillo];
     std::thread::scope(|scope| {
         for scene in &scenes {
             scope.spawn(move || {
                 let m = ready(scene);
-                let a = assess(&m.assembly, &m.interfaces, &Control::default());
+                let a = assess(&m.assembly, &m.interfaces, &Control { seconds: 120.0, ..Control::default() });
                 let solves: Vec<usize> = a.state.iter().flat_map(|s| &s.steps).map(|s| s.solves).collect();
                 println!("{}: {:?}, solves {solves:?}", scene.name, a.verdict);
                 assert_eq!(a.verdict, Verdict::Stable, "{}", scene.name);
@@ -170,7 +170,7 @@ fn remedies_for_vaults_with_open_joints_make_them_stand() {
     for (path, options, interfaces) in [
         (folder.join("assembly-crossvault.json"), own.clone(), 488),
         (folder.join("dem-crossvault.obj"), Options { support_below: Some(1.744), ..own }, 488),
-        (pavilion.join("blocks.json"), held, 1136),
+        (pavilion.join("blocks.json"), held, 1141),
     ] {
         let mut scene = read(path, &options);
         let name = scene.name.clone();
