@@ -159,8 +159,9 @@ pub const ACCELERATION_STAYS: f64 = 0.8;
 pub const MOTION_LAW: f64 = 1e-3;
 
 /// A state without pre-stress moves when some block is left with at least this much of its load. Larger: slow slides at
-/// the edge of friction are refused. Smaller: what the regularisation leaves at rest (1e-4) could be taken for motion.
-pub const LEAST_MOTION: f64 = 1e-3;
+/// the edge of friction are refused (a rock wedge 1e-3 beyond its factor of safety is left with 5e-4). Smaller: what the
+/// regularisation leaves at rest on tall, soft structures could be taken for motion, if it obeyed the law.
+pub const LEAST_MOTION: f64 = 1e-4;
 
 /// Where a joint of a mechanism closes by more than this × the speed of its two blocks, that is no rounding of their speeds.
 /// Larger: a block squeezed at μ = 1e-5 could be "proved" to fall. Smaller: rounding counts as [`COARSE_FORCE_CAP`] demands.
@@ -194,3 +195,8 @@ pub const DRY_BALANCE: f64 = 1e-4;
 /// A compressive strength is respected when the pressures use no more than 1 + this of it. Larger: crushing that counts.
 /// Smaller: the engine's last digits, amplified where a small part of a joint carries, refuse correct forces.
 pub const CRUSHING: f64 = 1e-7;
+
+/// Natural map of a load factor with dry friction with rates as the program has them
+/// ([`natural_map_in_loads`](crate::verdict::law::natural_map_in_loads)); a state that moves is refined until it is below this.
+/// Larger: values with fewer digits than are shown. Smaller: δ and ε must fall to where the engine's noise rules.
+pub const NATURAL_MAP: f64 = 1e-6;

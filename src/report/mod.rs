@@ -6,5 +6,5 @@ pub mod result;
 pub mod text;
 pub mod verify;
 
-pub use result::ResultFile;
+pub use result::{Leaning, ResultFile};
 pub use verify::verify;

@@ -42,6 +42,8 @@ pub struct Step {
     pub change: f64,
     /// How far the forces and that acceleration are from Coulomb's law ([`law::natural_map`]).
     pub natural_map: f64,
+    /// The same with accelerations in multiples of gravity ([`law::natural_map_in_loads`]).
+    pub natural_map_in_loads: f64,
     /// Convex programs solved.
     pub solves: usize,
     /// Seconds.
@@ -81,6 +83,7 @@ pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     let mut answer = State { motion: Motion::Undecided, steps: Vec::new(), forces: Vec::new() };
     let still = vec![0.0; contacts.discs().count()];
     let once = Stop { solves: 1, ..STOP };
+    let mut exact = f64::INFINITY;
     // The associative state is the first guess of the friction limits.
     let mut last = iterate(&contacts, Aim::State(EPSILONS[0]), Hold::SlidingRates, still, once, &settings);
     for epsilon in EPSILONS {
@@ -91,19 +94,24 @@ pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
         let settings = Settings { seconds: left, tolerance, ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, &settings));
         let Some(point) = point else { break };
-        answer.forces = contacts.statics.forces(interfaces, &point.forces);
-        let moved = law::motion(assembly, interfaces, &answer.forces);
+        let forces = contacts.statics.forces(interfaces, &point.forces);
+        let moved = law::motion(assembly, interfaces, &forces);
         answer.steps.push(Step {
             epsilon,
             acceleration: moved.acceleration,
             change: point.change,
             natural_map: moved.natural_map,
+            natural_map_in_loads: moved.natural_map_in_loads,
             solves: point.solves,
             seconds: start.elapsed().as_secs_f64(),
         });
         last = Some(point);
-        answer.motion = decide(&answer.steps);
-        if answer.motion != Motion::Undecided {
+        match (answer.motion, decide(&answer.steps)) {
+            // A motion once told is followed while it obeys the law more and more exactly.
+            (Motion::Moves, decided) if decided != Motion::Moves || moved.natural_map_in_loads >= exact => break,
+            (_, decided) => (answer.motion, answer.forces, exact) = (decided, forces, moved.natural_map_in_loads),
+        }
+        if answer.motion == Motion::Rests || (answer.motion == Motion::Moves && exact <= tolerance::NATURAL_MAP) {
             break;
         }
     }
