@@ -65,6 +65,15 @@ pub const LOOSE_BALANCE: f64 = 1e-5;
 /// Smaller: the default reach (100 × [`CONTACT_GAP`] = 0.01) is cut.
 pub const NEAR_MISS_LIMIT: f64 = 0.05;
 
+/// Faces within the reach of near misses are reported up to this many degrees from parallel (or up to `contact.angle_deg` where
+/// that is larger). Larger: the facets of round stones, each leaning from the next, are called near misses.
+/// Smaller: joints of roughly cut voussoirs, a few degrees apart, are left open without a word.
+pub const NEAR_MISS_ANGLE_DEG: f64 = 5.0;
+
+/// The warp of a face explains at most this lean (radians) of its parts from its mean plane.
+/// Larger: a face folded by mistake faces everything around it. Smaller: real warped joints (Armadillo Vault: 0.07) are left open.
+pub const GREATEST_TWIST: f64 = 0.2;
+
 /// In the plane of a contact, points closer than this × the smaller block's size are one point, and a point this close to a line is on it.
 /// Larger: contact corners move, and with them the critical thickness of an arch (decided to 1e-6 of the thickness).
 /// Smaller: rounding of moved and rotated coordinates makes two corners of one.
