@@ -69,6 +69,9 @@ const STAGES: [(f64, Stop); 4] = [
 ];
 /// Stages after which a value is looked for.
 const LEAST_STAGES: usize = 3;
+/// A stage that ends with a change of this × the wanted one is lost. Larger: minutes on walls of 1,000 blocks that stay undecided.
+/// Smaller: values that the next stages would still find.
+const LOST: f64 = 10.0;
 /// The engine's tolerance before and after.
 const TOLERANCES: [f64; 2] = [1e-11, 1e-13];
 
@@ -114,6 +117,10 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
         last = within_strength(&mut contacts, interfaces, |c| {
             iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, &settings)
         });
+        // What wanders at a large δ does not settle at a smaller one.
+        if last.as_ref().is_some_and(|point| point.change > LOST * stop.change) {
+            break;
+        }
         if stage + 1 >= LEAST_STAGES
             && let Some(point) = &last
             && accept(assembly, interfaces, &contacts, point, &mut answer)
