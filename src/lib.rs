@@ -67,4 +67,6 @@ pub mod verdict;
 
 pub mod analysis;
 
+pub mod study;
+
 pub mod report;

@@ -32,4 +32,9 @@ impl Bracket {
     pub fn width(&self) -> f64 {
         self.upper - self.lower
     }
+
+    /// Whether the ends meet within `width`: ends that cross by more enclose nothing.
+    pub fn is_narrow(&self, width: f64) -> bool {
+        self.width().abs() <= width
+    }
 }

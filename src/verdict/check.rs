@@ -283,7 +283,7 @@ fn load_factor(
     );
     // A bracket may be true and wide; a load factor below the limit is still not the limit. NaN is not narrow.
     let (open, narrow) = (high - low, 2.0 * width(value));
-    if open.is_nan() || open > narrow {
+    if open.is_nan() || open.abs() > narrow {
         f.fails.push(format!("the two sides do not meet: bracket {open:.1e} wide, allowed {narrow:.1e}"));
     }
     f.require(lower - width(value) <= value && value <= upper + width(value), format!("λ = {value:.12} lies in its bracket"));
