@@ -185,3 +185,11 @@ pub const DRY_BALANCE: f64 = 1e-4;
 /// A compressive strength is respected when the pressures use no more than 1 + this of it. Larger: crushing that counts.
 /// Smaller: the engine's last digits, amplified where a small part of a joint carries, refuse correct forces.
 pub const CRUSHING: f64 = 1e-7;
+
+/// A critical value is found when it is known to this × its size. Larger: fewer digits than the least unbalance holds.
+/// Smaller: the engine's last digits (1e-11 g) decide.
+pub const CRITICAL_WIDTH: f64 = 1e-9;
+
+/// As [`CRITICAL_WIDTH`], for flips between verdicts with dry friction, which have no margin and are found by halving. Larger: fewer
+/// digits. Smaller: states near the flip neither rest nor move, and stay undecided.
+pub const DRY_CRITICAL_WIDTH: f64 = 1e-6;
