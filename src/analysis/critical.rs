@@ -6,7 +6,7 @@
 //! it falls, between two values at which it stands, has no such trace; only a finer scan finds it.
 
 use super::{
-    Assessment, Control, Law, assess,
+    Control, Law, assess,
     flip::{Flip, Probe, refine},
     prepare,
 };
@@ -101,7 +101,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     let count = values.len();
     for (k, value) in values.into_iter().enumerate() {
         let answer = ask(value, control_now());
-        let outcome = answer.as_ref().map(|p| (p.assessment.verdict, p.assessment.unbalance.upper)).map_err(Clone::clone);
+        let outcome = answer.as_ref().map(|p| (p.assessment.verdict, p.unbalance())).map_err(Clone::clone);
         scan.push(Scanned { value, outcome });
         if let Ok(probe) = answer {
             if k == 0 || k + 1 == count {
@@ -221,7 +221,7 @@ fn windows(found: &[Probe], ask: &mut dyn FnMut(f64) -> Result<Probe, InputError
     let mut list = Vec::new();
     for k in 1..found.len().saturating_sub(1) {
         let [a, b, c] = [&found[k - 1], &found[k], &found[k + 1]];
-        let t = |p: &Probe| p.assessment.unbalance.upper;
+        let t = Probe::unbalance;
         if [a, b, c].iter().any(|p| p.admissible() != Some(false)) || t(b) > t(a) || t(b) >= t(c) {
             continue;
         }
@@ -238,8 +238,7 @@ fn lowest(a: &Probe, b: &Probe, c: &Probe, ask: &mut dyn FnMut(f64) -> Result<Pr
     // Golden sections: the part kept at each step.
     const KEPT: f64 = 0.618_033_988_749_895;
     const STEPS: usize = 24;
-    let unbalance = |p: &Assessment| p.unbalance.upper;
-    let (mut low, mut middle, mut high) = (a.value, (b.value, unbalance(&b.assessment)), c.value);
+    let (mut low, mut middle, mut high) = (a.value, (b.value, b.unbalance()), c.value);
     for _ in 0..STEPS {
         let right = (high - middle.0).abs() > (middle.0 - low).abs();
         let value = if right { middle.0 + (1.0 - KEPT) * (high - middle.0) } else { middle.0 - (1.0 - KEPT) * (middle.0 - low) };
@@ -247,7 +246,7 @@ fn lowest(a: &Probe, b: &Probe, c: &Probe, ask: &mut dyn FnMut(f64) -> Result<Pr
         if probe.admissible() == Some(true) {
             return Some(probe);
         }
-        let t = unbalance(&probe.assessment);
+        let t = probe.unbalance();
         match (t < middle.1, right) {
             (true, true) => (low, middle) = (middle.0, (value, t)),
             (true, false) => (high, middle) = (middle.0, (value, t)),

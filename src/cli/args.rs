@@ -28,6 +28,9 @@ pub struct Cli {
 /// So many directions a tilt is asked for where nothing is said.
 pub const DIRECTIONS: u16 = 8;
 
+/// So many values are scanned for a flip where nothing is said.
+pub const SCAN: u32 = 33;
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Color {
     Auto,
@@ -67,6 +70,12 @@ pub enum Verb {
     /// The ground is tipped towards a direction until the structure fails; own weight and dead loads turn with gravity, live loads are left
     /// out. The least tilt of all directions is the answer. Exit codes as for `limit`.
     Tilt(Tilt),
+    /// At what value of a number in the scene does the verdict flip?
+    ///
+    /// The number is named by its JSON pointer, such as /templates/0/arch/thickness or /joints/default/friction. The range is scanned first,
+    /// since there may be several flips; each is narrowed to 1e-9 of its value by following the least unbalance to zero, and verdicts with
+    /// proof stand on both sides of it. Exit code 0 if there is a flip, 1 if it stands or falls throughout, 3 if that stays open.
+    Critical(Critical),
     /// Make a scene from a template.
     ///
     /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON on the right:
@@ -120,6 +129,24 @@ pub struct Tilt {
     /// Do not ask as well whether it stands when level.
     #[arg(long)]
     pub skip_dead: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Critical {
+    #[command(flatten)]
+    pub common: Common,
+    /// JSON pointer of the number to vary.
+    #[arg(long, value_name = "POINTER")]
+    pub vary: String,
+    /// The range.
+    #[arg(long, num_args = 2, value_names = ["A", "B"], allow_negative_numbers = true, value_parser = finite)]
+    pub between: Vec<f64>,
+    /// Scan so many values, both ends among them.
+    #[arg(long, value_name = "N", default_value_t = SCAN, value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    pub scan: u32,
+    /// Scan in steps of at most this size.
+    #[arg(long, value_name = "SIZE", conflicts_with = "scan", allow_negative_numbers = true, value_parser = positive)]
+    pub step: Option<f64>,
 }
 
 /// What every question takes.

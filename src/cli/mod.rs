@@ -4,6 +4,7 @@ pub mod again;
 pub mod args;
 pub mod assess;
 pub mod check;
+pub mod critical;
 pub mod exit;
 pub mod generate;
 pub mod import;

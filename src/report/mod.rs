@@ -1,5 +1,6 @@
 //! Answers for people and for programs. No mechanics here: one file per format.
 
+pub mod critical;
 pub mod json;
 pub mod read;
 pub mod result;

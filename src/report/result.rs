@@ -12,6 +12,7 @@ use crate::{
         mechanism::{Mechanism, Motion},
     },
 };
+use super::critical::{CriticalResult, CriticalValue};
 use serde::{Deserialize, Serialize};
 
 /// The version of the format.
@@ -49,6 +50,9 @@ pub struct ResultFile {
     /// The state under dry friction, where it had to be computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coulomb_state: Option<CoulombState>,
+    /// Critical: the flips with the verdicts on both sides of each.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub critical: Option<CriticalResult>,
     /// The mechanism in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
@@ -74,6 +78,8 @@ pub enum Question {
     Limit,
     /// At what tilt does it fall?
     Tilt,
+    /// At what value of a number in the scene does the verdict flip?
+    Critical,
 }
 
 /// The scene a result is about.
@@ -113,6 +119,9 @@ pub struct Answer {
     /// The direction of the tilt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub toward: Option<[f64; 3]>,
+    /// The values at which the verdict flips.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub critical: Option<Vec<CriticalValue>>,
 }
 
 /// A load factor.
@@ -225,6 +234,13 @@ impl Default for Versions {
     }
 }
 
+impl Certificate {
+    /// Nothing is claimed.
+    pub fn none() -> Self {
+        Self { claim: None, forces: Vec::new(), base: None, rates: Vec::new(), verified: Vec::new() }
+    }
+}
+
 /// Verifies a claim and packs it with its evidence. The findings say whether it holds.
 pub fn certify(model: &Model, claim: Option<Claim>, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> (Certificate, Findings) {
     let (assembly, interfaces) = (&model.assembly, &model.interfaces);
@@ -240,7 +256,7 @@ pub fn certify(model: &Model, claim: Option<Claim>, forces: &Forces, base: Optio
 }
 
 impl ResultFile {
-    fn new(question: Question, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
+    pub(super) fn new(question: Question, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
         Self {
             format: Format::V1,
             question,
@@ -258,6 +274,7 @@ impl ResultFile {
             dead_load: None,
             dry: None,
             coulomb_state: None,
+            critical: None,
             mechanism: None,
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),
@@ -355,13 +372,13 @@ impl ResultFile {
         self
     }
 
-    fn warn(&mut self, findings: &Findings) {
+    pub(super) fn warn(&mut self, findings: &Findings) {
         let code = crate::error::FindingCode::Numerics;
         self.warnings.extend(findings.fails.iter().map(|f| Finding::new(code, format!("certificate refused: {f}"))));
     }
 }
 
-fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) {
+pub(super) fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) {
     let claim = match a.verdict {
         Verdict::Stable => Some(Claim::Stable),
         Verdict::Unstable => Some(Claim::Unstable),

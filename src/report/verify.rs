@@ -3,6 +3,7 @@
 
 use super::{
     ResultFile,
+    critical,
     result::{Answer, Certificate, Direction, DryResult, LoadFactorAnswer, Question, words},
 };
 use crate::{
@@ -44,7 +45,7 @@ impl Verification {
         self.claimed && !self.refuted()
     }
 
-    fn part(&mut self, title: impl Into<String>, findings: Findings) {
+    pub(super) fn part(&mut self, title: impl Into<String>, findings: Findings) {
         self.parts.push((title.into(), findings));
     }
 }
@@ -67,6 +68,11 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
             }
         }
         Question::Tilt => tilts(&mut all, file, &model),
+        Question::Critical => critical::verify(&mut all, file, scene),
+    }
+    let strangers = [file.question != Question::Critical && file.critical.is_some()];
+    if strangers.contains(&true) {
+        all.part("form", failure("the file holds answers to a question that was not asked"));
     }
     if let Some(dead) = &file.dead_load {
         all.part("dead load alone", answer(&model, Question::Assess, &dead.answer, &dead.certificate).0);
@@ -78,7 +84,7 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
             _ => Ok(model.clone()),
         };
         let findings = match (file.question, loaded) {
-            (Question::Assess, _) => failure("the file holds a load factor that was not asked for"),
+            (Question::Assess | Question::Critical, _) => failure("the file holds a load factor that was not asked for"),
             (_, Err(e)) => failure(e.to_string()),
             (_, Ok(model)) => dry_friction(&model, dry),
         };
@@ -110,11 +116,11 @@ fn dry_friction(model: &Model, dry: &DryResult) -> Findings {
     }
 }
 
-fn failure(text: impl Into<String>) -> Findings {
+pub(super) fn failure(text: impl Into<String>) -> Findings {
     Findings { holds: Vec::new(), fails: vec![text.into()] }
 }
 
-fn require(f: &mut Findings, ok: bool, text: impl Into<String>) {
+pub(super) fn require(f: &mut Findings, ok: bool, text: impl Into<String>) {
     if ok { &mut f.holds } else { &mut f.fails }.push(text.into());
 }
 
@@ -163,7 +169,7 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
 }
 
 /// One answer with its evidence; gives back the rates where they could be read.
-fn answer(model: &Model, question: Question, answer: &Answer, evidence: &Certificate) -> (Findings, Option<Vec<Rate>>) {
+pub(super) fn answer(model: &Model, question: Question, answer: &Answer, evidence: &Certificate) -> (Findings, Option<Vec<Rate>>) {
     let mut f = Findings::default();
     says_what_is_claimed(&mut f, question, answer, evidence.claim.as_ref());
     let (assembly, interfaces) = (&model.assembly, &model.interfaces);
@@ -194,7 +200,9 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
     let form = match question {
         Question::Assess => answer.verdict.is_some() && answer.load_factor.is_none(),
         Question::Limit | Question::Tilt => answer.verdict.is_none() && answer.unbalance.is_none() && answer.load_factor.is_some(),
-    } && (question == Question::Tilt || answer.tilt_deg.is_none() && answer.toward.is_none());
+        Question::Critical => false,
+    } && answer.critical.is_none()
+        && (question == Question::Tilt || answer.tilt_deg.is_none() && answer.toward.is_none());
     if !form {
         f.fails.push("the answer is not one to its question".into());
         return;

@@ -51,14 +51,17 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 _ => (format!("undecided{toward}"), Role::Unsure),
             }
         }
+        Question::Critical => super::critical::title(file),
     };
     page.title(&file.scene.name, text, role);
 }
 
 /// The sentences that say what the answer rests on and what it does not say.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
-    if file.question == Question::Assess {
-        return verdict(page, file);
+    match file.question {
+        Question::Assess => return verdict(page, file),
+        Question::Critical => return super::critical::why(page, file),
+        Question::Limit | Question::Tilt => {}
     }
     let tilt = file.question == Question::Tilt;
     match (status(&file.answer), found(&file.answer)) {

@@ -2,6 +2,7 @@
 
 mod answer;
 mod check;
+mod critical;
 mod mechanism;
 pub mod number;
 mod page;
@@ -48,6 +49,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: Options, layout: Layout)
     page.blank();
     mechanism::rows(&mut page, file, options);
     answer::directions(&mut page, file, options);
+    critical::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
     page.row(
@@ -111,11 +113,12 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         Question::Assess => "assess",
         Question::Limit => "limit",
         Question::Tilt => "tilt",
+        Question::Critical => "critical",
     };
     let again =
         if asked.options.is_empty() { format!("voussoir {verb} {scene}") } else { format!("voussoir {verb} {scene} {}", asked.options) };
     let look = (format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
-    if file.certificate.claim.is_none() {
+    if file.certificate.claim.is_none() && file.question != Question::Critical {
         return page.commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
     }
     let mut list = Vec::new();
