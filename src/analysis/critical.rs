@@ -22,8 +22,8 @@ pub struct Range {
     pub from: f64,
     /// The other end.
     pub to: f64,
-    /// Values scanned, both ends among them.
-    pub scan: usize,
+    /// Values scanned, both ends among them; [`SCAN`] where nothing is said, or every whole number up to [`WHOLE`] of them.
+    pub scan: Option<usize>,
 }
 
 /// One value of the scan.
@@ -164,8 +164,14 @@ fn is_whole(scene: &Scene, range: &Range) -> bool {
     !readable(low.floor() + 0.5) && !readable(low.ceil() + 0.5) && whole.into_iter().any(readable)
 }
 
+/// Values scanned where nothing is said. Fewer: more flips stay unseen. More: time.
+pub const SCAN: usize = 33;
+/// Whole numbers scanned where nothing is said.
+pub const WHOLE: usize = 1000;
+
 fn values(range: &Range, whole: bool) -> Vec<f64> {
-    let last = range.scan.max(2) - 1;
+    let every = ((range.to - range.from).abs() + 1.0).min(WHOLE as f64) as usize;
+    let last = range.scan.unwrap_or(if whole { every } else { SCAN }).max(2) - 1;
     // Exact at both ends, symmetric between them.
     let at = |k: usize| (range.from * (last - k) as f64 + range.to * k as f64) / last as f64;
     let mut values: Vec<f64> = (0..=last).map(at).collect();
@@ -262,7 +268,7 @@ mod tests {
     use super::*;
 
     fn range(from: f64, to: f64, scan: usize) -> Range {
-        Range { pointer: "/templates/0/arch/thickness".into(), from, to, scan }
+        Range { pointer: "/templates/0/arch/thickness".into(), from, to, scan: Some(scan) }
     }
 
     fn arch(voussoirs: usize) -> Scene {
@@ -278,6 +284,8 @@ mod tests {
         assert_eq!(values(&range(0.1, 0.3, 3), false), [0.1, 0.2, 0.3]);
         assert_eq!(values(&range(4.0, 7.0, 30), true), [4.0, 5.0, 6.0, 7.0]);
         let mut count = range(4.0, 7.0, 9);
+        count.scan = None;
+        assert_eq!(values(&count, true), [4.0, 5.0, 6.0, 7.0]);
         count.pointer = "/templates/0/arch/voussoirs".into();
         assert!(is_whole(&arch(8), &count));
         assert!(!is_whole(&arch(8), &range(0.1, 0.3, 3)));

@@ -1,6 +1,6 @@
 //! The options that would have to be given again for the same answer, as typed.
 
-use super::args::{Common, Critical, DIRECTIONS, Law, SCAN, Tilt};
+use super::args::{Common, Critical, DIRECTIONS, Law, Tilt};
 
 /// As typed, where it was given.
 pub fn skip_dead(given: bool) -> Vec<String> {
@@ -23,7 +23,7 @@ impl Critical {
         let ends: Vec<String> = self.between.iter().map(f64::to_string).collect();
         let range = [format!("--vary {}", super::question::quoted(&self.vary)), format!("--between {}", ends.join(" "))];
         let step = self.step.map(|s| format!("--step {s}"));
-        let scan = (self.scan != SCAN).then(|| format!("--scan {}", self.scan));
+        let scan = self.scan.map(|n| format!("--scan {n}"));
         range.into_iter().chain(step).chain(scan).collect()
     }
 }

@@ -28,9 +28,6 @@ pub struct Cli {
 /// So many directions a tilt is asked for where nothing is said.
 pub const DIRECTIONS: u16 = 8;
 
-/// So many values are scanned for a flip where nothing is said.
-pub const SCAN: u32 = 33;
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Color {
     Auto,
@@ -141,9 +138,9 @@ pub struct Critical {
     /// The range.
     #[arg(long, num_args = 2, value_names = ["A", "B"], allow_negative_numbers = true, value_parser = finite)]
     pub between: Vec<f64>,
-    /// Scan so many values, both ends among them.
-    #[arg(long, value_name = "N", default_value_t = SCAN, value_parser = clap::value_parser!(u32).range(2..=100_000))]
-    pub scan: u32,
+    /// Scan so many values, both ends among them [default: 33; of a count every one].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    pub scan: Option<u32>,
     /// Scan in steps of at most this size.
     #[arg(long, value_name = "SIZE", conflicts_with = "scan", allow_negative_numbers = true, value_parser = positive)]
     pub step: Option<f64>,

@@ -16,8 +16,8 @@ pub fn run(args: &Critical, terminal: &Terminal) -> anyhow::Result<Exit> {
         bail!("--between {from} {to}: the range is empty");
     }
     let scan = match args.step.map(|step| ((to - from) / step).abs().ceil() + 1.0) {
-        None => args.scan as usize,
-        Some(count) if count <= MOST => count as usize,
+        None => args.scan.map(|n| n as usize),
+        Some(count) if count <= MOST => Some(count as usize),
         Some(count) => bail!("--step {}: the range would take {count:.0} steps, at most {MOST} are taken", args.step.unwrap_or(0.0)),
     };
     let question = Question::open(&args.common)?;

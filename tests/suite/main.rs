@@ -7,6 +7,7 @@ mod bad_input;
 mod certificates;
 mod cli;
 mod coulomb;
+mod critical;
 mod determinism;
 mod invariance;
 mod layering;
