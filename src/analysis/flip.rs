@@ -63,12 +63,12 @@ pub fn refine(ask: &mut Ask, falls: Probe, stands: Probe, least: f64) -> Result<
     search.falling.push((search.falls.value, search.falls.unbalance()));
     let zero = search.zero()?;
     let slope = search.slope();
-    let linear = zero.is_some_and(|z| search.is_between(z)) && slope > 0.0;
+    let linear = zero.is_some_and(|z| search.reaches(z)) && slope > 0.0;
     if let (Some(zero), true) = (zero, linear) {
         search.close_in(zero, slope)?;
     }
     let (f, s) = (search.falls.value, search.stands.value);
-    let value = zero.filter(|_| linear).unwrap_or(0.5 * (f + s));
+    let value = zero.filter(|_| linear).map_or(0.5 * (f + s), |z| z.clamp(f.min(s), f.max(s)));
     Ok(Flip { value, falls: search.falls, stands: search.stands, linear, probes: search.probes })
 }
 
@@ -112,6 +112,16 @@ impl Search<'_, '_> {
         (value - self.falls.value) * (value - self.stands.value) < 0.0
     }
 
+    /// Whether a zero is believed: it lies between, or where a verdict cannot tell it from the standing end.
+    fn reaches(&self, zero: f64) -> bool {
+        self.is_between(zero) || (zero - self.stands.value).abs() * self.slope() <= 2.0 * self.told()
+    }
+
+    /// The unbalance that a verdict can tell from none.
+    fn told(&self) -> f64 {
+        self.falls.assessment.threshold.max(tolerance::UNBALANCE)
+    }
+
     fn scale(&self) -> f64 {
         self.falls.value.abs().max(self.stands.value.abs()).max(self.least)
     }
@@ -137,17 +147,17 @@ impl Search<'_, '_> {
         for _ in 0..MOST {
             let gap = (self.stands.value - self.falls.value).abs();
             if gap <= tolerance::CRITICAL_WIDTH * self.scale() {
-                return Ok(self.secant().filter(|&z| self.is_between(z)));
+                return Ok(self.secant().filter(|&z| self.reaches(z)));
             }
             let middle = 0.5 * (self.falls.value + self.stands.value);
-            let secant = self.secant().filter(|&z| self.is_between(z));
+            let secant = self.secant().filter(|&z| self.reaches(z));
             if let (Some(z), Some(l)) = (secant, last)
                 && f64::abs(z - l) <= tolerance * self.scale()
             {
                 return Ok(Some(z));
             }
             // Below the tolerance of a verdict what falls a little counts as standing.
-            let least = NEAREST * self.falls.assessment.threshold;
+            let least = NEAREST * self.told();
             if let Some(z) = secant.filter(|_| (1.0 - SHARE) * self.falls.unbalance() < least) {
                 return Ok(Some(z));
             }
@@ -170,8 +180,7 @@ impl Search<'_, '_> {
     /// Moves both ends as close to the zero as verdicts can be told.
     fn close_in(&mut self, zero: f64, slope: f64) -> Result<(), InputError> {
         let outwards = (self.falls.value - zero).signum();
-        let told = self.falls.assessment.threshold.max(tolerance::UNBALANCE) / slope;
-        let mut step = 1.1 * told;
+        let mut step = 1.1 * self.told() / slope;
         for _ in 0..MOST_OUTWARDS {
             let value = zero + outwards * step;
             if !self.is_between(value) || self.probe(value)? == Some(false) {
@@ -182,7 +191,8 @@ impl Search<'_, '_> {
         let mut step = 0.1 * tolerance::CRITICAL_WIDTH * self.scale();
         for _ in 0..MOST_OUTWARDS {
             let value = zero - outwards * step;
-            if (value - self.stands.value) * outwards <= 0.0 || self.probe(value)? == Some(true) {
+            let beyond = (self.stands.value - zero) * outwards < 0.0;
+            if (beyond && !self.is_between(value)) || self.probe(value)? == Some(true) {
                 break;
             }
             step *= 3.0;
