@@ -8,6 +8,7 @@ mod ends;
 pub mod flip;
 pub mod limit;
 mod prepare;
+pub mod thrust;
 pub mod tilt;
 
 pub use assess::{Assessment, assess};

@@ -233,6 +233,8 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
         Some(Claim::LoadFactor { value, .. }) => format!("the load factor {value}"),
         Some(Claim::DryLoadFactor { value }) => format!("the load factor {value} with dry friction"),
         Some(Claim::Unbounded { .. }) => "that the live load has no limit".into(),
+        Some(Claim::Thrust { value, .. }) => format!("a thrust of {value} N"),
+        Some(Claim::EndlessThrust { .. }) => "a thrust without end".into(),
         Some(Claim::Impossible) => "that it falls whatever the live load".into(),
     };
     if agrees {
