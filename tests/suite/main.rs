@@ -17,3 +17,4 @@ mod real;
 mod reference;
 mod scenes;
 mod strength;
+mod thrust;
