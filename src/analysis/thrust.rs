@@ -7,7 +7,7 @@
 //! Masonry Arch). Friction limits the lines of thrust as it does in the scene.
 
 use super::{
-    Bracket, Control, Law, Model, Outcome, assess,
+    Assessment, Bracket, Control, Law, Model, Outcome, assess,
     attempt::{Attempt, Candidate, Run, Rung, run, rung},
     flip::{Flip, Probe, refine},
 };
@@ -185,7 +185,9 @@ impl Problem<'_> {
             let p = self.at.bracket(assembly, interfaces, self.extreme, &forces, &rates);
             let balanced = p.statics.unbalance <= tolerance::LOOSE_BALANCE.max(p.statics.resolution) && p.statics.is_within_strength();
             let (bound, reached) = if self.extreme == Extreme::Least { (0, 1) } else { (1, 0) };
-            ends[bound] = [p.lower, p.upper][bound];
+            if p.is_admissible(self.total) {
+                ends[bound] = [p.lower, p.upper][bound];
+            }
             if balanced {
                 ends[reached] = [p.lower, p.upper][reached];
             }
@@ -275,4 +277,30 @@ fn shrunk(model: &Model, by: f64, control: &Control) -> Probe {
     let model = shrunk_model(model, by);
     let assessment = assess(&model.assembly, &model.interfaces, control);
     Probe { value: by, model, assessment }
+}
+
+/// The answer about the thrust on a support.
+#[derive(Clone, Debug)]
+pub struct Thrust {
+    /// Where, and in which direction.
+    pub at: ThrustAt,
+    /// Whether it stands at all.
+    pub standing: Assessment,
+    /// Least and greatest; `None` where no forces balance the loads, or that is undecided.
+    pub ends: Option<[ThrustEnd; 2]>,
+    /// The geometric safety factor.
+    pub factor: Option<Geometric>,
+}
+
+/// Least and greatest thrust and the geometric safety factor.
+pub fn answer(model: &Model, at: ThrustAt, control: &Control) -> Thrust {
+    let start = Instant::now();
+    let left = || Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0), ..*control };
+    let standing = assess(&model.assembly, &model.interfaces, control);
+    // Whether the loads produce them or not: there are forces.
+    let balanced = certificate::statics(&model.assembly, &model.interfaces, &standing.forces, 0.0).balanced;
+    let admissible = balanced && standing.verdict != Verdict::Unstable;
+    let ends = admissible.then(|| [Extreme::Least, Extreme::Greatest].map(|e| thrust(model, &at, e, &standing.forces, &left())));
+    let factor = admissible.then(|| geometric_factor(model, &left()));
+    Thrust { at, standing, ends, factor }
 }

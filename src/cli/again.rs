@@ -1,6 +1,6 @@
 //! The options that would have to be given again for the same answer, as typed.
 
-use super::args::{Common, Critical, DIRECTIONS, Law, Tilt};
+use super::args::{Common, Critical, DIRECTIONS, Law, Thrust, Tilt};
 
 /// As typed, where it was given.
 pub fn skip_dead(given: bool) -> Vec<String> {
@@ -25,6 +25,15 @@ impl Critical {
         let step = self.step.map(|s| format!("--step {s}"));
         let scan = self.scan.map(|n| format!("--scan {n}"));
         range.into_iter().chain(step).chain(scan).collect()
+    }
+}
+
+impl Thrust {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let support = self.support.as_ref().map(|s| format!("--support {}", super::question::quoted(s)));
+        let direction = self.direction.map(|[x, y, z]| format!("--direction {x},{y},{z}"));
+        support.into_iter().chain(direction).collect()
     }
 }
 

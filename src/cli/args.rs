@@ -73,6 +73,13 @@ pub enum Verb {
     /// since there may be several flips; each is narrowed to 1e-9 of its value by following the least unbalance to zero, and verdicts with
     /// proof stand on both sides of it. Exit code 0 if there is a flip, 1 if it stands or falls throughout, 3 if that stays open.
     Critical(Critical),
+    /// How hard does it push a support, at least and at most?
+    ///
+    /// The thrust is the horizontal component of the force on a support. Forces inside the friction cones reach both ends of its range, and
+    /// mechanisms in which the support yields or is pushed in prove that there are no others. With them come the line of thrust at every
+    /// section and the geometric safety factor: how far all sections can be shrunk and still hold a line of thrust.
+    /// Exit code 0 if both ends are found or have no limit, 1 if the scene falls, 3 if that stays open.
+    Thrust(Thrust),
     /// Make a scene from a template.
     ///
     /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON on the right:
@@ -144,6 +151,21 @@ pub struct Critical {
     /// Scan in steps of at most this size.
     #[arg(long, value_name = "SIZE", conflicts_with = "scan", allow_negative_numbers = true, value_parser = positive)]
     pub step: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub struct Thrust {
+    #[command(flatten)]
+    pub common: Common,
+    /// The support; the first one that carries a free block where none is named.
+    #[arg(long, value_name = "ID")]
+    pub support: Option<String>,
+    /// The direction of the thrust (its part across gravity); outwards from the blocks' centre of mass where none is given.
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
+    pub direction: Option<[f64; 3]>,
+    /// Draw the blocks and the two lines of thrust, seen across the thrust, to this file.
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
 }
 
 /// What every question takes.

@@ -14,4 +14,5 @@ mod output;
 mod question;
 pub mod schema;
 pub mod terminal;
+pub mod thrust;
 pub mod tilt;

@@ -4,7 +4,9 @@ pub mod critical;
 pub mod json;
 pub mod read;
 pub mod result;
+pub mod svg;
 pub mod text;
+pub mod thrust;
 pub mod verify;
 
 pub use result::ResultFile;

@@ -12,7 +12,10 @@ use crate::{
         mechanism::{Mechanism, Motion},
     },
 };
-use super::critical::{CriticalResult, CriticalValue};
+use super::{
+    critical::{CriticalResult, CriticalValue},
+    thrust::{ThrustAnswer, ThrustResult},
+};
 use serde::{Deserialize, Serialize};
 
 /// The version of the format.
@@ -53,6 +56,9 @@ pub struct ResultFile {
     /// Critical: the flips with the verdicts on both sides of each.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub critical: Option<CriticalResult>,
+    /// Thrust: the evidence for both ends and the line of thrust.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thrust: Option<ThrustResult>,
     /// The mechanism in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
@@ -80,6 +86,8 @@ pub enum Question {
     Tilt,
     /// At what value of a number in the scene does the verdict flip?
     Critical,
+    /// How hard does it push a support?
+    Thrust,
 }
 
 /// The scene a result is about.
@@ -122,6 +130,9 @@ pub struct Answer {
     /// The values at which the verdict flips.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub critical: Option<Vec<CriticalValue>>,
+    /// The range of the thrust on a support, and the geometric safety factor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thrust: Option<ThrustAnswer>,
 }
 
 /// A load factor.
@@ -275,6 +286,7 @@ impl ResultFile {
             dry: None,
             coulomb_state: None,
             critical: None,
+            thrust: None,
             mechanism: None,
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),

@@ -5,6 +5,7 @@ use super::{
     ResultFile,
     critical,
     result::{Answer, Certificate, Direction, DryResult, LoadFactorAnswer, Question, words},
+    thrust,
 };
 use crate::{
     analysis::{Model, Outcome, coulomb::Found, prepare, tilt::tilted},
@@ -23,7 +24,7 @@ use std::collections::BTreeSet;
 
 /// Saved and recomputed numbers of the answer agree within this × their size. Larger: edited digits pass.
 /// Smaller: rounding of another machine's arithmetic is taken for tampering.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 
 /// What the verification of a result found.
 #[derive(Clone, Debug, Default)]
@@ -69,8 +70,10 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
         }
         Question::Tilt => tilts(&mut all, file, &model),
         Question::Critical => critical::verify(&mut all, file, scene),
+        Question::Thrust => thrust::verify(&mut all, file, &model),
     }
-    let strangers = [file.question != Question::Critical && file.critical.is_some()];
+    let strangers =
+        [file.question != Question::Critical && file.critical.is_some(), file.question != Question::Thrust && file.thrust.is_some()];
     if strangers.contains(&true) {
         all.part("form", failure("the file holds answers to a question that was not asked"));
     }
@@ -84,7 +87,7 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
             _ => Ok(model.clone()),
         };
         let findings = match (file.question, loaded) {
-            (Question::Assess | Question::Critical, _) => failure("the file holds a load factor that was not asked for"),
+            (Question::Assess | Question::Critical | Question::Thrust, _) => failure("the file holds a load factor that was not asked for"),
             (_, Err(e)) => failure(e.to_string()),
             (_, Ok(model)) => dry_friction(&model, dry),
         };
@@ -200,8 +203,9 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
     let form = match question {
         Question::Assess => answer.verdict.is_some() && answer.load_factor.is_none(),
         Question::Limit | Question::Tilt => answer.verdict.is_none() && answer.unbalance.is_none() && answer.load_factor.is_some(),
-        Question::Critical => false,
+        Question::Critical | Question::Thrust => false,
     } && answer.critical.is_none()
+        && answer.thrust.is_none()
         && (question == Question::Tilt || answer.tilt_deg.is_none() && answer.toward.is_none());
     if !form {
         f.fails.push("the answer is not one to its question".into());

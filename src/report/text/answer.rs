@@ -52,6 +52,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
             }
         }
         Question::Critical => super::critical::title(file),
+        Question::Thrust => super::thrust::title(file),
     };
     page.title(&file.scene.name, text, role);
 }
@@ -61,6 +62,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     match file.question {
         Question::Assess => return verdict(page, file),
         Question::Critical => return super::critical::why(page, file),
+        Question::Thrust => return super::thrust::why(page, file),
         Question::Limit | Question::Tilt => {}
     }
     let tilt = file.question == Question::Tilt;
@@ -107,7 +109,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     dead_load(page, file);
 }
 
-fn verdict(page: &mut Page, file: &ResultFile) {
+pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
     let answer = &file.answer;
     let (lower, upper) = answer.unbalance.map_or((0.0, f64::NAN), |b| (b.lower, b.upper));
     match answer.verdict {
