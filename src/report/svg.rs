@@ -19,10 +19,10 @@ const MARGIN: f64 = 24.0;
 const TALL: f64 = 1.5;
 
 const STYLE: &str = "\
-svg{background:#ffffff}.block{fill:#e7e2d8;stroke:#6b6558}.support{fill:#c9c9c9;stroke:#6b6558}.block,.support{stroke-width:1;stroke-linejoin:round}\
+.page{fill:#ffffff}.block{fill:#e7e2d8;stroke:#6b6558}.support{fill:#c9c9c9;stroke:#6b6558}.block,.support{stroke-width:1;stroke-linejoin:round}\
 .least{stroke:#0b62a8}.greatest{stroke:#b5430c}.line{fill:none;stroke-width:2.5;stroke-linecap:round}.hinge{fill:#ffffff;stroke-width:2}\
 text{font:15px sans-serif;fill:#222222}\
-@media (prefers-color-scheme:dark){svg{background:#16181c}.block{fill:#3a3a36;stroke:#a8a294}.support{fill:#55585e;stroke:#a8a294}\
+@media (prefers-color-scheme:dark){.page{fill:#16181c}.block{fill:#3a3a36;stroke:#a8a294}.support{fill:#55585e;stroke:#a8a294}\
 .least{stroke:#6cb8ff}.greatest{stroke:#ff9a5c}.hinge{fill:#16181c}text{fill:#e6e6e6}}";
 
 /// The plane that is looked at: right, up, and towards the eye.
@@ -91,7 +91,7 @@ pub fn thrust(model: &Model, thrust: &Thrust) -> String {
     let legend = 30.0;
     let (width, height) = (WIDTH, view.height() + legend);
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\">\n<title>{}</title>\n<style>{STYLE}</style>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\">\n<title>{}</title>\n<style>{STYLE}</style>\n<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n",
         escape(&format!("{}: thrust on {}", model.assembly.name, model.assembly.blocks[thrust.at.support].id))
     );
     blocks(&mut svg, model, &view);

@@ -89,10 +89,27 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
     }
     for (label, line) in [("line, least", least as fn(&Section) -> Option<&Line>), ("greatest", greatest)] {
         let list: Vec<(&Section, &Line)> = proof.sections.iter().filter_map(|s| Some((s, line(s)?))).collect();
-        let width = list.iter().map(|(s, _)| name(s).chars().count()).max().unwrap_or(0);
-        let lines: Vec<String> = list.iter().map(|(s, l)| format!("{:<width$}  {}", name(s), words(l))).collect();
-        page.row(label, cut(&lines, SHOWN, options));
+        page.row(label, cut(&table(&list), SHOWN, options));
     }
+    let legend = "normal and shear force, eccentricity (of the way to the edge), centre of pressure; kern: the whole section presses";
+    if !proof.sections.is_empty() {
+        page.row("", [legend.to_string()]);
+    }
+}
+
+/// One line a section: normal and shear force, eccentricity with the share of the section used, centre of pressure, where it lies.
+fn table(list: &[(&Section, &Line)]) -> Vec<String> {
+    let body = list.iter().map(|(s, l)| {
+        let [normal, shear, e, at, place] = columns(l);
+        [name(s), normal, shear, e, at, place]
+    });
+    let rows: Vec<[String; 6]> = body.collect();
+    let width: Vec<usize> = (0..6).map(|k| rows.iter().map(|r| r[k].chars().count()).max().unwrap_or(0)).collect();
+    let line = |r: &[String; 6]| {
+        let cells: Vec<String> = r.iter().zip(&width).map(|(c, w)| format!("{c:<w$}")).collect();
+        cells.join("  ").trim_end().to_string()
+    };
+    rows.iter().map(line).collect()
 }
 
 fn least(s: &Section) -> Option<&Line> {
@@ -107,13 +124,14 @@ fn name(s: &Section) -> String {
     format!("{} | {}", s.between[0], s.between[1])
 }
 
-fn words(l: &Line) -> String {
+/// Number by number, in columns.
+fn columns(l: &Line) -> [String; 5] {
     let place = match (l.inside, l.used >= 1.0 - tolerance::AT_EDGE, l.in_kern) {
         (false, ..) => "outside",
-        (_, true, _) => "at the edge: hinge",
-        (_, _, true) => "in the kern",
-        _ => "inside, out of the kern",
+        (_, true, _) => "hinge",
+        (_, _, true) => "kern",
+        _ => "inside",
     };
-    let share = 100.0 * l.used;
-    format!("N {} N, V {} N, e {} m ({share:.1} %), at {}: {place}", short(l.normal), short(l.shear), short(l.eccentricity), point(l.at))
+    let share = format!("{} m ({:.1} %)", short(l.eccentricity), 100.0 * l.used);
+    [format!("{} N", short(l.normal)), format!("{} N", short(l.shear)), share, point(l.at), place.into()]
 }
