@@ -71,8 +71,7 @@ pub fn outwards(model: &Model, support: usize) -> Option<Vector3<f64>> {
     let assembly = &model.assembly;
     let mass: f64 = assembly.free().map(|i| assembly.blocks[i].mass).sum();
     let middle = assembly.free().map(|i| assembly.blocks[i].centroid * assembly.blocks[i].mass).sum::<Vector3<f64>>() / mass;
-    let touching: Vec<Vector3<f64>> =
-        model.interfaces.list.iter().filter(|f| f.a == support || f.b == support).map(centroid).collect();
+    let touching: Vec<Vector3<f64>> = model.interfaces.list.iter().filter(|f| f.a == support || f.b == support).map(centroid).collect();
     let contact = touching.iter().sum::<Vector3<f64>>() / touching.len().max(1) as f64;
     let size = touching.iter().map(|p| (p - middle).norm()).fold(0.0, f64::max);
     if touching.is_empty() {

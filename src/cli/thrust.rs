@@ -46,13 +46,16 @@ fn place(args: &Thrust, model: &Model) -> Result<ThrustAt, InputError> {
     };
     let id = &blocks[support].id;
     if !model.interfaces.list.iter().any(|f| f.a == support || f.b == support) {
-        return Err(error(format!("support {id} touches no free block: there is no thrust on it")).hint("`voussoir check` lists near misses"));
+        return Err(
+            error(format!("support {id} touches no free block: there is no thrust on it")).hint("`voussoir check` lists near misses")
+        );
     }
     let direction = match args.direction {
         Some(d) => level(&model.assembly.gravity, d.into(), nalgebra::Vector3::from(d).norm())
             .ok_or_else(|| error(format!("--direction {d:?} is parallel to gravity")).hint("give one across gravity, such as 1,0"))?,
-        None => outwards(model, support)
-            .ok_or_else(|| error(format!("support {id} lies straight below the blocks: no direction is outwards")).hint("give --direction X,Y"))?,
+        None => outwards(model, support).ok_or_else(|| {
+            error(format!("support {id} lies straight below the blocks: no direction is outwards")).hint("give --direction X,Y")
+        })?,
     };
     Ok(ThrustAt { support, direction: direction.into() })
 }

@@ -1,6 +1,10 @@
 //! The result file (`"format": "voussoir-result/1"`): the question, the answer and its evidence, complete enough to be
 //! verified without a solver.
 
+use super::{
+    critical::{CriticalResult, CriticalValue},
+    thrust::{ThrustAnswer, ThrustResult},
+};
 use crate::{
     analysis::{Assessment, Attempt, Bracket, Law, LoadFactor, Model, Outcome, Tilt, Timings, coulomb},
     error::Finding,
@@ -11,10 +15,6 @@ use crate::{
         evidence::{BlockRate, ContactForces, write_forces, write_rates},
         mechanism::{Mechanism, Motion},
     },
-};
-use super::{
-    critical::{CriticalResult, CriticalValue},
-    thrust::{ThrustAnswer, ThrustResult},
 };
 use serde::{Deserialize, Serialize};
 

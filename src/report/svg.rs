@@ -101,7 +101,14 @@ pub fn thrust(model: &Model, thrust: &Thrust) -> String {
         line(&mut svg, model, &view, end, class);
         let y = height - 0.5 * legend;
         let text = format!("{class} thrust {:.6e} N", end.value);
-        put(&mut svg, format_args!("<path class=\"line {class}\" d=\"M{at:.1} {y:.1}h36\"/><text x=\"{:.1}\" y=\"{:.1}\">{text}</text>\n", at + 44.0, y + 5.0));
+        put(
+            &mut svg,
+            format_args!(
+                "<path class=\"line {class}\" d=\"M{at:.1} {y:.1}h36\"/><text x=\"{:.1}\" y=\"{:.1}\">{text}</text>\n",
+                at + 44.0,
+                y + 5.0
+            ),
+        );
         at += 0.5 * (WIDTH - 2.0 * MARGIN);
     }
     svg.push_str("</svg>\n");

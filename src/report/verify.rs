@@ -2,8 +2,7 @@
 //! against the claim. Nothing that the file says about itself is believed.
 
 use super::{
-    ResultFile,
-    critical,
+    ResultFile, critical,
     result::{Answer, Certificate, Direction, DryResult, LoadFactorAnswer, Question, words},
     thrust,
 };

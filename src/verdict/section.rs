@@ -32,25 +32,31 @@ pub struct SectionForce {
 
 /// The resultants at all interfaces, in their order.
 pub fn sections(interfaces: &Interfaces, forces: &Forces) -> Vec<SectionForce> {
-    interfaces.list.iter().zip(forces).enumerate().map(|(k, (face, forces))| {
-        let n = face.frame.n;
-        let total: Vector3<f64> = forces.iter().map(|f| f.force).sum();
-        let normal = n.dot(&total);
-        let outline = Outline::new(face);
-        let flat = |p: &Vector3<f64>| outline.flat(face, p);
-        let moment: P2 = face.points.iter().zip(forces).map(|(p, f)| (flat(p) - outline.centroid) * n.dot(&f.force)).sum();
-        let e = if normal == 0.0 { P2::zeros() } else { moment / normal };
-        let shift = face.frame.t1 * e.x + face.frame.t2 * e.y;
-        SectionForce {
-            interface: k,
-            normal,
-            shear: (total - n * normal).norm(),
-            at: outline.middle(face) + shift,
-            eccentricity: shift,
-            used: outline.used(e),
-            in_kern: outline.in_kern(e),
-        }
-    }).collect()
+    interfaces
+        .list
+        .iter()
+        .zip(forces)
+        .enumerate()
+        .map(|(k, (face, forces))| {
+            let n = face.frame.n;
+            let total: Vector3<f64> = forces.iter().map(|f| f.force).sum();
+            let normal = n.dot(&total);
+            let outline = Outline::new(face);
+            let flat = |p: &Vector3<f64>| outline.flat(face, p);
+            let moment: P2 = face.points.iter().zip(forces).map(|(p, f)| (flat(p) - outline.centroid) * n.dot(&f.force)).sum();
+            let e = if normal == 0.0 { P2::zeros() } else { moment / normal };
+            let shift = face.frame.t1 * e.x + face.frame.t2 * e.y;
+            SectionForce {
+                interface: k,
+                normal,
+                shear: (total - n * normal).norm(),
+                at: outline.middle(face) + shift,
+                eccentricity: shift,
+                used: outline.used(e),
+                in_kern: outline.in_kern(e),
+            }
+        })
+        .collect()
 }
 
 /// The centroid of an interface's hull, m.

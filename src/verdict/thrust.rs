@@ -157,10 +157,7 @@ pub(super) fn verify(
         format!("the mechanism is admissible: its rounding could hide at most {:.1e} of the total load", p.behind / total),
     );
     let holds = p.lower >= lower - width && p.upper <= upper + width;
-    f.require(
-        holds,
-        format!("bracket recomputed: [{:.9e}, {:.9e}] N, claimed [{lower:.9e}, {upper:.9e}] N", p.lower, p.upper),
-    );
+    f.require(holds, format!("bracket recomputed: [{:.9e}, {:.9e}] N, claimed [{lower:.9e}, {upper:.9e}] N", p.lower, p.upper));
     let open = p.upper - p.lower;
     if open.is_nan() || open > 2.0 * width {
         f.fails.push(format!("the two sides do not meet: bracket {open:.1e} N wide, allowed {:.1e} N", 2.0 * width));

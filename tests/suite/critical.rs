@@ -116,7 +116,12 @@ fn least_thickness_of_other_arches() {
     for (case, friction, parameters, value) in [
         ("B26", 0.36, json!({ "voussoirs": 27 }), 0.1408908492734099),
         ("B32", NO_SLIDING, json!({ "voussoirs": 16, "profile": "pointed", "eccentricity": 0.25 }), 0.06343091660240589),
-        ("B34", NO_SLIDING, json!({ "voussoirs": 16, "profile": "elliptical", "radius": null, "span": 2, "rise": 0.8 }), 0.10746235331988147),
+        (
+            "B34",
+            NO_SLIDING,
+            json!({ "voussoirs": 16, "profile": "elliptical", "radius": null, "span": 2, "rise": 0.8 }),
+            0.10746235331988147,
+        ),
         ("B43", NO_SLIDING, json!({ "voussoirs": 24, "joints": "vertical", "thickness_along": "normal" }), 0.10894485320760622),
     ] {
         reference(case, value);
@@ -131,10 +136,7 @@ fn least_width_of_buttresses() {
     // B39: class of Ochsendorf (2002); linear programming; the same without sliding.
     reference("B39", 0.6607716013125127);
     for friction in [0.6, NO_SLIDING] {
-        let scene = arch(
-            friction,
-            json!({ "radius": 2, "thickness": 0.3, "voussoirs": 16, "buttresses": { "width": 1, "height": 4 } }),
-        );
+        let scene = arch(friction, json!({ "radius": 2, "thickness": 0.3, "voussoirs": 16, "buttresses": { "width": 1, "height": 4 } }));
         least("B39", &scene, "/templates/0/arch/buttresses/width", 0.6607716013125127, 1e-8);
     }
 }
@@ -142,7 +144,8 @@ fn least_width_of_buttresses() {
 #[test]
 fn a_greatest_value_is_found_as_well() {
     // A block of width 1 on a slope given by gravity (x, −1) slides at x = μ; the range is given downwards.
-    let scene = crate::ask::scene(0.5, json!([crate::ask::ground(), crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])]), json!({}));
+    let scene =
+        crate::ask::scene(0.5, json!([crate::ask::ground(), crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])]), json!({}));
     let (_, file) = ask(&scene, "/gravity/0", 2.0, 0.0, 6);
     let found = file.answer.critical.unwrap()[0];
     assert!((found.value - 0.5).abs() < 1e-9, "{}", found.value);
@@ -152,7 +155,8 @@ fn a_greatest_value_is_found_as_well() {
 #[test]
 fn every_flip_of_the_scan_is_found() {
     // The same slope on both sides: it slides at −μ and at μ.
-    let scene = crate::ask::scene(0.5, json!([crate::ask::ground(), crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])]), json!({}));
+    let scene =
+        crate::ask::scene(0.5, json!([crate::ask::ground(), crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])]), json!({}));
     let (_, file) = ask(&scene, "/gravity/0", -1.0, 2.0, 10);
     let values: Vec<f64> = file.answer.critical.unwrap().iter().map(|c| c.value).collect();
     assert_eq!(values.len(), 2);
@@ -162,7 +166,8 @@ fn every_flip_of_the_scan_is_found() {
 #[test]
 fn a_window_between_the_values_of_the_scan_is_not_missed() {
     // Stands between −0.02 and 0.02 only; the scan hits −1, −0.2, 0.6 and 1.4.
-    let scene = crate::ask::scene(0.02, json!([crate::ask::ground(), crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])]), json!({}));
+    let scene =
+        crate::ask::scene(0.02, json!([crate::ask::ground(), crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])]), json!({}));
     let (answer, file) = ask(&scene, "/gravity/0", -1.0, 1.4, 4);
     assert!(answer.scan.iter().all(|s| matches!(s.outcome, Ok((Verdict::Unstable, _)))));
     let values: Vec<f64> = file.answer.critical.unwrap().iter().map(|c| c.value).collect();

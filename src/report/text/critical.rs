@@ -78,8 +78,12 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         ));
     }
     match exhausted(file) {
-        Some(verdict) => page.paragraph(&format!("It {} at every value of the scan; at both ends of the range that is proved.", verb(verdict))),
-        None if list.is_empty() => page.paragraph("No flip was found whose two sides are proved, and the verdict is not the same throughout."),
+        Some(verdict) => {
+            page.paragraph(&format!("It {} at every value of the scan; at both ends of the range that is proved.", verb(verdict)))
+        }
+        None if list.is_empty() => {
+            page.paragraph("No flip was found whose two sides are proved, and the verdict is not the same throughout.")
+        }
         None => {}
     }
     page.paragraph(&unseen(c));
@@ -113,7 +117,16 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
         words.push(format!("no scene at {}", tally(None)));
     }
     let [a, b] = c.between;
-    page.row("scan", [format!("{} of {} from {a} to {b}: {}; {} in all", count(c.scan.len(), "value"), c.vary, words.join(", "), count(c.scenes, "scene"))]);
+    page.row(
+        "scan",
+        [format!(
+            "{} of {} from {a} to {b}: {}; {} in all",
+            count(c.scan.len(), "value"),
+            c.vary,
+            words.join(", "),
+            count(c.scenes, "scene")
+        )],
+    );
     let errors: Vec<String> = c.scan.iter().filter_map(|s| Some(format!("{}: {}", s.value, s.error.as_ref()?))).collect();
     let open = c.scan.iter().filter(|s| s.verdict == Some(Verdict::Undecided)).map(|s| format!("{}: undecided", s.value));
     let lines: Vec<String> = errors.into_iter().chain(open).chain(c.notes.iter().cloned()).collect();

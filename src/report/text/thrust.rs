@@ -15,8 +15,15 @@ use crate::{
     verdict::Verdict,
 };
 
-fn value(v: &ThrustValue) -> Option<String> {
-    Some(format!("{} N", bracketed(v.value?, v.lower?, v.upper?)))
+fn value(v: &ThrustValue, least: f64) -> Option<String> {
+    let (value, lower, upper) = (v.value?, v.lower?, v.upper?);
+    Some(format!("{} N", bracketed(value, lower.min(value - least), upper.max(value + least))))
+}
+
+/// Smaller thrusts beside what the sections carry are rounding, N.
+fn resolution(file: &ResultFile) -> f64 {
+    let lines = file.thrust.iter().flat_map(|t| &t.sections).flat_map(|s| [s.least, s.greatest]).flatten();
+    0.5 * tolerance::THRUST_FLOOR * lines.map(|l| l.normal.abs()).fold(0.0, f64::max)
 }
 
 /// The first line.
@@ -27,8 +34,8 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
             _ => ("undecided".into(), Role::Unsure),
         };
     };
-    let id = &t.support;
-    let text = match (value(&t.least), value(&t.greatest), t.least.status, t.greatest.status) {
+    let (id, unit) = (&t.support, resolution(file));
+    let text = match (value(&t.least, unit), value(&t.greatest, unit), t.least.status, t.greatest.status) {
         (Some(low), Some(high), ..) => format!("thrust on {id} from {low} to {high}"),
         (Some(low), None, _, Outcome::Unbounded) => format!("thrust on {id} from {low} without end"),
         (None, Some(high), Outcome::Unbounded, _) => format!("thrust on {id} up to {high}, in the other direction without end"),
@@ -66,7 +73,10 @@ fn factor(t: &ThrustAnswer, file: &ResultFile) -> String {
                 "Geometric safety factor {}: all sections can be shrunk about their centroids by this and still hold a line of thrust (Heyman 1982).",
                 fixed(v, super::number::decimals(v, f.lower, upper).min(6))
             ),
-            _ => format!("Geometric safety factor above {}: lines of thrust pass as close to the middle of every section as one likes.", short(f.lower)),
+            _ => format!(
+                "Geometric safety factor above {}: lines of thrust pass as close to the middle of every section as one likes.",
+                short(f.lower)
+            ),
         },
         (None, Some(why)) => format!("No geometric safety factor: {why}."),
         (None, None) => "No geometric safety factor came out.".into(),
@@ -79,6 +89,8 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
     for (label, v, certificate) in [("least", &t.least, &proof.least), ("greatest", &t.greatest, &proof.greatest)] {
         let text = match (v.status, v.value, v.lower, v.upper) {
             (Outcome::Found, Some(value), Some(lower), Some(upper)) => {
+                let unit = resolution(file);
+                let (lower, upper) = (lower.min(value - unit), upper.max(value + unit));
                 let [low, high] = ends(value, lower, upper);
                 format!("{} N, between {low} and {high} N", bracketed(value, lower, upper))
             }
