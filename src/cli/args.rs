@@ -143,7 +143,7 @@ pub struct Critical {
     #[arg(long, value_name = "POINTER")]
     pub vary: String,
     /// The range.
-    #[arg(long, num_args = 2, value_names = ["A", "B"], allow_negative_numbers = true, value_parser = finite)]
+    #[arg(long, required = true, num_args = 2, value_names = ["A", "B"], allow_negative_numbers = true, value_parser = finite)]
     pub between: Vec<f64>,
     /// Scan so many values, both ends among them [default: 33; of a count every one].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=100_000))]
