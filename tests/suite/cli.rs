@@ -653,8 +653,8 @@ fn the_commands_that_come_next_ask_the_same_question() {
     let critical = ["critical", "--vary", "/gravity/0", "--between", "0", "9", "--step", "3", "--law", "associative"];
     let text = out(&expect(YES, structure(&critical, "block-on-tilting-table")));
     assert!(text.contains(".json --vary /gravity/0 --between 0 9 --step 3 --law associative --save result.json"), "{text}");
-    let text = out(&expect(YES, structure(&["thrust", "--support", "table", "--direction", "1,0"], "block-on-tilting-table")));
-    assert!(text.contains(".json --support table --direction 1,0,0 --save result.json"), "{text}");
+    let text = out(&expect(YES, structure(&["thrust", "--support", "ground", "--direction", "1,0"], "block-on-tilting-table")));
+    assert!(text.contains(".json --support ground --direction 1,0,0 --save result.json"), "{text}");
     let text = out(&expect(YES, structure(&["tilt"], "block-on-tilting-table")));
     assert!(text.contains("block-on-tilting-table.json --save "), "{text}");
 }
