@@ -9,5 +9,5 @@ pub mod text;
 pub mod thrust;
 pub mod verify;
 
-pub use result::ResultFile;
+pub use result::{Leaning, ResultFile};
 pub use verify::verify;

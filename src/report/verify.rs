@@ -79,16 +79,10 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
     if let Some(dead) = &file.dead_load {
         all.part("dead load alone", answer(&model, Question::Assess, &dead.answer, &dead.certificate).0);
     }
-    if let Some(dry) = &file.dry {
-        let toward = file.answer.toward.map(Vector3::from);
-        let loaded = match (file.question, toward) {
-            (Question::Tilt, Some(toward)) => tilted(&model, toward, dry.value.unwrap_or(0.0)),
-            _ => Ok(model.clone()),
-        };
-        let findings = match (file.question, loaded) {
-            (Question::Assess | Question::Critical | Question::Thrust, _) => failure("the file holds a load factor that was not asked for"),
-            (_, Err(e)) => failure(e.to_string()),
-            (_, Ok(model)) => dry_friction(&model, dry),
+    if let Some(dry) = file.dry.as_ref().filter(|_| file.question != Question::Tilt) {
+        let findings = match file.question {
+            Question::Assess | Question::Critical | Question::Thrust => failure("the file holds a load factor that was not asked for"),
+            _ => dry_friction(&model, dry),
         };
         all.part("dry friction", findings);
     }
@@ -101,7 +95,12 @@ fn dry_friction(model: &Model, dry: &DryResult) -> Findings {
         (None, None) if dry.found == Found::Undecided => {
             Findings { holds: vec!["undecided: nothing is claimed".into()], fails: Vec::new() }
         }
-        (Some(claim @ Claim::DryLoadFactor { value }), Some(said)) if *value == said && dry.found != Found::Undecided => {
+        (None, None) if dry.found == Found::Unlimited => {
+            Findings { holds: vec!["no limit: computed, nothing is claimed".into()], fails: Vec::new() }
+        }
+        (Some(claim @ Claim::DryLoadFactor { value }), Some(said))
+            if *value == said && matches!(dry.found, Found::NothingSlides | Found::FixedPoint) =>
+        {
             let (assembly, interfaces) = (&model.assembly, &model.interfaces);
             let read = || {
                 Ok::<_, String>((
@@ -143,11 +142,9 @@ fn counts(file: &ResultFile, model: &Model) -> Findings {
 
 /// The directions of a tilt, each with its turned loads, and the least of them as the answer.
 fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
-    let main = Direction { answer: file.answer.clone(), certificate: file.certificate.clone() };
+    let main = Direction { answer: file.answer.clone(), certificate: file.certificate.clone(), dry: file.dry.clone() };
     let list = if file.directions.is_empty() { std::slice::from_ref(&main) } else { &file.directions };
-    // A direction without an angle comes first: it must not hide behind the others.
-    let key = |d: &Direction| d.answer.tilt_deg.unwrap_or(f64::NEG_INFINITY);
-    let least = (0..list.len()).min_by(|&i, &j| key(&list[i]).total_cmp(&key(&list[j]))).unwrap_or(0);
+    let least = (0..list.len()).min_by(|&i, &j| list[i].governing().total_cmp(&list[j].governing())).unwrap_or(0);
     if !file.directions.is_empty() {
         let mut f = Findings::default();
         require(&mut f, main == list[least], format!("the answer is the least of {} directions, with its evidence", list.len()));
@@ -158,14 +155,21 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
         let title = format!("tilt towards {}", super::text::number::point(toward));
         let load_factor = direction.answer.load_factor.and_then(|l| l.value).unwrap_or(0.0);
         match tilted(model, Vector3::from(toward), load_factor) {
-            Err(e) => all.part(title, failure(e.to_string())),
+            Err(e) => all.part(title.clone(), failure(e.to_string())),
             Ok(turned) => {
                 let (mut f, rates) = answer(&turned, Question::Tilt, &direction.answer, &direction.certificate);
                 if index == least {
                     mechanism_words(&mut f, file, &turned, rates.as_deref());
                 }
-                all.part(title, f);
+                all.part(title.clone(), f);
             }
+        }
+        if let Some(dry) = &direction.dry {
+            let findings = match tilted(model, Vector3::from(toward), dry.value.unwrap_or(0.0)) {
+                Err(e) => failure(e.to_string()),
+                Ok(turned) => dry_friction(&turned, dry),
+            };
+            all.part(format!("{title}, dry friction"), findings);
         }
     }
 }

@@ -47,6 +47,8 @@ pub struct Statics {
     pub cone_excess: f64,
     /// Greatest use of a compressive strength (at most this; above 1 it is what the forces really need).
     pub crushing: f64,
+    /// The interface of that.
+    pub most_pressed: usize,
     /// Whether every block is balanced, each up to [`tolerance::UNBALANCE`] or what rounding of its own forces amounts to.
     pub balanced: bool,
 }
@@ -69,8 +71,8 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
         .collect();
     let mut rounding: Vec<f64> = residuals.iter().map(|r| r.force.norm()).collect();
     let most = tolerance::ROUNDING_FORCE * assembly.free().map(|i| load_scale(assembly, i)).sum::<f64>();
-    let (mut excess, mut crushing) = (0.0_f64, 0.0_f64);
-    for (face, forces) in interfaces.list.iter().zip(forces) {
+    let (mut excess, mut crushing, mut most_pressed) = (0.0_f64, 0.0_f64, 0);
+    for (index, (face, forces)) in interfaces.list.iter().zip(forces).enumerate() {
         let strength = Strength::of(face);
         let uplift = face.uplift();
         for (k, (point, Wrench { force, moment })) in face.points.iter().zip(forces).enumerate() {
@@ -89,7 +91,10 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             }
         }
         if let Some(used) = strength.crushing(face, forces) {
-            crushing = if used.is_nan() { f64::INFINITY } else { crushing.max(used) };
+            let used = if used.is_nan() { f64::INFINITY } else { used };
+            if used > crushing {
+                (crushing, most_pressed) = (used, index);
+            }
         }
     }
     let (mut unbalance, mut worst, mut resolution, mut balanced) = (0.0, 0, 0.0_f64, true);
@@ -107,7 +112,7 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             (unbalance, worst) = (u, i);
         }
     }
-    Statics { residuals, unbalance, worst, resolution, cone_excess: excess, crushing, balanced }
+    Statics { residuals, unbalance, worst, resolution, cone_excess: excess, crushing, most_pressed, balanced }
 }
 
 /// Rounding counted per addition: one unit in the last place.

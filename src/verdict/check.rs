@@ -143,7 +143,7 @@ pub fn verify(
 /// Forces and a mechanism that obey Coulomb's law together.
 fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], value: f64) {
     let s = certificate::statics(assembly, interfaces, forces, value);
-    cones(f, "", &s);
+    cones(f, "", assembly, interfaces, &s);
     let allowed = tolerance::DRY_BALANCE.max(s.resolution);
     f.require(
         s.unbalance <= allowed,
@@ -156,11 +156,23 @@ fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &
         map <= tolerance::DRY_LAW,
         format!("forces and mechanism obey Coulomb's law: natural map {map:.1e}, allowed {:.0e}", tolerance::DRY_LAW),
     );
+    let in_loads = dry_map(assembly, interfaces, forces, rates);
+    f.require(
+        in_loads <= tolerance::NATURAL_MAP,
+        format!("with rates as the live load drives them: natural map {in_loads:.1e}, allowed {:.0e}", tolerance::NATURAL_MAP),
+    );
+}
+
+/// The natural map of a mechanism with the rates as the live load drives them.
+pub fn dry_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> f64 {
+    let k = certificate::kinematics(assembly, interfaces, rates, forces);
+    let power = k.live_power * natural_factor(assembly);
+    law::natural_map_in_loads(assembly, interfaces, forces, rates, power).unwrap_or(f64::INFINITY)
 }
 
 /// Forces from which a motion starts that obeys Coulomb's law with them.
 fn moves(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, base: &Forces, rates: &[Rate]) {
-    cones(f, "without a pre-stress, ", &certificate::statics(assembly, interfaces, base, 0.0));
+    cones(f, "without a pre-stress, ", assembly, interfaces, &certificate::statics(assembly, interfaces, base, 0.0));
     let m = law::motion(assembly, interfaces, base);
     f.require(
         m.acceleration >= tolerance::LEAST_MOTION,
@@ -214,16 +226,18 @@ pub(super) fn balanced(f: &mut Findings, when: &str, assembly: &Assembly, interf
             s.unbalance, assembly.blocks[s.worst].id
         ),
     );
-    cones(f, when, &s);
+    cones(f, when, assembly, interfaces, &s);
 }
 
-pub(super) fn cones(f: &mut Findings, when: &str, s: &certificate::Statics) {
+pub(super) fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, s: &certificate::Statics) {
     f.require(
         s.cone_excess <= tolerance::CONE,
         format!("{when}forces lie in their friction cones: largest excess {:.1e} of the force", s.cone_excess),
     );
     if s.crushing > 0.0 {
-        f.require(s.is_within_strength(), format!("{when}no joint is pressed beyond its strength: at most {:.6} of it", s.crushing));
+        let (used, joint) = (100.0 * s.crushing, joint(assembly, interfaces, s.most_pressed));
+        let text = format!("{when}no joint is pressed beyond its compressive strength: at most {used:.4} % of it, in {joint}");
+        f.require(s.is_within_strength(), text);
     }
 }
 
@@ -248,6 +262,12 @@ fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: 
     f.require(k.is_admissible(assembly), format!("the mechanism is admissible: {closing}"));
 }
 
+/// The two blocks of a joint.
+fn joint(assembly: &Assembly, interfaces: &Interfaces, k: usize) -> String {
+    let face = &interfaces.list[k];
+    format!("{} | {}", assembly.blocks[face.a].id, assembly.blocks[face.b].id)
+}
+
 /// The power of ten next to a number.
 fn decade(x: f64, round: fn(f64) -> f64) -> f64 {
     10f64.powf(round(x.log10()))
@@ -262,7 +282,7 @@ fn load_factor(
     [value, lower, upper]: [f64; 3],
 ) {
     let s = certificate::statics(assembly, interfaces, forces, value);
-    cones(f, "", &s);
+    cones(f, "", assembly, interfaces, &s);
     let k = certificate::kinematics(assembly, interfaces, rates, forces);
     let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
     f.require(k.live_power > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));

@@ -140,7 +140,7 @@ pub(super) fn verify(
     }
     let p = at.bracket(assembly, interfaces, extreme, forces, rates);
     let s = &p.statics;
-    super::check::cones(f, "", s);
+    super::check::cones(f, "", assembly, interfaces, s);
     let loose = tolerance::LOOSE_BALANCE.max(s.resolution);
     f.require(
         s.unbalance <= loose,
