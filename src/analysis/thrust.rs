@@ -13,7 +13,6 @@ use super::{
 };
 use crate::{
     assembly::Assembly,
-    error::InputError,
     interface::Interfaces,
     program::{self, Options, Statics, Unknowns},
     tolerance,
@@ -252,14 +251,14 @@ pub fn geometric_factor(model: &Model, control: &Control) -> Geometric {
         return Geometric::Open("joints have strengths or water, which shrinking sections would change".into());
     }
     let start = Instant::now();
-    let mut ask = |by: f64| -> Result<Probe, InputError> {
+    let ask = |by: f64| {
         let seconds = (control.seconds - start.elapsed().as_secs_f64()).max(0.0);
-        Ok(shrunk(model, by, &Control { law: Law::Associative, seconds, ..*control }))
+        shrunk(model, by, &Control { law: Law::Associative, seconds, ..*control })
     };
-    let (Ok(least), Ok(whole)) = (ask(tolerance::LEAST_SHRINK), ask(1.0)) else { return Geometric::Open("it was not asked".into()) };
+    let (least, whole) = (ask(tolerance::LEAST_SHRINK), ask(1.0));
     match (least.assessment.verdict, whole.assessment.verdict) {
         (Verdict::Stable, _) => Geometric::Beyond(Box::new(least)),
-        (Verdict::Unstable, Verdict::Stable) => match refine(&mut ask, least, whole, tolerance::LEAST_SHRINK) {
+        (Verdict::Unstable, Verdict::Stable) => match refine(&mut |by| Ok(ask(by)), least, whole, tolerance::LEAST_SHRINK) {
             Ok(flip) => Geometric::Found(Box::new(flip)),
             Err(e) => Geometric::Open(e.to_string()),
         },

@@ -123,7 +123,7 @@ pub fn verify(
             balanced(&mut f, "under the live load alone, ", &alone, &unlimited, &scaled, 0.0);
         }
         Claim::Thrust { at, extreme, value, lower, upper } => {
-            thrust::verify(&mut f, assembly, interfaces, forces, rates, &at, extreme, [value, lower, upper]);
+            thrust::verify(&mut f, assembly, interfaces, (forces, rates), (&at, extreme), [value, lower, upper]);
         }
         Claim::EndlessThrust { at, extreme } => thrust::verify_endless(&mut f, assembly, interfaces, forces, base, &at, extreme),
         Claim::Impossible => {

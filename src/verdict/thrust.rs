@@ -123,16 +123,13 @@ pub fn unloaded(assembly: &Assembly) -> Assembly {
     bare
 }
 
-/// Verifies a least or greatest thrust.
-#[allow(clippy::too_many_arguments)]
+/// Verifies a least or greatest thrust: its value and bracket.
 pub(super) fn verify(
     f: &mut Findings,
     assembly: &Assembly,
     interfaces: &Interfaces,
-    forces: &Forces,
-    rates: &[Rate],
-    at: &ThrustAt,
-    extreme: Extreme,
+    (forces, rates): (&Forces, &[Rate]),
+    (at, extreme): (&ThrustAt, Extreme),
     [value, lower, upper]: [f64; 3],
 ) {
     if !is_support(f, assembly, at) {
