@@ -97,6 +97,8 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     let mut scan: Vec<Scanned> = Vec::new();
     let mut found: Vec<Probe> = Vec::new();
     let mut ends = Vec::new();
+    // Values at which admissible forces exist and dry friction stays undecided.
+    let mut open: Vec<f64> = Vec::new();
     let values = values(range, whole);
     let count = values.len();
     for (k, value) in values.into_iter().enumerate() {
@@ -108,6 +110,12 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
                 ends.push(probe.clone());
             }
             if probe.assessment.verdict != Verdict::Undecided {
+                found.push(probe);
+            } else if control.law == Law::Coulomb
+                && let Ok(probe) = ask(value, statics())
+                && probe.assessment.verdict != Verdict::Undecided
+            {
+                open.push(value);
                 found.push(probe);
             }
         }
@@ -128,7 +136,8 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     for pair in found.windows(2) {
         let [a, b] = pair else { continue };
         let (va, vb) = (a.assessment.verdict, b.assessment.verdict);
-        if va == vb {
+        let settled = a.admissible() != b.admissible() || ![a, b].iter().any(|p| open.contains(&p.value));
+        if va == vb || !settled {
             continue;
         }
         let narrowed = match (whole, a.admissible() == b.admissible()) {
@@ -140,6 +149,12 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             notes.push(format!("the range from {} to {} could not be narrowed: {e}", a.value, b.value));
             (0.5 * (a.value + b.value), Method::Scan, a.clone(), b.clone())
         });
+        if let Some(side) = [&one, &other].into_iter().find(|p| control.law == Law::Coulomb && p.rests_on_statics()) {
+            notes.push(format!(
+                "at {} admissible forces exist; whether the loads produce them with dry friction stayed undecided",
+                side.value
+            ));
+        }
         let (below, above) = if one.value <= other.value { (one, other) } else { (other, one) };
         changes.push(Change { value, method, below, above });
     }
