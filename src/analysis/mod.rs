@@ -6,6 +6,7 @@ pub mod coulomb;
 pub mod critical;
 mod ends;
 pub mod flip;
+pub mod geometric;
 pub mod limit;
 mod prepare;
 pub mod thrust;

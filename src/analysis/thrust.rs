@@ -1,15 +1,13 @@
 //! The least and the greatest thrust on a support, and how far the line of thrust stays inside.
 //!
 //! The *thrust* is the horizontal component, along a direction, of the force that the blocks exert on a support. Where it has no end
-//! (blocks wedged between supports), that is an answer of its own. The *geometric safety factor* is the greatest factor by which all
-//! sections can be shrunk about their centroids, loads and weights unchanged, and still contain a line of thrust: for an arch the ratio
-//! of its thickness to that of the thinnest arch inside it that carries the same loads (Heyman 1969, Int. J. Mech. Sci. 11; 1982, The
-//! Masonry Arch). Friction limits the lines of thrust as it does in the scene.
+//! (blocks wedged between supports), that is an answer of its own. Beside it stands the geometric safety factor
+//! ([`geometric`](super::geometric)).
 
 use super::{
-    Assessment, Bracket, Control, Law, Model, Outcome, assess,
+    Assessment, Bracket, Control, Model, Outcome, assess,
     attempt::{Attempt, Candidate, Run, Rung, run, rung},
-    flip::{Flip, Probe, refine},
+    geometric::{Geometric, geometric_factor},
 };
 use crate::{
     assembly::Assembly,
@@ -232,49 +230,6 @@ impl Problem<'_> {
         answer.attempts.push(self.attempt("thrust without end", &statics, &done, step, ends));
         endless
     }
-}
-
-/// What is known of the geometric safety factor.
-#[derive(Clone, Debug)]
-pub enum Geometric {
-    /// Its reciprocal, with the verdicts on both sides.
-    Found(Box<Flip>),
-    /// Greater than 1 / [`tolerance::LEAST_SHRINK`]: it stands with sections shrunk that far.
-    Beyond(Box<Probe>),
-    /// Why there is none.
-    Open(String),
-}
-
-/// The geometric safety factor of a scene that stands.
-pub fn geometric_factor(model: &Model, control: &Control) -> Geometric {
-    if !model.interfaces.are_dry() {
-        return Geometric::Open("joints have strengths or water, which shrinking sections would change".into());
-    }
-    let start = Instant::now();
-    let ask = |by: f64| {
-        let seconds = (control.seconds - start.elapsed().as_secs_f64()).max(0.0);
-        shrunk(model, by, &Control { law: Law::Associative, seconds, ..*control })
-    };
-    let (least, whole) = (ask(tolerance::LEAST_SHRINK), ask(1.0));
-    match (least.assessment.verdict, whole.assessment.verdict) {
-        (Verdict::Stable, _) => Geometric::Beyond(Box::new(least)),
-        (Verdict::Unstable, Verdict::Stable) => match refine(&mut |by| Ok(ask(by)), least, whole, tolerance::LEAST_SHRINK) {
-            Ok(flip) => Geometric::Found(Box::new(flip)),
-            Err(e) => Geometric::Open(e.to_string()),
-        },
-        _ => Geometric::Open("the verdict on shrunk sections came out undecided".into()),
-    }
-}
-
-/// The model with its sections shrunk about their centroids.
-pub fn shrunk_model(model: &Model, by: f64) -> Model {
-    Model { assembly: model.assembly.clone(), interfaces: model.interfaces.shrunk(by, centroid), timings: model.timings }
-}
-
-fn shrunk(model: &Model, by: f64, control: &Control) -> Probe {
-    let model = shrunk_model(model, by);
-    let assessment = assess(&model.assembly, &model.interfaces, control);
-    Probe { value: by, model, assessment }
 }
 
 /// The answer about the thrust on a support.

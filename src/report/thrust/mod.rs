@@ -12,7 +12,8 @@ use crate::{
     analysis::{
         Model, Outcome,
         flip::Probe,
-        thrust::{Geometric, Thrust, ThrustEnd},
+        geometric::Geometric,
+        thrust::{Thrust, ThrustEnd},
     },
     scene::Scene,
     verdict::{

@@ -2,7 +2,7 @@
 
 use super::{Section, ThrustValue, factor, table};
 use crate::{
-    analysis::{Model, Outcome, thrust::shrunk_model},
+    analysis::{Model, Outcome, geometric::shrunk_model},
     report::{
         result::{Certificate, Question, ResultFile},
         verify::{SAME, Verification, answer, failure, require},
