@@ -93,7 +93,7 @@ pub fn thrust(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces,
     let (assembly, interfaces) = (&model.assembly, &model.interfaces);
     let start = Instant::now();
     let direction = Vector3::from(at.direction);
-    let build = |keep_all: bool| Statics::new(assembly, interfaces, Options { keep_all, live: false, split: false });
+    let build = |keep_all: bool| Statics::new(assembly, interfaces, Options { keep_all, ..Options::default() });
     let mut base = build(control.keep_all);
     // A plane scene knows no thrust out of its plane.
     if base.plane.is_some_and(|p| p.axis.dot(&direction).abs() > 1e-9) {
@@ -162,6 +162,7 @@ impl Problem<'_> {
             seconds: run.solution.seconds,
             lower,
             upper,
+            engine_value: None,
         }
     }
 
@@ -210,7 +211,7 @@ impl Problem<'_> {
     /// Whether forces that need no load push without end; then they are the forces of `answer`.
     fn has_no_end(&self, step: Rung, left: f64, keep_all: bool, answer: &mut ThrustEnd) -> bool {
         let (unlimited, kept) = self.interfaces.unlimited();
-        let mut statics = Statics::new(self.assembly, &unlimited, Options { keep_all, live: false, split: false });
+        let mut statics = Statics::new(self.assembly, &unlimited, Options { keep_all, ..Options::default() });
         statics.rescale(step.unit, step.local);
         let settings = crate::solve::Settings { seconds: left, ..step.settings };
         let build = |statics: &Statics| program::endless_thrust(statics, &self.objective(statics, &unlimited));

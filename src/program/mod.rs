@@ -27,7 +27,7 @@ pub use load_factor::load_factor;
 pub use planar::Plane;
 pub use reach::{floating, is_forest};
 pub use section::Section;
-pub use statics::{FreeBlock, Options, Statics};
+pub use statics::{FreeBlock, Options, Pyramid, Statics};
 pub use thrust::{endless_thrust, thrust, thrust_columns};
 pub use unbalance::{LiveLoad, unbalance};
 
