@@ -3,13 +3,18 @@
 pub mod assess;
 mod attempt;
 pub mod coulomb;
+pub mod critical;
 mod ends;
+pub mod flip;
+pub mod geometric;
 pub mod limit;
 mod prepare;
+pub mod thrust;
 pub mod tilt;
 
 pub use assess::{Assessment, assess};
 pub use attempt::{Attempt, Control, Law};
+pub use critical::{Critical, critical};
 pub use limit::{LoadFactor, Outcome, limit};
 pub use prepare::{Model, Timings, prepare};
 pub use tilt::{Tilt, tilt};
