@@ -81,8 +81,7 @@ impl Bearing {
     pub(super) fn admit(&self, x: &mut [f64]) {
         match self.cone {
             BearingCone::Rays => x.iter_mut().for_each(|v| *v = v.max(0.0)),
-            BearingCone::Rough if x[0] < 0.0 => x.fill(0.0),
-            BearingCone::Rough => {}
+            BearingCone::Rough => x[0] = x[0].max(0.0),
             BearingCone::Circular => {
                 let t = x[1].hypot(x[2]);
                 if t <= -x[0] {
@@ -189,9 +188,6 @@ impl Limits {
             if size > limit {
                 part.iter_mut().for_each(|v| *v *= limit / size);
             }
-        }
-        if self.mu.is_infinite() && self.tension == 0.0 && x[0] <= 0.0 {
-            x[1..].fill(0.0);
         }
     }
 }

@@ -257,9 +257,6 @@ impl Contacts {
                     part.iter_mut().for_each(|v| *v *= limit / size);
                 }
             }
-            if p.discs.is_empty() && p.tension == 0.0 && normal <= 0.0 {
-                f[p.column + 1..p.column + p.columns].fill(0.0);
-            }
         }
         f
     }
