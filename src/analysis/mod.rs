@@ -2,10 +2,12 @@
 
 pub mod assess;
 mod attempt;
+mod claim;
 pub mod coulomb;
 mod ends;
 pub mod limit;
 mod prepare;
+pub mod reuse;
 pub mod tilt;
 
 pub use assess::{Assessment, assess};
