@@ -3,6 +3,7 @@
 pub mod json;
 pub mod read;
 pub mod result;
+pub mod sweep;
 pub mod text;
 pub mod verify;
 
