@@ -12,5 +12,6 @@ pub mod limit;
 mod output;
 mod question;
 pub mod schema;
+pub mod sweep;
 pub mod terminal;
 pub mod tilt;

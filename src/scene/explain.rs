@@ -86,7 +86,10 @@ pub(super) fn syntax_error(kind: &Kind, source: &Source, path: JsonPath, error: 
             "trailing comma" => ("a comma before a closing bracket".into(), Some("remove the comma".into())),
             "trailing characters" => {
                 let noun = kind.noun;
-                (format!("text after the end of the {noun}"), Some(format!("one file holds one {noun}: remove what follows its closing brace")))
+                (
+                    format!("text after the end of the {noun}"),
+                    Some(format!("one file holds one {noun}: remove what follows its closing brace")),
+                )
             }
             "recursion limit exceeded" => ("lists or objects are nested too deeply".into(), Some(too_deep(kind))),
             "expected `,` or `}`" | "expected `,` or `]`" => {

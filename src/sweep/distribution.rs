@@ -15,10 +15,21 @@ pub(super) struct Axis {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
-    Interval { from: f64, to: f64 },
+    Interval {
+        from: f64,
+        to: f64,
+    },
     Values(Vec<f64>),
     /// `mean + sd z`, or its exponential, with `z` standard normal between two ends.
-    Gauss { mean: f64, sd: f64, low: f64, high: f64, exponential: bool, min: f64, max: f64 },
+    Gauss {
+        mean: f64,
+        sd: f64,
+        low: f64,
+        high: f64,
+        exponential: bool,
+        min: f64,
+        max: f64,
+    },
 }
 
 /// A truncated distribution keeps at least this probability. Less: its quantiles are rounding of the distribution function's tail.
@@ -36,8 +47,14 @@ impl Axis {
         ];
         let given: Vec<&str> = kinds.iter().filter(|k| k.1).map(|k| k.0).collect();
         let [what] = given[..] else {
-            let message = if given.is_empty() { "it is not said what it takes".into() } else { format!("{} are given together", given.join(" and ")) };
-            return Err(InputError::at(JsonPath::root(), message).hint("give one of \"from\" and \"to\", \"values\", \"normal\", \"lognormal\""));
+            let message = if given.is_empty() {
+                "it is not said what it takes".into()
+            } else {
+                format!("{} are given together", given.join(" and "))
+            };
+            return Err(
+                InputError::at(JsonPath::root(), message).hint("give one of \"from\" and \"to\", \"values\", \"normal\", \"lognormal\"")
+            );
         };
         let truncates = vary.normal.is_some() || vary.lognormal.is_some();
         for (key, given) in [("min", vary.min), ("max", vary.max)] {
@@ -46,10 +63,14 @@ impl Axis {
             }
         }
         let (kind, values) = match (vary.from, vary.to, &vary.values) {
-            (_, _, Some(values)) if values.is_empty() => return Err(at("values", "the list is empty".into()).hint("give at least one value")),
+            (_, _, Some(values)) if values.is_empty() => {
+                return Err(at("values", "the list is empty".into()).hint("give at least one value"));
+            }
             (_, _, Some(values)) => (Kind::Values(values.clone()), Some(values.len())),
             (Some(from), Some(to), _) if vary.round && from.ceil() > to.floor() => {
-                return Err(at("to", format!("there is no whole number from {from} to {to}")).hint("widen the range, or leave \"round\" out"));
+                return Err(
+                    at("to", format!("there is no whole number from {from} to {to}")).hint("widen the range, or leave \"round\" out")
+                );
             }
             (Some(from), Some(to), _) if from < to => (Kind::Interval { from, to }, None),
             (Some(from), Some(to), _) => {
@@ -62,12 +83,17 @@ impl Axis {
         let count = match (values, vary.count, grid) {
             (Some(_), Some(_), _) => return Err(at("count", "\"values\" are counted already".into()).hint("remove it")),
             (Some(n), None, _) => n,
-            (None, Some(_), false) => return Err(at("count", "belongs to a grid".into()).hint("the number of rows is that of \"sampling\"")),
+            (None, Some(_), false) => {
+                return Err(at("count", "belongs to a grid".into()).hint("the number of rows is that of \"sampling\""));
+            }
             (None, None, false) => 0,
             (None, Some(n), true) if n >= 2 => n,
-            (None, Some(n), true) => return Err(at("count", format!("must be at least 2, got {n}")).hint("one value belongs into the scene")),
+            (None, Some(n), true) => {
+                return Err(at("count", format!("must be at least 2, got {n}")).hint("one value belongs into the scene"));
+            }
             (None, None, true) => {
-                return Err(InputError::at(JsonPath::root(), "a grid needs to know how many values").hint("add \"count\": 10, or another \"sampling\""));
+                return Err(InputError::at(JsonPath::root(), "a grid needs to know how many values")
+                    .hint("add \"count\": 10, or another \"sampling\""));
             }
         };
         Ok(Self { kind, count, round: vary.round })
@@ -121,14 +147,17 @@ fn gauss(vary: &Vary) -> Result<Kind, InputError> {
     let (mean, sd) = vary.lognormal.map(|l| (l.mean, l.sd)).or(vary.normal.map(|n| (n.mean, n.sd))).unwrap_or((f64::NAN, f64::NAN));
     let path = JsonPath::root().key(key);
     if !(sd > 0.0 && sd.is_finite()) {
-        return Err(InputError::at(path.key("sd"), format!("must be > 0, got {sd}")).hint("a number that does not vary belongs into the scene"));
+        return Err(
+            InputError::at(path.key("sd"), format!("must be > 0, got {sd}")).hint("a number that does not vary belongs into the scene")
+        );
     }
     if exponential && mean <= 0.0 {
         return Err(InputError::at(path.key("mean"), format!("must be > 0, got {mean}")).hint("it is the mean of the value itself"));
     }
     let (min, max) = (vary.min.unwrap_or(f64::NEG_INFINITY), vary.max.unwrap_or(f64::INFINITY));
     if min >= max {
-        return Err(InputError::at(JsonPath::root().key("max"), format!("the range from {min} to {max} is empty")).hint("\"max\" must be greater than \"min\""));
+        return Err(InputError::at(JsonPath::root().key("max"), format!("the range from {min} to {max} is empty"))
+            .hint("\"max\" must be greater than \"min\""));
     }
     let (mean, sd) = if exponential {
         // Of the logarithm: σ² = ln(1 + (sd / mean)²), μ = ln mean − σ² / 2.
@@ -153,7 +182,13 @@ fn gauss(vary: &Vary) -> Result<Kind, InputError> {
 
 /// Standard normal distribution function.
 fn below(z: f64) -> f64 {
-    if z == f64::INFINITY { 1.0 } else if z == f64::NEG_INFINITY { 0.0 } else { Normal::standard().cdf(z) }
+    if z == f64::INFINITY {
+        1.0
+    } else if z == f64::NEG_INFINITY {
+        0.0
+    } else {
+        Normal::standard().cdf(z)
+    }
 }
 
 /// Quantile of the standard normal distribution between two ends. Above the mean it is mirrored, where probabilities keep their digits.

@@ -114,7 +114,8 @@ fn parse(name: &str, bytes: &[u8]) -> Result<(Header, Vec<Row>), RowsError> {
     let mut rows = BTreeMap::new();
     for (index, text) in lines {
         let at = |why: String| damaged(index + 1, why);
-        let row: Row = serde_json::from_slice(text).map_err(|e| at(format!("not a row: {e}; remove the line to have the row computed again")))?;
+        let row: Row =
+            serde_json::from_slice(text).map_err(|e| at(format!("not a row: {e}; remove the line to have the row computed again")))?;
         if row.row >= header.rows || !header.shard.holds(row.row) || row.parameters.len() != header.plan.vary.len() {
             return Err(at(format!("row {} is none of this plan", row.row)));
         }

@@ -66,10 +66,8 @@ pub(super) fn fragility(header: &Header, rows: &[Row], parameter: usize) -> Opti
     match (header.plan.question.quantity(), header.plan.question.require()) {
         (Some(quantity), None) => against_demand(quantity, rows),
         _ => {
-            let known: Vec<(f64, bool)> = rows
-                .iter()
-                .filter_map(|r| Some((*r.parameters.get(parameter)?, failed(&header.plan.question, &r.answer)?)))
-                .collect();
+            let known: Vec<(f64, bool)> =
+                rows.iter().filter_map(|r| Some((*r.parameters.get(parameter)?, failed(&header.plan.question, &r.answer)?))).collect();
             let along = header.plan.vary.get(parameter)?.label().to_string();
             let points = groups(&known.iter().map(|k| k.0).collect::<Vec<_>>())
                 .into_iter()

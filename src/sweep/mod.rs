@@ -44,4 +44,4 @@ pub use row::{Answer, Header, Row, Status};
 pub use run::{Done, Event, Options, run};
 pub use shard::Shard;
 pub use summary::{Quantiles, Summary, summarize, value_of};
-pub use worst::{Asked, Range, Worst, worst};
+pub use worst::{Range, Worst, WorstOf, worst};

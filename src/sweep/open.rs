@@ -72,7 +72,9 @@ impl Sweep {
         let root = JsonPath::root();
         let grid = matches!(plan.sampling, Sampling::Grid {});
         if plan.vary.is_empty() {
-            return Err(InputError::at(root.key("vary"), "nothing varies").hint("add { \"pointer\": …, \"from\": …, \"to\": …, \"count\": … }"));
+            return Err(
+                InputError::at(root.key("vary"), "nothing varies").hint("add { \"pointer\": …, \"from\": …, \"to\": …, \"count\": … }")
+            );
         }
         question(&plan.question, &root.key("question"))?;
         let (mut pointers, mut axes) = (Vec::new(), Vec::new());
@@ -143,7 +145,8 @@ impl Sweep {
         let first = self.scene_with(&self.parameters(0)).and_then(|scene| assembly::resolve(&scene));
         match first {
             Ok(assembly) if assembly.live.iter().all(|w| *w == Wrench::zero()) => {
-                let error = InputError::at(JsonPath::root().key("question"), "the scene of row 0 has no live load on a free block to ask about");
+                let error =
+                    InputError::at(JsonPath::root().key("question"), "the scene of row 0 has no live load on a free block to ask about");
                 Err(error.hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene, or ask \"tilt\""))
             }
             // Scenes that cannot be resolved are rows with their errors.
@@ -169,7 +172,8 @@ fn fits(pointer: &Pointer, axis: &Axis, scene: &Value) -> Result<(), InputError>
     let old = pointer.get(scene).and_then(Value::as_f64);
     let first = old.unwrap_or_else(|| axis.quantile(0.5));
     if let Err(e) = with(first).and(with(first.floor() + 1.0)) {
-        return Err(InputError::at(JsonPath::root(), format!("the scene has no such number: {}", e.message)).hint("spell it as the scene format does"));
+        return Err(InputError::at(JsonPath::root(), format!("the scene has no such number: {}", e.message))
+            .hint("spell it as the scene format does"));
     }
     if !axis.is_whole() && with(first.floor() + 0.5).is_err() {
         let message = format!("{} of the scene is a count, and not all its values are whole numbers", pointer.path);
@@ -195,7 +199,8 @@ fn rows(plan: &Plan, axes: &[Axis]) -> Result<usize, InputError> {
             let all = axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(axis.count));
             let rows = all.filter(|n| *n <= MOST_ROWS);
             return rows.ok_or_else(|| {
-                InputError::at(JsonPath::root().key("vary"), format!("the grid has more than {MOST_ROWS} rows")).hint("take fewer values, or sample")
+                InputError::at(JsonPath::root().key("vary"), format!("the grid has more than {MOST_ROWS} rows"))
+                    .hint("take fewer values, or sample")
             });
         }
         Sampling::LatinHypercube { samples } => ("latin_hypercube", samples),

@@ -52,7 +52,7 @@ impl fmt::Display for Range {
 
 /// What is asked at every corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asked {
+pub enum WorstOf {
     /// Does it stand?
     Assess,
     /// How large may the live load grow?
@@ -92,7 +92,7 @@ enum What {
 ///
 /// # Errors
 /// A range names nothing in the scene, or a corner is no scene that can be asked about.
-pub fn worst(scene: &Scene, ranges: &[Range], asked: Asked, control: &Control) -> Result<Worst, InputError> {
+pub fn worst(scene: &Scene, ranges: &[Range], asked: WorstOf, control: &Control) -> Result<Worst, InputError> {
     let mut base = scene.clone();
     let mut argument = Vec::new();
     let mut ends = Vec::new();
@@ -120,8 +120,8 @@ pub fn worst(scene: &Scene, ranges: &[Range], asked: Asked, control: &Control) -
         let control = Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0), ..*control };
         let model = prepare(&scene)?;
         let answer = match asked {
-            Asked::Assess => ask::assessed(&model, &control),
-            Asked::Limit => ask::limited(&model, &control)?,
+            WorstOf::Assess => ask::assessed(&model, &control),
+            WorstOf::Limit => ask::limited(&model, &control)?,
         };
         if worst.as_ref().is_none_or(|(_, least, _)| height(&answer) < height(least)) {
             worst = Some((scene, answer, corner));
@@ -146,10 +146,8 @@ fn lowest_friction(scene: &mut Scene, range: &Range, law: Law) -> Result<String,
     scene.joints.default.friction_angle_deg = None;
     let own = scene.joints.overrides.iter().filter(|o| o.friction.is_some() || o.friction_angle_deg.is_some()).count();
     let given = scene.interfaces.iter().filter(|i| i.friction.is_some()).count();
-    let mut text = format!(
-        "friction {}, the lowest, is the worst: every force that is admissible there is admissible at a higher one",
-        range.low
-    );
+    let mut text =
+        format!("friction {}, the lowest, is the worst: every force that is admissible there is admissible at a higher one", range.low);
     if law == Law::Coulomb {
         text.push_str("; the state under dry friction is computed there alone");
     }
@@ -176,7 +174,8 @@ fn numbers(scene: &Scene, range: &Range) -> Result<Vec<Ends>, InputError> {
         "load" => vec![ends("factor on the dead loads".into(), What::Load)],
         _ if name == "density" || name.starts_with("density:") => {
             let wanted = |m: &str| name == "density" || name == format!("density:{m}");
-            let materials = scene.materials.keys().filter(|m| wanted(m)).map(|m| ends(format!("density of {m}"), What::Material(m.clone())));
+            let materials =
+                scene.materials.keys().filter(|m| wanted(m)).map(|m| ends(format!("density of {m}"), What::Material(m.clone())));
             let blocks = scene.blocks.iter().enumerate().filter(|(_, b)| name == "density" && b.density.is_some());
             let list: Vec<Ends> = materials.chain(blocks.map(|(i, b)| ends(format!("density of {}", b.id), What::Block(i)))).collect();
             if list.is_empty() {
@@ -186,10 +185,15 @@ fn numbers(scene: &Scene, range: &Range) -> Result<Vec<Ends>, InputError> {
             list
         }
         _ if name.starts_with('/') => {
-            let pointer = Pointer::find(name, &as_json(scene)?).map_err(|e| InputError { message: format!("--worst {range}: {}", e.message), ..e })?;
+            let pointer = Pointer::find(name, &as_json(scene)?)
+                .map_err(|e| InputError { message: format!("--worst {range}: {}", e.message), ..e })?;
             vec![ends(name.to_string(), What::Pointer(pointer))]
         }
-        _ => return Err(refuse(range, "unknown").hint("known are friction, density, density:NAME, load, and JSON pointers (/loads/dead/0/force/2)")),
+        _ => {
+            return Err(
+                refuse(range, "unknown").hint("known are friction, density, density:NAME, load, and JSON pointers (/loads/dead/0/force/2)")
+            );
+        }
     };
     if list.iter().any(|e| matches!(e.what, What::Material(_) | What::Block(_))) && range.low <= 0.0 {
         return Err(refuse(range, "a density is above 0"));
@@ -254,16 +258,16 @@ fn height(answer: &Answer) -> f64 {
     }
 }
 
-fn between(scene: &Scene, ends: &[Ends], asked: Asked, law: Law) -> String {
+fn between(scene: &Scene, ends: &[Ends], asked: WorstOf, law: Law) -> String {
     let body = |l: &Load| l.weight.is_some() || l.acceleration.is_some();
     let linear = ends.iter().all(|e| !matches!(e.what, What::Pointer(_)));
-    let moving = asked == Asked::Limit && scene.loads.live.iter().any(body);
+    let moving = asked == WorstOf::Limit && scene.loads.live.iter().any(body);
     if !linear || moving {
         return "found by search over the corners: values between them were not asked".into();
     }
     let what = match asked {
-        Asked::Assess => "forces that balance the corners mix into forces that balance every value between them",
-        Asked::Limit => "the bound is a concave function of densities and loads, least at a corner",
+        WorstOf::Assess => "forces that balance the corners mix into forces that balance every value between them",
+        WorstOf::Limit => "the bound is a concave function of densities and loads, least at a corner",
     };
     let dry = if law == Law::Coulomb { "; dry friction was asked at the corners alone" } else { "" };
     format!("found by search over the corners; nothing between them is worse: {what}{dry}")

@@ -6,7 +6,7 @@ use crate::{
 };
 use plotters::{
     coord::Shift,
-    prelude::{ChartBuilder, Circle, DrawingArea, IntoDrawingArea, PathElement, Polygon, Rectangle, RGBColor, SVGBackend, Text, WHITE},
+    prelude::{ChartBuilder, Circle, DrawingArea, IntoDrawingArea, PathElement, Polygon, RGBColor, Rectangle, SVGBackend, Text, WHITE},
     style::{Color, IntoFont},
 };
 
