@@ -60,9 +60,12 @@ impl Reuse {
 
 type Slot<V> = Arc<Mutex<Option<Arc<V>>>>;
 
+/// Slots by key, and the keys by age.
+type Slots<K, V> = (HashMap<K, Slot<V>>, VecDeque<K>);
+
 /// A small store: the oldest entry makes room for the newest.
 struct Store<K, V> {
-    slots: Mutex<(HashMap<K, Slot<V>>, VecDeque<K>)>,
+    slots: Mutex<Slots<K, V>>,
     computed: AtomicUsize,
 }
 

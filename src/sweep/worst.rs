@@ -161,11 +161,9 @@ fn lowest_friction(scene: &mut Scene, range: &Range, law: Law) -> Result<String,
 fn numbers(scene: &Scene, range: &Range) -> Result<Vec<Ends>, InputError> {
     let ends = |label: String, what: What| Ends { label, what, low: range.low, high: range.high };
     let name = range.name.as_str();
-    if let Some(material) = name.strip_prefix("density:") {
-        if !scene.materials.contains_key(material) {
-            let error = refuse(range, &format!("no material is called {material:?}"));
-            return Err(InputError { hint: crate::scene::suggest(material, scene.materials.keys().map(String::as_str)), ..error });
-        }
+    if let Some(material) = name.strip_prefix("density:").filter(|m| !scene.materials.contains_key(*m)) {
+        let error = refuse(range, &format!("no material is called {material:?}"));
+        return Err(InputError { hint: crate::scene::suggest(material, scene.materials.keys().map(String::as_str)), ..error });
     }
     let list = match name {
         "load" if scene.loads.dead.is_empty() => {

@@ -16,3 +16,4 @@ mod real;
 mod reference;
 mod scenes;
 mod strength;
+mod sweep;
