@@ -109,7 +109,7 @@ fn parse(name: &str, bytes: &[u8]) -> Result<(Header, Vec<Row>), RowsError> {
     let mut lines = bytes.split(|b| *b == b'\n').enumerate().filter(|(_, l)| !l.is_empty());
     let header: Header = match lines.next() {
         Some((_, line)) => serde_json::from_slice(line).map_err(|e| damaged(1, format!("not the beginning of a file of rows: {e}")))?,
-        None => return Err(damaged(1, "not a file of rows: it has no header".into())),
+        None => return Err(damaged(1, "not the beginning of a file of rows: it has no whole header".into())),
     };
     let mut rows = BTreeMap::new();
     for (index, text) in lines {

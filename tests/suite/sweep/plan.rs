@@ -45,7 +45,7 @@ fn wrong_plans_are_refused_with_place_and_remedy() {
     refused(
         |p| p["vary"][0]["pointer"] = json!("/joints/default/fricton"),
         &s,
-        &["plan.json:8:18: vary[0].pointer", "unknown field `fricton`"],
+        &["plan.json:9:18: vary[0].pointer", "unknown field `fricton`"],
     );
     refused(|p| p["vary"][0]["pointer"] = json!("/materials/stome/density"), &s, &["vary[0].pointer", "did you mean \"stone\""]);
     refused(|p| p["vary"][0]["pointer"] = json!("/blocks/7/density"), &s, &["none of the 2 elements"]);
