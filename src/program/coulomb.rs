@@ -12,6 +12,10 @@
 //! *Load factor (D).* `max λ − ½ δ fᵀ C f` subject to `A f + w + λ ℓ = 0` and the same limits; `u = δ C f + Aᵀ y` with the
 //! multipliers `y`.
 //!
+//! *More than friction.* Cohesion `c` and tension `T` make the limit `μ f_n + c` and `f_n ≥ −T`; the couples of a rolling arm are
+//! limited by `f_n` in the same way ([`Disc`]), and what rolls or twists does not open either. Crushing bounds the normal forces
+//! ([`Section`](super::Section)), held and associative: what crushes closes.
+//!
 //! *Twin (De Saxcé & Feng 1998).* `f` in the friction cone with a linear term `μ‖u_t‖ f_n`: the fixed point is in the sliding
 //! rates instead of the limits. It serves as a second opinion; where dilatancy jams it does not settle.
 //! Sources: Haslinger 1983 (fixed point on the Tresca limit), Acary, Brémond & Huber 2018 (natural map), Gilbert, Casapulla &

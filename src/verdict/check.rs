@@ -128,6 +128,18 @@ fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &
         map <= tolerance::DRY_LAW,
         format!("forces and mechanism obey Coulomb's law: natural map {map:.1e}, allowed {:.0e}", tolerance::DRY_LAW),
     );
+    let in_loads = dry_map(assembly, interfaces, forces, rates);
+    f.require(
+        in_loads <= tolerance::NATURAL_MAP,
+        format!("with rates as the live load drives them: natural map {in_loads:.1e}, allowed {:.0e}", tolerance::NATURAL_MAP),
+    );
+}
+
+/// The natural map of a mechanism with the rates as the live load drives them.
+pub fn dry_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> f64 {
+    let k = certificate::kinematics(assembly, interfaces, rates, forces);
+    let power = k.live_power * natural_factor(assembly);
+    law::natural_map_in_loads(assembly, interfaces, forces, rates, power).unwrap_or(f64::INFINITY)
 }
 
 /// Forces from which a motion starts that obeys Coulomb's law with them.

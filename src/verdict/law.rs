@@ -21,6 +21,22 @@ use nalgebra::Vector3;
 /// of rolling and twisting. Where a joint crushes, the normal forces count by what they fall short of the greatest power on the
 /// closing `g`, `√(σ ∫ g⁺ dA − Σ g f_n)`, instead: zero exactly where the pressure is σ on all that closes and nothing on what opens.
 pub fn natural_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<f64> {
+    map(assembly, interfaces, forces, rates, None)
+}
+
+/// The same with rates as the convex program has them, not brought to the size of the forces: in multiples of the mean load of a
+/// block, for a mechanism on which the live load, brought to the size of the dead load, has a power of one. Less strict than
+/// [`natural_map`] where rates are small beside forces; the measure of the literature.
+pub fn natural_map_in_loads(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], power: f64) -> Option<f64> {
+    let mean = mean_load(assembly);
+    map(assembly, interfaces, forces, rates, Some(mean * mean / power))
+}
+
+fn mean_load(assembly: &Assembly) -> f64 {
+    assembly.free().map(|i| load_scale(assembly, i)).sum::<f64>() / assembly.free().count().max(1) as f64
+}
+
+fn map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], scale: Option<f64>) -> Option<f64> {
     let loads: f64 = assembly.free().map(|i| assembly.dead[i].force.norm_squared()).sum();
     let size = forces.iter().flatten().map(|f| f.force.norm_squared()).sum::<f64>().max(loads).sqrt();
     let spins = |block: usize| rates[block].spin;
@@ -29,7 +45,7 @@ pub fn natural_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces
     if speed == 0.0 {
         return None;
     }
-    let scale = size / speed;
+    let scale = scale.unwrap_or(size / speed);
     let mut sum = 0.0;
     for (face, forces) in interfaces.list.iter().zip(forces) {
         let strength = Strength::of(face);
@@ -121,6 +137,8 @@ pub struct Released {
     pub acceleration: f64,
     /// How far forces and motion are from Coulomb's law together ([`natural_map`]).
     pub natural_map: f64,
+    /// The same with accelerations in multiples of gravity and forces in mean block loads ([`natural_map_in_loads`]).
+    pub natural_map_in_loads: f64,
     /// The motion, each block's unbalance over the square of its load scale.
     pub rates: Vec<Rate>,
 }
@@ -137,7 +155,8 @@ pub fn motion(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> 
         rates[i] = Rate { velocity: s.residuals[i].force / (w * w), spin: s.residuals[i].moment / (w * l * w * l) };
     }
     let natural_map = natural_map(assembly, interfaces, forces, &rates).unwrap_or(f64::INFINITY);
-    Released { acceleration: s.unbalance, natural_map, rates }
+    let natural_map_in_loads = natural_map_in_loads(assembly, interfaces, forces, &rates, 1.0).unwrap_or(f64::INFINITY);
+    Released { acceleration: s.unbalance, natural_map, natural_map_in_loads, rates }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, LoadFactor, Model, Outcome, assess, limit, prepare, tilt},
+    analysis::{Control, Law, LoadFactor, Model, Outcome, assess, coulomb, limit, prepare, tilt},
     report::{self, Leaning, ResultFile},
     scene::{Scene, read_str},
     verdict::Verdict,
@@ -155,6 +155,18 @@ pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
     let angle = answer.angle_deg();
     prove(scene, &ResultFile::tilt(scene, &[Leaning { model, tilt: answer, dry: None }]).expect("a direction"));
     angle
+}
+
+/// The load factor with dry friction, the associative one (NaN where there is no limit) and the number of convex programs, with proof.
+pub fn dry(scene: &Scene) -> (f64, f64, usize) {
+    let model = model(scene);
+    let l = limit(&model.assembly, &model.interfaces, &Control::default());
+    let d = coulomb::load_factor(&model.assembly, &model.interfaces, &l, &Control::default());
+    let file = ResultFile::load_factor(scene, &model, &l).with_dry(&model, &d);
+    prove(scene, &file);
+    assert_eq!(file.dry.and_then(|d| d.value), Some(d.value), "{}: natural map {:.1e}", scene.name, d.natural_map);
+    assert!(l.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.value.abs(), "{}: {} above {}", scene.name, d.value, l.value);
+    (d.value, l.value, d.solves)
 }
 
 /// `got` is `want` within a relative tolerance.

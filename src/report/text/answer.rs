@@ -27,13 +27,13 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 let bound = bracketed(value, lower, upper);
                 let text = match dry_of(file) {
                     Dry::Same => format!("λ = {bound}"),
-                    Dry::Other(v) => format!("λ = {v:.7} with dry friction, at most {bound}"),
+                    Dry::Other(v) => format!("λ = {v:.5} with dry friction, at most {bound}"),
                     Dry::Undecided => format!("λ at most {bound}; with dry friction undecided"),
                 };
                 (text, role)
             }
             (Outcome::Unbounded, _) => match dry_value(file) {
-                Some(v) => (format!("the live load wedges where joints open as they slide; with dry friction λ = {v:.7}"), Role::Value),
+                Some(v) => (format!("the live load wedges where joints open as they slide; with dry friction λ = {v:.5}"), Role::Value),
                 None if matches!(dry_of(file), Dry::Undecided) => {
                     ("the live load wedges where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
                 }
@@ -51,7 +51,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                     let text = match dry_of(file) {
                         Dry::Same => format!("falls at a tilt of {bound}°{toward}"),
                         Dry::Other(v) => {
-                            format!("falls at a tilt of {:.5}°{toward} with dry friction, at {bound}° at the latest", v.atan().to_degrees())
+                            format!("falls at a tilt of {:.4}°{toward} with dry friction, at {bound}° at the latest", v.atan().to_degrees())
                         }
                         Dry::Undecided => format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction undecided"),
                     };
@@ -61,7 +61,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                     Some(v) => {
                         let angle = v.atan().to_degrees();
                         let text =
-                            format!("stands at every tilt where joints open as they slide; falls at {angle:.6}°{toward} with dry friction");
+                            format!("stands at every tilt where joints open as they slide; falls at {angle:.4}°{toward} with dry friction");
                         (text, Role::Value)
                     }
                     None if matches!(dry_of(file), Dry::Undecided) => {
@@ -190,7 +190,7 @@ fn unit(file: &ResultFile) -> &'static str {
 /// The load factor with dry friction.
 fn dry(page: &mut Page, file: &ResultFile) {
     let Some(dry) = &file.dry else { return };
-    let words = |v: f64| if file.question == Question::Tilt { format!("{:.6}°", v.atan().to_degrees()) } else { format!("λ = {v:.7}") };
+    let words = |v: f64| if file.question == Question::Tilt { format!("{:.4}°", v.atan().to_degrees()) } else { format!("λ = {v:.5}") };
     let text = match (dry.found, dry.value) {
         (Found::NothingSlides, Some(_)) => "In the mechanism nothing slides, so with dry friction it is the same.".to_string(),
         (Found::FixedPoint, Some(v)) => {
@@ -259,7 +259,7 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: Options) {
             let toward = d.answer.toward.map(point).unwrap_or_default();
             let dry = d.dry.as_ref().map(|dry| (dry.found, dry.value.map(|v| v.atan().to_degrees())));
             let dry = match dry {
-                Some((Found::FixedPoint, Some(angle))) => format!(", with dry friction {angle:.5}°"),
+                Some((Found::FixedPoint, Some(angle))) => format!(", with dry friction {angle:.4}°"),
                 Some((Found::Undecided, _)) => ", with dry friction undecided".into(),
                 _ => String::new(),
             };
