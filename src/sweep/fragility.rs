@@ -96,7 +96,8 @@ fn against_demand(quantity: &str, rows: &[Row]) -> Option<Fragility> {
     if least >= most {
         return None;
     }
-    let at = |k: usize| least + (most - least) * k as f64 / (POINTS - 1) as f64;
+    // Exactly the greatest at the end: rounding must not let it fail its own demand.
+    let at = |k: usize| if k + 1 == POINTS { most } else { least + (most - least) * k as f64 / (POINTS - 1) as f64 };
     let point = |demand: f64| (demand, wilson(strengths.iter().filter(|s| **s < demand).count(), strengths.len()));
     Some(Fragility { along: format!("demanded {quantity}"), points: (0..POINTS).map(|k| point(at(k))).collect() })
 }
