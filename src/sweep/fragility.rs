@@ -1,6 +1,6 @@
 //! The probability of failure against a demand or a parameter, with the uncertainty of a finite sample.
 
-use super::{Answer, Header, Question, Row, Status, influence::groups};
+use super::{Answer, Header, Question, Row, Sampling, Status, influence::groups};
 use serde::Serialize;
 
 /// A share of a sample, with its Wilson interval.
@@ -60,9 +60,15 @@ pub(super) fn failed(question: &Question, answer: &Answer) -> Option<bool> {
     }
 }
 
-/// The curve: of a load factor or tilt without a requirement against the demand (a structure fails where its value is below it), else
+/// The curve; a grid has none, for its rows are no sample of anything. Samples that fill the space evenly (Latin hypercube, Sobol) scatter
+/// less than independent ones: their intervals are on the wide side.
+///
+/// Of a load factor or tilt without a requirement it runs against the demand (a structure fails where its value is below it), else
 /// against the number with index `parameter`.
 pub(super) fn fragility(header: &Header, rows: &[Row], parameter: usize) -> Option<Fragility> {
+    if matches!(header.plan.sampling, Sampling::Grid {}) {
+        return None;
+    }
     match (header.plan.question.quantity(), header.plan.question.require()) {
         (Some(quantity), None) => against_demand(quantity, rows),
         _ => {

@@ -24,7 +24,7 @@ pub struct Summary {
     pub failed: Option<Proportion>,
     /// What matters, the most first.
     pub influence: Vec<Influence>,
-    /// The fragility curve.
+    /// The fragility curve, of a sample.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fragility: Option<Fragility>,
     /// The first row with an error, and its error.

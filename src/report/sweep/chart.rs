@@ -40,6 +40,9 @@ impl Kind {
 pub struct ChartError(String);
 
 const SIZE: (u32, u32) = (560, 360);
+/// Fonts, the drawer's own of that kind.
+const TITLE: (&str, u32) = ("sans-serif", 18);
+const WORDS: (&str, u32) = ("sans-serif", 15);
 const INK: RGBColor = RGBColor(31, 78, 121);
 /// Colours of even steps in lightness, for values from the least to the greatest (viridis; Smith & van der Walt 2015).
 const SCALE: [(u8, u8, u8); 5] = [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)];
@@ -69,7 +72,7 @@ pub fn chart(header: &Header, rows: &[Row], summary: &Summary, kind: Kind) -> Re
         match (kind, &order[..]) {
             (Kind::Fragility, _) => match &summary.fragility {
                 Some(f) => fragility(&area, name, f),
-                None => Err(ChartError("the rows have no fragility curve: too few of them tell".into())),
+                None => Err(ChartError("there is no fragility curve: the plan is a grid, not a sample, or too few rows tell".into())),
             },
             (Kind::Heat, [a, b, ..]) => {
                 // The plan's first number runs along x.
@@ -104,7 +107,7 @@ fn curve(area: &Area, title: &str, labels: [&str; 2], y: (f64, f64), points: &[[
     let x = ends(points.iter().map(|p| p[0])).ok_or_else(|| ChartError("no row has a value".into()))?;
     let mut chart = ChartBuilder::on(area)
         .margin(12)
-        .caption(title, ("sans-serif", 15).into_font())
+        .caption(title, TITLE)
         .x_label_area_size(42)
         .y_label_area_size(64)
         .build_cartesian_2d(x.0..x.1, y.0..y.1)
@@ -112,6 +115,8 @@ fn curve(area: &Area, title: &str, labels: [&str; 2], y: (f64, f64), points: &[[
     let tick = |v: &f64| short(*v);
     chart
         .configure_mesh()
+        .label_style(WORDS)
+        .axis_desc_style(WORDS)
         .x_desc(labels[0])
         .y_desc(labels[1])
         .x_labels(6)
@@ -196,7 +201,7 @@ fn heat(area: &Area, title: &str, labels: [&str; 3], xs: &[f64], ys: &[f64], val
     let (left, bar) = area.split_horizontally(SIZE.0 - 84);
     let mut chart = ChartBuilder::on(&left)
         .margin(12)
-        .caption(title, ("sans-serif", 15).into_font())
+        .caption(title, TITLE)
         .x_label_area_size(42)
         .y_label_area_size(64)
         .build_cartesian_2d(*x0..*x1, *y0..*y1)
@@ -205,6 +210,8 @@ fn heat(area: &Area, title: &str, labels: [&str; 3], xs: &[f64], ys: &[f64], val
     chart
         .configure_mesh()
         .disable_mesh()
+        .label_style(WORDS)
+        .axis_desc_style(WORDS)
         .x_desc(labels[0])
         .y_desc(labels[1])
         .x_labels(6)
@@ -225,7 +232,7 @@ fn heat(area: &Area, title: &str, labels: [&str; 3], xs: &[f64], ys: &[f64], val
         let shade = colour(f64::from(k) / f64::from(STEPS - 1));
         bar.draw(&Rectangle::new([(4, y(k + 1)), (20, y(k))], shade.filled())).map_err(refused)?;
     }
-    let font = || ("sans-serif", 12).into_font();
+    let font = || WORDS.into_font();
     for (y, value) in [(top - 4, high), (bottom - 8, low)] {
         bar.draw(&Text::new(short(value), (24, y), font())).map_err(refused)?;
     }

@@ -44,7 +44,9 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
             Some(require) => format!(" (below {require}, or not standing)"),
             None => String::new(),
         };
-        page.row("failed", [format!("{}{what}", share(failed))]);
+        // A grid is no sample: its share has no interval.
+        let share = if summary.fragility.is_some() { share(failed) } else { format!("{} of {}", failed.failed, failed.of) };
+        page.row("failed", [format!("{share}{what}")]);
     }
     page.row("matters", summary.influence.iter().take(SHOWN).map(|i| format!("{}: {:.0} % of the variance", i.parameter, 100.0 * i.share)));
     if !summary.influence.is_empty() {

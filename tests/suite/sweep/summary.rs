@@ -16,11 +16,15 @@ fn found(number: usize, parameters: &[f64], value: f64) -> Row {
 }
 
 fn two_numbers(question: serde_json::Value) -> Sweep {
+    with(question, json!({ "random": { "samples": 9 } }))
+}
+
+fn with(question: serde_json::Value, sampling: serde_json::Value) -> Sweep {
     let vary = json!([
         { "pointer": "/joints/default/friction", "name": "a", "values": [0.1, 0.2, 0.3] },
         { "pointer": "/materials/stone/density", "name": "b <&\"", "values": [1, 2, 3] }
     ]);
-    sweep(block(), question, vary, json!({ "grid": {} }))
+    sweep(block(), question, vary, sampling)
 }
 
 fn grid(value: impl Fn(f64, f64) -> f64) -> Vec<Row> {
@@ -104,7 +108,11 @@ fn charts_are_good_xml_with_what_they_show() {
     }
     // Nine cells, 40 steps of the colour bar, the ground.
     assert_eq!(draw(Kind::Heat).matches("<rect").count(), 50);
-    assert_eq!(Kind::suited(&header, &summary), Kind::Heat);
+    assert_eq!(Kind::suited(&header, &summary), Kind::Fragility);
+    // A grid is no sample: its values are drawn, its shares are no probabilities.
+    let grid_header = with(json!({ "limit": {} }), json!({ "grid": {} })).header(Shard::ALL);
+    let summary = summarize(&grid_header, &rows);
+    assert_eq!((Kind::suited(&grid_header, &summary), summary.fragility), (Kind::Heat, None));
     let nothing = [row(0, &[0.1, 1.0], Status::Undecided, None)];
     let summary = summarize(&header, &nothing);
     for kind in [Kind::Line, Kind::Heat, Kind::Fragility] {
