@@ -1,7 +1,10 @@
 //! Probability → value: the inverse distribution functions of what a plan can ask for.
 
 use super::plan::Vary;
-use crate::error::{InputError, JsonPath};
+use crate::{
+    error::{InputError, JsonPath},
+    tolerance,
+};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 /// What one number takes.
@@ -31,9 +34,6 @@ enum Kind {
         max: f64,
     },
 }
-
-/// A truncated distribution keeps at least this probability. Less: its quantiles are rounding of the distribution function's tail.
-const LEAST_KEPT: f64 = 1e-9;
 
 impl Axis {
     /// Checks what a plan says about one number; paths of errors are relative to it.
@@ -173,7 +173,7 @@ fn gauss(vary: &Vary) -> Result<Kind, InputError> {
     };
     let (low, high) = (standard(min), standard(max));
     let kept = if low > 0.0 { below(-low) - below(-high) } else { below(high) - below(low) };
-    if kept.is_nan() || kept < LEAST_KEPT {
+    if kept.is_nan() || kept < tolerance::TRUNCATION_KEEPS {
         let message = format!("only {kept:.1e} of the distribution lies between {min} and {max}");
         return Err(InputError::at(JsonPath::root(), message).hint("the limits are far from the mean: check both"));
     }

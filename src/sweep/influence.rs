@@ -1,6 +1,7 @@
 //! Which number matters most: the correlation ratio, the share of the variance of the answer that one number explains by itself,
 //! whatever the form of the dependence (Pearson 1905; for independent numbers the first-order index of Sobol' 1993).
 
+use crate::tolerance;
 use serde::Serialize;
 
 /// How much of the answer one number explains.
@@ -49,7 +50,7 @@ pub fn influence(values: &[f64], answers: &[f64]) -> Option<f64> {
     }
     let spread = answers.iter().fold(0.0_f64, |m, a| m.max((a - all).abs()));
     // Answers that differ by their rounding alone do not vary.
-    if n < 3 || groups.len() < 2 || groups.len() >= n || spread <= 1e-9 * all.abs() || total == 0.0 {
+    if n < 3 || groups.len() < 2 || groups.len() >= n || spread <= tolerance::SAME_ANSWER * all.abs() || total == 0.0 {
         return None;
     }
     let within: f64 = groups

@@ -6,6 +6,7 @@ use super::{
     influence::influence,
     wilson,
 };
+use crate::tolerance;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -84,8 +85,14 @@ fn quantiles(rows: &[Row]) -> Option<Quantiles> {
         let (low, high) = (place.floor() as usize, place.ceil() as usize);
         values[low].0 + (place - place.floor()) * (values[high].0 - values[low].0)
     };
-    let (least, greatest) = (*values.first()?, *values.last()?);
+    let (least, greatest) = (extreme(&values, values.first()?.0), extreme(&values, values.last()?.0));
     Some(Quantiles { least, p05: at(0.05), p25: at(0.25), median: at(0.5), p75: at(0.75), p95: at(0.95), greatest })
+}
+
+/// An extreme value with the first of the rows that have it: what differs by its rounding alone is the same.
+fn extreme(values: &[(f64, usize)], value: f64) -> (f64, usize) {
+    let same = values.iter().filter(|v| (v.0 - value).abs() <= tolerance::SAME_ANSWER * value.abs());
+    (value, same.map(|v| v.1).min().unwrap_or(0))
 }
 
 /// The number of an answer: its value, or 0 for failed and 1 for not; nothing where there is none.

@@ -176,6 +176,8 @@ fn colour(share: f64) -> RGBColor {
     RGBColor(mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
 }
 
+/// Room for the colour bar and its words.
+const BAR: u32 = 122;
 /// Steps of the colour bar.
 const STEPS: i32 = 40;
 
@@ -198,10 +200,10 @@ fn heat(area: &Area, title: &str, labels: [&str; 3], xs: &[f64], ys: &[f64], val
     let (Some(x0), Some(x1), Some(y0), Some(y1)) = (bx.first(), bx.last(), by.first(), by.last()) else {
         return Err(ChartError("no row has a value".into()));
     };
-    let (left, bar) = area.split_horizontally(SIZE.0 - 84);
+    let area = area.titled(title, TITLE).map_err(refused)?;
+    let (left, bar) = area.split_horizontally(SIZE.0 - BAR);
     let mut chart = ChartBuilder::on(&left)
         .margin(12)
-        .caption(title, TITLE)
         .x_label_area_size(42)
         .y_label_area_size(64)
         .build_cartesian_2d(*x0..*x1, *y0..*y1)
@@ -226,7 +228,7 @@ fn heat(area: &Area, title: &str, labels: [&str; 3], xs: &[f64], ys: &[f64], val
         Some(Rectangle::new([(bx[cx], by[cy]), (bx[cx + 1], by[cy + 1])], shade.filled()))
     });
     chart.draw_series(boxes).map_err(refused)?;
-    let (top, bottom) = (40, SIZE.1 as i32 - 60);
+    let (top, bottom) = (40, area.dim_in_pixel().1 as i32 - 60);
     for k in 0..STEPS {
         let y = |k: i32| bottom - (bottom - top) * k / STEPS;
         let shade = colour(f64::from(k) / f64::from(STEPS - 1));

@@ -48,8 +48,12 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
         let share = if summary.fragility.is_some() { share(failed) } else { format!("{} of {}", failed.failed, failed.of) };
         page.row("failed", [format!("{share}{what}")]);
     }
-    page.row("matters", summary.influence.iter().take(SHOWN).map(|i| format!("{}: {:.0} % of the variance", i.parameter, 100.0 * i.share)));
-    if !summary.influence.is_empty() {
+    // Where one number varies there is nothing to compare.
+    if header.plan.vary.len() > 1 && !summary.influence.is_empty() {
+        page.row(
+            "matters",
+            summary.influence.iter().take(SHOWN).map(|i| format!("{}: {:.0} % of the variance", i.parameter, 100.0 * i.share)),
+        );
         page.row(
             "",
             ["measured by the correlation ratio: the variance between groups of rows with like values of one number, over the whole; \
