@@ -14,7 +14,8 @@ pub const COPLANAR: f64 = 1e-7;
 /// Larger: detached blocks are closed silently into one. Smaller: files rounded to 4–5 digits lose contacts.
 pub const CONTACT_GAP: f64 = 1e-4;
 
-/// Default of `contact.angle_deg`: faces further from anti-parallel than this do not face each other.
+/// Default of `contact.angle_deg`: faces further from anti-parallel than this, and than their warp explains, do not face each other.
+/// Larger: a block tilted onto its edge on purpose lies flat. Smaller: files rounded to 3 digits lose contacts of small faces.
 pub const CONTACT_ANGLE_DEG: f64 = 1.0;
 
 /// Default of `contact.min_area`: interfaces smaller than this × (smaller block's size)² are ignored and counted.

@@ -108,27 +108,33 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
     let scale = check::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
     let first = Stop { change: 0.0, solves: 1 };
-    let mut last = iterate(&contacts, Aim::LoadFactor(STAGES[0].0, scale), Hold::SlidingRates, still, first, &settings);
+    let Some(mut from) = iterate(&contacts, Aim::LoadFactor(STAGES[0].0, scale), Hold::SlidingRates, still, first, &settings) else {
+        return answer;
+    };
+    answer.solves = from.solves;
     for (stage, (delta, stop)) in STAGES.into_iter().enumerate() {
         let left = control.seconds - start.elapsed().as_secs_f64();
-        let Some(from) = last.take().filter(|_| left > 0.0) else { break };
+        if left <= 0.0 {
+            break;
+        }
         let settings = Settings { seconds: left, tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
-        answer.solves += from.solves;
-        last = within_strength(&mut contacts, interfaces, |c| {
+        let point = within_strength(&mut contacts, interfaces, |c| {
             iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, &settings)
         });
-        // What wanders at a large δ does not settle at a smaller one.
-        if last.as_ref().is_some_and(|point| point.change > LOST * stop.change) {
+        let Some(point) = point else { break };
+        answer.solves += point.solves;
+        if stage + 1 >= LEAST_STAGES && accept(assembly, interfaces, &contacts, &point, &mut answer) {
             break;
         }
-        if stage + 1 >= LEAST_STAGES
-            && let Some(point) = &last
-            && accept(assembly, interfaces, &contacts, point, &mut answer)
-        {
+        // What wanders at a large δ does not settle at a smaller one; at the smallest it may be the engine's noise.
+        let lost = point.change > LOST * stop.change;
+        if lost && stage + 1 < LEAST_STAGES {
             break;
+        }
+        if !lost {
+            from = point;
         }
     }
-    answer.solves += last.map_or(0, |point| point.solves);
     answer
 }
 
