@@ -26,6 +26,7 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     let (name, bytes) = input::bytes(plan)?;
     let folder = if plan.as_os_str() == "-" { Path::new("") } else { plan.parent().unwrap_or(Path::new("")) };
     let sweep = sweep::open_bytes(name, bytes, folder)?;
+    args.summary.chart.map_or(Ok(()), |kind| report::Kind::from(kind).fits(&sweep.plan))?;
     let output = rows_file(args, plan)?;
     let sinks = Sinks::open(&args.summary)?;
     let options = Options { shard: args.shard, threads: args.threads.map(usize::from), restart: args.restart };

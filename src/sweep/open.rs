@@ -16,7 +16,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// A plan may have this many rows. More would not fit into the memory of the summary; shards of a plan count together.
-pub const MOST_ROWS: usize = 10_000_000;
+pub const MOST_ROWS: usize = 2_000_000;
 
 const PLAN: Kind = Kind { noun: "plan", format: "voussoir-sweep/1", otherwise: "" };
 

@@ -2,7 +2,7 @@
 
 use crate::{
     report::text::number::short,
-    sweep::{Fragility, Header, Row, Sampling, Summary, groups, value_of},
+    sweep::{Fragility, Header, Plan, Row, Sampling, Summary, groups, value_of},
 };
 use plotters::{
     coord::Shift,
@@ -32,6 +32,20 @@ impl Kind {
             (false, _) => Self::Line,
         }
     }
+
+    /// Whether it can be drawn of the rows of a plan at all.
+    ///
+    /// # Errors
+    /// It needs more numbers, or a sample.
+    pub fn fits(self, plan: &Plan) -> Result<(), ChartError> {
+        match self {
+            Self::Heat if plan.vary.len() < 2 => Err(ChartError("a heat map needs two numbers that vary".into())),
+            Self::Fragility if matches!(plan.sampling, Sampling::Grid {}) => {
+                Err(ChartError("a fragility curve needs a sample, and the plan is a grid".into()))
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// A chart that cannot be drawn.
@@ -52,8 +66,9 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// The chart.
 ///
 /// # Errors
-/// There are too few rows with a value.
+/// The plan does not fit this kind, or too few rows have a value.
 pub fn chart(header: &Header, rows: &[Row], summary: &Summary, kind: Kind) -> Result<String, ChartError> {
+    kind.fits(&header.plan)?;
     let order: Vec<usize> = {
         let known = summary.influence.iter().map(|i| i.index);
         let rest = (0..header.plan.vary.len()).filter(|k| summary.influence.iter().all(|i| i.index != *k));
@@ -72,7 +87,7 @@ pub fn chart(header: &Header, rows: &[Row], summary: &Summary, kind: Kind) -> Re
         match (kind, &order[..]) {
             (Kind::Fragility, _) => match &summary.fragility {
                 Some(f) => fragility(&area, name, f),
-                None => Err(ChartError("there is no fragility curve: the plan is a grid, not a sample, or too few rows tell".into())),
+                None => Err(ChartError("too few rows tell whether they fail".into())),
             },
             (Kind::Heat, [a, b, ..]) => {
                 // The plan's first number runs along x.

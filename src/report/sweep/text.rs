@@ -17,7 +17,8 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
     let counts: Vec<String> = summary.counts.iter().map(|(word, n)| format!("{n} {word}")).collect();
     let missing = header.rows.saturating_sub(summary.rows);
     let of = if missing > 0 { format!(" of {}", header.rows) } else { String::new() };
-    let answer = format!("{}{of}: {}", count(summary.rows, "row"), counts.join(", "));
+    let ended = if counts.is_empty() { String::new() } else { format!(": {}", counts.join(", ")) };
+    let answer = format!("{}{of}{ended}", count(summary.rows, "row"));
     page.title(&header.plan.name, answer, if missing > 0 { Role::Unsure } else { Role::Value });
     if brief {
         return page;

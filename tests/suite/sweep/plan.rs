@@ -56,7 +56,7 @@ fn wrong_plans_are_refused_with_place_and_remedy() {
     refused(|p| p["vary"][0]["cuont"] = json!(3), &s, &["vary[0].cuont", "did you mean \"count\""]);
     refused(|p| p["vary"] = json!([]), &s, &["vary", "nothing varies"]);
     refused(|p| p["vary"] = json!([p["vary"][0], p["vary"][0]]), &s, &["vary[1].pointer", "varies twice"]);
-    refused(|p| p["vary"][0]["count"] = json!(100_000_000), &s, &["more than 10000000 rows"]);
+    refused(|p| p["vary"][0]["count"] = json!(100_000_000), &s, &["more than 2000000 rows"]);
     refused(|p| p["sampling"] = json!({ "random": { "samples": 10 } }), &s, &["vary[0].count", "belongs to a grid"]);
     refused(|p| p["question"] = json!({ "guess": {} }), &s, &["question.guess", "assess"]);
     refused(|p| p["question"] = json!({ "tilt": { "toward": [[1, 0, 0]], "all": 4 } }), &s, &["question.tilt.all"]);
