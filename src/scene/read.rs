@@ -95,7 +95,7 @@ fn wrong_format(kind: &Kind, source: &Source) -> Option<InputError> {
     let head: Head = serde_json::from_str(&source.text).ok()?;
     let path = JsonPath::root().key("format");
     let Kind { noun, format: here, otherwise } = kind;
-    let is = |text: &str, prefix: &str| here != &text && text.starts_with(prefix);
+    let is = |text: &str, prefix: &str| !here.starts_with(prefix) && text.starts_with(prefix);
     let error = match head.format {
         None => InputError::at(JsonPath::root(), format!("not a {noun}: the key \"format\" is missing"))
             .hint(format!("add \"format\": \"{here}\"{otherwise}")),
@@ -103,7 +103,7 @@ fn wrong_format(kind: &Kind, source: &Source) -> Option<InputError> {
         Some(serde_json::Value::String(s)) if is(&s, "voussoir-result/") => {
             InputError::at(path, format!("this is a result ({s:?}), not a {noun}")).hint("`voussoir check` reads results")
         }
-        Some(serde_json::Value::String(s)) if is(&s, "voussoir-sweep/1") => {
+        Some(serde_json::Value::String(s)) if is(&s, "voussoir-sweep/") => {
             InputError::at(path, format!("this is a sweep plan ({s:?}), not a {noun}")).hint("`voussoir sweep` reads plans")
         }
         Some(serde_json::Value::String(s)) if is(&s, "voussoir-scene/") => {
