@@ -32,6 +32,17 @@
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
 //!
+//! Inverse questions vary a number of the scene until the verdict flips:
+//!
+//! ```
+//! use voussoir::{analysis::{self, Control, Law, critical::Range}, scene};
+//! let (scene, _) = scene::read_file("structures/semicircular-arch-thick.json".as_ref())?;
+//! let range = Range { pointer: "/templates/0/arch/thickness".into(), from: 0.05, to: 0.3, scan: Some(5) };
+//! let answer = analysis::critical(&scene, &range, &Control { law: Law::Associative, ..Default::default() })?;
+//! assert!((answer.changes[0].value - 0.106_720_903_551).abs() < 1e-10);
+//! # Ok::<(), voussoir::error::InputError>(())
+//! ```
+//!
 //! | convention | |
 //! |---|---|
 //! | units | SI: m, kg, s, N; degrees only in scene files and reports, and then in the name |
@@ -67,6 +78,7 @@ pub mod verdict;
 
 pub mod analysis;
 
+pub mod study;
 pub mod sweep;
 
 pub mod report;

@@ -20,6 +20,8 @@ fn main() -> ExitCode {
         Verb::Assess(a) => cli::assess::run(&a, &terminal),
         Verb::Limit(a) => cli::limit::run(&a, &terminal),
         Verb::Tilt(a) => cli::tilt::run(&a, &terminal),
+        Verb::Critical(a) => cli::critical::run(&a, &terminal),
+        Verb::Thrust(a) => cli::thrust::run(&a, &terminal),
         Verb::Generate(a) => cli::generate::run(&a),
         Verb::Import(a) => cli::import::run(&a),
         Verb::Check(a) => cli::check::run(&a, &terminal),

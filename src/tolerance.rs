@@ -197,6 +197,28 @@ pub const DRY_BALANCE: f64 = 1e-4;
 /// Smaller: the engine's last digits, amplified where a small part of a joint carries, refuse correct forces.
 pub const CRUSHING: f64 = 1e-7;
 
+/// A critical value is found when it is known to this × its size. Larger: fewer digits than the least unbalance holds.
+/// Smaller: the engine's last digits (1e-11 g) decide.
+pub const CRITICAL_WIDTH: f64 = 1e-9;
+
+/// As [`CRITICAL_WIDTH`], for flips between verdicts with dry friction, which have no margin and are found by halving. Larger: fewer
+/// digits. Smaller: states near the flip neither rest nor move, and stay undecided.
+pub const DRY_CRITICAL_WIDTH: f64 = 1e-6;
+
+/// A least or greatest thrust is found when its bracket is narrower than this × its size (plus [`THRUST_FLOOR`]). Larger: fewer digits.
+/// Smaller: walls go down the whole ladder for digits nobody reads.
+pub const THRUST_WIDTH: f64 = 1e-7;
+
+/// Absolute part of the width of a found thrust, in multiples of the total load; it decides where a thrust is zero.
+pub const THRUST_FLOOR: f64 = 1e-9;
+
+/// A line of thrust touches the edge of a section when it lies further out than 1 − this of the way from the centroid. Larger: points
+/// that only come near are called hinges. Smaller: the engine's last digits hide hinges.
+pub const AT_EDGE: f64 = 1e-4;
+
+/// Geometric safety factors are sought up to 1 / this. Larger: slender but centred structures have none. Smaller: sections shrunk so far
+/// are rounding of the coordinates.
+pub const LEAST_SHRINK: f64 = 1e-3;
 /// Natural map of a load factor with dry friction with rates as the program has them
 /// ([`natural_map_in_loads`](crate::verdict::law::natural_map_in_loads)); a state that moves is refined until it is below this.
 /// Larger: values with fewer digits than are shown. Smaller: δ and ε must fall to where the engine's noise rules.

@@ -69,11 +69,13 @@ pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -
     answer
 }
 
+/// How the line begins that says that program C was left out.
+pub(super) const NO_STATE_NEEDED: &str = "the state under dry friction";
+
 /// Admissible forces exist: are they such as the loads produce?
 fn settle(assembly: &Assembly, interfaces: &Interfaces, control: &Control, answer: &mut Assessment) {
     if program::is_forest(assembly, interfaces) {
-        let text = "the state under dry friction: contacts form no closed chain, so statics alone fixes what each one carries";
-        answer.left_out.push(text.into());
+        answer.left_out.push(format!("{NO_STATE_NEEDED}: contacts form no closed chain, so statics alone fixes what each one carries"));
         return;
     }
     let state = state(assembly, interfaces, control);

@@ -92,7 +92,7 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
         }
         climb(assembly, interfaces, &mut statics, step, scale, left, &mut answer);
         let value = answer.value.abs();
-        if answer.bracket.width() <= tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural {
+        if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural) {
             answer.outcome = Outcome::Found;
             break;
         }
@@ -173,7 +173,7 @@ pub fn attempt(assembly: &Assembly, interfaces: &Interfaces, way: &Way) -> LoadF
     let step = Rung { unknowns: way.unknowns, unit: way.unit, local: way.local, settings: way.settings };
     climb(assembly, interfaces, &mut statics, step, scale, way.settings.seconds, &mut answer);
     let value = answer.value.abs();
-    if answer.bracket.width() <= tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly) {
+    if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly)) {
         answer.outcome = Outcome::Found;
     }
     answer

@@ -1,6 +1,6 @@
 //! The options that would have to be given again for the same answer, as typed.
 
-use super::args::{Common, DIRECTIONS, Law, Tilt};
+use super::args::{Common, Critical, DIRECTIONS, Law, Thrust, Tilt};
 use voussoir::sweep::Range;
 
 /// As typed, where it was given.
@@ -21,6 +21,26 @@ impl Tilt {
             self.toward.iter().map(|[x, y, z]| if *z == 0.0 { format!("--toward {x},{y}") } else { format!("--toward {x},{y},{z}") });
         let all = (self.all != DIRECTIONS).then(|| format!("--all {}", self.all));
         toward.chain(all).chain(skip_dead(self.skip_dead)).collect()
+    }
+}
+
+impl Critical {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let ends: Vec<String> = self.between.iter().map(f64::to_string).collect();
+        let range = [format!("--vary {}", super::question::quoted(&self.vary)), format!("--between {}", ends.join(" "))];
+        let step = self.step.map(|s| format!("--step {s}"));
+        let scan = self.scan.map(|n| format!("--scan {n}"));
+        range.into_iter().chain(step).chain(scan).collect()
+    }
+}
+
+impl Thrust {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let support = self.support.as_ref().map(|s| format!("--support {}", super::question::quoted(s)));
+        let direction = self.direction.map(|[x, y, z]| format!("--direction {x},{y},{z}"));
+        support.into_iter().chain(direction).collect()
     }
 }
 

@@ -71,6 +71,19 @@ pub enum Verb {
     /// The ground is tipped towards a direction until the structure fails; own weight and dead loads turn with gravity, live loads are left
     /// out. The least tilt of all directions is the answer. Exit codes as for `limit`.
     Tilt(Tilt),
+    /// At what value of a number in the scene does the verdict flip?
+    ///
+    /// The number is named by its JSON pointer, such as /templates/0/arch/thickness or /joints/default/friction. The range is scanned first,
+    /// since there may be several flips; each is narrowed to 1e-9 of its value by following the least unbalance to zero, and verdicts with
+    /// proof stand on both sides of it. Exit code 0 if there is a flip, 1 if it stands or falls throughout, 3 if that stays open.
+    Critical(Critical),
+    /// How hard does it push a support, at least and at most?
+    ///
+    /// The thrust is the horizontal component of the force on a support. Forces inside the friction cones reach both ends of its range, and
+    /// mechanisms in which the support yields or is pushed in prove that there are no others. With them come the line of thrust at every
+    /// section and the geometric safety factor: how far all sections can be shrunk and still hold a line of thrust.
+    /// Exit code 0 if both ends are found or have no limit, 1 if the scene falls, 3 if that stays open.
+    Thrust(Thrust),
     /// Make a scene from a template.
     ///
     /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON on the right:
@@ -235,6 +248,39 @@ pub struct Tilt {
     /// Do not ask as well whether it stands when level.
     #[arg(long)]
     pub skip_dead: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Critical {
+    #[command(flatten)]
+    pub common: Common,
+    /// JSON pointer of the number to vary.
+    #[arg(long, value_name = "POINTER")]
+    pub vary: String,
+    /// The range.
+    #[arg(long, required = true, num_args = 2, value_names = ["A", "B"], allow_negative_numbers = true, value_parser = finite)]
+    pub between: Vec<f64>,
+    /// Scan so many values, both ends among them [default: 33; of a count every one].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    pub scan: Option<u32>,
+    /// Scan in steps of at most this size.
+    #[arg(long, value_name = "SIZE", conflicts_with = "scan", allow_negative_numbers = true, value_parser = positive)]
+    pub step: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub struct Thrust {
+    #[command(flatten)]
+    pub common: Common,
+    /// The support; the first one that carries a free block where none is named.
+    #[arg(long, value_name = "ID")]
+    pub support: Option<String>,
+    /// The direction of the thrust (its part across gravity); outwards from the blocks' centre of mass where none is given.
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
+    pub direction: Option<[f64; 3]>,
+    /// Draw the blocks and the two lines of thrust, seen across the thrust, to this file.
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
 }
 
 /// What every question takes.

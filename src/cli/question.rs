@@ -103,7 +103,7 @@ impl<'a> Question<'a> {
 }
 
 /// A word as a shell takes it whole.
-fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     if word.chars().all(|c| c.is_alphanumeric() || "/._-+=:,@%\\".contains(c)) {
         return word.to_string();
     }

@@ -1,10 +1,13 @@
 //! Answers for people and for programs. No mechanics here: one file per format.
 
+pub mod critical;
 pub mod json;
 pub mod read;
 pub mod result;
+pub mod svg;
 pub mod sweep;
 pub mod text;
+pub mod thrust;
 pub mod verify;
 
 pub use result::{Leaning, ResultFile};

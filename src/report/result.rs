@@ -1,6 +1,10 @@
 //! The result file (`"format": "voussoir-result/1"`): the question, the answer and its evidence, complete enough to be
 //! verified without a solver.
 
+use super::{
+    critical::{CriticalResult, CriticalValue},
+    thrust::{ThrustAnswer, ThrustResult},
+};
 use crate::{
     analysis::{Assessment, Attempt, Bracket, Law, LoadFactor, Model, Outcome, Tilt, Timings, coulomb},
     error::Finding,
@@ -49,6 +53,12 @@ pub struct ResultFile {
     /// The state under dry friction, where it had to be computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coulomb_state: Option<CoulombState>,
+    /// Critical: the flips with the verdicts on both sides of each.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub critical: Option<CriticalResult>,
+    /// Thrust: the evidence for both ends and the line of thrust.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thrust: Option<ThrustResult>,
     /// The mechanism in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
@@ -74,6 +84,10 @@ pub enum Question {
     Limit,
     /// At what tilt does it fall?
     Tilt,
+    /// At what value of a number in the scene does the verdict flip?
+    Critical,
+    /// How hard does it push a support?
+    Thrust,
 }
 
 /// The scene a result is about.
@@ -113,6 +127,12 @@ pub struct Answer {
     /// The direction of the tilt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub toward: Option<[f64; 3]>,
+    /// The values at which the verdict flips.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub critical: Option<Vec<CriticalValue>>,
+    /// The range of the thrust on a support, and the geometric safety factor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thrust: Option<ThrustAnswer>,
 }
 
 /// A load factor.
@@ -248,6 +268,13 @@ impl Default for Versions {
     }
 }
 
+impl Certificate {
+    /// Nothing is claimed.
+    pub fn none() -> Self {
+        Self { claim: None, forces: Vec::new(), base: None, rates: Vec::new(), verified: Vec::new() }
+    }
+}
+
 /// Verifies a claim and packs it with its evidence. The findings say whether it holds.
 pub fn certify(model: &Model, claim: Option<Claim>, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> (Certificate, Findings) {
     let (assembly, interfaces) = (&model.assembly, &model.interfaces);
@@ -263,7 +290,7 @@ pub fn certify(model: &Model, claim: Option<Claim>, forces: &Forces, base: Optio
 }
 
 impl ResultFile {
-    fn new(question: Question, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
+    pub(super) fn new(question: Question, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
         Self {
             format: Format::V1,
             question,
@@ -281,6 +308,8 @@ impl ResultFile {
             dead_load: None,
             dry: None,
             coulomb_state: None,
+            critical: None,
+            thrust: None,
             mechanism: None,
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),
@@ -370,7 +399,7 @@ impl ResultFile {
         self
     }
 
-    fn warn(&mut self, findings: &Findings) {
+    pub(super) fn warn(&mut self, findings: &Findings) {
         let code = crate::error::FindingCode::Numerics;
         self.warnings.extend(findings.fails.iter().map(|f| Finding::new(code, format!("certificate refused: {f}"))));
     }
@@ -393,7 +422,7 @@ fn dry_result(model: &Model, d: &coulomb::DryLoadFactor) -> (DryResult, Findings
     (dry, findings)
 }
 
-fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) {
+pub(super) fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) {
     let (mut certificate, findings) = certify(model, a.claim(), &a.forces, a.base(), &a.rates);
     let mut verdict = a.verdict;
     if !findings.fails.is_empty() {

@@ -7,6 +7,7 @@
 mod block;
 mod contact;
 mod explain;
+mod field;
 mod interface;
 mod joint;
 mod load;

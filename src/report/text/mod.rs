@@ -2,9 +2,11 @@
 
 mod answer;
 mod check;
+mod critical;
 mod mechanism;
 pub mod number;
 mod page;
+mod thrust;
 
 pub use check::{inspection, verification};
 pub use page::{Layout, Page, Role, Span, printable};
@@ -48,6 +50,8 @@ pub fn render(file: &ResultFile, asked: Asked, options: Options, layout: Layout)
     page.blank();
     mechanism::rows(&mut page, file, options);
     answer::directions(&mut page, file, options);
+    critical::rows(&mut page, file, options);
+    thrust::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
     page.row(
@@ -111,11 +115,14 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         Question::Assess => "assess",
         Question::Limit => "limit",
         Question::Tilt => "tilt",
+        Question::Critical => "critical",
+        Question::Thrust => "thrust",
     };
     let again =
         if asked.options.is_empty() { format!("voussoir {verb} {scene}") } else { format!("voussoir {verb} {scene} {}", asked.options) };
     let look = (format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
-    if file.certificate.claim.is_none() {
+    let elsewhere = file.critical.is_some() || file.thrust.is_some();
+    if file.certificate.claim.is_none() && !elsewhere {
         return page.commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
     }
     let mut list = Vec::new();
