@@ -10,6 +10,7 @@ use voussoir::{
     program::{self, Options, Statics, Unknowns},
     report::ResultFile,
     scene::{Scene, read_str},
+    sweep,
     verdict::check,
 };
 
@@ -77,6 +78,15 @@ fn figures(c: &mut Criterion) {
     group.bench_function("whole process: assess an arch of 27 voussoirs", |b| {
         b.iter(|| Command::new(env!("CARGO_BIN_EXE_voussoir")).args(["assess", arch, "--quiet"]).output().expect("the program runs"))
     });
+    let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/sweeps/arch-in-earthquake.json");
+    let sweep = sweep::open(plan.as_ref()).expect("the plan opens");
+    let folder = tempfile::tempdir().expect("a folder");
+    for threads in [1, 2, 4] {
+        let options = sweep::Options { threads: Some(threads), restart: true, ..sweep::Options::default() };
+        group.bench_function(format!("sweep of {} arches of 27 voussoirs, {threads} threads", sweep.rows()), |b| {
+            b.iter(|| sweep::run(&sweep, &folder.path().join("rows.jsonl"), &options, &|_| {}).expect("the sweep runs"))
+        });
+    }
     group.finish();
 }
 

@@ -6,7 +6,7 @@
 //! Each stage is one module and hands the next a plain value; nothing reaches back:
 //!
 //! ```text
-//! JSON ─▶ scene::Scene ─▶ assembly::Assembly ─▶ interface::Interfaces ─▶ program ─▶ solve ─▶ verdict ─▶ analysis ─▶ report
+//! JSON ─▶ scene::Scene ─▶ assembly::Assembly ─▶ interface::Interfaces ─▶ program ─▶ solve ─▶ verdict ─▶ analysis ─▶ sweep ─▶ report
 //!              ▲
 //!   generate, import
 //! ```
@@ -79,5 +79,6 @@ pub mod verdict;
 pub mod analysis;
 
 pub mod study;
+pub mod sweep;
 
 pub mod report;

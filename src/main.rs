@@ -25,7 +25,8 @@ fn main() -> ExitCode {
         Verb::Generate(a) => cli::generate::run(&a),
         Verb::Import(a) => cli::import::run(&a),
         Verb::Check(a) => cli::check::run(&a, &terminal),
-        Verb::Schema => cli::schema::run(),
+        Verb::Sweep(a) => cli::sweep::run(&a, &terminal),
+        Verb::Schema(a) => cli::schema::run(&a),
     };
     match result {
         Ok(exit) => exit.into(),

@@ -223,3 +223,11 @@ pub const LEAST_SHRINK: f64 = 1e-3;
 /// ([`natural_map_in_loads`](crate::verdict::law::natural_map_in_loads)); a state that moves is refined until it is below this.
 /// Larger: values with fewer digits than are shown. Smaller: δ and ε must fall to where the engine's noise rules.
 pub const NATURAL_MAP: f64 = 1e-6;
+
+/// Answers of a sweep closer than this × themselves are the same. Larger: neighbours on a fine grid are one. Smaller: the engine's last
+/// digits (1e-10) say which row is the least, or that a number matters on which nothing depends.
+pub const SAME_ANSWER: f64 = 1e-8;
+
+/// A truncated distribution keeps at least this probability. Larger: tails that somebody asks for are refused. Smaller: quantiles are
+/// rounding of the distribution function.
+pub const TRUNCATION_KEEPS: f64 = 1e-9;

@@ -9,11 +9,12 @@ use crate::{
     solve::{self, Settings, Solution, Status},
     verdict::{Forces, Rate, certificate},
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
 /// How a joint slides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Law {
     /// A joint that slides opens by μ × the slip. Admissible forces are then enough to stand.

@@ -2,6 +2,7 @@
 
 pub mod assess;
 mod attempt;
+mod claim;
 pub mod coulomb;
 pub mod critical;
 mod ends;
@@ -9,6 +10,7 @@ pub mod flip;
 pub mod geometric;
 pub mod limit;
 mod prepare;
+pub mod reuse;
 pub mod thrust;
 pub mod tilt;
 

@@ -1,10 +1,17 @@
 //! The options that would have to be given again for the same answer, as typed.
 
 use super::args::{Common, Critical, DIRECTIONS, Law, Thrust, Tilt};
+use voussoir::sweep::Range;
 
 /// As typed, where it was given.
 pub fn skip_dead(given: bool) -> Vec<String> {
     if given { vec!["--skip-dead".into()] } else { Vec::new() }
+}
+
+/// As typed, where there are ranges.
+pub fn worst(ranges: &[Range]) -> Vec<String> {
+    let list: Vec<String> = ranges.iter().map(Range::to_string).collect();
+    if list.is_empty() { Vec::new() } else { vec![format!("--worst {}", list.join(","))] }
 }
 
 impl Tilt {

@@ -2,7 +2,11 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
-use voussoir::{import::Up, scene::Friction};
+use voussoir::{
+    import::Up,
+    scene::Friction,
+    sweep::{Range, Shard},
+};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -95,14 +99,119 @@ pub enum Verb {
     /// joint, and every word of the answer is compared. Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing.
     /// Of a scene, near misses, overlaps, loose blocks and slips of units are listed. Exit code 0 if there is none, 1 otherwise.
     Check(Check),
-    /// Print the JSON Schema of scenes.
-    Schema,
+    /// Ask a question of many scenes that differ in a few numbers.
+    ///
+    /// The plan names a scene, a question and the numbers that vary, by JSON pointer, on a grid or sampled. Every row is appended to a file as
+    /// it ends; the same command takes it up again after a kill at any point. Rows are the same whatever the threads.
+    /// Exit code 0 if all rows are done (a row whose scene fails holds its error).
+    Sweep(Sweep),
+    /// Print the JSON Schema of scenes, or of sweep plans.
+    Schema(Schema),
+}
+
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct Sweep {
+    #[command(subcommand)]
+    pub merge: Option<SweepVerb>,
+    /// The plan (JSON), `-` for standard input.
+    #[arg(required = true)]
+    pub plan: Option<PathBuf>,
+    /// The file of rows (JSON lines), which is continued if it holds rows of this plan; by default the plan's name with the ending
+    /// `.rows.jsonl`, in the current folder.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Do every N-th row, starting with the K-th; `sweep merge` puts the files together.
+    #[arg(long, value_name = "K/N", default_value_t = Shard::ALL)]
+    pub shard: Shard,
+    /// Threads; by default one a processor.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Begin again where the file holds rows already.
+    #[arg(long)]
+    pub restart: bool,
+    #[command(flatten)]
+    pub summary: Summary,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum SweepVerb {
+    /// Put files of rows together, in the order of the rows, and sum them up.
+    ///
+    /// Exit code 3 if rows are missing.
+    Merge(Merge),
+}
+
+#[derive(Debug, Args)]
+pub struct Merge {
+    /// Files of rows of one plan.
+    #[arg(required = true)]
+    pub rows: Vec<PathBuf>,
+    /// Write all rows to this file.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub summary: Summary,
+}
+
+/// What is made of rows.
+#[derive(Debug, Args)]
+pub struct Summary {
+    /// Write the rows as a table.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Draw a chart.
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Which chart: `line` (value against one number), `heat` (against two), `fragility` (share that fails); by default what suits the plan.
+    #[arg(long, value_enum, value_name = "KIND", requires = "svg", hide_possible_values = true)]
+    pub chart: Option<Chart>,
+    /// Print the summary as one JSON object and nothing else.
+    #[arg(long)]
+    pub json: bool,
+    /// The first line only, and no progress.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Chart {
+    Line,
+    Heat,
+    Fragility,
+}
+
+impl From<Chart> for voussoir::report::sweep::Kind {
+    fn from(chart: Chart) -> Self {
+        match chart {
+            Chart::Line => Self::Line,
+            Chart::Heat => Self::Heat,
+            Chart::Fragility => Self::Fragility,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct Schema {
+    /// Of what: `scene` or `plan`.
+    #[arg(value_enum, default_value_t = Format::Scene, hide_possible_values = true)]
+    pub of: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    Scene,
+    Plan,
 }
 
 #[derive(Debug, Args)]
 pub struct Assess {
     #[command(flatten)]
     pub common: Common,
+    /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is `friction` (of all joints without an exception),
+    /// `density` (every material by itself), `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is the worst is said.
+    #[arg(long, value_name = "RANGES", value_delimiter = ',')]
+    pub worst: Vec<Range>,
 }
 
 #[derive(Debug, Args)]
@@ -116,6 +225,10 @@ pub struct Limit {
     /// Do not ask as well whether it stands without its live load.
     #[arg(long)]
     pub skip_dead: bool,
+    /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is `friction` (of all joints without an exception),
+    /// `density` (every material by itself), `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is the worst is said.
+    #[arg(long, value_name = "RANGES", value_delimiter = ',')]
+    pub worst: Vec<Range>,
 }
 
 #[derive(Debug, Args)]

@@ -13,6 +13,7 @@ pub mod limit;
 mod output;
 mod question;
 pub mod schema;
+pub mod sweep;
 pub mod terminal;
 pub mod thrust;
 pub mod tilt;

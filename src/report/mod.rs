@@ -5,6 +5,7 @@ pub mod json;
 pub mod read;
 pub mod result;
 pub mod svg;
+pub mod sweep;
 pub mod text;
 pub mod thrust;
 pub mod verify;

@@ -406,10 +406,9 @@ impl ResultFile {
 }
 
 fn dry_result(model: &Model, d: &coulomb::DryLoadFactor) -> (DryResult, Findings) {
-    let found = d.value.is_finite() && d.found != coulomb::Found::Undecided;
-    let claim = found.then_some(Claim::DryLoadFactor { value: d.value });
+    let claim = d.claim();
     let (mut certificate, findings) = certify(model, claim, &d.forces, None, &d.rates);
-    let proved = found && findings.fails.is_empty();
+    let proved = claim.is_some() && findings.fails.is_empty();
     if !proved {
         certificate.claim = None;
     }
@@ -424,15 +423,7 @@ fn dry_result(model: &Model, d: &coulomb::DryLoadFactor) -> (DryResult, Findings
 }
 
 pub(super) fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) {
-    let claim = match a.verdict {
-        Verdict::Stable => Some(Claim::Stable),
-        Verdict::Unstable => Some(Claim::Unstable),
-        Verdict::Conditional => Some(Claim::Conditional),
-        Verdict::Undecided => None,
-    };
-    // Of a conditional verdict the base are the forces without the pre-stress.
-    let base = a.state.as_ref().filter(|_| a.verdict == Verdict::Conditional).map(|s| &s.forces);
-    let (mut certificate, findings) = certify(model, claim, &a.forces, base, &a.rates);
+    let (mut certificate, findings) = certify(model, a.claim(), &a.forces, a.base(), &a.rates);
     let mut verdict = a.verdict;
     if !findings.fails.is_empty() {
         (verdict, certificate.claim) = (Verdict::Undecided, None);
@@ -442,13 +433,7 @@ pub(super) fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate,
 }
 
 fn load_factor(model: &Model, l: &LoadFactor) -> (Answer, Certificate, Findings) {
-    let claim = match l.outcome {
-        Outcome::Found => Some(Claim::LoadFactor { value: l.value, lower: l.bracket.lower, upper: l.bracket.upper }),
-        Outcome::Unbounded => l.base.as_ref().map(|(standing, _)| Claim::Unbounded { standing: *standing }),
-        Outcome::Impossible => Some(Claim::Impossible),
-        Outcome::Undecided => None,
-    };
-    let (mut certificate, findings) = certify(model, claim, &l.forces, l.base.as_ref().map(|b| &b.1), &l.rates);
+    let (mut certificate, findings) = certify(model, l.claim(), &l.forces, l.base.as_ref().map(|b| &b.1), &l.rates);
     let mut status = l.outcome;
     if !findings.fails.is_empty() {
         (status, certificate.claim) = (Outcome::Undecided, None);

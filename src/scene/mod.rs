@@ -25,6 +25,7 @@ pub use contact::ContactSpec;
 pub use interface::InterfaceSpec;
 pub use joint::{Friction, JointOverride, JointSpec, Joints, Material};
 pub use load::{At, Load, Loads};
+pub(crate) use read::{Kind, read_as, text};
 pub use read::{read_bytes, read_file, read_str};
 pub use schema::schema;
 pub use source::Source;

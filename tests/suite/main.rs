@@ -18,4 +18,5 @@ mod real;
 mod reference;
 mod scenes;
 mod strength;
+mod sweep;
 mod thrust;
