@@ -65,6 +65,8 @@ pub mod solve;
 
 pub mod verdict;
 
+pub mod dynamics;
+
 pub mod analysis;
 
 pub mod report;

@@ -181,3 +181,30 @@ pub const DRY_LAW: f64 = 1e-4;
 /// Forces of a load factor with dry friction balance each block up to this, in multiples of its load. Larger: values of
 /// iterations that still wander. Smaller: the engine's noise at small δ (1e-5) leaves walls undecided.
 pub const DRY_BALANCE: f64 = 1e-4;
+
+/// In the dynamics shapes are smaller by this × the block's size, and the contacts add it again as a skin, so that faces meet where they
+/// are but never touch exactly. Larger: edges and corners are visibly round. Smaller: the engine's contact normals are rounding noise.
+pub const SKIN: f64 = 2e-5;
+
+/// [`SKIN`] is at most this × the thickness of the thinnest piece of the block. Larger: thin plates turn inside out.
+/// Smaller: plates of 1e-4 of their size get a skin of rounding noise.
+pub const SKIN_OF_THICKNESS: f64 = 0.01;
+
+/// A block has fallen in the dynamics when it moved by more than this × the least block thickness and still moves.
+/// Larger: slow collapses outlast the horizon. Smaller: settling counts as falling.
+pub const FALLEN: f64 = 0.05;
+
+/// A block is where it was in the dynamics when it moved by less than this × the least block thickness.
+/// Larger: the first degrees of a slow collapse pass for rest. Smaller: tall columns, which settle on soft contacts, are never at rest.
+pub const SETTLED: f64 = 1e-3;
+
+/// A block moves in the dynamics when its kinetic energy exceeds this × m g L. Larger: toppling 1 % past the limit is called slow.
+/// Smaller: shaking contacts count as falling.
+pub const MOVING_ENERGY: f64 = 1e-6;
+
+/// A scene has come to rest in the dynamics when every block's kinetic energy stays below this × m g L for [`REST_TIME`].
+/// Larger: motion 1e-5 beyond the limit passes for rest. Smaller: the engine's rounding keeps scenes awake.
+pub const REST_ENERGY: f64 = 1e-12;
+
+/// How long a scene must rest, in multiples of √(L/g), L the median block size. Longer: time is lost. Shorter: turning points pass for rest.
+pub const REST_TIME: f64 = 3.0;
