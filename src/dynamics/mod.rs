@@ -34,8 +34,6 @@ pub struct Settings {
     pub fidelity: Option<Fidelity>,
     /// Time to simulate at most, s; by default 10 √(H/g), H the height of the scene, and at least 10 √(L/g), L the median block size.
     pub seconds: Option<f64>,
-    /// Live loads act with this factor.
-    pub load_factor: f64,
     /// Threads of the engine. The answer does not depend on them, bit by bit.
     pub threads: usize,
     /// Frames to keep over the horizon, evenly spread, the first at the start; 0 for none.
@@ -46,7 +44,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { fidelity: None, seconds: None, load_factor: 0.0, threads: 1, frames: 0, to_the_end: false }
+        Self { fidelity: None, seconds: None, threads: 1, frames: 0, to_the_end: false }
     }
 }
 

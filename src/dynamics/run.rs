@@ -10,19 +10,26 @@ use crate::{
     assembly::{Assembly, Wrench},
     error::{Finding, FindingCode, InputError},
     interface::Interfaces,
-    tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED},
+    tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE},
 };
 use nalgebra::Vector3;
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
 /// Steps between two reports to the caller.
 const REPORT: usize = 50;
+/// Loads grow from nothing over this many √(L/g), all in proportion. Shorter: chains of blocks fall a little before their contact forces
+/// have built up, which is 1 % of the thickness in an arch. Longer: time is lost.
+const ONSET: f64 = 1.0;
+/// Contact forces are those of a scene at rest when reactions and loads add up to this × the loads.
+const BALANCED: f64 = 1e-6;
 /// A collapse that took longer than this many √(L/g) is slow, and looked at with finer steps.
 const SLOW: f64 = 6.0;
 /// The horizon in √(H/g) and in √(L/g), H the height of the scene, L the median block size.
 const HORIZON: f64 = 10.0;
 /// Near the margin the horizon is this many times as long.
 const LONGER: f64 = 2.0;
+/// At the horizon a scene rests below this × [`MOVING_ENERGY`]: what still shakes could not carry a block far.
+const QUIET: f64 = 1e-3;
 /// A displacement is measured against a thickness of at least this × the block's reach.
 const THINNEST: f64 = 0.01;
 
@@ -36,7 +43,7 @@ impl Fidelity {
     }
 }
 
-/// Runs a scene in time under its dead loads and `load_factor` × its live loads. `watch` hears of the progress and may stop it.
+/// Runs a scene in time under its dead loads. `watch` hears of the progress and may stop it.
 ///
 /// # Errors
 /// A block that the engine cannot take.
@@ -46,7 +53,7 @@ pub fn simulate(
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Outcome, InputError> {
-    let loads = Loads::of(assembly, settings.load_factor);
+    let loads = Loads::of(assembly);
     let mut outcome = Outcome {
         fate: Fate::Stands,
         collapse: None,
@@ -104,12 +111,9 @@ struct Loads {
 }
 
 impl Loads {
-    fn of(assembly: &Assembly, load_factor: f64) -> Self {
-        let scaled = |w: &Wrench| Wrench { force: w.force * load_factor, moment: w.moment * load_factor };
-        let mut total = assembly.dead.clone();
-        total.iter_mut().zip(&assembly.live).for_each(|(sum, live)| *sum += scaled(live));
+    fn of(assembly: &Assembly) -> Self {
         let turning = assembly.dead_forces.iter().map(|f| (f.block, f.force, f.arm)).collect();
-        Self { total, turning }
+        Self { total: assembly.dead.clone(), turning }
     }
 }
 
@@ -161,10 +165,6 @@ impl Stage<'_> {
         let step = Step { dt, iterations, threads: self.settings.threads.max(1) };
         let mut world = World::new(self.bodies, self.frictions, step)
             .map_err(|text| InputError::at(Default::default(), text).hint("ask `voussoir assess` instead"))?;
-        for i in self.assembly.free() {
-            let Wrench { force, moment } = self.loads.total[i];
-            world.load(i, force / self.units.force(), moment / self.units.moment());
-        }
         let total = (horizon / dt).ceil().max(1.0) as usize;
         let every = if self.settings.frames > 0 { (total / self.settings.frames).max(1) } else { usize::MAX };
         let (mut steps, mut resting) = (0, 0.0);
@@ -177,10 +177,10 @@ impl Stage<'_> {
             if steps == total {
                 break Stop::Horizon;
             }
-            self.turn_loads(&mut world);
+            let time = (steps + 1) as f64 * dt;
+            self.load(&mut world, smooth(time / ONSET), time - dt < ONSET);
             world.step();
             steps += 1;
-            let time = steps as f64 * dt;
             if !world.is_healthy() {
                 break Stop::Broken;
             }
@@ -207,13 +207,14 @@ impl Stage<'_> {
             if fell_at.is_some() && !self.settings.to_the_end {
                 break Stop::Fallen;
             }
-            if resting >= REST_TIME && !self.settings.to_the_end {
+            let rested = resting >= REST_TIME && steps % REPORT == 0 && !self.settings.to_the_end;
+            if rested && self.reaction_error(&self.contacts(&world)) < BALANCED {
                 break Stop::Rest;
             }
         };
         let fate = match stop {
             _ if fell_at.is_some() => Fate::Falls,
-            Stop::Rest | Stop::Horizon if state.farthest.1 < SETTLED && state.energy < MOVING_ENERGY => Fate::Stands,
+            Stop::Rest | Stop::Horizon if state.farthest.1 < settled(fidelity) && state.energy < QUIET * MOVING_ENERGY => Fate::Stands,
             _ => Fate::Undecided,
         };
         let (block, relative) = state.farthest;
@@ -246,16 +247,20 @@ impl Stage<'_> {
         body.thickness.max(THINNEST * body.reach)
     }
 
-    /// Forces that act at a point of a block keep their direction while the point moves with the block.
-    fn turn_loads(&self, world: &mut World) {
+    /// Sets this part of the loads, on every block or only where a load turns. Forces that act at a point of a block keep their direction
+    /// while the point moves with the block.
+    fn load(&self, world: &mut World, part: f64, every: bool) {
         let mut moments: BTreeMap<usize, Vector3<f64>> = BTreeMap::new();
         for &(block, force, arm) in &self.loads.turning {
             let turned = world.pose(block).1 * arm;
-            let start = self.loads.total[block].moment;
-            *moments.entry(block).or_insert(start) += (turned - arm).cross(&force);
+            *moments.entry(block).or_default() += (turned - arm).cross(&force);
         }
-        for (block, moment) in moments {
-            world.load(block, self.loads.total[block].force / self.units.force(), moment / self.units.moment());
+        let all = every.then(|| self.assembly.free()).into_iter().flatten();
+        let turning = if every { None } else { Some(moments.keys().copied()) };
+        for i in all.chain(turning.into_iter().flatten()) {
+            let Wrench { force, moment } = self.loads.total[i];
+            let moment = moment + moments.get(&i).copied().unwrap_or_default();
+            world.load(i, force * part / self.units.force(), moment * part / self.units.moment());
         }
     }
 
@@ -333,4 +338,19 @@ impl Stage<'_> {
         let size: f64 = self.assembly.free().map(|i| self.loads.total[i].force.norm()).sum();
         if size > 0.0 { left.norm() / size } else { 0.0 }
     }
+}
+
+/// How far a block may have moved for its thickness where it came to rest. Contacts sink in by the square of the step: what fine steps
+/// leave is settling.
+fn settled(fidelity: Fidelity) -> f64 {
+    match fidelity {
+        Fidelity::Fast => SETTLED,
+        Fidelity::Fine => SETTLED_FINE,
+    }
+}
+
+/// From 0 to 1 and then 1, with continuous slope.
+fn smooth(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
 }
