@@ -166,9 +166,10 @@ impl<'a> Frictions<'a> {
     /// Between two blocks; 0 where no rule says any.
     pub fn between(&self, a: usize, b: usize) -> f64 {
         let pair = (a.min(b), a.max(b));
-        self.known.get(&pair).copied().unwrap_or_else(|| {
-            self.assembly.joints.friction(pair.0, pair.1, &self.assembly.blocks).map_or(0.0, coefficient)
-        })
+        self.known
+            .get(&pair)
+            .copied()
+            .unwrap_or_else(|| self.assembly.joints.friction(pair.0, pair.1, &self.assembly.blocks).map_or(0.0, coefficient))
     }
 
     /// Of an interface given by hand.

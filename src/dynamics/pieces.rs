@@ -28,12 +28,7 @@ pub(super) fn pieces(shape: &Polyhedron, origin: Vector3<f64>, unit: f64) -> Opt
     let facets: Vec<Vec<Face>> = shape
         .facets
         .iter()
-        .map(|f| {
-            f.pieces
-                .iter()
-                .map(|p| Face { normal: f.normal, points: shape.points(p).map(place).collect(), inner: false })
-                .collect()
-        })
+        .map(|f| f.pieces.iter().map(|p| Face { normal: f.normal, points: shape.points(p).map(place).collect(), inner: false }).collect())
         .collect();
     let whole = if shape.convex { vec![Cell { faces: facets.concat() }] } else { solid_cells(&facets)? };
     let mut pieces = Vec::new();

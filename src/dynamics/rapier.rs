@@ -216,7 +216,11 @@ impl<'a> World<'a> {
                 }
                 let friction = active().next().map_or(Vector::ZERO, |p| p.data.warmstart_tangent_world) * (substeps / dt);
                 let force = back(manifold.data.normal) * normal_force - back(friction);
-                list.push((pair.collider1.into_raw_parts(), pair.collider2.into_raw_parts(), Patch { a: a.body, b: b.body, force, normal_force }));
+                list.push((
+                    pair.collider1.into_raw_parts(),
+                    pair.collider2.into_raw_parts(),
+                    Patch { a: a.body, b: b.body, force, normal_force },
+                ));
             }
         }
         list.sort_by_key(|(one, other, _)| (*one, *other));

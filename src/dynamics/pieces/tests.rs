@@ -13,7 +13,9 @@ fn prism(polygon: &[[f64; 2]], depth: f64) -> Polyhedron {
 
 fn volume(cell: &Cell) -> f64 {
     let middle = cell.middle();
-    let cone = |f: &Face| f.points[1..].windows(2).map(|p| (p[0] - f.points[0]).cross(&(p[1] - f.points[0])).dot(&(f.points[0] - middle)) / 6.0).sum::<f64>();
+    let cone = |f: &Face| {
+        f.points[1..].windows(2).map(|p| (p[0] - f.points[0]).cross(&(p[1] - f.points[0])).dot(&(f.points[0] - middle)) / 6.0).sum::<f64>()
+    };
     cell.faces.iter().map(cone).sum()
 }
 
