@@ -30,6 +30,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         seconds: args.seconds,
         threads: threads(args.threads),
         frames: args.frames.map_or(if csv.is_some() { FRAMES } else { 0 }, |n| n as usize),
+        keep_frames: args.frames.is_some(),
         to_the_end: args.to_the_end,
     };
     let mut failure = None;
@@ -40,12 +41,9 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         _ => ControlFlow::Continue(()),
     };
-    let mut outcome = watch(&question, &settings, &mut keep)?;
+    let outcome = watch(&question, &settings, &mut keep)?;
     if let (Some(e), Some(path)) = (failure, &args.csv) {
         return Err(e).with_context(|| written(path));
-    }
-    if args.frames.is_none() {
-        outcome.frames.clear();
     }
     let model = &question.model;
     let verdict = (!args.skip_verdict).then(|| assess(&model.assembly, &model.interfaces, &question.control()));

@@ -36,15 +36,17 @@ pub struct Settings {
     pub seconds: Option<f64>,
     /// Threads of the engine. The answer does not depend on them, bit by bit.
     pub threads: usize,
-    /// Frames to keep over the horizon, evenly spread, the first at the start; 0 for none.
+    /// Frames to take over the horizon, evenly spread, the first at the start; 0 for none.
     pub frames: usize,
+    /// Keep the frames in the outcome; whoever watches sees them anyway.
+    pub keep_frames: bool,
     /// Simulate to the horizon although the outcome is clear.
     pub to_the_end: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { fidelity: None, seconds: None, threads: 1, frames: 0, to_the_end: false }
+        Self { fidelity: None, seconds: None, threads: 1, frames: 0, keep_frames: true, to_the_end: false }
     }
 }
 

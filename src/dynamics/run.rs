@@ -166,12 +166,15 @@ impl Stage<'_> {
         let mut world = World::new(self.bodies, self.frictions, step)
             .map_err(|text| InputError::at(Default::default(), text).hint("ask `voussoir assess` instead"))?;
         let total = (horizon / dt).ceil().max(1.0) as usize;
-        let every = if self.settings.frames > 0 { (total / self.settings.frames).max(1) } else { usize::MAX };
+        let every = total.checked_div(self.settings.frames).map_or(usize::MAX, |n| n.max(1));
         let (mut steps, mut resting) = (0, 0.0);
         let mut state = State { farthest: (self.assembly.free().next().unwrap_or(0), 0.0), now: 0.0, energy: 0.0, fallen: false };
         let (mut first_motion, mut frames, mut fell_at) = (Vec::new(), Vec::new(), None);
         if self.settings.frames > 0 {
             self.frame(&world, fidelity, 0.0, &state, &mut frames);
+            let (time, horizon) = (0.0, horizon * self.units.time);
+            // Stopping is heard at the first step.
+            let _ = watch(&Progress { fidelity, time, horizon, relative: 0.0, frame: frames.last() });
         }
         let stop = loop {
             if steps == total {
@@ -200,6 +203,9 @@ impl Stage<'_> {
                 if watch(&Progress { fidelity, time, horizon, relative: state.farthest.1, frame }).is_break() {
                     break Stop::Stopped;
                 }
+            }
+            if !self.settings.keep_frames {
+                frames.clear();
             }
             if state.fallen && fell_at.is_none() {
                 fell_at = Some(time);

@@ -105,7 +105,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
     let width = s.first_motion.iter().take(SHOWN).map(|m| m.block.chars().count()).max().unwrap_or(0);
     let moved = s.first_motion.iter().filter(|_| s.fate != Fate::Stands).map(|m| {
         let turn = m.turn.iter().map(|c| c * c).sum::<f64>().sqrt().to_degrees();
-        format!("{:<width$}  by {} m, turned by {}°", m.block, point(m.way), if turn > NO_TURN { rounded(turn) } else { "0".into() })
+        format!("{:<width$}  by {} m, turned by {}°", m.block, point(clean(m.way)), if turn > NO_TURN { rounded(turn) } else { "0".into() })
     });
     page.row("moves first", cut(&moved.collect::<Vec<_>>(), SHOWN, options));
     page.row("runs", s.runs.iter().map(run));
@@ -140,6 +140,12 @@ pub(super) fn next(file: &ResultFile, scene: &str, again: &str) -> Vec<(String, 
 
 fn percent(part: f64) -> String {
     format!("{} %", rounded(100.0 * part))
+}
+
+/// Without what is rounding beside the largest component.
+fn clean(way: [f64; 3]) -> [f64; 3] {
+    let largest = way.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    way.map(|c| if c.abs() < 1e-6 * largest { 0.0 } else { c })
 }
 
 /// Two digits: the engine knows no more.
