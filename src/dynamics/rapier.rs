@@ -3,7 +3,7 @@
 //! Settings, each measured on masonry and against the engine's defaults:
 //! * hulls smaller by a skin that the contacts add again: hulls that touch exactly get wrong normals (a column of ten blocks was thrown
 //!   1.7 m into the air);
-//! * contacts of natural frequency 0.1 / substep and damping ratio 5, no recycled contacts, no clusters, no sleep, no limit of speed;
+//! * contacts of natural frequency 0.1 / substep and damping ratio 2 (with 5, stacks of six drums with many contact points shake), no recycled contacts, no clusters, no sleep, no limit of speed;
 //! * friction of a contact patch as a whole (`FrictionModel::Simplified`: 0.06 % on static friction; friction point by point
 //!   underestimates it by up to 14 %), its coefficient set pair by pair through a hook.
 
@@ -14,12 +14,34 @@ use rapier3d::{
     prelude::*,
 };
 
+/// Natural frequency of a contact × substep. Lower: contacts sink in, by its square. Higher: stacks shake.
+const FREQUENCY: f64 = 0.1;
+/// Damping ratio of a contact.
+const DAMPING: f64 = 2.0;
+
 /// Contacts are prepared up to this distance, in median block sizes. Larger: neighbours round a corner are seen at wrong normals.
 /// Smaller: fast blocks sink in before they are seen.
 const PREDICTION: f64 = 0.005;
 
 /// A contact whose normal points more into another piece of the same block than out of it, by this in the cosine, is none.
 const SEAM: f64 = 1e-3;
+
+/// A normal within this of a face's (1 − cosine) is the face's: the engine finds it by iteration.
+const SNAP: f64 = 1e-6;
+
+/// Where faces face each other (cosine above this) pieces of blocks that do not lie on each other meet at an edge, aside of the face
+/// (cosine above the other): no contact.
+const FACING: f64 = 0.9998;
+const ASIDE: f64 = 0.5;
+
+/// Points of one contact that the engine solves for.
+const CORNERS: usize = 4;
+/// Two four-cornered faces meet in eight corners at most.
+const MOST_POINTS: usize = 8;
+/// Quarters of a contact whose areas differ by less than this part are alike.
+const ALIKE: f64 = 1e-3;
+/// Marks a contact point that bore no load before.
+const NEW_CONTACT: u64 = 1 << 31;
 
 /// How finely time is cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +99,7 @@ struct Seam {
 impl<'a> World<'a> {
     /// A world; the error says what the engine does not take.
     pub fn new(list: &[Body], frictions: &'a Frictions<'a>, step: Step) -> Result<Self, String> {
-        let softness = SpringCoefficients { natural_frequency: 0.1 * step.iterations as f64 / step.dt, damping_ratio: 5.0 };
+        let softness = SpringCoefficients { natural_frequency: FREQUENCY * step.iterations as f64 / step.dt, damping_ratio: DAMPING };
         let parameters = IntegrationParameters {
             dt: step.dt,
             num_solver_iterations: step.iterations,
@@ -250,6 +272,8 @@ impl PhysicsHooks for Hooks<'_> {
         let (Some(one), Some(other)) = (collider(context.collider1), collider(context.collider2)) else { return };
         let (Some(a), Some(b)) = (self.shape(one), self.shape(other)) else { return };
         let (turn1, turn2) = (one.position().rotation, other.position().rotation);
+        let skins = one.contact_skin() + other.contact_skin();
+        let place = *one.position();
         let ModifiableContacts::Rigid(manifold) = &mut context.contacts else { return };
         *manifold.friction = match a.role {
             Role::Part => self.frictions.between(a.body, b.body),
@@ -257,7 +281,84 @@ impl PhysicsHooks for Hooks<'_> {
         };
         let normal = *manifold.normal;
         if a.at_seam(turn1.inverse() * normal) || b.at_seam(turn2.inverse() * -normal) {
-            manifold.solver_contacts.clear();
+            return manifold.solver_contacts.clear();
+        }
+        // The engine adds the point where its search for the normal ended, which wanders: corners do without.
+        let corners = manifold.manifold.points.iter().filter(|p| p.fid1 != PackedFeatureId::UNKNOWN).count();
+        if corners > CORNERS {
+            spread(manifold, place, *other.position(), skins);
+        } else if corners >= CORNERS - 1 {
+            let points = &manifold.manifold.points;
+            let known = |c: &SolverContact| points.get(c.contact_indices()[0] as usize).is_some_and(|p| p.fid1 != PackedFeatureId::UNKNOWN);
+            if manifold.solver_contacts.iter().filter(|c| known(c)).count() == corners {
+                manifold.solver_contacts.retain(known);
+            } else {
+                spread(manifold, place, *other.position(), skins);
+            }
+        }
+        let faces1: Vec<Vector> = a.outer.iter().map(|n| turn1 * *n).collect();
+        let faces2: Vec<Vector> = b.outer.iter().map(|n| -(turn2 * *n)).collect();
+        let nearest = faces1.iter().chain(&faces2).max_by(|m, n| m.dot(normal).total_cmp(&n.dot(normal)));
+        if let Some(face) = nearest.copied().filter(|n| n.dot(normal) > 1.0 - SNAP) {
+            *manifold.normal = face;
+            for contact in manifold.solver_contacts.iter_mut() {
+                contact.dist = (contact.anchor2 - contact.anchor1).dot(face) - skins;
+            }
+        } else if !(a.inner.is_empty() && b.inner.is_empty()) {
+            let facing = |m: &&Vector| m.dot(normal) > ASIDE && faces2.iter().any(|n| m.dot(*n) > FACING);
+            if faces1.iter().any(|m| facing(&m)) {
+                manifold.solver_contacts.clear();
+            }
+        }
+    }
+}
+
+/// Of a contact with more points than the engine takes, the four that span the largest area.
+///
+/// The engine's own choice starts from the deepest point, which is another one at every step, and shakes drums off each other.
+fn spread(manifold: &mut ModifiableManifold, place1: Pose, place2: Pose, skins: f64) {
+    let Some(pattern) = manifold.solver_contacts.first().copied() else { return };
+    let points = &manifold.manifold.points;
+    let own: Vec<usize> = (0..points.len()).filter(|&i| points[i].fid1 != PackedFeatureId::UNKNOWN).take(MOST_POINTS).collect();
+    let local: Vec<Vector3<f64>> = own.iter().map(|&i| back(points[i].local_p1)).collect();
+    let normal = back(manifold.manifold.local_n1);
+    let middle = super::cell::mean(&local);
+    let axis = Vector3::ith(normal.iamin(), 1.0).cross(&normal);
+    let side = normal.cross(&axis);
+    let angle = |p: &Vector3<f64>| side.dot(&(p - middle)).atan2(axis.dot(&(p - middle)));
+    let mut order: Vec<usize> = (0..local.len()).collect();
+    order.sort_by(|&i, &j| angle(&local[i]).total_cmp(&angle(&local[j])));
+    let area = |[i, j, k, l]: [usize; 4]| (local[k] - local[i]).cross(&(local[l] - local[j])).dot(&normal);
+    let (mut best, mut chosen) = (0.0, [0; 4]);
+    let n = order.len();
+    for i in 0..n {
+        for j in i + 1..n {
+            for k in j + 1..n {
+                for l in k + 1..n {
+                    let four = [order[i], order[j], order[k], order[l]];
+                    // Equal quarters of a regular outline differ by rounding only: the first one stays.
+                    if area(four) > (1.0 + ALIKE) * best {
+                        (best, chosen) = (area(four), four);
+                    }
+                }
+            }
+        }
+    }
+    if best == 0.0 && own.len() > CORNERS {
+        return;
+    }
+    let mut chosen = if own.len() > CORNERS { chosen.map(|i| own[i]).to_vec() } else { own };
+    chosen.sort_unstable();
+    manifold.solver_contacts.clear();
+    for index in chosen {
+        let point = &points[index];
+        let dist = point.dist - skins;
+        if dist < PREDICTION {
+            let id = index as u64 | if point.data.impulse == 0.0 { NEW_CONTACT } else { 0 };
+            let (anchor1, anchor2) = (place1 * point.local_p1, place2 * point.local_p2);
+            let mut contact = pattern;
+            (contact.contact_id, contact.anchor1, contact.anchor2, contact.dist) = ([id], anchor1, anchor2, dist);
+            manifold.solver_contacts.push(contact);
         }
     }
 }

@@ -28,7 +28,7 @@ const SLOW: f64 = 6.0;
 const HORIZON: f64 = 10.0;
 /// Near the margin the horizon is this many times as long.
 const LONGER: f64 = 2.0;
-/// At the horizon a scene rests below this × [`MOVING_ENERGY`]: what still shakes could not carry a block far.
+/// A scene that has settled farther than [`SETTLED`] may keep less than this × [`MOVING_ENERGY`] at the horizon.
 const QUIET: f64 = 1e-3;
 /// A displacement is measured against a thickness of at least this × the block's reach.
 const THINNEST: f64 = 0.01;
@@ -220,7 +220,7 @@ impl Stage<'_> {
         };
         let fate = match stop {
             _ if fell_at.is_some() => Fate::Falls,
-            Stop::Rest | Stop::Horizon if state.farthest.1 < settled(fidelity) && state.energy < QUIET * MOVING_ENERGY => Fate::Stands,
+            Stop::Rest | Stop::Horizon if stayed(fidelity, state.farthest.1, state.energy) => Fate::Stands,
             _ => Fate::Undecided,
         };
         let (block, relative) = state.farthest;
@@ -346,13 +346,11 @@ impl Stage<'_> {
     }
 }
 
-/// How far a block may have moved for its thickness where it came to rest. Contacts sink in by the square of the step: what fine steps
-/// leave is settling.
-fn settled(fidelity: Fidelity) -> f64 {
-    match fidelity {
-        Fidelity::Fast => SETTLED,
-        Fidelity::Fine => SETTLED_FINE,
-    }
+/// Whether a scene that moved this far at most, with this energy left, stands. Contacts sink in by the square of the step: what fine
+/// steps leave is settling. What hardly moved over the whole horizon may shake a little.
+fn stayed(fidelity: Fidelity, relative: f64, energy: f64) -> bool {
+    let still = relative < SETTLED && energy < MOVING_ENERGY;
+    still || (fidelity == Fidelity::Fine && relative < SETTLED_FINE && energy < QUIET * MOVING_ENERGY)
 }
 
 /// From 0 to 1 and then 1, with continuous slope.
