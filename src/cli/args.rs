@@ -114,7 +114,7 @@ pub struct Simulate {
     /// Fast steps only: to be trusted 3 % away from a limit.
     #[arg(long, conflicts_with = "fine")]
     pub fast: bool,
-    /// Fine steps only: to be trusted 1 % away from a limit, at four times the cost. By default fine steps follow where fast ones leave doubt.
+    /// Fine steps only: to be trusted 1 % away from a limit, at four times the cost. By default fine steps follow unless fast ones show that it stands.
     #[arg(long)]
     pub fine: bool,
     /// Time to simulate at most, in seconds of the scene; by default ten times √(height / gravity).

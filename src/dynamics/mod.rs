@@ -30,7 +30,7 @@ pub const FIRST_MOTION: f64 = 0.01;
 /// What the caller may change about a simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// One kind of run only; by default a fast one, and a fine one where that leaves doubt.
+    /// One kind of run only; by default a fast one, and a fine one unless that shows that it stands.
     pub fidelity: Option<Fidelity>,
     /// Time to simulate at most, s; by default 10 √(H/g), H the height of the scene, and at least 10 √(L/g), L the median block size.
     pub seconds: Option<f64>,
