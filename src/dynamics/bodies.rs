@@ -123,8 +123,7 @@ fn body(block: &Block, units: &Units) -> Result<Body, InputError> {
             let thin = cell.faces.iter().map(|f| depth(&f.normal, &own)).fold(size, f64::min);
             let skin = (SKIN * size).min(SKIN_OF_THICKNESS * thin);
             if let Some((half, turn, at)) = pieces::as_box(cell) {
-                let outer = cell.faces.iter().map(|f| f.normal).collect();
-                return Shape { outer, ..part(Form::Cuboid { at, turn, half: half.map(|h| h - skin) }, skin) };
+                return part(Form::Cuboid { at, turn, half: half.map(|h| h - skin) }, skin);
             }
             let (points, loops) = cell.eroded(skin);
             let fan = |l: &Vec<usize>| (1..l.len().saturating_sub(1)).map(|i| [l[0], l[i], l[i + 1]].map(|c| c as u32)).collect::<Vec<_>>();

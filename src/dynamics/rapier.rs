@@ -26,14 +26,6 @@ const PREDICTION: f64 = 0.005;
 /// A contact whose normal points more into another piece of the same block than out of it, by this in the cosine, is none.
 const SEAM: f64 = 1e-3;
 
-/// A normal within this of a face's (1 − cosine) is the face's: the engine finds it by iteration.
-const SNAP: f64 = 1e-6;
-
-/// Where faces face each other (cosine above this) pieces of blocks that do not lie on each other meet at an edge, aside of the face
-/// (cosine above the other): no contact.
-const FACING: f64 = 0.9998;
-const ASIDE: f64 = 0.5;
-
 /// Points of one contact that the engine solves for.
 const CORNERS: usize = 4;
 /// Two four-cornered faces meet in eight corners at most.
@@ -294,20 +286,6 @@ impl PhysicsHooks for Hooks<'_> {
                 manifold.solver_contacts.retain(known);
             } else {
                 spread(manifold, place, *other.position(), skins);
-            }
-        }
-        let faces1: Vec<Vector> = a.outer.iter().map(|n| turn1 * *n).collect();
-        let faces2: Vec<Vector> = b.outer.iter().map(|n| -(turn2 * *n)).collect();
-        let nearest = faces1.iter().chain(&faces2).max_by(|m, n| m.dot(normal).total_cmp(&n.dot(normal)));
-        if let Some(face) = nearest.copied().filter(|n| n.dot(normal) > 1.0 - SNAP) {
-            *manifold.normal = face;
-            for contact in manifold.solver_contacts.iter_mut() {
-                contact.dist = (contact.anchor2 - contact.anchor1).dot(face) - skins;
-            }
-        } else if !(a.inner.is_empty() && b.inner.is_empty()) {
-            let facing = |m: &&Vector| m.dot(normal) > ASIDE && faces2.iter().any(|n| m.dot(*n) > FACING);
-            if faces1.iter().any(|m| facing(&m)) {
-                manifold.solver_contacts.clear();
             }
         }
     }

@@ -8,6 +8,7 @@ mod certificates;
 mod cli;
 mod coulomb;
 mod determinism;
+mod dynamics;
 mod invariance;
 mod layering;
 mod published;
