@@ -179,17 +179,16 @@ fn loads_at_points_moments_and_accelerations_act() {
     let with = |load: Value| {
         scene(2.0, json!([ground, cuboid("block", [1.0, 1.0, 1.0], [0.0, 0.0, 0.0])]), json!({ "loads": { "dead": [load] } }))
     };
-    // A cube of weight 1 topples at a horizontal force of 1/2 at its centre, 1/4 at its top, a moment of 1/2, or a push of 1/2 g.
+    // A cube of weight 1 topples at a horizontal force of 1 at its centre, 1/2 at its top, a moment of 1/2, or a push of 1 g.
     for (share, fate) in [(0.98, Fate::Stands), (1.02, Fate::Falls)] {
-        let f = 0.5 * share;
+        let f = share;
         becomes("at the centre", &with(json!({ "block": "block", "force": [f, 0, 0] })), fate);
         becomes("at the top", &with(json!({ "block": "block", "force": [0.5 * f, 0, 0], "at": [0, 0, 1] })), fate);
-        becomes("moment", &with(json!({ "block": "block", "moment": [0, f, 0] })), fate);
+        becomes("moment", &with(json!({ "block": "block", "moment": [0, 0.5 * f, 0] })), fate);
         becomes("acceleration", &with(json!({ "acceleration": [f, 0, 0] })), fate);
     }
 }
 
-/// A load hung below a tilted block turns it back, one on top of it turns it over: the point moves with the block.
 #[test]
 fn live_loads_act_with_their_factor() {
     let pushed = scene(
@@ -265,16 +264,14 @@ fn frames_are_evenly_spread_and_the_watcher_may_stop() {
     assert!(stopped.runs[0].time < 0.5 * outcome.runs[0].time);
 }
 
-/// A scene whose supports hold everything has nothing to simulate; a block that touches nothing falls at once.
 #[test]
-fn nothing_free_stands_and_nothing_held_falls() {
-    let mut fixed = stack(0, [1.0, 1.0, 1.0], |_| 0.0);
-    assert_eq!(run(&fixed, None).fate, Fate::Stands);
-    fixed.blocks[0].support = false;
-    let outcome = becomes("in free fall", &fixed, Fate::Falls);
+fn a_block_that_touches_nothing_falls_at_once() {
+    let mut scene = stack(1, [1.0, 1.0, 1.0], |_| 0.0);
+    scene.blocks[1].at[2] += 5.0;
+    let outcome = becomes("in free fall", &scene, Fate::Falls);
     // h = g t² / 2 once the load has grown: 5 % of the thickness takes a little longer than √(0.1 h / g).
-    let time = outcome.collapse.expect("a time");
-    assert!(time > (0.1_f64 / 9.81).sqrt() && time < 4.0 * (0.1_f64 / 9.81).sqrt(), "{time}");
+    let (time, least) = (outcome.collapse.expect("a time"), (0.1_f64 / 9.81).sqrt());
+    assert!(time > least && time < 4.0 * least, "{time}");
 }
 
 /// Of scenes whose resultants statics fixes, simulation and verdict agree force by force; where they fall, on the motion.
@@ -289,10 +286,12 @@ fn forces_and_motions_are_those_of_the_verdict() {
     let standing = compare(&stack(5, [1.0, 1.0, 0.5], |i| 0.03 * i as f64));
     let forces = standing.forces.expect("forces");
     assert!(standing.agrees == Some(true) && forces.determinate && forces.pairs == 5 && forces.largest < 1e-6, "{forces:?}");
-    for (scene, least) in [(inclined(0.5, [1.0, 1.0, 0.4], 0.6), 0.999), (inclined(3.0, [0.5, 1.0, 2.0], 0.3), 0.99), (arch(0.09, 15), 0.9)]
-    {
+    // Where a joint slides the mechanism of limit analysis lifts by the friction angle, and the block does not.
+    let lift = 1.0 / f64::hypot(1.0, 0.5);
+    for (scene, want) in [(inclined(0.5, [1.0, 1.0, 0.4], 0.6), lift), (inclined(3.0, [0.5, 1.0, 2.0], 0.3), 1.0)] {
         let falling = compare(&scene);
         let motion = falling.motion.expect("a motion");
-        assert!(falling.agrees == Some(true) && motion > least, "{motion}");
+        assert!(falling.agrees == Some(true) && (motion - want).abs() < 2e-3, "{motion} for {want}");
     }
+    assert!(compare(&arch(0.09, 15)).motion.expect("a motion") > 0.9);
 }

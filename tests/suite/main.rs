@@ -2,6 +2,7 @@
 
 mod ask;
 
+mod agreement;
 mod analytic;
 mod bad_input;
 mod certificates;
