@@ -215,7 +215,9 @@ impl Stage<'_> {
         };
         let fate = match stop {
             _ if fell_at.is_some() => Fate::Falls,
-            Stop::Rest | Stop::Horizon if stayed(fidelity, state.farthest.1, state.energy) => Fate::Stands,
+            Stop::Rest if stayed(fidelity, state.farthest.1, state.energy) => Fate::Stands,
+            // A shorter time shows nothing.
+            Stop::Horizon if horizon >= HORIZON && stayed(fidelity, state.farthest.1, state.energy) => Fate::Stands,
             _ => Fate::Undecided,
         };
         let (block, relative) = state.farthest;

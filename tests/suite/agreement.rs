@@ -2,12 +2,14 @@
 //! where they touch. Where they disagree, the reason is listed here.
 
 use crate::ask::model;
+use nalgebra::Vector3;
 use std::{ops::ControlFlow, path::PathBuf};
 use voussoir::{
     analysis::{Agreement, Control, agreement, assess},
     dynamics::{Settings, simulate},
     import,
     scene::{Scene, read_file},
+    verdict::Verdict,
 };
 
 /// Scenes within 3 % of a limit, where a simulation may err: not counted.
@@ -85,6 +87,62 @@ fn simulations_of_the_structures_agree_with_their_verdicts() {
     println!("{agreed} of {counted} agree");
     assert!(wrong.is_empty(), "other than listed: {wrong:#?}");
     assert!(counted >= 60 && agreed as f64 >= 0.95 * counted as f64, "{agreed} of {counted}");
+}
+
+/// Loaded scenes on which the two disagree 5 % from the limit, and why.
+const DISAGREE_LOADED: [(&str, &str); 2] = [
+    (
+        "wall-with-two-openings at 0.95",
+        "with dry friction several states are possible: the verdict's has no admissible rest, the simulation finds one",
+    ),
+    ("sliver at 0.95", "a slab of 1e5 times its thickness: contacts sink in by more than the 5 % of its lean that are left"),
+];
+
+/// Scenes of `structures/` at 0.95 and 1.05 of their load factor, the verdict asked again there (with dry friction the limit may be lower),
+/// and at 0.95 and 1.05 of their tilt.
+#[test]
+fn simulations_either_side_of_a_limit_agree_with_their_verdicts() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("structures");
+    let text = std::fs::read_to_string(folder.join("expected.json")).expect("structures/expected.json");
+    let list: Vec<serde_json::Value> = serde_json::from_str(&text).expect("JSON");
+    let (mut agreed, mut counted) = (0, 0);
+    let mut wrong = Vec::new();
+    for entry in &list {
+        let file = entry["file"].as_str().expect("a file");
+        let name = file.trim_end_matches(".json");
+        if listed(&NEAR, name) || listed(&SLOW, name) || listed(&DISAGREE, name) {
+            continue;
+        }
+        let (scene, _) = read_file(&folder.join(file)).unwrap_or_else(|e| panic!("{e}"));
+        for share in [0.95, 1.05] {
+            let mut scene = scene.clone();
+            if let Some(lambda) = entry["expect"]["load_factor"].as_f64().filter(|l| *l > 0.0) {
+                scene.loads = scene.loads.fixed(share * lambda);
+            } else if let Some(tilt) = entry["expect"]["tilt_deg"].as_f64().filter(|_| scene.loads.dead.is_empty()) {
+                let toward =
+                    Vector3::new(entry["toward"][0].as_f64().expect("x"), entry["toward"][1].as_f64().expect("y"), 0.0).normalize();
+                let (s, c) = (share * tilt).to_radians().sin_cos();
+                let strength = Vector3::from(scene.gravity).norm();
+                scene.gravity = (toward * (s * strength) - Vector3::z() * (c * strength)).into();
+            } else {
+                continue;
+            }
+            let (a, seconds) = compare(&scene);
+            let name = format!("{name} at {share}");
+            println!("{name}: {:?}, {:?}, motion {:?}, {seconds:.2} s", a.verdict, a.fate, a.motion);
+            if a.verdict == Verdict::Undecided {
+                continue;
+            }
+            counted += 1;
+            agreed += usize::from(a.agrees == Some(true));
+            if (a.agrees == Some(true)) == listed(&DISAGREE_LOADED, &name) {
+                wrong.push(format!("{name}: verdict {:?}, simulation {:?}", a.verdict, a.fate));
+            }
+        }
+    }
+    println!("{agreed} of {counted} agree");
+    assert!(wrong.is_empty(), "other than listed: {wrong:#?}");
+    assert!(counted >= 40 && agreed as f64 >= 0.95 * counted as f64, "{agreed} of {counted}");
 }
 
 /// Frame H and the shelf fall although admissible forces exist; type-b and the cubes stand (facts known for these files).
