@@ -160,6 +160,8 @@ pub enum FindingCode {
     Missing,
     /// A part of a foreign file has no counterpart in a scene, or is unusable, and was left out.
     LeftOut,
+    /// A property of a joint that its contact cannot use.
+    WithoutEffect,
     /// How a foreign file was read where there was a choice.
     Converted,
 }

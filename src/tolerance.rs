@@ -14,7 +14,8 @@ pub const COPLANAR: f64 = 1e-7;
 /// Larger: detached blocks are closed silently into one. Smaller: files rounded to 4–5 digits lose contacts.
 pub const CONTACT_GAP: f64 = 1e-4;
 
-/// Default of `contact.angle_deg`: faces further from anti-parallel than this do not face each other.
+/// Default of `contact.angle_deg`: faces further from anti-parallel than this, and than their warp explains, do not face each other.
+/// Larger: a block tilted onto its edge on purpose lies flat. Smaller: files rounded to 3 digits lose contacts of small faces.
 pub const CONTACT_ANGLE_DEG: f64 = 1.0;
 
 /// Default of `contact.min_area`: interfaces smaller than this × (smaller block's size)² are ignored and counted.
@@ -64,6 +65,15 @@ pub const LOOSE_BALANCE: f64 = 1e-5;
 /// Larger: with a coarse gap every face across an open joint is called a near miss and every block is compared with its second neighbours.
 /// Smaller: the default reach (100 × [`CONTACT_GAP`] = 0.01) is cut.
 pub const NEAR_MISS_LIMIT: f64 = 0.05;
+
+/// Faces within the reach of near misses are reported up to this many degrees from parallel (or up to `contact.angle_deg` where
+/// that is larger). Larger: the facets of round stones, each leaning from the next, are called near misses.
+/// Smaller: joints of roughly cut voussoirs, a few degrees apart, are left open without a word.
+pub const NEAR_MISS_ANGLE_DEG: f64 = 5.0;
+
+/// The warp of a face explains at most this lean (radians) of its parts from its mean plane.
+/// Larger: a face folded by mistake faces everything around it. Smaller: real warped joints (Armadillo Vault: 0.07) are left open.
+pub const GREATEST_TWIST: f64 = 0.2;
 
 /// In the plane of a contact, points closer than this × the smaller block's size are one point, and a point this close to a line is on it.
 /// Larger: contact corners move, and with them the critical thickness of an arch (decided to 1e-6 of the thickness).
@@ -150,8 +160,9 @@ pub const ACCELERATION_STAYS: f64 = 0.8;
 pub const MOTION_LAW: f64 = 1e-3;
 
 /// A state without pre-stress moves when some block is left with at least this much of its load. Larger: slow slides at
-/// the edge of friction are refused. Smaller: what the regularisation leaves at rest (1e-4) could be taken for motion.
-pub const LEAST_MOTION: f64 = 1e-3;
+/// the edge of friction are refused (a rock wedge 1e-3 beyond its factor of safety is left with 5e-4). Smaller: what the
+/// regularisation leaves at rest on tall, soft structures could be taken for motion, if it obeyed the law.
+pub const LEAST_MOTION: f64 = 1e-4;
 
 /// Where a joint of a mechanism closes by more than this × the speed of its two blocks, that is no rounding of their speeds.
 /// Larger: a block squeezed at μ = 1e-5 could be "proved" to fall. Smaller: rounding counts as [`COARSE_FORCE_CAP`] demands.
@@ -212,3 +223,11 @@ pub const REST_ENERGY: f64 = 1e-10;
 
 /// How long a scene must rest, in multiples of √(L/g), L the median block size. Longer: time is lost. Shorter: turning points pass for rest.
 pub const REST_TIME: f64 = 3.0;
+/// A compressive strength is respected when the pressures use no more than 1 + this of it. Larger: crushing that counts.
+/// Smaller: the engine's last digits, amplified where a small part of a joint carries, refuse correct forces.
+pub const CRUSHING: f64 = 1e-7;
+
+/// Natural map of a load factor with dry friction with rates as the program has them
+/// ([`natural_map_in_loads`](crate::verdict::law::natural_map_in_loads)); a state that moves is refined until it is below this.
+/// Larger: values with fewer digits than are shown. Smaller: δ and ε must fall to where the engine's noise rules.
+pub const NATURAL_MAP: f64 = 1e-6;

@@ -4,6 +4,7 @@ use super::Assessment;
 use crate::{
     assembly::Assembly,
     dynamics::{Fate, Outcome},
+    error::FindingCode,
     interface::Interfaces,
     program,
     verdict::{Forces, Rate, Verdict},
@@ -23,7 +24,8 @@ pub struct Agreement {
     pub verdict: Verdict,
     /// What the simulation showed.
     pub fate: Fate,
-    /// Whether they say the same; absent where one of them is undecided. A conditional verdict says that it falls, because the
+    /// Whether they say the same; absent where one of them is undecided, or the joints have strengths that the
+    /// simulation leaves out. A conditional verdict says that it falls, because the
     /// simulation starts without a pre-stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agrees: Option<bool>,
@@ -57,6 +59,8 @@ pub fn agreement(assembly: &Assembly, interfaces: &Interfaces, assessment: &Asse
     let (verdict, fate) = (assessment.verdict, outcome.fate);
     let agrees = match (verdict, fate) {
         (Verdict::Undecided, _) | (_, Fate::Undecided) => None,
+        // The simulated joints resist less, or more, than those of the verdict.
+        _ if outcome.findings.iter().any(|f| f.code == FindingCode::LeftOut) => None,
         (Verdict::Stable, fate) => Some(fate == Fate::Stands),
         (Verdict::Conditional | Verdict::Unstable, fate) => Some(fate == Fate::Falls),
     };
@@ -95,7 +99,7 @@ fn forces(assembly: &Assembly, interfaces: &Interfaces, computed: &Forces, outco
     // By pairs of blocks: computed, simulated; both on the block with the larger index.
     let mut pairs: BTreeMap<(usize, usize), [Vector3<f64>; 2]> = BTreeMap::new();
     for (face, points) in interfaces.list.iter().zip(computed) {
-        let force: Vector3<f64> = points.iter().sum();
+        let force: Vector3<f64> = points.iter().map(|w| w.force).sum();
         let (pair, force) = if face.a < face.b { ((face.a, face.b), force) } else { ((face.b, face.a), -force) };
         pairs.entry(pair).or_default()[0] += force;
     }

@@ -3,7 +3,7 @@
 
 use super::{
     Bracket,
-    attempt::{Attempt, Control, Law, Rung, run, rung},
+    attempt::{Attempt, Control, Law, Run, Rung, run, rung},
     coulomb::{Motion, State, state},
 };
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
     interface::Interfaces,
     program::{self, LiveLoad, Options, Statics, Unknowns},
     tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, mechanism, mechanism::Mechanism},
+    verdict::{Forces, Rate, Verdict, certificate, law, mechanism, mechanism::Mechanism, no_forces},
 };
 use nalgebra::Vector3;
 use std::time::Instant;
@@ -83,7 +83,7 @@ fn settle(assembly: &Assembly, interfaces: &Interfaces, control: &Control, answe
         Motion::Undecided => Verdict::Undecided,
     };
     if state.motion == Motion::Moves {
-        answer.rates = certificate::motion(assembly, interfaces, &state.forces).rates;
+        answer.rates = law::motion(assembly, interfaces, &state.forces).rates;
         answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
     }
     answer.state = Some(state);
@@ -99,7 +99,7 @@ fn falls_freely(assembly: &Assembly, interfaces: &Interfaces, floating: &[Vec<us
             group.iter().for_each(|&i| rates[i].velocity = force.normalize());
         }
     }
-    let forces: Forces = interfaces.list.iter().map(|f| vec![Vector3::zeros(); f.points.len()]).collect();
+    let forces = no_forces(interfaces);
     let kinematics = certificate::kinematics(assembly, interfaces, &rates, &forces);
     if kinematics.norm == 0.0 {
         return None;
@@ -130,7 +130,7 @@ pub(super) fn least_unbalance(
     control: &Control,
 ) -> Assessment {
     let start = Instant::now();
-    let zero: Forces = interfaces.list.iter().map(|f| vec![Vector3::zeros(); f.points.len()]).collect();
+    let zero = no_forces(interfaces);
     let unloaded = certificate::statics(assembly, interfaces, &zero, 0.0);
     let mut answer = Assessment {
         verdict: Verdict::Undecided,
@@ -146,9 +146,11 @@ pub(super) fn least_unbalance(
         left_out: statics.left_out.clone(),
     };
     let mut balanced = unloaded.balanced;
+    // Bounds on crushing that one rung found hold for all.
+    let mut sections = statics.sections.clone();
     for step in LADDER {
-        // With a free load factor only the force form yields its value.
-        if live == LiveLoad::AnyMultiple && step.unknowns == Unknowns::Rates {
+        // With a free load factor only the force form yields its value; with strengths there is no other.
+        if (live == LiveLoad::AnyMultiple || statics.in_forces_only()) && step.unknowns == Unknowns::Rates {
             continue;
         }
         let left = control.seconds - start.elapsed().as_secs_f64();
@@ -156,18 +158,19 @@ pub(super) fn least_unbalance(
             break;
         }
         let mut statics = statics.clone();
+        statics.sections = std::mem::take(&mut sections);
         statics.rescale(step.unit, step.local);
         let settings = crate::solve::Settings { seconds: left, ..step.settings };
-        let (program, layout) = program::unbalance(&statics, live, step.unknowns);
-        let (candidate, solution) = run(assembly, interfaces, &statics, &program, &layout, &settings);
+        let build = |statics: &Statics| program::unbalance(statics, live, step.unknowns);
+        let Run { candidate, solution, size } = run(assembly, interfaces, &mut statics, build, &settings);
         let (mut lower, mut upper) = (0.0, f64::INFINITY);
         if let Some(c) = candidate {
             let lambda = if live == LiveLoad::AnyMultiple { c.solution.x.last().copied().unwrap_or(0.0) } else { 0.0 };
             let s = certificate::statics(assembly, interfaces, &c.forces, lambda);
             let k = certificate::kinematics(assembly, interfaces, &c.rates, &c.forces);
-            upper = s.unbalance;
+            upper = if s.is_within_strength() { s.unbalance } else { f64::INFINITY };
             if k.is_admissible(assembly) {
-                lower = ((k.dead_power - k.slack - (lambda * k.live_power).abs()) / k.norm).max(0.0);
+                lower = ((k.gain() - k.slack - (lambda * k.live_power).abs()) / k.norm).max(0.0);
             }
             if upper < answer.unbalance.upper {
                 (answer.unbalance.upper, answer.forces, answer.load_factor) = (upper, c.forces, lambda);
@@ -185,11 +188,12 @@ pub(super) fn least_unbalance(
             regularization: settings.regularization,
             engine_status: solution.status,
             iterations: solution.trace.len(),
-            size: [program.matrix.columns, program.matrix.rows],
+            size,
             seconds: solution.seconds,
             lower,
             upper,
         });
+        sections = statics.sections;
         let b = answer.unbalance;
         answer.verdict = if balanced {
             Verdict::Stable

@@ -7,9 +7,10 @@ use crate::{
     interface::Interfaces,
     program::{ConicProgram, Layout, Statics, Unknowns},
     solve::{self, Settings, Solution, Status},
-    verdict::{Forces, Rate},
+    verdict::{Forces, Rate, certificate},
 };
 use serde::{Deserialize, Serialize};
+use std::time::Instant;
 
 /// How a joint slides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -88,24 +89,50 @@ pub(super) struct Candidate {
     pub rates: Vec<Rate>,
 }
 
-/// Solves a program and reads the candidate; `None` where the engine left no finite numbers.
+/// Runs of one rung after the bounds on crushing that the last forces broke were added. Fewer: thick joints near their strength
+/// stay undecided. More: time lost where the engine itself no longer resolves the bounds.
+const MOST_ROUNDS: usize = 30;
+
+/// What a rung gave.
+pub(super) struct Run {
+    /// Forces and rates in our signs and units; `None` where the engine left no finite numbers.
+    pub candidate: Option<Candidate>,
+    pub solution: Solution,
+    /// Unknowns and rows of the last program.
+    pub size: [usize; 2],
+}
+
+/// Solves the program that `build` makes, again and again with the bounds on crushing that its forces break, which stay in
+/// `statics`.
 pub(super) fn run(
     assembly: &Assembly,
     interfaces: &Interfaces,
-    statics: &Statics,
-    program: &ConicProgram,
-    layout: &Layout,
+    statics: &mut Statics,
+    build: impl Fn(&Statics) -> (ConicProgram, Layout),
     settings: &Settings,
-) -> (Option<Candidate>, Solution) {
-    let solution = solve::solve(program, settings);
-    if !solution.is_finite() {
-        return (None, solution);
+) -> Run {
+    let start = Instant::now();
+    let mut rounds = 0;
+    loop {
+        rounds += 1;
+        let (program, layout) = build(statics);
+        let settings = Settings { seconds: settings.seconds - start.elapsed().as_secs_f64(), ..*settings };
+        let solution = solve::solve(&program, &settings);
+        let size = [program.matrix.columns, program.matrix.rows];
+        if !solution.is_finite() {
+            return Run { candidate: None, solution, size };
+        }
+        let forces = statics.forces(interfaces, layout.forces(&solution.x, &solution.z));
+        let broken = certificate::crushed(interfaces, &forces);
+        if !broken.is_empty() && rounds < MOST_ROUNDS && settings.seconds > 0.0 {
+            statics.bound(&broken);
+            continue;
+        }
+        let rates = statics
+            .rates(assembly.blocks.len(), layout.rates(&solution.x, &solution.z))
+            .into_iter()
+            .map(|(velocity, spin)| Rate { velocity, spin })
+            .collect();
+        return Run { candidate: Some(Candidate { solution: solution.clone(), forces, rates }), solution, size };
     }
-    let forces = statics.forces(interfaces, layout.forces(&solution.x, &solution.z));
-    let rates = statics
-        .rates(assembly.blocks.len(), layout.rates(&solution.x, &solution.z))
-        .into_iter()
-        .map(|(velocity, spin)| Rate { velocity, spin })
-        .collect();
-    (Some(Candidate { solution: solution.clone(), forces, rates }), solution)
 }

@@ -7,14 +7,14 @@
 use super::{
     Bracket,
     assess::least_unbalance,
-    attempt::{Attempt, Control, Rung, run, rung},
+    attempt::{Attempt, Control, Run, Rung, run, rung},
 };
 use crate::{
     assembly::Assembly,
     interface::Interfaces,
     program::{self, LiveLoad, Options, Statics, Unknowns},
     tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, check, mechanism, mechanism::Mechanism},
+    verdict::{Forces, Rate, Verdict, certificate, check, mechanism, mechanism::Mechanism, no_forces},
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -73,13 +73,13 @@ const BEFORE_DIAGNOSIS: usize = 2;
 /// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
 pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
     let start = Instant::now();
-    let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: true, split: false });
+    let mut statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: true, split: false });
     let natural = check::natural_factor(assembly);
     let mut answer = LoadFactor {
         outcome: Outcome::Undecided,
         value: f64::NAN,
         bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
-        forces: interfaces.list.iter().map(|f| vec![nalgebra::Vector3::zeros(); f.points.len()]).collect(),
+        forces: no_forces(interfaces),
         base: None,
         rates: vec![Rate::zero(); assembly.blocks.len()],
         mechanism: None,
@@ -87,7 +87,9 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
         left_out: statics.left_out.clone(),
     };
     let mut scale = natural;
-    for (index, step) in LADDER.into_iter().enumerate() {
+    let forces_only = statics.in_forces_only();
+    let ladder = LADDER.into_iter().filter(|step| !(forces_only && step.unknowns == Unknowns::Rates));
+    for (index, step) in ladder.enumerate() {
         if index == BEFORE_DIAGNOSIS
             && !answer.bracket.width().is_finite()
             && diagnose(assembly, interfaces, &statics, control, &mut answer)
@@ -98,7 +100,7 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
         if left <= 0.0 {
             break;
         }
-        climb(assembly, interfaces, &statics, step, scale, left, &mut answer);
+        climb(assembly, interfaces, &mut statics, step, scale, left, &mut answer);
         let value = answer.value.abs();
         if answer.bracket.width() <= tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural {
             answer.outcome = Outcome::Found;
@@ -115,13 +117,13 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     answer
 }
 
-/// One attempt at program L; tightens the bracket in `answer`.
-fn climb(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
-    let mut statics = statics.clone();
+/// One attempt at program L; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
+fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
+    let mut statics = base.clone();
     statics.rescale(step.unit, step.local);
     let settings = crate::solve::Settings { seconds: left, ..step.settings };
-    let (program, layout) = program::load_factor(&statics, scale, step.unknowns);
-    let (candidate, solution) = run(assembly, interfaces, &statics, &program, &layout, &settings);
+    let build = |statics: &Statics| program::load_factor(statics, scale, step.unknowns);
+    let Run { candidate, solution, size } = run(assembly, interfaces, &mut statics, build, &settings);
     let (mut lower, mut upper) = (f64::NEG_INFINITY, f64::INFINITY);
     if let Some(c) = candidate {
         let lambda = scale * if step.unknowns == Unknowns::Forces { c.solution.x[statics.matrix.columns] } else { -c.solution.z[0] };
@@ -129,8 +131,8 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, step: 
         let s = certificate::statics(assembly, interfaces, &c.forces, lambda);
         let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &c.rates[i]).abs()).sum();
         if k.live_power > 0.0 {
-            upper = (-k.dead_power + k.slack) / k.live_power;
-            if s.unbalance <= tolerance::LOOSE_BALANCE.max(s.resolution) {
+            upper = k.upper();
+            if s.unbalance <= tolerance::LOOSE_BALANCE.max(s.resolution) && s.is_within_strength() {
                 lower = lambda - hidden / k.live_power;
             }
         }
@@ -148,11 +150,12 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, step: 
         regularization: settings.regularization,
         engine_status: solution.status,
         iterations: solution.trace.len(),
-        size: [program.matrix.columns, program.matrix.rows],
+        size,
         seconds: solution.seconds,
         lower,
         upper,
     });
+    base.sections = statics.sections;
 }
 
 /// Is there no load factor at all, or no limit to it? Returns true where that is the answer.
@@ -168,15 +171,19 @@ fn diagnose(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, con
     }
     // The live load in the size of the dead load, so that the same threshold applies.
     let (alone, natural) = check::live_alone(assembly);
-    let wedge_statics = Statics::new(&alone, interfaces, Options { keep_all: control.keep_all, live: false, split: false });
-    let wedge = least_unbalance(&alone, interfaces, &wedge_statics, LiveLoad::Absent, control);
+    let (unlimited, kept) = interfaces.unlimited();
+    let wedge_statics = Statics::new(&alone, &unlimited, Options { keep_all: control.keep_all, live: false, split: false });
+    let wedge = least_unbalance(&alone, &unlimited, &wedge_statics, LiveLoad::Absent, control);
     answer.attempts.extend(wedge.attempts.iter().cloned());
     if wedge.verdict == Verdict::Stable && any.verdict == Verdict::Stable {
         answer.outcome = Outcome::Unbounded;
         answer.value = f64::NAN;
         answer.bracket = Bracket { lower: f64::INFINITY, upper: f64::INFINITY };
         answer.base = Some((any.load_factor, any.forces));
-        answer.forces = wedge.forces.iter().map(|f| f.iter().map(|v| v / natural).collect()).collect();
+        answer.forces = no_forces(interfaces);
+        for (k, forces) in kept.into_iter().zip(&wedge.forces) {
+            answer.forces[k] = forces.iter().map(|&v| v * (1.0 / natural)).collect();
+        }
         return true;
     }
     false

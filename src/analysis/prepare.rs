@@ -3,7 +3,7 @@
 use crate::{
     assembly::{self, Assembly},
     error::{Finding, FindingCode, InputError},
-    interface::{self, Interfaces},
+    interface::{self, Interface, Interfaces},
     program,
     scene::Scene,
 };
@@ -62,6 +62,7 @@ pub fn prepare(scene: &Scene) -> Result<Model, InputError> {
     let start = Instant::now();
     let mut interfaces = interface::detect(&assembly)?;
     interfaces.findings.extend(floating(&assembly, &interfaces));
+    interfaces.findings.extend(without_effect(&interfaces));
     let detect = start.elapsed().as_secs_f64();
     Ok(Model { assembly, interfaces, timings: Timings { resolve, detect, ..Timings::default() } })
 }
@@ -79,4 +80,23 @@ fn floating(assembly: &Assembly, interfaces: &Interfaces) -> Option<Finding> {
         (n, more) => format!("{n} free blocks have no contact path to a support: {names} and {more} more"),
     };
     Some(Finding::new(FindingCode::Floating, text))
+}
+
+/// Says what joints are given that their contacts cannot use: stresses need an area, a rolling arm an edge or a point.
+fn without_effect(interfaces: &Interfaces) -> Vec<Finding> {
+    let count = |unused: &dyn Fn(&Interface) -> bool| interfaces.list.iter().filter(|f| unused(f)).count();
+    let faces = count(&|f| f.law.rolling_arm > 0.0 && f.rolling_arm() == 0.0);
+    let lines = count(&|f| f.points.len() < 3 && !f.law.friction_only());
+    let mut findings = Vec::new();
+    if faces > 0 {
+        findings.push(format!(
+            "{faces} contacts on faces have a rolling arm: not used there, for the corners of a face carry couples by themselves"
+        ));
+    }
+    if lines > 0 {
+        findings.push(format!(
+            "{lines} contacts at edges or points have a strength, cohesion or pore pressure: not used there, for they have no area"
+        ));
+    }
+    findings.into_iter().map(|text| Finding::new(FindingCode::WithoutEffect, text)).collect()
 }

@@ -3,12 +3,21 @@
 //! Tilting the ground by θ towards a horizontal direction `d` turns gravity to `g (cos θ ẑ↓ + sin θ d)`; forces scale, so
 //! `tan θ` is the load factor of the live load "own weight along d", the vertical load kept. Dead loads on blocks are
 //! taken as hanging weights: they must act along gravity, and turn with it.
+//!
+//! Stresses do not turn. Where joints have strengths or water, all forces are divided by cos θ, and with them the stresses: the load
+//! factor is asked for with joints `√(1 + tan² θ)` times as strong, and θ is the first tilt that is its own answer, found from level
+//! upwards. Joints that hold more than the weight at any tilt have none; that comes out undecided.
 
-use super::{Control, LoadFactor, Outcome, limit};
+use super::{
+    Bracket, Control, LoadFactor, Model, Outcome,
+    coulomb::{self, DryLoadFactor, Found},
+    limit,
+};
 use crate::{
     assembly::{Assembly, Wrench},
     error::InputError,
     interface::Interfaces,
+    tolerance,
 };
 use nalgebra::Vector3;
 
@@ -73,14 +82,85 @@ pub fn turned(assembly: &Assembly, toward: Vector3<f64>) -> Result<(Assembly, Ve
 /// if they hung. Smaller: rounding of a rotated scene refuses true weights.
 const ALONG: f64 = 1e-9;
 
+/// The model as it is at the tilt `tan θ = load_factor` (level where that is not a number): its live load turns it further, and its
+/// forces are divided by cos θ.
+///
+/// # Errors
+/// As [`turned`].
+pub fn tilted(model: &Model, toward: Vector3<f64>, load_factor: f64) -> Result<Model, InputError> {
+    let (assembly, _) = turned(&model.assembly, toward)?;
+    Ok(Model { assembly, interfaces: stressed(&model.interfaces, load_factor), timings: model.timings })
+}
+
+/// The joints where all forces are divided by cos θ.
+fn stressed(interfaces: &Interfaces, load_factor: f64) -> Interfaces {
+    let by = 1f64.hypot(if load_factor.is_finite() { load_factor } else { 0.0 });
+    if interfaces.are_dry() { interfaces.clone() } else { interfaces.with_stresses(by) }
+}
+
 /// The tilt at which the scene falls.
 ///
 /// # Errors
 /// As [`turned`].
 pub fn tilt(assembly: &Assembly, interfaces: &Interfaces, toward: Vector3<f64>, control: &Control) -> Result<Tilt, InputError> {
     let (turned, toward) = turned(assembly, toward)?;
-    Ok(Tilt { toward, load_factor: limit(&turned, interfaces, control) })
+    if interfaces.are_dry() {
+        return Ok(Tilt { toward, load_factor: limit(&turned, interfaces, control) });
+    }
+    let at = |tilt: f64| limit(&turned, &stressed(interfaces, tilt), control);
+    let found = |l: &LoadFactor| (l.outcome == Outcome::Found).then_some(l.value);
+    let load_factor = match own_answer(0.0, at, found) {
+        Ok(answer) => answer,
+        // What has no limit at one tilt may have one at another, where the joints are weaker beside the weight.
+        Err(answer) if answer.outcome == Outcome::Impossible => answer,
+        Err(answer) => LoadFactor {
+            outcome: Outcome::Undecided,
+            bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
+            value: f64::NAN,
+            mechanism: None,
+            ..answer
+        },
+    };
+    Ok(Tilt { toward, load_factor })
 }
+
+/// The same with dry friction; `turned` is the assembly that [`turned`] gave, `associative` the answer of [`tilt`] for it.
+pub fn dry(turned: &Assembly, interfaces: &Interfaces, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
+    if interfaces.are_dry() {
+        return coulomb::load_factor(turned, interfaces, associative, control);
+    }
+    let at = |tilt: f64| {
+        let stressed = stressed(interfaces, tilt);
+        coulomb::load_factor(turned, &stressed, &limit(turned, &stressed, control), control)
+    };
+    match own_answer(associative.value, at, |d| d.value.is_finite().then_some(d.value)) {
+        Ok(answer) => answer,
+        Err(answer) => DryLoadFactor { found: Found::Undecided, value: f64::NAN, ..answer },
+    }
+}
+
+/// A load factor that is the tangent of its own tilt. `Err` is the last answer where there is none.
+fn own_answer<T>(start: f64, at: impl Fn(f64) -> T, value: impl Fn(&T) -> Option<f64>) -> Result<T, T> {
+    let mut tilt = start;
+    let mut before: Option<(f64, f64)> = None;
+    let mut answer = at(tilt);
+    for _ in 0..MOST_TILTS {
+        let Some(value) = value(&answer) else { return Err(answer) };
+        let short = value - tilt;
+        if short.abs() <= 0.01 * tolerance::LOAD_FACTOR_WIDTH * value.abs() {
+            return Ok(answer);
+        }
+        // The secant where it goes on in the same direction, the answer itself otherwise.
+        let secant = before.map(|(t, s)| tilt + short * (tilt - t) / (s - short)).filter(|t| (t - tilt) * short > 0.0 && t.is_finite());
+        before = Some((tilt, short));
+        tilt = secant.unwrap_or(value);
+        answer = at(tilt);
+    }
+    Err(answer)
+}
+
+/// Tilts tried. The secant takes some six; more are needed only where joints hold almost everything at any tilt.
+const MOST_TILTS: usize = 30;
 
 /// `count` directions across gravity, evenly spread, the first along x (or along y, where gravity is along x).
 pub fn directions(gravity: Vector3<f64>, count: usize) -> Vec<Vector3<f64>> {

@@ -1,15 +1,17 @@
 //! A [`Scene`](crate::scene::Scene) resolved once and completely: SI units, scene coordinates, closed outward shapes,
 //! positive masses, every default applied, every name resolved.
 
+mod joint;
 mod polyhedron;
 mod resolve;
 
+pub use joint::{JointLaw, JointRules};
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
 pub use resolve::resolve;
 
 use crate::{
     error::{Finding, JsonPath},
-    scene::{ContactSpec, Friction},
+    scene::ContactSpec,
 };
 use nalgebra::{Matrix3, Vector3};
 
@@ -22,7 +24,7 @@ pub struct Assembly {
     pub gravity: Vector3<f64>,
     /// Supports and free blocks in scene order (explicit blocks first, then templates).
     pub blocks: Vec<Block>,
-    /// Which friction acts between two blocks.
+    /// How the joint between two blocks resists.
     pub joints: JointRules,
     /// Dead load per block, own weight included; zero on supports.
     pub dead: Vec<Wrench>,
@@ -86,12 +88,12 @@ pub struct AppliedForce {
     pub arm: Vector3<f64>,
 }
 
-/// A force and a moment about a block's centre of mass.
+/// A force and a moment about a stated point: the centre of mass for loads on a block, the contact point for contact forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wrench {
     /// Force, N.
     pub force: Vector3<f64>,
-    /// Moment about the centre of mass, N·m.
+    /// Moment about that point, N·m.
     pub moment: Vector3<f64>,
 }
 
@@ -99,6 +101,13 @@ impl Wrench {
     /// No load.
     pub fn zero() -> Self {
         Self { force: Vector3::zeros(), moment: Vector3::zeros() }
+    }
+}
+
+impl std::ops::Mul<f64> for Wrench {
+    type Output = Self;
+    fn mul(self, by: f64) -> Self {
+        Self { force: self.force * by, moment: self.moment * by }
     }
 }
 
@@ -120,19 +129,8 @@ pub struct GivenInterface {
     pub points: Vec<Vector3<f64>>,
     /// Unit normal from `a` into `b`.
     pub normal: Vector3<f64>,
-    /// Friction, joint rules already applied.
-    pub friction: Friction,
-}
-
-/// The friction between any two blocks.
-#[derive(Clone, Debug)]
-pub struct JointRules {
-    /// Rule for joints without an exception.
-    pub default: Option<Friction>,
-    /// Exceptions by material names, in file order.
-    pub by_material: Vec<([String; 2], Friction)>,
-    /// Exceptions by block indices, smaller index first.
-    pub by_blocks: std::collections::HashMap<(usize, usize), Friction>,
+    /// How it resists, joint rules already applied.
+    pub law: JointLaw,
 }
 
 impl Assembly {
@@ -155,20 +153,5 @@ impl Assembly {
     /// Index of a block by name.
     pub fn find(&self, id: &str) -> Option<usize> {
         self.blocks.iter().position(|b| b.id == id)
-    }
-}
-
-impl JointRules {
-    /// The friction between two blocks: the rule for the two blocks, else the last rule for their materials, else the default.
-    /// `None` where no rule says any.
-    pub fn friction(&self, a: usize, b: usize, blocks: &[Block]) -> Option<Friction> {
-        if let Some(friction) = self.by_blocks.get(&(a.min(b), a.max(b))) {
-            return Some(*friction);
-        }
-        let of_materials = |[m, n]: &[String; 2]| {
-            let (one, two) = (blocks[a].material.as_ref(), blocks[b].material.as_ref());
-            (one == Some(m) && two == Some(n)) || (one == Some(n) && two == Some(m))
-        };
-        self.by_material.iter().rev().find(|(pair, _)| of_materials(pair)).map(|(_, friction)| *friction).or(self.default)
     }
 }

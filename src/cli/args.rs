@@ -144,7 +144,8 @@ pub struct Simulate {
 pub struct Limit {
     #[command(flatten)]
     pub common: Common,
-    /// The load factor that is needed: exit code 1 if the greatest one is below, 3 if it cannot be told from it.
+    /// The load factor that is needed: exit code 1 if the greatest one, with dry friction too unless --law associative, is below, 3 if
+    /// that stays open.
     #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = finite)]
     pub require: Option<f64>,
     /// Do not ask as well whether it stands without its live load.
@@ -162,7 +163,8 @@ pub struct Tilt {
     /// Tip towards this many directions, evenly spread, the first along x.
     #[arg(long, value_name = "N", default_value_t = DIRECTIONS, conflicts_with = "toward", value_parser = clap::value_parser!(u16).range(1..=3600))]
     pub all: u16,
-    /// The tilt that is needed, in degrees: exit code 1 if the least one is below, 3 if it cannot be told from it.
+    /// The tilt that is needed, in degrees: exit code 1 if the least one, with dry friction too unless --law associative, is below, 3 if
+    /// that stays open.
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = finite)]
     pub require: Option<f64>,
     /// Do not ask as well whether it stands when level.

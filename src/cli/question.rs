@@ -4,7 +4,7 @@ use super::{args::Common, exit::Exit, input, output::Sink, terminal, terminal::T
 use anyhow::bail;
 use std::time::Instant;
 use voussoir::{
-    analysis::{Control, Model, Outcome, prepare},
+    analysis::{Control, Model, Outcome, coulomb::Found, prepare},
     report::{
         ResultFile, json,
         text::{self, Asked, Options},
@@ -113,16 +113,27 @@ pub fn verdict(verdict: Option<Verdict>) -> Exit {
     }
 }
 
-/// The exit code of a load factor, read through `scale`, against what is required of it. A requirement inside the bracket is not decided.
+/// The exit code of a load factor, read through `scale`, against what is required of it. A requirement inside the bracket is not
+/// decided. Where dry friction was asked for, the bound alone meets no requirement.
 pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f64) -> Exit {
     let Some(l) = file.answer.load_factor else { return Exit::Undecided };
     let (lower, upper) = (l.lower.map(scale), l.upper.map(scale));
-    match (l.status, require) {
+    let bound = match (l.status, require) {
         (Outcome::Undecided, _) => Exit::Undecided,
         (Outcome::Impossible, _) => Exit::No,
         (Outcome::Unbounded, _) | (Outcome::Found, None) => Exit::Yes,
         (Outcome::Found, Some(r)) if lower.is_some_and(|l| l >= r) => Exit::Yes,
         (Outcome::Found, Some(r)) if upper.is_some_and(|u| u < r) => Exit::No,
         (Outcome::Found, Some(_)) => Exit::Undecided,
+    };
+    match (&bound, &file.dry, require) {
+        (Exit::Yes, Some(dry), Some(r)) if dry.found != Found::Unlimited => match dry.value.map(scale) {
+            // Where nothing slides it is the bound itself, and its bracket has decided.
+            Some(_) if dry.found == Found::NothingSlides => bound,
+            Some(value) if value >= r => Exit::Yes,
+            Some(_) => Exit::No,
+            None => Exit::Undecided,
+        },
+        _ => bound,
     }
 }

@@ -8,8 +8,11 @@ use super::{
 };
 use anyhow::Context;
 use voussoir::{
-    analysis::{Law, Model, Outcome, Tilt, assess, coulomb, tilt, tilt::directions, tilt::turned},
-    report::ResultFile,
+    analysis::{
+        Law, Outcome, assess, tilt,
+        tilt::{directions, tilted},
+    },
+    report::{Leaning, ResultFile},
 };
 
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -22,18 +25,19 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     };
     let mut answers = Vec::with_capacity(toward.len());
     for direction in toward {
-        let answer = tilt(&model.assembly, &model.interfaces, direction, &question.control())?;
-        let (assembly, _) = turned(&model.assembly, direction)?;
-        answers.push((Model { assembly, interfaces: model.interfaces.clone(), timings: model.timings }, answer));
+        let tilt = tilt(&model.assembly, &model.interfaces, direction, &question.control())?;
+        let turned = tilted(model, direction, tilt.load_factor.value)?;
+        let bounded = matches!(tilt.load_factor.outcome, Outcome::Found | Outcome::Unbounded);
+        let dry = if bounded && question.control().law == Law::Coulomb {
+            let dry = tilt::dry(&turned.assembly, &model.interfaces, &tilt.load_factor, &question.control());
+            Some((tilted(model, direction, dry.value)?, dry))
+        } else {
+            None
+        };
+        answers.push(Leaning { model: turned, tilt, dry });
     }
     let dead = (!args.skip_dead).then(|| assess(&model.assembly, &model.interfaces, &question.control()));
-    let mut packed = ResultFile::tilt(&question.scene, &answers).context("no direction to tilt towards")?;
-    let least = answers.iter().find(|(_, t)| Some(<[f64; 3]>::from(t.toward)) == packed.answer.toward);
-    let bounded = |t: &Tilt| matches!(t.load_factor.outcome, Outcome::Found | Outcome::Unbounded);
-    if let Some((turned, least)) = least.filter(|(_, t)| question.control().law == Law::Coulomb && bounded(t)) {
-        let dry = coulomb::load_factor(&turned.assembly, &turned.interfaces, &least.load_factor, &question.control());
-        packed = packed.with_dry(turned, &dry);
-    }
+    let packed = ResultFile::tilt(&question.scene, &answers).context("no direction to tilt towards")?;
     let file = question.answer(terminal, &args.options(), || match &dead {
         Some(dead) => packed.with_dead_load(model, dead),
         None => packed,

@@ -1,8 +1,9 @@
 //! A block made ready for detection: boxes around it and its facets, and, where asked for, its edges and corners.
 
+use super::{plane::Plane, polygon};
 use crate::{
     assembly::{Block, Facet, Polyhedron, Solid},
-    tolerance::COPLANAR,
+    tolerance::{COPLANAR, GREATEST_TWIST},
 };
 use nalgebra::Vector3;
 use std::{
@@ -70,6 +71,8 @@ pub(super) enum Form<'a> {
 pub(super) struct Solidity<'a> {
     pub polyhedron: &'a Polyhedron,
     pub facet_bounds: Vec<Bounds>,
+    /// How far a part of each facet may lean from its mean plane, radians: twice the warp over the width.
+    pub facet_twist: Vec<f64>,
     topology: OnceCell<Topology>,
 }
 
@@ -113,6 +116,7 @@ impl<'a> Body<'a> {
                         .iter()
                         .map(|f| Bounds::around(f.pieces.iter().flatten().map(|&v| &polyhedron.vertices[v as usize])))
                         .collect(),
+                    facet_twist: polyhedron.facets.iter().map(|f| twist(polyhedron, f)).collect(),
                     topology: OnceCell::new(),
                 }),
             },
@@ -231,6 +235,17 @@ fn split(polyhedron: &Polyhedron, sides: &mut Vec<Side>, corners: &mut [Corner])
         }
         sides.push(Side { ends: [from, q], facet });
     }
+}
+
+/// How far a part of a facet may lean from its mean plane: from warp below to warp above it over its least width, radians.
+fn twist(polyhedron: &Polyhedron, facet: &Facet) -> f64 {
+    if facet.warp == 0.0 {
+        return 0.0;
+    }
+    let corners = || facet.pieces.iter().flatten().map(|&v| polyhedron.vertices[v as usize]);
+    let plane = Plane::new(corners().next().unwrap_or_default(), facet.normal);
+    let width = polygon::width(&polygon::hull(&corners().map(|x| plane.flat(x)).collect::<Vec<_>>(), 0.0));
+    (2.0 * facet.warp / width).min(GREATEST_TWIST)
 }
 
 /// The direction of `v`; zero where it has none.

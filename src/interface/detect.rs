@@ -13,7 +13,7 @@ use super::{
     ContactFrame, ContactKind, Interface, Interfaces,
     body::{Body, Form, Solidity},
     detect_candidates::candidates,
-    faces::{self, FaceContact, Gap},
+    faces::{self, Closing, FaceContact, Gap},
     features::{self, Touch},
     given,
     limits::Limits,
@@ -62,10 +62,10 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
             continue;
         }
         if let Some(near) = meeting.near {
-            tally.near(near.gap, &limits, a, b);
+            tally.near(near.closing, &limits, a, b);
         }
-        if let Some(depth) = meeting.overlap {
-            tally.overlap(depth, a, b);
+        if let Some(overlap) = meeting.overlap {
+            tally.overlap(overlap.depth, overlap.closing, &limits, a, b);
         }
         if meeting.without_normal {
             tally.without_normal(a, b);
@@ -74,7 +74,7 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
         if meeting.contacts.is_empty() {
             continue;
         }
-        let friction = assembly.joints.friction(a, b, &assembly.blocks).ok_or_else(|| {
+        let law = assembly.joints.law(a, b, &assembly.blocks).ok_or_else(|| {
             let (one, other) = (&assembly.blocks[a].id, &assembly.blocks[b].id);
             InputError::at(
                 JsonPath::root(),
@@ -94,7 +94,7 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
                 patches: contact.patches,
                 pieces: contact.pieces,
                 gap: contact.gap.mean,
-                friction,
+                law,
             });
         }
     }
@@ -120,7 +120,7 @@ struct Pair {
 struct Meeting {
     contacts: Vec<Contact>,
     near: Option<Near>,
-    overlap: Option<f64>,
+    overlap: Option<Overlap>,
     small: Vec<f64>,
     without_normal: bool,
 }
@@ -139,7 +139,15 @@ struct Contact {
 /// A near miss; spheres have no plane.
 struct Near {
     gap: f64,
+    closing: Closing,
     plane: Option<Plane>,
+}
+
+/// An overlap deeper than the tolerance.
+struct Overlap {
+    depth: f64,
+    /// What would join the blocks, if not too far.
+    closing: Option<Closing>,
 }
 
 impl Meeting {
@@ -152,19 +160,24 @@ fn meet(a: &Body, b: &Body, limits: &Limits) -> Meeting {
     match (&a.shape, &b.shape) {
         (Form::Polyhedron(p), Form::Polyhedron(q)) => polyhedra(a, p, b, q, limits),
         (&Form::Sphere { center, radius }, &Form::Sphere { center: c, radius: r }) => {
-            round(spheres::sphere_sphere((center, radius), (c, r), limits), 1.0)
+            round(spheres::sphere_sphere((center, radius), (c, r), limits), 1.0, limits)
         }
-        (&Form::Sphere { center, radius }, Form::Polyhedron(q)) => round(spheres::sphere_polyhedron(center, radius, q, limits), 1.0),
-        (Form::Polyhedron(p), &Form::Sphere { center, radius }) => round(spheres::sphere_polyhedron(center, radius, p, limits), -1.0),
+        (&Form::Sphere { center, radius }, Form::Polyhedron(q)) => {
+            round(spheres::sphere_polyhedron(center, radius, q, limits), 1.0, limits)
+        }
+        (Form::Polyhedron(p), &Form::Sphere { center, radius }) => {
+            round(spheres::sphere_polyhedron(center, radius, p, limits), -1.0, limits)
+        }
     }
 }
 
 /// What a sphere met; `sign` turns the normals to point from `a` into `b`.
-fn round(meeting: spheres::Meeting, sign: f64) -> Meeting {
+fn round(meeting: spheres::Meeting, sign: f64, limits: &Limits) -> Meeting {
+    let closing = |gap: f64| Closing { gap, lean: 0.0 };
     Meeting {
         contacts: meeting.touches.into_iter().map(|t| of_touch(t, sign)).collect(),
-        near: meeting.near.map(|gap| Near { gap, plane: None }),
-        overlap: meeting.overlap,
+        near: meeting.near.map(|gap| Near { gap, closing: closing(gap), plane: None }),
+        overlap: meeting.overlap.map(|depth| Overlap { depth, closing: Some(closing(depth)).filter(|c| c.gap <= limits.near) }),
         ..Meeting::default()
     }
 }
@@ -184,7 +197,8 @@ fn polyhedra(a: &Body, p: &Solidity, b: &Body, q: &Solidity, limits: &Limits) ->
         meeting.contacts.extend(touches.into_iter().map(|t| of_touch(t, 1.0)));
         let common = a.bounds.common(&b.bounds);
         if (!convex || meeting.contacts.is_empty()) && (0..3).all(|k| common.hi[k] - common.lo[k] > limits.gap) {
-            meeting.overlap = overlap::depth(p, q, &common, limits);
+            let closing = facing.near.map(|n| n.closing);
+            meeting.overlap = overlap::depth(p, q, &common, limits).map(|depth| Overlap { depth, closing });
         }
         meeting.without_normal = !on_faces
             && meeting.contacts.is_empty()
@@ -192,8 +206,8 @@ fn polyhedra(a: &Body, p: &Solidity, b: &Body, q: &Solidity, limits: &Limits) ->
             && meeting.overlap.is_none()
             && features::meet_without_normal(p, q, &window(limits.gap), limits);
     }
-    if !on_faces && meeting.overlap.is_none() {
-        meeting.near = facing.near.map(|n| Near { gap: n.gap, plane: Some(Plane::new(n.at, n.n)) });
+    if meeting.overlap.is_none() {
+        meeting.near = facing.near.map(|n| Near { gap: n.gap, closing: n.closing, plane: Some(Plane::new(n.at, n.n)) });
     }
     meeting.contacts.extend(facing.contacts.iter().map(|f| of_face(f, limits)));
     meeting

@@ -3,8 +3,9 @@
 //! Two facets face each other where their normals are opposite within the angle. Each convex piece of one is cut by each convex
 //! piece of the other in a plane between them, and the gap is measured **at the corners of what is left**, not at the corners of
 //! the facets: a slab may be a hundred thousand times longer than the block it carries. They touch where the gap is within the
-//! tolerance at all these corners. Facets that are not plane stand for their mean planes, and the tolerance grows by their warp:
-//! two blocks that share part of a warped joint have different mean planes there.
+//! tolerance at all these corners. Facets that are not plane stand for their mean planes, and both tolerances grow with their warp:
+//! two blocks that share part of a warped joint have different mean planes there, apart by up to the warp and leaning from each
+//! other by up to twice the warp over the width of the facet.
 //!
 //! All facet pairs of two blocks that touch on one plane make one contact: its points are the convex hull, exact for rigid blocks
 //! with Coulomb friction, because a force at an inner point is a combination of forces at the hull's corners.
@@ -58,12 +59,31 @@ pub(super) struct Gap {
 /// Facing facets that nearly touch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NearMiss {
-    /// Mean gap, m.
+    /// Mean gap, m; negative where they overlap.
     pub gap: f64,
+    /// What would join them.
+    pub closing: Closing,
     /// A point between the facets.
     pub at: Vector3<f64>,
     /// Normal from `a` into `b`.
     pub n: Vector3<f64>,
+}
+
+/// What would have to be tolerated for two blocks to touch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Closing {
+    /// Gap or overlap at the corner where it is greatest, less the warp, m.
+    pub gap: f64,
+    /// `|n_a + n_b|`, less what the warp explains.
+    pub lean: f64,
+}
+
+impl Closing {
+    /// Whether facets with these gaps, which do not touch, nearly do.
+    fn is_near(&self, gap: &Gap, limits: &Limits) -> bool {
+        // Facets that are parallel enough nearly touch with their nearest corner, others only as a whole.
+        self.gap <= limits.near || self.lean <= limits.chord && gap.least >= -limits.near && gap.least <= limits.near
+    }
 }
 
 /// What two facets have in common, seen along their normals.
@@ -81,23 +101,21 @@ struct Overlay {
 /// Matches all facets of `a` with all facets of `b`.
 pub(super) fn facing(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limits) -> Facing {
     let mut facing = Facing::default();
-    let mut touching = Vec::new();
+    let (mut touching, mut apart) = (Vec::new(), Vec::new());
     let of_b: Vec<_> = b.facets_in(window).collect();
     for (i, fa) in a.facets_in(window) {
         for &(j, fb) in &of_b {
-            if !limits.opposite(&fa.normal, &fb.normal) || a.facet_bounds[i].distance(&b.facet_bounds[j]) > limits.near {
+            // The plane of a warped facet is known no better than its warp, and its direction no better than its twist.
+            let lean = limits.lean(&fa.normal, &fb.normal, a.facet_twist[i] + b.facet_twist[j]);
+            if lean > limits.near_chord || a.facet_bounds[i].distance(&b.facet_bounds[j]) > limits.near {
                 continue;
             }
             let Some(overlay) = overlay(a, b, [i, j], limits) else { continue };
-            // The plane of a warped facet is known no better than its warp.
-            let reach = limits.gap + fa.warp + fb.warp;
-            if overlay.gap.least >= -reach && overlay.gap.greatest <= reach {
+            let closing = Closing { gap: overlay.gap.greatest.max(-overlay.gap.least) - fa.warp - fb.warp, lean };
+            if closing.gap <= limits.gap && lean <= limits.chord {
                 touching.push(overlay);
-            } else if overlay.gap.least >= -limits.gap && overlay.gap.least <= limits.near {
-                let closer = facing.near.is_none_or(|n| overlay.gap.mean < n.gap);
-                if closer && overlay.area >= limits.min_area && !is_rim(&join(&[&overlay], limits), &overlay, a, b, limits) {
-                    facing.near = Some(NearMiss { gap: overlay.gap.mean, at: overlay.centroid, n: overlay.n });
-                }
+            } else if overlay.area >= limits.min_area && closing.is_near(&overlay.gap, limits) {
+                apart.push((closing, overlay));
             }
         }
     }
@@ -113,7 +131,32 @@ pub(super) fn facing(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limit
         }
     }
     drop_far_sides(&mut facing.contacts, limits);
+    // Convex blocks that meet face to face meet nowhere else.
+    if facing.contacts.is_empty() || !(a.polyhedron.convex && b.polyhedron.convex) {
+        apart.sort_by(|(x, _), (y, _)| x.gap.total_cmp(&y.gap));
+        facing.near = apart.iter().find_map(|(closing, overlay)| near_miss(*closing, overlay, &facing.contacts, a, b, limits));
+    }
     facing
+}
+
+/// A near miss of two facets, unless a contact lies there already or there would be none even if they were closed.
+fn near_miss(
+    closing: Closing,
+    overlay: &Overlay,
+    contacts: &[FaceContact],
+    a: &Solidity,
+    b: &Solidity,
+    limits: &Limits,
+) -> Option<NearMiss> {
+    let closed = Limits { gap: closing.gap.max(limits.gap), ..*limits };
+    // Where the blocks touch already, facets that lean only belong to the same rounded surface.
+    let known = contacts.iter().any(|c| closing.lean > limits.chord || c.covers(overlay.centroid, &overlay.n, limits));
+    (!known && !is_rim(&join(&[overlay], limits), overlay, a, b, &closed)).then_some(NearMiss {
+        gap: overlay.gap.mean,
+        closing,
+        at: overlay.centroid,
+        n: overlay.n,
+    })
 }
 
 /// Two plates thinner than the gap tolerance meet twice within it: face to face, and back to back as if each had gone through the

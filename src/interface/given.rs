@@ -33,6 +33,6 @@ pub(super) fn interface(given: &GivenInterface, limits: &Limits) -> Interface {
         patches: 1,
         pieces: Vec::new(),
         gap: 0.0,
-        friction: given.friction,
+        law: given.law,
     }
 }

@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use crate::{scene::ContactSpec, tolerance};
+use nalgebra::Vector3;
 
 /// What counts as touching between two given blocks. All lengths derive from the size of the smaller block, and none
 /// is below the rounding of the coordinates.
@@ -21,6 +22,8 @@ pub(super) struct Limits {
     pub min_area: f64,
     /// Greatest `|n_a + n_b|` of two facets that face each other.
     pub chord: f64,
+    /// Greatest `|n_a + n_b|` of two facets that nearly face each other.
+    pub near_chord: f64,
 }
 
 /// Reach of near misses, × size.
@@ -41,12 +44,23 @@ impl Limits {
             weld: (tolerance::CONTACT_WELD * size).max(rounding),
             noise: (tolerance::GAP_WORTH_TELLING * size).max(rounding),
             min_area: spec.min_area * size * size,
-            chord: 2.0 * (spec.angle_deg.to_radians() / 2.0).sin() + tolerance::CONTACT_ROUNDING_ANGLE,
+            chord: chord(spec.angle_deg) + tolerance::CONTACT_ROUNDING_ANGLE,
+            near_chord: chord(spec.angle_deg.max(tolerance::NEAR_MISS_ANGLE_DEG)) + tolerance::CONTACT_ROUNDING_ANGLE,
         }
     }
 
-    /// Whether normals `a` and `b` are opposite within the angle.
-    pub fn opposite(&self, a: &nalgebra::Vector3<f64>, b: &nalgebra::Vector3<f64>) -> bool {
-        (a + b).norm() <= self.chord
+    /// How far normals `a` and `b` are from opposite, `|n_a + n_b|`, less what the twist of the facets (radians) explains.
+    pub fn lean(&self, a: &Vector3<f64>, b: &Vector3<f64>, twist: f64) -> f64 {
+        ((a + b).norm() - twist).max(0.0)
     }
+}
+
+/// `|n_a + n_b|` of facets this far from parallel.
+fn chord(degrees: f64) -> f64 {
+    2.0 * (degrees.to_radians() / 2.0).sin()
+}
+
+/// Degrees from parallel of facets with this `|n_a + n_b|`.
+pub(super) fn degrees(chord: f64) -> f64 {
+    (2.0 * (chord / 2.0).min(1.0).asin()).to_degrees()
 }

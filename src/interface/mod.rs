@@ -1,4 +1,4 @@
-//! Contact interfaces: where blocks touch, with normals, corner points and friction.
+//! Contact interfaces: where blocks touch, with normals, corner points and the law of the joint.
 //!
 //! Convention: the unit normal `n` points from block `a` into block `b`; contact forces are the forces **on b**;
 //! compression is `f_n ≥ 0`; the frame `(t1, t2, n)` is right-handed.
@@ -14,14 +14,17 @@ mod limits;
 mod overlap;
 mod plane;
 mod polygon;
+mod section;
 mod spheres;
+mod strength;
 mod tally;
 #[cfg(test)]
 mod tests;
 
 pub use detect::detect;
+pub use section::{Affine, Cut};
 
-use crate::{error::Finding, scene::Friction};
+use crate::{assembly::JointLaw, error::Finding};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -58,8 +61,8 @@ pub struct Interface {
     pub pieces: Vec<Vec<Vector3<f64>>>,
     /// Mean signed gap before closing, m (> 0 open, < 0 overlap).
     pub gap: f64,
-    /// Friction.
-    pub friction: Friction,
+    /// How it resists.
+    pub law: JointLaw,
 }
 
 /// What touches what.

@@ -1,6 +1,9 @@
 //! What detection closed, left apart or ignored, counted, and said in sentences.
 
-use super::{faces::Gap, limits::Limits};
+use super::{
+    faces::{Closing, Gap},
+    limits::{self, Limits},
+};
 use crate::{
     assembly::Assembly,
     error::{Finding, FindingCode},
@@ -12,12 +15,30 @@ pub(super) struct Tally {
     closed: Extreme,
     pressed: Extreme,
     small: Extreme,
-    /// `(gap, gap / size, a, b)`
-    near: Vec<(f64, f64, usize, usize)>,
-    /// `(depth, a, b)`
-    overlaps: Vec<(f64, usize, usize)>,
+    near: Vec<(Apart, usize, usize)>,
+    /// `(depth, what would close it, a, b)`
+    overlaps: Vec<(f64, Option<Apart>, usize, usize)>,
     without_normal: Vec<(usize, usize)>,
     held_apart: Vec<(usize, usize)>,
+}
+
+/// What keeps two blocks from touching.
+#[derive(Clone, Copy, Debug)]
+struct Apart {
+    /// m
+    gap: f64,
+    /// `contact.gap` that closes it.
+    relative: f64,
+    /// `contact.angle_deg` that accepts it, where the one given does not.
+    angle: Option<f64>,
+}
+
+impl Apart {
+    fn new(closing: Closing, limits: &Limits) -> Self {
+        let gap = closing.gap.max(0.0);
+        let angle = (closing.lean > limits.chord).then(|| limits::degrees(closing.lean));
+        Self { gap, relative: gap / limits.size, angle }
+    }
 }
 
 /// A count and the greatest value.
@@ -48,12 +69,12 @@ impl Tally {
         self.small.add(area);
     }
 
-    pub fn near(&mut self, gap: f64, limits: &Limits, a: usize, b: usize) {
-        self.near.push((gap, gap / limits.size, a, b));
+    pub fn near(&mut self, closing: Closing, limits: &Limits, a: usize, b: usize) {
+        self.near.push((Apart::new(closing, limits), a, b));
     }
 
-    pub fn overlap(&mut self, depth: f64, a: usize, b: usize) {
-        self.overlaps.push((depth, a, b));
+    pub fn overlap(&mut self, depth: f64, closing: Option<Closing>, limits: &Limits, a: usize, b: usize) {
+        self.overlaps.push((depth, closing.map(|c| Apart::new(c, limits)), a, b));
     }
 
     pub fn without_normal(&mut self, a: usize, b: usize) {
@@ -83,25 +104,34 @@ impl Tally {
             findings.push(Finding::new(FindingCode::GapClosed, text));
         }
         if !self.near.is_empty() {
-            self.near.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.2, x.3).cmp(&(y.2, y.3))));
-            let (least, greatest) = (self.near[0].0, self.near[self.near.len() - 1].0);
-            let all = self.near.iter().map(|n| n.1).fold(0.0, f64::max);
-            let worst: Vec<String> = self.near.iter().take(3).map(|&(gap, _, a, b)| format!("{} ({} m)", pair(a, b), short(gap))).collect();
+            self.near.sort_by(|x, y| x.0.gap.total_cmp(&y.0.gap).then((x.1, x.2).cmp(&(y.1, y.2))));
+            let (least, greatest) = (self.near[0].0.gap, self.near[self.near.len() - 1].0.gap);
+            let lean = |angle: Option<f64>| angle.map(|a| format!(", {}° from parallel", short(a))).unwrap_or_default();
+            let worst: Vec<String> =
+                self.near.iter().take(3).map(|&(x, a, b)| format!("{} ({} m{})", pair(a, b), short(x.gap), lean(x.angle))).collect();
             let text = format!(
-                "{} of blocks nearly touch and were left apart: gaps from {} to {} m; nearest: {}. If they should touch, raise contact.gap from {tolerance} to {}",
+                "{} of blocks nearly touch and were left apart: gaps from {} to {} m; nearest: {}. If they should touch, {}",
                 pairs(self.near.len()),
                 short(least),
                 short(greatest),
                 worst.join(", "),
-                round_up(all),
+                remedy(self.near.iter().map(|n| n.0), assembly),
             );
             findings.push(Finding::new(FindingCode::NearMiss, text));
         }
         if !self.overlaps.is_empty() {
-            self.overlaps.sort_by(|x, y| y.0.total_cmp(&x.0).then((x.1, x.2).cmp(&(y.1, y.2))));
-            let worst: Vec<String> = self.overlaps.iter().take(3).map(|&(d, a, b)| format!("{} ({} m)", pair(a, b), short(d))).collect();
+            self.overlaps.sort_by(|x, y| y.0.total_cmp(&x.0).then((x.2, x.3).cmp(&(y.2, y.3))));
+            let worst: Vec<String> = self.overlaps.iter().take(3).map(|&(d, _, a, b)| format!("{} ({} m)", pair(a, b), short(d))).collect();
+            let closable: Vec<Apart> = self.overlaps.iter().filter_map(|o| o.1).collect();
+            let close = match closable.len() {
+                0 => String::new(),
+                n if n == self.overlaps.len() => {
+                    format!(", or, to close {}, {}", if n == 1 { "it" } else { "them" }, remedy(closable, assembly))
+                }
+                n => format!(", or, to close {n} of them, {}", remedy(closable, assembly)),
+            };
             let text = format!(
-                "{} of blocks overlap by more than contact.gap ({tolerance} × size), by up to {} m; no contact was made of the overlapping faces. Mend the geometry, or raise contact.gap to close them. Deepest: {}",
+                "{} of blocks overlap by more than contact.gap ({tolerance} × size), by up to {} m; no contact was made of the overlapping faces. Deepest: {}. Mend the geometry{close}",
                 pairs(self.overlaps.len()),
                 short(self.overlaps[0].0),
                 worst.join(", "),
@@ -135,6 +165,18 @@ impl Tally {
             findings.push(Finding::new(FindingCode::ContactIgnored, text));
         }
         findings
+    }
+}
+
+/// The tolerances that join all of these.
+fn remedy(apart: impl IntoIterator<Item = Apart>, assembly: &Assembly) -> String {
+    let (gap, angle) = apart.into_iter().fold((0.0, 0.0), |(g, a): (f64, f64), x| (g.max(x.relative), a.max(x.angle.unwrap_or(0.0))));
+    let raise = |name: &str, from: f64, to: f64| format!("contact.{name} from {} to {}", short(from), round_up(to));
+    let spec = &assembly.contact;
+    match (gap > spec.gap, angle > spec.angle_deg) {
+        (true, true) => format!("raise {} and {}", raise("gap", spec.gap, gap), raise("angle_deg", spec.angle_deg, angle)),
+        (false, true) => format!("raise {}", raise("angle_deg", spec.angle_deg, angle)),
+        _ => format!("raise {}", raise("gap", spec.gap, gap)),
     }
 }
 

@@ -12,29 +12,35 @@
 //! *Load factor (D).* `max λ − ½ δ fᵀ C f` subject to `A f + w + λ ℓ = 0` and the same limits; `u = δ C f + Aᵀ y` with the
 //! multipliers `y`.
 //!
+//! *More than friction.* Cohesion `c` and tension `T` make the limit `μ f_n + c` and `f_n ≥ −T`; the couples of a rolling arm are
+//! limited by `f_n` in the same way ([`Disc`]), and what rolls or twists does not open either. Crushing bounds the normal forces
+//! ([`Section`](super::Section)), held and associative: what crushes closes.
+//!
 //! *Twin (De Saxcé & Feng 1998).* `f` in the friction cone with a linear term `μ‖u_t‖ f_n`: the fixed point is in the sliding
 //! rates instead of the limits. It serves as a second opinion; where dilatancy jams it does not settle.
 //! Sources: Haslinger 1983 (fixed point on the Tresca limit), Acary, Brémond & Huber 2018 (natural map), Gilbert, Casapulla &
 //! Ahmed 2006 (sequence of convex programs for non-associative limit analysis).
 
-use super::{Cone, ConicProgram, Options, Statics, unbalance::copy};
+use super::{BearingCone, Cone, ConicProgram, Disc, Options, Statics, bearing::ends_are_all, unbalance::copy};
 use crate::{assembly::Assembly, interface::Interfaces, scene::Friction};
 
 /// A contact point of programs C and D.
 #[derive(Clone, Debug)]
 pub struct Point {
-    /// First column of its forces `(f_n, f_t…)`.
+    /// First column of its forces `(f_n, f_t…)` and couples.
     pub column: usize,
-    /// Number of tangential components: 0, 1 or 2.
-    pub tangents: usize,
-    /// Coefficient of friction; infinite where sliding is excluded.
-    pub mu: f64,
+    /// Number of columns.
+    pub columns: usize,
+    /// Tensile strength, in units of the forces.
+    pub tension: f64,
+    /// Its limits: friction, and rolling and twisting where there is an arm. None where sliding is excluded.
+    pub discs: Vec<Disc>,
 }
 
 /// The equilibrium in normal and tangential forces, in mean block loads, with the compliance of the contacts.
 #[derive(Clone, Debug)]
 pub struct Contacts {
-    /// Equilibrium, columns `(f_n, f_t…)` per point, unit = mean block load.
+    /// Equilibrium, columns `(f_n, f_t…, couples…)` per point, unit = mean block load.
     pub statics: Statics,
     /// The contact points in column order.
     pub points: Vec<Point>,
@@ -45,9 +51,9 @@ pub struct Contacts {
 /// How friction is held fixed in one convex program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hold {
-    /// The limit `s` of the tangential force (Tresca).
+    /// The limit `s` of each disc (Tresca).
     Limits,
-    /// The sliding rate `μ‖u_t‖` (De Saxcé).
+    /// The sliding rate `μ‖u_t‖` of each disc (De Saxcé).
     SlidingRates,
 }
 
@@ -68,15 +74,14 @@ impl Contacts {
     pub fn new(assembly: &Assembly, interfaces: &Interfaces, keep_all: bool, live: bool) -> Self {
         let options = Options { keep_all, live, split: true };
         let mut statics = Statics::new(assembly, interfaces, options);
-        if statics.plane.is_some() && !ends_are_all(&statics, interfaces) {
+        if statics.plane.is_some() && !ends_are_all(&statics.bearings, interfaces) {
             statics = Statics::new(assembly, interfaces, Options { keep_all: true, ..options });
         }
         let mean = statics.free.iter().map(|f| f.weight).sum::<f64>() / statics.free.len().max(1) as f64;
         statics.rescale(mean / statics.unit, false);
         let share = |b: &super::Bearing| {
             let face = &interfaces.list[b.interface];
-            let points = if b.points[0] == b.points[1] { 1.0 } else { 2.0 };
-            face.area * points / face.points.len() as f64
+            face.area * b.point_count() as f64 / face.points.len() as f64
         };
         let areas: Vec<f64> = statics.bearings.iter().map(share).collect();
         let with_area: Vec<f64> = areas.iter().copied().filter(|&a| a > 0.0).collect();
@@ -90,11 +95,15 @@ impl Contacts {
                 // Edges and points have no area; they count as an average contact.
                 let c = if area > 0.0 { mean_area / area } else { 1.0 };
                 compliance.extend(std::iter::repeat_n(c, b.basis.len()));
-                let mu = match interfaces.list[b.interface].friction {
-                    Friction::Coefficient(mu) => mu,
-                    Friction::Infinite => f64::INFINITY,
+                let limits = match (b.cone, interfaces.list[b.interface].law.friction) {
+                    (BearingCone::Limited(limits), _) => limits.discs(b.column, b.unit),
+                    (_, Friction::Coefficient(slope)) if b.basis.len() > 1 => {
+                        vec![Disc { normal: b.column, first: b.column + 1, count: b.basis.len() - 1, slope, constant: 0.0 }]
+                    }
+                    _ => Vec::new(),
                 };
-                Point { column: b.column, tangents: b.basis.len() - 1, mu }
+                let tension = b.limits().map_or(0.0, |l| l.tension / b.unit);
+                Point { column: b.column, columns: b.basis.len(), tension, discs: limits }
             })
             .collect();
         Self { statics, points, compliance }
@@ -138,71 +147,70 @@ impl Contacts {
         p
     }
 
-    /// Puts new limits or sliding rates into a program made by [`Self::program`].
+    /// Every limit, point by point.
+    pub fn discs(&self) -> impl Iterator<Item = &Disc> {
+        self.points.iter().flat_map(|p| &p.discs)
+    }
+
+    /// Puts new limits or sliding rates (one per disc) into a program made by [`Self::program`].
     pub fn hold(&self, p: &mut ConicProgram, hold: Hold, held: &[f64]) {
         match hold {
             Hold::Limits => {
                 let mut row = self.statics.matrix.rows + self.points.len();
-                for (point, &s) in self.points.iter().zip(held) {
-                    match (point.tangents, point.mu.is_finite()) {
-                        (1, true) => {
-                            p.rhs[row] = s;
-                            p.rhs[row + 1] = s;
-                            row += 2;
-                        }
-                        (2, true) => {
-                            p.rhs[row] = s;
-                            row += 3;
-                        }
-                        _ => {}
+                for (disc, &s) in self.discs().zip(held) {
+                    let rows = if disc.count == 1 { 2 } else { 3 };
+                    p.rhs[row] = s;
+                    if disc.count == 1 {
+                        p.rhs[row + 1] = s;
                     }
+                    row += rows;
                 }
             }
             Hold::SlidingRates => {
-                for (point, &rate) in self.points.iter().zip(held) {
-                    p.objective[point.column] = rate;
+                for point in &self.points {
+                    p.objective[point.column] = 0.0;
+                }
+                for (disc, &rate) in self.discs().zip(held) {
+                    p.objective[disc.normal] += rate;
                 }
             }
         }
     }
 
-    /// `f_n ≥ 0` for all points, then `‖f_t‖ ≤ s` point by point.
+    /// `f_n ≥ −T` for all points, then `‖f_t‖ ≤ s` disc by disc, then crushing.
     fn limit_cones(&self, p: &mut ConicProgram) {
         let first = p.cone(Cone::NonNegative(self.points.len()));
         for (k, point) in self.points.iter().enumerate() {
             p.matrix.push(first + k, point.column, -1.0);
+            p.rhs[first + k] = point.tension;
         }
-        for point in self.points.iter().filter(|p| p.mu.is_finite()) {
-            if point.tangents == 1 {
+        for disc in self.discs() {
+            if disc.count == 1 {
                 let row = p.cone(Cone::NonNegative(2));
-                p.matrix.push(row, point.column + 1, 1.0);
-                p.matrix.push(row + 1, point.column + 1, -1.0);
-            } else if point.tangents == 2 {
+                p.matrix.push(row, disc.first, 1.0);
+                p.matrix.push(row + 1, disc.first, -1.0);
+            } else {
                 let row = p.cone(Cone::SecondOrder(3));
-                p.matrix.push(row + 1, point.column + 1, -1.0);
-                p.matrix.push(row + 2, point.column + 2, -1.0);
+                p.matrix.push(row + 1, disc.first, -1.0);
+                p.matrix.push(row + 2, disc.first + 1, -1.0);
             }
         }
+        self.statics.section_rows(p, 0);
     }
 
     fn friction_cones(&self, p: &mut ConicProgram) {
         for point in &self.points {
-            if point.tangents == 0 || point.mu.is_infinite() {
+            // A cone with its apex at zero bounds the normal force by itself.
+            if !point.discs.iter().any(|d| d.slope > 0.0 && d.constant == 0.0) {
                 let row = p.cone(Cone::NonNegative(1));
                 p.matrix.push(row, point.column, -1.0);
-            } else if point.tangents == 1 {
-                let row = p.cone(Cone::NonNegative(2));
-                for (k, sign) in [(0, 1.0), (1, -1.0)] {
-                    p.matrix.push(row + k, point.column, -point.mu);
-                    p.matrix.push(row + k, point.column + 1, sign);
-                }
-            } else {
-                let row = p.cone(Cone::SecondOrder(3));
-                p.matrix.push(row, point.column, -point.mu);
-                p.matrix.push(row + 1, point.column + 1, -1.0);
-                p.matrix.push(row + 2, point.column + 2, -1.0);
+                p.rhs[row] = point.tension;
+            }
+            for disc in &point.discs {
+                disc.cone(p);
             }
         }
+        self.statics.section_rows(p, 0);
     }
 
     /// `A f + w` per row.
@@ -225,43 +233,34 @@ impl Contacts {
         u
     }
 
-    /// Limits `μ f_n` of forces.
+    /// Limits `μ f_n + c` of forces, per disc.
     pub fn limits(&self, forces: &[f64]) -> Vec<f64> {
-        self.points.iter().map(|p| if p.mu.is_finite() { p.mu * forces[p.column].max(0.0) } else { 0.0 }).collect()
+        self.points.iter().flat_map(|p| p.discs.iter().map(|d| d.limit(forces[p.column].max(-p.tension)))).collect()
     }
 
-    /// `μ‖u_t‖` of joint rates.
+    /// `μ‖u_t‖` of joint rates, per disc.
     pub fn sliding(&self, u: &[f64]) -> Vec<f64> {
-        let t = |p: &Point| u[p.column + 1..=p.column + p.tangents].iter().map(|v| v * v).sum::<f64>().sqrt();
-        self.points.iter().map(|p| if p.mu.is_finite() { p.mu * t(p) } else { 0.0 }).collect()
+        let size = |d: &Disc| u[d.first..d.first + d.count].iter().map(|v| v * v).sum::<f64>().sqrt();
+        self.discs().map(|d| d.slope * size(d)).collect()
     }
 
-    /// Forces with every point put back into its friction cone (tangential part cut to `μ f_n`, normal part to ≥ 0).
+    /// Forces with every point put back into its cone (normal part to ≥ −T, the others cut to their limits).
     pub fn cut(&self, forces: &[f64]) -> Vec<f64> {
         let mut f = forces.to_vec();
         for p in &self.points {
-            let x = &mut f[p.column..=p.column + p.tangents];
-            x[0] = x[0].max(0.0);
-            let t = x[1..].iter().map(|v| v * v).sum::<f64>().sqrt();
-            let limit = if p.mu.is_finite() {
-                p.mu * x[0]
-            } else if x[0] > 0.0 {
-                f64::INFINITY
-            } else {
-                0.0
-            };
-            if t > limit {
-                x[1..].iter_mut().for_each(|v| *v *= limit / t);
+            let normal = f[p.column].max(-p.tension);
+            f[p.column] = normal;
+            for disc in &p.discs {
+                let part = &mut f[disc.first..disc.first + disc.count];
+                let (size, limit) = (part.iter().map(|v| v * v).sum::<f64>().sqrt(), disc.limit(normal));
+                if size > limit {
+                    part.iter_mut().for_each(|v| *v *= limit / size);
+                }
+            }
+            if p.discs.is_empty() && p.tension == 0.0 && normal <= 0.0 {
+                f[p.column + 1..p.column + p.columns].fill(0.0);
             }
         }
         f
     }
-}
-
-fn ends_are_all(statics: &Statics, interfaces: &Interfaces) -> bool {
-    let mut seen = vec![0usize; interfaces.list.len()];
-    for b in &statics.bearings {
-        seen[b.interface] += if b.points[0] == b.points[1] { 1 } else { 2 };
-    }
-    seen.iter().zip(&interfaces.list).all(|(&n, f)| n == f.points.len())
 }

@@ -12,6 +12,7 @@ use super::{
 /// `λ / live_scale` in rates.
 pub fn load_factor(statics: &Statics, live_scale: f64, unknowns: Unknowns) -> (ConicProgram, Layout) {
     let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
+    let unknowns = statics.unknowns(unknowns);
     match unknowns {
         Unknowns::Forces => {
             let mut p = ConicProgram::new(forces + 1);

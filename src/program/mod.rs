@@ -9,20 +9,24 @@
 //! Signs: a contact force acts on block `b` along `n` (from `a` into `b`); rates are power-conjugate to wrenches, so that
 //! `v = Aᵀ q` is the rate of separation and sliding of the contacts, opening positive.
 
+mod bearing;
 mod carried;
 mod conic;
 pub mod coulomb;
 mod load_factor;
 mod planar;
 mod reach;
+mod section;
 mod statics;
 mod unbalance;
 
+pub use bearing::{Bearing, BearingCone, Disc, Limits};
 pub use conic::{Cone, ConicProgram, Sparse};
 pub use load_factor::load_factor;
 pub use planar::Plane;
 pub use reach::{floating, is_forest};
-pub use statics::{Bearing, BearingCone, FreeBlock, Options, Statics};
+pub use section::Section;
+pub use statics::{FreeBlock, Options, Statics};
 pub use unbalance::{LiveLoad, unbalance};
 
 /// Which unknowns a program is written in; the others come out as multipliers.

@@ -1,6 +1,14 @@
 //! The equilibrium of the free blocks, reduced and scaled.
 
-use super::{carried::carried, conic::Sparse, planar, planar::Plane};
+use super::{
+    Unknowns,
+    bearing::{Bearing, bearings, ends_are_all},
+    carried::carried,
+    conic::Sparse,
+    planar,
+    planar::Plane,
+    section::{Section, sections},
+};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::Interfaces,
@@ -31,36 +39,6 @@ pub struct FreeBlock {
     pub length: f64,
 }
 
-/// The cone of one contact point, in scaled coordinates where it is a standard, self-dual cone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BearingCone {
-    /// Every column ≥ 0: a normal force alone (μ = 0), or the two edges of a plane friction cone.
-    Rays,
-    /// `x₀ ≥ ‖x₁, x₂‖`: the circular friction cone, its columns scaled by μ.
-    Circular,
-    /// `x₀ ≥ 0`, the others free: no sliding.
-    Rough,
-}
-
-/// One contact point of the program (or a mirrored pair of them) and its columns.
-#[derive(Clone, Debug)]
-pub struct Bearing {
-    /// Index of the interface.
-    pub interface: usize,
-    /// Points of the interface that share the force equally: one, or two mirror images.
-    pub points: [usize; 2],
-    /// First column.
-    pub column: usize,
-    /// Force on block `b` per unit of each column.
-    pub basis: Vec<Vector3<f64>>,
-    /// The cone the columns lie in.
-    pub cone: BearingCone,
-    /// Force unit of the columns, N.
-    pub unit: f64,
-    /// Load that presumably passes here, N ([`carried`](super::carried)).
-    presumed: f64,
-}
-
 /// `A x + w + λ ℓ = 0`, reduced and scaled. `A` has `d·n_free` rows, `d` = 6 in space and 3 in a plane.
 #[derive(Clone, Debug)]
 pub struct Statics {
@@ -70,9 +48,11 @@ pub struct Statics {
     pub free: Vec<FreeBlock>,
     /// The contact points in column order.
     pub bearings: Vec<Bearing>,
+    /// The joints that can crush.
+    pub sections: Vec<Section>,
     /// Scaled equilibrium operator.
     pub matrix: Sparse,
-    /// Scaled dead load.
+    /// Scaled dead load, with the water in the joints.
     pub dead: Vec<f64>,
     /// Scaled live load.
     pub live: Vec<f64>,
@@ -88,7 +68,7 @@ impl Statics {
     pub fn new(assembly: &Assembly, interfaces: &Interfaces, options: Options) -> Self {
         let mut left_out = Vec::new();
         let loads: &[&[Wrench]] = if options.live { &[&assembly.dead, &assembly.live] } else { &[&assembly.dead] };
-        let plane = if options.keep_all { None } else { planar::find(assembly, interfaces, loads) };
+        let mut plane = if options.keep_all { None } else { planar::find(assembly, interfaces, loads) };
         let free: Vec<FreeBlock> = assembly
             .free()
             .map(|block| FreeBlock {
@@ -102,9 +82,14 @@ impl Statics {
             row_of[f.block] = Some(row);
         }
 
-        let mut bearings = bearings(assembly, interfaces, plane, options);
+        let mut list = bearings(assembly, interfaces, plane, options);
+        // What the area resists is shared among all corners, not only the outermost two.
+        if plane.is_some() && !interfaces.list.iter().all(|f| f.law.is_dry()) && !ends_are_all(&list, interfaces) {
+            plane = None;
+            list = bearings(assembly, interfaces, plane, options);
+        }
         let dimension = if plane.is_some() { 3 } else { 6 };
-        let columns = bearings.last().map_or(0, |b| b.column + b.basis.len());
+        let columns = list.last().map_or(0, |b| b.column + b.basis.len());
         let total: f64 = free.iter().map(|f| f.weight).sum();
         let supported = interfaces.list.iter().filter(|f| assembly.blocks[f.a].support || assembly.blocks[f.b].support).count();
         let mut this = Self {
@@ -115,28 +100,37 @@ impl Statics {
             unit: UNIT_SHARE * total / supported.max(1) as f64,
             free,
             bearings: Vec::new(),
+            sections: Vec::new(),
             left_out: Vec::new(),
             rates_per_block: dimension,
         };
         let load = carried(assembly, interfaces, |i| row_of[i].map_or(0.0, |row: usize| this.free[row].weight));
-        for bearing in &mut bearings {
+        for bearing in &mut list {
             let face = &interfaces.list[bearing.interface];
             bearing.presumed = load[face.a].min(load[face.b]);
             bearing.unit = this.unit;
             let point = 0.5 * (face.points[bearing.points[0]] + face.points[bearing.points[1]]);
-            for (k, force) in bearing.basis.iter().enumerate() {
+            for (k, Wrench { force, moment }) in bearing.basis.iter().enumerate() {
                 for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
                     if let Some(row) = row_of[block] {
-                        let force = force * (sign * this.unit);
-                        let moment = (point - assembly.blocks[block].centroid).cross(&force);
-                        this.add_column(row, bearing.column + k, Wrench { force, moment });
+                        let moment = moment + (point - assembly.blocks[block].centroid).cross(force);
+                        this.add_column(row, bearing.column + k, Wrench { force: *force, moment } * (sign * this.unit));
                     }
+                }
+            }
+        }
+        let mut loads = assembly.dead.clone();
+        for face in &interfaces.list {
+            for (point, force) in face.points.iter().zip(face.uplift()) {
+                for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
+                    let moment = (point - assembly.blocks[block].centroid).cross(&force);
+                    loads[block] += Wrench { force, moment } * sign;
                 }
             }
         }
         for row in 0..this.free.len() {
             let block = this.free[row].block;
-            let (dead, live) = (this.scaled(row, assembly.dead[block]), this.scaled(row, assembly.live[block]));
+            let (dead, live) = (this.scaled(row, loads[block]), this.scaled(row, assembly.live[block]));
             let first = row * dimension;
             this.dead[first..first + dimension].copy_from_slice(&dead[..dimension]);
             this.live[first..first + dimension].copy_from_slice(&live[..dimension]);
@@ -146,18 +140,19 @@ impl Statics {
             left_out.push(format!(
                 "plane scene (mirrored about the plane normal to {}): {} of {} contact points, 3 of 6 rates a block",
                 direction_name(plane.axis),
-                bearings.len(),
+                list.len(),
                 points
             ));
         }
-        let frictionless = interfaces.list.iter().filter(|f| f.friction == Friction::Coefficient(0.0)).count();
+        let frictionless = interfaces.list.iter().filter(|f| f.law.friction == Friction::Coefficient(0.0) && f.law.is_dry()).count();
         if frictionless > 0 && !options.keep_all {
             left_out.push(format!("tangential forces of {frictionless} frictionless interfaces"));
         }
         if interfaces.support_pairs > 0 {
             left_out.push(format!("{} contacts between supports", interfaces.support_pairs));
         }
-        this.bearings = bearings;
+        this.sections = sections(interfaces, &list);
+        this.bearings = list;
         this.left_out = left_out;
         this
     }
@@ -199,17 +194,28 @@ impl Statics {
         }
     }
 
-    /// Forces on block `b` at every point of every interface, N, from scaled columns `x` projected onto their cones.
-    pub fn forces(&self, interfaces: &Interfaces, x: &[f64]) -> Vec<Vec<Vector3<f64>>> {
-        let mut forces: Vec<Vec<Vector3<f64>>> = interfaces.list.iter().map(|f| vec![Vector3::zeros(); f.points.len()]).collect();
+    /// Whether joints have strengths or couples, for which only programs in forces exist.
+    pub fn in_forces_only(&self) -> bool {
+        self.bearings.iter().any(|b| b.limits().is_some())
+    }
+
+    /// The unknowns that a program can be written in.
+    pub(super) fn unknowns(&self, wanted: Unknowns) -> Unknowns {
+        if self.in_forces_only() { Unknowns::Forces } else { wanted }
+    }
+
+    /// What acts on block `b` at every point of every interface, N and N·m, from scaled columns `x` brought into their cones.
+    pub fn forces(&self, interfaces: &Interfaces, x: &[f64]) -> Vec<Vec<Wrench>> {
+        let mut forces: Vec<Vec<Wrench>> = interfaces.list.iter().map(|f| vec![Wrench::zero(); f.points.len()]).collect();
         for bearing in &self.bearings {
-            let mut c = [0.0; 3];
-            let n = bearing.basis.len();
-            c[..n].copy_from_slice(&x[bearing.column..bearing.column + n]);
-            project(bearing.cone, &mut c[..n]);
-            let force = bearing.basis.iter().zip(&c).map(|(b, c)| b * (c * bearing.unit)).sum::<Vector3<f64>>();
+            let mut c = x[bearing.column..bearing.column + bearing.basis.len()].to_vec();
+            bearing.admit(&mut c);
+            let mut total = Wrench::zero();
+            for (basis, c) in bearing.basis.iter().zip(&c) {
+                total += *basis * (c * bearing.unit);
+            }
             for k in bearing.points {
-                forces[bearing.interface][k] += 0.5 * force;
+                forces[bearing.interface][k] += total * 0.5;
             }
         }
         forces
@@ -238,65 +244,6 @@ const LOCAL_UNIT: f64 = 1e5;
 /// Force unit = this × total load / number of interfaces on supports. Greater: the residual in block weights is lost.
 /// Smaller: the interior-point path is cut short before tall stacks are resolved.
 const UNIT_SHARE: f64 = 8.0;
-
-fn bearings(assembly: &Assembly, interfaces: &Interfaces, plane: Option<Plane>, options: Options) -> Vec<Bearing> {
-    let mut list = Vec::new();
-    let mut column = 0;
-    for (index, face) in interfaces.list.iter().enumerate() {
-        let n = face.frame.n;
-        let (basis, cone) = match (plane, face.friction) {
-            (_, Friction::Coefficient(mu)) if mu == 0.0 && !options.keep_all => (vec![n], BearingCone::Rays),
-            (Some(p), _) if options.split => (vec![n, p.axis.cross(&n)], BearingCone::Rough),
-            (None, _) if options.split => (vec![n, face.frame.t1, face.frame.t2], BearingCone::Rough),
-            (Some(p), Friction::Coefficient(mu)) => {
-                let t = p.axis.cross(&n);
-                let scale = 1.0 / mu.hypot(1.0);
-                (vec![(n + t * mu) * scale, (n - t * mu) * scale], BearingCone::Rays)
-            }
-            (Some(p), Friction::Infinite) => (vec![n, p.axis.cross(&n)], BearingCone::Rough),
-            (None, Friction::Coefficient(mu)) => {
-                let (normal, shear) = if mu > 1.0 { (1.0 / mu, 1.0) } else { (1.0, mu) };
-                (vec![n * normal, face.frame.t1 * shear, face.frame.t2 * shear], BearingCone::Circular)
-            }
-            (None, Friction::Infinite) => (vec![n, face.frame.t1, face.frame.t2], BearingCone::Rough),
-        };
-        let points: Vec<[usize; 2]> = match plane {
-            None => (0..face.points.len()).map(|k| [k, k]).collect(),
-            Some(p) => {
-                let t = p.axis.cross(&n);
-                let along = |k: &usize| t.dot(&(face.points[*k] - face.points[0]));
-                let by = |a: &usize, b: &usize| along(a).total_cmp(&along(b));
-                let (Some(low), Some(high)) = ((0..face.points.len()).min_by(by), (0..face.points.len()).max_by(by)) else { continue };
-                let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size);
-                let pair = |k: usize| [k, planar::mirror_of(&face.points, face.points[k], p.axis, p.offset, size).unwrap_or(k)];
-                if along(&high) - along(&low) <= f64::EPSILON * size { vec![pair(low)] } else { vec![pair(low), pair(high)] }
-            }
-        };
-        for points in points {
-            list.push(Bearing { interface: index, points, column, basis: basis.clone(), cone, unit: 1.0, presumed: 0.0 });
-            column += basis.len();
-        }
-    }
-    list
-}
-
-/// Nearest point of the standard cone.
-fn project(cone: BearingCone, x: &mut [f64]) {
-    match cone {
-        BearingCone::Rays => x.iter_mut().for_each(|v| *v = v.max(0.0)),
-        BearingCone::Rough if x[0] < 0.0 => x.fill(0.0),
-        BearingCone::Rough => {}
-        BearingCone::Circular => {
-            let t = x[1].hypot(x[2]);
-            if t <= -x[0] {
-                x.fill(0.0);
-            } else if t > x[0] {
-                let r = 0.5 * (x[0] + t);
-                (x[0], x[1], x[2]) = (r, x[1] / t * r, x[2] / t * r);
-            }
-        }
-    }
-}
 
 fn direction_name(d: Vector3<f64>) -> String {
     match (0..3).find(|&k| d[k].abs() > 1.0 - 1e-9) {

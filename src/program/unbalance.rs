@@ -19,7 +19,7 @@ pub enum LiveLoad {
 
 /// Builds program V; the optimal value is `t`. With [`LiveLoad::AnyMultiple`] in forces, λ is the last variable.
 pub fn unbalance(statics: &Statics, live: LiveLoad, unknowns: Unknowns) -> (ConicProgram, Layout) {
-    match unknowns {
+    match statics.unknowns(unknowns) {
         Unknowns::Forces => in_forces(statics, live),
         Unknowns::Rates => in_rates(statics, live),
     }
@@ -98,16 +98,9 @@ pub(super) fn copy(p: &mut ConicProgram, statics: &Statics, row: usize, column: 
 /// `x` in its cones, forces starting at variable `column`.
 pub(super) fn force_cones(p: &mut ConicProgram, statics: &Statics, column: usize) {
     for bearing in &statics.bearings {
-        let (cone, size) = match bearing.cone {
-            BearingCone::Rays => (Cone::NonNegative(bearing.basis.len()), bearing.basis.len()),
-            BearingCone::Rough => (Cone::NonNegative(1), 1),
-            BearingCone::Circular => (Cone::SecondOrder(3), 3),
-        };
-        let first = p.cone(cone);
-        for k in 0..size {
-            p.matrix.push(first + k, column + bearing.column + k, -1.0);
-        }
+        bearing.rows(p, column);
     }
+    statics.section_rows(p, column);
 }
 
 /// `Aᵀ q` in the dual cones, rates starting at variable 0; row order = column order of the forces, so that the
@@ -126,6 +119,8 @@ pub(super) fn rate_cones(p: &mut ConicProgram, statics: &Statics) -> usize {
             BearingCone::Circular => {
                 p.cone(Cone::SecondOrder(3));
             }
+            // Programs in rates are not built where there are limits ([`Statics::unknowns`]).
+            BearingCone::Limited(_) => {}
         }
     }
     let m = &statics.matrix;

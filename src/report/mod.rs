@@ -8,6 +8,6 @@ pub mod text;
 pub mod trajectory;
 pub mod verify;
 
-pub use result::ResultFile;
+pub use result::{Leaning, ResultFile};
 pub use simulation::Simulation;
 pub use verify::verify;

@@ -170,6 +170,29 @@ pub struct Direction {
     pub answer: Answer,
     /// The evidence for it.
     pub certificate: Certificate,
+    /// A direction of a tilt: its load factor with dry friction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dry: Option<DryResult>,
+}
+
+impl Direction {
+    /// The tilt that counts, degrees: with dry friction where that is known, else the bound. A direction without an answer governs:
+    /// it must not hide behind the others.
+    pub(super) fn governing(&self) -> f64 {
+        let dry = self.dry.as_ref().and_then(|d| d.value).map(|v| v.atan().to_degrees());
+        dry.or(self.answer.tilt_deg).unwrap_or(f64::NEG_INFINITY)
+    }
+}
+
+/// One direction of a tilt as it was computed, with the models at the tilts that were found ([`tilted`](crate::analysis::tilt::tilted)).
+#[derive(Clone, Debug)]
+pub struct Leaning {
+    /// The model at the tilt of the bound.
+    pub model: Model,
+    /// The bound.
+    pub tilt: Tilt,
+    /// The model at the tilt with dry friction, and that.
+    pub dry: Option<(Model, coulomb::DryLoadFactor)>,
 }
 
 /// The state under dry friction (program C). Where it rests it is computed, not proved.
@@ -301,33 +324,37 @@ impl ResultFile {
         file
     }
 
-    /// The result of `tilt`; `turned` are the models with the turned loads, one per direction. The least tilt is the answer.
-    pub fn tilt(scene: &Scene, turned: &[(Model, Tilt)]) -> Option<Self> {
+    /// The result of `tilt`, one entry per direction. The least tilt is the answer.
+    pub fn tilt(scene: &Scene, leaning: &[Leaning]) -> Option<Self> {
         let mut all = Findings::default();
-        let directions: Vec<Direction> = turned
+        let directions: Vec<Direction> = leaning
             .iter()
-            .map(|(model, t)| {
-                let (mut answer, certificate, findings) = load_factor(model, &t.load_factor);
+            .map(|Leaning { model, tilt, dry }| {
+                let (mut answer, certificate, findings) = load_factor(model, &tilt.load_factor);
                 all.fails.extend(findings.fails);
-                answer.toward = Some(t.toward.into());
+                answer.toward = Some(tilt.toward.into());
                 let status = answer.load_factor.map(|l| l.status);
                 answer.tilt_deg = match status {
-                    Some(Outcome::Found) => Some(t.angle_deg()),
+                    Some(Outcome::Found) => Some(tilt.angle_deg()),
                     Some(Outcome::Unbounded) => Some(90.0),
                     _ => None,
                 };
-                Direction { answer, certificate }
+                let dry = dry.as_ref().map(|(model, d)| {
+                    let (dry, findings) = dry_result(model, d);
+                    all.fails.extend(findings.fails);
+                    dry
+                });
+                Direction { answer, certificate, dry }
             })
             .collect();
-        // A direction without an answer governs: it must not hide behind the others.
-        let key = |d: &Direction| d.answer.tilt_deg.unwrap_or(f64::NEG_INFINITY);
-        let least = (0..directions.len()).min_by(|&i, &j| key(&directions[i]).total_cmp(&key(&directions[j])))?;
-        let (model, tilt) = &turned[least];
-        let mut file = Self::new(Question::Tilt, scene, model, directions[least].answer.clone(), directions[least].certificate.clone());
-        file.timings.solve = turned.iter().map(|(m, _)| m.timings.solve).sum();
+        let least = (0..directions.len()).min_by(|&i, &j| directions[i].governing().total_cmp(&directions[j].governing()))?;
+        let (Leaning { model, tilt, .. }, direction) = (&leaning[least], directions[least].clone());
+        let mut file = Self::new(Question::Tilt, scene, model, direction.answer, direction.certificate);
+        file.dry = direction.dry;
+        file.timings.solve = leaning.iter().map(|l| l.model.timings.solve).sum();
         file.mechanism = tilt.load_factor.mechanism.as_ref().map(|m| words(model, m));
         file.left_out.clone_from(&tilt.load_factor.left_out);
-        file.trace = turned.iter().flat_map(|(_, t)| t.load_factor.attempts.iter().cloned()).collect();
+        file.trace = leaning.iter().flat_map(|l| l.tilt.load_factor.attempts.iter().cloned()).collect();
         if directions.len() > 1 {
             file.directions = directions;
         }
@@ -339,7 +366,7 @@ impl ResultFile {
     #[must_use]
     pub fn with_dead_load(mut self, model: &Model, a: &Assessment) -> Self {
         let (answer, certificate, findings) = assessment(model, a);
-        self.dead_load = Some(Direction { answer, certificate });
+        self.dead_load = Some(Direction { answer, certificate, dry: None });
         self.trace.extend(a.attempts.iter().cloned());
         self.warn(&findings);
         self
@@ -348,20 +375,8 @@ impl ResultFile {
     /// Adds the load factor with dry friction; undecided where its verification fails.
     #[must_use]
     pub fn with_dry(mut self, model: &Model, d: &coulomb::DryLoadFactor) -> Self {
-        let found = d.found != coulomb::Found::Undecided;
-        let claim = found.then_some(Claim::DryLoadFactor { value: d.value });
-        let (mut certificate, findings) = certify(model, claim, &d.forces, None, &d.rates);
-        let proved = found && findings.fails.is_empty();
-        if !proved {
-            certificate.claim = None;
-        }
-        self.dry = Some(DryResult {
-            found: if proved { d.found } else { coulomb::Found::Undecided },
-            value: proved.then_some(d.value),
-            natural_map: d.natural_map.is_finite().then_some(d.natural_map),
-            solves: d.solves,
-            certificate,
-        });
+        let (dry, findings) = dry_result(model, d);
+        self.dry = Some(dry);
         self.warn(&findings);
         self
     }
@@ -397,6 +412,24 @@ impl ResultFile {
         let code = crate::error::FindingCode::Numerics;
         self.warnings.extend(findings.fails.iter().map(|f| Finding::new(code, format!("certificate refused: {f}"))));
     }
+}
+
+fn dry_result(model: &Model, d: &coulomb::DryLoadFactor) -> (DryResult, Findings) {
+    let found = d.value.is_finite() && d.found != coulomb::Found::Undecided;
+    let claim = found.then_some(Claim::DryLoadFactor { value: d.value });
+    let (mut certificate, findings) = certify(model, claim, &d.forces, None, &d.rates);
+    let proved = found && findings.fails.is_empty();
+    if !proved {
+        certificate.claim = None;
+    }
+    let dry = DryResult {
+        found: if proved || d.found == coulomb::Found::Unlimited { d.found } else { coulomb::Found::Undecided },
+        value: proved.then_some(d.value),
+        natural_map: d.natural_map.is_finite().then_some(d.natural_map),
+        solves: d.solves,
+        certificate,
+    };
+    (dry, findings)
 }
 
 fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) {

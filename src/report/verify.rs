@@ -6,7 +6,7 @@ use super::{
     result::{Answer, Certificate, Direction, DryResult, LoadFactorAnswer, Question, words},
 };
 use crate::{
-    analysis::{Model, Outcome, coulomb::Found, prepare, tilt::turned},
+    analysis::{Model, Outcome, coulomb::Found, prepare, tilt::tilted},
     error::InputError,
     scene::Scene,
     tolerance,
@@ -71,16 +71,10 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
     if let Some(dead) = &file.dead_load {
         all.part("dead load alone", answer(&model, Question::Assess, &dead.answer, &dead.certificate).0);
     }
-    if let Some(dry) = &file.dry {
-        let toward = file.answer.toward.map(Vector3::from);
-        let loaded = match (file.question, toward) {
-            (Question::Tilt, Some(toward)) => turned(&model.assembly, toward).map(|(assembly, _)| Model { assembly, ..model.clone() }),
-            _ => Ok(model.clone()),
-        };
-        let findings = match (file.question, loaded) {
-            (Question::Assess | Question::Simulate, _) => failure("the file holds a load factor that was not asked for"),
-            (_, Err(e)) => failure(e.to_string()),
-            (_, Ok(model)) => dry_friction(&model, dry),
+    if let Some(dry) = file.dry.as_ref().filter(|_| file.question != Question::Tilt) {
+        let findings = match file.question {
+            Question::Assess | Question::Simulate => failure("the file holds a load factor that was not asked for"),
+            _ => dry_friction(&model, dry),
         };
         all.part("dry friction", findings);
     }
@@ -113,7 +107,12 @@ fn dry_friction(model: &Model, dry: &DryResult) -> Findings {
         (None, None) if dry.found == Found::Undecided => {
             Findings { holds: vec!["undecided: nothing is claimed".into()], fails: Vec::new() }
         }
-        (Some(claim @ Claim::DryLoadFactor { value }), Some(said)) if *value == said && dry.found != Found::Undecided => {
+        (None, None) if dry.found == Found::Unlimited => {
+            Findings { holds: vec!["no limit: computed, nothing is claimed".into()], fails: Vec::new() }
+        }
+        (Some(claim @ Claim::DryLoadFactor { value }), Some(said))
+            if *value == said && matches!(dry.found, Found::NothingSlides | Found::FixedPoint) =>
+        {
             let (assembly, interfaces) = (&model.assembly, &model.interfaces);
             let read = || {
                 Ok::<_, String>((
@@ -155,11 +154,9 @@ fn counts(file: &ResultFile, model: &Model) -> Findings {
 
 /// The directions of a tilt, each with its turned loads, and the least of them as the answer.
 fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
-    let main = Direction { answer: file.answer.clone(), certificate: file.certificate.clone() };
+    let main = Direction { answer: file.answer.clone(), certificate: file.certificate.clone(), dry: file.dry.clone() };
     let list = if file.directions.is_empty() { std::slice::from_ref(&main) } else { &file.directions };
-    // A direction without an angle comes first: it must not hide behind the others.
-    let key = |d: &Direction| d.answer.tilt_deg.unwrap_or(f64::NEG_INFINITY);
-    let least = (0..list.len()).min_by(|&i, &j| key(&list[i]).total_cmp(&key(&list[j]))).unwrap_or(0);
+    let least = (0..list.len()).min_by(|&i, &j| list[i].governing().total_cmp(&list[j].governing())).unwrap_or(0);
     if !file.directions.is_empty() {
         let mut f = Findings::default();
         require(&mut f, main == list[least], format!("the answer is the least of {} directions, with its evidence", list.len()));
@@ -168,16 +165,23 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
     for (index, direction) in list.iter().enumerate() {
         let toward = direction.answer.toward.unwrap_or_default();
         let title = format!("tilt towards {}", super::text::number::point(toward));
-        match turned(&model.assembly, Vector3::from(toward)) {
-            Err(e) => all.part(title, failure(e.to_string())),
-            Ok((assembly, _)) => {
-                let turned = Model { assembly, interfaces: model.interfaces.clone(), timings: model.timings };
+        let load_factor = direction.answer.load_factor.and_then(|l| l.value).unwrap_or(0.0);
+        match tilted(model, Vector3::from(toward), load_factor) {
+            Err(e) => all.part(title.clone(), failure(e.to_string())),
+            Ok(turned) => {
                 let (mut f, rates) = answer(&turned, Question::Tilt, &direction.answer, &direction.certificate);
                 if index == least {
                     mechanism_words(&mut f, file, &turned, rates.as_deref());
                 }
-                all.part(title, f);
+                all.part(title.clone(), f);
             }
+        }
+        if let Some(dry) = &direction.dry {
+            let findings = match tilted(model, Vector3::from(toward), dry.value.unwrap_or(0.0)) {
+                Err(e) => failure(e.to_string()),
+                Ok(turned) => dry_friction(&turned, dry),
+            };
+            all.part(format!("{title}, dry friction"), findings);
         }
     }
 }
@@ -281,7 +285,7 @@ fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, 
     };
     let upper = certificate::statics(&model.assembly, &model.interfaces, forces, 0.0).unbalance;
     let k = certificate::kinematics(&model.assembly, &model.interfaces, rates, forces);
-    let (lower, slack) = if k.norm > 0.0 { (k.dead_power.max(0.0) / k.norm, k.slack / k.norm) } else { (0.0, 0.0) };
+    let (lower, slack) = if k.norm > 0.0 { (k.gain().max(0.0) / k.norm, k.slack / k.norm) } else { (0.0, 0.0) };
     // Rates that prove nothing because they part what is pressed together bound nothing: the lower end is then 0.
     let near = |a: f64, b: f64, extra: f64| (a - b).abs() <= SAME * a.abs() + tolerance::UNBALANCE + extra;
     let ok = near(upper, said.upper, 0.0) && (near(lower, said.lower, slack) || said.lower == 0.0);

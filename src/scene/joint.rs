@@ -38,9 +38,24 @@ pub struct JointSpec {
     /// Friction angle in degrees, 0 ≤ φ < 90, in place of `friction`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_angle_deg: Option<f64>,
+    /// Cohesion, Pa: shear resistance without any pressure. Default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cohesion: Option<f64>,
+    /// Tensile strength, Pa. Default 0. Beyond cohesion / friction it has no effect.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension: Option<f64>,
+    /// Compressive strength, Pa; crushing is excluded where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compression: Option<f64>,
+    /// Pressure of the water in the joint, Pa. Default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pore_pressure: Option<f64>,
+    /// Rolling arm, m, of contacts at points and edges. Default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling_arm: Option<f64>,
 }
 
-/// An exception: the joints between two materials, or between two blocks.
+/// An exception: the joints between two materials, or between two blocks. What it leaves out is as in the default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointOverride {
@@ -56,6 +71,21 @@ pub struct JointOverride {
     /// Friction angle in degrees, in place of `friction`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_angle_deg: Option<f64>,
+    /// Cohesion, Pa: shear resistance without any pressure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cohesion: Option<f64>,
+    /// Tensile strength, Pa. Beyond cohesion / friction it has no effect.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension: Option<f64>,
+    /// Compressive strength, Pa.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compression: Option<f64>,
+    /// Pressure of the water in the joint, Pa.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pore_pressure: Option<f64>,
+    /// Rolling arm, m, of contacts at points and edges.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling_arm: Option<f64>,
 }
 
 /// Dry friction in a joint.
@@ -84,8 +114,24 @@ impl Joints {
 }
 
 impl JointSpec {
-    pub(super) fn is_empty(&self) -> bool {
+    /// Whether it says nothing.
+    pub fn is_empty(&self) -> bool {
         *self == Self::default()
+    }
+}
+
+impl JointOverride {
+    /// What it says about the joint, without where.
+    pub fn spec(&self) -> JointSpec {
+        JointSpec {
+            friction: self.friction,
+            friction_angle_deg: self.friction_angle_deg,
+            cohesion: self.cohesion,
+            tension: self.tension,
+            compression: self.compression,
+            pore_pressure: self.pore_pressure,
+            rolling_arm: self.rolling_arm,
+        }
     }
 }
 

@@ -208,10 +208,30 @@ fn pair() -> impl Strategy<Value = [String; 2]> {
 }
 
 fn joints() -> impl Strategy<Value = Joints> {
-    let rule = (some(pair()), some(pair()), some(friction()), some(number()))
-        .prop_map(|(between, blocks, friction, friction_angle_deg)| JointOverride { between, blocks, friction, friction_angle_deg });
-    (some(friction()), some(number()), prop::collection::vec(rule, 0..3))
-        .prop_map(|(friction, friction_angle_deg, overrides)| Joints { default: JointSpec { friction, friction_angle_deg }, overrides })
+    let strength = || (some(friction()), [some(number()), some(number()), some(number()), some(number()), some(number()), some(number())]);
+    let spec = || {
+        strength().prop_map(|(friction, [friction_angle_deg, cohesion, tension, compression, pore_pressure, rolling_arm])| JointSpec {
+            friction,
+            friction_angle_deg,
+            cohesion,
+            tension,
+            compression,
+            pore_pressure,
+            rolling_arm,
+        })
+    };
+    let rule = (some(pair()), some(pair()), spec()).prop_map(|(between, blocks, s)| JointOverride {
+        between,
+        blocks,
+        friction: s.friction,
+        friction_angle_deg: s.friction_angle_deg,
+        cohesion: s.cohesion,
+        tension: s.tension,
+        compression: s.compression,
+        pore_pressure: s.pore_pressure,
+        rolling_arm: s.rolling_arm,
+    });
+    (spec(), prop::collection::vec(rule, 0..3)).prop_map(|(default, overrides)| Joints { default, overrides })
 }
 
 fn load() -> impl Strategy<Value = Load> {
@@ -338,6 +358,8 @@ fn the_schema_and_the_reader_agree() {
         block(json!({ "shape": { "sphere": { "radius": 1 } } })),
         with(json!({ "materials": { "stone": { "density": 2400 } }, "joints": { "default": { "friction": "infinite" } } })),
         with(json!({ "joints": { "overrides": [{ "blocks": ["a", "b"], "friction_angle_deg": 30 }] } })),
+        with(json!({ "joints": { "default": { "friction": 0.5, "cohesion": 1e5, "tension": 1e4, "compression": 5e6 },
+            "overrides": [{ "blocks": ["a", "b"], "pore_pressure": 9810, "rolling_arm": 0.01 }] } })),
         with(json!({ "interfaces": [{ "between": ["a", "b"], "points": [[0, 0, 0]], "normal": [0, 0, 1], "friction": 0.5 }] })),
         with(json!({ "loads": { "live": [{ "block": "a", "force": [1, 0, 0], "at": "centroid" }, { "weight": [1, 0, 0] }] } })),
         with(json!({ "contact": { "gap": 1e-3 } })),

@@ -5,11 +5,17 @@
 //! over the block's load, in multiples of g. *Kinematic side.* Rates `q` separate the contacts at `v`; for every
 //! admissible force `f·v ≥ −e f_n` with `e = max(0, μ‖v_t‖ − v_n)`, the inadmissibility. So for any equilibrium
 //! `w·q + λ ℓ·q ≤ Σ e f_n`: a mechanism with `e = 0` that gains power proves instability (Heyman 1966; Livesley 1978).
+//!
+//! *Strength.* With cohesion c and tensile strength T on the corner's share a of the area, `‖f_t‖ ≤ μ f_n + c a`, `f_n ≥ −T a`;
+//! a mechanism then dissipates `c a ‖v_t‖ + T a (v_n − μ‖v_t‖)⁺` there. With a compressive strength σ, joints may close: a joint
+//! that closes at the rate g, affine over its area, dissipates at least `(σ + T) ∫ g⁺ dA` (see [`Interface::crushing`]).
+//! A rolling arm r adds couples `‖m_t‖ ≤ r f_n`, `|m_n| ≤ r f_n`, which count in `e` with the rates of rolling and twisting.
+//! Water in the joint is a load. Sources: Drucker, Prager & Greenberg 1952 (both theorems), Drucker & Prager 1952 (cohesion).
 
 use super::{Forces, Rate};
 use crate::{
     assembly::{Assembly, Wrench},
-    interface::Interfaces,
+    interface::{Cut, Interface, Interfaces},
     scene::Friction,
     tolerance,
 };
@@ -39,8 +45,19 @@ pub struct Statics {
     /// Largest distance of a force outside its friction cone, over that very force: a large force elsewhere makes no room for
     /// a small one that pulls.
     pub cone_excess: f64,
+    /// Greatest use of a compressive strength (at most this; above 1 it is what the forces really need).
+    pub crushing: f64,
+    /// The interface of that.
+    pub most_pressed: usize,
     /// Whether every block is balanced, each up to [`tolerance::UNBALANCE`] or what rounding of its own forces amounts to.
     pub balanced: bool,
+}
+
+impl Statics {
+    /// Whether no joint is pressed beyond its compressive strength.
+    pub fn is_within_strength(&self) -> bool {
+        self.crushing <= 1.0 + tolerance::CRUSHING
+    }
 }
 
 /// Re-adds the contact forces at load factor `lambda`.
@@ -54,25 +71,29 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
         .collect();
     let mut rounding: Vec<f64> = residuals.iter().map(|r| r.force.norm()).collect();
     let most = tolerance::ROUNDING_FORCE * assembly.free().map(|i| load_scale(assembly, i)).sum::<f64>();
-    let mut excess = 0.0_f64;
-    for (face, forces) in interfaces.list.iter().zip(forces) {
-        for (point, force) in face.points.iter().zip(forces) {
-            let normal = face.frame.n.dot(force);
-            let shear = (force - face.frame.n * normal).norm();
-            let outside = match face.friction {
-                Friction::Coefficient(mu) => (-normal).max((shear - mu * normal) / mu.hypot(1.0)),
-                Friction::Infinite => -normal,
-            };
+    let (mut excess, mut crushing, mut most_pressed) = (0.0_f64, 0.0_f64, 0);
+    for (index, (face, forces)) in interfaces.list.iter().zip(forces).enumerate() {
+        let strength = Strength::of(face);
+        let uplift = face.uplift();
+        for (k, (point, Wrench { force, moment })) in face.points.iter().zip(forces).enumerate() {
+            let outside = outside(face, force, moment, strength.at(k));
             // A NaN is as far outside as can be.
             if outside.is_nan() {
                 excess = f64::INFINITY;
             } else if outside > 0.0 {
                 excess = excess.max(outside / force.norm());
             }
+            let total = uplift.get(k).map_or(*force, |u| force + u);
             for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
                 let arm = point - assembly.blocks[block].centroid;
-                residuals[block] += Wrench { force: force * sign, moment: arm.cross(force) * sign };
-                rounding[block] += force.norm().min(most) * (1.0 + point.amax() / length_scale(assembly, block));
+                residuals[block] += Wrench { force: total * sign, moment: (arm.cross(&total) + moment) * sign };
+                rounding[block] += total.norm().min(most) * (1.0 + point.amax() / length_scale(assembly, block));
+            }
+        }
+        if let Some(used) = strength.crushing(face, forces) {
+            let used = if used.is_nan() { f64::INFINITY } else { used };
+            if used > crushing {
+                (crushing, most_pressed) = (used, index);
             }
         }
     }
@@ -91,11 +112,81 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             (unbalance, worst) = (u, i);
         }
     }
-    Statics { residuals, unbalance, worst, resolution, cone_excess: excess, balanced }
+    Statics { residuals, unbalance, worst, resolution, cone_excess: excess, crushing, most_pressed, balanced }
 }
 
 /// Rounding counted per addition: one unit in the last place.
 const ROUNDING: f64 = f64::EPSILON;
+
+/// What the corners of a joint carry beside friction, N.
+#[derive(Clone, Debug, Default)]
+pub struct Strength {
+    /// Cohesion and tension at each corner; empty where there are none.
+    corners: Vec<[f64; 2]>,
+}
+
+impl Strength {
+    /// The strength of an interface.
+    pub fn of(face: &Interface) -> Self {
+        let tension = face.tension();
+        if face.law.cohesion == 0.0 && tension == 0.0 {
+            return Self::default();
+        }
+        Self { corners: face.shares().into_iter().map(|a| [face.law.cohesion * a, tension * a]).collect() }
+    }
+
+    /// Cohesion and tension of a corner, N.
+    pub fn at(&self, corner: usize) -> [f64; 2] {
+        self.corners.get(corner).copied().unwrap_or_default()
+    }
+
+    /// The use of the compressive strength, where there is one.
+    pub fn crushing(&self, face: &Interface, forces: &[Wrench]) -> Option<f64> {
+        let (normal, sigma) = self.pressed(face, forces)?;
+        Some(face.crushing(&normal, sigma).0)
+    }
+
+    /// Normal forces from the tensile strength on, and the strength from there; where there is a compressive strength.
+    pub fn pressed(&self, face: &Interface, forces: &[Wrench]) -> Option<(Vec<f64>, f64)> {
+        if !face.crushes() {
+            return None;
+        }
+        let normal = forces.iter().enumerate().map(|(k, f)| (face.frame.n.dot(&f.force) + self.at(k)[1]).max(0.0)).collect();
+        Some((normal, face.law.compression + face.tension()))
+    }
+}
+
+/// The bounds on crushing that forces break, with their interfaces.
+pub fn crushed(interfaces: &Interfaces, forces: &Forces) -> Vec<(usize, Cut)> {
+    let mut broken = Vec::new();
+    for (k, (face, forces)) in interfaces.list.iter().zip(forces).enumerate() {
+        let Some((normal, sigma)) = Strength::of(face).pressed(face, forces) else { continue };
+        if let (used, Some(cut)) = face.crushing(&normal, sigma)
+            && used > 1.0 + 0.5 * tolerance::CRUSHING
+        {
+            broken.push((k, cut));
+        }
+    }
+    broken
+}
+
+/// How far a force and couple lie outside their cones, N.
+fn outside(face: &Interface, force: &Vector3<f64>, couple: &Vector3<f64>, [cohesion, tension]: [f64; 2]) -> f64 {
+    let n = face.frame.n;
+    let normal = n.dot(force);
+    let shear = (force - n * normal).norm();
+    let mut outside = match face.law.friction {
+        Friction::Coefficient(mu) => (-normal - tension).max((shear - mu * normal - cohesion) / mu.hypot(1.0)),
+        Friction::Infinite => -normal - tension,
+    };
+    if *couple != Vector3::zeros() {
+        let twist = n.dot(couple);
+        let rolling = (couple - n * twist).norm().max(twist.abs());
+        // Without an arm any couple is infinitely far outside.
+        outside = outside.max(rolling / face.rolling_arm() - normal);
+    }
+    outside
+}
 
 fn size(assembly: &Assembly, block: usize, w: &Wrench) -> f64 {
     w.force.norm().hypot(w.moment.norm() / length_scale(assembly, block))
@@ -104,10 +195,12 @@ fn size(assembly: &Assembly, block: usize, w: &Wrench) -> f64 {
 /// What a set of rates gains and where it is inadmissible.
 #[derive(Clone, Debug)]
 pub struct Kinematics {
-    /// Power of the dead load, `w·q`.
+    /// Power of the dead load and of the water in the joints, `w·q`.
     pub dead_power: f64,
     /// Power of the live load, `ℓ·q`.
     pub live_power: f64,
+    /// What cohesion, tension and crushing dissipate.
+    pub dissipation: f64,
     /// `Σ` load scale × ‖(velocity; spin × L)‖ over the free blocks: the power that an unbalance of 1 g everywhere would have.
     pub norm: f64,
     /// `Σ e f_n` with the given forces: the power that the inadmissibility may hide.
@@ -126,7 +219,17 @@ impl Kinematics {
     /// what makes a mechanism that is admissible only up to rounding a proof.
     pub fn force_cap(&self, assembly: &Assembly) -> f64 {
         let total: f64 = assembly.free().map(|i| load_scale(assembly, i)).sum();
-        self.dead_power / (self.excess * total)
+        self.gain() / (self.excess * total)
+    }
+
+    /// Power of the dead load that nothing dissipates.
+    pub fn gain(&self) -> f64 {
+        self.dead_power - self.dissipation
+    }
+
+    /// The load factor above which the mechanism gains power; only where the live load drives it.
+    pub fn upper(&self) -> f64 {
+        (self.slack - self.gain()) / self.live_power
     }
 
     /// Whether the mechanism is admissible up to rounding: small against its gain for contact forces of the size of the total
@@ -141,7 +244,16 @@ impl Kinematics {
 
 /// Re-adds powers; `forces` weigh the inadmissibility.
 pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], forces: &Forces) -> Kinematics {
-    let mut k = Kinematics { dead_power: 0.0, live_power: 0.0, norm: 0.0, slack: 0.0, inadmissibility: 0.0, excess: 0.0, coarse: 0.0 };
+    let mut k = Kinematics {
+        dead_power: 0.0,
+        live_power: 0.0,
+        dissipation: 0.0,
+        norm: 0.0,
+        slack: 0.0,
+        inadmissibility: 0.0,
+        excess: 0.0,
+        coarse: 0.0,
+    };
     for i in assembly.free() {
         let (q, w, l) = (&rates[i], &assembly.dead[i], &assembly.live[i]);
         k.dead_power += power(w, q);
@@ -149,31 +261,53 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
         k.norm += load_scale(assembly, i) * q.velocity.norm().hypot(q.spin.norm() * length_scale(assembly, i));
     }
     let speed = |i: usize, p: &Vector3<f64>| at(assembly, rates, i, p).norm();
-    let (mut worst, mut fastest) = (0.0_f64, 0.0_f64);
+    let local = |face: &Interface, p: &Vector3<f64>| speed(face.a, p).max(speed(face.b, p));
+    let fastest = interfaces.list.iter().flat_map(|face| face.points.iter().map(|p| local(face, p))).fold(0.0, f64::max);
+    let mut worst = 0.0_f64;
     for (face, forces) in interfaces.list.iter().zip(forces) {
-        for (point, force) in face.points.iter().zip(forces) {
-            let v = at(assembly, rates, face.b, point) - at(assembly, rates, face.a, point);
-            let (vn, fn_) = (face.frame.n.dot(&v), face.frame.n.dot(force).max(0.0));
-            let vt = (v - face.frame.n * vn).norm();
-            let (e, cost) = match face.friction {
-                Friction::Coefficient(mu) => {
-                    let e = (mu * vt - vn).max(0.0);
-                    k.excess += e;
-                    (e / mu.hypot(1.0), e * fn_)
-                }
-                Friction::Infinite => {
-                    let closing = (-vn).max(0.0);
-                    k.excess += closing + vt;
-                    (closing.hypot(vt), closing * fn_ + vt * (force - face.frame.n * fn_).norm())
-                }
-            };
-            let local = speed(face.a, point).max(speed(face.b, point));
-            if e > tolerance::ADMISSIBLE * local || e.is_nan() {
-                k.coarse += e;
+        let strength = Strength::of(face);
+        let n = face.frame.n;
+        let (arm, spin) = (face.rolling_arm(), rates[face.b].spin - rates[face.a].spin);
+        let twist = n.dot(&spin);
+        // Of the couples, per newton of normal force.
+        let rolling = if arm > 0.0 { arm * ((spin - n * twist).norm() + twist.abs()) } else { 0.0 };
+        let (mu, rough) = match face.law.friction {
+            Friction::Coefficient(mu) => (mu, false),
+            Friction::Infinite => (0.0, true),
+        };
+        let joint: Vec<Vector3<f64>> =
+            face.points.iter().map(|p| at(assembly, rates, face.b, p) - at(assembly, rates, face.a, p)).collect();
+        let sliding: Vec<f64> = joint.iter().map(|v| (v - n * n.dot(v)).norm()).collect();
+        let closing: Vec<f64> = joint.iter().zip(&sliding).map(|(v, vt)| mu * vt + rolling - n.dot(v)).collect();
+        // Joints that close by rounding alone do not crush: a large strength would make much of nothing.
+        let crushes = face.crushes() && closing.iter().any(|&e| e > tolerance::ADMISSIBLE * fastest);
+        if crushes {
+            k.dissipation += (face.law.compression + face.tension()) * face.integral_of_positive_part(&face.lifted(&closing));
+        }
+        for (place, (point, Wrench { force, .. })) in face.points.iter().zip(forces).enumerate() {
+            let [cohesion, tension] = strength.at(place);
+            let (e, vt) = (closing[place], sliding[place]);
+            k.dissipation += cohesion * vt;
+            let mut inadmissible = 0.0;
+            if crushes {
+                k.dissipation -= tension * e;
+            } else {
+                inadmissible = e.max(0.0);
+                k.dissipation += tension * (-e).max(0.0);
+                k.slack += inadmissible * n.dot(force).max(0.0);
             }
-            k.slack += cost;
-            worst = worst.max(e);
-            fastest = fastest.max(local);
+            // What must not slide costs as much as the shear force that it has.
+            let slips = if rough { vt } else { 0.0 };
+            k.slack += slips * (force - n * n.dot(force)).norm();
+            k.excess += inadmissible + slips;
+            let size = inadmissible.hypot(slips);
+            if size > tolerance::ADMISSIBLE * local(face, point) || e.is_nan() {
+                k.coarse += inadmissible + slips;
+            }
+            worst = worst.max(size / mu.hypot(1.0));
+        }
+        for (v, force) in joint.iter().zip(face.uplift()) {
+            k.dead_power += force.dot(v);
         }
     }
     k.inadmissibility = if fastest > 0.0 { worst / fastest } else { 0.0 };
@@ -189,75 +323,4 @@ pub fn at(assembly: &Assembly, rates: &[Rate], block: usize, point: &Vector3<f64
 /// Power of a wrench on a rate.
 pub fn power(w: &Wrench, q: &Rate) -> f64 {
     w.force.dot(&q.velocity) + w.moment.dot(&q.spin)
-}
-
-/// How exactly forces and rates obey Signorini's and Coulomb's laws together: the natural map
-/// `‖f − P_K(f − ρ (u + μ‖u_t‖ n))‖ / F` over all contact points (Acary, Brémond & Huber 2018), zero for an exact solution.
-///
-/// `u` are the rates of the joints. The law does not change when `u` is multiplied, so `ρ` brings `u` to the size `F` of the
-/// forces, the greater of `‖f‖` and the norm of the dead loads: a measure without units. `None` where nothing moves.
-pub fn natural_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<f64> {
-    let loads: f64 = assembly.free().map(|i| assembly.dead[i].force.norm_squared()).sum();
-    let size = forces.iter().flatten().map(Vector3::norm_squared).sum::<f64>().max(loads).sqrt();
-    let joint = |face: &crate::interface::Interface, p: &Vector3<f64>| at(assembly, rates, face.b, p) - at(assembly, rates, face.a, p);
-    let speed = interfaces.list.iter().flat_map(|face| face.points.iter().map(move |p| joint(face, p).norm_squared())).sum::<f64>().sqrt();
-    if speed == 0.0 {
-        return None;
-    }
-    let mut sum = 0.0;
-    for (face, forces) in interfaces.list.iter().zip(forces) {
-        for (point, force) in face.points.iter().zip(forces) {
-            let u = joint(face, point) * (size / speed);
-            let n = face.frame.n;
-            let slide = (u - n * n.dot(&u)).norm();
-            let shift = match face.friction {
-                Friction::Coefficient(mu) => mu * slide,
-                Friction::Infinite => 0.0,
-            };
-            sum += (force - onto_cone(force - u - n * shift, n, face.friction)).norm_squared();
-        }
-    }
-    Some(sum.sqrt() / size)
-}
-
-/// The point of the friction cone about `n` nearest to `f`.
-pub fn onto_cone(f: Vector3<f64>, n: Vector3<f64>, friction: Friction) -> Vector3<f64> {
-    let normal = n.dot(&f);
-    let tangential = f - n * normal;
-    let Friction::Coefficient(mu) = friction else { return tangential + n * normal.max(0.0) };
-    let t = tangential.norm();
-    if t <= mu * normal {
-        return f;
-    }
-    if mu * t <= -normal {
-        return Vector3::zeros();
-    }
-    let on = (normal + mu * t) / (1.0 + mu * mu);
-    n * on + tangential * (mu * on / t)
-}
-
-/// The motion that contact forces leave the blocks in.
-#[derive(Clone, Debug)]
-pub struct Released {
-    /// Largest acceleration, in multiples of gravity ([`Statics::unbalance`]).
-    pub acceleration: f64,
-    /// How far forces and motion are from Coulomb's law together ([`natural_map`]).
-    pub natural_map: f64,
-    /// The motion, each block's unbalance over the square of its load scale.
-    pub rates: Vec<Rate>,
-}
-
-/// The motion that starts from rest under contact forces, and how exactly the two obey Coulomb's law.
-///
-/// Each block moves by its own unbalance; a block's inertia is taken as its load scale squared, in force and, with its length
-/// scale, in moment. The law of contact does not depend on that choice, only the speeds do.
-pub fn motion(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Released {
-    let s = statics(assembly, interfaces, forces, 0.0);
-    let mut rates = vec![Rate::zero(); assembly.blocks.len()];
-    for i in assembly.free() {
-        let (w, l) = (load_scale(assembly, i), length_scale(assembly, i));
-        rates[i] = Rate { velocity: s.residuals[i].force / (w * w), spin: s.residuals[i].moment / (w * l * w * l) };
-    }
-    let natural_map = natural_map(assembly, interfaces, forces, &rates).unwrap_or(f64::INFINITY);
-    Released { acceleration: s.unbalance, natural_map, rates }
 }

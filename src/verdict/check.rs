@@ -1,7 +1,7 @@
 //! Verifying a claim from the scene, the forces and the rates: no program, no solver, no trust in any saved number
 //! but the forces and the rates themselves.
 
-use super::{Forces, Rate, certificate};
+use super::{Forces, Rate, certificate, law};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::Interfaces,
@@ -93,14 +93,16 @@ pub fn verify(
             }
             let (alone, factor) = live_alone(assembly);
             f.require(factor.is_finite() && factor > 0.0, "there is a live load".into());
-            let scaled = forces.iter().map(|p| p.iter().map(|v| v * factor).collect()).collect();
-            balanced(&mut f, "under the live load alone, ", &alone, interfaces, &scaled, 0.0);
+            // Forces in joints that limit them are not counted: nothing that has a limit wedges.
+            let (unlimited, kept) = interfaces.unlimited();
+            let scaled = kept.iter().map(|&k| forces[k].iter().map(|&v| v * factor).collect()).collect();
+            balanced(&mut f, "under the live load alone, ", &alone, &unlimited, &scaled, 0.0);
         }
         Claim::Impossible => {
             gains(&mut f, assembly, interfaces, rates);
             let k = certificate::kinematics(assembly, interfaces, rates, forces);
             let natural = natural_factor(assembly);
-            let reach = (k.dead_power / k.live_power).abs() / natural;
+            let reach = (k.gain() / k.live_power).abs() / natural;
             f.require(
                 reach >= REACH && natural.is_finite(),
                 format!("the live load gains no power: the proof holds for load factors up to {reach:.1e} × dead / live load"),
@@ -113,7 +115,7 @@ pub fn verify(
 /// Forces and a mechanism that obey Coulomb's law together.
 fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], value: f64) {
     let s = certificate::statics(assembly, interfaces, forces, value);
-    cones(f, "", &s);
+    cones(f, "", assembly, interfaces, &s);
     let allowed = tolerance::DRY_BALANCE.max(s.resolution);
     f.require(
         s.unbalance <= allowed,
@@ -121,17 +123,29 @@ fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &
     );
     let k = certificate::kinematics(assembly, interfaces, rates, forces);
     f.require(k.live_power > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));
-    let map = certificate::natural_map(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY);
+    let map = law::natural_map(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY);
     f.require(
         map <= tolerance::DRY_LAW,
         format!("forces and mechanism obey Coulomb's law: natural map {map:.1e}, allowed {:.0e}", tolerance::DRY_LAW),
     );
+    let in_loads = dry_map(assembly, interfaces, forces, rates);
+    f.require(
+        in_loads <= tolerance::NATURAL_MAP,
+        format!("with rates as the live load drives them: natural map {in_loads:.1e}, allowed {:.0e}", tolerance::NATURAL_MAP),
+    );
+}
+
+/// The natural map of a mechanism with the rates as the live load drives them.
+pub fn dry_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> f64 {
+    let k = certificate::kinematics(assembly, interfaces, rates, forces);
+    let power = k.live_power * natural_factor(assembly);
+    law::natural_map_in_loads(assembly, interfaces, forces, rates, power).unwrap_or(f64::INFINITY)
 }
 
 /// Forces from which a motion starts that obeys Coulomb's law with them.
 fn moves(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, base: &Forces, rates: &[Rate]) {
-    cones(f, "without a pre-stress, ", &certificate::statics(assembly, interfaces, base, 0.0));
-    let m = certificate::motion(assembly, interfaces, base);
+    cones(f, "without a pre-stress, ", assembly, interfaces, &certificate::statics(assembly, interfaces, base, 0.0));
+    let m = law::motion(assembly, interfaces, base);
     f.require(
         m.acceleration >= tolerance::LEAST_MOTION,
         format!("without a pre-stress a block is left with {:.3e} g, at least {:.0e} needed", m.acceleration, tolerance::LEAST_MOTION),
@@ -184,21 +198,26 @@ fn balanced(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Inte
             s.unbalance, assembly.blocks[s.worst].id
         ),
     );
-    cones(f, when, &s);
+    cones(f, when, assembly, interfaces, &s);
 }
 
-fn cones(f: &mut Findings, when: &str, s: &certificate::Statics) {
+fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, s: &certificate::Statics) {
     f.require(
         s.cone_excess <= tolerance::CONE,
         format!("{when}forces lie in their friction cones: largest excess {:.1e} of the force", s.cone_excess),
     );
+    if s.crushing > 0.0 {
+        let (used, joint) = (100.0 * s.crushing, joint(assembly, interfaces, s.most_pressed));
+        let text = format!("{when}no joint is pressed beyond its compressive strength: at most {used:.4} % of it, in {joint}");
+        f.require(s.is_within_strength(), text);
+    }
 }
 
 fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) {
-    let none: Forces = interfaces.list.iter().map(|i| vec![nalgebra::Vector3::zeros(); i.points.len()]).collect();
+    let none = super::no_forces(interfaces);
     let k = certificate::kinematics(assembly, interfaces, rates, &none);
     let resolution = certificate::statics(assembly, interfaces, &none, 0.0).resolution;
-    let gain = k.dead_power / k.norm;
+    let gain = k.gain() / k.norm;
     let threshold = tolerance::UNBALANCE.max(resolution);
     f.require(gain > threshold, format!("the mechanism gains power: {gain:.3e} g, at least {threshold:.1e} needed"));
     let cap = k.force_cap(assembly);
@@ -206,11 +225,24 @@ fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: 
         "no joint closes".to_string()
     } else {
         format!(
-            "joints close by at most {:.1e} of its speed; only contact forces above {cap:.1e} × the total load could hide behind that",
-            k.inadmissibility
+            // Rounding: its size is worth telling, its digits are not.
+            "joints close by less than {:.0e} of its speed; only contact forces above {:.0e} × the total load could hide behind that",
+            decade(k.inadmissibility, f64::ceil),
+            decade(cap, f64::floor)
         )
     };
     f.require(k.is_admissible(assembly), format!("the mechanism is admissible: {closing}"));
+}
+
+/// The two blocks of a joint.
+fn joint(assembly: &Assembly, interfaces: &Interfaces, k: usize) -> String {
+    let face = &interfaces.list[k];
+    format!("{} | {}", assembly.blocks[face.a].id, assembly.blocks[face.b].id)
+}
+
+/// The power of ten next to a number.
+fn decade(x: f64, round: fn(f64) -> f64) -> f64 {
+    10f64.powf(round(x.log10()))
 }
 
 fn load_factor(
@@ -222,7 +254,7 @@ fn load_factor(
     [value, lower, upper]: [f64; 3],
 ) {
     let s = certificate::statics(assembly, interfaces, forces, value);
-    cones(f, "", &s);
+    cones(f, "", assembly, interfaces, &s);
     let k = certificate::kinematics(assembly, interfaces, rates, forces);
     let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
     f.require(k.live_power > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));
@@ -237,14 +269,14 @@ fn load_factor(
         ),
     );
     // Where the certified forces vanish, `slack` sees no inadmissibility: as if every contact carried the largest of them.
-    let largest = forces.iter().flatten().map(|v| v.norm()).fold(0.0, f64::max);
+    let largest = forces.iter().flatten().map(|v| v.force.norm()).fold(0.0, f64::max);
     let behind = k.excess * largest / k.live_power;
     let allowed = tolerance::LOAD_FACTOR_BEHIND * value.abs() + tolerance::LOAD_FACTOR_WIDTH * natural;
     f.require(
         behind <= allowed,
         format!("the mechanism is admissible: its rounding could hide at most {behind:.1e} of λ, allowed {allowed:.1e}"),
     );
-    let (low, high) = (value - hidden / k.live_power, (-k.dead_power + k.slack) / k.live_power);
+    let (low, high) = (value - hidden / k.live_power, k.upper());
     f.require(
         low >= lower - width(value) && high <= upper + width(value),
         format!("bracket recomputed: [{low:.12}, {high:.12}], claimed [{lower:.12}, {upper:.12}]"),

@@ -1,7 +1,11 @@
 //! Evidence in a form that can be saved and read back: names instead of indices.
 
 use super::{Forces, Rate};
-use crate::{assembly::Assembly, interface::Interfaces, tolerance};
+use crate::{
+    assembly::{Assembly, Wrench},
+    interface::Interfaces,
+    tolerance,
+};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +19,9 @@ pub struct ContactForces {
     pub points: Vec<[f64; 3]>,
     /// Force on the second block at each point, N.
     pub forces: Vec<[f64; 3]>,
+    /// Couple on the second block at each point, N·m; empty where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub couples: Vec<[f64; 3]>,
 }
 
 /// The motion of one block; blocks at rest are left out.
@@ -38,7 +45,12 @@ pub fn write_forces(assembly: &Assembly, interfaces: &Interfaces, forces: &Force
         .map(|(face, forces)| ContactForces {
             between: [assembly.blocks[face.a].id.clone(), assembly.blocks[face.b].id.clone()],
             points: face.points.iter().map(|&p| p.into()).collect(),
-            forces: forces.iter().map(|&f| f.into()).collect(),
+            forces: forces.iter().map(|f| f.force.into()).collect(),
+            couples: if forces.iter().all(|f| f.moment == Vector3::zeros()) {
+                Vec::new()
+            } else {
+                forces.iter().map(|f| f.moment.into()).collect()
+            },
         })
         .collect()
 }
@@ -56,7 +68,7 @@ pub fn write_rates(assembly: &Assembly, rates: &[Rate]) -> Vec<BlockRate> {
 /// # Errors
 /// A contact that the scene does not have, or has at other points; numbers that are not finite.
 pub fn read_forces(assembly: &Assembly, interfaces: &Interfaces, saved: &[ContactForces]) -> Result<Forces, String> {
-    let mut forces: Forces = interfaces.list.iter().map(|f| vec![Vector3::zeros(); f.points.len()]).collect();
+    let mut forces = super::no_forces(interfaces);
     let mut by_pair: std::collections::HashMap<(&str, &str), Vec<Option<usize>>> = Default::default();
     for (k, face) in interfaces.list.iter().enumerate() {
         by_pair.entry((&assembly.blocks[face.a].id, &assembly.blocks[face.b].id)).or_default().push(Some(k));
@@ -66,11 +78,14 @@ pub fn read_forces(assembly: &Assembly, interfaces: &Interfaces, saved: &[Contac
         if contact.points.len() != contact.forces.len() {
             return Err(format!("contact {a} | {b}: {} points but {} forces", contact.points.len(), contact.forces.len()));
         }
-        let numbers = contact.points.iter().chain(&contact.forces).flatten();
+        if !contact.couples.is_empty() && contact.couples.len() != contact.forces.len() {
+            return Err(format!("contact {a} | {b}: {} forces but {} couples", contact.forces.len(), contact.couples.len()));
+        }
+        let numbers = contact.points.iter().chain(&contact.forces).chain(&contact.couples).flatten();
         if !numbers.clone().all(|v| v.is_finite()) {
             return Err(format!("contact {a} | {b}: a number is not finite"));
         }
-        if contact.forces.iter().flatten().all(|v| *v == 0.0) {
+        if contact.forces.iter().chain(&contact.couples).flatten().all(|v| *v == 0.0) {
             continue;
         }
         // The whole contact has to fit: two interfaces of a pair may share corners.
@@ -80,8 +95,9 @@ pub fn read_forces(assembly: &Assembly, interfaces: &Interfaces, saved: &[Contac
             return Err(format!("contact {a} | {b}: the scene has no such contact, or has it twice in the result"));
         };
         if let Some(k) = slot.take() {
-            for (place, force) in places.into_iter().zip(&contact.forces) {
-                forces[k][place] = Vector3::from(*force);
+            for (saved, place) in places.into_iter().enumerate() {
+                let moment = contact.couples.get(saved).map_or_else(Vector3::zeros, |&m| Vector3::from(m));
+                forces[k][place] = Wrench { force: Vector3::from(contact.forces[saved]), moment };
             }
         }
     }

@@ -22,6 +22,8 @@ pub enum Motion {
     HingeAndSlide,
     /// Parts over its whole area.
     Part,
+    /// Turns about a line inside the contact; what lies beyond it is crushed.
+    Crush,
 }
 
 /// A joint that moves.
@@ -31,7 +33,7 @@ pub struct MovingJoint {
     pub interface: usize,
     /// What it does.
     pub motion: Motion,
-    /// Where it keeps contact (mean of the closed or sliding corners), or its middle where it parts, m.
+    /// Where it keeps contact (mean of the closed or sliding corners), the middle of the crushed corners, or its middle where it parts, m.
     pub at: Vector3<f64>,
 }
 
@@ -66,7 +68,7 @@ fn joint(assembly: &Assembly, face: &Interface, rates: &[Rate], fastest: f64) ->
             let v = certificate::at(assembly, rates, face.b, p) - certificate::at(assembly, rates, face.a, p);
             let vn = face.frame.n.dot(&v);
             let vt = (v - face.frame.n * vn).norm();
-            let lift = match face.friction {
+            let lift = match face.law.friction {
                 Friction::Coefficient(mu) => mu * vt,
                 Friction::Infinite => 0.0,
             };
@@ -77,7 +79,11 @@ fn joint(assembly: &Assembly, face: &Interface, rates: &[Rate], fastest: f64) ->
         return None;
     }
     let kept: Vec<_> = corners.iter().filter(|c| c.1).collect();
+    let crushed: Vec<_> = corners.iter().filter(|c| c.3 < -rest).collect();
     let mean = |points: &mut dyn Iterator<Item = Vector3<f64>>, n: usize| points.sum::<Vector3<f64>>() / n as f64;
+    if face.crushes() && !crushed.is_empty() {
+        return Some((Motion::Crush, mean(&mut crushed.iter().map(|c| c.0), crushed.len())));
+    }
     if kept.is_empty() {
         return Some((Motion::Part, mean(&mut corners.iter().map(|c| c.0), corners.len())));
     }

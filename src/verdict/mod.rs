@@ -1,11 +1,13 @@
 //! Verdicts and the evidence for them, recomputed from [`Assembly`](crate::assembly::Assembly) and
-//! [`Interfaces`](crate::interface::Interfaces) alone. Nothing here knows the program or the solver.
+//! [`Interfaces`] alone. Nothing here knows the program or the solver.
 
 pub mod certificate;
 pub mod check;
 pub mod evidence;
+pub mod law;
 pub mod mechanism;
 
+use crate::{assembly::Wrench, interface::Interfaces};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -24,8 +26,14 @@ pub enum Verdict {
     Undecided,
 }
 
-/// Forces on block `b` at each contact point of each interface, N.
-pub type Forces = Vec<Vec<Vector3<f64>>>;
+/// What acts on block `b` at each contact point of each interface: force, N, and couple about that point, N·m (zero unless
+/// the joint has a rolling arm).
+pub type Forces = Vec<Vec<Wrench>>;
+
+/// No contact forces at all.
+pub fn no_forces(interfaces: &Interfaces) -> Forces {
+    interfaces.list.iter().map(|face| vec![Wrench::zero(); face.points.len()]).collect()
+}
 
 /// The rate of motion of a block; the scale is arbitrary, common to all blocks of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]

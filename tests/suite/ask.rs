@@ -3,8 +3,8 @@
 
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, LoadFactor, Model, Outcome, assess, limit, prepare, tilt},
-    report::{self, ResultFile},
+    analysis::{Control, Law, LoadFactor, Model, Outcome, assess, coulomb, limit, prepare, tilt},
+    report::{self, Leaning, ResultFile},
     scene::{Scene, read_str},
     verdict::Verdict,
 };
@@ -149,12 +149,24 @@ pub fn exact(what: &str, scene: &Scene, want: f64, tolerance: f64) {
 
 /// The tilt in degrees towards a direction, 90 where it is wedged, with proof.
 pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
-    let mut model = model(scene);
+    let model = model(scene);
     let answer = tilt(&model.assembly, &model.interfaces, toward.into(), &Control::default()).expect("a tilt");
-    model.assembly = tilt::turned(&model.assembly, toward.into()).expect("a tilt").0;
+    let model = tilt::tilted(&model, toward.into(), answer.load_factor.value).expect("a tilt");
     let angle = answer.angle_deg();
-    prove(scene, &ResultFile::tilt(scene, &[(model, answer)]).expect("a direction"));
+    prove(scene, &ResultFile::tilt(scene, &[Leaning { model, tilt: answer, dry: None }]).expect("a direction"));
     angle
+}
+
+/// The load factor with dry friction, the associative one (NaN where there is no limit) and the number of convex programs, with proof.
+pub fn dry(scene: &Scene) -> (f64, f64, usize) {
+    let model = model(scene);
+    let l = limit(&model.assembly, &model.interfaces, &Control::default());
+    let d = coulomb::load_factor(&model.assembly, &model.interfaces, &l, &Control::default());
+    let file = ResultFile::load_factor(scene, &model, &l).with_dry(&model, &d);
+    prove(scene, &file);
+    assert_eq!(file.dry.and_then(|d| d.value), Some(d.value), "{}: natural map {:.1e}", scene.name, d.natural_map);
+    assert!(l.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.value.abs(), "{}: {} above {}", scene.name, d.value, l.value);
+    (d.value, l.value, d.solves)
 }
 
 /// `got` is `want` within a relative tolerance.

@@ -13,6 +13,7 @@ use voussoir::{
     verdict::{
         Forces, Rate, Verdict, certificate,
         check::{Claim, verify},
+        no_forces,
     },
 };
 
@@ -23,7 +24,7 @@ fn arch(thickness: f64) -> Scene {
 }
 
 fn zeros(m: &Model) -> Forces {
-    m.interfaces.list.iter().map(|f| vec![V::zeros(); f.points.len()]).collect()
+    no_forces(&m.interfaces)
 }
 
 fn proved(m: &Model, claim: Claim, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> bool {
@@ -53,8 +54,8 @@ fn a_stable_claim_needs_forces_that_balance_inside_their_cones() {
         (7, &|_| V::new(f64::INFINITY, 0.0, 0.0)),
     ] {
         let mut forces = a.forces.clone();
-        let point = (0..4).max_by(|&i, &j| forces[k][i].norm().total_cmp(&forces[k][j].norm())).unwrap();
-        forces[k][point] = change(forces[k][point]);
+        let point = (0..4).max_by(|&i, &j| forces[k][i].force.norm().total_cmp(&forces[k][j].force.norm())).unwrap();
+        forces[k][point].force = change(forces[k][point].force);
         assert!(!proved(&m, Claim::Stable, &forces, None, &a.rates), "force {k}");
     }
     // The forces of one arch do not hold another.
@@ -160,7 +161,7 @@ fn a_mechanism_may_not_close_unloaded_joints() {
     for (f, p) in forces[0].iter_mut().zip(&m.interfaces.list[0].points) {
         // All on the windward and lee corners in the proportion that balances at λ = 0.2.
         let share = if p.x > 0.0 { 0.3 } else { 0.2 };
-        *f = m.interfaces.list[0].frame.n * (share * m.assembly.weight(1)) - V::x() * (0.2 * share * m.assembly.weight(1));
+        f.force = m.interfaces.list[0].frame.n * (share * m.assembly.weight(1)) - V::x() * (0.2 * share * m.assembly.weight(1));
     }
     let s = certificate::statics(&m.assembly, &m.interfaces, &forces, 0.2);
     assert!(s.balanced, "{}", s.unbalance);
@@ -239,7 +240,7 @@ proptest! {
             for f in forces.iter_mut() {
                 let (n, a, b) = *numbers.next().unwrap();
                 let t = (face.frame.t1 * a + face.frame.t2 * b) * (0.7 * 0.8 * n);
-                *f = face.frame.n * n + t;
+                f.force = face.frame.n * n + t;
             }
         }
         m.assembly.dead.iter_mut().for_each(|w| *w = Wrench::zero());
@@ -290,7 +291,7 @@ fn a_huge_squeeze_excuses_no_unbalance() {
         let mut forces = zeros(&m);
         for (face, forces) in m.interfaces.list.iter().zip(&mut forces) {
             let share = if face.frame.n.x.abs() > 0.5 { squeeze } else { 1.0 } * w / face.points.len() as f64;
-            forces.iter_mut().for_each(|f| *f = face.frame.n * share);
+            forces.iter_mut().for_each(|f| f.force = face.frame.n * share);
             assert!(face.a == block || face.b == block);
         }
         let got = verify(&m.assembly, &m.interfaces, &Claim::Stable, &forces, None, &a.rates);

@@ -170,6 +170,22 @@ fn a_requirement_inside_the_bracket_is_not_rounded_up() {
     expect(UNDECIDED, voussoir(&["limit", &desk.at("pushed.json"), "--require", &format!("{value:.17}")]));
 }
 
+/// A block in a groove and a block under a roof: the bound meets what dry friction does not.
+#[test]
+fn a_bound_alone_meets_no_requirement() {
+    let scene = |name: &str| format!("{}/structures/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    for (name, bound_only, both, neither) in [("block-in-groove", "0.75", "0.7", "0.9"), ("block-under-roof", "1", "0.399", "-")] {
+        expect(NO, voussoir(&["limit", &scene(name), "--require", bound_only]));
+        expect(YES, voussoir(&["limit", &scene(name), "--require", bound_only, "--law", "associative"]));
+        expect(YES, voussoir(&["limit", &scene(name), "--require", both]));
+        if neither != "-" {
+            expect(NO, voussoir(&["limit", &scene(name), "--require", neither, "--law", "associative"]));
+        }
+        let first = out(&expect(YES, voussoir(&["limit", &scene(name), "--quiet"])));
+        assert!(first.contains("dry friction"), "{first}");
+    }
+}
+
 #[test]
 fn a_block_tips_over_its_edge_or_slides() {
     let desk = Desk::new();
@@ -404,6 +420,32 @@ fn a_load_factor_is_refused_after_any_change() {
     changed(&|r| r["dead_load"]["answer"]["verdict"] = json!("unstable"));
     changed(&|r| drop(r["dead_load"]["certificate"].as_object_mut().unwrap().remove("claim")));
     changed(&|r| r["answer"]["tilt_deg"] = json!(10));
+}
+
+#[test]
+fn a_load_factor_with_dry_friction_is_refused_after_any_change() {
+    let desk = Desk::new();
+    let good = desk.saved(YES, &["limit", concat!(env!("CARGO_MANIFEST_DIR"), "/structures/block-in-groove.json")]);
+    desk.checked(YES, &good);
+    let (i, j) = greatest_force(&good["dry"]["certificate"]);
+    let changed = |change: &dyn Fn(&mut Value)| {
+        let mut bad = good.clone();
+        change(&mut bad);
+        assert_ne!(bad, good);
+        desk.checked(NO, &bad);
+    };
+    changed(&|r| r["dry"]["value"] = json!(0.75));
+    changed(&|r| {
+        r["dry"]["value"] = json!(0.71);
+        r["dry"]["certificate"]["claim"]["dry_load_factor"]["value"] = json!(0.71);
+    });
+    changed(&|r| drop(r["dry"]["certificate"].as_object_mut().unwrap().remove("claim")));
+    changed(&|r| r["dry"]["found"] = json!("undecided"));
+    changed(&|r| r["dry"]["found"] = json!("unlimited"));
+    changed(&|r| scale(&mut r["dry"]["certificate"]["forces"][i]["forces"][j], 1.01));
+    changed(&|r| r["dry"]["certificate"]["forces"] = r["certificate"]["forces"].clone());
+    // The associative mechanism lifts where it slides.
+    changed(&|r| r["dry"]["certificate"]["rates"] = r["certificate"]["rates"].clone());
 }
 
 #[test]
@@ -642,7 +684,7 @@ fn paths_are_quoted_where_a_shell_would_split_them() {
 #[test]
 fn no_limit_is_not_said_where_dry_friction_has_one() {
     let first = out(&structure(&["limit", "--quiet"], "block-under-roof"));
-    assert!(first.contains("with dry friction λ = 0.4000000") && !first.contains("without limit"), "{first}");
+    assert!(first.contains("with dry friction λ = 0.40000") && !first.contains("without limit"), "{first}");
     let first = out(&structure(&["limit", "--quiet", "--law", "associative"], "block-under-roof"));
     assert!(first.contains("without limit"), "{first}");
 }

@@ -4,7 +4,7 @@ use crate::ask::{self, cuboid, fixed, prism, sphere, verdict};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, assess, coulomb, limit, prepare},
+    analysis::{Control, Law, Outcome, assess, coulomb, limit, prepare},
     import::{self, Options, Up},
     report::ResultFile,
     scene::{Friction, Scene, read_str},
@@ -129,7 +129,7 @@ fn conditional_certificates_reject_corruption() {
     assert!(!proved(None, &answer.forces, &answer.rates));
     // Balanced forces leave no motion; half of them leave one that does not obey the law: the joints would slip under their limit.
     assert!(!proved(Some(&answer.forces), &answer.forces, &answer.rates));
-    let half = answer.forces.iter().map(|f| f.iter().map(|v| v * 0.5).collect()).collect();
+    let half = answer.forces.iter().map(|f| f.iter().map(|&v| v * 0.5).collect()).collect();
     assert!(!proved(Some(&half), &answer.forces, &answer.rates));
     let mut still = answer.rates.clone();
     still.iter_mut().for_each(|r| r.velocity = nalgebra::Vector3::x());
@@ -158,18 +158,6 @@ proptest! {
     }
 }
 
-/// Load factors with dry friction, proved: at most the associative ones.
-fn dry(scene: &Scene) -> (f64, f64, usize) {
-    let model = prepare(scene).unwrap();
-    let l = limit(&model.assembly, &model.interfaces, &Control::default());
-    let d = coulomb::load_factor(&model.assembly, &model.interfaces, &l, &Control::default());
-    let file = ResultFile::load_factor(scene, &model, &l).with_dry(&model, &d);
-    ask::prove(scene, &file);
-    assert_eq!(file.dry.unwrap().value, Some(d.value), "{}: natural map {:.1e}", scene.name, d.natural_map);
-    assert!(l.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.value.abs(), "{}: {} above {}", scene.name, d.value, l.value);
-    (d.value, l.value, d.solves)
-}
-
 fn structure(name: &str) -> Scene {
     let path = format!("{}/structures/{name}.json", env!("CARGO_MANIFEST_DIR"));
     voussoir::scene::read_file(path.as_ref()).unwrap().0
@@ -183,7 +171,7 @@ fn walls_that_slide_without_opening() {
         ("wall-with-openings", 0.3504801178, 0.3629337261),
         ("wall-with-two-openings", 0.2089209914, 0.2163445799),
     ] {
-        let (value, bound, solves) = dry(&structure(name));
+        let (value, bound, solves) = ask::dry(&structure(name));
         println!("{name}: {value:.7} (associative {bound:.7}), {solves} convex programs");
         assert!((low..=high).contains(&value), "{name}: {value}");
         assert!(solves <= 30, "{name}: {solves} convex programs");
@@ -193,37 +181,39 @@ fn walls_that_slide_without_opening() {
 /// Case A26: a block in a slot with a tight roof slides at λ = μ, though dilatancy would wedge it for ever.
 #[test]
 fn a_block_under_a_roof_slides_at_its_friction() {
-    let (value, bound, _) = dry(&structure("block-under-roof"));
+    let (value, bound, _) = ask::dry(&structure("block-under-roof"));
     assert!(bound.is_nan(), "associative: without limit");
     assert!((value - 0.4).abs() < 1e-5, "{value}");
 }
 
-/// Cases R16, R17, E05 (conventional wedge theory): along a trough whose faces lean by a against the horizontal, tan θ = μ / cos a.
-#[test]
-fn a_block_in_a_trough_slides_by_wedge_theory() {
-    for (mu, a) in [(0.5, 45.0_f64), (0.2, 30.0)] {
-        let a = a.to_radians();
-        let (s, c) = (a.sin(), a.cos());
-        let face = |id: &str, side: f64| {
-            json!({ "between": ["ground", "block"], "normal": [-side * s, 0.0, c],
-                "points": [[side * 0.2 * c, -5.0, 0.2 * s], [side * 1.2 * c, -5.0, 1.2 * s], [side * 1.2 * c, 5.0, 1.2 * s], [side * 0.2 * c, 5.0, 0.2 * s]],
-                "friction": mu, "_": id })
-        };
-        let strip = |mut v: Value| {
-            v.as_object_mut().unwrap().remove("_");
-            v
-        };
-        let mut block = cuboid("block", [2.0, 10.0, 1.0], [0.0, 0.0, 0.0]);
-        block["centroid"] = json!([0.0, 0.0, 0.0]);
-        let text = json!({ "format": "voussoir-scene/1", "gravity": [0, 0, -1],
-            "blocks": [fixed(cuboid("ground", [9.0, 20.0, 1.0], [0.0, 0.0, -3.0])), block],
-            "interfaces": [strip(face("l", -1.0)), strip(face("r", 1.0))],
-            "loads": { "live": [{ "weight": [0, 1, 0] }] } });
-        let scene = read_str("trough", text.to_string()).unwrap().0;
-        let (value, bound, _) = dry(&scene);
-        let want = mu / c;
-        let associative = mu / (c * (1.0 - (mu * a.tan()).powi(2)).sqrt());
-        assert!((value - want).abs() < 1e-5, "μ {mu}: {value}, expected {want}");
-        assert!((bound - associative).abs() < 1e-6, "μ {mu}: {bound}, expected {associative}");
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    /// Dry friction carries no more than associative friction; what comes out is proved.
+    #[test]
+    fn dry_friction_carries_no_more(
+        mu in proptest::array::uniform3(0.1..1.2f64), width in 0.5..1.5f64, shift in -0.2..0.2f64, roof in any::<bool>(), push in proptest::array::uniform2(-1.0..1.0f64),
+    ) {
+        prop_assume!(push[0].hypot(push[1]) > 0.1);
+        let mut blocks = vec![ask::ground()];
+        for k in 0..3 {
+            blocks.push(cuboid(&format!("b{k}"), [width, 1.0, 0.4], [shift * f64::from(k), 0.0, 0.4 * f64::from(k)]));
+        }
+        if roof {
+            blocks.push(fixed(cuboid("wall", [1.0, 4.0, 0.6], [0.5 + 0.5 * width, 0.0, 0.0])));
+        }
+        let pair = |a: &str, b: &str, mu: f64| json!({ "blocks": [a, b], "friction": mu });
+        let scene = ask::scene(0.5, json!(blocks), json!({
+            "joints": { "default": { "friction": mu[0] }, "overrides": [pair("b0", "b1", mu[1]), pair("b1", "b2", mu[2])] },
+            "loads": { "live": [{ "weight": [push[0], push[1], 0.0] }] },
+        }));
+        let model = prepare(&scene).unwrap();
+        let l = limit(&model.assembly, &model.interfaces, &Control::default());
+        prop_assume!(matches!(l.outcome, Outcome::Found | Outcome::Unbounded));
+        let d = coulomb::load_factor(&model.assembly, &model.interfaces, &l, &Control::default());
+        // About one in a hundred of these does not settle to 1e-6: then there is no number.
+        prop_assert!(d.found != coulomb::Found::Undecided || d.value.is_nan());
+        ask::prove(&scene, &ResultFile::load_factor(&scene, &model, &l).with_dry(&model, &d));
+        prop_assert!(d.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.bracket.upper.abs(), "{} above {}", d.value, l.bracket.upper);
     }
 }

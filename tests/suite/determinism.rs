@@ -15,8 +15,8 @@ fn answers_repeat_bit_by_bit_on_every_thread() {
         let answer = || {
             let m = model(scene);
             let (a, l) = (assess(&m.assembly, &m.interfaces, &Control::default()), limit(&m.assembly, &m.interfaces, &Control::default()));
-            let numbers = |forces: &[Vec<nalgebra::Vector3<f64>>]| {
-                forces.iter().flatten().flat_map(|v| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>()).collect::<Vec<_>>()
+            let numbers = |forces: &voussoir::verdict::Forces| {
+                forces.iter().flatten().flat_map(|w| w.force.iter().map(|x| x.to_bits()).collect::<Vec<_>>()).collect::<Vec<_>>()
             };
             let rates = |q: &[voussoir::verdict::Rate]| {
                 q.iter().flat_map(|r| r.velocity.iter().chain(&r.spin).map(|x| x.to_bits()).collect::<Vec<_>>()).collect::<Vec<_>>()

@@ -17,3 +17,4 @@ mod readme;
 mod real;
 mod reference;
 mod scenes;
+mod strength;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use voussoir::{
     analysis::{Control, Law, Model, Outcome, assess, limit, prepare},
+    error::FindingCode,
     import::{self, Options},
     interface::ContactKind,
     scene::{Friction, Load, Scene},
@@ -100,6 +101,92 @@ fn the_cross_vault_and_the_wall_stand() {
     }
 }
 
+/// The Armadillo Vault: 399 voussoirs, supports as built (nodes 0–7, 79–88, 217–227, 328–331).
+fn armadillo(folder: &Path, density: f64) -> Scene {
+    let supports: Vec<String> = (0..8).chain(79..89).chain(217..228).chain(328..332).map(|k| k.to_string()).collect();
+    let supports: Vec<&str> = supports.iter().map(String::as_str).collect();
+    read(folder.join("cra-armadillo.json"), &Options { density: Some(density), ..options(&supports, 0.84) })
+}
+
+/// What a finding of this code says, empty where there is none.
+fn told(m: &Model, code: FindingCode) -> String {
+    m.interfaces.findings.iter().filter(|f| f.code == code).map(|f| f.text.clone()).collect::<Vec<_>>().join("; ")
+}
+
+/// The joints of the Armadillo Vault are warped by centimetres, and their mean planes lean from each other by up to 4°: 74 joints
+/// were lost to the angle, whatever the gap, and voussoir 305 with them slipped out from between 297 and 304.
+#[test]
+fn warped_joints_of_the_armadillo_vault_are_found_at_any_gap() {
+    let Some(folder) = folder() else { return };
+    let mut scene = armadillo(&folder, 1.0);
+    for (gap, min_area) in [(1e-4, 1e-9), (0.01, 1e-9), (0.05, 1e-4)] {
+        (scene.contact.gap, scene.contact.min_area) = (gap, min_area);
+        let m = ready(&scene);
+        let faces = m.interfaces.list.iter().filter(|f| f.kind == ContactKind::Face).count();
+        assert_eq!((m.interfaces.list.len(), faces, m.interfaces.support_pairs), (1014, 1014, 29), "gap {gap}");
+        let id = |b: usize| m.assembly.blocks[b].id.as_str();
+        let around: Vec<_> = m.interfaces.list.iter().map(|f| [id(f.a), id(f.b)]).filter(|p| p.contains(&"305")).collect();
+        assert_eq!(around.len(), 3, "gap {gap}: {around:?}");
+        assert_eq!(told(&m, FindingCode::NearMiss), "", "gap {gap}");
+        assert_eq!(admissible(&m), Verdict::Stable, "gap {gap}");
+    }
+}
+
+/// Densities are units: the vaults stand under dry friction whatever they are.
+#[test]
+fn vaults_stand_under_dry_friction_at_any_density() {
+    let Some(folder) = folder() else { return };
+    let vault = |density: f64| read(folder.join("assembly-crossvault.json"), &Options { density: Some(density), ..options(&[], 0.7) });
+    let mut armadillo = armadillo(&folder, 1.0);
+    armadillo.contact.gap = 0.05;
+    let scenes = [vault(1e-3), vault(1e6), armadillo];
+    std::thread::scope(|scope| {
+        for scene in &scenes {
+            scope.spawn(move || {
+                let m = ready(scene);
+                let a = assess(&m.assembly, &m.interfaces, &Control { seconds: 120.0, ..Control::default() });
+                let solves: Vec<usize> = a.state.iter().flat_map(|s| &s.steps).map(|s| s.solves).collect();
+                println!("{}: {:?}, solves {solves:?}", scene.name, a.verdict);
+                assert_eq!(a.verdict, Verdict::Stable, "{}", scene.name);
+            });
+        }
+    });
+}
+
+/// The number after `contact.KEY from X to`, the largest if there are several.
+fn remedy(text: &str, key: &str) -> Option<f64> {
+    let after = |rest: &str| rest.split(" to ").nth(1)?.split([' ', ';']).next()?.parse::<f64>().ok();
+    text.split(&format!("contact.{key} from ")).skip(1).filter_map(|rest| after(&format!("from {rest}"))).reduce(f64::max)
+}
+
+/// Vaults that fall because faces overlap or lie apart stand once the remedies in the findings are followed to the letter.
+#[test]
+fn remedies_for_vaults_with_open_joints_make_them_stand() {
+    let Some(folder) = folder() else { return };
+    let own = Options { stored_interfaces: false, ..options(&[], 0.7) };
+    let pavilion = folder.join("dem-pavillionvault");
+    let held = Options { support_files: vec![pavilion.join("supports.json")], ..own.clone() };
+    // The stored interfaces of the cross vault are 488; the other files have none.
+    for (path, options, interfaces) in [
+        (folder.join("assembly-crossvault.json"), own.clone(), 488),
+        (folder.join("dem-crossvault.obj"), Options { support_below: Some(1.744), ..own }, 488),
+        (pavilion.join("blocks.json"), held, 1141),
+    ] {
+        let mut scene = read(path, &options);
+        let name = scene.name.clone();
+        let m = ready(&scene);
+        assert_eq!(admissible(&m), Verdict::Unstable, "{name}");
+        let text = format!("{}; {}", told(&m, FindingCode::NearMiss), told(&m, FindingCode::Overlap));
+        scene.contact.gap = remedy(&text, "gap").unwrap_or_else(|| panic!("{name}: {text}"));
+        scene.contact.angle_deg = remedy(&text, "angle_deg").unwrap_or(scene.contact.angle_deg);
+        let mended = ready(&scene);
+        println!("{name}: {text}: {} interfaces, then {}", m.interfaces.list.len(), mended.interfaces.list.len());
+        assert_eq!(told(&mended, FindingCode::NearMiss) + &told(&mended, FindingCode::Overlap), "", "{name}");
+        assert_eq!(admissible(&mended), Verdict::Stable, "{name}");
+        assert_eq!(mended.interfaces.list.len(), interfaces, "{name}");
+    }
+}
+
 /// Frame and shelves have admissible forces.
 #[test]
 fn frames_and_shelves_are_statically_admissible() {
@@ -116,10 +203,11 @@ fn frames_and_shelves_are_statically_admissible() {
 #[test]
 fn rounded_meshes_are_read_and_their_gaps_told() {
     let Some(folder) = folder() else { return };
-    for (name, blocks) in [("dem-crossvault.obj", 184), ("dem-wall.obj", 38)] {
-        let scene = read(folder.join(name), &options(&[], 0.7));
-        assert_eq!(scene.blocks.len(), blocks, "{name}");
-    }
+    let wall = read(folder.join("dem-wall.obj"), &Options { support_below: Some(0.018), ..options(&[], 0.7) });
+    let m = ready(&wall);
+    assert_eq!((m.assembly.blocks.len(), m.interfaces.list.len()), (38, 60));
+    assert!(m.interfaces.findings.is_empty(), "{:?}", m.interfaces.findings);
+    assert_eq!(admissible(&m), Verdict::Stable);
     // Stones scanned from nature: refused with the reason, or mended and said.
     for name in ["stone_0", "stone_1", "stone_10", "stone_2"] {
         let mut scene = import::import_file(&folder.join(format!("rb3d-stones/{name}.ply")), &options(&[], 0.7)).unwrap().scene;

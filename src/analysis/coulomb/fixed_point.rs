@@ -2,8 +2,10 @@
 
 use super::anderson::Anderson;
 use crate::{
+    interface::Interfaces,
     program::coulomb::{Aim, Contacts, Hold},
     solve::{Session, Settings, Solution},
+    verdict::certificate,
 };
 
 /// Where an iteration ended.
@@ -70,6 +72,28 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
     }
     best
 }
+
+/// Fixed points again and again, with the bounds on crushing that the last one broke added to the contacts.
+pub(super) fn within_strength(
+    contacts: &mut Contacts,
+    interfaces: &Interfaces,
+    solve: impl Fn(&Contacts) -> Option<FixedPoint>,
+) -> Option<FixedPoint> {
+    let mut solves = 0;
+    for _ in 0..MOST_ROUNDS {
+        let point = solve(contacts)?;
+        solves += point.solves;
+        let broken = certificate::crushed(interfaces, &contacts.statics.forces(interfaces, &point.forces));
+        if broken.is_empty() {
+            return Some(FixedPoint { solves, ..point });
+        }
+        contacts.statics.bound(&broken);
+    }
+    None
+}
+
+/// Fixed points tried with ever more bounds on crushing. Fewer: states near the strength stay undecided. More: time lost.
+const MOST_ROUNDS: usize = 20;
 
 fn read(contacts: &Contacts, aim: Aim, solution: &Solution) -> (Vec<f64>, Vec<f64>, f64) {
     let forces = solution.x[..contacts.statics.matrix.columns].to_vec();

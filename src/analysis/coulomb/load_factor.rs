@@ -6,15 +6,21 @@
 //! without dilatancy are not unique (Ferris & Tin-Loi 2001; Gilbert, Casapulla & Ahmed 2006); the associative value bounds
 //! them all from above. A run that does not settle is undecided and gives no number.
 
-use super::fixed_point::{FixedPoint, Stop, iterate};
+use super::{
+    fixed_point::{FixedPoint, Stop, iterate, within_strength},
+    state::{Motion, state},
+};
 use crate::{
     analysis::{Control, LoadFactor, Outcome},
     assembly::Assembly,
     interface::Interfaces,
-    program::coulomb::{Aim, Contacts, Hold},
+    program::{
+        coulomb::{Aim, Contacts, Hold},
+        is_forest,
+    },
     solve::Settings,
     tolerance,
-    verdict::{Forces, Rate, certificate, check},
+    verdict::{Forces, Rate, certificate, check, law},
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -27,6 +33,8 @@ pub enum Found {
     NothingSlides,
     /// A fixed point on the friction limits.
     FixedPoint,
+    /// The live load alone comes to rest on forces that it produces itself: no limit. Computed, not proved.
+    Unlimited,
     /// It did not settle: there is no value.
     Undecided,
 }
@@ -38,8 +46,10 @@ pub struct DryLoadFactor {
     pub found: Found,
     /// The value; NaN where undecided.
     pub value: f64,
-    /// How far forces and mechanism are from Coulomb's law ([`certificate::natural_map`]).
+    /// How far forces and mechanism are from Coulomb's law ([`law::natural_map`]).
     pub natural_map: f64,
+    /// The same with rates as the program has them ([`law::natural_map_in_loads`]).
+    pub natural_map_in_loads: f64,
     /// Convex programs solved.
     pub solves: usize,
     /// Forces at the value, N.
@@ -48,17 +58,31 @@ pub struct DryLoadFactor {
     pub rates: Vec<Rate>,
 }
 
-/// δ, and the change of the friction limits (mean block loads) at which the next one is taken up.
-const STAGES: [(f64, Stop); 3] =
-    [(1e-4, Stop { change: 3e-2, solves: 20 }), (1e-5, Stop { change: 3e-3, solves: 20 }), (1e-7, Stop { change: 3e-5, solves: 20 })];
+/// δ, and the change of the friction limits (mean block loads) at which the next one is taken up. The error of the law falls with δ,
+/// the engine's noise in the forces grows with its tolerance / δ: the last stage, for what is not exact enough by then, has a
+/// larger δ than the one before and the engine at its finest.
+const STAGES: [(f64, Stop); 4] = [
+    (1e-4, Stop { change: 3e-2, solves: 20 }),
+    (1e-5, Stop { change: 3e-3, solves: 20 }),
+    (1e-7, Stop { change: 3e-5, solves: 20 }),
+    (5e-7, Stop { change: 1e-7, solves: 10 }),
+];
+/// Stages after which a value is looked for.
+const LEAST_STAGES: usize = 3;
+/// A stage that ends with a change of this × the wanted one is lost. Larger: minutes on walls of 1,000 blocks that stay undecided.
+/// Smaller: values that the next stages would still find.
+const LOST: f64 = 10.0;
+/// The engine's tolerance before and after.
+const TOLERANCES: [f64; 2] = [1e-11, 1e-13];
 
 /// The load factor with dry friction; `associative` is the answer of [`limit`](crate::analysis::limit()) for the same model.
 pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
-    let map = |forces: &Forces, rates: &[Rate]| certificate::natural_map(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY);
+    let map = |forces: &Forces, rates: &[Rate]| law::natural_map(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY);
     let mut answer = DryLoadFactor {
         found: Found::Undecided,
         value: f64::NAN,
         natural_map: f64::INFINITY,
+        natural_map_in_loads: f64::INFINITY,
         solves: 0,
         forces: associative.forces.clone(),
         rates: associative.rates.clone(),
@@ -68,34 +92,77 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
     }
     if associative.outcome == Outcome::Found {
         answer.natural_map = map(&associative.forces, &associative.rates);
-        if answer.natural_map <= tolerance::DRY_LAW {
+        answer.natural_map_in_loads = check::dry_map(assembly, interfaces, &associative.forces, &associative.rates);
+        if answer.natural_map <= tolerance::DRY_LAW && answer.natural_map_in_loads <= tolerance::NATURAL_MAP {
             (answer.found, answer.value) = (Found::NothingSlides, associative.value);
             return answer;
         }
     }
-    let start = Instant::now();
-    let contacts = Contacts::new(assembly, interfaces, control.keep_all, true);
-    let settings = Settings { tolerance: 1e-11, regularization: 1e-9, ..Settings::default() };
-    let scale = check::natural_factor(assembly);
-    let still = vec![0.0; contacts.points.len()];
-    let first = Stop { change: 0.0, solves: 1 };
-    let mut last = iterate(&contacts, Aim::LoadFactor(STAGES[0].0, scale), Hold::SlidingRates, still, first, &settings);
-    for (delta, stop) in STAGES {
-        let left = control.seconds - start.elapsed().as_secs_f64();
-        let Some(from) = last.take().filter(|_| left > 0.0) else { return answer };
-        let settings = Settings { seconds: left, ..settings };
-        answer.solves += from.solves;
-        last = iterate(&contacts, Aim::LoadFactor(delta, scale), Hold::Limits, contacts.limits(&from.forces), stop, &settings);
+    if associative.outcome == Outcome::Unbounded && rests_alone(assembly, interfaces, control) {
+        answer.found = Found::Unlimited;
+        return answer;
     }
-    let Some(FixedPoint { forces, rates, lambda, solves, .. }) = last else { return answer };
-    answer.solves += solves;
-    answer.forces = contacts.statics.forces(interfaces, &forces);
-    answer.rates =
-        contacts.statics.rates(assembly.blocks.len(), &rates).into_iter().map(|(velocity, spin)| Rate { velocity, spin }).collect();
-    answer.natural_map = map(&answer.forces, &answer.rates);
-    let s = certificate::statics(assembly, interfaces, &answer.forces, lambda);
-    if answer.natural_map <= tolerance::DRY_LAW && s.unbalance <= tolerance::DRY_BALANCE.max(s.resolution) {
-        (answer.found, answer.value) = (Found::FixedPoint, lambda);
+    let start = Instant::now();
+    let mut contacts = Contacts::new(assembly, interfaces, control.keep_all, true);
+    let settings = Settings { tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
+    let scale = check::natural_factor(assembly);
+    let still = vec![0.0; contacts.discs().count()];
+    let first = Stop { change: 0.0, solves: 1 };
+    let Some(mut from) = iterate(&contacts, Aim::LoadFactor(STAGES[0].0, scale), Hold::SlidingRates, still, first, &settings) else {
+        return answer;
+    };
+    answer.solves = from.solves;
+    for (stage, (delta, stop)) in STAGES.into_iter().enumerate() {
+        let left = control.seconds - start.elapsed().as_secs_f64();
+        if left <= 0.0 {
+            break;
+        }
+        let settings = Settings { seconds: left, tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
+        let point = within_strength(&mut contacts, interfaces, |c| {
+            iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, &settings)
+        });
+        let Some(point) = point else { break };
+        answer.solves += point.solves;
+        if stage + 1 >= LEAST_STAGES && accept(assembly, interfaces, &contacts, &point, &mut answer) {
+            break;
+        }
+        // What wanders at a large δ does not settle at a smaller one; at the smallest it may be the engine's noise.
+        let lost = point.change > LOST * stop.change;
+        if lost && stage + 1 < LEAST_STAGES {
+            break;
+        }
+        if !lost {
+            from = point;
+        }
     }
     answer
+}
+
+/// Takes a fixed point as the answer if it is more exact than the one before; says whether it is a value.
+fn accept(assembly: &Assembly, interfaces: &Interfaces, contacts: &Contacts, point: &FixedPoint, answer: &mut DryLoadFactor) -> bool {
+    let forces = contacts.statics.forces(interfaces, &point.forces);
+    let rates: Vec<Rate> =
+        contacts.statics.rates(assembly.blocks.len(), &point.rates).into_iter().map(|(velocity, spin)| Rate { velocity, spin }).collect();
+    let natural_map = law::natural_map(assembly, interfaces, &forces, &rates).unwrap_or(f64::INFINITY);
+    let natural_map_in_loads = check::dry_map(assembly, interfaces, &forces, &rates);
+    // The forces as they are, cut to their limits, balance best at this load factor.
+    let (residual, live) = (contacts.residual(&point.forces, point.lambda), &contacts.statics.live);
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let lambda = point.lambda - dot(&residual, live) / dot(live, live);
+    let s = certificate::statics(assembly, interfaces, &forces, lambda);
+    let obeys = natural_map <= tolerance::DRY_LAW && natural_map_in_loads <= tolerance::NATURAL_MAP;
+    let found = obeys && s.is_within_strength() && s.unbalance <= tolerance::DRY_BALANCE.max(s.resolution);
+    if found {
+        (answer.found, answer.value) = (Found::FixedPoint, lambda);
+    }
+    (answer.forces, answer.rates) = (forces, rates);
+    (answer.natural_map, answer.natural_map_in_loads) = (natural_map, natural_map_in_loads);
+    found
+}
+
+/// Whether the live load alone, on joints without any strength, produces the forces that balance it.
+fn rests_alone(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> bool {
+    let (alone, _) = check::live_alone(assembly);
+    let (unlimited, _) = interfaces.unlimited();
+    is_forest(&alone, &unlimited) || state(&alone, &unlimited, control).motion == Motion::Rests
 }

@@ -5,7 +5,7 @@
 
 use super::{Names, check, joints, shape::diagonal};
 use crate::{
-    assembly::{Assembly, Block, GivenInterface, Solid},
+    assembly::{Assembly, Block, GivenInterface, JointLaw, Solid},
     error::{Finding, FindingCode, InputError, JsonPath},
     scene::{InterfaceSpec, Scene},
     tolerance::{COPLANAR, GIVEN_APART, WELD},
@@ -33,12 +33,13 @@ fn one(spec: &InterfaceSpec, assembly: &Assembly, names: &Names, path: &JsonPath
         )
         .hint("remove the interface"));
     }
-    let friction = match joints::friction(spec.friction, None, path)? {
-        Some(friction) => friction,
-        None => assembly
-            .joints
-            .friction(a, b, &assembly.blocks)
-            .ok_or_else(|| InputError::at(path.clone(), "no friction is given here or by the joint rules").hint("add \"friction\""))?,
+    let law = match (joints::friction(spec.friction, None, path)?, assembly.joints.law(a, b, &assembly.blocks)) {
+        (Some(friction), Some(law)) => JointLaw { friction, ..law },
+        (Some(friction), None) => JointLaw::dry(friction),
+        (None, Some(law)) => law,
+        (None, None) => {
+            return Err(InputError::at(path.clone(), "no friction is given here or by the joint rules").hint("add \"friction\""));
+        }
     };
 
     let at = path.key("points");
@@ -115,7 +116,7 @@ fn one(spec: &InterfaceSpec, assembly: &Assembly, names: &Names, path: &JsonPath
             break;
         }
     }
-    Ok(GivenInterface { a, b, points, normal, friction })
+    Ok(GivenInterface { a, b, points, normal, law })
 }
 
 fn no_normal(path: &JsonPath, why: &str) -> InputError {

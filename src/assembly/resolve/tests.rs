@@ -410,7 +410,7 @@ fn of_the_joint_rules_the_most_special_one_holds() {
     let rules = r#""materials": { "stone": { "density": 2400 }, "steel": { "density": 7850 } }, "joints": { "default": { "friction_angle_deg": 45 }, "overrides": [
         { "blocks": ["y", "x"], "friction": "infinite" }, { "between": ["steel", "stone"], "friction": 0.1 }, { "between": ["steel", "stone"], "friction": 0.2 }, { "between": ["steel", "steel"], "friction": 0.3 }] }"#;
     let a = assembly(&text(top, rules));
-    let mu = |a: &Assembly, i, j| a.joints.friction(i, j, &a.blocks).map(Friction::mu);
+    let mu = |a: &Assembly, i, j| a.joints.law(i, j, &a.blocks).map(|l| l.friction.mu());
     assert!((mu(&a, 0, 1).unwrap() - 1.0).abs() < 1e-15, "no material: the default");
     assert_eq!((mu(&a, 1, 2), mu(&a, 2, 1)), (Some(f64::INFINITY), Some(f64::INFINITY)));
     let by_material = assembly(&text(top, &rules.replace(r#"{ "blocks": ["y", "x"], "friction": "infinite" }, "#, "")));
@@ -442,12 +442,12 @@ fn given_interfaces_come_out_in_order_around_their_normal() {
             assert!((a.given[0].normal - Vector3::z()).norm() < 1e-12);
             assert_eq!(a.given[0].points.len(), 4);
             assert!(turns(&a) > 0.159, "{points}");
-            assert_eq!(a.given[0].friction, Friction::Coefficient(0.5));
+            assert_eq!(a.given[0].law.friction, Friction::Coefficient(0.5));
         }
         let against = interface(&format!(r#""points": {points}, "normal": [0, 0, -1], "friction": "infinite""#));
         assert!(codes(&against).contains(&FindingCode::Orientation));
         assert!((against.given[0].normal + Vector3::z()).norm() < 1e-12 && turns(&against) > 0.159);
-        assert_eq!(against.given[0].friction, Friction::Infinite);
+        assert_eq!(against.given[0].law.friction, Friction::Infinite);
     }
 }
 
@@ -466,7 +466,7 @@ fn friction_may_come_from_the_interfaces_alone() {
         format!(r#""joints": {{}}, "interfaces": [{{ "between": ["base", "top"], "points": [[0,0,0.5]], "normal": [0,0,1]{friction} }}]"#)
     };
     let a = assembly(&text(TOP, &rest(r#", "friction": 0.3"#)));
-    assert_eq!((a.given[0].friction, a.joints.friction(0, 1, &a.blocks)), (Friction::Coefficient(0.3), None));
+    assert_eq!((a.given[0].law.friction, a.joints.law(0, 1, &a.blocks)), (Friction::Coefficient(0.3), None));
     assert!(error(&text(TOP, &rest(""))).contains("joints.default: no friction is given"));
 }
 

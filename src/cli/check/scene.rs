@@ -19,7 +19,7 @@ pub fn run(scene: &Scene, source: &Source, terminal: &Terminal, layout: text::La
 fn is_slip(finding: &Finding) -> bool {
     use FindingCode as Code;
     match finding.code {
-        Code::NearMiss | Code::Overlap | Code::Floating | Code::Orientation | Code::Units | Code::Missing => true,
+        Code::NearMiss | Code::Overlap | Code::Floating | Code::Orientation | Code::Units | Code::Missing | Code::WithoutEffect => true,
         Code::Assumed | Code::Mended | Code::Warped | Code::GapClosed | Code::ContactIgnored => false,
         Code::Numerics | Code::LeftOut | Code::Converted => false,
     }

@@ -26,10 +26,19 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         Question::Limit => match (status(&file.answer), found(&file.answer)) {
             (Outcome::Found, Some((value, lower, upper))) => {
                 let role = if upper < 0.0 { Role::Bad } else { Role::Value };
-                (format!("λ = {}", bracketed(value, lower, upper)), role)
+                let bound = bracketed(value, lower, upper);
+                let text = match dry_of(file) {
+                    Dry::Same => format!("λ = {bound}"),
+                    Dry::Other(v) => format!("λ = {v:.5} with dry friction, at most {bound}"),
+                    Dry::Undecided => format!("λ at most {bound}; with dry friction undecided"),
+                };
+                (text, role)
             }
             (Outcome::Unbounded, _) => match dry_value(file) {
-                Some(v) => (format!("the live load wedges where joints open as they slide; with dry friction λ = {v:.7}"), Role::Value),
+                Some(v) => (format!("the live load wedges where joints open as they slide; with dry friction λ = {v:.5}"), Role::Value),
+                None if matches!(dry_of(file), Dry::Undecided) => {
+                    ("the live load wedges where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
+                }
                 None => ("the live load wedges: it can grow without limit".to_string(), Role::Good),
             },
             (Outcome::Impossible, _) => ("falls, whatever the live load".to_string(), Role::Bad),
@@ -39,13 +48,26 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
             let toward = file.answer.toward.map(|d| format!(" towards {}", point(d))).unwrap_or_default();
             match (status(&file.answer), found(&file.answer)) {
                 (Outcome::Found, Some((_, _, upper))) if upper < 0.0 => ("falls even when level".to_string(), Role::Bad),
-                (Outcome::Found, Some(l)) => (format!("falls at a tilt of {}°{toward}", degrees(l)), Role::Value),
+                (Outcome::Found, Some(l)) => {
+                    let bound = degrees(l);
+                    let text = match dry_of(file) {
+                        Dry::Same => format!("falls at a tilt of {bound}°{toward}"),
+                        Dry::Other(v) => {
+                            format!("falls at a tilt of {:.4}°{toward} with dry friction, at {bound}° at the latest", v.atan().to_degrees())
+                        }
+                        Dry::Undecided => format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction undecided"),
+                    };
+                    (text, Role::Value)
+                }
                 (Outcome::Unbounded, _) => match dry_value(file) {
                     Some(v) => {
                         let angle = v.atan().to_degrees();
                         let text =
-                            format!("stands at every tilt where joints open as they slide; falls at {angle:.6}°{toward} with dry friction");
+                            format!("stands at every tilt where joints open as they slide; falls at {angle:.4}°{toward} with dry friction");
                         (text, Role::Value)
+                    }
+                    None if matches!(dry_of(file), Dry::Undecided) => {
+                        ("stands at every tilt where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
                     }
                     None => ("stands at every tilt below 90°".to_string(), Role::Good),
                 },
@@ -174,7 +196,7 @@ fn unit(file: &ResultFile) -> &'static str {
 /// The load factor with dry friction.
 fn dry(page: &mut Page, file: &ResultFile) {
     let Some(dry) = &file.dry else { return };
-    let words = |v: f64| if file.question == Question::Tilt { format!("{:.6}°", v.atan().to_degrees()) } else { format!("λ = {v:.7}") };
+    let words = |v: f64| if file.question == Question::Tilt { format!("{:.4}°", v.atan().to_degrees()) } else { format!("λ = {v:.5}") };
     let text = match (dry.found, dry.value) {
         (Found::NothingSlides, Some(_)) => "In the mechanism nothing slides, so with dry friction it is the same.".to_string(),
         (Found::FixedPoint, Some(v)) => {
@@ -184,9 +206,31 @@ fn dry(page: &mut Page, file: &ResultFile) {
                 words(v)
             )
         }
+        (Found::Unlimited, _) => {
+            "With dry friction the live load alone comes to rest as well, on forces that it produces itself: no limit (computed, not proved)."
+                .to_string()
+        }
         _ => format!("With dry friction no value came out: after {} convex programs the friction limits had not settled.", dry.solves),
     };
     page.paragraph(&text);
+}
+
+/// What dry friction makes of a load factor.
+enum Dry {
+    /// Nothing slides, or it was not asked for: the answer is the bound.
+    Same,
+    /// A value of its own.
+    Other(f64),
+    /// It did not come out.
+    Undecided,
+}
+
+fn dry_of(file: &ResultFile) -> Dry {
+    match &file.dry {
+        Some(d) if d.found == Found::Undecided => Dry::Undecided,
+        Some(d) if d.found == Found::FixedPoint => d.value.map_or(Dry::Undecided, Dry::Other),
+        _ => Dry::Same,
+    }
 }
 
 /// The load factor with dry friction, where it is proved to be one of its own.
@@ -219,9 +263,15 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: Options) {
         .iter()
         .map(|d| {
             let toward = d.answer.toward.map(point).unwrap_or_default();
+            let dry = d.dry.as_ref().map(|dry| (dry.found, dry.value.map(|v| v.atan().to_degrees())));
+            let dry = match dry {
+                Some((Found::FixedPoint, Some(angle))) => format!(", with dry friction {angle:.4}°"),
+                Some((Found::Undecided, _)) => ", with dry friction undecided".into(),
+                _ => String::new(),
+            };
             let answer = match (status(&d.answer), found(&d.answer)) {
-                (Outcome::Found, Some(l)) => format!("{}°", degrees(l)),
-                (Outcome::Unbounded, _) => "stands at every tilt below 90°".into(),
+                (Outcome::Found, Some(l)) => format!("{}°{dry}", degrees(l)),
+                (Outcome::Unbounded, _) => format!("stands at every tilt below 90°{dry}"),
                 (Outcome::Impossible, _) => "falls at every tilt".into(),
                 _ => "undecided".into(),
             };

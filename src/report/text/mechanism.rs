@@ -18,9 +18,13 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
     let verb = if m.moving.len() == 1 { "moves" } else { "move, the fastest first" };
     let text = format!("{} of {} {verb}: {}", m.moving.len(), count(free, "free block"), fastest.join(", "));
     page.row("mechanism", [if fastest.len() < m.moving.len() { format!("{text}, …") } else { text }]);
-    for (label, motion) in
-        [("hinges", Motion::Hinge), ("slides", Motion::Slide), ("slip hinges", Motion::HingeAndSlide), ("parts", Motion::Part)]
-    {
+    for (label, motion) in [
+        ("hinges", Motion::Hinge),
+        ("crushes", Motion::Crush),
+        ("slides", Motion::Slide),
+        ("slip hinges", Motion::HingeAndSlide),
+        ("parts", Motion::Part),
+    ] {
         let joints: Vec<&JointWords> = m.joints.iter().filter(|j| j.motion == motion).collect();
         let width = joints.iter().map(|j| between(j).chars().count()).max().unwrap_or(0);
         let lines: Vec<String> = joints.iter().map(|j| format!("{:<width$}  at {}", between(j), point(j.at))).collect();

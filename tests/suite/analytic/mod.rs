@@ -9,8 +9,7 @@
 //! | `spheres` | R02–R09, R12–R14: discs and spheres |
 //! | `loads` | load factors that are negative, without limit or impossible; hanging loads; masses and centroids given by hand |
 //!
-//! Not asked: R10 and R11 (rolling arm: no such joint law yet); the zero-dilatancy load factors of E05–E09, R16, R17, A26; verdicts by
-//! that law are in `coulomb`.
+//! R10, R11 and A31 with cohesion are in `strength`, more of dry friction in `coulomb`.
 
 mod blocks;
 mod interfaces;

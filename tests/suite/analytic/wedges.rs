@@ -4,7 +4,11 @@
 use crate::ask::*;
 use nalgebra::Vector3;
 use serde_json::json;
-use voussoir::{analysis::Outcome, scene::Scene};
+use voussoir::{
+    analysis::{Law, Outcome},
+    scene::Scene,
+    verdict::Verdict,
+};
 
 /// A16: a wedge of half angle `a` between two blocks on a floor, everything of friction μ, pressed down by λ.
 fn wedge(a: f64, friction: f64) -> Scene {
@@ -83,6 +87,20 @@ fn a_block_in_a_groove_is_held_by_both_faces() {
     close("R16", tilt_deg(&groove(45.0, 0.5), [0.0, 1.0, 0.0]), 39.23, 1e-4);
 }
 
+/// Shear along the groove alone, as in the conventional theory of wedges: tan θ = μ / sin ω (E05, E06, E08, R16, R17).
+#[test]
+fn with_dry_friction_a_block_in_a_groove_slides_along_it() {
+    for (case, omega, friction, want) in [
+        ("E05", 45.0, 0.5, f64::sqrt(0.5)),
+        ("E06", 60.0, 0.4, 0.46188021535170065),
+        ("E08, type c", 60.0, 0.84, 44.12602113704874_f64.to_radians().tan()),
+        ("E08, type a", 30.0, 0.84, 59.23728046576109_f64.to_radians().tan()),
+        ("R17", 60.0, 0.2, 0.2 / f64::to_radians(60.0).sin()),
+    ] {
+        close(case, dry(&groove(omega, friction)).0, want, 1e-5);
+    }
+}
+
 #[test]
 fn a_steep_groove_locks_the_block() {
     // E08, types a and b: μ ≥ tan ω.
@@ -132,5 +150,8 @@ fn the_factor_of_safety_of_a_rock_wedge() {
     // the cones of both planes (conic programming) give more.
     let factor = 1.346291918773204;
     flips("E09", rock_wedge, factor * (1.0 - 1e-5), factor * (1.0 + 1e-5));
-    assert!(stands(&rock_wedge(1.233509249802143)));
+    // With dry friction: beyond it the forces exist, but the weight does not produce them.
+    let dry = 1.233509249802143;
+    assert_eq!(verdict(&rock_wedge(dry * (1.0 - 1e-3)), Law::Coulomb), Verdict::Stable);
+    assert_eq!(verdict(&rock_wedge(dry * (1.0 + 1e-3)), Law::Coulomb), Verdict::Conditional);
 }

@@ -14,8 +14,7 @@
 //! |---|---|
 //! | A27–A29, B28, B41 | thrusts at a support: not among the questions yet (the scenes of A28 and A29 are in `structures/`, asked for their verdict) |
 //! | B14, B15, B25 | limits for infinitely many voussoirs, and so of no assembly; B14's rate of convergence is stated for curved voussoirs, and blocks are polyhedra |
-//! | zero-dilatancy load factors of A26, D, E05–E09 | another law of sliding; verdicts by it are in `coulomb` |
-//! | E09 with cohesion and water | joints have friction only |
+//! | E09 with cohesion and water | published by the equilibrium of forces alone, with a pressure of water that varies over the planes |
 
 mod arches;
 mod extremes;

@@ -92,6 +92,15 @@ fn walls_of_ferris_and_tin_loi() {
     }
 }
 
+/// D01 without dilatancy: between the lowest certified complementary solution less 1.5 % and the associative value (D02, D03, D05 are in
+/// `coulomb`).
+#[test]
+fn a_wall_that_slides_without_opening() {
+    let (value, bound, solves) = dry(&wall(&WALL_1, 1.75, 0.65, 1.0));
+    println!("D01: {value:.7} (associative {bound:.7}), {solves} convex programs");
+    assert!((0.6293971061945..=0.6428590033139121 * (1.0 + 1e-6)).contains(&value) && solves <= 30, "{value} after {solves}");
+}
+
 #[test]
 fn a_turned_wall_has_the_same_load_factor() {
     // G26: wall 1, gravity and load turned by 37°.

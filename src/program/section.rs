@@ -1,0 +1,98 @@
+//! Crushing in a program: bounds on the normal forces of one joint.
+//!
+//! The bounds along the edges are second-order cones and exact where a rectangle is bent about one axis; what else the strength
+//! excludes is added as linear bounds, one by one, where forces break it ([`Interface::crushing`]).
+//!
+//! [`Interface::crushing`]: crate::interface::Interface::crushing
+
+use super::{Cone, ConicProgram, Statics, bearing::Bearing};
+use crate::interface::{Cut, Interfaces};
+
+/// A joint with a compressive strength.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// Index of the interface.
+    pub interface: usize,
+    /// Compressive and tensile strength together, Pa: normal forces count from the tensile strength on.
+    strength: f64,
+    /// Area, m².
+    area: f64,
+    /// Its bearings.
+    bearings: std::ops::Range<usize>,
+    /// Greatest width, m, and distances of the bearings, m, for each edge.
+    edges: Vec<(f64, Vec<f64>)>,
+    /// Weight of each bearing and capacity of the linear bounds so far.
+    cuts: Vec<(Vec<f64>, f64)>,
+}
+
+impl Section {
+    /// Adds a linear bound.
+    fn add(&mut self, cut: &Cut, bearings: &[Bearing]) {
+        let weights = bearings[self.bearings.clone()].iter().map(|b| b.mean(&cut.weights)).collect();
+        self.cuts.push((weights, cut.capacity));
+    }
+}
+
+/// The joints of a program that have a compressive strength.
+pub(super) fn sections(interfaces: &Interfaces, bearings: &[Bearing]) -> Vec<Section> {
+    let mut sections = Vec::new();
+    let mut first = 0;
+    for (interface, face) in interfaces.list.iter().enumerate() {
+        let count = bearings[first..].iter().take_while(|b| b.interface == interface).count();
+        let own = first..first + count;
+        first += count;
+        if !face.crushes() {
+            continue;
+        }
+        let edges = face.edge_bounds().into_iter();
+        let edges = edges.map(|(width, d)| (width, bearings[own.clone()].iter().map(|b| b.mean(&d)).collect())).collect();
+        let strength = face.law.compression + face.tension();
+        sections.push(Section { interface, strength, area: face.area, bearings: own, edges, cuts: Vec::new() });
+    }
+    sections
+}
+
+impl Statics {
+    /// Adds the bounds that forces break, `(interface, bound)`.
+    pub fn bound(&mut self, broken: &[(usize, Cut)]) {
+        for (interface, cut) in broken {
+            for section in self.sections.iter_mut().filter(|s| s.interface == *interface) {
+                section.add(cut, &self.bearings);
+            }
+        }
+    }
+
+    /// The rows of crushing in a program in forces, which start at variable `column`.
+    pub(super) fn section_rows(&self, p: &mut ConicProgram, column: usize) {
+        let total: f64 = self.free.iter().map(|f| f.weight).sum();
+        for section in &self.sections {
+            let bearings = &self.bearings[section.bearings.clone()];
+            let tension = |b: &Bearing| b.limits().map_or(0.0, |l| l.tension);
+            // `Σ weight × (f_n + T)` in units of `per`, on a row.
+            let add = |p: &mut ConicProgram, row: usize, weights: &mut dyn Iterator<Item = f64>, per: f64| {
+                for (b, weight) in bearings.iter().zip(weights) {
+                    p.matrix.push(row, column + b.column, -weight * b.unit / per);
+                    p.rhs[row] += weight * tension(b) / per;
+                }
+            };
+            let unit = total.min(section.strength * section.area);
+            for (width, distances) in &section.edges {
+                let deep = distances.iter().copied().fold(0.0, f64::max);
+                // ν² ≤ κ υ with ν = N / unit, υ = M / (unit × deep), as ‖(2ν/√κ, υ − 1)‖ ≤ υ + 1.
+                let kappa = 2.0 * section.strength * width * deep / unit;
+                let row = p.cone(Cone::SecondOrder(3));
+                let moment = unit * deep;
+                add(p, row, &mut distances.iter().copied(), moment);
+                add(p, row + 1, &mut distances.iter().map(|_| 2.0 / kappa.sqrt()), unit);
+                add(p, row + 2, &mut distances.iter().copied(), moment);
+                p.rhs[row] += 1.0;
+                p.rhs[row + 2] -= 1.0;
+            }
+            for (weights, capacity) in &section.cuts {
+                let row = p.cone(Cone::NonNegative(1));
+                add(p, row, &mut weights.iter().map(|w| -w), section.strength * capacity);
+                p.rhs[row] += 1.0;
+            }
+        }
+    }
+}
