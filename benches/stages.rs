@@ -41,7 +41,7 @@ fn stages(c: &mut Criterion) {
         group.bench_function(BenchmarkId::new("build", blocks), |b| {
             b.iter(|| {
                 program::load_factor(
-                    &Statics::new(assembly, interfaces, Options { keep_all: false, live: true, split: false }),
+                    &Statics::new(assembly, interfaces, Options { keep_all: false, live: true, ..Options::default() }),
                     1.0,
                     Unknowns::Rates,
                 )

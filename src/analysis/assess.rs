@@ -60,7 +60,7 @@ pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -
     if let Some(answer) = falls_freely(assembly, interfaces, &floating) {
         return answer;
     }
-    let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: false, split: false });
+    let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: false, ..Options::default() });
     let mut answer = least_unbalance(assembly, interfaces, &statics, LiveLoad::Absent, control);
     answer.floating = floating;
     if answer.verdict == Verdict::Stable && control.law == Law::Coulomb {
@@ -190,6 +190,7 @@ pub(super) fn least_unbalance(
             iterations: solution.trace.len(),
             size,
             seconds: solution.seconds,
+            engine_value: None,
             lower,
             upper,
         });

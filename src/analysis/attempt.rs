@@ -59,6 +59,9 @@ pub struct Attempt {
     pub size: [usize; 2],
     /// Seconds.
     pub seconds: f64,
+    /// The engine's number for the load factor, not recomputed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub engine_value: Option<f64>,
     /// Recomputed lower end.
     #[serde(deserialize_with = "super::ends::lower")]
     pub lower: f64,

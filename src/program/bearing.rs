@@ -1,6 +1,6 @@
 //! Contact points of the program: what each may carry, as columns and a cone.
 
-use super::{Cone, ConicProgram, Options, planar, planar::Plane};
+use super::{Cone, ConicProgram, Options, Pyramid, planar, planar::Plane};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interface, Interfaces},
@@ -253,6 +253,16 @@ fn friction_columns(face: &Interface, plane: Option<Plane>, options: Options) ->
         (Some(_), Friction::Coefficient(mu)) => {
             let (t, scale) = (tangents[0], 1.0 / mu.hypot(1.0));
             (vec![(n + t * mu) * scale, (n - t * mu) * scale], BearingCone::Rays)
+        }
+        (None, Friction::Coefficient(mu)) if options.pyramid.is_some_and(|p| p.facets > 2) => {
+            let Pyramid { facets, around } = options.pyramid.unwrap_or(Pyramid { facets: 3, around: false });
+            let step = std::f64::consts::TAU / facets as f64;
+            let slope = if around { mu / (0.5 * step).cos() } else { mu };
+            let edge = |k: usize| {
+                let (sin, cos) = (k as f64 * step).sin_cos();
+                (n + (tangents[0] * cos + tangents[1] * sin) * slope) / slope.hypot(1.0)
+            };
+            ((0..facets).map(edge).collect(), BearingCone::Rays)
         }
         (None, Friction::Coefficient(mu)) => {
             let (normal, shear) = if mu > 1.0 { (1.0 / mu, 1.0) } else { (1.0, mu) };

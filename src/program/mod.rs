@@ -26,7 +26,7 @@ pub use load_factor::load_factor;
 pub use planar::Plane;
 pub use reach::{floating, is_forest};
 pub use section::Section;
-pub use statics::{FreeBlock, Options, Statics};
+pub use statics::{FreeBlock, Options, Pyramid, Statics};
 pub use unbalance::{LiveLoad, unbalance};
 
 /// Which unknowns a program is written in; the others come out as multipliers.
