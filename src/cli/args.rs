@@ -103,7 +103,7 @@ pub struct Assess {
     #[arg(long, conflicts_with = "simulate")]
     pub thorough: bool,
     /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend on them.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     pub threads: u16,
 }
 
@@ -127,7 +127,7 @@ pub struct Simulate {
     #[arg(long, value_name = "LAMBDA", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
     pub load_factor: f64,
     /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend on them.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     pub threads: u16,
     /// Write where every block is, time by time, to this file as it happens.
     #[arg(long, value_name = "FILE")]
