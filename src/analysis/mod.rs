@@ -1,5 +1,6 @@
 //! Questions and answers: the only place where the stages are composed.
 
+pub mod agreement;
 pub mod assess;
 mod attempt;
 mod claim;
@@ -14,6 +15,7 @@ pub mod reuse;
 pub mod thrust;
 pub mod tilt;
 
+pub use agreement::{Agreement, ForceAgreement, agreement};
 pub use assess::{Assessment, assess};
 pub use attempt::{Attempt, Control, Law};
 pub use critical::{Critical, critical};

@@ -1,6 +1,6 @@
 //! The options that would have to be given again for the same answer, as typed.
 
-use super::args::{Common, Critical, DIRECTIONS, Law, Thrust, Tilt};
+use super::args::{Assess, Common, Critical, DIRECTIONS, Law, Simulate, Thrust, Tilt};
 use voussoir::sweep::Range;
 
 /// As typed, where it was given.
@@ -41,6 +41,27 @@ impl Thrust {
         let support = self.support.as_ref().map(|s| format!("--support {}", super::question::quoted(s)));
         let direction = self.direction.map(|[x, y, z]| format!("--direction {x},{y},{z}"));
         support.into_iter().chain(direction).collect()
+    }
+}
+
+impl Assess {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let given = [(self.simulate, "--simulate"), (self.thorough, "--thorough")];
+        let words = given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string());
+        worst(&self.worst).into_iter().chain(words).collect()
+    }
+}
+
+impl Simulate {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let given =
+            [(self.fast, "--fast"), (self.fine, "--fine"), (self.to_the_end, "--to-the-end"), (self.skip_verdict, "--skip-verdict")];
+        let words = given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string());
+        let seconds = self.seconds.map(|s| format!("--seconds {s}"));
+        let load = (self.load_factor != 0.0).then(|| format!("--load-factor {}", self.load_factor));
+        words.chain(seconds).chain(load).collect()
     }
 }
 

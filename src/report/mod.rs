@@ -4,11 +4,14 @@ pub mod critical;
 pub mod json;
 pub mod read;
 pub mod result;
+pub mod simulation;
 pub mod svg;
 pub mod sweep;
 pub mod text;
 pub mod thrust;
+pub mod trajectory;
 pub mod verify;
 
 pub use result::{Leaning, ResultFile};
+pub use simulation::Simulation;
 pub use verify::verify;

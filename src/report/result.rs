@@ -3,10 +3,12 @@
 
 use super::{
     critical::{CriticalResult, CriticalValue},
+    simulation::Simulation,
     thrust::{ThrustAnswer, ThrustResult},
 };
 use crate::{
-    analysis::{Assessment, Attempt, Bracket, Law, LoadFactor, Model, Outcome, Tilt, Timings, coulomb},
+    analysis::{Assessment, Attempt, Bracket, Law, LoadFactor, Model, Outcome, Tilt, Timings, agreement, coulomb},
+    dynamics::{Fate, Outcome as Simulated},
     error::Finding,
     scene::Scene,
     verdict::{
@@ -59,6 +61,9 @@ pub struct ResultFile {
     /// Thrust: the evidence for both ends and the line of thrust.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thrust: Option<ThrustResult>,
+    /// What happened in time, where it was simulated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub simulation: Option<Simulation>,
     /// The mechanism in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
@@ -88,6 +93,8 @@ pub enum Question {
     Critical,
     /// How hard does it push a support?
     Thrust,
+    /// What happens in time, and does it agree with the verdict?
+    Simulate,
 }
 
 /// The scene a result is about.
@@ -115,6 +122,9 @@ pub struct Answer {
     /// Does it stand?
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
+    /// Simulate: what became of it in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fate: Option<Fate>,
     /// Bracket of the least unbalance, in multiples of gravity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unbalance: Option<Bracket>,
@@ -310,6 +320,7 @@ impl ResultFile {
             coulomb_state: None,
             critical: None,
             thrust: None,
+            simulation: None,
             mechanism: None,
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),
@@ -396,6 +407,33 @@ impl ResultFile {
         let (dry, findings) = dry_result(model, d);
         self.dry = Some(dry);
         self.warn(&findings);
+        self
+    }
+
+    /// The result of `simulate`, beside the verdict where there is one.
+    pub fn simulated(scene: &Scene, model: &Model, a: Option<&Assessment>, outcome: &Simulated) -> Self {
+        let mut file = match a {
+            Some(a) => Self::assessment(scene, model, a),
+            None => Self::new(Question::Simulate, scene, model, Answer::default(), certify(model, None, &Vec::new(), None, &[]).0),
+        };
+        file.question = Question::Simulate;
+        file.answer.fate = Some(outcome.fate);
+        file.with_simulation(model, a, outcome)
+    }
+
+    /// Adds what happened in time to a result of `assess`.
+    #[must_use]
+    pub fn with_simulation(mut self, model: &Model, a: Option<&Assessment>, outcome: &Simulated) -> Self {
+        let agreement = a.map(|a| {
+            let mut agreement = agreement(&model.assembly, &model.interfaces, a, outcome);
+            if self.answer.verdict == Some(Verdict::Undecided) {
+                // Also where the verification took the verdict back.
+                (agreement.verdict, agreement.agrees) = (Verdict::Undecided, None);
+            }
+            agreement
+        });
+        self.warnings.extend(outcome.findings.iter().cloned());
+        self.simulation = Some(Simulation::new(model, outcome, agreement));
         self
     }
 

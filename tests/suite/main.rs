@@ -2,6 +2,7 @@
 
 mod ask;
 
+mod agreement;
 mod analytic;
 mod bad_input;
 mod certificates;
@@ -9,6 +10,7 @@ mod cli;
 mod coulomb;
 mod critical;
 mod determinism;
+mod dynamics;
 mod extreme;
 mod invariance;
 mod layering;

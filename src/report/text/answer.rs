@@ -4,6 +4,7 @@ use super::{
     Options, SHOWN, cut,
     number::{bracketed, decimals, ends, fixed, point},
     page::{Page, Role},
+    simulation,
 };
 use crate::{
     analysis::{Outcome, coulomb::Found},
@@ -21,6 +22,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
             Some(Verdict::Unstable) => ("falls".to_string(), Role::Bad),
             Some(Verdict::Undecided) | None => ("undecided".to_string(), Role::Unsure),
         },
+        Question::Simulate => simulation::title(file),
         Question::Limit => match (status(&file.answer), found(&file.answer)) {
             (Outcome::Found, Some((value, lower, upper))) => {
                 let role = if upper < 0.0 { Role::Bad } else { Role::Value };
@@ -82,7 +84,11 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
 /// The sentences that say what the answer rests on and what it does not say.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
     match file.question {
-        Question::Assess => return verdict(page, file),
+        Question::Assess => {
+            verdict(page, file);
+            return simulation::why(page, file);
+        }
+        Question::Simulate => return simulation::why(page, file),
         Question::Critical => return super::critical::why(page, file),
         Question::Thrust => return super::thrust::why(page, file),
         Question::Limit | Question::Tilt => {}

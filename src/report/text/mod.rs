@@ -6,6 +6,7 @@ mod critical;
 mod mechanism;
 pub mod number;
 mod page;
+mod simulation;
 mod thrust;
 
 pub use check::{inspection, verification};
@@ -52,6 +53,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: Options, layout: Layout)
     answer::directions(&mut page, file, options);
     critical::rows(&mut page, file, options);
     thrust::rows(&mut page, file, options);
+    simulation::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
     page.row(
@@ -88,7 +90,14 @@ fn cut(items: &[String], most: usize, options: Options) -> Vec<String> {
 
 fn time(file: &ResultFile) -> String {
     let t = &file.timings;
-    let stages = [("read", t.read), ("resolve", t.resolve), ("interfaces", t.detect), ("solve", t.solve), ("check", t.check)];
+    let stages = [
+        ("read", t.read),
+        ("resolve", t.resolve),
+        ("interfaces", t.detect),
+        ("solve", t.solve),
+        ("simulate", t.simulate),
+        ("check", t.check),
+    ];
     let list: Vec<String> = stages.iter().filter(|s| s.1 > 0.0).map(|(name, s)| format!("{name} {}", seconds(*s))).collect();
     format!("{} ({})", seconds(stages.iter().map(|s| s.1).sum()), list.join(", "))
 }
@@ -117,11 +126,15 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         Question::Tilt => "tilt",
         Question::Critical => "critical",
         Question::Thrust => "thrust",
+        Question::Simulate => "simulate",
     };
     let again =
         if asked.options.is_empty() { format!("voussoir {verb} {scene}") } else { format!("voussoir {verb} {scene} {}", asked.options) };
     let look = (format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
     let elsewhere = file.critical.is_some() || file.thrust.is_some();
+    if file.question == Question::Simulate {
+        return page.commands("next", &simulation::next(file, scene, &again));
+    }
     if file.certificate.claim.is_none() && !elsewhere {
         return page.commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
     }
