@@ -79,11 +79,36 @@ pub(super) struct Rung {
     pub unit: f64,
     /// Whether small blocks get units of their own.
     pub local: bool,
+    /// Whether all blocks are measured by the greatest load ([`Statics::even`]).
+    pub even: bool,
     pub settings: Settings,
 }
 
 pub(super) const fn rung(unknowns: Unknowns, unit: f64, local: bool, tolerance: f64, regularization: f64, equilibrate: bool) -> Rung {
-    Rung { unknowns, unit, local, settings: Settings { tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY } }
+    Rung {
+        unknowns,
+        unit,
+        local,
+        even: false,
+        settings: Settings { tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY },
+    }
+}
+
+/// The same for scenes of very unequal masses.
+pub(super) const fn even(rung: Rung) -> Rung {
+    Rung { even: true, ..rung }
+}
+
+impl Rung {
+    /// The equilibrium as this step takes it.
+    pub fn scaled(&self, statics: &Statics) -> Statics {
+        let mut statics = statics.clone();
+        statics.rescale(self.unit, self.local);
+        if self.even {
+            statics.even();
+        }
+        statics
+    }
 }
 
 /// Forces and rates of a solved program in our signs and units.

@@ -7,7 +7,7 @@
 use super::{
     Bracket,
     assess::least_unbalance,
-    attempt::{Attempt, Control, Run, Rung, run, rung},
+    attempt::{Attempt, Control, Run, Rung, even, run, rung},
 };
 use crate::{
     assembly::Assembly,
@@ -57,13 +57,15 @@ pub struct LoadFactor {
 }
 
 /// Best first; measured on the reference cases and on walls pushed in and out of their plane.
-const LADDER: [Rung; 6] = [
+const LADDER: [Rung; 8] = [
     rung(Unknowns::Rates, 16.0, true, 1e-9, 1e-9, true),
     rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
     rung(Unknowns::Forces, 8.0, true, 1e-11, 1e-9, true),
     rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true),
     rung(Unknowns::Rates, 1.0, false, 1e-11, 1e-8, true),
     rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
+    even(rung(Unknowns::Rates, 1.0, true, 1e-12, 1e-9, true)),
+    even(rung(Unknowns::Forces, 1.0, true, 1e-12, 1e-9, true)),
 ];
 
 /// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is neither where both ends
@@ -103,6 +105,10 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     }
     if answer.outcome == Outcome::Found {
         answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
+    } else if answer.bracket.width() < 0.0 {
+        // Ends that cross enclose nothing: the first-order allowances did not hold.
+        answer.bracket = Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
+        answer.value = f64::NAN;
     }
     answer
 }
@@ -124,8 +130,7 @@ fn unknown(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics) -> L
 
 /// One attempt at program L; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
 fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
-    let mut statics = base.clone();
-    statics.rescale(step.unit, step.local);
+    let mut statics = step.scaled(base);
     let settings = crate::solve::Settings { seconds: left, ..step.settings };
     let build = |statics: &Statics| program::load_factor(statics, scale, step.unknowns);
     let Run { candidate, solution, size } = run(assembly, interfaces, &mut statics, build, &settings);
@@ -170,7 +175,7 @@ pub fn attempt(assembly: &Assembly, interfaces: &Interfaces, way: &Way) -> LoadF
     let mut statics = Statics::new(assembly, interfaces, Options { live: true, ..way.options });
     let mut answer = unknown(assembly, interfaces, &statics);
     let scale = if way.options.unscaled { 1.0 } else { check::natural_factor(assembly) };
-    let step = Rung { unknowns: way.unknowns, unit: way.unit, local: way.local, settings: way.settings };
+    let step = Rung { unknowns: way.unknowns, unit: way.unit, local: way.local, even: false, settings: way.settings };
     climb(assembly, interfaces, &mut statics, step, scale, way.settings.seconds, &mut answer);
     let value = answer.value.abs();
     if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly)) {

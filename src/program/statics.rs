@@ -207,6 +207,22 @@ impl Statics {
         }
     }
 
+    /// Measures every block by the greatest load instead of its own: rates of light blocks among heavy ones then come out as exactly as
+    /// those of the heavy ones, at the cost of their forces.
+    pub fn even(&mut self) {
+        let greatest = self.free.iter().map(|f| f.weight).fold(0.0, f64::max);
+        let by: Vec<f64> = self.free.iter().map(|f| f.weight / greatest).collect();
+        let d = self.rates_per_block;
+        for (i, v) in self.matrix.i.iter().zip(&mut self.matrix.v) {
+            *v *= by[*i / d];
+        }
+        for (row, (dead, live)) in self.dead.iter_mut().zip(&mut self.live).enumerate() {
+            *dead *= by[row / d];
+            *live *= by[row / d];
+        }
+        self.free.iter_mut().for_each(|f| f.weight = greatest);
+    }
+
     /// Whether joints have strengths or couples, for which only programs in forces exist.
     pub fn in_forces_only(&self) -> bool {
         self.bearings.iter().any(|b| b.limits().is_some())

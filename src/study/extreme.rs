@@ -90,7 +90,7 @@ pub fn grid() -> Vec<Cell> {
     for mass in [1e-9, 1e-3, 1.0, 1e3, 1e9] {
         for size in [1e-3, 1.0, 1e3] {
             for slenderness in [0.01, 1.0, 100.0] {
-                for friction in [1e-3, 0.7, 1e6] {
+                for friction in if mass == 1.0 { &[1e-3, 0.7, 100.0, 1e6][..] } else { &[1e-3, 0.7, 100.0] }.iter().copied() {
                     for blocks in [2, 10] {
                         column(&mut cells, blocks, mass, size, slenderness, friction);
                     }
@@ -103,7 +103,7 @@ pub fn grid() -> Vec<Cell> {
     }
     for mass in [1e-6, 1.0, 1e6] {
         for thickness in [0.01, 0.5, 20.0] {
-            for friction in [1e-3, 0.6, 1e6] {
+            for friction in if mass == 1.0 { &[1e-3, 0.6, 100.0, 1e6][..] } else { &[1e-3, 0.6, 100.0] }.iter().copied() {
                 for (courses, blocks) in [(3, 3), (8, 4)] {
                     wall(&mut cells, courses, blocks, mass, thickness, friction);
                 }
@@ -121,6 +121,9 @@ pub fn grid() -> Vec<Cell> {
     }
     cells
 }
+
+/// Least unbalance of a semicircular arch of unit depth over its distance from critical, in multiples of gravity.
+const ARCH_UNBALANCE: f64 = 0.2;
 
 /// Critical t/R of semicircular arches by number of voussoirs.
 const CRITICAL: [(usize, f64); 2] = [(16, 0.10707620314306167), (27, 0.10672090355137132)];
@@ -217,6 +220,10 @@ fn wall(cells: &mut Vec<Cell>, courses: usize, length: usize, mass: f64, thickne
 fn arch(cells: &mut Vec<Cell>, voussoirs: usize, critical: f64, friction: f64, depth: f64, radius: f64, density: f64) {
     let what = format!("{voussoirs} voussoirs, depth / radius {depth:.0e}, radius {radius} m, density {density:.0e}, friction {friction}");
     for distance in [1e-2, 1e-4, 1e-6] {
+        // A voussoir's moment counts over half its size, which the depth rules.
+        if ARCH_UNBALANCE * distance / depth.max(1.0) < 0.1 * TELLING {
+            continue;
+        }
         for (stands, factor) in [(true, 1.0 + distance), (false, 1.0 - distance)] {
             let scene = json!({ "format": "voussoir-scene/1", "materials": { "m": { "density": density } }, "joints": { "default": { "friction": friction } },
                 "templates": [{ "arch": { "radius": radius, "thickness": radius * critical * factor, "depth": depth * radius, "embrace_deg": 180, "voussoirs": voussoirs, "material": "m" } }] });
@@ -294,8 +301,10 @@ impl Cell {
                 let claim = Claim::LoadFactor { value: l.value, lower: l.bracket.lower, upper: l.bracket.upper };
                 let right = found.inside == Some(true) && verify(assembly, interfaces, &claim, &l.forces, None, &l.rates).proved();
                 found.grade = match l.outcome {
-                    Outcome::Undecided if found.inside != Some(false) => Grade::Undecided,
                     Outcome::Found if right => Grade::Right,
+                    // Not proved: the result file gives no number either.
+                    Outcome::Found if found.inside == Some(true) => Grade::Undecided,
+                    Outcome::Undecided => Grade::Undecided,
                     _ => Grade::Wrong,
                 };
             }
@@ -320,7 +329,7 @@ pub struct Count {
     pub load_factors: usize,
     /// Of those, brackets no wider than 1e-6 of the value.
     pub narrow: usize,
-    /// Greatest relative error of a load factor.
+    /// Greatest relative error of a load factor that is right.
     pub error: f64,
     /// Most iterations.
     pub iterations: usize,
@@ -341,7 +350,9 @@ pub fn count(found: &[Found], family: Option<&str>) -> Count {
         if matches!(f.ask, Ask::LoadFactor(_)) {
             c.load_factors += 1;
             c.narrow += usize::from(f.bracket.is_some_and(|b| b <= tolerance::LOAD_FACTOR_WIDTH));
-            c.error = c.error.max(f.error.unwrap_or(0.0));
+            if f.grade == Grade::Right {
+                c.error = c.error.max(f.error.unwrap_or(0.0));
+            }
         }
         c.iterations = c.iterations.max(f.iterations);
         c.seconds += f.seconds;
