@@ -88,8 +88,8 @@ pub mod verdict;
 pub mod dynamics;
 
 pub mod analysis;
+pub mod sweep;
 
 pub mod study;
-pub mod sweep;
 
 pub mod report;

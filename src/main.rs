@@ -22,6 +22,7 @@ fn main() -> ExitCode {
         Verb::Tilt(a) => cli::tilt::run(&a, &terminal),
         Verb::Critical(a) => cli::critical::run(&a, &terminal),
         Verb::Thrust(a) => cli::thrust::run(&a, &terminal),
+        Verb::Study(a) => cli::study::run(&a, &terminal),
         Verb::Simulate(a) => cli::simulate::run(&a, &terminal),
         Verb::Generate(a) => cli::generate::run(&a),
         Verb::Import(a) => cli::import::run(&a),

@@ -90,6 +90,12 @@ pub enum Verb {
     /// nothing with the verdict but the blocks and where they touch. It proves nothing; near a limit (3 % with fast steps, 1 % with fine
     /// ones) it may err. Exit code 0 if it stands, 1 if it falls, 3 if that stays open.
     Simulate(Simulate),
+    /// Error against run time, per method, on scenes with known answers.
+    ///
+    /// Each method runs over its knob (the engine's tolerance, facets of friction pyramids, number of verdicts, time steps); medians of
+    /// repeated runs. With --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
+    /// answer is wrong.
+    Study(Study),
     /// Make a scene from a template.
     ///
     /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON on the right:
@@ -260,6 +266,37 @@ pub struct Simulate {
     /// Do not ask for the verdict to compare with.
     #[arg(long)]
     pub skip_verdict: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Study {
+    /// Scenes to study, by name: arch, wall, openings, corner, groove, column, courses, tiny. All of them by default.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "extreme")]
+    pub scenes: Vec<String>,
+    /// Every other setting of each knob, no simulations, no repetition: under a minute.
+    #[arg(long, conflicts_with = "extreme")]
+    pub quick: bool,
+    /// Runs per setting, of which the median counts; 3 by default, 1 with --quick.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), conflicts_with = "extreme")]
+    pub repeat: Option<u16>,
+    /// The stiff and extreme grid instead.
+    #[arg(long)]
+    pub extreme: bool,
+    /// Write every run to this file, comma-separated.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Draw the charts into this folder: one per scene, and profile.svg over all.
+    #[arg(long, value_name = "FOLDER", conflicts_with = "extreme")]
+    pub svg: Option<PathBuf>,
+    /// Print every run as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// Lists in full.
+    #[arg(short, long)]
+    pub verbose: bool,
+    /// No progress.
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 #[derive(Debug, Args)]

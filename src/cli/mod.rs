@@ -15,6 +15,7 @@ mod progress;
 mod question;
 pub mod schema;
 pub mod simulate;
+pub mod study;
 pub mod sweep;
 pub mod terminal;
 pub mod thrust;

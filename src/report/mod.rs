@@ -5,6 +5,7 @@ pub mod json;
 pub mod read;
 pub mod result;
 pub mod simulation;
+pub mod study;
 pub mod svg;
 pub mod sweep;
 pub mod text;

@@ -6,6 +6,8 @@ use crate::{
         Control, Law, LoadFactor, Model, assess, coulomb,
         limit::{self, Way},
     },
+    assembly::Assembly,
+    dynamics::{self, Fate, Fidelity},
     program::{Options, Pyramid, Statics, Unknowns},
     solve::Settings,
     verdict::Verdict,
@@ -35,11 +37,13 @@ pub enum Method {
     Bisection,
     /// The load factor with dry friction. No knob.
     DryFriction,
+    /// Bisection by simulations in time; knob: steps per second (fast, fine).
+    Simulation,
 }
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Ladder,
         Self::Forces,
         Self::Rates,
@@ -49,6 +53,7 @@ impl Method {
         Self::PyramidAround,
         Self::Bisection,
         Self::DryFriction,
+        Self::Simulation,
     ];
 
     /// What people call it.
@@ -63,6 +68,7 @@ impl Method {
             Self::PyramidAround => "pyramids around",
             Self::Bisection => "bisection of verdicts",
             Self::DryFriction => "dry friction",
+            Self::Simulation => "simulation in time",
         }
     }
 
@@ -73,14 +79,16 @@ impl Method {
             Self::Forces | Self::Rates | Self::KeepAll | Self::Unscaled => "tolerance",
             Self::PyramidInside | Self::PyramidAround => "facets",
             Self::Bisection => "verdicts",
+            Self::Simulation => "steps per second",
         }
     }
 
     /// The settings of its knob that make sense for a scene.
-    pub(super) fn knobs(self, model: &Model, quick: bool) -> Vec<f64> {
+    pub(super) fn knobs(self, known: &Known, model: &Model, quick: bool) -> Vec<f64> {
         let plane = || Statics::new(&model.assembly, &model.interfaces, Options { live: true, ..Options::default() }).plane.is_some();
         let thin = |list: Vec<f64>| if quick { list.into_iter().step_by(2).collect() } else { list };
         match self {
+            Self::DryFriction | Self::Simulation if known.dry.is_none() => Vec::new(),
             Self::Ladder | Self::DryFriction => vec![0.0],
             Self::KeepAll if !plane() => Vec::new(),
             Self::Forces | Self::Rates | Self::KeepAll | Self::Unscaled => thin((1..=6).map(|k| 10f64.powi(-2 * k)).collect()),
@@ -88,6 +96,9 @@ impl Method {
             Self::PyramidInside | Self::PyramidAround if plane() => Vec::new(),
             Self::PyramidInside | Self::PyramidAround => thin(vec![4.0, 8.0, 16.0, 32.0]),
             Self::Bisection => thin(vec![8.0, 16.0, 24.0, 32.0]),
+            // Minutes on large scenes, for two digits.
+            Self::Simulation if model.assembly.blocks.len() > SIMULATED || quick => Vec::new(),
+            Self::Simulation => vec![240.0, 1000.0],
         }
     }
 
@@ -101,7 +112,9 @@ impl Method {
             let options = Options { pyramid: Some(Pyramid { facets: knob as usize, around }), keep_all: true, ..Options::default() };
             once(Way { options, ..Way::usual(Unknowns::Forces) })
         };
-        let mut truth = known.truth;
+        // What is simulated slides without opening.
+        let dry = matches!(self, Self::DryFriction | Self::Simulation);
+        let truth = if dry { known.dry.unwrap_or(f64::NAN) } else { known.truth };
         let got: Got = match self {
             Self::Ladder => {
                 let l = limit::limit(assembly, interfaces, &Control { law: Law::Associative, ..Control::default() });
@@ -125,9 +138,9 @@ impl Method {
             Self::DryFriction => {
                 let l = limit::limit(assembly, interfaces, &Control::default());
                 let d = coulomb::load_factor(assembly, interfaces, &l, &Control::default());
-                truth = known.dry.unwrap_or(f64::NAN);
                 Got { value: Some(d.value), iterations: d.solves, ..Got::default() }
             }
+            Self::Simulation => simulated(model, if knob < 500.0 { Fidelity::Fast } else { Fidelity::Fine }, 2.0 * known.truth),
         };
         let value = got.value.filter(|v| v.is_finite());
         Point {
@@ -164,16 +177,43 @@ impl From<LoadFactor> for Got {
     }
 }
 
+/// Scenes with more blocks are not simulated.
+const SIMULATED: usize = 40;
+/// Simulations of a bisection: two digits, more than the steps can tell.
+const SIMULATIONS: usize = 8;
+
+/// Halving between 0 and `high` by what happens in time.
+fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Got {
+    let settings = dynamics::Settings { fidelity: Some(fidelity), ..dynamics::Settings::default() };
+    let mut low = 0.0;
+    for _ in 0..SIMULATIONS {
+        let middle = 0.5 * (low + high);
+        match dynamics::simulate(&loaded(model, middle), &model.interfaces, &settings, &mut |_| std::ops::ControlFlow::Continue(()))
+            .map(|outcome| outcome.fate)
+        {
+            Ok(Fate::Stands) => low = middle,
+            Ok(Fate::Falls) => high = middle,
+            _ => break,
+        }
+    }
+    Got { value: Some(0.5 * (low + high)), bracket: Some(high - low), ..Got::default() }
+}
+
+/// The assembly with a multiple of the live load added to the dead load.
+fn loaded(model: &Model, factor: f64) -> Assembly {
+    let mut loaded = model.assembly.clone();
+    for (dead, live) in loaded.dead.iter_mut().zip(&model.assembly.live) {
+        *dead += *live * factor;
+    }
+    loaded
+}
+
 /// Halving between 0 and `high` by verdicts about the scene under its dead load and that multiple of the live load.
 fn bisection(model: &Model, verdicts: usize, mut high: f64) -> Got {
     let (mut low, mut iterations) = (0.0, 0);
     for _ in 0..verdicts {
         let middle = 0.5 * (low + high);
-        let mut loaded = model.assembly.clone();
-        for (dead, live) in loaded.dead.iter_mut().zip(&model.assembly.live) {
-            *dead += *live * middle;
-        }
-        let answer = assess(&loaded, &model.interfaces, &Control { law: Law::Associative, ..Control::default() });
+        let answer = assess(&loaded(model, middle), &model.interfaces, &Control { law: Law::Associative, ..Control::default() });
         iterations += answer.attempts.iter().map(|a| a.iterations).sum::<usize>();
         match answer.verdict {
             Verdict::Stable | Verdict::Conditional => low = middle,

@@ -38,9 +38,10 @@ pub struct Point {
 }
 
 impl Point {
-    /// Whether the engine said "solved" of a number that is off by more than [`WRONG`].
+    /// Whether the engine said "solved" of a number that is off by more than [`WRONG`], and by far more than the tolerance it was given.
     pub fn is_silently_wrong(&self) -> bool {
-        self.status == Some(Status::Solved) && self.error.is_some_and(|e| e > WRONG)
+        let asked = if self.method.knob() == "tolerance" { 100.0 * self.knob } else { 0.0 };
+        self.status == Some(Status::Solved) && self.error.is_some_and(|e| e > WRONG.max(asked))
     }
 }
 
@@ -56,7 +57,7 @@ pub fn run(scenes: &[Known], quick: bool, repeat: usize, mut each: impl FnMut(&P
     for known in scenes {
         let model = crate::analysis::prepare(&known.scene)?;
         for method in Method::ALL {
-            for knob in method.knobs(&model, quick) {
+            for knob in method.knobs(known, &model, quick) {
                 let mut runs: Vec<Point> = (0..repeat.max(1)).map(|_| method.run(known, &model, knob)).collect();
                 runs.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
                 let point = runs.swap_remove(runs.len() / 2);
@@ -75,7 +76,7 @@ pub fn run(scenes: &[Known], quick: bool, repeat: usize, mut each: impl FnMut(&P
 pub fn count(scenes: &[Known], quick: bool) -> Result<usize, InputError> {
     let of = |known: &Known| {
         let model = crate::analysis::prepare(&known.scene)?;
-        Ok(Method::ALL.iter().map(|m| m.knobs(&model, quick).len()).sum::<usize>())
+        Ok(Method::ALL.iter().map(|m| m.knobs(known, &model, quick).len()).sum::<usize>())
     };
     scenes.iter().map(of).sum()
 }
