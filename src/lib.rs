@@ -88,6 +88,7 @@ pub mod verdict;
 pub mod dynamics;
 
 pub mod analysis;
+
 pub mod sweep;
 
 pub mod study;

@@ -9,6 +9,7 @@ use voussoir::{
     report::{
         ResultFile, json,
         text::{self, Asked, Options},
+        work::Work,
     },
     scene::{Scene, Source},
     sweep::{self, Range, WorstOf},
@@ -93,6 +94,7 @@ impl<'a> Question<'a> {
         file.timings.simulate = file.simulation.iter().flat_map(|s| &s.runs).map(|r| r.seconds).sum();
         file.timings.solve = (solve - file.timings.simulate).max(0.0);
         file.timings.check = start.elapsed().as_secs_f64();
+        file.work = Some(Work::of(&file, &self.model));
         if self.save.is_some() || self.common.json {
             let text = json::pretty(&file)?;
             if let Some(save) = &self.save {

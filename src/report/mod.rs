@@ -12,6 +12,7 @@ pub mod text;
 pub mod thrust;
 pub mod trajectory;
 pub mod verify;
+pub mod work;
 
 pub use result::{Leaning, ResultFile};
 pub use simulation::Simulation;

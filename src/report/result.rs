@@ -5,6 +5,7 @@ use super::{
     critical::{CriticalResult, CriticalValue},
     simulation::Simulation,
     thrust::{ThrustAnswer, ThrustResult},
+    work::Work,
 };
 use crate::{
     analysis::{Assessment, Attempt, Bracket, Law, LoadFactor, Model, Outcome, Tilt, Timings, agreement, coulomb},
@@ -73,6 +74,9 @@ pub struct ResultFile {
     pub warnings: Vec<Finding>,
     /// Seconds per stage.
     pub timings: Timings,
+    /// What it cost, beside the seconds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub work: Option<Work>,
     /// Every attempt at a program.
     pub trace: Vec<Attempt>,
     /// Versions.
@@ -325,6 +329,7 @@ impl ResultFile {
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),
             timings: model.timings,
+            work: None,
             trace: Vec::new(),
             versions: Versions::default(),
         }

@@ -12,7 +12,10 @@ mod thrust;
 pub use check::{inspection, verification};
 pub use page::{Layout, Page, Role, Span, printable};
 
-use super::result::{Question, ResultFile};
+use super::{
+    result::{Question, ResultFile},
+    work::Work,
+};
 use crate::{analysis::Attempt, verdict::Verdict};
 use number::{count, seconds};
 
@@ -70,6 +73,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: Options, layout: Layout)
     page.row("note", cut(&file.warnings.iter().map(|f| f.text.clone()).collect::<Vec<_>>(), NOTES, options));
     page.row("time", [time(file)]);
     if options.verbose {
+        page.row("work", file.work.iter().map(work));
         page.row("attempts", file.trace.iter().map(attempt));
     }
     page.blank();
@@ -100,6 +104,20 @@ fn time(file: &ResultFile) -> String {
     ];
     let list: Vec<String> = stages.iter().filter(|s| s.1 > 0.0).map(|(name, s)| format!("{name} {}", seconds(*s))).collect();
     format!("{} ({})", seconds(stages.iter().map(|s| s.1).sum()), list.join(", "))
+}
+
+fn work(w: &Work) -> String {
+    let memory = w.peak_memory.map_or(String::new(), |b| format!(", at most {:.0} MB of memory", b as f64 / 1e6));
+    format!(
+        "{} and {} of fixed points, {} iterations; the largest has {} unknowns and {} rows, of {} forces and {} equations before omissions{memory}",
+        count(w.attempts, "program"),
+        w.fixed_points,
+        w.iterations,
+        w.largest[0],
+        w.largest[1],
+        w.full[0],
+        w.full[1]
+    )
 }
 
 fn attempt(a: &Attempt) -> String {
