@@ -40,14 +40,16 @@
 //! let range = Range { pointer: "/templates/0/arch/thickness".into(), from: 0.05, to: 0.3, scan: Some(5) };
 //! let answer = analysis::critical(&scene, &range, &Control { law: Law::Associative, ..Default::default() })?;
 //! assert!((answer.changes[0].value - 0.106_720_903_551).abs() < 1e-10);
+//! # Ok::<(), voussoir::error::InputError>(())
+//! ```
+//!
 //! A second opinion comes from running the same blocks in time:
 //!
 //! ```
 //! use voussoir::{analysis, dynamics::{Fate, simulate}, scene};
 //! let (scene, _) = scene::read_file("structures/semicircular-arch-thin.json".as_ref())?;
 //! let model = analysis::prepare(&scene)?;
-//! let go_on = |_: &_| std::ops::ControlFlow::Continue(());
-//! let outcome = simulate(&model.assembly, &model.interfaces, &Default::default(), &mut { go_on })?;
+//! let outcome = simulate(&model.assembly, &model.interfaces, &Default::default(), &mut |_| std::ops::ControlFlow::Continue(()))?;
 //! assert_eq!(outcome.fate, Fate::Falls);
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```

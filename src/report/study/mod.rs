@@ -53,7 +53,7 @@ pub fn csv(points: &[Point]) -> Result<String, csv::Error> {
 /// A table of every cell of the extreme grid.
 ///
 /// # Errors
-/// As [`csv`].
+/// As [`csv()`].
 pub fn extreme_csv(found: &[Found]) -> Result<String, csv::Error> {
     let mut out = csv::Writer::from_writer(Vec::new());
     out.write_record(["family", "what", "asked", "grade", "value", "relative_error", "bracket", "iterations", "seconds"])?;
