@@ -279,6 +279,9 @@ pub struct Study {
     /// Runs per setting, of which the median counts; 3 by default, 1 with --quick.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), conflicts_with = "extreme")]
     pub repeat: Option<u16>,
+    /// What leaving things out saves instead: load factors with and without omissions.
+    #[arg(long, conflicts_with_all = ["extreme", "quick", "csv", "svg"])]
+    pub omissions: bool,
     /// The stiff and extreme grid instead.
     #[arg(long)]
     pub extreme: bool,

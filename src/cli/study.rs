@@ -40,6 +40,17 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         return Ok(if extreme::count(&found, None).wrong == 0 { Exit::Yes } else { Exit::No });
     }
     let scenes = chosen(&args.scenes)?;
+    if args.omissions {
+        bar.set_length(2 * scenes.len() as u64);
+        let list = study::omissions(&scenes, args.repeat.map_or(3, usize::from), || bar.inc(1))?;
+        bar.finish_and_clear();
+        if args.json {
+            terminal::print(&json::pretty(&list)?)?;
+        } else {
+            terminal.page(&report::omissions_text(&list, layout))?;
+        }
+        return Ok(Exit::Yes);
+    }
     bar.set_length(study::count(&scenes, args.quick)? as u64);
     let repeat = args.repeat.map_or(if args.quick { 1 } else { 3 }, usize::from);
     let points = study::run(&scenes, args.quick, repeat, |_| bar.inc(1))?;

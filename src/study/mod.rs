@@ -7,9 +7,11 @@
 pub mod extreme;
 mod known;
 mod method;
+mod omissions;
 
 pub use known::{Known, known};
 pub use method::Method;
+pub use omissions::{Omission, omissions};
 
 use crate::{error::InputError, solve::Status};
 use serde::{Deserialize, Serialize};

@@ -55,3 +55,14 @@ fn naive_scaling_is_solved_and_wrong() {
     assert!(report::errors("groove", &points).unwrap().starts_with("<svg") && report::profiles(&points, 1e-6).unwrap().contains("</svg>"));
     assert_eq!(report::csv(&points).unwrap().lines().count(), points.len() + 1);
 }
+
+#[test]
+fn omissions_change_no_answer() {
+    let scenes: Vec<_> = known().into_iter().filter(|k| ["arch", "wall", "openings", "groove", "tiny"].contains(&k.name)).collect();
+    let list = study::omissions(&scenes, 1, || {}).unwrap();
+    for o in &list {
+        assert!(o.difference().is_some_and(|d| d <= 2e-6), "{o:?}");
+        assert!(o.unknowns[0] <= o.unknowns[1], "{o:?}");
+    }
+    assert!(list.iter().any(|o| !o.left_out.is_empty() && o.unknowns[0] < o.unknowns[1]));
+}

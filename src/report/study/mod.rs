@@ -6,7 +6,7 @@ pub use chart::{ChartError, errors, profiles};
 
 use super::text::{Layout, Page, Role};
 use crate::study::{
-    Method, Point,
+    Method, Omission, Point,
     extreme::{Count, Found, Grade, count},
 };
 
@@ -117,6 +117,23 @@ pub fn text(points: &[Point], layout: Layout) -> Page {
             )
         }),
     );
+    page
+}
+
+/// What omissions save, as a page.
+pub fn omissions_text(list: &[Omission], layout: Layout) -> Page {
+    let mut page = Page::new(layout);
+    let worst = list.iter().filter_map(Omission::difference).fold(0.0, f64::max);
+    let compared = list.iter().filter(|o| o.difference().is_some()).count();
+    let title = format!("{compared} of {} load factors compared, the same to {worst:.0e}", list.len());
+    page.title("What omissions save", title, Role::Value);
+    page.blank();
+    for o in list {
+        let seconds = o.seconds.map(super::text::number::seconds);
+        let same = o.difference().map_or("one of them did not come out".into(), |d| format!("answers differ by {d:.0e}"));
+        let line = format!("{} unknowns in {} instead of {} in {}; {same}", o.unknowns[0], seconds[0], o.unknowns[1], seconds[1]);
+        page.row(&o.scene, std::iter::once(line).chain(o.left_out.iter().cloned()));
+    }
     page
 }
 
