@@ -2,11 +2,13 @@
 //!
 //! `cargo bench` prints them; one thread throughout. Nothing here asserts a time.
 
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use std::{hint::black_box, process::Command, time::Duration};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use std::{hint::black_box, ops::ControlFlow, process::Command, time::Duration};
 use voussoir::{
     analysis::{self, Control},
-    assembly, interface,
+    assembly,
+    dynamics::{Fidelity, Settings, simulate},
+    interface,
     program::{self, Options, Statics, Unknowns},
     report::ResultFile,
     scene::{Scene, read_str},
@@ -80,5 +82,32 @@ fn figures(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, stages, figures);
+/// Steps of the dynamics: a step with fast settings stands for √(L/g) / 100 of time, 3.5 ms here.
+fn steps(c: &mut Criterion) {
+    const STEPS: usize = 100;
+    let mut group = c.benchmark_group("dynamics");
+    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(3));
+    for (courses, length) in [(9, 10), (24, 40)] {
+        let scene = wall(courses, length, [1.0, 0.0, 0.0]);
+        let model = analysis::prepare(&scene).expect("the bench scene resolves");
+        let blocks = model.assembly.blocks.len();
+        let unit = (model.assembly.blocks[0].size / model.assembly.gravity.norm()).sqrt();
+        for threads in [1, 4] {
+            let settings = Settings {
+                fidelity: Some(Fidelity::Fast),
+                seconds: Some(STEPS as f64 * unit / 100.0),
+                to_the_end: true,
+                threads,
+                ..Settings::default()
+            };
+            group.throughput(Throughput::Elements(STEPS as u64));
+            group.bench_function(BenchmarkId::new(format!("{STEPS} fast steps, {threads} threads"), blocks), |b| {
+                b.iter(|| simulate(&model.assembly, &model.interfaces, &settings, &mut |_| ControlFlow::Continue(())))
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, stages, figures, steps);
 criterion_main!(benches);

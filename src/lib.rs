@@ -8,7 +8,7 @@
 //! ```text
 //! JSON ─▶ scene::Scene ─▶ assembly::Assembly ─▶ interface::Interfaces ─▶ program ─▶ solve ─▶ verdict ─▶ analysis ─▶ report
 //!              ▲
-//!   generate, import
+//!   generate, import                                └─▶ dynamics (a second opinion, in time) ─────────────────▲
 //! ```
 //!
 //! ```
@@ -29,6 +29,18 @@
 //! assert_eq!(answer.verdict, Verdict::Unstable);
 //! let claim = check::Claim::Unstable;
 //! assert!(check::verify(&model.assembly, &model.interfaces, &claim, &answer.forces, None, &answer.rates).proved());
+//! # Ok::<(), voussoir::error::InputError>(())
+//! ```
+//!
+//! A second opinion comes from running the same blocks in time:
+//!
+//! ```
+//! use voussoir::{analysis, dynamics::{Fate, simulate}, scene};
+//! let (scene, _) = scene::read_file("structures/semicircular-arch-thin.json".as_ref())?;
+//! let model = analysis::prepare(&scene)?;
+//! let go_on = |_: &_| std::ops::ControlFlow::Continue(());
+//! let outcome = simulate(&model.assembly, &model.interfaces, &Default::default(), &mut { go_on })?;
+//! assert_eq!(outcome.fate, Fate::Falls);
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
 //!
@@ -64,6 +76,8 @@ pub mod program;
 pub mod solve;
 
 pub mod verdict;
+
+pub mod dynamics;
 
 pub mod analysis;
 

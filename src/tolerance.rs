@@ -201,3 +201,33 @@ pub const CRUSHING: f64 = 1e-7;
 /// ([`natural_map_in_loads`](crate::verdict::law::natural_map_in_loads)); a state that moves is refined until it is below this.
 /// Larger: values with fewer digits than are shown. Smaller: δ and ε must fall to where the engine's noise rules.
 pub const NATURAL_MAP: f64 = 1e-6;
+/// In the dynamics shapes are smaller by this × the block's size, and the contacts add it again as a skin, so that faces meet where they
+/// are but never touch exactly. Larger: edges and corners are visibly round. Smaller: the engine's contact normals are rounding noise.
+pub const SKIN: f64 = 2e-5;
+
+/// [`SKIN`] is at most this × the thickness of the thinnest piece of the block. Larger: thin plates turn inside out.
+/// Smaller: plates of 1e-4 of their size get a skin of rounding noise.
+pub const SKIN_OF_THICKNESS: f64 = 0.01;
+
+/// A block has fallen in the dynamics when it moved by more than this × the least block thickness and still moves.
+/// Larger: slow collapses outlast the horizon. Smaller: settling counts as falling.
+pub const FALLEN: f64 = 0.05;
+
+/// A block is where it was in the dynamics when it moved by less than this × the least block thickness.
+/// Larger: the first degrees of a slow collapse pass for rest. Smaller: tall columns, which settle on soft contacts, are never at rest.
+pub const SETTLED: f64 = 1e-3;
+
+/// As [`SETTLED`], with fine steps and where everything came to rest. Larger: a structure that slid and caught itself passes for one that
+/// stood. Smaller: a column of 100 blocks (0.2 %), or blocks with gaps and overlaps of 1e-3 that close, stay undecided.
+pub const SETTLED_FINE: f64 = 1e-2;
+
+/// A block moves in the dynamics when its kinetic energy exceeds this × m g L. Larger: toppling 1 % past the limit is called slow.
+/// Smaller: shaking contacts count as falling.
+pub const MOVING_ENERGY: f64 = 1e-6;
+
+/// A scene has come to rest in the dynamics when every block's kinetic energy stays below this × m g L for [`REST_TIME`].
+/// Larger: motion 1e-5 beyond the limit passes for rest. Smaller: columns of 100 blocks, whose contact forces converge slowly, stay awake.
+pub const REST_ENERGY: f64 = 1e-10;
+
+/// How long a scene must rest, in multiples of √(L/g), L the median block size. Longer: time is lost. Shorter: turning points pass for rest.
+pub const REST_TIME: f64 = 3.0;

@@ -1,5 +1,6 @@
 //! Questions and answers: the only place where the stages are composed.
 
+pub mod agreement;
 pub mod assess;
 mod attempt;
 pub mod coulomb;
@@ -8,6 +9,7 @@ pub mod limit;
 mod prepare;
 pub mod tilt;
 
+pub use agreement::{Agreement, ForceAgreement, agreement};
 pub use assess::{Assessment, assess};
 pub use attempt::{Attempt, Control, Law};
 pub use limit::{LoadFactor, Outcome, limit};

@@ -22,6 +22,8 @@ pub struct Timings {
     pub detect: f64,
     /// Building and solving programs, certificates included.
     pub solve: f64,
+    /// Running the scene in time.
+    pub simulate: f64,
     /// Verifying the answer from the scene once more before it is given.
     pub check: f64,
 }

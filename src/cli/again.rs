@@ -1,6 +1,6 @@
 //! The options that would have to be given again for the same answer, as typed.
 
-use super::args::{Common, DIRECTIONS, Law, Tilt};
+use super::args::{Assess, Common, DIRECTIONS, Law, Simulate, Tilt};
 
 /// As typed, where it was given.
 pub fn skip_dead(given: bool) -> Vec<String> {
@@ -14,6 +14,26 @@ impl Tilt {
             self.toward.iter().map(|[x, y, z]| if *z == 0.0 { format!("--toward {x},{y}") } else { format!("--toward {x},{y},{z}") });
         let all = (self.all != DIRECTIONS).then(|| format!("--all {}", self.all));
         toward.chain(all).chain(skip_dead(self.skip_dead)).collect()
+    }
+}
+
+impl Assess {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let given = [(self.simulate, "--simulate"), (self.thorough, "--thorough")];
+        given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string()).collect()
+    }
+}
+
+impl Simulate {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let given =
+            [(self.fast, "--fast"), (self.fine, "--fine"), (self.to_the_end, "--to-the-end"), (self.skip_verdict, "--skip-verdict")];
+        let words = given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string());
+        let seconds = self.seconds.map(|s| format!("--seconds {s}"));
+        let load = (self.load_factor != 0.0).then(|| format!("--load-factor {}", self.load_factor));
+        words.chain(seconds).chain(load).collect()
     }
 }
 

@@ -67,6 +67,12 @@ pub enum Verb {
     /// The ground is tipped towards a direction until the structure fails; own weight and dead loads turn with gravity, live loads are left
     /// out. The least tilt of all directions is the answer. Exit codes as for `limit`.
     Tilt(Tilt),
+    /// What happens in time, and does the verdict say the same?
+    ///
+    /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any pre-stress: a second opinion that shares
+    /// nothing with the verdict but the blocks and where they touch. It proves nothing; near a limit (3 % with fast steps, 1 % with fine
+    /// ones) it may err. Exit code 0 if it stands, 1 if it falls, 3 if that stays open.
+    Simulate(Simulate),
     /// Make a scene from a template.
     ///
     /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON on the right:
@@ -90,6 +96,48 @@ pub enum Verb {
 pub struct Assess {
     #[command(flatten)]
     pub common: Common,
+    /// Run the scene in time as well, and compare (see `voussoir simulate`).
+    #[arg(long)]
+    pub simulate: bool,
+    /// Run the scene in time where the verdict is conditional or undecided.
+    #[arg(long, conflicts_with = "simulate")]
+    pub thorough: bool,
+    /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend on them.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub threads: u16,
+}
+
+#[derive(Debug, Args)]
+pub struct Simulate {
+    #[command(flatten)]
+    pub common: Common,
+    /// Fast steps only: to be trusted 3 % away from a limit.
+    #[arg(long, conflicts_with = "fine")]
+    pub fast: bool,
+    /// Fine steps only: to be trusted 1 % away from a limit, at four times the cost. By default fine steps follow unless fast ones show that it stands.
+    #[arg(long)]
+    pub fine: bool,
+    /// Time to simulate at most, in seconds of the scene; by default ten times √(height / gravity).
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
+    pub seconds: Option<f64>,
+    /// Go on to the end although the outcome is clear.
+    #[arg(long)]
+    pub to_the_end: bool,
+    /// Add this factor × the live loads.
+    #[arg(long, value_name = "LAMBDA", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
+    pub load_factor: f64,
+    /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend on them.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub threads: u16,
+    /// Write where every block is, time by time, to this file as it happens.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// So many times are kept in --csv, and in the result of --json and --save if given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub frames: Option<u32>,
+    /// Do not ask for the verdict to compare with.
+    #[arg(long)]
+    pub skip_verdict: bool,
 }
 
 #[derive(Debug, Args)]

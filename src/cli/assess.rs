@@ -4,13 +4,27 @@ use super::{
     args::Assess,
     exit::Exit,
     question::{Question, verdict},
+    simulate::{threads, watch},
     terminal::Terminal,
 };
-use voussoir::{analysis::assess, report::ResultFile};
+use std::ops::ControlFlow;
+use voussoir::{analysis::assess, dynamics::Settings, report::ResultFile, verdict::Verdict};
 
 pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     let question = Question::open(&args.common)?;
     let assessment = assess(&question.model.assembly, &question.model.interfaces, &question.control());
-    let file = question.answer(terminal, &[], || ResultFile::assessment(&question.scene, &question.model, &assessment))?;
+    let doubt = matches!(assessment.verdict, Verdict::Conditional | Verdict::Undecided);
+    let settings = Settings { threads: threads(args.threads), ..Settings::default() };
+    let outcome = match args.simulate || (args.thorough && doubt) {
+        true => Some(watch(&question, &settings, &mut |_| ControlFlow::Continue(()))?),
+        false => None,
+    };
+    let file = question.answer(terminal, &args.options(), || {
+        let file = ResultFile::assessment(&question.scene, &question.model, &assessment);
+        match &outcome {
+            Some(outcome) => file.with_simulation(&question.model, Some(&assessment), outcome),
+            None => file,
+        }
+    })?;
     Ok(verdict(file.answer.verdict))
 }

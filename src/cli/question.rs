@@ -28,6 +28,11 @@ pub struct Question<'a> {
 impl<'a> Question<'a> {
     /// Opens what will be written, then reads and prepares the scene.
     pub fn open(common: &'a Common) -> anyhow::Result<Self> {
+        Self::open_changed(common, |scene| scene)
+    }
+
+    /// As [`Self::open`], asking about the scene that `change` makes of the one in the file.
+    pub fn open_changed(common: &'a Common, change: impl FnOnce(Scene) -> Scene) -> anyhow::Result<Self> {
         if common.save.as_ref().is_some_and(|p| p.as_os_str() == "-") {
             bail!("--save takes a file; --json prints the result");
         }
@@ -38,6 +43,7 @@ impl<'a> Question<'a> {
         let save = common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let start = Instant::now();
         let (scene, source) = input::scene(&common.scene)?;
+        let scene = change(scene);
         let read = start.elapsed().as_secs_f64();
         let mut model = prepare(&scene).map_err(|e| e.located(&source))?;
         model.timings.read = read;
@@ -48,6 +54,11 @@ impl<'a> Question<'a> {
     pub fn control(&self) -> Control {
         let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.start.elapsed().as_secs_f64()).max(0.0));
         Control { law: self.common.law.into(), keep_all: self.common.keep_all, seconds }
+    }
+
+    /// Whether a bar may show how far long work is.
+    pub fn shows_progress(&self) -> bool {
+        !self.common.quiet
     }
 
     /// An error in the scene, with its place.
@@ -61,7 +72,8 @@ impl<'a> Question<'a> {
         let solve = self.start.elapsed().as_secs_f64();
         let start = Instant::now();
         let mut file = pack();
-        file.timings.solve = solve;
+        file.timings.simulate = file.simulation.iter().flat_map(|s| &s.runs).map(|r| r.seconds).sum();
+        file.timings.solve = (solve - file.timings.simulate).max(0.0);
         file.timings.check = start.elapsed().as_secs_f64();
         if self.save.is_some() || self.common.json {
             let text = json::pretty(&file)?;

@@ -3,8 +3,11 @@
 pub mod json;
 pub mod read;
 pub mod result;
+pub mod simulation;
 pub mod text;
+pub mod trajectory;
 pub mod verify;
 
 pub use result::{Leaning, ResultFile};
+pub use simulation::Simulation;
 pub use verify::verify;

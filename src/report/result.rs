@@ -1,8 +1,10 @@
 //! The result file (`"format": "voussoir-result/1"`): the question, the answer and its evidence, complete enough to be
 //! verified without a solver.
 
+use super::simulation::Simulation;
 use crate::{
-    analysis::{Assessment, Attempt, Bracket, Law, LoadFactor, Model, Outcome, Tilt, Timings, coulomb},
+    analysis::{Assessment, Attempt, Bracket, Law, LoadFactor, Model, Outcome, Tilt, Timings, agreement, coulomb},
+    dynamics::{Fate, Outcome as Simulated},
     error::Finding,
     scene::Scene,
     verdict::{
@@ -49,6 +51,9 @@ pub struct ResultFile {
     /// The state under dry friction, where it had to be computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coulomb_state: Option<CoulombState>,
+    /// What happened in time, where it was simulated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub simulation: Option<Simulation>,
     /// The mechanism in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
@@ -74,6 +79,8 @@ pub enum Question {
     Limit,
     /// At what tilt does it fall?
     Tilt,
+    /// What happens in time, and does it agree with the verdict?
+    Simulate,
 }
 
 /// The scene a result is about.
@@ -101,6 +108,9 @@ pub struct Answer {
     /// Does it stand?
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
+    /// Simulate: what became of it in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fate: Option<Fate>,
     /// Bracket of the least unbalance, in multiples of gravity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unbalance: Option<Bracket>,
@@ -281,6 +291,7 @@ impl ResultFile {
             dead_load: None,
             dry: None,
             coulomb_state: None,
+            simulation: None,
             mechanism: None,
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),
@@ -367,6 +378,33 @@ impl ResultFile {
         let (dry, findings) = dry_result(model, d);
         self.dry = Some(dry);
         self.warn(&findings);
+        self
+    }
+
+    /// The result of `simulate`, beside the verdict where there is one.
+    pub fn simulated(scene: &Scene, model: &Model, a: Option<&Assessment>, outcome: &Simulated) -> Self {
+        let mut file = match a {
+            Some(a) => Self::assessment(scene, model, a),
+            None => Self::new(Question::Simulate, scene, model, Answer::default(), certify(model, None, &Vec::new(), None, &[]).0),
+        };
+        file.question = Question::Simulate;
+        file.answer.fate = Some(outcome.fate);
+        file.with_simulation(model, a, outcome)
+    }
+
+    /// Adds what happened in time to a result of `assess`.
+    #[must_use]
+    pub fn with_simulation(mut self, model: &Model, a: Option<&Assessment>, outcome: &Simulated) -> Self {
+        let agreement = a.map(|a| {
+            let mut agreement = agreement(&model.assembly, &model.interfaces, a, outcome);
+            if self.answer.verdict == Some(Verdict::Undecided) {
+                // Also where the verification took the verdict back.
+                (agreement.verdict, agreement.agrees) = (Verdict::Undecided, None);
+            }
+            agreement
+        });
+        self.warnings.extend(outcome.findings.iter().cloned());
+        self.simulation = Some(Simulation::new(model, outcome, agreement));
         self
     }
 

@@ -57,11 +57,11 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
     let model = prepare(scene)?;
     let mut all = Verification { claimed: file.certificate.claim.is_some(), parts: vec![("scene".into(), counts(file, &model))] };
     match file.question {
-        Question::Assess | Question::Limit => {
+        Question::Assess | Question::Limit | Question::Simulate => {
             let (mut f, rates) = answer(&model, file.question, &file.answer, &file.certificate);
             mechanism_words(&mut f, file, &model, rates.as_deref());
             all.part("answer", f);
-            let stray = !file.directions.is_empty() || (file.question == Question::Assess && file.dead_load.is_some());
+            let stray = !file.directions.is_empty() || (file.question != Question::Limit && file.dead_load.is_some());
             if stray {
                 all.part("form", failure("the file holds answers to a question that was not asked"));
             }
@@ -73,12 +73,32 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
     }
     if let Some(dry) = file.dry.as_ref().filter(|_| file.question != Question::Tilt) {
         let findings = match file.question {
-            Question::Assess => failure("the file holds a load factor that was not asked for"),
+            Question::Assess | Question::Simulate => failure("the file holds a load factor that was not asked for"),
             _ => dry_friction(&model, dry),
         };
         all.part("dry friction", findings);
     }
+    if file.simulation.is_some() || file.question == Question::Simulate {
+        all.part("simulation", simulation(file));
+    }
     Ok(all)
+}
+
+/// The words about a simulation agree with each other; that it went so is only known by repeating it.
+fn simulation(file: &ResultFile) -> Findings {
+    let mut f = Findings::default();
+    let Some(s) = &file.simulation else { return failure("the file holds no simulation") };
+    let last = s.runs.last().map(|r| r.fate);
+    require(
+        &mut f,
+        last.is_none_or(|fate| fate == s.fate) && file.answer.fate.is_none_or(|fate| fate == s.fate),
+        "the outcome is that of the last run",
+    );
+    if let Some(a) = &s.agreement {
+        require(&mut f, a.fate == s.fate && Some(a.verdict) == file.answer.verdict, "it is compared with the verdict of this result");
+    }
+    f.holds.push("observed, not proved: `voussoir simulate` on the scene repeats it".into());
+    f
 }
 
 /// A load factor with dry friction, from its own forces and rates.
@@ -196,8 +216,11 @@ fn answer(model: &Model, question: Question, answer: &Answer, evidence: &Certifi
 /// The words and numbers of an answer are those of its claim.
 fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, claim: Option<&Claim>) {
     let form = match question {
-        Question::Assess => answer.verdict.is_some() && answer.load_factor.is_none(),
-        Question::Limit | Question::Tilt => answer.verdict.is_none() && answer.unbalance.is_none() && answer.load_factor.is_some(),
+        Question::Assess => answer.verdict.is_some() && answer.load_factor.is_none() && answer.fate.is_none(),
+        Question::Simulate => answer.fate.is_some() && answer.load_factor.is_none(),
+        Question::Limit | Question::Tilt => {
+            answer.verdict.is_none() && answer.unbalance.is_none() && answer.load_factor.is_some() && answer.fate.is_none()
+        }
     } && (question == Question::Tilt || answer.tilt_deg.is_none() && answer.toward.is_none());
     if !form {
         f.fails.push("the answer is not one to its question".into());
@@ -209,6 +232,10 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
         (Some(Verdict::Stable), None, Some(Claim::Stable))
         | (Some(Verdict::Conditional), None, Some(Claim::Conditional))
         | (Some(Verdict::Unstable), None, Some(Claim::Unstable)) => true,
+        (None, None, None) => {
+            f.holds.push("no verdict was asked for: nothing is claimed".into());
+            return;
+        }
         (Some(Verdict::Undecided), None, None) | (None, Some(Outcome::Undecided), None) => {
             f.holds.push("undecided: nothing is claimed".into());
             return;

@@ -57,7 +57,24 @@ pub enum Centroid {
     Centroid,
 }
 
+impl Load {
+    /// The load times a factor.
+    fn times(&self, factor: f64) -> Self {
+        let scaled = |v: Option<[f64; 3]>| v.map(|v| v.map(|c| c * factor));
+        let (force, moment) = (scaled(self.force), scaled(self.moment));
+        let (acceleration, weight) = (scaled(self.acceleration), scaled(self.weight));
+        Self { force, moment, acceleration, weight, ..self.clone() }
+    }
+}
+
 impl Loads {
+    /// `factor` × the live loads as dead loads, beside the dead ones; no live load is left.
+    #[must_use]
+    pub fn fixed(&self, factor: f64) -> Self {
+        let added = self.live.iter().filter(|_| factor != 0.0).map(|l| l.times(factor));
+        Self { dead: self.dead.iter().cloned().chain(added).collect(), live: Vec::new() }
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         *self == Self::default()
     }

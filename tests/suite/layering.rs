@@ -100,11 +100,24 @@ fn certificates_never_see_the_program() {
     }
 }
 
+/// A second opinion that knew the first would be none.
+#[test]
+fn dynamics_never_sees_program_solver_or_verdict() {
+    for (path, text) in sources("src/dynamics") {
+        for word in used(&text, &order()) {
+            let known = ["error", "tolerance", "scene", "assembly", "interface", "dynamics"].contains(&word.as_str());
+            assert!(known, "{} uses {word}", path.display());
+        }
+    }
+}
+
 #[test]
 fn one_engine_one_adapter() {
     for (path, text) in sources("src") {
         let name = path.to_string_lossy().replace('\\', "/");
-        for (engine, home) in [("clarabel", "src/solve/"), ("parry3d", "src/interface/detect"), ("clap", "src/cli/")] {
+        for (engine, home) in
+            [("clarabel", "src/solve/"), ("parry3d", "src/interface/detect"), ("rapier3d", "src/dynamics/rapier.rs"), ("clap", "src/cli/")]
+        {
             let named = text.contains(&format!("{engine}::")) || text.contains(&format!("use {engine}"));
             assert!(!named || name.starts_with(home) || (engine == "clap" && name == "src/main.rs"), "{name} names {engine}");
         }

@@ -2,12 +2,14 @@
 
 mod ask;
 
+mod agreement;
 mod analytic;
 mod bad_input;
 mod certificates;
 mod cli;
 mod coulomb;
 mod determinism;
+mod dynamics;
 mod invariance;
 mod layering;
 mod published;

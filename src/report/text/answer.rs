@@ -4,6 +4,7 @@ use super::{
     Options, SHOWN, cut,
     number::{bracketed, decimals, ends, fixed, point},
     page::{Page, Role},
+    simulation,
 };
 use crate::{
     analysis::{Outcome, coulomb::Found},
@@ -21,6 +22,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
             Some(Verdict::Unstable) => ("falls".to_string(), Role::Bad),
             Some(Verdict::Undecided) | None => ("undecided".to_string(), Role::Unsure),
         },
+        Question::Simulate => simulation::title(file),
         Question::Limit => match (status(&file.answer), found(&file.answer)) {
             (Outcome::Found, Some((value, lower, upper))) => {
                 let role = if upper < 0.0 { Role::Bad } else { Role::Value };
@@ -79,8 +81,12 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
 
 /// The sentences that say what the answer rests on and what it does not say.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
+    if file.question == Question::Simulate {
+        return simulation::why(page, file);
+    }
     if file.question == Question::Assess {
-        return verdict(page, file);
+        verdict(page, file);
+        return simulation::why(page, file);
     }
     let tilt = file.question == Question::Tilt;
     match (status(&file.answer), found(&file.answer)) {

@@ -5,6 +5,7 @@ mod check;
 mod mechanism;
 pub mod number;
 mod page;
+mod simulation;
 
 pub use check::{inspection, verification};
 pub use page::{Layout, Page, Role, Span, printable};
@@ -48,6 +49,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: Options, layout: Layout)
     page.blank();
     mechanism::rows(&mut page, file, options);
     answer::directions(&mut page, file, options);
+    simulation::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
     page.row(
@@ -84,7 +86,14 @@ fn cut(items: &[String], most: usize, options: Options) -> Vec<String> {
 
 fn time(file: &ResultFile) -> String {
     let t = &file.timings;
-    let stages = [("read", t.read), ("resolve", t.resolve), ("interfaces", t.detect), ("solve", t.solve), ("check", t.check)];
+    let stages = [
+        ("read", t.read),
+        ("resolve", t.resolve),
+        ("interfaces", t.detect),
+        ("solve", t.solve),
+        ("simulate", t.simulate),
+        ("check", t.check),
+    ];
     let list: Vec<String> = stages.iter().filter(|s| s.1 > 0.0).map(|(name, s)| format!("{name} {}", seconds(*s))).collect();
     format!("{} ({})", seconds(stages.iter().map(|s| s.1).sum()), list.join(", "))
 }
@@ -111,10 +120,14 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         Question::Assess => "assess",
         Question::Limit => "limit",
         Question::Tilt => "tilt",
+        Question::Simulate => "simulate",
     };
     let again =
         if asked.options.is_empty() { format!("voussoir {verb} {scene}") } else { format!("voussoir {verb} {scene} {}", asked.options) };
     let look = (format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
+    if file.question == Question::Simulate {
+        return page.commands("next", &simulation::next(file, scene, &again));
+    }
     if file.certificate.claim.is_none() {
         return page.commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
     }

@@ -1,0 +1,82 @@
+//! `voussoir simulate`
+
+use super::{args::Simulate, exit::Exit, progress::Bar, question::Question, terminal::Terminal};
+use anyhow::Context;
+use std::{fs::File, io::BufWriter, ops::ControlFlow};
+use voussoir::{
+    analysis::assess,
+    dynamics::{Fate, Fidelity, Outcome, Settings, simulate},
+    report::{ResultFile, trajectory::TrajectoryWriter},
+};
+
+/// So many times are written to --csv where nothing is said.
+const FRAMES: usize = 100;
+
+pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let written = |path: &std::path::PathBuf| format!("{}: cannot be written", path.display());
+    let question = Question::open_changed(&args.common, |mut scene| {
+        if args.load_factor != 0.0 {
+            scene.loads = scene.loads.fixed(args.load_factor);
+        }
+        scene
+    })?;
+    // Created before the work, and filled as it goes.
+    let mut csv = match &args.csv {
+        Some(path) => Some(TrajectoryWriter::new(BufWriter::new(File::create(path).with_context(|| written(path))?))?),
+        None => None,
+    };
+    let settings = Settings {
+        fidelity: if args.fast { Some(Fidelity::Fast) } else { args.fine.then_some(Fidelity::Fine) },
+        seconds: args.seconds,
+        threads: threads(args.threads),
+        frames: args.frames.map_or(if csv.is_some() { FRAMES } else { 0 }, |n| n as usize),
+        keep_frames: args.frames.is_some(),
+        to_the_end: args.to_the_end,
+    };
+    let mut failure = None;
+    let mut keep = |frame: &_| match csv.as_mut().map(|csv| csv.frame(&question.model.assembly, frame)) {
+        Some(Err(e)) => {
+            failure = Some(e);
+            ControlFlow::Break(())
+        }
+        _ => ControlFlow::Continue(()),
+    };
+    let outcome = watch(&question, &settings, &mut keep)?;
+    if let (Some(e), Some(path)) = (failure, &args.csv) {
+        return Err(e).with_context(|| written(path));
+    }
+    let model = &question.model;
+    let verdict = (!args.skip_verdict).then(|| assess(&model.assembly, &model.interfaces, &question.control()));
+    let file = question.answer(terminal, &args.options(), || ResultFile::simulated(&question.scene, model, verdict.as_ref(), &outcome))?;
+    Ok(match file.answer.fate {
+        Some(Fate::Stands) => Exit::Yes,
+        Some(Fate::Falls) => Exit::No,
+        Some(Fate::Undecided) | None => Exit::Undecided,
+    })
+}
+
+/// Simulates under a bar until the time limit.
+pub fn watch(
+    question: &Question,
+    settings: &Settings,
+    keep: &mut dyn FnMut(&voussoir::dynamics::Frame) -> ControlFlow<()>,
+) -> anyhow::Result<Outcome> {
+    let bar = Bar::new(question.shows_progress());
+    let model = &question.model;
+    simulate(&model.assembly, &model.interfaces, settings, &mut |progress| {
+        bar.show(progress);
+        if question.control().seconds <= 0.0 {
+            return ControlFlow::Break(());
+        }
+        progress.frame.map_or(ControlFlow::Continue(()), &mut *keep)
+    })
+    .map_err(|e| question.refuse(e))
+}
+
+/// The number of threads asked for.
+pub fn threads(asked: u16) -> usize {
+    match asked {
+        0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
+        n => n.into(),
+    }
+}

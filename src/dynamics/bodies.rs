@@ -1,0 +1,188 @@
+//! Assembly and interfaces → bodies with shapes, in the engine's units and without its name.
+
+use super::{
+    pieces::{self, MOST},
+    units::Units,
+};
+use crate::{
+    assembly::{Assembly, Block, Solid},
+    error::InputError,
+    interface::{ContactKind, Interfaces},
+    scene::Friction,
+    tolerance::{SKIN, SKIN_OF_THICKNESS},
+};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use std::collections::{HashMap, HashSet};
+
+/// A block as the engine sees it; coordinates about its centre of mass, axes those of the scene at the start.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    pub support: bool,
+    pub center: Vector3<f64>,
+    pub mass: f64,
+    pub inertia: Matrix3<f64>,
+    pub shapes: Vec<Shape>,
+    /// Least distance between two parallel planes that hold the block between them, one of them a facet's.
+    pub thickness: f64,
+    /// Farthest point from the centre of mass; 0 for a sphere about its centre, which looks the same however it turns.
+    pub reach: f64,
+}
+
+/// A convex shape, already smaller by its skin.
+#[derive(Clone, Debug)]
+pub(super) struct Shape {
+    pub form: Form,
+    pub skin: f64,
+    pub role: Role,
+    /// Directions in which other pieces of the same block follow, and the outward normals of the others.
+    pub inner: Vec<Vector3<f64>>,
+    pub outer: Vec<Vector3<f64>>,
+}
+
+/// What a shape touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    /// Part of the block: touches parts of other blocks.
+    Part,
+    /// One side of the interface given by hand with this index: touches the other side and nothing else.
+    Given(u32),
+}
+
+/// The geometry of a shape.
+#[derive(Clone, Debug)]
+pub(super) enum Form {
+    Ball { at: Vector3<f64>, radius: f64 },
+    Cuboid { at: Vector3<f64>, turn: UnitQuaternion<f64>, half: Vector3<f64> },
+    Hull { points: Vec<Vector3<f64>>, triangles: Vec<[u32; 3]> },
+}
+
+/// Radius of the ball that stands for a contact point given by hand, and margin of the plate it rests on, in block sizes.
+const GIVEN_BALL: f64 = 0.02;
+const GIVEN_PLATE: f64 = 0.3;
+
+/// The bodies of a scene.
+pub(super) fn bodies(assembly: &Assembly, interfaces: &Interfaces, units: &Units) -> Result<Vec<Body>, InputError> {
+    let mut bodies = assembly.blocks.iter().map(|b| body(b, units)).collect::<Result<Vec<_>, _>>()?;
+    for (index, face) in interfaces.list.iter().enumerate().filter(|(_, f)| f.kind == ContactKind::Given) {
+        let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size) / units.length;
+        let points: Vec<_> = face.points.iter().map(|p| units.place(*p)).collect();
+        let middle = super::cell::mean(&points);
+        let (ball, skin) = (GIVEN_BALL * size, SKIN * size);
+        let spread = points.iter().map(|p| (p - middle).norm()).fold(0.0, f64::max);
+        let half = Vector3::new(spread + GIVEN_PLATE * size, spread + GIVEN_PLATE * size, GIVEN_PLATE * size);
+        let turn = UnitQuaternion::from_basis_unchecked(&[face.frame.t1, face.frame.t2, face.frame.n]);
+        let role = Role::Given(index as u32);
+        let shape = |form| Shape { form, skin, role, inner: Vec::new(), outer: Vec::new() };
+        let at = middle - face.frame.n * half.z - bodies[face.a].center;
+        bodies[face.a].shapes.push(shape(Form::Cuboid { at, turn, half: half.map(|h| h - skin) }));
+        let center = bodies[face.b].center;
+        let balls = points.iter().map(|p| shape(Form::Ball { at: p + face.frame.n * ball - center, radius: ball - skin }));
+        bodies[face.b].shapes.extend(balls);
+    }
+    Ok(bodies)
+}
+
+fn body(block: &Block, units: &Units) -> Result<Body, InputError> {
+    let center = units.place(block.centroid);
+    let size = block.size / units.length;
+    let body = |shapes, thickness, reach| Body {
+        support: block.support,
+        center,
+        mass: block.mass / units.mass,
+        inertia: block.inertia / units.inertia(),
+        shapes,
+        thickness,
+        reach,
+    };
+    let part = |form, skin| Shape { form, skin, role: Role::Part, inner: Vec::new(), outer: Vec::new() };
+    let polyhedron = match &block.solid {
+        Solid::Sphere { center: at, radius } => {
+            let (at, radius) = (units.place(*at) - center, radius / units.length);
+            let skin = SKIN * size;
+            let off = at.norm();
+            let reach = if off > 1e-9 * radius { off + radius } else { 0.0 };
+            return Ok(body(vec![part(Form::Ball { at, radius: radius - skin }, skin)], 2.0 * radius, reach));
+        }
+        Solid::Polyhedron(polyhedron) => polyhedron,
+    };
+    let Some(cells) = pieces::pieces(polyhedron, block.centroid, units.length) else {
+        let text = format!("{:?} falls into more than {MOST} convex pieces, too many to simulate", block.id);
+        return Err(InputError::at(block.path.clone(), text).hint("give the block a simpler shape"));
+    };
+    let corners: Vec<Vector3<f64>> = polyhedron.vertices.iter().map(|v| (v - block.centroid) / units.length).collect();
+    let depth = |normal: &Vector3<f64>, points: &[Vector3<f64>]| {
+        let height = |p: &Vector3<f64>| normal.dot(p);
+        points.iter().map(height).fold(f64::NEG_INFINITY, f64::max) - points.iter().map(height).fold(f64::INFINITY, f64::min)
+    };
+    let thickness = polyhedron.facets.iter().map(|f| depth(&f.normal, &corners)).fold(size, f64::min);
+    let reach = corners.iter().map(|c| c.norm()).fold(0.0, f64::max);
+    let shapes = cells
+        .iter()
+        .map(|cell| {
+            let own = cell.mesh().0;
+            let thin = cell.faces.iter().map(|f| depth(&f.normal, &own)).fold(size, f64::min);
+            let skin = (SKIN * size).min(SKIN_OF_THICKNESS * thin);
+            if let Some((half, turn, at)) = pieces::as_box(cell) {
+                return part(Form::Cuboid { at, turn, half: half.map(|h| h - skin) }, skin);
+            }
+            let (points, loops) = cell.eroded(skin);
+            let fan = |l: &Vec<usize>| (1..l.len().saturating_sub(1)).map(|i| [l[0], l[i], l[i + 1]].map(|c| c as u32)).collect::<Vec<_>>();
+            let triangles = loops.iter().flat_map(fan).collect();
+            let normals = |inner: bool| cell.faces.iter().filter(|f| f.inner == inner).map(|f| f.normal).collect();
+            Shape { inner: normals(true), outer: normals(false), ..part(Form::Hull { points, triangles }, skin) }
+        })
+        .collect();
+    Ok(body(shapes, thickness, reach))
+}
+
+/// The friction between any two blocks, also between those that meet only on the way.
+pub(super) struct Frictions<'a> {
+    assembly: &'a Assembly,
+    known: HashMap<(usize, usize), f64>,
+    given: HashMap<u32, f64>,
+    /// Pairs of blocks whose contact is given by hand.
+    apart: HashSet<(usize, usize)>,
+}
+
+/// Stands for friction without limit. Larger: friction impulses of resting contacts overflow their float error.
+/// Smaller: steep joints without sliding could slide.
+const UNLIMITED: f64 = 1e4;
+
+impl<'a> Frictions<'a> {
+    pub fn new(assembly: &'a Assembly, interfaces: &Interfaces) -> Self {
+        let mut new = Self { assembly, known: HashMap::new(), given: HashMap::new(), apart: HashSet::new() };
+        for (index, face) in interfaces.list.iter().enumerate() {
+            let pair = (face.a.min(face.b), face.a.max(face.b));
+            if face.kind == ContactKind::Given {
+                new.given.insert(index as u32, coefficient(face.law.friction));
+                new.apart.insert(pair);
+            } else {
+                new.known.insert(pair, coefficient(face.law.friction));
+            }
+        }
+        new
+    }
+
+    /// Between two blocks; 0 where no rule says any.
+    pub fn between(&self, a: usize, b: usize) -> f64 {
+        let pair = (a.min(b), a.max(b));
+        self.known
+            .get(&pair)
+            .copied()
+            .unwrap_or_else(|| self.assembly.joints.law(pair.0, pair.1, &self.assembly.blocks).map_or(0.0, |l| coefficient(l.friction)))
+    }
+
+    /// Of an interface given by hand.
+    pub fn given(&self, interface: u32) -> f64 {
+        self.given.get(&interface).copied().unwrap_or(0.0)
+    }
+
+    /// Whether the contact between two blocks is given by hand, so that their shapes do not matter.
+    pub fn is_given(&self, a: usize, b: usize) -> bool {
+        self.apart.contains(&(a.min(b), a.max(b)))
+    }
+}
+
+fn coefficient(friction: Friction) -> f64 {
+    friction.mu().min(UNLIMITED)
+}

@@ -1,0 +1,66 @@
+//! What happens in time: the same assembly run by a rigid-body engine, as a second opinion that knows nothing of programs and
+//! solvers.
+//!
+//! The engine (rapier) integrates Newton's law with Coulomb friction at contacts that are very slightly soft. It proves nothing: near a
+//! critical parameter it may err (see [`Fidelity`]), and it shows one history, that of loads which act from one moment on without any
+//! pre-stress. *Its error grows with the number of blocks in a row*, because its contact forces come out of a fixed number of
+//! iterations.
+//!
+//! A block has fallen when it moved by more than [`FALLEN`] of its thickness and still moves; the scene stands when
+//! every block came to rest within [`SETTLED`]; in between the settings are refined, and then it stays undecided.
+
+mod bodies;
+mod cell;
+mod outcome;
+mod pieces;
+mod rapier;
+mod run;
+mod units;
+
+pub use outcome::{Contact, Fate, Fidelity, Frame, Motion, Outcome, Pose, Run, Stop};
+pub use run::simulate;
+
+#[cfg(doc)]
+use crate::tolerance::{FALLEN, SETTLED};
+
+/// The first motion is read where some block moved by this × its thickness. Larger: blocks have met new neighbours on the way.
+/// Smaller: settling on soft contacts hides the motion.
+pub const FIRST_MOTION: f64 = 0.01;
+
+/// What the caller may change about a simulation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// One kind of run only; by default a fast one, and a fine one unless that shows that it stands.
+    pub fidelity: Option<Fidelity>,
+    /// Time to simulate at most, s; by default 10 √(H/g), H the height of the scene, and at least 10 √(L/g), L the median block size.
+    pub seconds: Option<f64>,
+    /// Threads of the engine. The answer does not depend on them, bit by bit.
+    pub threads: usize,
+    /// Frames to take over the horizon, evenly spread, the first at the start; 0 for none.
+    pub frames: usize,
+    /// Keep the frames in the outcome; whoever watches sees them anyway.
+    pub keep_frames: bool,
+    /// Simulate to the horizon although the outcome is clear.
+    pub to_the_end: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { fidelity: None, seconds: None, threads: 1, frames: 0, keep_frames: true, to_the_end: false }
+    }
+}
+
+/// How far a simulation is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress<'a> {
+    /// Settings of the run.
+    pub fidelity: Fidelity,
+    /// Time simulated, s.
+    pub time: f64,
+    /// Time allowed, s.
+    pub horizon: f64,
+    /// Largest displacement over the block's thickness so far.
+    pub relative: f64,
+    /// A frame that has just been taken.
+    pub frame: Option<&'a Frame>,
+}

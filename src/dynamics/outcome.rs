@@ -1,0 +1,146 @@
+//! What a simulation says.
+
+use crate::error::Finding;
+use nalgebra::{UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// What became of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fate {
+    /// It came to rest where it was.
+    Stands,
+    /// A block moved by more than [`FALLEN`](crate::tolerance::FALLEN) × its thickness and was still moving.
+    Falls,
+    /// Neither.
+    Undecided,
+}
+
+/// How finely time is cut; measured on masonry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fidelity {
+    /// √(L/g) / 100, L the median block size, 20 substeps: to be trusted 3 % away from a critical parameter.
+    Fast,
+    /// √(L/g) / 400, 20 substeps: to be trusted 1 % away from it.
+    Fine,
+}
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stop {
+    /// A block had fallen.
+    Fallen,
+    /// Everything rested long enough.
+    Rest,
+    /// The horizon was reached.
+    Horizon,
+    /// The caller wanted no more.
+    Stopped,
+    /// The engine's numbers were no longer finite.
+    Broken,
+}
+
+/// One run of the engine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    /// Settings.
+    pub fidelity: Fidelity,
+    /// What it shows.
+    pub fate: Fate,
+    /// Why it ended.
+    pub stop: Stop,
+    /// Length of a step, s.
+    pub step: f64,
+    /// Substeps of a step.
+    pub substeps: usize,
+    /// Steps taken.
+    pub steps: usize,
+    /// Time simulated, s.
+    pub time: f64,
+    /// Time allowed, s.
+    pub horizon: f64,
+    /// The block that moved farthest for its thickness; empty where nothing is free.
+    pub farthest: String,
+    /// How far, over all times: its centre's way and the way of its farthest corner about it, m.
+    pub displacement: f64,
+    /// The same over the least thickness of that block.
+    pub relative: f64,
+    /// Largest kinetic energy of a block at the end over its m g L.
+    pub energy: f64,
+    /// Seconds of computing.
+    pub seconds: f64,
+}
+
+/// The motion of a block from the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Way of the centre of mass, m.
+    pub way: Vector3<f64>,
+    /// Rotation vector, radians.
+    pub turn: Vector3<f64>,
+}
+
+/// The contact force between two blocks: mean over the last step, on `b`, N.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Index of the first block, `a < b`.
+    pub a: usize,
+    /// Index of the second block.
+    pub b: usize,
+    /// Force on `b`, N.
+    pub force: Vector3<f64>,
+    /// Sum of the normal parts, N.
+    pub normal_force: f64,
+}
+
+/// Where every block is at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// s.
+    pub time: f64,
+    /// Settings of the run it belongs to.
+    pub fidelity: Fidelity,
+    /// Largest displacement so far over the block's thickness.
+    pub relative: f64,
+    /// Kinetic energy of all blocks, J.
+    pub energy: f64,
+    /// Centre of mass (m), orientation, velocity (m/s) and spin (rad/s) of each block, in scene order.
+    pub blocks: Vec<Pose>,
+}
+
+/// Where a block is and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Centre of mass, m.
+    pub center: Vector3<f64>,
+    /// Rotation from the start.
+    pub turn: UnitQuaternion<f64>,
+    /// Velocity of the centre of mass, m/s.
+    pub velocity: Vector3<f64>,
+    /// Spin, rad/s.
+    pub spin: Vector3<f64>,
+}
+
+/// The answer of [`simulate`](super::simulate).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// What became of it, by the last run.
+    pub fate: Fate,
+    /// When the first block had fallen, s.
+    pub collapse: Option<f64>,
+    /// The runs, the decisive one last.
+    pub runs: Vec<Run>,
+    /// The motion from the start to where some block first moved by [`FIRST_MOTION`](super::FIRST_MOTION) × its thickness; empty where none did.
+    pub first_motion: Vec<Motion>,
+    /// Contact forces at the end, by pairs of blocks.
+    pub contacts: Vec<Contact>,
+    /// What is left when the contact forces on the supports and all loads are added up, over the sum of the loads' sizes: 0 at rest.
+    pub reaction_error: f64,
+    /// The frames that were asked for.
+    pub frames: Vec<Frame>,
+    /// What the simulation could not respect.
+    pub findings: Vec<Finding>,
+}

@@ -1,0 +1,357 @@
+//! Running the engine until the outcome is clear.
+
+use super::{
+    Contact, FIRST_MOTION, Fate, Fidelity, Frame, Motion, Outcome, Pose, Progress, Run, Settings, Stop,
+    bodies::{Body, Frictions, bodies},
+    rapier::{Step, World},
+    units::Units,
+};
+use crate::{
+    assembly::{Assembly, Wrench},
+    error::{Finding, FindingCode, InputError},
+    interface::Interfaces,
+    tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE},
+};
+use nalgebra::Vector3;
+use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
+
+/// Steps between two reports to the caller.
+const REPORT: usize = 50;
+/// Loads grow from nothing over this many √(L/g), all in proportion. Shorter: chains of blocks fall a little before their contact forces
+/// have built up, which is 1 % of the thickness in an arch. Longer: time is lost.
+const ONSET: f64 = 1.0;
+/// Contact forces are those of a scene at rest when reactions and loads add up to this × the loads.
+const BALANCED: f64 = 1e-6;
+/// The horizon in √(H/g) and in √(L/g), H the height of the scene, L the median block size.
+const HORIZON: f64 = 10.0;
+/// Near the margin the horizon is this many times as long.
+const LONGER: f64 = 2.0;
+/// A scene that has settled farther than [`SETTLED`] may keep less than this × [`MOVING_ENERGY`] at the horizon.
+const QUIET: f64 = 1e-3;
+/// A displacement is measured against a thickness of at least this × the block's reach.
+const THINNEST: f64 = 0.01;
+
+impl Fidelity {
+    /// Steps in one √(L/g), and substeps of each.
+    fn fineness(self) -> (f64, usize) {
+        match self {
+            Self::Fast => (100.0, 20),
+            Self::Fine => (400.0, 20),
+        }
+    }
+}
+
+/// Runs a scene in time under its dead loads. `watch` hears of the progress and may stop it.
+///
+/// # Errors
+/// A block that the engine cannot take.
+pub fn simulate(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    settings: &Settings,
+    watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+) -> Result<Outcome, InputError> {
+    let loads = Loads::of(assembly);
+    let mut outcome = Outcome {
+        fate: Fate::Stands,
+        collapse: None,
+        runs: Vec::new(),
+        first_motion: Vec::new(),
+        contacts: Vec::new(),
+        reaction_error: 0.0,
+        frames: Vec::new(),
+        findings: Vec::new(),
+    };
+    let Some(units) = Units::of(assembly, &loads.total) else { return Ok(outcome) };
+    let bodies = bodies(assembly, interfaces, &units)?;
+    let frictions = Frictions::new(assembly, interfaces);
+    let scene = Stage { assembly, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
+    let ladder = match settings.fidelity {
+        Some(one) => vec![one],
+        None => vec![Fidelity::Fast, Fidelity::Fine],
+    };
+    for (index, &fidelity) in ladder.iter().enumerate() {
+        let horizon = settings.seconds.map_or_else(|| scene.horizon() * if index > 0 { LONGER } else { 1.0 }, |s| s / units.time);
+        let show = scene.run(fidelity, horizon, watch)?;
+        outcome.frames.extend(show.frames);
+        let run = show.run;
+        // Fast steps make some scenes fall that stand, and confirming a fall takes little.
+        let clear = run.fate == Fate::Stands;
+        let stopped = matches!(run.stop, Stop::Stopped);
+        outcome.fate = run.fate;
+        outcome.collapse = (run.fate == Fate::Falls).then_some(run.time);
+        outcome.first_motion = show.first_motion;
+        outcome.contacts = show.contacts;
+        outcome.reaction_error = show.reaction_error;
+        outcome.runs.push(run);
+        if clear || stopped {
+            break;
+        }
+    }
+    outcome.findings.extend(broken(&outcome.runs));
+    Ok(outcome)
+}
+
+fn broken(runs: &[Run]) -> Option<Finding> {
+    let run = runs.iter().find(|r| r.stop == Stop::Broken)?;
+    Some(Finding::new(FindingCode::Numerics, format!("the engine's numbers were no longer finite after {:.3e} s", run.time)))
+}
+
+/// Loads in the way they move with the blocks.
+struct Loads {
+    /// Force and moment about the centre of mass at the start, N and N·m.
+    total: Vec<Wrench>,
+    /// Off-centre forces by block: force and arm at the start.
+    turning: Vec<(usize, Vector3<f64>, Vector3<f64>)>,
+}
+
+impl Loads {
+    fn of(assembly: &Assembly) -> Self {
+        let turning = assembly.dead_forces.iter().map(|f| (f.block, f.force, f.arm)).collect();
+        Self { total: assembly.dead.clone(), turning }
+    }
+}
+
+/// What stays the same from run to run.
+struct Stage<'a> {
+    assembly: &'a Assembly,
+    bodies: &'a [Body],
+    frictions: &'a Frictions<'a>,
+    units: Units,
+    loads: &'a Loads,
+    settings: &'a Settings,
+}
+
+/// A run with what it showed.
+struct Show {
+    run: Run,
+    first_motion: Vec<Motion>,
+    contacts: Vec<Contact>,
+    reaction_error: f64,
+    frames: Vec<Frame>,
+}
+
+/// The state of one run.
+struct State {
+    /// The block that moved farthest for its thickness, and how far relative to it.
+    farthest: (usize, f64),
+    /// Largest displacement over thickness at this time.
+    now: f64,
+    /// Largest kinetic energy of a block over its m g L.
+    energy: f64,
+    /// Whether a block moved far and still moves.
+    fallen: bool,
+}
+
+impl Stage<'_> {
+    /// In the engine's units.
+    fn horizon(&self) -> f64 {
+        let up = -self.assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
+        let heights = || self.bodies.iter().filter(|b| !b.support).map(|b| (up.dot(&b.center), b.reach));
+        let top = heights().map(|(h, r)| h + r).fold(f64::NEG_INFINITY, f64::max);
+        let foot = heights().map(|(h, r)| h - r).fold(f64::INFINITY, f64::min);
+        HORIZON * (top - foot).max(1.0).sqrt()
+    }
+
+    fn run(&self, fidelity: Fidelity, horizon: f64, watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>) -> Result<Show, InputError> {
+        let begin = Instant::now();
+        let (per_unit, iterations) = fidelity.fineness();
+        let dt = 1.0 / per_unit;
+        let step = Step { dt, iterations, threads: self.settings.threads.max(1) };
+        let mut world = World::new(self.bodies, self.frictions, step)
+            .map_err(|text| InputError::at(Default::default(), text).hint("ask `voussoir assess` instead"))?;
+        let total = (horizon / dt).ceil().max(1.0) as usize;
+        let every = total.checked_div(self.settings.frames).map_or(usize::MAX, |n| n.max(1));
+        let (mut steps, mut resting) = (0, 0.0);
+        let mut state = State { farthest: (self.assembly.free().next().unwrap_or(0), 0.0), now: 0.0, energy: 0.0, fallen: false };
+        let (mut first_motion, mut frames, mut fell_at) = (Vec::new(), Vec::new(), None);
+        if self.settings.frames > 0 {
+            self.frame(&world, fidelity, 0.0, &state, &mut frames);
+            let (time, horizon) = (0.0, horizon * self.units.time);
+            // Stopping is heard at the first step.
+            let _ = watch(&Progress { fidelity, time, horizon, relative: 0.0, frame: frames.last() });
+        }
+        let stop = loop {
+            if steps == total {
+                break Stop::Horizon;
+            }
+            let time = (steps + 1) as f64 * dt;
+            self.load(&mut world, smooth(time / ONSET), time - dt < ONSET);
+            world.step();
+            steps += 1;
+            if !world.is_healthy() {
+                break Stop::Broken;
+            }
+            let before = state.now;
+            self.look(&world, &mut state);
+            if before <= FIRST_MOTION && state.now > FIRST_MOTION && fell_at.is_none() {
+                first_motion = self.motions(&world);
+            }
+            resting = if state.energy < REST_ENERGY { resting + dt } else { 0.0 };
+            let framed = steps % every == 0;
+            if framed {
+                self.frame(&world, fidelity, time, &state, &mut frames);
+            }
+            if framed || steps % REPORT == 0 {
+                let frame = frames.last().filter(|_| framed);
+                let (time, horizon) = (time * self.units.time, horizon * self.units.time);
+                if watch(&Progress { fidelity, time, horizon, relative: state.farthest.1, frame }).is_break() {
+                    break Stop::Stopped;
+                }
+            }
+            if !self.settings.keep_frames {
+                frames.clear();
+            }
+            if state.fallen && fell_at.is_none() {
+                fell_at = Some(time);
+            }
+            if fell_at.is_some() && !self.settings.to_the_end {
+                break Stop::Fallen;
+            }
+            let rested = resting >= REST_TIME && steps % REPORT == 0 && !self.settings.to_the_end;
+            if rested && self.reaction_error(&self.contacts(&world)) < BALANCED {
+                break Stop::Rest;
+            }
+        };
+        let fate = match stop {
+            _ if fell_at.is_some() => Fate::Falls,
+            Stop::Rest if stayed(fidelity, state.farthest.1, state.energy) => Fate::Stands,
+            // A shorter time shows nothing.
+            Stop::Horizon if horizon >= HORIZON && stayed(fidelity, state.farthest.1, state.energy) => Fate::Stands,
+            _ => Fate::Undecided,
+        };
+        let (block, relative) = state.farthest;
+        let contacts = self.contacts(&world);
+        Ok(Show {
+            run: Run {
+                fidelity,
+                fate,
+                stop,
+                step: dt * self.units.time,
+                substeps: iterations,
+                steps,
+                time: fell_at.unwrap_or(steps as f64 * dt) * self.units.time,
+                horizon: horizon * self.units.time,
+                farthest: self.assembly.blocks.get(block).map(|b| b.id.clone()).unwrap_or_default(),
+                displacement: relative * self.thickness(block) * self.units.length,
+                relative,
+                energy: state.energy,
+                seconds: begin.elapsed().as_secs_f64(),
+            },
+            first_motion,
+            reaction_error: self.reaction_error(&contacts),
+            contacts,
+            frames,
+        })
+    }
+
+    fn thickness(&self, block: usize) -> f64 {
+        let body = &self.bodies[block];
+        body.thickness.max(THINNEST * body.reach)
+    }
+
+    /// Sets this part of the loads, on every block or only where a load turns. Forces that act at a point of a block keep their direction
+    /// while the point moves with the block.
+    fn load(&self, world: &mut World, part: f64, every: bool) {
+        let mut moments: BTreeMap<usize, Vector3<f64>> = BTreeMap::new();
+        for &(block, force, arm) in &self.loads.turning {
+            let turned = world.pose(block).1 * arm;
+            *moments.entry(block).or_default() += (turned - arm).cross(&force);
+        }
+        let all = every.then(|| self.assembly.free()).into_iter().flatten();
+        let turning = if every { None } else { Some(moments.keys().copied()) };
+        for i in all.chain(turning.into_iter().flatten()) {
+            let Wrench { force, moment } = self.loads.total[i];
+            let moment = moment + moments.get(&i).copied().unwrap_or_default();
+            world.load(i, force * part / self.units.force(), moment * part / self.units.moment());
+        }
+    }
+
+    fn look(&self, world: &World, state: &mut State) {
+        (state.now, state.energy) = (0.0, 0.0);
+        for i in self.assembly.free() {
+            let body = &self.bodies[i];
+            let (center, turn) = world.pose(i);
+            let (velocity, spin) = world.velocity(i);
+            let relative = ((center - body.center).norm() + turn.angle() * body.reach) / self.thickness(i);
+            let local = turn.inverse() * spin;
+            // Per mass; lengths, gravity and so m g L are one in these units up to the block's own size.
+            let energy = 0.5 * (velocity.norm_squared() + local.dot(&(body.inertia * local)) / body.mass) / self.size(i);
+            state.now = state.now.max(relative);
+            if relative > state.farthest.1 {
+                state.farthest = (i, relative);
+            }
+            state.energy = state.energy.max(energy);
+            state.fallen |= relative > FALLEN && energy > MOVING_ENERGY;
+        }
+    }
+
+    fn size(&self, block: usize) -> f64 {
+        self.assembly.blocks[block].size / self.units.length
+    }
+
+    fn motions(&self, world: &World) -> Vec<Motion> {
+        let motion = |(i, body): (usize, &Body)| {
+            let (center, turn) = world.pose(i);
+            Motion { way: (center - body.center) * self.units.length, turn: turn.scaled_axis() }
+        };
+        self.bodies.iter().enumerate().map(motion).collect()
+    }
+
+    fn frame(&self, world: &World, fidelity: Fidelity, time: f64, state: &State, frames: &mut Vec<Frame>) {
+        let Units { origin, length, time: unit, mass } = self.units;
+        let speed = length / unit;
+        let mut energy = 0.0;
+        let blocks = (0..self.bodies.len())
+            .map(|i| {
+                let (center, turn) = world.pose(i);
+                let (velocity, spin) = world.velocity(i);
+                let local = turn.inverse() * spin;
+                if !self.bodies[i].support {
+                    energy += 0.5 * (self.bodies[i].mass * velocity.norm_squared() + local.dot(&(self.bodies[i].inertia * local)));
+                }
+                Pose { center: center * length + origin, turn, velocity: velocity * speed, spin: spin / unit }
+            })
+            .collect();
+        frames.push(Frame { time: time * unit, fidelity, relative: state.farthest.1, energy: energy * mass * speed * speed, blocks });
+    }
+
+    /// Contact forces by pairs of blocks, N.
+    fn contacts(&self, world: &World) -> Vec<Contact> {
+        let mut sums: BTreeMap<(usize, usize), (Vector3<f64>, f64)> = BTreeMap::new();
+        for patch in world.patches() {
+            let (pair, force) = if patch.a < patch.b { ((patch.a, patch.b), patch.force) } else { ((patch.b, patch.a), -patch.force) };
+            let sum = sums.entry(pair).or_insert((Vector3::zeros(), 0.0));
+            sum.0 += force * self.units.force();
+            sum.1 += patch.normal_force * self.units.force();
+        }
+        sums.into_iter().map(|((a, b), (force, normal_force))| Contact { a, b, force, normal_force }).collect()
+    }
+
+    fn reaction_error(&self, contacts: &[Contact]) -> f64 {
+        let held = |i: usize| self.bodies[i].support;
+        let mut left: Vector3<f64> = self.assembly.free().map(|i| self.loads.total[i].force).sum();
+        for c in contacts {
+            match (held(c.a), held(c.b)) {
+                (true, false) => left += c.force,
+                (false, true) => left -= c.force,
+                _ => {}
+            }
+        }
+        let size: f64 = self.assembly.free().map(|i| self.loads.total[i].force.norm()).sum();
+        if size > 0.0 { left.norm() / size } else { 0.0 }
+    }
+}
+
+/// Whether a scene that moved this far at most, with this energy left, stands. Contacts sink in by the square of the step: what fine
+/// steps leave is settling. What hardly moved over the whole horizon may shake a little.
+fn stayed(fidelity: Fidelity, relative: f64, energy: f64) -> bool {
+    let still = relative < SETTLED && energy < MOVING_ENERGY;
+    still || (fidelity == Fidelity::Fine && relative < SETTLED_FINE && energy < QUIET * MOVING_ENERGY)
+}
+
+/// From 0 to 1 and then 1, with continuous slope.
+fn smooth(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}

@@ -1,0 +1,119 @@
+//! A simulation in a result: names instead of indices, and what it says beside the verdict.
+
+use crate::{
+    analysis::{Agreement, Model},
+    dynamics::{Fate, Frame, Outcome, Run},
+    error::Finding,
+};
+use serde::{Deserialize, Serialize};
+
+/// So many blocks of the first motion are kept, the ones that moved farthest first.
+const MOVED: usize = 1000;
+
+/// What happened in time. Observed, not proved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Simulation {
+    /// What became of it.
+    pub fate: Fate,
+    /// When the first block had fallen, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub collapse: Option<f64>,
+    /// The runs, the decisive one last.
+    pub runs: Vec<Run>,
+    /// Beside the verdict, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub agreement: Option<Agreement>,
+    /// The first motion, the blocks that moved farthest first; blocks at rest are left out.
+    pub first_motion: Vec<BlockMotion>,
+    /// Contact forces at the end.
+    pub contacts: Vec<PairForce>,
+    /// What is left when the contact forces on the supports and all loads are added up, over the loads: 0 at rest.
+    pub reaction_error: f64,
+    /// Where every block was at the times asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub frames: Vec<FrameResult>,
+    /// What the simulation could not respect.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<Finding>,
+}
+
+/// How a block began to move.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BlockMotion {
+    /// The block.
+    pub block: String,
+    /// Way of its centre of mass, m.
+    pub way: [f64; 3],
+    /// Its rotation vector, radians.
+    pub turn: [f64; 3],
+}
+
+/// The contact force between two blocks.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PairForce {
+    /// The blocks.
+    pub between: [String; 2],
+    /// Force on the second, N.
+    pub force: [f64; 3],
+}
+
+/// One time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrameResult {
+    /// s.
+    pub time: f64,
+    /// Index of the run.
+    pub run: usize,
+    /// Kinetic energy of all blocks, J.
+    pub energy: f64,
+    /// Centre of mass of each block (x, y, z; m) and its rotation from the start (quaternion w, x, y, z), in scene order.
+    pub blocks: Vec<[f64; 7]>,
+}
+
+impl Simulation {
+    /// Packs an outcome.
+    pub fn new(model: &Model, outcome: &Outcome, agreement: Option<Agreement>) -> Self {
+        let blocks = &model.assembly.blocks;
+        let id = |i: usize| blocks[i].id.clone();
+        let mut moved: Vec<(usize, f64)> = outcome
+            .first_motion
+            .iter()
+            .enumerate()
+            .map(|(i, m)| (i, m.way.norm() + m.turn.norm() * blocks[i].size))
+            .filter(|(_, way)| *way > 0.0)
+            .collect();
+        moved.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let motion = |&(i, _): &(usize, f64)| {
+            let motion = outcome.first_motion[i];
+            BlockMotion { block: id(i), way: motion.way.into(), turn: motion.turn.into() }
+        };
+        Self {
+            fate: outcome.fate,
+            collapse: outcome.collapse,
+            runs: outcome.runs.clone(),
+            agreement,
+            first_motion: moved.iter().take(MOVED).map(motion).collect(),
+            contacts: outcome.contacts.iter().map(|c| PairForce { between: [id(c.a), id(c.b)], force: c.force.into() }).collect(),
+            reaction_error: outcome.reaction_error,
+            frames: outcome.frames.iter().map(|f| frame(f, &outcome.runs)).collect(),
+            findings: outcome.findings.clone(),
+        }
+    }
+}
+
+fn frame(frame: &Frame, runs: &[Run]) -> FrameResult {
+    let row = |p: &crate::dynamics::Pose| {
+        let (c, q) = (p.center, p.turn);
+        [c.x, c.y, c.z, q.w, q.i, q.j, q.k]
+    };
+    FrameResult {
+        time: frame.time,
+        run: runs.iter().position(|r| r.fidelity == frame.fidelity).unwrap_or(0),
+        energy: frame.energy,
+        blocks: frame.blocks.iter().map(row).collect(),
+    }
+}

@@ -1,0 +1,40 @@
+//! Trajectories as CSV, a row for each block and time, written as they come.
+
+use crate::{assembly::Assembly, dynamics::Frame};
+use std::io::Write;
+
+/// The columns.
+const HEAD: [&str; 16] = ["run", "time", "block", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"];
+
+/// Writes frames.
+pub struct TrajectoryWriter<W: Write>(csv::Writer<W>);
+
+impl<W: Write> TrajectoryWriter<W> {
+    /// Writes the head: `run` is `fast` or `fine`, time in s, `x, y, z` the centre of mass (m), `q…` the rotation from the start
+    /// (quaternion), `v…` its velocity (m/s), `w…` the spin (rad/s).
+    ///
+    /// # Errors
+    /// The output cannot be written.
+    pub fn new(out: W) -> std::io::Result<Self> {
+        let mut writer = csv::Writer::from_writer(out);
+        writer.write_record(HEAD)?;
+        writer.flush()?;
+        Ok(Self(writer))
+    }
+
+    /// Writes one frame and flushes it.
+    ///
+    /// # Errors
+    /// The output cannot be written.
+    pub fn frame(&mut self, assembly: &Assembly, frame: &Frame) -> std::io::Result<()> {
+        let run = format!("{:?}", frame.fidelity).to_lowercase();
+        for (block, pose) in assembly.blocks.iter().zip(&frame.blocks) {
+            let (q, text) = (pose.turn, |v: f64| v.to_string());
+            let mut row = vec![run.clone(), text(frame.time), block.id.clone()];
+            let numbers = pose.center.iter().chain([&q.w, &q.i, &q.j, &q.k]).chain(pose.velocity.iter()).chain(pose.spin.iter());
+            row.extend(numbers.map(|&v| text(v)));
+            self.0.write_record(&row)?;
+        }
+        self.0.flush()
+    }
+}
