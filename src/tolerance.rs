@@ -193,14 +193,6 @@ pub const DRY_LAW: f64 = 1e-4;
 /// iterations that still wander. Smaller: the engine's noise at small δ (1e-5) leaves walls undecided.
 pub const DRY_BALANCE: f64 = 1e-4;
 
-/// A compressive strength is respected when the pressures use no more than 1 + this of it. Larger: crushing that counts.
-/// Smaller: the engine's last digits, amplified where a small part of a joint carries, refuse correct forces.
-pub const CRUSHING: f64 = 1e-7;
-
-/// Natural map of a load factor with dry friction with rates as the program has them
-/// ([`natural_map_in_loads`](crate::verdict::law::natural_map_in_loads)); a state that moves is refined until it is below this.
-/// Larger: values with fewer digits than are shown. Smaller: δ and ε must fall to where the engine's noise rules.
-pub const NATURAL_MAP: f64 = 1e-6;
 /// In the dynamics shapes are smaller by this × the block's size, and the contacts add it again as a skin, so that faces meet where they
 /// are but never touch exactly. Larger: edges and corners are visibly round. Smaller: the engine's contact normals are rounding noise.
 pub const SKIN: f64 = 2e-5;
@@ -231,3 +223,11 @@ pub const REST_ENERGY: f64 = 1e-10;
 
 /// How long a scene must rest, in multiples of √(L/g), L the median block size. Longer: time is lost. Shorter: turning points pass for rest.
 pub const REST_TIME: f64 = 3.0;
+/// A compressive strength is respected when the pressures use no more than 1 + this of it. Larger: crushing that counts.
+/// Smaller: the engine's last digits, amplified where a small part of a joint carries, refuse correct forces.
+pub const CRUSHING: f64 = 1e-7;
+
+/// Natural map of a load factor with dry friction with rates as the program has them
+/// ([`natural_map_in_loads`](crate::verdict::law::natural_map_in_loads)); a state that moves is refined until it is below this.
+/// Larger: values with fewer digits than are shown. Smaller: δ and ε must fall to where the engine's noise rules.
+pub const NATURAL_MAP: f64 = 1e-6;

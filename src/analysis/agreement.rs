@@ -4,6 +4,7 @@ use super::Assessment;
 use crate::{
     assembly::Assembly,
     dynamics::{Fate, Outcome},
+    error::FindingCode,
     interface::Interfaces,
     program,
     verdict::{Forces, Rate, Verdict},
@@ -23,7 +24,8 @@ pub struct Agreement {
     pub verdict: Verdict,
     /// What the simulation showed.
     pub fate: Fate,
-    /// Whether they say the same; absent where one of them is undecided. A conditional verdict says that it falls, because the
+    /// Whether they say the same; absent where one of them is undecided, or the joints have strengths that the
+    /// simulation leaves out. A conditional verdict says that it falls, because the
     /// simulation starts without a pre-stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agrees: Option<bool>,
@@ -57,6 +59,8 @@ pub fn agreement(assembly: &Assembly, interfaces: &Interfaces, assessment: &Asse
     let (verdict, fate) = (assessment.verdict, outcome.fate);
     let agrees = match (verdict, fate) {
         (Verdict::Undecided, _) | (_, Fate::Undecided) => None,
+        // The simulated joints resist less, or more, than those of the verdict.
+        _ if outcome.findings.iter().any(|f| f.code == FindingCode::LeftOut) => None,
         (Verdict::Stable, fate) => Some(fate == Fate::Stands),
         (Verdict::Conditional | Verdict::Unstable, fate) => Some(fate == Fate::Falls),
     };

@@ -135,13 +135,22 @@ fn body(block: &Block, units: &Units) -> Result<Body, InputError> {
     Ok(body(shapes, thickness, reach))
 }
 
-/// The friction between any two blocks, also between those that meet only on the way.
+/// How any two blocks resist each other, also those that meet only on the way.
 pub(super) struct Frictions<'a> {
     assembly: &'a Assembly,
-    known: HashMap<(usize, usize), f64>,
+    known: HashMap<(usize, usize), Resistance>,
     given: HashMap<u32, f64>,
     /// Pairs of blocks whose contact is given by hand.
     apart: HashSet<(usize, usize)>,
+}
+
+/// What the simulation knows of a joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Resistance {
+    /// Friction coefficient.
+    pub friction: f64,
+    /// Rolling arm, in the engine's unit of length.
+    pub arm: f64,
 }
 
 /// Stands for friction without limit. Larger: friction impulses of resting contacts overflow their float error.
@@ -149,27 +158,33 @@ pub(super) struct Frictions<'a> {
 const UNLIMITED: f64 = 1e4;
 
 impl<'a> Frictions<'a> {
-    pub fn new(assembly: &'a Assembly, interfaces: &Interfaces) -> Self {
+    pub fn new(assembly: &'a Assembly, interfaces: &Interfaces, units: &Units) -> Self {
         let mut new = Self { assembly, known: HashMap::new(), given: HashMap::new(), apart: HashSet::new() };
         for (index, face) in interfaces.list.iter().enumerate() {
             let pair = (face.a.min(face.b), face.a.max(face.b));
+            let friction = coefficient(face.law.friction);
             if face.kind == ContactKind::Given {
-                new.given.insert(index as u32, coefficient(face.law.friction));
+                new.given.insert(index as u32, friction);
                 new.apart.insert(pair);
-            } else {
-                new.known.insert(pair, coefficient(face.law.friction));
             }
+            let arm = face.rolling_arm() / units.length;
+            let known = new.known.entry(pair).or_insert(Resistance { friction, arm });
+            known.arm = known.arm.max(arm);
         }
         new
     }
 
-    /// Between two blocks; 0 where no rule says any.
-    pub fn between(&self, a: usize, b: usize) -> f64 {
+    /// Between two blocks; nothing where no rule says any. Blocks that meet on the way roll freely.
+    pub fn between(&self, a: usize, b: usize) -> Resistance {
         let pair = (a.min(b), a.max(b));
-        self.known
-            .get(&pair)
-            .copied()
-            .unwrap_or_else(|| self.assembly.joints.law(pair.0, pair.1, &self.assembly.blocks).map_or(0.0, |l| coefficient(l.friction)))
+        let rule = || self.assembly.joints.law(pair.0, pair.1, &self.assembly.blocks);
+        let met = || rule().map_or(Resistance::default(), |law| Resistance { friction: coefficient(law.friction), arm: 0.0 });
+        self.known.get(&pair).copied().unwrap_or_else(met)
+    }
+
+    /// Whether any joint resists rolling.
+    pub fn resist_rolling(&self) -> bool {
+        self.known.values().any(|r| r.arm > 0.0)
     }
 
     /// Of an interface given by hand.

@@ -55,6 +55,8 @@ pub(super) struct Patch {
     pub force: Vector3<f64>,
     /// Normal part of it, > 0.
     pub normal_force: f64,
+    /// From `a` into `b`.
+    pub normal: Vector3<f64>,
 }
 
 /// A scene in motion.
@@ -229,11 +231,12 @@ impl<'a> World<'a> {
                     continue;
                 }
                 let friction = active().next().map_or(Vector::ZERO, |p| p.data.warmstart_tangent_world) * (substeps / dt);
-                let force = back(manifold.data.normal) * normal_force - back(friction);
+                let normal = back(manifold.data.normal);
+                let force = normal * normal_force - back(friction);
                 list.push((
                     pair.collider1.into_raw_parts(),
                     pair.collider2.into_raw_parts(),
-                    Patch { a: a.body, b: b.body, force, normal_force },
+                    Patch { a: a.body, b: b.body, force, normal_force, normal },
                 ));
             }
         }
@@ -268,7 +271,7 @@ impl PhysicsHooks for Hooks<'_> {
         let place = *one.position();
         let ModifiableContacts::Rigid(manifold) = &mut context.contacts else { return };
         *manifold.friction = match a.role {
-            Role::Part => self.frictions.between(a.body, b.body),
+            Role::Part => self.frictions.between(a.body, b.body).friction,
             Role::Given(interface) => self.frictions.given(interface),
         };
         let normal = *manifold.normal;

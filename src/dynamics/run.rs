@@ -4,12 +4,13 @@ use super::{
     Contact, FIRST_MOTION, Fate, Fidelity, Frame, Motion, Outcome, Pose, Progress, Run, Settings, Stop,
     bodies::{Body, Frictions, bodies},
     rapier::{Step, World},
+    rolling::Rolling,
     units::Units,
 };
 use crate::{
     assembly::{Assembly, Wrench},
     error::{Finding, FindingCode, InputError},
-    interface::Interfaces,
+    interface::{Interface, Interfaces},
     tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE},
 };
 use nalgebra::Vector3;
@@ -51,7 +52,7 @@ pub fn simulate(
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Outcome, InputError> {
-    let loads = Loads::of(assembly);
+    let loads = Loads::of(assembly, interfaces);
     let mut outcome = Outcome {
         fate: Fate::Stands,
         collapse: None,
@@ -64,7 +65,7 @@ pub fn simulate(
     };
     let Some(units) = Units::of(assembly, &loads.total) else { return Ok(outcome) };
     let bodies = bodies(assembly, interfaces, &units)?;
-    let frictions = Frictions::new(assembly, interfaces);
+    let frictions = Frictions::new(assembly, interfaces, &units);
     let scene = Stage { assembly, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
     let ladder = match settings.fidelity {
         Some(one) => vec![one],
@@ -89,12 +90,20 @@ pub fn simulate(
         }
     }
     outcome.findings.extend(broken(&outcome.runs));
+    outcome.findings.extend(strengths(interfaces));
     Ok(outcome)
 }
 
 fn broken(runs: &[Run]) -> Option<Finding> {
     let run = runs.iter().find(|r| r.stop == Stop::Broken)?;
     Some(Finding::new(FindingCode::Numerics, format!("the engine's numbers were no longer finite after {:.3e} s", run.time)))
+}
+
+fn strengths(interfaces: &Interfaces) -> Option<Finding> {
+    let strong = |f: &&Interface| f.law.cohesion > 0.0 || f.law.tension > 0.0 || f.crushes();
+    let count = interfaces.list.iter().filter(strong).count();
+    let text = format!("{count} joints have cohesion, tensile or compressive strength: the simulation leaves it out and has friction only");
+    (count > 0).then(|| Finding::new(FindingCode::LeftOut, text))
 }
 
 /// Loads in the way they move with the blocks.
@@ -106,9 +115,18 @@ struct Loads {
 }
 
 impl Loads {
-    fn of(assembly: &Assembly) -> Self {
+    fn of(assembly: &Assembly, interfaces: &Interfaces) -> Self {
         let turning = assembly.dead_forces.iter().map(|f| (f.block, f.force, f.arm)).collect();
-        Self { total: assembly.dead.clone(), turning }
+        let mut total = assembly.dead.clone();
+        for face in &interfaces.list {
+            for (point, force) in face.points.iter().zip(face.uplift()) {
+                for (block, force) in [(face.a, -force), (face.b, force)] {
+                    let moment = (point - assembly.blocks[block].centroid).cross(&force);
+                    total[block] += Wrench { force, moment };
+                }
+            }
+        }
+        Self { total, turning }
     }
 }
 
@@ -162,6 +180,7 @@ impl Stage<'_> {
             .map_err(|text| InputError::at(Default::default(), text).hint("ask `voussoir assess` instead"))?;
         let total = (horizon / dt).ceil().max(1.0) as usize;
         let every = total.checked_div(self.settings.frames).map_or(usize::MAX, |n| n.max(1));
+        let (mut rolling, mut couples) = (Rolling::default(), BTreeMap::new());
         let (mut steps, mut resting) = (0, 0.0);
         let mut state = State { farthest: (self.assembly.free().next().unwrap_or(0), 0.0), now: 0.0, energy: 0.0, fallen: false };
         let (mut first_motion, mut frames, mut fell_at) = (Vec::new(), Vec::new(), None);
@@ -176,9 +195,12 @@ impl Stage<'_> {
                 break Stop::Horizon;
             }
             let time = (steps + 1) as f64 * dt;
-            self.load(&mut world, smooth(time / ONSET), time - dt < ONSET);
+            self.load(&mut world, smooth(time / ONSET), time - dt < ONSET, &couples);
             world.step();
             steps += 1;
+            if self.frictions.resist_rolling() {
+                couples = rolling.torques(self.bodies, self.frictions, &world, dt);
+            }
             if !world.is_healthy() {
                 break Stop::Broken;
             }
@@ -250,20 +272,21 @@ impl Stage<'_> {
         body.thickness.max(THINNEST * body.reach)
     }
 
-    /// Sets this part of the loads, on every block or only where a load turns. Forces that act at a point of a block keep their direction
-    /// while the point moves with the block.
-    fn load(&self, world: &mut World, part: f64, every: bool) {
+    /// Sets this part of the loads and the couples of rolling joints (in the engine's units), on every block or only where they change.
+    /// Forces that act at a point of a block keep their direction while the point moves with the block.
+    fn load(&self, world: &mut World, part: f64, every: bool, couples: &BTreeMap<usize, Vector3<f64>>) {
         let mut moments: BTreeMap<usize, Vector3<f64>> = BTreeMap::new();
         for &(block, force, arm) in &self.loads.turning {
             let turned = world.pose(block).1 * arm;
             *moments.entry(block).or_default() += (turned - arm).cross(&force);
         }
-        let all = every.then(|| self.assembly.free()).into_iter().flatten();
-        let turning = if every { None } else { Some(moments.keys().copied()) };
-        for i in all.chain(turning.into_iter().flatten()) {
+        // A block whose joints have parted loses its couple.
+        let rolls = |i: &usize| every || moments.contains_key(i) || self.frictions.resist_rolling();
+        for i in self.assembly.free().filter(rolls) {
             let Wrench { force, moment } = self.loads.total[i];
             let moment = moment + moments.get(&i).copied().unwrap_or_default();
-            world.load(i, force * part / self.units.force(), moment * part / self.units.moment());
+            let couple = couples.get(&i).copied().unwrap_or_default();
+            world.load(i, force * part / self.units.force(), moment * part / self.units.moment() + couple);
         }
     }
 

@@ -42,6 +42,11 @@ const DISAGREE: [(&str, &str); 2] = [
     ("tiny-on-huge", "a block of 1e-6 m on one of 1 km: the engine's contact distances are not that fine"),
 ];
 
+/// Scenes whose joints have strengths that the simulation leaves out, and says so: nothing to compare.
+fn has_strengths(scene: &Scene) -> bool {
+    model(scene).interfaces.list.iter().any(|f| !voussoir::assembly::JointLaw { pore_pressure: 0.0, ..f.law }.friction_only())
+}
+
 fn compare(scene: &Scene) -> (Agreement, f64) {
     let model = model(scene);
     let answer = assess(&model.assembly, &model.interfaces, &Control::default());
@@ -71,6 +76,10 @@ fn simulations_of_the_structures_agree_with_their_verdicts() {
     let mut wrong = Vec::new();
     for name in names.iter().filter(|n| !listed(&NEAR, n) && !listed(&SLOW, n)) {
         let (scene, _) = read_file(&folder.join(format!("{name}.json"))).unwrap_or_else(|e| panic!("{e}"));
+        if has_strengths(&scene) {
+            println!("{name}: its joints have strengths");
+            continue;
+        }
         let (a, seconds) = compare(&scene);
         counted += 1;
         agreed += usize::from(a.agrees == Some(true));
@@ -114,6 +123,9 @@ fn simulations_either_side_of_a_limit_agree_with_their_verdicts() {
             continue;
         }
         let (scene, _) = read_file(&folder.join(file)).unwrap_or_else(|e| panic!("{e}"));
+        if has_strengths(&scene) {
+            continue;
+        }
         for share in [0.95, 1.05] {
             let mut scene = scene.clone();
             if let Some(lambda) = entry["expect"]["load_factor"].as_f64().filter(|l| *l > 0.0) {

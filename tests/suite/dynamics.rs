@@ -295,3 +295,45 @@ fn forces_and_motions_are_those_of_the_verdict() {
     }
     assert!(compare(&arch(0.09, 15)).motion.expect("a motion") > 0.9);
 }
+
+/// A sphere of radius r with a rolling arm c rolls down an incline steeper than c/r.
+#[test]
+fn a_rolling_arm_holds_a_sphere_up_to_its_slope() {
+    let at = |share: f64| {
+        let (s, c) = (share * 0.1_f64).atan().sin_cos();
+        let blocks = json!([
+            { "id": "ground", "shape": { "box": { "size": [20, 20, 1] } }, "at": [0, 0, -0.5], "support": true },
+            { "id": "ball", "shape": { "sphere": { "radius": 0.5 } }, "at": [0, 0, 0.5] },
+        ]);
+        let mut scene = scene(0.8, blocks, json!({ "gravity": [s, 0, -c] }));
+        scene.joints.default.rolling_arm = Some(0.05);
+        scene
+    };
+    for (share, fate) in [(0.9, Fate::Stands), (0.97, Fate::Stands), (1.03, Fate::Falls)] {
+        becomes(&format!("{share} of c/r"), &at(share), fate);
+    }
+}
+
+/// Water in a joint takes its part off the pressure that friction sees.
+#[test]
+fn water_in_a_joint_lets_it_slide_earlier() {
+    for (share, fate) in [(0.97, Fate::Stands), (1.03, Fate::Falls)] {
+        let ground = json!({ "id": "ground", "shape": { "box": { "size": [20, 20, 1] } }, "at": [0, 0, -0.5], "support": true });
+        let push = json!({ "loads": { "dead": [ { "block": "block", "force": [0.5 * 0.6 * share, 0, 0] } ] } });
+        let mut scene = scene(0.5, json!([ground, cuboid("block", [2.0, 1.0, 0.5], [0.0, 0.0, 0.0])]), push);
+        // Weight 1, area 2: the water carries 0.4.
+        scene.joints.default.pore_pressure = Some(0.2);
+        becomes(&format!("{share} of μ (W − U)"), &scene, fate);
+    }
+}
+
+#[test]
+fn strengths_that_are_left_out_are_told_and_not_compared() {
+    let mut scene = stack(2, [1.0, 1.0, 0.5], |_| 0.0);
+    scene.joints.default.cohesion = Some(1e4);
+    let outcome = becomes("glued", &scene, Fate::Stands);
+    assert!(outcome.findings.iter().any(|f| f.text.contains("cohesion")), "{:?}", outcome.findings);
+    let model = model(&scene);
+    let answer = assess(&model.assembly, &model.interfaces, &Control::default());
+    assert_eq!(agreement(&model.assembly, &model.interfaces, &answer, &outcome).agrees, None);
+}
