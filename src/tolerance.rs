@@ -231,3 +231,11 @@ pub const CRUSHING: f64 = 1e-7;
 /// ([`natural_map_in_loads`](crate::verdict::law::natural_map_in_loads)); a state that moves is refined until it is below this.
 /// Larger: values with fewer digits than are shown. Smaller: δ and ε must fall to where the engine's noise rules.
 pub const NATURAL_MAP: f64 = 1e-6;
+
+/// A contact carries nothing when its normal force is below this × the mean one. Larger: grains at the top of a heap count as loose.
+/// Smaller: the engine's noise in forces that are zero counts as contacts.
+pub const UNLOADED: f64 = 1e-6;
+
+/// A contact is about to slide when it uses all but this of its friction. Larger: contacts count that have something left.
+/// Smaller: the engine's last digits decide.
+pub const ABOUT_TO_SLIDE: f64 = 1e-4;

@@ -5,15 +5,19 @@ pub mod assess;
 mod attempt;
 pub mod coulomb;
 mod ends;
+pub mod fabric;
 pub mod limit;
 mod prepare;
+pub mod stability;
 pub mod tilt;
 
 pub use agreement::{Agreement, ForceAgreement, agreement};
 pub use assess::{Assessment, assess};
 pub use attempt::{Attempt, Control, Law};
+pub use fabric::{Fabric, fabric};
 pub use limit::{LoadFactor, Outcome, limit};
 pub use prepare::{Model, Timings, prepare};
+pub use stability::{Stability, stability};
 pub use tilt::{Tilt, tilt};
 
 use serde::{Deserialize, Serialize};
