@@ -21,6 +21,7 @@ fn main() -> ExitCode {
         Verb::Limit(a) => cli::limit::run(&a, &terminal),
         Verb::Tilt(a) => cli::tilt::run(&a, &terminal),
         Verb::Simulate(a) => cli::simulate::run(&a, &terminal),
+        Verb::Repose(a) => cli::repose::run(&a, &terminal),
         Verb::Generate(a) => cli::generate::run(&a),
         Verb::Import(a) => cli::import::run(&a),
         Verb::Check(a) => cli::check::run(&a, &terminal),

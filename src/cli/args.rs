@@ -67,6 +67,12 @@ pub enum Verb {
     /// The ground is tipped towards a direction until the structure fails; own weight and dead loads turn with gravity, live loads are left
     /// out. The least tilt of all directions is the answer. Exit codes as for `limit`.
     Tilt(Tilt),
+    /// How steep may a packing of grains be?
+    ///
+    /// The angle of maximum stability: the largest tilt of gravity, per direction, at which the packing as it lies still has an admissible
+    /// system of contact forces. It is reached when the first grain loses balance; with --moving-mass the grains that fell are taken away,
+    /// and the tilt is asked for again, until a mechanism moves as much. Exit code 0 if it is found in every direction, 3 if any stays open.
+    Repose(Repose),
     /// What happens in time, and does the verdict say the same?
     ///
     /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any pre-stress: a second opinion that shares
@@ -170,6 +176,27 @@ pub struct Tilt {
     /// Do not ask as well whether it stands when level.
     #[arg(long)]
     pub skip_dead: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Repose {
+    #[command(flatten)]
+    pub common: Common,
+    /// Tip towards this direction (its part across gravity); may be given several times.
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
+    pub toward: Vec<[f64; 3]>,
+    /// Tip towards this many directions, evenly spread, the first along x.
+    #[arg(long, value_name = "N", default_value_t = DIRECTIONS, conflicts_with = "toward", value_parser = clap::value_parser!(u16).range(1..=3600))]
+    pub all: u16,
+    /// Share of the mass of the free grains that has to move, such as 0.01.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0, allow_negative_numbers = true, value_parser = share)]
+    pub moving_mass: f64,
+    /// Show as well how the packing carries its load when level: coordination, fabric, forces, stress, mobilised friction.
+    #[arg(long)]
+    pub fabric: bool,
+    /// Write the contact forces of the packing when level to this file.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
 }
 
 /// What every question takes.
@@ -286,6 +313,10 @@ fn positive(text: &str) -> Result<f64, String> {
 
 fn not_negative(text: &str) -> Result<f64, String> {
     finite(text).ok().filter(|v| *v >= 0.0).ok_or_else(|| "not a number >= 0".into())
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    not_negative(text).ok().filter(|v| *v <= 1.0).ok_or_else(|| "not a share from 0 to 1".into())
 }
 
 fn friction(text: &str) -> Result<Friction, String> {

@@ -12,6 +12,7 @@ pub mod limit;
 mod output;
 mod progress;
 mod question;
+pub mod repose;
 pub mod schema;
 pub mod simulate;
 pub mod terminal;

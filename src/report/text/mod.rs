@@ -4,10 +4,12 @@ mod answer;
 mod check;
 mod mechanism;
 pub mod number;
+mod packing;
 mod page;
 mod simulation;
 
 pub use check::{inspection, verification};
+pub use packing::packing;
 pub use page::{Layout, Page, Role, Span, printable};
 
 use super::result::{Question, ResultFile};
