@@ -8,6 +8,7 @@ mod ends;
 pub mod fabric;
 pub mod limit;
 mod prepare;
+pub mod repose;
 pub mod stability;
 pub mod tilt;
 

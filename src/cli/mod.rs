@@ -6,6 +6,7 @@ pub mod assess;
 pub mod check;
 pub mod exit;
 pub mod generate;
+mod heap;
 pub mod import;
 mod input;
 pub mod limit;

@@ -1,13 +1,14 @@
 //! `voussoir repose`: how steep may a packing be?
 
 use super::{
-    args::Repose,
+    args::{Asked, Repose},
     exit::Exit,
+    heap,
     output::Sink,
     question::Question,
     terminal::{self, Terminal},
 };
-use anyhow::Context;
+use anyhow::{Context, bail};
 use std::time::Instant;
 use voussoir::{
     analysis::{Model, assess, fabric, stability, stability::held, tilt::directions},
@@ -20,6 +21,12 @@ use voussoir::{
 };
 
 pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
+    if args.question == Asked::Repose {
+        return heap::run(args, terminal);
+    }
+    if let Some((key, _)) = args.set.first() {
+        bail!("{key}=…: only the protocols of --question repose take values");
+    }
     let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let question = Question::open(&args.common)?;
     let name = question.scene.name.clone();

@@ -8,12 +8,15 @@ mod arch;
 mod barrel;
 mod check;
 mod column;
+mod deposit;
 mod dome;
 mod flat_arch;
 mod lattice;
 mod midline;
 mod stack;
 mod wall;
+
+pub use deposit::{Deposit, deposit};
 
 use crate::{
     error::{InputError, JsonPath},

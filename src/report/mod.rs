@@ -1,6 +1,7 @@
 //! Answers for people and for programs. No mechanics here: one file per format.
 
 pub mod contacts;
+pub mod heaps;
 pub mod json;
 pub mod packing;
 pub mod read;

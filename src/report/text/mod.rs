@@ -2,6 +2,7 @@
 
 mod answer;
 mod check;
+mod heaps;
 mod mechanism;
 pub mod number;
 mod packing;
@@ -9,6 +10,7 @@ mod page;
 mod simulation;
 
 pub use check::{inspection, verification};
+pub use heaps::heaps;
 pub use packing::packing;
 pub use page::{Layout, Page, Role, Span, printable};
 
