@@ -22,7 +22,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
 /// A step is √(d/g) / this; substeps of it. Finer: time. Coarser: grains sink into each other before they are seen.
-const STEPS: f64 = 75.0;
+const STEPS: f64 = 50.0;
 const SUBSTEPS: usize = 6;
 /// Contacts are prepared up to this distance, in d. Smaller: fast grains sink in before they are seen. Between spheres and on walls normals
 /// do not depend on it.
@@ -132,7 +132,7 @@ pub fn flow(
         let (came, angle) = run.stage(change, horizon * natural, &mut watch);
         rested &= came;
         turned = angle.or(turned);
-        if !came && !run.world.is_healthy() {
+        if !came {
             break;
         }
     }

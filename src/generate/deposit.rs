@@ -32,10 +32,10 @@ const MOST: usize = 200_000;
 const WIDEST: f64 = 0.9;
 /// Distance of grains in the loose layers over the greatest diameter.
 const LOOSE: f64 = 1.05;
-/// Tries to place a fixed grain on the floor, per d² of floor. More: a denser floor.
-const TRIES: f64 = 20.0;
-/// Least distance of fixed grains, in d.
-const APART: f64 = 1.0;
+/// Tries to place a fixed grain on the floor, per d² of floor. Fewer: holes in which a grain lies on the flat ground and rolls at once.
+const TRIES: f64 = 80.0;
+/// Least distance of fixed grains, in d; they may overlap. Larger: the same holes.
+const APART: f64 = 0.7;
 /// Walls are so thick, in d: more than a grain passes in a step.
 const WALL: f64 = 4.0;
 /// Sides of the hollow cylinder.
@@ -103,7 +103,8 @@ fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
         BlockSpec { at, material: Some("wall".into()), ..support(id, Shape::Cuboid { size }) }
     };
     let mut blocks = Vec::new();
-    let slab = wall("floor".into(), [floor[0], floor[2], -0.5 - WALL], [floor[1], floor[3], -0.5]);
+    // It ends before the outermost fixed grains do: over the edge nothing lies on it.
+    let slab = wall("floor".into(), [floor[0], floor[2], -0.5 - WALL], [floor[1] - 0.5, floor[3], -0.5]);
     blocks.push(BlockSpec { material: Some("grain".into()), ..slab });
     let spots = rough(floor, random);
     let fixed = spots.iter().enumerate().map(|(i, at)| BlockSpec {

@@ -10,6 +10,7 @@ mod cli;
 mod coulomb;
 mod determinism;
 mod dynamics;
+mod grains;
 mod invariance;
 mod layering;
 mod published;
