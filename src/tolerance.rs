@@ -249,4 +249,4 @@ pub const GRAIN_REST_TIME: f64 = 10.0;
 
 /// Grains of a heap at rest touch when they are at most this × their size apart: what the soft contacts of the dynamics leave open or
 /// press in. Larger: near neighbours that do not touch hold each other. Smaller: contacts that carry are missed and the heap falls.
-pub const GRAIN_GAP: f64 = 1e-3;
+pub const GRAIN_GAP: f64 = 2e-3;

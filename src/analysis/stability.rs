@@ -35,9 +35,11 @@ pub struct Round {
 /// One direction.
 #[derive(Clone, Debug)]
 pub struct Stability {
-    /// The rounds, the last one with the answer.
+    /// The rounds in order. What a later round loses at a smaller tilt has fallen by the greatest tilt before it.
     pub rounds: Vec<Round>,
-    /// Whether the last round moves as much as was asked for.
+    /// The round with the answer: the greatest tilt.
+    pub answer: usize,
+    /// Whether as much has moved by then as was asked for.
     pub reached: bool,
 }
 
@@ -56,8 +58,8 @@ pub fn held(scene: &Scene, model: Model) -> Result<(Scene, Model, Vec<String>), 
     Ok((rest, again, loose))
 }
 
-/// The tilt towards `toward` at which at least `moving_mass` (a share of the mass of the free grains) moves. With [`Law::Coulomb`] the last
-/// round has the value with dry friction as well.
+/// The tilt towards `toward` at which at least `moving_mass` (a share of the mass of the free grains) has moved. With [`Law::Coulomb`] the
+/// round with the answer has the value with dry friction as well.
 ///
 /// # Errors
 /// As [`turned`](super::tilt::turned), or a packing cannot be prepared once more.
@@ -65,7 +67,7 @@ pub fn stability(scene: &Scene, model: &Model, toward: Vector3<f64>, moving_mass
     let mass = |model: &Model| model.assembly.free().map(|i| model.assembly.blocks[i].mass).sum::<f64>();
     let all = mass(model);
     let (mut scene, mut model) = (scene.clone(), model.clone());
-    let mut rounds: Vec<Round> = Vec::new();
+    let (mut rounds, mut level): (Vec<Round>, Vec<Model>) = Default::default();
     loop {
         let tilt = tilt::tilt(&model.assembly, &model.interfaces, toward, control)?;
         let turned = tilted(&model, toward, tilt.load_factor.value)?;
@@ -73,29 +75,45 @@ pub fn stability(scene: &Scene, model: &Model, toward: Vector3<f64>, moving_mass
         let ids: Vec<String> = moving.iter().map(|&i| model.assembly.blocks[i].id.clone()).collect();
         let left = mass(&model) - moving.iter().map(|&i| model.assembly.blocks[i].mass).sum::<f64>();
         let moved = if all > 0.0 { 1.0 - left / all } else { 0.0 };
-        let found = tilt.load_factor.outcome == Outcome::Found;
-        let reached = found && moved >= moving_mass;
-        let rest = if found && !reached && !ids.is_empty() && moving.len() < model.assembly.free().count() {
+        // What stood on the grains that fell may fall however it is tilted: it fell with them.
+        let fell = match tilt.load_factor.outcome {
+            Outcome::Found => true,
+            Outcome::Impossible => !rounds.is_empty(),
+            Outcome::Unbounded | Outcome::Undecided => false,
+        };
+        let reached = fell && moved >= moving_mass;
+        let rest = if fell && !reached && !ids.is_empty() && moving.len() < model.assembly.free().count() {
             let rest = without(&scene, &ids)?;
             let (rest, next, _) = held(&rest, prepare(&rest)?)?;
             Some((rest, next)).filter(|(_, next)| next.assembly.free().next().is_some())
         } else {
             None
         };
-        let last = rest.is_none();
-        let bounded = matches!(tilt.load_factor.outcome, Outcome::Found | Outcome::Unbounded);
-        let dry = if last && bounded && control.law == Law::Coulomb {
-            let dry = dry(&turned.assembly, &model.interfaces, &tilt.load_factor, control);
-            Some((tilted(&model, toward, dry.value)?, dry))
-        } else {
-            None
-        };
-        rounds.push(Round { scene: scene.clone(), model: turned, tilt, dry, moving: ids, moved });
+        rounds.push(Round { scene, model: turned, tilt, dry: None, moving: ids, moved });
+        level.push(model);
         match rest {
             Some(rest) => (scene, model) = rest,
-            None => return Ok(Stability { rounds, reached }),
+            None => return finish(rounds, &level, reached, control),
         }
     }
+}
+
+/// Finds the round with the answer, and asks for dry friction there.
+fn finish(mut rounds: Vec<Round>, level: &[Model], reached: bool, control: &Control) -> Result<Stability, InputError> {
+    // A round that stayed open ends the search, and is the answer then; only what fell after others is none of its own.
+    let height = |r: &Round| match r.tilt.load_factor.outcome {
+        Outcome::Undecided => f64::INFINITY,
+        Outcome::Impossible => f64::NEG_INFINITY,
+        Outcome::Found | Outcome::Unbounded => r.tilt.angle_deg(),
+    };
+    let answer = (0..rounds.len()).max_by(|&i, &j| height(&rounds[i]).total_cmp(&height(&rounds[j])).then(j.cmp(&i))).unwrap_or(0);
+    let Round { tilt, model, .. } = &rounds[answer];
+    let bounded = matches!(tilt.load_factor.outcome, Outcome::Found | Outcome::Unbounded);
+    if bounded && control.law == Law::Coulomb {
+        let dry = dry(&model.assembly, &level[answer].interfaces, &tilt.load_factor, control);
+        rounds[answer].dry = Some((tilted(&level[answer], tilt.toward, dry.value)?, dry));
+    }
+    Ok(Stability { rounds, answer, reached })
 }
 
 /// The scene without some blocks and all that names them; templates become blocks.

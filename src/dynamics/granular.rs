@@ -22,7 +22,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
 /// A step is √(d/g) / this; substeps of it. Finer: time. Coarser: grains sink into each other before they are seen.
-const STEPS: f64 = 50.0;
+const STEPS: f64 = 36.0;
 const SUBSTEPS: usize = 6;
 /// Contacts are prepared up to this distance, in d. Smaller: fast grains sink in before they are seen. Between spheres and on walls normals
 /// do not depend on it.

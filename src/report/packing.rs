@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     analysis::{Fabric, Model, Outcome, Stability, Timings, coulomb::Found, stability::Round},
-    error::Finding,
+    error::{Finding, FindingCode},
     verdict::mechanism::Motion,
 };
 use serde::{Deserialize, Serialize};
@@ -75,20 +75,20 @@ pub struct PackingDirection {
     pub moved: f64,
     /// Whether that is as much as was asked for.
     pub reached: bool,
-    /// Grains that move in the last round, the fastest first.
+    /// Grains that move in the round with the answer, the one with the greatest tilt, the fastest first.
     pub moving: Vec<String>,
-    /// Joints of the last mechanism by what they do.
+    /// Joints of its mechanism that roll, slide and part.
     pub joints: [usize; 3],
-    /// Rounds before: the tilt (degrees) and the grains that were taken away.
+    /// All rounds, where there are several: the tilt (degrees) and the grains that lost balance.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub removed: Vec<Removed>,
 }
 
-/// A round before the last one.
+/// One round.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Removed {
-    /// Degrees; absent where the verification failed.
+    /// Degrees; absent where they fell with those before, or the verification failed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt_deg: Option<f64>,
     /// Grains that lost balance there.
@@ -110,18 +110,25 @@ impl PackingFile {
         let mut files: Vec<ResultFile> = Vec::new();
         let mut warnings: Vec<Finding> = model.findings().cloned().collect();
         for answer in answers {
-            let (mut removed, mut last) = (Vec::new(), None);
-            for round in answer.rounds {
-                let Round { scene, model, tilt, dry, moving, moved } = round;
+            let Stability { rounds, answer, reached } = answer;
+            let many = rounds.len() > 1;
+            let total = rounds.last()?.moved;
+            let (mut removed, mut chosen) = (Vec::new(), None);
+            for (index, round) in rounds.into_iter().enumerate() {
+                let Round { scene, model, tilt, dry, moving, .. } = round;
                 let file = ResultFile::tilt(&scene, &[Leaning { model, tilt, dry }])?;
-                let fresh = file.warnings.iter().filter(|w| !warnings.contains(w)).cloned().collect::<Vec<_>>();
+                // The first round has the findings of the packing itself; later ones only what was refused.
+                let fresh = |w: &&Finding| w.code == FindingCode::Numerics && !warnings.contains(w);
+                let fresh: Vec<Finding> = file.warnings.iter().filter(fresh).cloned().collect();
                 warnings.extend(fresh);
-                removed.extend(
-                    last.replace((file, moving, moved))
-                        .map(|(file, grains, _): (ResultFile, _, _)| Removed { tilt_deg: file.answer.tilt_deg, grains }),
-                );
+                if many {
+                    removed.push(Removed { tilt_deg: file.answer.tilt_deg, grains: moving.clone() });
+                }
+                if index == answer {
+                    chosen = Some((file, moving));
+                }
             }
-            let (file, moving, moved) = last?;
+            let (file, moving) = chosen?;
             let factor = file.answer.load_factor?;
             let degrees = |v: f64| v.atan().to_degrees();
             let count = |kinds: &[Motion]| file.mechanism.iter().flat_map(|m| &m.joints).filter(|j| kinds.contains(&j.motion)).count();
@@ -136,8 +143,8 @@ impl PackingFile {
                     .map(|(l, u)| [degrees(l), degrees(u)]),
                 dry: file.dry.as_ref().map(|d| d.found),
                 dry_deg: file.dry.as_ref().and_then(|d| d.value).map(degrees),
-                moved,
-                reached: answer.reached && factor.status == Outcome::Found,
+                moved: total,
+                reached: reached && factor.status == Outcome::Found,
                 moving,
                 joints: [count(&[Motion::Hinge]), count(&[Motion::Slide, Motion::HingeAndSlide]), count(&[Motion::Part, Motion::Crush])],
                 removed,

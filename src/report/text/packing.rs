@@ -70,13 +70,13 @@ fn dry(d: &PackingDirection) -> Option<f64> {
 
 fn moves(d: &PackingDirection) -> String {
     let [hinge, slide, part] = d.joints;
-    let taken: usize = d.removed.iter().map(|r| r.grains.len()).sum();
-    let before = match d.removed.first().and_then(|r| r.tilt_deg) {
-        Some(first) => {
-            format!("; {} fell in {} before, the first at {}°", count(taken, "grain"), count(d.removed.len(), "round"), short(first))
+    let before = match d.removed.len() {
+        0 => String::new(),
+        rounds => {
+            let taken: usize = d.removed.iter().map(|r| r.grains.len()).sum();
+            let first = d.removed.first().and_then(|r| r.tilt_deg).map(|t| format!(", the first at {}°", short(t))).unwrap_or_default();
+            format!("; {} in {} in all{first}", count(taken, "grain"), count(rounds, "round"))
         }
-        None if taken > 0 => format!("; {} fell before", count(taken, "grain")),
-        None => String::new(),
     };
     let short_of = if d.reached { "" } else { ", less than was asked for" };
     format!(
@@ -95,7 +95,7 @@ fn fabric(f: &Fabric, options: Options) -> Vec<String> {
     let [sx, sy, sz] = [0, 1, 2].map(|k| short(f.stress[k][k]));
     let mut rows = vec![
         format!(
-            "{} contacts carry: {} a grain, {} without the {} that carry only themselves",
+            "{} contacts carry: {} a grain, {} without {} on top",
             f.contacts,
             short(f.coordination),
             short(f.coordination_without_rattlers),
