@@ -12,6 +12,7 @@ use voussoir::{
     program::{self, Options, Statics, Unknowns},
     report::ResultFile,
     scene::{Scene, read_str},
+    sweep,
     verdict::check,
 };
 
@@ -41,7 +42,7 @@ fn stages(c: &mut Criterion) {
         group.bench_function(BenchmarkId::new("build", blocks), |b| {
             b.iter(|| {
                 program::load_factor(
-                    &Statics::new(assembly, interfaces, Options { keep_all: false, live: true, split: false }),
+                    &Statics::new(assembly, interfaces, Options { keep_all: false, live: true, ..Options::default() }),
                     1.0,
                     Unknowns::Rates,
                 )
@@ -79,6 +80,15 @@ fn figures(c: &mut Criterion) {
     group.bench_function("whole process: assess an arch of 27 voussoirs", |b| {
         b.iter(|| Command::new(env!("CARGO_BIN_EXE_voussoir")).args(["assess", arch, "--quiet"]).output().expect("the program runs"))
     });
+    let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/sweeps/arch-in-earthquake.json");
+    let sweep = sweep::open(plan.as_ref()).expect("the plan opens");
+    let folder = tempfile::tempdir().expect("a folder");
+    for threads in [1, 2, 4] {
+        let options = sweep::Options { threads: Some(threads), restart: true, ..sweep::Options::default() };
+        group.bench_function(format!("sweep of {} arches of 27 voussoirs, {threads} threads", sweep.rows()), |b| {
+            b.iter(|| sweep::run(&sweep, &folder.path().join("rows.jsonl"), &options, &|_| {}).expect("the sweep runs"))
+        });
+    }
     group.finish();
 }
 

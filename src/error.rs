@@ -164,6 +164,8 @@ pub enum FindingCode {
     WithoutEffect,
     /// How a foreign file was read where there was a choice.
     Converted,
+    /// Which values of a range are the worst, and why.
+    WorstCase,
 }
 
 impl Finding {
@@ -171,4 +173,56 @@ impl Finding {
     pub fn new(code: FindingCode, text: impl Into<String>) -> Self {
         Self { code, text: text.into() }
     }
+}
+
+/// A file of rows that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum RowsError {
+    /// The system refuses.
+    #[error("{file}: cannot be {what}: {cause}")]
+    File {
+        /// The file.
+        file: String,
+        /// Read, written, …
+        what: &'static str,
+        /// The system's word.
+        #[source]
+        cause: std::io::Error,
+    },
+    /// Another run writes it.
+    #[error("{file}: another run is writing it; wait for its end, or give another --output")]
+    Busy {
+        /// The file.
+        file: String,
+    },
+    /// It is no file of rows.
+    #[error("{file}:{line}: {why}")]
+    Damaged {
+        /// The file.
+        file: String,
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong, and the remedy.
+        why: String,
+    },
+    /// Its rows answer something else.
+    #[error("{file}: its rows are not those of {wanted}: {why}; {remedy}")]
+    Differs {
+        /// The file.
+        file: String,
+        /// What they should be.
+        wanted: String,
+        /// In what they differ.
+        why: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The threads cannot be started.
+    #[error("cannot start {threads} threads: {cause}")]
+    Threads {
+        /// So many.
+        threads: usize,
+        /// Why.
+        cause: String,
+    },
 }

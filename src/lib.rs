@@ -6,7 +6,7 @@
 //! Each stage is one module and hands the next a plain value; nothing reaches back:
 //!
 //! ```text
-//! JSON ─▶ scene::Scene ─▶ assembly::Assembly ─▶ interface::Interfaces ─▶ program ─▶ solve ─▶ verdict ─▶ analysis ─▶ report
+//! JSON ─▶ scene::Scene ─▶ assembly::Assembly ─▶ interface::Interfaces ─▶ program ─▶ solve ─▶ verdict ─▶ analysis ─▶ sweep ─▶ report
 //!              ▲
 //!   generate, import                                └─▶ dynamics (a second opinion, in time) ─────────────────▲
 //! ```
@@ -32,6 +32,14 @@
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
 //!
+//! Inverse questions vary a number of the scene until the verdict flips:
+//!
+//! ```
+//! use voussoir::{analysis::{self, Control, Law, critical::Range}, scene};
+//! let (scene, _) = scene::read_file("structures/semicircular-arch-thick.json".as_ref())?;
+//! let range = Range { pointer: "/templates/0/arch/thickness".into(), from: 0.05, to: 0.3, scan: Some(5) };
+//! let answer = analysis::critical(&scene, &range, &Control { law: Law::Associative, ..Default::default() })?;
+//! assert!((answer.changes[0].value - 0.106_720_903_551).abs() < 1e-10);
 //! A second opinion comes from running the same blocks in time:
 //!
 //! ```
@@ -80,5 +88,8 @@ pub mod verdict;
 pub mod dynamics;
 
 pub mod analysis;
+pub mod sweep;
+
+pub mod study;
 
 pub mod report;

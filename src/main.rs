@@ -20,12 +20,16 @@ fn main() -> ExitCode {
         Verb::Assess(a) => cli::assess::run(&a, &terminal),
         Verb::Limit(a) => cli::limit::run(&a, &terminal),
         Verb::Tilt(a) => cli::tilt::run(&a, &terminal),
+        Verb::Critical(a) => cli::critical::run(&a, &terminal),
+        Verb::Thrust(a) => cli::thrust::run(&a, &terminal),
+        Verb::Study(a) => cli::study::run(&a, &terminal),
         Verb::Simulate(a) => cli::simulate::run(&a, &terminal),
         Verb::Repose(a) => cli::repose::run(&a, &terminal),
         Verb::Generate(a) => cli::generate::run(&a),
         Verb::Import(a) => cli::import::run(&a),
         Verb::Check(a) => cli::check::run(&a, &terminal),
-        Verb::Schema => cli::schema::run(),
+        Verb::Sweep(a) => cli::sweep::run(&a, &terminal),
+        Verb::Schema(a) => cli::schema::run(&a),
     };
     match result {
         Ok(exit) => exit.into(),

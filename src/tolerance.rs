@@ -227,6 +227,28 @@ pub const REST_TIME: f64 = 3.0;
 /// Smaller: the engine's last digits, amplified where a small part of a joint carries, refuse correct forces.
 pub const CRUSHING: f64 = 1e-7;
 
+/// A critical value is found when it is known to this × its size. Larger: fewer digits than the least unbalance holds.
+/// Smaller: the engine's last digits (1e-11 g) decide.
+pub const CRITICAL_WIDTH: f64 = 1e-9;
+
+/// As [`CRITICAL_WIDTH`], for flips between verdicts with dry friction, which have no margin and are found by halving. Larger: fewer
+/// digits. Smaller: states near the flip neither rest nor move, and stay undecided.
+pub const DRY_CRITICAL_WIDTH: f64 = 1e-6;
+
+/// A least or greatest thrust is found when its bracket is narrower than this × its size (plus [`THRUST_FLOOR`]). Larger: fewer digits.
+/// Smaller: walls go down the whole ladder for digits nobody reads.
+pub const THRUST_WIDTH: f64 = 1e-7;
+
+/// Absolute part of the width of a found thrust, in multiples of the total load; it decides where a thrust is zero.
+pub const THRUST_FLOOR: f64 = 1e-9;
+
+/// A line of thrust touches the edge of a section when it lies further out than 1 − this of the way from the centroid. Larger: points
+/// that only come near are called hinges. Smaller: the engine's last digits hide hinges.
+pub const AT_EDGE: f64 = 1e-4;
+
+/// Geometric safety factors are sought up to 1 / this. Larger: slender but centred structures have none. Smaller: sections shrunk so far
+/// are rounding of the coordinates.
+pub const LEAST_SHRINK: f64 = 1e-3;
 /// Natural map of a load factor with dry friction with rates as the program has them
 /// ([`natural_map_in_loads`](crate::verdict::law::natural_map_in_loads)); a state that moves is refined until it is below this.
 /// Larger: values with fewer digits than are shown. Smaller: δ and ε must fall to where the engine's noise rules.
@@ -250,3 +272,10 @@ pub const GRAIN_REST_TIME: f64 = 10.0;
 /// Grains of a heap at rest touch when they are at most this × their size apart: what the soft contacts of the dynamics leave open or
 /// press in. Larger: near neighbours that do not touch hold each other. Smaller: contacts that carry are missed and the heap falls.
 pub const GRAIN_GAP: f64 = 2e-3;
+/// Answers of a sweep closer than this × themselves are the same. Larger: neighbours on a fine grid are one. Smaller: the engine's last
+/// digits (1e-10) say which row is the least, or that a number matters on which nothing depends.
+pub const SAME_ANSWER: f64 = 1e-8;
+
+/// A truncated distribution keeps at least this probability. Larger: tails that somebody asks for are refused. Smaller: quantiles are
+/// rounding of the distribution function.
+pub const TRUNCATION_KEEPS: f64 = 1e-9;

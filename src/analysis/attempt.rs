@@ -9,11 +9,12 @@ use crate::{
     solve::{self, Settings, Solution, Status},
     verdict::{Forces, Rate, certificate},
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
 /// How a joint slides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Law {
     /// A joint that slides opens by μ × the slip. Admissible forces are then enough to stand.
@@ -59,6 +60,9 @@ pub struct Attempt {
     pub size: [usize; 2],
     /// Seconds.
     pub seconds: f64,
+    /// The engine's number for the load factor, not recomputed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub engine_value: Option<f64>,
     /// Recomputed lower end.
     #[serde(deserialize_with = "super::ends::lower")]
     pub lower: f64,
@@ -75,11 +79,36 @@ pub(super) struct Rung {
     pub unit: f64,
     /// Whether small blocks get units of their own.
     pub local: bool,
+    /// Whether all blocks are measured by the greatest load ([`Statics::even`]).
+    pub even: bool,
     pub settings: Settings,
 }
 
 pub(super) const fn rung(unknowns: Unknowns, unit: f64, local: bool, tolerance: f64, regularization: f64, equilibrate: bool) -> Rung {
-    Rung { unknowns, unit, local, settings: Settings { tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY } }
+    Rung {
+        unknowns,
+        unit,
+        local,
+        even: false,
+        settings: Settings { tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY },
+    }
+}
+
+/// The same for scenes of very unequal masses.
+pub(super) const fn even(rung: Rung) -> Rung {
+    Rung { even: true, ..rung }
+}
+
+impl Rung {
+    /// The equilibrium as this step takes it.
+    pub fn scaled(&self, statics: &Statics) -> Statics {
+        let mut statics = statics.clone();
+        statics.rescale(self.unit, self.local);
+        if self.even {
+            statics.even();
+        }
+        statics
+    }
 }
 
 /// Forces and rates of a solved program in our signs and units.

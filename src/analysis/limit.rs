@@ -7,7 +7,7 @@
 use super::{
     Bracket,
     assess::least_unbalance,
-    attempt::{Attempt, Control, Run, Rung, run, rung},
+    attempt::{Attempt, Control, Run, Rung, even, run, rung},
 };
 use crate::{
     assembly::Assembly,
@@ -57,13 +57,15 @@ pub struct LoadFactor {
 }
 
 /// Best first; measured on the reference cases and on walls pushed in and out of their plane.
-const LADDER: [Rung; 6] = [
+const LADDER: [Rung; 8] = [
     rung(Unknowns::Rates, 16.0, true, 1e-9, 1e-9, true),
     rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
     rung(Unknowns::Forces, 8.0, true, 1e-11, 1e-9, true),
     rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true),
     rung(Unknowns::Rates, 1.0, false, 1e-11, 1e-8, true),
     rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
+    even(rung(Unknowns::Rates, 1.0, true, 1e-12, 1e-9, true)),
+    even(rung(Unknowns::Forces, 1.0, true, 1e-12, 1e-9, true)),
 ];
 
 /// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is neither where both ends
@@ -73,19 +75,9 @@ const BEFORE_DIAGNOSIS: usize = 2;
 /// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
 pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
     let start = Instant::now();
-    let mut statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: true, split: false });
+    let mut statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: true, ..Options::default() });
     let natural = check::natural_factor(assembly);
-    let mut answer = LoadFactor {
-        outcome: Outcome::Undecided,
-        value: f64::NAN,
-        bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
-        forces: no_forces(interfaces),
-        base: None,
-        rates: vec![Rate::zero(); assembly.blocks.len()],
-        mechanism: None,
-        attempts: Vec::new(),
-        left_out: statics.left_out.clone(),
-    };
+    let mut answer = unknown(assembly, interfaces, &statics);
     let mut scale = natural;
     let forces_only = statics.in_forces_only();
     let ladder = LADDER.into_iter().filter(|step| !(forces_only && step.unknowns == Unknowns::Rates));
@@ -102,7 +94,7 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
         }
         climb(assembly, interfaces, &mut statics, step, scale, left, &mut answer);
         let value = answer.value.abs();
-        if answer.bracket.width() <= tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural {
+        if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural) {
             answer.outcome = Outcome::Found;
             break;
         }
@@ -113,20 +105,39 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     }
     if answer.outcome == Outcome::Found {
         answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
+    } else if answer.bracket.width() < 0.0 {
+        // Ends that cross enclose nothing: the first-order allowances did not hold.
+        answer.bracket = Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
+        answer.value = f64::NAN;
     }
     answer
 }
 
+/// The answer before anything is known.
+fn unknown(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics) -> LoadFactor {
+    LoadFactor {
+        outcome: Outcome::Undecided,
+        value: f64::NAN,
+        bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
+        forces: no_forces(interfaces),
+        base: None,
+        rates: vec![Rate::zero(); assembly.blocks.len()],
+        mechanism: None,
+        attempts: Vec::new(),
+        left_out: statics.left_out.clone(),
+    }
+}
+
 /// One attempt at program L; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
 fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
-    let mut statics = base.clone();
-    statics.rescale(step.unit, step.local);
+    let mut statics = step.scaled(base);
     let settings = crate::solve::Settings { seconds: left, ..step.settings };
     let build = |statics: &Statics| program::load_factor(statics, scale, step.unknowns);
     let Run { candidate, solution, size } = run(assembly, interfaces, &mut statics, build, &settings);
-    let (mut lower, mut upper) = (f64::NEG_INFINITY, f64::INFINITY);
+    let (mut lower, mut upper, mut engine_value) = (f64::NEG_INFINITY, f64::INFINITY, None);
     if let Some(c) = candidate {
         let lambda = scale * if step.unknowns == Unknowns::Forces { c.solution.x[statics.matrix.columns] } else { -c.solution.z[0] };
+        engine_value = Some(lambda);
         let k = certificate::kinematics(assembly, interfaces, &c.rates, &c.forces);
         let s = certificate::statics(assembly, interfaces, &c.forces, lambda);
         let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &c.rates[i]).abs()).sum();
@@ -152,10 +163,48 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step:
         iterations: solution.trace.len(),
         size,
         seconds: solution.seconds,
+        engine_value: engine_value.filter(|v| v.is_finite()),
         lower,
         upper,
     });
     base.sections = statics.sections;
+}
+
+/// One attempt at program L with a way of one's own, for studies: nothing is tried again.
+pub fn attempt(assembly: &Assembly, interfaces: &Interfaces, way: &Way) -> LoadFactor {
+    let mut statics = Statics::new(assembly, interfaces, Options { live: true, ..way.options });
+    let mut answer = unknown(assembly, interfaces, &statics);
+    let scale = if way.options.unscaled { 1.0 } else { check::natural_factor(assembly) };
+    let step = Rung { unknowns: way.unknowns, unit: way.unit, local: way.local, even: false, settings: way.settings };
+    climb(assembly, interfaces, &mut statics, step, scale, way.settings.seconds, &mut answer);
+    let value = answer.value.abs();
+    if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly)) {
+        answer.outcome = Outcome::Found;
+    }
+    answer
+}
+
+/// How one attempt goes about it.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    /// What to leave out and how to scale.
+    pub options: Options,
+    /// The unknowns.
+    pub unknowns: Unknowns,
+    /// Factor on the force unit.
+    pub unit: f64,
+    /// Whether small blocks get units of their own.
+    pub local: bool,
+    /// Settings of the engine.
+    pub settings: crate::solve::Settings,
+}
+
+impl Way {
+    /// The first way of [`limit`] in the given unknowns.
+    pub fn usual(unknowns: Unknowns) -> Self {
+        let step = LADDER.into_iter().find(|step| step.unknowns == unknowns).unwrap_or(LADDER[0]);
+        Self { options: Options::default(), unknowns, unit: step.unit, local: step.local, settings: step.settings }
+    }
 }
 
 /// Is there no load factor at all, or no limit to it? Returns true where that is the answer.
@@ -172,7 +221,7 @@ fn diagnose(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, con
     // The live load in the size of the dead load, so that the same threshold applies.
     let (alone, natural) = check::live_alone(assembly);
     let (unlimited, kept) = interfaces.unlimited();
-    let wedge_statics = Statics::new(&alone, &unlimited, Options { keep_all: control.keep_all, live: false, split: false });
+    let wedge_statics = Statics::new(&alone, &unlimited, Options { keep_all: control.keep_all, live: false, ..Options::default() });
     let wedge = least_unbalance(&alone, &unlimited, &wedge_statics, LiveLoad::Absent, control);
     answer.attempts.extend(wedge.attempts.iter().cloned());
     if wedge.verdict == Verdict::Stable && any.verdict == Verdict::Stable {

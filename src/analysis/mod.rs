@@ -3,18 +3,25 @@
 pub mod agreement;
 pub mod assess;
 mod attempt;
+mod claim;
 pub mod coulomb;
+pub mod critical;
 mod ends;
 pub mod fabric;
+pub mod flip;
+pub mod geometric;
 pub mod limit;
 mod prepare;
 pub mod repose;
+pub mod reuse;
 pub mod stability;
+pub mod thrust;
 pub mod tilt;
 
 pub use agreement::{Agreement, ForceAgreement, agreement};
 pub use assess::{Assessment, assess};
 pub use attempt::{Attempt, Control, Law};
+pub use critical::{Critical, critical};
 pub use fabric::{Fabric, fabric};
 pub use limit::{LoadFactor, Outcome, limit};
 pub use prepare::{Model, Timings, prepare};
@@ -38,5 +45,10 @@ impl Bracket {
     /// Upper minus lower end.
     pub fn width(&self) -> f64 {
         self.upper - self.lower
+    }
+
+    /// Whether the ends meet within `width`: ends that cross by more enclose nothing.
+    pub fn is_narrow(&self, width: f64) -> bool {
+        self.width().abs() <= width
     }
 }

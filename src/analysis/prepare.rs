@@ -40,6 +40,13 @@ pub struct Model {
 }
 
 impl Model {
+    /// An assembly with its interfaces as they were detected; adds what they say together.
+    pub fn new(assembly: Assembly, mut interfaces: Interfaces) -> Self {
+        interfaces.findings.extend(floating(&assembly, &interfaces));
+        interfaces.findings.extend(without_effect(&interfaces));
+        Self { assembly, interfaces, timings: Timings::default() }
+    }
+
     /// Findings of every stage so far.
     pub fn findings(&self) -> impl Iterator<Item = &Finding> {
         self.assembly.findings.iter().chain(&self.interfaces.findings)
@@ -60,11 +67,10 @@ pub fn prepare(scene: &Scene) -> Result<Model, InputError> {
     let assembly = assembly::resolve(scene)?;
     let resolve = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let mut interfaces = interface::detect(&assembly)?;
-    interfaces.findings.extend(floating(&assembly, &interfaces));
-    interfaces.findings.extend(without_effect(&interfaces));
-    let detect = start.elapsed().as_secs_f64();
-    Ok(Model { assembly, interfaces, timings: Timings { resolve, detect, ..Timings::default() } })
+    let interfaces = interface::detect(&assembly)?;
+    let mut model = Model::new(assembly, interfaces);
+    model.timings = Timings { resolve, detect: start.elapsed().as_secs_f64(), ..Timings::default() };
+    Ok(model)
 }
 
 /// Says which free blocks nothing holds.

@@ -7,7 +7,7 @@ mod resolve;
 
 pub use joint::{JointLaw, JointRules};
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
-pub use resolve::resolve;
+pub use resolve::{Blocks, resolve, resolve_blocks, resolve_with};
 
 use crate::{
     error::{Finding, JsonPath},

@@ -1,10 +1,17 @@
 //! The options that would have to be given again for the same answer, as typed.
 
-use super::args::{Assess, Common, DIRECTIONS, Law, Simulate, Tilt};
+use super::args::{Assess, Common, Critical, DIRECTIONS, Law, Simulate, Thrust, Tilt};
+use voussoir::sweep::Range;
 
 /// As typed, where it was given.
 pub fn skip_dead(given: bool) -> Vec<String> {
     if given { vec!["--skip-dead".into()] } else { Vec::new() }
+}
+
+/// As typed, where there are ranges.
+pub fn worst(ranges: &[Range]) -> Vec<String> {
+    let list: Vec<String> = ranges.iter().map(Range::to_string).collect();
+    if list.is_empty() { Vec::new() } else { vec![format!("--worst {}", list.join(","))] }
 }
 
 impl Tilt {
@@ -17,11 +24,32 @@ impl Tilt {
     }
 }
 
+impl Critical {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let ends: Vec<String> = self.between.iter().map(f64::to_string).collect();
+        let range = [format!("--vary {}", super::question::quoted(&self.vary)), format!("--between {}", ends.join(" "))];
+        let step = self.step.map(|s| format!("--step {s}"));
+        let scan = self.scan.map(|n| format!("--scan {n}"));
+        range.into_iter().chain(step).chain(scan).collect()
+    }
+}
+
+impl Thrust {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let support = self.support.as_ref().map(|s| format!("--support {}", super::question::quoted(s)));
+        let direction = self.direction.map(|[x, y, z]| format!("--direction {x},{y},{z}"));
+        support.into_iter().chain(direction).collect()
+    }
+}
+
 impl Assess {
     /// The options that change the answer, as typed.
     pub fn options(&self) -> Vec<String> {
         let given = [(self.simulate, "--simulate"), (self.thorough, "--thorough")];
-        given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string()).collect()
+        let words = given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string());
+        worst(&self.worst).into_iter().chain(words).collect()
     }
 }
 

@@ -2,7 +2,11 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
-use voussoir::{import::Up, scene::Friction};
+use voussoir::{
+    import::Up,
+    scene::Friction,
+    sweep::{Range, Shard},
+};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -73,12 +77,31 @@ pub enum Verb {
     /// system of contact forces. It is reached when the first grain loses balance; with --moving-mass the grains that fell are taken away,
     /// and the tilt is asked for again, until a mechanism moves as much. Exit code 0 if it is found in every direction, 3 if any stays open.
     Repose(Repose),
+    /// At what value of a number in the scene does the verdict flip?
+    ///
+    /// The number is named by its JSON pointer, such as /templates/0/arch/thickness or /joints/default/friction. The range is scanned first,
+    /// since there may be several flips; each is narrowed to 1e-9 of its value by following the least unbalance to zero, and verdicts with
+    /// proof stand on both sides of it. Exit code 0 if there is a flip, 1 if it stands or falls throughout, 3 if that stays open.
+    Critical(Critical),
+    /// How hard does it push a support, at least and at most?
+    ///
+    /// The thrust is the horizontal component of the force on a support. Forces inside the friction cones reach both ends of its range, and
+    /// mechanisms in which the support yields or is pushed in prove that there are no others. With them come the line of thrust at every
+    /// section and the geometric safety factor: how far all sections can be shrunk and still hold a line of thrust.
+    /// Exit code 0 if both ends are found or have no limit, 1 if the scene falls, 3 if that stays open.
+    Thrust(Thrust),
     /// What happens in time, and does the verdict say the same?
     ///
     /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any pre-stress: a second opinion that shares
     /// nothing with the verdict but the blocks and where they touch. It proves nothing; near a limit (3 % with fast steps, 1 % with fine
     /// ones) it may err. Exit code 0 if it stands, 1 if it falls, 3 if that stays open.
     Simulate(Simulate),
+    /// Error against run time, per method, on scenes with known answers.
+    ///
+    /// Each method runs over its knob (the engine's tolerance, facets of friction pyramids, number of verdicts, time steps); medians of
+    /// repeated runs. With --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
+    /// answer is wrong.
+    Study(Study),
     /// Make a scene from a template.
     ///
     /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON on the right:
@@ -94,14 +117,119 @@ pub enum Verb {
     /// joint, and every word of the answer is compared. Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing.
     /// Of a scene, near misses, overlaps, loose blocks and slips of units are listed. Exit code 0 if there is none, 1 otherwise.
     Check(Check),
-    /// Print the JSON Schema of scenes.
-    Schema,
+    /// Ask a question of many scenes that differ in a few numbers.
+    ///
+    /// The plan names a scene, a question and the numbers that vary, by JSON pointer, on a grid or sampled. Every row is appended to a file as
+    /// it ends; the same command takes it up again after a kill at any point. Rows are the same whatever the threads.
+    /// Exit code 0 if all rows are done (a row whose scene fails holds its error).
+    Sweep(Sweep),
+    /// Print the JSON Schema of scenes, or of sweep plans.
+    Schema(Schema),
+}
+
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct Sweep {
+    #[command(subcommand)]
+    pub merge: Option<SweepVerb>,
+    /// The plan (JSON), `-` for standard input.
+    #[arg(required = true)]
+    pub plan: Option<PathBuf>,
+    /// The file of rows (JSON lines), which is continued if it holds rows of this plan; by default the plan's name with the ending
+    /// `.rows.jsonl`, in the current folder.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Do every N-th row, starting with the K-th; `sweep merge` puts the files together.
+    #[arg(long, value_name = "K/N", default_value_t = Shard::ALL)]
+    pub shard: Shard,
+    /// Threads; by default one a processor.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Begin again where the file holds rows already.
+    #[arg(long)]
+    pub restart: bool,
+    #[command(flatten)]
+    pub summary: Summary,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum SweepVerb {
+    /// Put files of rows together, in the order of the rows, and sum them up.
+    ///
+    /// Exit code 3 if rows are missing.
+    Merge(Merge),
+}
+
+#[derive(Debug, Args)]
+pub struct Merge {
+    /// Files of rows of one plan.
+    #[arg(required = true)]
+    pub rows: Vec<PathBuf>,
+    /// Write all rows to this file.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub summary: Summary,
+}
+
+/// What is made of rows.
+#[derive(Debug, Args)]
+pub struct Summary {
+    /// Write the rows as a table.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Draw a chart.
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Which chart: `line` (value against one number), `heat` (against two), `fragility` (share that fails); by default what suits the plan.
+    #[arg(long, value_enum, value_name = "KIND", requires = "svg", hide_possible_values = true)]
+    pub chart: Option<Chart>,
+    /// Print the summary as one JSON object and nothing else.
+    #[arg(long)]
+    pub json: bool,
+    /// The first line only, and no progress.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Chart {
+    Line,
+    Heat,
+    Fragility,
+}
+
+impl From<Chart> for voussoir::report::sweep::Kind {
+    fn from(chart: Chart) -> Self {
+        match chart {
+            Chart::Line => Self::Line,
+            Chart::Heat => Self::Heat,
+            Chart::Fragility => Self::Fragility,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct Schema {
+    /// Of what: `scene` or `plan`.
+    #[arg(value_enum, default_value_t = Format::Scene, hide_possible_values = true)]
+    pub of: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    Scene,
+    Plan,
 }
 
 #[derive(Debug, Args)]
 pub struct Assess {
     #[command(flatten)]
     pub common: Common,
+    /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is `friction` (of all joints without an exception),
+    /// `density` (every material by itself), `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is the worst is said.
+    #[arg(long, value_name = "RANGES", value_delimiter = ',')]
+    pub worst: Vec<Range>,
     /// Run the scene in time as well, and compare (see `voussoir simulate`).
     #[arg(long)]
     pub simulate: bool,
@@ -109,7 +237,7 @@ pub struct Assess {
     #[arg(long, conflicts_with = "simulate")]
     pub thorough: bool,
     /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend on them.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     pub threads: u16,
 }
 
@@ -133,7 +261,7 @@ pub struct Simulate {
     #[arg(long, value_name = "LAMBDA", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
     pub load_factor: f64,
     /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend on them.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     pub threads: u16,
     /// Write where every block is, time by time, to this file as it happens.
     #[arg(long, value_name = "FILE")]
@@ -147,6 +275,37 @@ pub struct Simulate {
 }
 
 #[derive(Debug, Args)]
+pub struct Study {
+    /// Scenes to study, by name: arch, wall, openings, corner, groove, column, courses, tiny. All of them by default.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "extreme")]
+    pub scenes: Vec<String>,
+    /// Every other setting of each knob, no simulations, no repetition: under a minute.
+    #[arg(long, conflicts_with = "extreme")]
+    pub quick: bool,
+    /// Runs per setting, of which the median counts; 3 by default, 1 with --quick.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), conflicts_with = "extreme")]
+    pub repeat: Option<u16>,
+    /// The stiff and extreme grid instead.
+    #[arg(long)]
+    pub extreme: bool,
+    /// Write every run to this file, comma-separated.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Draw the charts into this folder: one per scene, and profile.svg over all.
+    #[arg(long, value_name = "FOLDER", conflicts_with = "extreme")]
+    pub svg: Option<PathBuf>,
+    /// Print every run as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// Lists in full.
+    #[arg(short, long)]
+    pub verbose: bool,
+    /// No progress.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
 pub struct Limit {
     #[command(flatten)]
     pub common: Common,
@@ -157,6 +316,10 @@ pub struct Limit {
     /// Do not ask as well whether it stands without its live load.
     #[arg(long)]
     pub skip_dead: bool,
+    /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is `friction` (of all joints without an exception),
+    /// `density` (every material by itself), `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is the worst is said.
+    #[arg(long, value_name = "RANGES", value_delimiter = ',')]
+    pub worst: Vec<Range>,
 }
 
 #[derive(Debug, Args)]
@@ -227,6 +390,39 @@ pub struct Repose {
     /// Write the contact forces of the packing when level to this file.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct Critical {
+    #[command(flatten)]
+    pub common: Common,
+    /// JSON pointer of the number to vary.
+    #[arg(long, value_name = "POINTER")]
+    pub vary: String,
+    /// The range.
+    #[arg(long, required = true, num_args = 2, value_names = ["A", "B"], allow_negative_numbers = true, value_parser = finite)]
+    pub between: Vec<f64>,
+    /// Scan so many values, both ends among them [default: 33; of a count every one].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    pub scan: Option<u32>,
+    /// Scan in steps of at most this size.
+    #[arg(long, value_name = "SIZE", conflicts_with = "scan", allow_negative_numbers = true, value_parser = positive)]
+    pub step: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub struct Thrust {
+    #[command(flatten)]
+    pub common: Common,
+    /// The support; the first one that carries a free block where none is named.
+    #[arg(long, value_name = "ID")]
+    pub support: Option<String>,
+    /// The direction of the thrust (its part across gravity); outwards from the blocks' centre of mass where none is given.
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
+    pub direction: Option<[f64; 3]>,
+    /// Draw the blocks and the two lines of thrust, seen across the thrust, to this file.
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
 }
 
 /// What every question takes.

@@ -8,10 +8,11 @@ use super::{
     terminal::Terminal,
 };
 use std::ops::ControlFlow;
-use voussoir::{analysis::assess, dynamics::Settings, report::ResultFile, verdict::Verdict};
+use voussoir::{analysis::assess, dynamics::Settings, report::ResultFile, sweep::WorstOf, verdict::Verdict};
 
 pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let question = Question::open(&args.common)?;
+    let mut question = Question::open(&args.common)?;
+    question.worst(&args.worst, WorstOf::Assess)?;
     let assessment = assess(&question.model.assembly, &question.model.interfaces, &question.control());
     let doubt = matches!(assessment.verdict, Verdict::Conditional | Verdict::Undecided);
     let settings = Settings { threads: threads(args.threads), ..Settings::default() };

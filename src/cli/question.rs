@@ -5,11 +5,13 @@ use anyhow::bail;
 use std::time::Instant;
 use voussoir::{
     analysis::{Control, Model, Outcome, coulomb::Found, prepare},
+    error::{Finding, FindingCode, InputError},
     report::{
         ResultFile, json,
         text::{self, Asked, Options},
     },
     scene::{Scene, Source},
+    sweep::{self, Range, WorstOf},
     verdict::Verdict,
 };
 
@@ -50,6 +52,22 @@ impl<'a> Question<'a> {
         Ok(Self { common, save, source, start: Instant::now(), scene, model })
     }
 
+    /// Puts the worst case within ranges in the place of the scene, and the argument among what the user should know.
+    pub fn worst(&mut self, ranges: &[Range], asked: WorstOf) -> anyhow::Result<()> {
+        if ranges.is_empty() {
+            return Ok(());
+        }
+        let refuse = |e: InputError| if e.path.0.is_empty() { e } else { e.located(&self.source) };
+        let worst = sweep::worst(&self.scene, ranges, asked, &self.control()).map_err(refuse)?;
+        let read = self.model.timings.read;
+        let mut model = prepare(&worst.scene).map_err(refuse)?;
+        model.timings.read = read;
+        let notes = worst.argument.into_iter().map(|text| Finding::new(FindingCode::WorstCase, format!("worst case: {text}")));
+        model.assembly.findings.splice(0..0, notes);
+        (self.scene, self.model) = (worst.scene, model);
+        Ok(())
+    }
+
     /// What is left of the time for programs.
     pub fn control(&self) -> Control {
         let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.start.elapsed().as_secs_f64()).max(0.0));
@@ -67,7 +85,7 @@ impl<'a> Question<'a> {
     }
 
     /// An error in the scene, with its place.
-    pub fn refuse(&self, error: voussoir::error::InputError) -> anyhow::Error {
+    pub fn refuse(&self, error: InputError) -> anyhow::Error {
         error.located(&self.source).into()
     }
 
@@ -102,7 +120,7 @@ impl<'a> Question<'a> {
 }
 
 /// A word as a shell takes it whole.
-fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     if word.chars().all(|c| c.is_alphanumeric() || "/._-+=:,@%\\".contains(c)) {
         return word.to_string();
     }

@@ -23,7 +23,7 @@ use super::{
     tally::Tally,
 };
 use crate::{
-    assembly::Assembly,
+    assembly::{Assembly, JointLaw},
     error::{InputError, JsonPath},
 };
 use nalgebra::Vector3;
@@ -74,14 +74,7 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
         if meeting.contacts.is_empty() {
             continue;
         }
-        let law = assembly.joints.law(a, b, &assembly.blocks).ok_or_else(|| {
-            let (one, other) = (&assembly.blocks[a].id, &assembly.blocks[b].id);
-            InputError::at(
-                JsonPath::root(),
-                format!("blocks {one:?} and {other:?} touch, and nothing says what friction acts between them"),
-            )
-            .hint("give joints.default.friction, or a joint override for these blocks or their materials")
-        })?;
+        let law = law(assembly, a, b)?;
         for contact in meeting.contacts {
             tally.contact(contact.gap, &limits);
             interfaces.list.push(Interface {
@@ -105,6 +98,30 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
     });
     interfaces.findings = tally.findings(assembly);
     Ok(interfaces)
+}
+
+/// How the joint between two blocks that touch resists.
+fn law(assembly: &Assembly, a: usize, b: usize) -> Result<JointLaw, InputError> {
+    assembly.joints.law(a, b, &assembly.blocks).ok_or_else(|| {
+        let (one, other) = (&assembly.blocks[a].id, &assembly.blocks[b].id);
+        InputError::at(JsonPath::root(), format!("blocks {one:?} and {other:?} touch, and nothing says what friction acts between them"))
+            .hint("give joints.default.friction, or a joint override for these blocks or their materials")
+    })
+}
+
+impl Interfaces {
+    /// The interfaces of an assembly that differs from the one they were [detected](detect) in by its joints, loads, masses and
+    /// gravity alone: where blocks touch is kept, how they resist is that of `assembly`. Interfaces given by hand keep their law.
+    ///
+    /// # Errors
+    /// As [`detect`].
+    pub fn with_joints_of(&self, assembly: &Assembly) -> Result<Self, InputError> {
+        let mut interfaces = self.clone();
+        for interface in interfaces.list.iter_mut().filter(|i| i.kind != ContactKind::Given) {
+            interface.law = law(assembly, interface.a, interface.b)?;
+        }
+        Ok(interfaces)
+    }
 }
 
 /// A pair of blocks that have something to do with each other.

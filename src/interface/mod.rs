@@ -15,6 +15,7 @@ mod overlap;
 mod plane;
 mod polygon;
 mod section;
+mod shrink;
 mod spheres;
 mod strength;
 mod tally;

@@ -1,6 +1,6 @@
 //! Contact points of the program: what each may carry, as columns and a cone.
 
-use super::{Cone, ConicProgram, Options, planar, planar::Plane};
+use super::{Cone, ConicProgram, Options, Pyramid, planar, planar::Plane};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interface, Interfaces},
@@ -81,8 +81,7 @@ impl Bearing {
     pub(super) fn admit(&self, x: &mut [f64]) {
         match self.cone {
             BearingCone::Rays => x.iter_mut().for_each(|v| *v = v.max(0.0)),
-            BearingCone::Rough if x[0] < 0.0 => x.fill(0.0),
-            BearingCone::Rough => {}
+            BearingCone::Rough => x[0] = x[0].max(0.0),
             BearingCone::Circular => {
                 let t = x[1].hypot(x[2]);
                 if t <= -x[0] {
@@ -141,21 +140,23 @@ impl Disc {
         (self.slope * normal + self.constant).max(0.0)
     }
 
-    /// The rows of the limit that grows with the normal force.
+    /// The rows of the limit that grows with the normal force; divided by a steep slope, so that friction of 1e6 is no number of
+    /// that size.
     pub(super) fn cone(&self, p: &mut ConicProgram) {
+        let by = 1.0 / self.slope.max(1.0);
         if self.count == 1 {
             let row = p.cone(Cone::NonNegative(2));
             for (k, sign) in [(0, 1.0), (1, -1.0)] {
-                p.matrix.push(row + k, self.normal, -self.slope);
-                p.matrix.push(row + k, self.first, sign);
-                p.rhs[row + k] = self.constant;
+                p.matrix.push(row + k, self.normal, -self.slope * by);
+                p.matrix.push(row + k, self.first, sign * by);
+                p.rhs[row + k] = self.constant * by;
             }
         } else {
             let row = p.cone(Cone::SecondOrder(3));
-            p.matrix.push(row, self.normal, -self.slope);
-            p.rhs[row] = self.constant;
-            p.matrix.push(row + 1, self.first, -1.0);
-            p.matrix.push(row + 2, self.first + 1, -1.0);
+            p.matrix.push(row, self.normal, -self.slope * by);
+            p.rhs[row] = self.constant * by;
+            p.matrix.push(row + 1, self.first, -by);
+            p.matrix.push(row + 2, self.first + 1, -by);
         }
     }
 }
@@ -188,9 +189,6 @@ impl Limits {
                 part.iter_mut().for_each(|v| *v *= limit / size);
             }
         }
-        if self.mu.is_infinite() && self.tension == 0.0 && x[0] <= 0.0 {
-            x[1..].fill(0.0);
-        }
     }
 }
 
@@ -222,6 +220,11 @@ pub(super) fn bearings(assembly: &Assembly, interfaces: &Interfaces, plane: Opti
         for points in points {
             let mut bearing = Bearing { interface: index, points, column, basis: basis.clone(), cone, unit: 1.0, presumed: 0.0 };
             if let BearingCone::Limited(limits) = &mut bearing.cone {
+                if shares.is_empty() {
+                    list.push(bearing);
+                    column += basis.len();
+                    continue;
+                }
                 let share: f64 = shares[points[0]] + if points[0] == points[1] { 0.0 } else { shares[points[1]] };
                 (limits.cohesion, limits.tension) = (face.law.cohesion * share, face.tension() * share);
             }
@@ -232,12 +235,17 @@ pub(super) fn bearings(assembly: &Assembly, interfaces: &Interfaces, plane: Opti
     list
 }
 
+/// Friction above which the edges of a cone are too flat to be coordinates: forces of common size become differences of forces μ times
+/// as large. Larger: digits are lost (at 1e6 light blocks on heavy ones came out wrong). Smaller: scenes go without programs in rates.
+const STEEP: f64 = 30.0;
+
 /// Directions of the force columns and their cone; constants of [`Limits`] are still to be filled in.
 fn friction_columns(face: &Interface, plane: Option<Plane>, options: Options) -> (Vec<Vector3<f64>>, BearingCone) {
     let n = face.frame.n;
     let tangents = plane.map_or_else(|| vec![face.frame.t1, face.frame.t2], |p| vec![p.axis.cross(&n)]);
     let split = || std::iter::once(n).chain(tangents.iter().copied()).collect::<Vec<_>>();
-    if !face.law.is_dry() {
+    let steep = !options.split && options.pyramid.is_none() && matches!(face.law.friction, Friction::Coefficient(mu) if mu > STEEP);
+    if !face.law.is_dry() || steep {
         let couples = match (face.rolling_arm() > 0.0, plane) {
             (false, _) => 0,
             (true, Some(_)) => 1,
@@ -253,6 +261,16 @@ fn friction_columns(face: &Interface, plane: Option<Plane>, options: Options) ->
         (Some(_), Friction::Coefficient(mu)) => {
             let (t, scale) = (tangents[0], 1.0 / mu.hypot(1.0));
             (vec![(n + t * mu) * scale, (n - t * mu) * scale], BearingCone::Rays)
+        }
+        (None, Friction::Coefficient(mu)) if options.pyramid.is_some_and(|p| p.facets > 2) => {
+            let Pyramid { facets, around } = options.pyramid.unwrap_or(Pyramid { facets: 3, around: false });
+            let step = std::f64::consts::TAU / facets as f64;
+            let slope = if around { mu / (0.5 * step).cos() } else { mu };
+            let edge = |k: usize| {
+                let (sin, cos) = (k as f64 * step).sin_cos();
+                (n + (tangents[0] * cos + tangents[1] * sin) * slope) / slope.hypot(1.0)
+            };
+            ((0..facets).map(edge).collect(), BearingCone::Rays)
         }
         (None, Friction::Coefficient(mu)) => {
             let (normal, shear) = if mu > 1.0 { (1.0 / mu, 1.0) } else { (1.0, mu) };

@@ -72,7 +72,7 @@ impl Contacts {
     /// A plane scene is solved as plane only where every interface is wholly represented by its two ends: the compliance of
     /// inner points would be lost.
     pub fn new(assembly: &Assembly, interfaces: &Interfaces, keep_all: bool, live: bool) -> Self {
-        let options = Options { keep_all, live, split: true };
+        let options = Options { keep_all, live, split: true, ..Options::default() };
         let mut statics = Statics::new(assembly, interfaces, options);
         if statics.plane.is_some() && !ends_are_all(&statics.bearings, interfaces) {
             statics = Statics::new(assembly, interfaces, Options { keep_all: true, ..options });
@@ -256,9 +256,6 @@ impl Contacts {
                 if size > limit {
                     part.iter_mut().for_each(|v| *v *= limit / size);
                 }
-            }
-            if p.discs.is_empty() && p.tension == 0.0 && normal <= 0.0 {
-                f[p.column + 1..p.column + p.columns].fill(0.0);
             }
         }
         f

@@ -4,7 +4,7 @@
 //! standard cones. Rows are divided by each block's own load (moments also by its size), columns by one force unit;
 //! with raw newtons an interior-point solver reports success on wrong answers.
 //! From it come program **V**, the least unbalance ([`unbalance`]), and program **L**, the load factor ([`load_factor`]),
-//! each in the forces or, dually, in the rates of the blocks.
+//! each in the forces or, dually, in the rates of the blocks; and program **T**, the thrust on a support ([`thrust()`]), in the forces.
 //!
 //! Signs: a contact force acts on block `b` along `n` (from `a` into `b`); rates are power-conjugate to wrenches, so that
 //! `v = Aᵀ q` is the rate of separation and sliding of the contacts, opening positive.
@@ -18,6 +18,7 @@ mod planar;
 mod reach;
 mod section;
 mod statics;
+mod thrust;
 mod unbalance;
 
 pub use bearing::{Bearing, BearingCone, Disc, Limits};
@@ -26,7 +27,8 @@ pub use load_factor::load_factor;
 pub use planar::Plane;
 pub use reach::{floating, is_forest};
 pub use section::Section;
-pub use statics::{FreeBlock, Options, Statics};
+pub use statics::{FreeBlock, Options, Pyramid, Statics};
+pub use thrust::{endless_thrust, thrust, thrust_columns};
 pub use unbalance::{LiveLoad, unbalance};
 
 /// Which unknowns a program is written in; the others come out as multipliers.

@@ -17,7 +17,7 @@ use crate::{
 use nalgebra::Vector3;
 
 /// What to leave out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// Keep everything, for comparison: three dimensions, every tangential force.
     pub keep_all: bool,
@@ -26,6 +26,19 @@ pub struct Options {
     /// Whether columns are the normal and tangential forces themselves, friction left to the caller
     /// ([`coulomb`](super::coulomb)), instead of coordinates of the friction cone.
     pub split: bool,
+    /// For studies: friction cones in space replaced by pyramids.
+    pub pyramid: Option<Pyramid>,
+    /// For studies: newtons and metres as they are, no scaling.
+    pub unscaled: bool,
+}
+
+/// A friction cone made of flat facets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pyramid {
+    /// Number of facets, at least 3.
+    pub facets: usize,
+    /// Around the cone (edges outside) instead of inside it.
+    pub around: bool,
 }
 
 /// A free block and the scales of its rows.
@@ -73,8 +86,8 @@ impl Statics {
             .free()
             .map(|block| FreeBlock {
                 block,
-                weight: assembly.weight(block).max(assembly.dead[block].force.norm()),
-                length: 0.5 * assembly.blocks[block].size,
+                weight: if options.unscaled { 1.0 } else { assembly.weight(block).max(assembly.dead[block].force.norm()) },
+                length: if options.unscaled { 1.0 } else { 0.5 * assembly.blocks[block].size },
             })
             .collect();
         let mut row_of = vec![None; assembly.blocks.len()];
@@ -97,7 +110,7 @@ impl Statics {
             matrix: Sparse::zeros(dimension * free.len(), columns),
             dead: vec![0.0; dimension * free.len()],
             live: vec![0.0; dimension * free.len()],
-            unit: UNIT_SHARE * total / supported.max(1) as f64,
+            unit: if options.unscaled { 1.0 } else { UNIT_SHARE * total / supported.max(1) as f64 },
             free,
             bearings: Vec::new(),
             sections: Vec::new(),
@@ -192,6 +205,22 @@ impl Statics {
         for (j, v) in self.matrix.j.iter().zip(&mut self.matrix.v) {
             *v *= by[*j];
         }
+    }
+
+    /// Measures every block by the greatest load instead of its own: rates of light blocks among heavy ones then come out as exactly as
+    /// those of the heavy ones, at the cost of their forces.
+    pub fn even(&mut self) {
+        let greatest = self.free.iter().map(|f| f.weight).fold(0.0, f64::max);
+        let by: Vec<f64> = self.free.iter().map(|f| f.weight / greatest).collect();
+        let d = self.rates_per_block;
+        for (i, v) in self.matrix.i.iter().zip(&mut self.matrix.v) {
+            *v *= by[*i / d];
+        }
+        for (row, (dead, live)) in self.dead.iter_mut().zip(&mut self.live).enumerate() {
+            *dead *= by[row / d];
+            *live *= by[row / d];
+        }
+        self.free.iter_mut().for_each(|f| f.weight = greatest);
     }
 
     /// Whether joints have strengths or couples, for which only programs in forces exist.

@@ -1,13 +1,18 @@
 //! Answers for people and for programs. No mechanics here: one file per format.
 
 pub mod contacts;
+pub mod critical;
 pub mod heaps;
 pub mod json;
 pub mod packing;
 pub mod read;
 pub mod result;
 pub mod simulation;
+pub mod study;
+pub mod svg;
+pub mod sweep;
 pub mod text;
+pub mod thrust;
 pub mod trajectory;
 pub mod verify;
 

@@ -1,7 +1,11 @@
 //! The result file (`"format": "voussoir-result/1"`): the question, the answer and its evidence, complete enough to be
 //! verified without a solver.
 
-use super::simulation::Simulation;
+use super::{
+    critical::{CriticalResult, CriticalValue},
+    simulation::Simulation,
+    thrust::{ThrustAnswer, ThrustResult},
+};
 use crate::{
     analysis::{Assessment, Attempt, Bracket, Law, LoadFactor, Model, Outcome, Tilt, Timings, agreement, coulomb},
     dynamics::{Fate, Outcome as Simulated},
@@ -51,6 +55,12 @@ pub struct ResultFile {
     /// The state under dry friction, where it had to be computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coulomb_state: Option<CoulombState>,
+    /// Critical: the flips with the verdicts on both sides of each.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub critical: Option<CriticalResult>,
+    /// Thrust: the evidence for both ends and the line of thrust.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thrust: Option<ThrustResult>,
     /// What happened in time, where it was simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub simulation: Option<Simulation>,
@@ -79,6 +89,10 @@ pub enum Question {
     Limit,
     /// At what tilt does it fall?
     Tilt,
+    /// At what value of a number in the scene does the verdict flip?
+    Critical,
+    /// How hard does it push a support?
+    Thrust,
     /// What happens in time, and does it agree with the verdict?
     Simulate,
 }
@@ -123,6 +137,12 @@ pub struct Answer {
     /// The direction of the tilt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub toward: Option<[f64; 3]>,
+    /// The values at which the verdict flips.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub critical: Option<Vec<CriticalValue>>,
+    /// The range of the thrust on a support, and the geometric safety factor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thrust: Option<ThrustAnswer>,
 }
 
 /// A load factor.
@@ -258,6 +278,13 @@ impl Default for Versions {
     }
 }
 
+impl Certificate {
+    /// Nothing is claimed.
+    pub fn none() -> Self {
+        Self { claim: None, forces: Vec::new(), base: None, rates: Vec::new(), verified: Vec::new() }
+    }
+}
+
 /// Verifies a claim and packs it with its evidence. The findings say whether it holds.
 pub fn certify(model: &Model, claim: Option<Claim>, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> (Certificate, Findings) {
     let (assembly, interfaces) = (&model.assembly, &model.interfaces);
@@ -273,7 +300,7 @@ pub fn certify(model: &Model, claim: Option<Claim>, forces: &Forces, base: Optio
 }
 
 impl ResultFile {
-    fn new(question: Question, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
+    pub(super) fn new(question: Question, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
         Self {
             format: Format::V1,
             question,
@@ -291,6 +318,8 @@ impl ResultFile {
             dead_load: None,
             dry: None,
             coulomb_state: None,
+            critical: None,
+            thrust: None,
             simulation: None,
             mechanism: None,
             left_out: Vec::new(),
@@ -408,17 +437,16 @@ impl ResultFile {
         self
     }
 
-    fn warn(&mut self, findings: &Findings) {
+    pub(super) fn warn(&mut self, findings: &Findings) {
         let code = crate::error::FindingCode::Numerics;
         self.warnings.extend(findings.fails.iter().map(|f| Finding::new(code, format!("certificate refused: {f}"))));
     }
 }
 
 fn dry_result(model: &Model, d: &coulomb::DryLoadFactor) -> (DryResult, Findings) {
-    let found = d.value.is_finite() && d.found != coulomb::Found::Undecided;
-    let claim = found.then_some(Claim::DryLoadFactor { value: d.value });
+    let claim = d.claim();
     let (mut certificate, findings) = certify(model, claim, &d.forces, None, &d.rates);
-    let proved = found && findings.fails.is_empty();
+    let proved = claim.is_some() && findings.fails.is_empty();
     if !proved {
         certificate.claim = None;
     }
@@ -432,16 +460,8 @@ fn dry_result(model: &Model, d: &coulomb::DryLoadFactor) -> (DryResult, Findings
     (dry, findings)
 }
 
-fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) {
-    let claim = match a.verdict {
-        Verdict::Stable => Some(Claim::Stable),
-        Verdict::Unstable => Some(Claim::Unstable),
-        Verdict::Conditional => Some(Claim::Conditional),
-        Verdict::Undecided => None,
-    };
-    // Of a conditional verdict the base are the forces without the pre-stress.
-    let base = a.state.as_ref().filter(|_| a.verdict == Verdict::Conditional).map(|s| &s.forces);
-    let (mut certificate, findings) = certify(model, claim, &a.forces, base, &a.rates);
+pub(super) fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) {
+    let (mut certificate, findings) = certify(model, a.claim(), &a.forces, a.base(), &a.rates);
     let mut verdict = a.verdict;
     if !findings.fails.is_empty() {
         (verdict, certificate.claim) = (Verdict::Undecided, None);
@@ -451,13 +471,7 @@ fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) 
 }
 
 fn load_factor(model: &Model, l: &LoadFactor) -> (Answer, Certificate, Findings) {
-    let claim = match l.outcome {
-        Outcome::Found => Some(Claim::LoadFactor { value: l.value, lower: l.bracket.lower, upper: l.bracket.upper }),
-        Outcome::Unbounded => l.base.as_ref().map(|(standing, _)| Claim::Unbounded { standing: *standing }),
-        Outcome::Impossible => Some(Claim::Impossible),
-        Outcome::Undecided => None,
-    };
-    let (mut certificate, findings) = certify(model, claim, &l.forces, l.base.as_ref().map(|b| &b.1), &l.rates);
+    let (mut certificate, findings) = certify(model, l.claim(), &l.forces, l.base.as_ref().map(|b| &b.1), &l.rates);
     let mut status = l.outcome;
     if !findings.fails.is_empty() {
         (status, certificate.claim) = (Outcome::Undecided, None);

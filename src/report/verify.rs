@@ -2,8 +2,9 @@
 //! against the claim. Nothing that the file says about itself is believed.
 
 use super::{
-    ResultFile,
+    ResultFile, critical,
     result::{Answer, Certificate, Direction, DryResult, LoadFactorAnswer, Question, words},
+    thrust,
 };
 use crate::{
     analysis::{Model, Outcome, coulomb::Found, prepare, tilt::tilted},
@@ -22,7 +23,7 @@ use std::collections::BTreeSet;
 
 /// Saved and recomputed numbers of the answer agree within this × their size. Larger: edited digits pass.
 /// Smaller: rounding of another machine's arithmetic is taken for tampering.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 
 /// What the verification of a result found.
 #[derive(Clone, Debug, Default)]
@@ -44,7 +45,7 @@ impl Verification {
         self.claimed && !self.refuted()
     }
 
-    fn part(&mut self, title: impl Into<String>, findings: Findings) {
+    pub(super) fn part(&mut self, title: impl Into<String>, findings: Findings) {
         self.parts.push((title.into(), findings));
     }
 }
@@ -67,13 +68,22 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
             }
         }
         Question::Tilt => tilts(&mut all, file, &model),
+        Question::Critical => critical::verify(&mut all, file, scene),
+        Question::Thrust => thrust::verify(&mut all, file, &model),
+    }
+    let strangers =
+        [file.question != Question::Critical && file.critical.is_some(), file.question != Question::Thrust && file.thrust.is_some()];
+    if strangers.contains(&true) {
+        all.part("form", failure("the file holds answers to a question that was not asked"));
     }
     if let Some(dead) = &file.dead_load {
         all.part("dead load alone", answer(&model, Question::Assess, &dead.answer, &dead.certificate).0);
     }
     if let Some(dry) = file.dry.as_ref().filter(|_| file.question != Question::Tilt) {
         let findings = match file.question {
-            Question::Assess | Question::Simulate => failure("the file holds a load factor that was not asked for"),
+            Question::Assess | Question::Simulate | Question::Critical | Question::Thrust => {
+                failure("the file holds a load factor that was not asked for")
+            }
             _ => dry_friction(&model, dry),
         };
         all.part("dry friction", findings);
@@ -129,11 +139,11 @@ fn dry_friction(model: &Model, dry: &DryResult) -> Findings {
     }
 }
 
-fn failure(text: impl Into<String>) -> Findings {
+pub(super) fn failure(text: impl Into<String>) -> Findings {
     Findings { holds: Vec::new(), fails: vec![text.into()] }
 }
 
-fn require(f: &mut Findings, ok: bool, text: impl Into<String>) {
+pub(super) fn require(f: &mut Findings, ok: bool, text: impl Into<String>) {
     if ok { &mut f.holds } else { &mut f.fails }.push(text.into());
 }
 
@@ -187,7 +197,7 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
 }
 
 /// One answer with its evidence; gives back the rates where they could be read.
-fn answer(model: &Model, question: Question, answer: &Answer, evidence: &Certificate) -> (Findings, Option<Vec<Rate>>) {
+pub(super) fn answer(model: &Model, question: Question, answer: &Answer, evidence: &Certificate) -> (Findings, Option<Vec<Rate>>) {
     let mut f = Findings::default();
     says_what_is_claimed(&mut f, question, answer, evidence.claim.as_ref());
     let (assembly, interfaces) = (&model.assembly, &model.interfaces);
@@ -221,7 +231,10 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
         Question::Limit | Question::Tilt => {
             answer.verdict.is_none() && answer.unbalance.is_none() && answer.load_factor.is_some() && answer.fate.is_none()
         }
-    } && (question == Question::Tilt || answer.tilt_deg.is_none() && answer.toward.is_none());
+        Question::Critical | Question::Thrust => false,
+    } && answer.critical.is_none()
+        && answer.thrust.is_none()
+        && (question == Question::Tilt || answer.tilt_deg.is_none() && answer.toward.is_none());
     if !form {
         f.fails.push("the answer is not one to its question".into());
         return;
@@ -256,6 +269,8 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
         Some(Claim::LoadFactor { value, .. }) => format!("the load factor {value}"),
         Some(Claim::DryLoadFactor { value }) => format!("the load factor {value} with dry friction"),
         Some(Claim::Unbounded { .. }) => "that the live load has no limit".into(),
+        Some(Claim::Thrust { value, .. }) => format!("a thrust of {value} N"),
+        Some(Claim::EndlessThrust { .. }) => "a thrust without end".into(),
         Some(Claim::Impossible) => "that it falls whatever the live load".into(),
     };
     if agrees {

@@ -1,15 +1,17 @@
 //! The reader's errors, in words for people: serde's messages name Rust types and no remedy.
 
-use super::{Source, suggest::suggest};
+use super::{Source, read::Kind, suggest::suggest};
 use crate::error::{InputError, JsonPath, Step};
 use serde::de::IgnoredAny;
 use serde_json::error::Category;
 use serde_path_to_error::Segment;
 
-/// No scene nests deeper; the path of a text that does is cut off here.
+/// Nothing that is read nests deeper; the path of a text that does is cut off here.
 const DEEPEST: usize = 10;
 
-const TOO_DEEP: &str = "no value of a scene lies deeper than 10 levels";
+fn too_deep(kind: &Kind) -> String {
+    format!("no value of a {} lies deeper than {DEEPEST} levels", kind.noun)
+}
 
 /// The path of a failed read. Steps that serde cannot name end the path.
 pub(super) fn json_path(path: &serde_path_to_error::Path) -> JsonPath {
@@ -22,18 +24,18 @@ pub(super) fn json_path(path: &serde_path_to_error::Path) -> JsonPath {
     JsonPath(steps.collect())
 }
 
-/// Why the text is not a scene.
-pub(super) fn scene_error(source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
+/// Why the text is not what was expected.
+pub(super) fn read_error(kind: &Kind, source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
     match error.classify() {
         Category::Data => data_error(source, path, error),
         // The reader says "syntax" also where good JSON has too many elements or keys for the type it is read into.
-        _ if serde_json::from_str::<IgnoredAny>(&source.text).is_ok() => misfit(source, path, error),
-        _ => syntax_error(source, path, error),
+        _ if serde_json::from_str::<IgnoredAny>(&source.text).is_ok() => misfit(kind, source, path, error),
+        _ => syntax_error(kind, source, path, error),
     }
 }
 
 /// Good JSON that does not fit, reported by serde_json as a matter of syntax.
-fn misfit(source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
+fn misfit(kind: &Kind, source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
     let message = bare(error);
     let value = value_at(source, &path);
     let result = match (&*message, &value) {
@@ -49,7 +51,7 @@ fn misfit(source: &Source, path: JsonPath, error: &serde_json::Error) -> InputEr
             InputError::at(path, format!("needs exactly one kind, got {found}"))
                 .hint("for example { \"box\": { \"size\": [1, 1, 1] } } for a shape")
         }
-        ("recursion limit exceeded", _) => InputError::at(path, "lists or objects are nested too deeply").hint(TOO_DEEP),
+        ("recursion limit exceeded", _) => InputError::at(path, "lists or objects are nested too deeply").hint(too_deep(kind)),
         _ => InputError::at(path, message),
     };
     let raw = source.position(source.offset(error.line(), error.column()));
@@ -58,14 +60,14 @@ fn misfit(source: &Source, path: JsonPath, error: &serde_json::Error) -> InputEr
 }
 
 /// Text that is not JSON.
-pub(super) fn syntax_error(source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
+pub(super) fn syntax_error(kind: &Kind, source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
     let offset = if error.classify() == Category::Eof { source.text.len() } else { source.offset(error.line(), error.column()) };
     let rest = source.text.get(offset..).unwrap_or("");
     let message = bare(error);
     let (message, hint) = if source.text.trim().is_empty() {
-        ("the file is empty".into(), Some("a scene starts with { \"format\": \"voussoir-scene/1\""))
+        ("the file is empty".into(), Some(kind.start()))
     } else if error.classify() == Category::Eof {
-        ("the file ends in the middle of a value".into(), Some("it is cut off, or a closing bracket or quote is missing"))
+        ("the file ends in the middle of a value".into(), Some("it is cut off, or a closing bracket or quote is missing".into()))
     } else {
         let word: String = rest.chars().take_while(|c| c.is_alphanumeric()).collect();
         let before = source.text.get(..offset).unwrap_or("").chars().next_back();
@@ -79,27 +81,32 @@ pub(super) fn syntax_error(source: &Source, path: JsonPath, error: &serde_json::
             }
             _ => None,
         };
+        let hint = hint.map(String::from);
         match message.as_str() {
-            "trailing comma" => ("a comma before a closing bracket".into(), Some("remove the comma")),
+            "trailing comma" => ("a comma before a closing bracket".into(), Some("remove the comma".into())),
             "trailing characters" => {
-                ("text after the end of the scene".into(), Some("one file holds one scene: remove what follows its closing brace"))
+                let noun = kind.noun;
+                (
+                    format!("text after the end of the {noun}"),
+                    Some(format!("one file holds one {noun}: remove what follows its closing brace")),
+                )
             }
-            "recursion limit exceeded" => ("lists or objects are nested too deeply".into(), Some(TOO_DEEP)),
+            "recursion limit exceeded" => ("lists or objects are nested too deeply".into(), Some(too_deep(kind))),
             "expected `,` or `}`" | "expected `,` or `]`" => {
-                (format!("not JSON: {message}"), hint.or(Some("a comma or a closing bracket is missing before this place")))
+                (format!("not JSON: {message}"), hint.or(Some("a comma or a closing bracket is missing before this place".into())))
             }
             "expected value" => ("not JSON: expected a value".into(), hint),
             "key must be a string" => ("not JSON: expected a key in double quotes".into(), hint),
             m if m.starts_with("control character") => {
-                ("not JSON: a line break or control character inside a string".into(), Some("close the quotes, or write \\n"))
+                ("not JSON: a line break or control character inside a string".into(), Some("close the quotes, or write \\n".into()))
             }
             _ => (format!("not JSON: {message}"), hint),
         }
     };
-    InputError { file: Some(source.name.clone()), position: Some(source.position(offset)), path, message, hint: hint.map(Into::into) }
+    InputError { file: Some(source.name.clone()), position: Some(source.position(offset)), path, message, hint }
 }
 
-/// JSON whose keys or types are not those of a scene.
+/// JSON whose keys or types are not those expected.
 fn data_error(source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
     let message = bare(error);
     let mut at_key = false;

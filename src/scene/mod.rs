@@ -7,6 +7,7 @@
 mod block;
 mod contact;
 mod explain;
+mod field;
 mod interface;
 mod joint;
 mod load;
@@ -26,6 +27,7 @@ pub use interface::InterfaceSpec;
 pub use joint::{Friction, JointOverride, JointSpec, Joints, Material};
 pub use load::{At, Load, Loads};
 pub use protocol::{Protocol, ProtocolKind};
+pub(crate) use read::{Kind, read_as, text};
 pub use read::{read_bytes, read_file, read_str};
 pub use schema::schema;
 pub use source::Source;

@@ -2,7 +2,7 @@
 
 use super::{Format, Scene, Source, explain};
 use crate::error::{InputError, JsonPath};
-use serde::Deserialize;
+use serde::{Deserialize, de::DeserializeOwned};
 
 /// Reads a scene file.
 ///
@@ -21,8 +21,13 @@ pub fn read_file(path: &std::path::Path) -> Result<(Scene, Source), InputError> 
 /// # Errors
 /// The bytes are not UTF-8, not JSON, or not a scene.
 pub fn read_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Result<(Scene, Source), InputError> {
+    read_as(&SCENE, text(name, bytes)?)
+}
+
+/// The bytes of a file as text.
+pub(crate) fn text(name: impl Into<String>, bytes: Vec<u8>) -> Result<Source, InputError> {
     match String::from_utf8(bytes) {
-        Ok(text) => read_str(name, text),
+        Ok(text) => Ok(Source::new(name, text)),
         Err(e) => {
             let good = e.utf8_error().valid_up_to();
             let bytes = e.into_bytes();
@@ -40,42 +45,71 @@ pub fn read_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Result<(Scene, Sou
 /// # Errors
 /// The text is not JSON, or is not a scene.
 pub fn read_str(name: impl Into<String>, text: impl Into<String>) -> Result<(Scene, Source), InputError> {
-    let source = Source::new(name, text);
+    debug_assert_eq!(serde_json::to_value(Format::V1).ok().as_ref().and_then(|v| v.as_str()), Some(SCENE.format));
+    read_as(&SCENE, Source::new(name, text))
+}
+
+/// A kind of file, in the words of its errors.
+pub(crate) struct Kind {
+    /// What it is called: "scene".
+    pub noun: &'static str,
+    /// The value of its key `format`.
+    pub format: &'static str,
+    /// What else could help where that key is missing.
+    pub otherwise: &'static str,
+}
+
+impl Kind {
+    pub(super) fn start(&self) -> String {
+        format!("a {} starts with {{ \"format\": {:?}", self.noun, self.format)
+    }
+}
+
+const SCENE: Kind = Kind { noun: "scene", format: "voussoir-scene/1", otherwise: "; `voussoir import` reads files of other programs" };
+
+/// Reads a JSON file of a kind.
+pub(crate) fn read_as<T: DeserializeOwned>(kind: &Kind, source: Source) -> Result<(T, Source), InputError> {
     let first = source.text.trim_start().chars().next();
     if first.is_some_and(|c| c == '[' || c == '"' || c == '-' || c.is_ascii_digit()) {
-        let error = InputError::at(JsonPath::root(), "a scene is a JSON object, not a list, string or number");
-        return Err(error.hint("a scene starts with { \"format\": \"voussoir-scene/1\"").located(&source));
+        let error = InputError::at(JsonPath::root(), format!("a {} is a JSON object, not a list, string or number", kind.noun));
+        return Err(error.hint(kind.start()).located(&source));
     }
     let mut deserializer = serde_json::Deserializer::from_str(&source.text);
-    let scene = serde_path_to_error::deserialize(&mut deserializer).map_err(|e| {
+    let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|e| {
         let path = explain::json_path(e.path());
-        wrong_format(&source).unwrap_or_else(|| explain::scene_error(&source, path, e.inner()))
+        wrong_format(kind, &source).unwrap_or_else(|| explain::read_error(kind, &source, path, e.inner()))
     })?;
-    deserializer.end().map_err(|e| explain::syntax_error(&source, JsonPath::root(), &e))?;
-    Ok((scene, source))
+    deserializer.end().map_err(|e| explain::syntax_error(kind, &source, JsonPath::root(), &e))?;
+    Ok((value, source))
 }
 
 /// What is wrong with the key `format`, which is said before anything else: a file of another format is full of strange keys.
-fn wrong_format(source: &Source) -> Option<InputError> {
+fn wrong_format(kind: &Kind, source: &Source) -> Option<InputError> {
     #[derive(Deserialize)]
     struct Head {
         format: Option<serde_json::Value>,
     }
-    const HERE: &str = "voussoir-scene/1";
-    debug_assert_eq!(serde_json::to_value(Format::V1).ok().as_ref().and_then(|v| v.as_str()), Some(HERE));
     if !source.text.trim_start().starts_with('{') {
         return None;
     }
     let head: Head = serde_json::from_str(&source.text).ok()?;
     let path = JsonPath::root().key("format");
+    let Kind { noun, format: here, otherwise } = kind;
+    let is = |text: &str, prefix: &str| !here.starts_with(prefix) && text.starts_with(prefix);
     let error = match head.format {
-        None => InputError::at(JsonPath::root(), "not a scene: the key \"format\" is missing")
-            .hint(format!("add \"format\": \"{HERE}\"; `voussoir import` reads files of other programs")),
-        Some(serde_json::Value::String(s)) if s == HERE => return None,
-        Some(serde_json::Value::String(s)) if s.starts_with("voussoir-result/") => {
-            InputError::at(path, format!("this is a result ({s:?}), not a scene")).hint("`voussoir check` reads results")
+        None => InputError::at(JsonPath::root(), format!("not a {noun}: the key \"format\" is missing"))
+            .hint(format!("add \"format\": \"{here}\"{otherwise}")),
+        Some(serde_json::Value::String(s)) if s == *here => return None,
+        Some(serde_json::Value::String(s)) if is(&s, "voussoir-result/") => {
+            InputError::at(path, format!("this is a result ({s:?}), not a {noun}")).hint("`voussoir check` reads results")
         }
-        Some(other) => InputError::at(path, format!("unknown format {other}")).hint(format!("this program reads \"{HERE}\"")),
+        Some(serde_json::Value::String(s)) if is(&s, "voussoir-sweep/") => {
+            InputError::at(path, format!("this is a sweep plan ({s:?}), not a {noun}")).hint("`voussoir sweep` reads plans")
+        }
+        Some(serde_json::Value::String(s)) if is(&s, "voussoir-scene/") => {
+            InputError::at(path, format!("this is a scene ({s:?}), not a {noun}")).hint("name it under the key \"scene\" of a plan")
+        }
+        Some(other) => InputError::at(path, format!("unknown format {other}")).hint(format!("this program reads \"{here}\"")),
     };
     Some(error.located(source))
 }

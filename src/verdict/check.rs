@@ -1,7 +1,10 @@
 //! Verifying a claim from the scene, the forces and the rates: no program, no solver, no trust in any saved number
 //! but the forces and the rates themselves.
 
-use super::{Forces, Rate, certificate, law};
+use super::{
+    Forces, Rate, certificate, law,
+    thrust::{self, Extreme, ThrustAt},
+};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::Interfaces,
@@ -42,6 +45,27 @@ pub enum Claim {
     },
     /// The mechanism gains power under the dead load and none under the live load.
     Impossible,
+    /// The forces balance the dead load and push a support with `value`; the mechanism that follows the support admits nothing beyond the
+    /// bracket on the other side.
+    Thrust {
+        /// Where, and in which direction.
+        at: ThrustAt,
+        /// Least or greatest.
+        extreme: Extreme,
+        /// Claimed thrust, N.
+        value: f64,
+        /// Claimed lower end, N.
+        lower: f64,
+        /// Claimed upper end, N.
+        upper: f64,
+    },
+    /// The forces balance without any load and push a support (and other forces balance the dead load): the thrust has no end.
+    EndlessThrust {
+        /// Where, and in which direction.
+        at: ThrustAt,
+        /// Least or greatest.
+        extreme: Extreme,
+    },
 }
 
 /// What the recomputation gave, one line of text each.
@@ -54,7 +78,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    fn require(&mut self, ok: bool, text: String) {
+    pub(super) fn require(&mut self, ok: bool, text: String) {
         if ok { &mut self.holds } else { &mut self.fails }.push(text);
     }
 
@@ -98,6 +122,10 @@ pub fn verify(
             let scaled = kept.iter().map(|&k| forces[k].iter().map(|&v| v * factor).collect()).collect();
             balanced(&mut f, "under the live load alone, ", &alone, &unlimited, &scaled, 0.0);
         }
+        Claim::Thrust { at, extreme, value, lower, upper } => {
+            thrust::verify(&mut f, assembly, interfaces, (forces, rates), (&at, extreme), [value, lower, upper]);
+        }
+        Claim::EndlessThrust { at, extreme } => thrust::verify_endless(&mut f, assembly, interfaces, forces, base, &at, extreme),
         Claim::Impossible => {
             gains(&mut f, assembly, interfaces, rates);
             let k = certificate::kinematics(assembly, interfaces, rates, forces);
@@ -188,7 +216,7 @@ pub fn live_alone(assembly: &Assembly) -> (Assembly, f64) {
 }
 
 /// `when` says which of several sets of forces is meant.
-fn balanced(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) {
+pub(super) fn balanced(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) {
     let s = certificate::statics(assembly, interfaces, forces, lambda);
     let threshold = tolerance::UNBALANCE.max(s.resolution);
     f.require(
@@ -201,7 +229,7 @@ fn balanced(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Inte
     cones(f, when, assembly, interfaces, &s);
 }
 
-fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, s: &certificate::Statics) {
+pub(super) fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, s: &certificate::Statics) {
     f.require(
         s.cone_excess <= tolerance::CONE,
         format!("{when}forces lie in their friction cones: largest excess {:.1e} of the force", s.cone_excess),
@@ -283,7 +311,7 @@ fn load_factor(
     );
     // A bracket may be true and wide; a load factor below the limit is still not the limit. NaN is not narrow.
     let (open, narrow) = (high - low, 2.0 * width(value));
-    if open.is_nan() || open > narrow {
+    if open.is_nan() || open.abs() > narrow {
         f.fails.push(format!("the two sides do not meet: bracket {open:.1e} wide, allowed {narrow:.1e}"));
     }
     f.require(lower - width(value) <= value && value <= upper + width(value), format!("λ = {value:.12} lies in its bracket"));

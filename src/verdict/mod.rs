@@ -6,6 +6,8 @@ pub mod check;
 pub mod evidence;
 pub mod law;
 pub mod mechanism;
+pub mod section;
+pub mod thrust;
 
 use crate::{assembly::Wrench, interface::Interfaces};
 use nalgebra::Vector3;

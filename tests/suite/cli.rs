@@ -144,8 +144,26 @@ fn exit_codes_say_what_the_answer_is() {
     expect(USAGE, voussoir(&["limit", &arch]));
     expect(USAGE, voussoir(&["assess", &desk.at("none.json")]));
     expect(USAGE, voussoir(&["tilt", &arch, "--toward", "0,0,1"]));
+    let critical = |more: &[&str]| voussoir(&[&["critical", &arch, "--law", "associative"], more].concat());
+    expect(YES, critical(&["--vary", "/joints/default/friction", "--between", "0.9", "0.1", "--step", "0.3"]));
+    expect(NO, critical(&["--vary", "/joints/default/friction", "--between", "0.8", "0.9"]));
+    expect(YES, voussoir(&["thrust", &arch, "--support", "springer_right", "--direction", "-1,0"]));
+    expect(NO, voussoir(&["thrust", &thin]));
+    expect(USAGE, critical(&["--vary", "/joints/default/frictoin", "--between", "0.1", "0.9"]));
+    expect(USAGE, voussoir(&["thrust", &arch, "--support", "v03"]));
+    expect(USAGE, voussoir(&["thrust", &arch, "--direction", "0,0,1"]));
     for wrong in [
-        &["nonsense"][..],
+        &["critical", &arch][..],
+        &["critical", &arch, "--vary", "/gravity/0"],
+        &["critical", &arch, "--vary", "/gravity/0", "--between", "1"],
+        &["critical", &arch, "--vary", "/gravity/0", "--between", "1", "1"],
+        &["critical", &arch, "--vary", "/gravity/0", "--between", "0", "inf"],
+        &["critical", &arch, "--vary", "/gravity/0", "--between", "0", "1", "--scan", "1"],
+        &["critical", &arch, "--vary", "/gravity/0", "--between", "0", "1", "--step", "1e-9"],
+        &["critical", &arch, "--vary", "gravity", "--between", "0", "1"],
+        &["thrust", &arch, "--support", "nobody"],
+        &["thrust", &arch, "--svg", "no/such/folder.svg"],
+        &["nonsense"],
         &["assess"],
         &["assess", &arch, "--nonsense"],
         &["assess", &arch, "--time-limit", "0"],
@@ -210,6 +228,12 @@ fn json_is_one_object_and_nothing_else() {
         (UNDECIDED, vec!["limit", "pushed.json", "--time-limit", "1e-9"]),
         (YES, vec!["limit", "pushed.json"]),
         (YES, vec!["tilt", "arch.json", "--all", "4"]),
+        (YES, vec!["critical", "arch.json", "--vary", "/joints/default/friction", "--between", "0.1", "0.9", "--scan", "5"]),
+        (NO, vec!["critical", "arch.json", "--vary", "/joints/default/friction", "--between", "0.7", "0.9", "--scan", "2"]),
+        (UNDECIDED, vec!["critical", "arch.json", "--vary", "/gravity/0", "--between", "0", "1", "--time-limit", "1e-9"]),
+        (YES, vec!["thrust", "arch.json"]),
+        (NO, vec!["thrust", "thin.json"]),
+        (UNDECIDED, vec!["thrust", "arch.json", "--time-limit", "1e-9"]),
     ] {
         let answer = ended(command().current_dir(desk.0.path()).args(&args).arg("--json").output().unwrap());
         let answer = expect(wanted, answer);
@@ -668,8 +692,26 @@ fn the_commands_that_come_next_ask_the_same_question() {
     assert!(text.contains("block-on-tilting-table.json --toward 1,0 --law associative --save result.json"), "{text}");
     let text = out(&expect(YES, structure(&["tilt", "--toward", "1,0,0.5", "--skip-dead"], "block-on-tilting-table")));
     assert!(text.contains(" --toward 1,0,0.5 --skip-dead --save "), "{text}");
+    let critical = ["critical", "--vary", "/gravity/0", "--between", "0", "9", "--step", "3", "--law", "associative"];
+    let text = out(&expect(YES, structure(&critical, "block-on-tilting-table")));
+    assert!(text.contains(".json --vary /gravity/0 --between 0 9 --step 3 --law associative --save result.json"), "{text}");
+    let text = out(&expect(YES, structure(&["thrust", "--support", "ground", "--direction", "1,0"], "block-on-tilting-table")));
+    assert!(text.contains(".json --support ground --direction 1,0,0 --save result.json"), "{text}");
     let text = out(&expect(YES, structure(&["tilt"], "block-on-tilting-table")));
     assert!(text.contains("block-on-tilting-table.json --save "), "{text}");
+}
+
+#[test]
+fn a_thrust_is_drawn_and_a_critical_value_told_first() {
+    let desk = Desk::new();
+    let answer = expect(YES, voussoir(&["thrust", &desk.at("arch.json"), "--svg", &desk.at("arch.svg"), "--quiet"]));
+    assert!(out(&answer).starts_with("Arch: thrust on springer_left from ") && out(&answer).lines().count() == 1, "{}", out(&answer));
+    let drawing = fs::read_to_string(desk.path("arch.svg")).unwrap();
+    assert!(drawing.starts_with("<svg ") && drawing.ends_with("</svg>\n"));
+    let answer = voussoir(&["critical", &desk.at("arch.json"), "--vary", "/joints/default/friction", "--between", "0.1", "0.9"]);
+    let text = out(&expect(YES, answer));
+    assert!(text.starts_with("Arch: falls below friction = 0.3"), "{text}");
+    assert!(text.contains("  proved      falls at 0.3") && text.contains("33 values of /joints/default/friction"), "{text}");
 }
 
 #[test]
@@ -784,4 +826,38 @@ fn simulate_refuses_what_it_cannot_do() {
     }
     let lost = expect(USAGE, with_input(&["simulate", "-", "--csv", "/nowhere/motion.csv"], PUSHED));
     assert!(err(&lost).contains("/nowhere/motion.csv: cannot be written"), "{}", err(&lost));
+}
+
+#[test]
+fn repose_answers_both_questions() {
+    let desk = Desk::new();
+    expect(YES, voussoir(&["generate", "lattice", "layers=2", "--friction", "0.5", "-o", &desk.at("pile.json")]));
+    let (pile, saved, table) = (desk.at("pile.json"), desk.at("saved.json"), desk.at("contacts.csv"));
+    let options = ["--toward", "0,-1", "--fabric", "--csv", &table, "--save", &saved, "--json"];
+    let answer: Value = serde_json::from_str(&out(&expect(YES, voussoir(&[&["repose", &pile][..], &options].concat())))).unwrap();
+    assert!((answer["directions"][0]["tilt_deg"].as_f64().unwrap() - 19.471220634).abs() < 1e-6, "{answer}");
+    assert_eq!(answer["fabric"]["grains"], 4);
+    expect(YES, voussoir(&["check", &saved]));
+    let rows = fs::read_to_string(&table).unwrap().lines().count();
+    assert_eq!(rows, 1 + answer["fabric"]["contacts"].as_u64().unwrap() as usize, "a row for each contact that carries");
+
+    let protocol = ["repose", "drain", "grains=30", "size=[6,4]", "--question", "repose", "--seeds", "2", "--json"];
+    let heaps = desk.at("heap.json");
+    let one = out(&voussoir(&[&protocol[..], &["--heaps", &heaps, "--skip-margin"]].concat()));
+    let file: Value = serde_json::from_str(&one).unwrap();
+    assert_eq!(file["heaps"].as_array().unwrap().len(), 2, "{one}");
+    assert!(file["heaps"][0]["rested"].as_bool().unwrap());
+    assert!([YES, UNDECIDED].contains(&code(&voussoir(&[
+        "repose",
+        &desk.at("heap.1.json"),
+        "--toward",
+        "1,0",
+        "--law",
+        "associative",
+        "-q"
+    ]))));
+    expect(USAGE, voussoir(&["repose", "heap", "--question", "repose"]));
+    expect(USAGE, voussoir(&["repose", "drain", "grain=30", "--question", "repose"]));
+    expect(USAGE, voussoir(&["repose", "drain", "grains=-1", "--question", "repose"]));
+    expect(USAGE, voussoir(&["repose", &pile, "grains=30"]));
 }

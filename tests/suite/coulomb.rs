@@ -163,6 +163,19 @@ fn structure(name: &str) -> Scene {
     voussoir::scene::read_file(path.as_ref()).unwrap().0
 }
 
+/// Without sliding a hinge's corner carries all the pressure and the other one may share the shear: that is not lost.
+#[test]
+fn arches_that_cannot_slide_come_to_rest() {
+    for (voussoirs, thickness) in [(27, 0.1359), (27, 0.14375), (19, 0.12), (21, 0.12), (23, 0.12)] {
+        let arch = json!({ "arch": { "radius": 1.0, "thickness": thickness, "depth": 1.0, "voussoirs": voussoirs } });
+        assert_eq!(
+            verdict(&ask::template(f64::INFINITY, arch, json!({})), Law::Coulomb),
+            Verdict::Stable,
+            "{voussoirs} voussoirs, {thickness}"
+        );
+    }
+}
+
 /// Walls of Ferris & Tin-Loi (Int. J. Mech. Sci. 43, 2001): bands of known complementary solutions (cases D02, D03, D05).
 #[test]
 fn walls_that_slide_without_opening() {

@@ -76,11 +76,15 @@ fn difference(command: &str, want: &[String], got: &[String]) -> String {
 #[test]
 fn every_console_block_prints_what_it_says() {
     let folder = tempfile::tempdir().unwrap();
-    let structures = folder.path().join("structures");
-    std::fs::create_dir(&structures).unwrap();
-    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/structures")).unwrap() {
-        let path = entry.unwrap().path();
-        std::fs::copy(&path, structures.join(path.file_name().unwrap())).unwrap();
+    for part in ["structures", "structures/sweeps"] {
+        std::fs::create_dir(folder.path().join(part)).unwrap();
+        for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(part)).unwrap() {
+            let path = entry.unwrap().path();
+            // Charts are made anew by the commands.
+            if path.is_file() && path.extension().is_none_or(|e| e != "svg") {
+                std::fs::copy(&path, folder.path().join(part).join(path.file_name().unwrap())).unwrap();
+            }
+        }
     }
     let examples = examples(&readme());
     assert!(examples.len() >= 7, "only {} commands found", examples.len());
@@ -88,6 +92,24 @@ fn every_console_block_prints_what_it_says() {
         let (want, got) = (without_times(&printed), without_times(&run(&command, folder.path())));
         assert!(want == got, "{}", difference(&command, &want, &got));
     }
+    charts_are_those_of_the_commands(folder.path());
+}
+
+fn charts_are_those_of_the_commands(folder: &Path) {
+    let mut plans = 0;
+    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/structures/sweeps")).unwrap() {
+        let path = entry.unwrap().path();
+        let is_plan = std::fs::read_to_string(&path).unwrap().contains("\"voussoir-sweep/1\"");
+        if is_plan {
+            plans += 1;
+            let chart = path.with_extension("svg");
+            let name = Path::new("structures/sweeps").join(chart.file_name().unwrap());
+            let read = |path: &Path| std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+            assert!(read(&chart) == read(&folder.join(&name)), "{} is not what the command in the README draws", name.display());
+            assert!(readme().contains(&format!("]({})", name.display())), "the README does not show {}", name.display());
+        }
+    }
+    assert!(plans >= 3);
 }
 
 #[test]

@@ -3,9 +3,12 @@
 
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, Model, Outcome, assess, limit, prepare},
+    analysis::{
+        Control, Law, Model, Outcome, assess, limit, prepare,
+        thrust::{answer, outwards},
+    },
     scene::{Scene, read_str},
-    verdict::Verdict,
+    verdict::{Verdict, thrust::ThrustAt},
 };
 
 /// Friction for "infinite (no sliding)".
@@ -217,6 +220,19 @@ fn masonry_cases() {
                 }
                 None => expect(case, case, mu, Verdict::Unstable, &mut failures),
             },
+            kind @ ("thrust_min" | "thrust_unique" | "thrust_range") => {
+                let m = model(&scene(case, case, mu));
+                let support = m.assembly.find(query["support"].as_str().unwrap()).unwrap();
+                let direction = outwards(&m, support).unwrap().into();
+                let t = answer(&m, ThrustAt { support, direction }, &Control { law: Law::Associative, ..Control::default() });
+                let [least, greatest] = t.ends.unwrap().map(|e| e.value);
+                close(case, least, e["value"].as_f64().or(e["min"].as_f64()).unwrap(), &mut failures);
+                match kind {
+                    "thrust_unique" => close(case, greatest, e["value"].as_f64().unwrap(), &mut failures),
+                    "thrust_range" => close(case, greatest, e["max"].as_f64().unwrap(), &mut failures),
+                    _ => {}
+                }
+            }
             other => {
                 println!("{}: query {other}: not asked here", case["id"]);
                 seen -= 1;

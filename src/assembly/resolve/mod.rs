@@ -17,7 +17,7 @@ mod tests;
 
 use super::{Assembly, Block};
 use crate::{
-    error::{InputError, JsonPath},
+    error::{Finding, InputError, JsonPath},
     scene::{Scene, suggest},
 };
 use nalgebra::Vector3;
@@ -29,10 +29,37 @@ use std::collections::HashMap;
 /// Anything in the scene that has no meaning: a missing reference, a non-positive density, an open shape, no support, …
 pub fn resolve(scene: &Scene) -> Result<Assembly, InputError> {
     let root = JsonPath::root();
+    gravity(scene, &root.key("gravity"))?;
+    check::contact(&scene.contact, &root.key("contact"))?;
+    resolve_with(scene, resolve_blocks(scene)?)
+}
+
+/// The blocks of an assembly, before anything is said about joints and loads.
+#[derive(Clone, Debug)]
+pub struct Blocks {
+    list: Vec<Block>,
+    findings: Vec<Finding>,
+}
+
+/// Resolves the blocks of a scene. They depend on its blocks, templates and materials alone.
+///
+/// # Errors
+/// As [`resolve`], for shapes, materials and masses.
+pub fn resolve_blocks(scene: &Scene) -> Result<Blocks, InputError> {
+    let (list, findings) = blocks::resolve(scene)?;
+    Ok(Blocks { list, findings })
+}
+
+/// Resolves the rest of a scene whose blocks are those of [`resolve_blocks`] for it.
+///
+/// # Errors
+/// As [`resolve`], for everything else.
+pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputError> {
+    let root = JsonPath::root();
     let gravity = gravity(scene, &root.key("gravity"))?;
     check::contact(&scene.contact, &root.key("contact"))?;
 
-    let (blocks, findings) = blocks::resolve(scene)?;
+    let Blocks { list: blocks, findings } = blocks;
     let names = Names::new(&blocks)?;
     if blocks.is_empty() {
         return Err(InputError::at(root, "the scene has no blocks").hint("give \"blocks\" or \"templates\""));

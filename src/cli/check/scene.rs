@@ -21,6 +21,6 @@ fn is_slip(finding: &Finding) -> bool {
     match finding.code {
         Code::NearMiss | Code::Overlap | Code::Floating | Code::Orientation | Code::Units | Code::Missing | Code::WithoutEffect => true,
         Code::Assumed | Code::Mended | Code::Warped | Code::GapClosed | Code::ContactIgnored => false,
-        Code::Numerics | Code::LeftOut | Code::Converted => false,
+        Code::Numerics | Code::LeftOut | Code::Converted | Code::WorstCase => false,
     }
 }

@@ -75,18 +75,23 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 _ => (format!("undecided{toward}"), Role::Unsure),
             }
         }
+        Question::Critical => super::critical::title(file),
+        Question::Thrust => super::thrust::title(file),
     };
     page.title(&file.scene.name, text, role);
 }
 
 /// The sentences that say what the answer rests on and what it does not say.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
-    if file.question == Question::Simulate {
-        return simulation::why(page, file);
-    }
-    if file.question == Question::Assess {
-        verdict(page, file);
-        return simulation::why(page, file);
+    match file.question {
+        Question::Assess => {
+            verdict(page, file);
+            return simulation::why(page, file);
+        }
+        Question::Simulate => return simulation::why(page, file),
+        Question::Critical => return super::critical::why(page, file),
+        Question::Thrust => return super::thrust::why(page, file),
+        Question::Limit | Question::Tilt => {}
     }
     let tilt = file.question == Question::Tilt;
     match (status(&file.answer), found(&file.answer)) {
@@ -132,7 +137,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     dead_load(page, file);
 }
 
-fn verdict(page: &mut Page, file: &ResultFile) {
+pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
     let answer = &file.answer;
     let (lower, upper) = answer.unbalance.map_or((0.0, f64::NAN), |b| (b.lower, b.upper));
     match answer.verdict {

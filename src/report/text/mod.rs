@@ -2,12 +2,14 @@
 
 mod answer;
 mod check;
+mod critical;
 mod heaps;
 mod mechanism;
 pub mod number;
 mod packing;
 mod page;
 mod simulation;
+mod thrust;
 
 pub use check::{inspection, verification};
 pub use heaps::heaps;
@@ -53,6 +55,8 @@ pub fn render(file: &ResultFile, asked: Asked, options: Options, layout: Layout)
     page.blank();
     mechanism::rows(&mut page, file, options);
     answer::directions(&mut page, file, options);
+    critical::rows(&mut page, file, options);
+    thrust::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
@@ -124,15 +128,18 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         Question::Assess => "assess",
         Question::Limit => "limit",
         Question::Tilt => "tilt",
+        Question::Critical => "critical",
+        Question::Thrust => "thrust",
         Question::Simulate => "simulate",
     };
     let again =
         if asked.options.is_empty() { format!("voussoir {verb} {scene}") } else { format!("voussoir {verb} {scene} {}", asked.options) };
     let look = (format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
+    let elsewhere = file.critical.is_some() || file.thrust.is_some();
     if file.question == Question::Simulate {
         return page.commands("next", &simulation::next(file, scene, &again));
     }
-    if file.certificate.claim.is_none() {
+    if file.certificate.claim.is_none() && !elsewhere {
         return page.commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
     }
     let mut list = Vec::new();

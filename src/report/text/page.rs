@@ -64,29 +64,29 @@ pub struct Page {
 }
 
 impl Page {
-    pub(super) fn new(layout: Layout) -> Self {
+    pub(in crate::report) fn new(layout: Layout) -> Self {
         Self { lines: Vec::new(), unnamed: layout.unnamed.to_string(), width: layout.width.max(NARROW) }
     }
 
-    pub(super) fn title(&mut self, name: &str, answer: impl Into<String>, role: Role) {
+    pub(in crate::report) fn title(&mut self, name: &str, answer: impl Into<String>, role: Role) {
         let name = printable(if name.is_empty() { &self.unnamed } else { name }).into_owned();
         let answer = span(answer, role);
         let line = if name.is_empty() { vec![answer] } else { vec![span(name, Role::Name), span(": ", Role::Plain), answer] };
         self.lines.push(line);
     }
 
-    pub(super) fn blank(&mut self) {
+    pub(in crate::report) fn blank(&mut self) {
         self.lines.push(Vec::new());
     }
 
-    pub(super) fn paragraph(&mut self, text: &str) {
+    pub(in crate::report) fn paragraph(&mut self, text: &str) {
         for line in wrap(&printable(text), self.width - 2) {
             self.lines.push(vec![span(format!("  {line}"), Role::Plain)]);
         }
     }
 
     /// A labelled row; further items stand below the first.
-    pub(super) fn row(&mut self, label: &str, items: impl IntoIterator<Item = String>) {
+    pub(in crate::report) fn row(&mut self, label: &str, items: impl IntoIterator<Item = String>) {
         let mut label = label;
         for item in items {
             for line in wrap(&printable(&item), self.width - COLUMN) {

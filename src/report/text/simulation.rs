@@ -145,7 +145,7 @@ fn percent(part: f64) -> String {
 /// Without what is rounding beside the largest component.
 fn clean(way: [f64; 3]) -> [f64; 3] {
     let largest = way.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-    way.map(|c| if c.abs() < 1e-6 * largest { 0.0 } else { c })
+    way.map(|c| if c.abs() < 1e-4 * largest { 0.0 } else { c })
 }
 
 /// Two digits: the engine knows no more.

@@ -1,0 +1,66 @@
+//! What an answer claims, for the check that knows no program ([`check::verify`]).
+
+use super::{
+    Assessment, LoadFactor, Outcome,
+    coulomb::{DryLoadFactor, Found},
+};
+use crate::{
+    assembly::Assembly,
+    interface::Interfaces,
+    verdict::{
+        Forces, Verdict,
+        check::{self, Claim},
+    },
+};
+
+impl Assessment {
+    /// What it claims; nothing where it is undecided.
+    pub fn claim(&self) -> Option<Claim> {
+        match self.verdict {
+            Verdict::Stable => Some(Claim::Stable),
+            Verdict::Unstable => Some(Claim::Unstable),
+            Verdict::Conditional => Some(Claim::Conditional),
+            Verdict::Undecided => None,
+        }
+    }
+
+    /// Of a conditional verdict: the forces without the pre-stress.
+    pub fn base(&self) -> Option<&Forces> {
+        self.state.as_ref().filter(|_| self.verdict == Verdict::Conditional).map(|s| &s.forces)
+    }
+
+    /// Whether what it claims is proved from the scene alone.
+    pub fn proved(&self, assembly: &Assembly, interfaces: &Interfaces) -> bool {
+        self.claim().is_some_and(|c| check::verify(assembly, interfaces, &c, &self.forces, self.base(), &self.rates).proved())
+    }
+}
+
+impl LoadFactor {
+    /// What it claims; nothing where it is undecided.
+    pub fn claim(&self) -> Option<Claim> {
+        match self.outcome {
+            Outcome::Found => Some(Claim::LoadFactor { value: self.value, lower: self.bracket.lower, upper: self.bracket.upper }),
+            Outcome::Unbounded => self.base.as_ref().map(|(standing, _)| Claim::Unbounded { standing: *standing }),
+            Outcome::Impossible => Some(Claim::Impossible),
+            Outcome::Undecided => None,
+        }
+    }
+
+    /// Whether what it claims is proved from the scene alone.
+    pub fn proved(&self, assembly: &Assembly, interfaces: &Interfaces) -> bool {
+        let base = self.base.as_ref().map(|b| &b.1);
+        self.claim().is_some_and(|c| check::verify(assembly, interfaces, &c, &self.forces, base, &self.rates).proved())
+    }
+}
+
+impl DryLoadFactor {
+    /// What it claims; nothing where there is no value.
+    pub fn claim(&self) -> Option<Claim> {
+        (self.value.is_finite() && self.found != Found::Undecided).then_some(Claim::DryLoadFactor { value: self.value })
+    }
+
+    /// Whether what it claims is proved from the scene alone.
+    pub fn proved(&self, assembly: &Assembly, interfaces: &Interfaces) -> bool {
+        self.claim().is_some_and(|c| check::verify(assembly, interfaces, &c, &self.forces, None, &self.rates).proved())
+    }
+}

@@ -1,0 +1,323 @@
+//! At what value of a number in the scene does the verdict flip?
+//!
+//! The range is scanned first, since a verdict may flip more than once (a voussoir arch is not monotone in anything but its load).
+//! Between neighbours whose verdicts differ the flip is narrowed ([`flip`](super::flip)). A value at which the scene falls less than at
+//! both its neighbours may hide a window in which it stands: there the least unbalance is followed to its lowest point. A window in which
+//! it falls, between two values at which it stands, has no such trace; only a finer scan finds it.
+
+use super::{
+    Control, Law, assess,
+    flip::{Flip, Probe, refine},
+    prepare,
+};
+use crate::{error::InputError, scene::Scene, tolerance, verdict::Verdict};
+use std::time::Instant;
+
+/// What is varied, and how the range is scanned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Range {
+    /// JSON pointer of the number.
+    pub pointer: String,
+    /// One end.
+    pub from: f64,
+    /// The other end.
+    pub to: f64,
+    /// Values scanned, both ends among them; [`SCAN`] where nothing is said, or every whole number up to [`WHOLE`] of them.
+    pub scan: Option<usize>,
+}
+
+/// One value of the scan.
+#[derive(Clone, Debug)]
+pub struct Scanned {
+    /// The value.
+    pub value: f64,
+    /// Its verdict and least unbalance, or why there is no scene.
+    pub outcome: Result<(Verdict, f64), InputError>,
+}
+
+/// A change of verdict.
+#[derive(Clone, Debug)]
+pub struct Change {
+    /// The value at which it flips.
+    pub value: f64,
+    /// How the value was found.
+    pub method: Method,
+    /// The nearest value below with its verdict and evidence.
+    pub below: Probe,
+    /// The nearest value above.
+    pub above: Probe,
+}
+
+/// How a critical value was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// The zero of the least unbalance.
+    Margin,
+    /// By halving the range.
+    Halving,
+    /// Between two neighbours of the scan (a count, or a range that could not be narrowed).
+    Scan,
+}
+
+/// The answer of [`critical`].
+#[derive(Clone, Debug)]
+pub struct Critical {
+    /// What was varied.
+    pub range: Range,
+    /// Whether the number is a count, of which only whole values make scenes.
+    pub whole: bool,
+    /// The scan, from `from` to `to`.
+    pub scan: Vec<Scanned>,
+    /// The changes of verdict, in the order of the scan.
+    pub changes: Vec<Change>,
+    /// Both ends of the range with their evidence, where there are scenes.
+    pub ends: Vec<Probe>,
+    /// What the reader should know.
+    pub notes: Vec<String>,
+    /// Scenes asked.
+    pub probes: usize,
+}
+
+/// Finds every flip of the verdict in a range.
+///
+/// # Errors
+/// The pointer names no number, or no value of the scan makes a scene; the first error is returned.
+pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Critical, InputError> {
+    scene.with_field(&range.pointer, range.from).or_else(|e| scene.with_field(&range.pointer, range.to).map_err(|_| e))?;
+    let whole = is_whole(scene, range);
+    let start = Instant::now();
+    let control_now = || Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0), ..*control };
+    let statics = || Control { law: Law::Associative, ..control_now() };
+    let mut probes = 0;
+    let mut ask = |value: f64, control: Control| {
+        probes += 1;
+        probe(scene, &range.pointer, value, &control)
+    };
+    let mut scan: Vec<Scanned> = Vec::new();
+    let mut found: Vec<Probe> = Vec::new();
+    let mut ends = Vec::new();
+    // Values at which admissible forces exist and dry friction stays undecided.
+    let mut open: Vec<f64> = Vec::new();
+    let values = values(range, whole);
+    let count = values.len();
+    for (k, value) in values.into_iter().enumerate() {
+        let answer = ask(value, control_now());
+        let outcome = answer.as_ref().map(|p| (p.assessment.verdict, p.unbalance())).map_err(Clone::clone);
+        scan.push(Scanned { value, outcome });
+        if let Ok(probe) = answer {
+            if k == 0 || k + 1 == count {
+                ends.push(probe.clone());
+            }
+            if probe.assessment.verdict != Verdict::Undecided {
+                found.push(probe);
+            } else if control.law == Law::Coulomb
+                && let Ok(probe) = ask(value, statics())
+                && probe.assessment.verdict != Verdict::Undecided
+            {
+                open.push(value);
+                found.push(probe);
+            }
+        }
+    }
+    if let (true, Some(error)) = (scan.iter().all(|s| s.outcome.is_err()), scan.iter().find_map(|s| s.outcome.as_ref().err())) {
+        return Err(error.clone());
+    }
+    let mut notes = Vec::new();
+    if !whole {
+        for (at, window) in windows(&found, &mut |v| ask(v, statics())).into_iter().rev() {
+            let with_law = ask(window.value, control_now()).unwrap_or(window);
+            notes.push(format!("a window between neighbours of the scan, found by following the least unbalance: {}", with_law.value));
+            found.insert(at, with_law);
+        }
+    }
+    let least = 1e-3 * (range.to - range.from).abs();
+    let mut changes = Vec::new();
+    for pair in found.windows(2) {
+        let [a, b] = pair else { continue };
+        let (va, vb) = (a.assessment.verdict, b.assessment.verdict);
+        let settled = a.admissible() != b.admissible() || ![a, b].iter().any(|p| open.contains(&p.value));
+        if va == vb || !settled {
+            continue;
+        }
+        let narrowed = match (whole, a.admissible() == b.admissible()) {
+            (true, _) => Ok((0.5 * (a.value + b.value), Method::Scan, a.clone(), b.clone())),
+            (false, true) => halve(&mut |v| ask(v, control_now()), a.clone(), b.clone(), least),
+            (false, false) => by_margin(&mut ask, &statics, &control_now, a, b, least),
+        };
+        let (value, method, one, other) = narrowed.unwrap_or_else(|e| {
+            notes.push(format!("the range from {} to {} could not be narrowed: {e}", a.value, b.value));
+            (0.5 * (a.value + b.value), Method::Scan, a.clone(), b.clone())
+        });
+        if let Some(side) = [&one, &other].into_iter().find(|p| control.law == Law::Coulomb && p.rests_on_statics()) {
+            notes.push(format!(
+                "at {} admissible forces exist; whether the loads produce them with dry friction stayed undecided",
+                side.value
+            ));
+        }
+        let (below, above) = if one.value <= other.value { (one, other) } else { (other, one) };
+        changes.push(Change { value, method, below, above });
+    }
+    Ok(Critical { range: range.clone(), whole, scan, changes, ends, notes, probes })
+}
+
+/// The verdict at a value.
+///
+/// # Errors
+/// There is no scene with this value.
+pub fn probe(scene: &Scene, pointer: &str, value: f64, control: &Control) -> Result<Probe, InputError> {
+    let model = prepare(&scene.with_field(pointer, value)?)?;
+    let assessment = assess(&model.assembly, &model.interfaces, control);
+    Ok(Probe { value, model, assessment })
+}
+
+/// A count takes whole numbers only.
+fn is_whole(scene: &Scene, range: &Range) -> bool {
+    let readable = |v: f64| scene.with_field(&range.pointer, v).is_ok();
+    let low = range.from.min(range.to);
+    let whole = [low.ceil(), low.floor(), range.from.max(range.to).floor()];
+    !readable(low.floor() + 0.5) && !readable(low.ceil() + 0.5) && whole.into_iter().any(readable)
+}
+
+/// Values scanned where nothing is said. Fewer: more flips stay unseen. More: time.
+pub const SCAN: usize = 33;
+/// Whole numbers scanned where nothing is said.
+pub const WHOLE: usize = 1000;
+
+fn values(range: &Range, whole: bool) -> Vec<f64> {
+    let every = ((range.to - range.from).abs() + 1.0).min(WHOLE as f64) as usize;
+    let last = range.scan.unwrap_or(if whole { every } else { SCAN }).max(2) - 1;
+    // Exact at both ends, symmetric between them.
+    let at = |k: usize| (range.from * (last - k) as f64 + range.to * k as f64) / last as f64;
+    let mut values: Vec<f64> = (0..=last).map(at).collect();
+    if whole {
+        values.iter_mut().for_each(|v| *v = v.round());
+        values.dedup();
+    }
+    values
+}
+
+type Narrowed = (f64, Method, Probe, Probe);
+
+fn by_margin(
+    ask: &mut dyn FnMut(f64, Control) -> Result<Probe, InputError>,
+    statics: &dyn Fn() -> Control,
+    full: &dyn Fn() -> Control,
+    a: &Probe,
+    b: &Probe,
+    least: f64,
+) -> Result<Narrowed, InputError> {
+    let (falls, stands) = if a.admissible() == Some(false) { (a, b) } else { (b, a) };
+    let Flip { value, falls, mut stands, linear, .. } = refine(&mut |v| ask(v, statics()), falls.clone(), stands.clone(), least)?;
+    // With dry friction what stands by statics may be no more than wedged.
+    if full().law == Law::Coulomb
+        && let Ok(dry) = ask(stands.value, full())
+        && dry.assessment.verdict != Verdict::Undecided
+    {
+        stands = dry;
+    }
+    Ok((value, if linear { Method::Margin } else { Method::Halving }, falls, stands))
+}
+
+/// Halves the range between two different verdicts.
+fn halve(ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>, mut a: Probe, mut b: Probe, least: f64) -> Result<Narrowed, InputError> {
+    loop {
+        let (middle, scale) = (0.5 * (a.value + b.value), a.value.abs().max(b.value.abs()).max(least));
+        if (a.value - b.value).abs() <= tolerance::DRY_CRITICAL_WIDTH * scale {
+            break;
+        }
+        let probe = ask(middle)?;
+        match probe.assessment.verdict {
+            v if v == a.assessment.verdict => a = probe,
+            v if v == b.assessment.verdict => b = probe,
+            // Undecided, or a third verdict: as close as it gets.
+            _ => break,
+        }
+    }
+    Ok((0.5 * (a.value + b.value), Method::Halving, a, b))
+}
+
+/// Standing values between neighbours of the scan that all fall, with where they belong.
+fn windows(found: &[Probe], ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>) -> Vec<(usize, Probe)> {
+    let mut list = Vec::new();
+    for k in 1..found.len().saturating_sub(1) {
+        let [a, b, c] = [&found[k - 1], &found[k], &found[k + 1]];
+        let t = Probe::unbalance;
+        if [a, b, c].iter().any(|p| p.admissible() != Some(false)) || t(b) > t(a) || t(b) >= t(c) {
+            continue;
+        }
+        if let Some(window) = lowest(a, b, c, ask) {
+            let at = if (window.value - b.value) * (c.value - b.value) > 0.0 { k + 1 } else { k };
+            list.push((at, window));
+        }
+    }
+    list
+}
+
+/// Follows the unbalance downhill between three falling values; returns the first that stands.
+fn lowest(a: &Probe, b: &Probe, c: &Probe, ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>) -> Option<Probe> {
+    // Golden sections: the part kept at each step.
+    const KEPT: f64 = 0.618_033_988_749_895;
+    const STEPS: usize = 24;
+    let (mut low, mut middle, mut high) = (a.value, (b.value, b.unbalance()), c.value);
+    for _ in 0..STEPS {
+        let right = (high - middle.0).abs() > (middle.0 - low).abs();
+        let value = if right { middle.0 + (1.0 - KEPT) * (high - middle.0) } else { middle.0 - (1.0 - KEPT) * (middle.0 - low) };
+        let probe = ask(value).ok()?;
+        if probe.admissible() == Some(true) {
+            return Some(probe);
+        }
+        let t = probe.unbalance();
+        match (t < middle.1, right) {
+            (true, true) => (low, middle) = (middle.0, (value, t)),
+            (true, false) => (high, middle) = (middle.0, (value, t)),
+            (false, true) => high = value,
+            (false, false) => low = value,
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn range(from: f64, to: f64, scan: usize) -> Range {
+        Range { pointer: "/templates/0/arch/thickness".into(), from, to, scan: Some(scan) }
+    }
+
+    fn arch(voussoirs: usize) -> Scene {
+        let text = format!(
+            r#"{{ "format": "voussoir-scene/1", "joints": {{ "default": {{ "friction": "infinite" }} }},
+            "templates": [ {{ "arch": {{ "radius": 1, "thickness": 0.2, "depth": 1, "voussoirs": {voussoirs} }} }} ] }}"#
+        );
+        crate::scene::read_str("test", text).unwrap().0
+    }
+
+    #[test]
+    fn scan_reaches_both_ends_and_counts_are_whole() {
+        assert_eq!(values(&range(0.1, 0.3, 3), false), [0.1, 0.2, 0.3]);
+        assert_eq!(values(&range(4.0, 7.0, 30), true), [4.0, 5.0, 6.0, 7.0]);
+        let mut count = range(4.0, 7.0, 9);
+        count.scan = None;
+        assert_eq!(values(&count, true), [4.0, 5.0, 6.0, 7.0]);
+        count.pointer = "/templates/0/arch/voussoirs".into();
+        assert!(is_whole(&arch(8), &count));
+        assert!(!is_whole(&arch(8), &range(0.1, 0.3, 3)));
+    }
+
+    #[test]
+    fn the_zero_of_the_unbalance_is_far_closer_than_verdicts_can_tell() {
+        // Five-hinge closed form for 16 straight voussoirs.
+        let exact = 0.10707620314306167;
+        let control = Control { law: Law::Associative, ..Control::default() };
+        let answer = critical(&arch(16), &range(0.05, 0.25, 5), &control).unwrap();
+        let [change] = &answer.changes[..] else { panic!("{:?}", answer.changes.len()) };
+        println!("{} {} {} in {} scenes", change.below.value, change.value, change.above.value, answer.probes);
+        assert_eq!(change.method, Method::Margin);
+        assert!((change.value / exact - 1.0).abs() < 1e-9, "{}", change.value / exact - 1.0);
+        assert!(change.below.value < exact && exact < change.above.value, "{} {}", change.below.value, change.above.value);
+        assert!(change.above.value - change.below.value < 1e-8 * exact);
+        assert!(answer.probes < 30, "{}", answer.probes);
+    }
+}

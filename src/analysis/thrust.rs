@@ -1,0 +1,260 @@
+//! The least and the greatest thrust on a support, and how far the line of thrust stays inside.
+//!
+//! The *thrust* is the horizontal component, along a direction, of the force that the blocks exert on a support. Where it has no end
+//! (blocks wedged between supports), that is an answer of its own. Beside it stands the geometric safety factor
+//! ([`geometric`](super::geometric)).
+
+use super::{
+    Assessment, Bracket, Control, Model, Outcome, assess,
+    attempt::{Attempt, Candidate, Run, Rung, run, rung},
+    geometric::{Geometric, geometric_factor},
+};
+use crate::{
+    assembly::Assembly,
+    interface::Interfaces,
+    program::{self, Options, Statics, Unknowns},
+    tolerance,
+    verdict::{
+        Forces, Rate, Verdict, certificate, no_forces,
+        section::centroid,
+        thrust::{Extreme, ThrustAt, width},
+    },
+};
+use nalgebra::Vector3;
+use std::time::Instant;
+
+/// One end of the range of thrusts.
+#[derive(Clone, Debug)]
+pub struct ThrustEnd {
+    /// Which one.
+    pub extreme: Extreme,
+    /// What became of it ([`Outcome::Impossible`] does not occur).
+    pub outcome: Outcome,
+    /// The thrust of the forces, N; NaN where there is none.
+    pub value: f64,
+    /// Its bracket, N.
+    pub bracket: Bracket,
+    /// Found: forces at `value`. Unbounded: forces that push without any load.
+    pub forces: Forces,
+    /// Unbounded: forces that balance the loads.
+    pub base: Option<Forces>,
+    /// Rates of the blocks as the support moves out (least) or in (greatest) at unit rate.
+    pub rates: Vec<Rate>,
+    /// What was tried.
+    pub attempts: Vec<Attempt>,
+    /// What the scene did not need.
+    pub left_out: Vec<String>,
+}
+
+/// Best first, in forces.
+const LADDER: [Rung; 5] = [
+    rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
+    rung(Unknowns::Forces, 4.0, true, 1e-12, 1e-9, true),
+    rung(Unknowns::Forces, 0.25, true, 1e-12, 1e-8, true),
+    rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true),
+    rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
+];
+
+/// The support that is asked about where none is named: the first that touches a free block.
+pub fn first_support(model: &Model) -> Option<usize> {
+    let blocks = &model.assembly.blocks;
+    let touches = |s: usize| model.interfaces.list.iter().any(|f| (f.a == s && !blocks[f.b].support) || (f.b == s && !blocks[f.a].support));
+    (0..blocks.len()).find(|&s| blocks[s].support && touches(s))
+}
+
+/// The horizontal direction from the free blocks' centre of mass to where a support touches them: outwards. `None` where it is straight
+/// below, or touches nothing.
+pub fn outwards(model: &Model, support: usize) -> Option<Vector3<f64>> {
+    let assembly = &model.assembly;
+    let mass: f64 = assembly.free().map(|i| assembly.blocks[i].mass).sum();
+    let middle = assembly.free().map(|i| assembly.blocks[i].centroid * assembly.blocks[i].mass).sum::<Vector3<f64>>() / mass;
+    let touching: Vec<Vector3<f64>> = model.interfaces.list.iter().filter(|f| f.a == support || f.b == support).map(centroid).collect();
+    let contact = touching.iter().sum::<Vector3<f64>>() / touching.len().max(1) as f64;
+    let size = touching.iter().map(|p| (p - middle).norm()).fold(0.0, f64::max);
+    if touching.is_empty() {
+        return None;
+    }
+    level(&assembly.gravity, contact - middle, size)
+}
+
+/// The part of a direction across gravity, as a unit vector; `None` where it is small beside `size`. What is rounding becomes zero.
+pub fn level(gravity: &Vector3<f64>, direction: Vector3<f64>, size: f64) -> Option<Vector3<f64>> {
+    let down = gravity.normalize();
+    let across = direction - down * down.dot(&direction);
+    if across.norm().is_nan() || across.norm() <= 1e-6 * size {
+        return None;
+    }
+    let unit = across.normalize();
+    Some(unit.map(|c| if c.abs() < 1e-9 { 0.0 } else { c }).normalize())
+}
+
+/// The least or greatest thrust of a scene that stands; `standing` are forces that balance its loads.
+pub fn thrust(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> ThrustEnd {
+    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    let start = Instant::now();
+    let direction = Vector3::from(at.direction);
+    let build = |keep_all: bool| Statics::new(assembly, interfaces, Options { keep_all, ..Options::default() });
+    let mut base = build(control.keep_all);
+    // A plane scene knows no thrust out of its plane.
+    if base.plane.is_some_and(|p| p.axis.dot(&direction).abs() > 1e-9) {
+        base = build(true);
+    }
+    let mut answer = ThrustEnd {
+        extreme,
+        outcome: Outcome::Undecided,
+        value: f64::NAN,
+        bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
+        forces: standing.clone(),
+        base: None,
+        rates: vec![Rate::zero(); assembly.blocks.len()],
+        attempts: Vec::new(),
+        left_out: base.left_out.clone(),
+    };
+    let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
+    let problem = Problem { assembly, interfaces, at, extreme, total };
+    for (index, step) in LADDER.into_iter().enumerate() {
+        let left = control.seconds - start.elapsed().as_secs_f64();
+        if left <= 0.0 {
+            break;
+        }
+        problem.climb(&mut base, step, left, &mut answer);
+        if answer.bracket.width() <= width(assembly, answer.value) {
+            answer.outcome = Outcome::Found;
+            break;
+        }
+        if index == 0 && problem.has_no_end(step, left, control.keep_all || base.plane.is_none(), &mut answer) {
+            answer.outcome = Outcome::Unbounded;
+            answer.value = f64::NAN;
+            let end = -extreme.sigma() * f64::INFINITY;
+            answer.bracket = Bracket { lower: end, upper: end };
+            answer.base = Some(standing.clone());
+            break;
+        }
+    }
+    answer
+}
+
+struct Problem<'a> {
+    assembly: &'a Assembly,
+    interfaces: &'a Interfaces,
+    at: &'a ThrustAt,
+    extreme: Extreme,
+    /// Total load of the free blocks, N: the unit of the objective.
+    total: f64,
+}
+
+impl Problem<'_> {
+    fn objective(&self, statics: &Statics, interfaces: &Interfaces) -> Vec<f64> {
+        let by = self.extreme.sigma() / self.total;
+        let columns = program::thrust_columns(statics, interfaces, self.at.support, self.at.direction.into());
+        columns.into_iter().map(|c| c * by).collect()
+    }
+
+    fn attempt(&self, name: &str, statics: &Statics, run: &Run, step: Rung, [lower, upper]: [f64; 2]) -> Attempt {
+        Attempt {
+            program: name.into(),
+            force_unit: statics.unit / self.total,
+            tolerance: step.settings.tolerance,
+            regularization: step.settings.regularization,
+            engine_status: run.solution.status,
+            iterations: run.solution.trace.len(),
+            size: run.size,
+            seconds: run.solution.seconds,
+            lower,
+            upper,
+            engine_value: None,
+        }
+    }
+
+    /// One attempt; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
+    fn climb(&self, base: &mut Statics, step: Rung, left: f64, answer: &mut ThrustEnd) {
+        let (assembly, interfaces) = (self.assembly, self.interfaces);
+        let mut statics = base.clone();
+        statics.rescale(step.unit, step.local);
+        let settings = crate::solve::Settings { seconds: left, ..step.settings };
+        let build = |statics: &Statics| program::thrust(statics, &self.objective(statics, interfaces));
+        let mut done = run(assembly, interfaces, &mut statics, build, &settings);
+        let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
+        if let Some(Candidate { forces, rates, .. }) = done.candidate.take() {
+            // Rates come per unit of the objective.
+            let rates: Vec<Rate> =
+                rates.into_iter().map(|r| Rate { velocity: r.velocity * self.total, spin: r.spin * self.total }).collect();
+            let p = self.at.bracket(assembly, interfaces, self.extreme, &forces, &rates);
+            let balanced = p.statics.unbalance <= tolerance::LOOSE_BALANCE.max(p.statics.resolution) && p.statics.is_within_strength();
+            let (bound, reached) = if self.extreme == Extreme::Least { (0, 1) } else { (1, 0) };
+            if p.is_admissible(self.total) {
+                ends[bound] = [p.lower, p.upper][bound];
+            }
+            if balanced {
+                ends[reached] = [p.lower, p.upper][reached];
+            }
+            let b = &mut answer.bracket;
+            let better = [ends[0] > b.lower, ends[1] < b.upper];
+            if better[0] {
+                b.lower = ends[0];
+            }
+            if better[1] {
+                b.upper = ends[1];
+            }
+            if better[reached] {
+                (answer.value, answer.forces) = (p.value, forces);
+            }
+            if better[bound] {
+                answer.rates = rates;
+            }
+        }
+        let name = if self.extreme == Extreme::Least { "least thrust in forces" } else { "greatest thrust in forces" };
+        answer.attempts.push(self.attempt(name, &statics, &done, step, ends));
+        base.sections = statics.sections;
+    }
+
+    /// Whether forces that need no load push without end; then they are the forces of `answer`.
+    fn has_no_end(&self, step: Rung, left: f64, keep_all: bool, answer: &mut ThrustEnd) -> bool {
+        let (unlimited, kept) = self.interfaces.unlimited();
+        let mut statics = Statics::new(self.assembly, &unlimited, Options { keep_all, ..Options::default() });
+        statics.rescale(step.unit, step.local);
+        let settings = crate::solve::Settings { seconds: left, ..step.settings };
+        let build = |statics: &Statics| program::endless_thrust(statics, &self.objective(statics, &unlimited));
+        let mut done = run(self.assembly, &unlimited, &mut statics, build, &settings);
+        let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
+        let mut endless = false;
+        if let Some(Candidate { forces, .. }) = done.candidate.take() {
+            let bare = crate::verdict::thrust::unloaded(self.assembly);
+            let s = certificate::statics(&bare, &unlimited, &forces, 0.0);
+            endless = s.balanced && -self.extreme.sigma() * self.at.value(&unlimited, &forces) >= 0.5 * self.total;
+            if endless {
+                ends = [-self.extreme.sigma() * f64::INFINITY; 2];
+                answer.forces = no_forces(self.interfaces);
+                kept.into_iter().zip(forces).for_each(|(k, forces)| answer.forces[k] = forces);
+            }
+        }
+        answer.attempts.push(self.attempt("thrust without end", &statics, &done, step, ends));
+        endless
+    }
+}
+
+/// The answer about the thrust on a support.
+#[derive(Clone, Debug)]
+pub struct Thrust {
+    /// Where, and in which direction.
+    pub at: ThrustAt,
+    /// Whether it stands at all.
+    pub standing: Assessment,
+    /// Least and greatest; `None` where no forces balance the loads, or that is undecided.
+    pub ends: Option<[ThrustEnd; 2]>,
+    /// The geometric safety factor.
+    pub factor: Option<Geometric>,
+}
+
+/// Least and greatest thrust and the geometric safety factor.
+pub fn answer(model: &Model, at: ThrustAt, control: &Control) -> Thrust {
+    let start = Instant::now();
+    let left = || Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0), ..*control };
+    let standing = assess(&model.assembly, &model.interfaces, control);
+    // Whether the loads produce them or not: there are forces.
+    let balanced = certificate::statics(&model.assembly, &model.interfaces, &standing.forces, 0.0).balanced;
+    let admissible = balanced && standing.verdict != Verdict::Unstable;
+    let ends = admissible.then(|| [Extreme::Least, Extreme::Greatest].map(|e| thrust(model, &at, e, &standing.forces, &left())));
+    let factor = admissible.then(|| geometric_factor(model, &left()));
+    Thrust { at, standing, ends, factor }
+}

@@ -1,0 +1,77 @@
+//! `voussoir study`
+
+use super::{args::Study, exit::Exit, output::Sink, terminal, terminal::Terminal};
+use anyhow::{Context, bail};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::{io::IsTerminal, path::Path};
+use voussoir::{
+    report::{json, study as report},
+    study::{self, Known, extreme},
+};
+
+pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+    if let Some(folder) = &args.svg
+        && !folder.is_dir()
+    {
+        bail!("{}: there is no such folder", folder.display());
+    }
+    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+    if args.quiet || !std::io::stderr().is_terminal() {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len}, {eta} left") {
+        bar.set_style(style);
+    }
+    let layout = terminal.layout(Path::new("study"));
+    if args.extreme {
+        let cells = extreme::grid();
+        bar.set_length(cells.len() as u64);
+        let found = extreme::run(&cells, |_| bar.inc(1));
+        bar.finish_and_clear();
+        if let Some(csv) = csv {
+            csv.write(&report::extreme_csv(&found)?)?;
+        }
+        if args.json {
+            terminal::print(&json::pretty(&found)?)?;
+        } else {
+            terminal.page(&report::extreme_text(&found, args.verbose, layout))?;
+        }
+        return Ok(if extreme::count(&found, None).wrong == 0 { Exit::Yes } else { Exit::No });
+    }
+    let scenes = chosen(&args.scenes)?;
+    bar.set_length(study::count(&scenes, args.quick)? as u64);
+    let repeat = args.repeat.map_or(if args.quick { 1 } else { 3 }, usize::from);
+    let points = study::run(&scenes, args.quick, repeat, |_| bar.inc(1))?;
+    bar.finish_and_clear();
+    if let Some(csv) = csv {
+        csv.write(&report::csv(&points)?)?;
+    }
+    if let Some(folder) = &args.svg {
+        for known in &scenes {
+            Sink::open(Some(&folder.join(format!("{}.svg", known.name))))?.write(&report::errors(known.name, &points)?)?;
+        }
+        Sink::open(Some(&folder.join("profile.svg")))?.write(&report::profiles(&points, report::ANSWER)?)?;
+    }
+    if args.json {
+        terminal::print(&json::pretty(&points)?)?;
+    } else {
+        terminal.page(&report::text(&points, layout))?;
+    }
+    Ok(Exit::Yes)
+}
+
+/// The scenes by name; all of them where none is named.
+fn chosen(names: &[String]) -> anyhow::Result<Vec<Known>> {
+    let all = study::known();
+    if names.is_empty() {
+        return Ok(all);
+    }
+    let known = all.iter().map(|k| k.name).collect::<Vec<_>>().join(", ");
+    names
+        .iter()
+        .map(|name| {
+            all.iter().find(|k| k.name == name).cloned().with_context(|| format!("there is no scene {name:?} to study; there are {known}"))
+        })
+        .collect()
+}

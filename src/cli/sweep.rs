@@ -1,0 +1,120 @@
+//! `voussoir sweep` and `voussoir sweep merge`
+
+use super::{
+    args::{Merge, Summary, Sweep, SweepVerb},
+    exit::Exit,
+    input,
+    output::Sink,
+    terminal::{self, Terminal},
+};
+use anyhow::{Context, bail};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::{
+    io::IsTerminal,
+    path::{Path, PathBuf},
+};
+use voussoir::{
+    report::{json, sweep as report},
+    sweep::{self, Event, Header, Options, Row},
+};
+
+pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
+    if let Some(SweepVerb::Merge(merge)) = &args.merge {
+        return merged(merge, terminal);
+    }
+    let plan = args.plan.as_deref().context("no plan is given")?;
+    let (name, bytes) = input::bytes(plan)?;
+    let folder = if plan.as_os_str() == "-" { Path::new("") } else { plan.parent().unwrap_or(Path::new("")) };
+    let sweep = sweep::open_bytes(name, bytes, folder)?;
+    args.summary.chart.map_or(Ok(()), |kind| report::Kind::from(kind).fits(&sweep.plan))?;
+    let output = rows_file(args, plan)?;
+    let sinks = Sinks::open(&args.summary)?;
+    let options = Options { shard: args.shard, threads: args.threads.map(usize::from), restart: args.restart };
+    let bar = bar(args.summary.quiet);
+    let quiet = args.summary.quiet;
+    let done = sweep::run(&sweep, &output, &options, &|event| match event {
+        Event::Begin { rows, there, mended } => {
+            bar.set_length((rows - there) as u64);
+            if mended > 0 {
+                terminal::say(&format!("note: the last row was written in part ({mended} bytes): it is computed again"));
+            }
+            if there > 0 && !quiet {
+                terminal::say(&format!("note: {} holds {there} of {rows} rows already", output.display()));
+            }
+        }
+        Event::Row(_) => bar.inc(1),
+    });
+    bar.finish_and_clear();
+    let done = done?;
+    sinks.write(&args.summary, &done.header, &done.rows, terminal)?;
+    Ok(Exit::Yes)
+}
+
+fn merged(args: &Merge, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let sinks = Sinks::open(&args.summary)?;
+    let rows = args.output.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+    let merged = sweep::merge(&args.rows)?.context("no file of rows is given")?;
+    if let Some(rows) = rows {
+        rows.write(&merged.text()?)?;
+    }
+    sinks.write(&args.summary, &merged.header, &merged.rows, terminal)?;
+    match merged.missing() {
+        None => Ok(Exit::Yes),
+        Some((many, first)) => {
+            terminal::say(&format!("note: {many} of {} rows are missing, the first is row {first}", merged.header.rows));
+            Ok(Exit::Undecided)
+        }
+    }
+}
+
+/// Where rows go.
+fn rows_file(args: &Sweep, plan: &Path) -> anyhow::Result<PathBuf> {
+    match (&args.output, plan.file_stem()) {
+        (Some(output), _) if output.as_os_str() == "-" => bail!("--output takes a file, so that a killed run can be continued"),
+        (Some(output), _) => Ok(output.clone()),
+        (None, Some(stem)) if plan.as_os_str() != "-" => Ok(PathBuf::from(format!("{}.rows.jsonl", stem.to_string_lossy()))),
+        _ => bail!("a plan from standard input needs --output FILE for its rows"),
+    }
+}
+
+/// Progress on standard error, where that is a terminal.
+fn bar(quiet: bool) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+    if quiet || !std::io::stderr().is_terminal() {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len} rows, {per_sec}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// Files that are made of rows, opened before the work.
+struct Sinks {
+    csv: Option<Sink>,
+    svg: Option<Sink>,
+}
+
+impl Sinks {
+    fn open(args: &Summary) -> anyhow::Result<Self> {
+        let open = |path: &Option<PathBuf>| path.as_deref().map(|p| Sink::open(Some(p))).transpose();
+        Ok(Self { csv: open(&args.csv)?, svg: open(&args.svg)? })
+    }
+
+    fn write(&self, args: &Summary, header: &Header, rows: &[Row], terminal: &Terminal) -> anyhow::Result<()> {
+        let summary = sweep::summarize(header, rows);
+        if let Some(csv) = &self.csv {
+            csv.write(&report::csv(header, rows)?)?;
+        }
+        if args.json {
+            terminal::print(&json::pretty(&report::Document::new(header, &summary))?)?;
+        } else {
+            terminal.page(&report::summary(header, &summary, args.quiet, terminal.layout(Path::new(&header.plan.scene))))?;
+        }
+        if let Some(svg) = &self.svg {
+            let kind = args.chart.map_or_else(|| report::Kind::suited(header, &summary), Into::into);
+            svg.write(&report::chart(header, rows, &summary, kind)?)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,67 @@
+//! Program T: least and greatest thrust.
+//!
+//! `min ± c·x` subject to `A x + w = 0`, `x` in the cones, with `c·x` the component of the force on a support along a direction. Its dual
+//! moves the support along that direction at unit rate, out (least) or in (greatest), and lets the blocks follow by an admissible
+//! mechanism: the two limiting states of an arch whose abutments give way (Heyman 1966).
+
+use super::{
+    Cone, ConicProgram, Layout, Statics, Unknowns,
+    unbalance::{copy, force_cones},
+};
+use crate::interface::Interfaces;
+use nalgebra::Vector3;
+
+/// Thrust per unit of every column, N: the component along `direction` of the force on `support`.
+pub fn thrust_columns(statics: &Statics, interfaces: &Interfaces, support: usize, direction: Vector3<f64>) -> Vec<f64> {
+    let mut columns = vec![0.0; statics.matrix.columns];
+    for bearing in &statics.bearings {
+        let face = &interfaces.list[bearing.interface];
+        let sign = f64::from(u8::from(face.b == support)) - f64::from(u8::from(face.a == support));
+        for (k, basis) in bearing.basis.iter().enumerate() {
+            columns[bearing.column + k] = sign * bearing.unit * direction.dot(&basis.force);
+        }
+    }
+    columns
+}
+
+/// Builds program T with the objective `objective · x`.
+pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Layout) {
+    let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
+    let mut p = ConicProgram::new(forces);
+    p.objective.copy_from_slice(objective);
+    p.cone(Cone::Zero(rows));
+    copy(&mut p, statics, 0, 0);
+    for (row, w) in statics.dead.iter().enumerate() {
+        p.rhs[row] = -w;
+    }
+    force_cones(&mut p, statics, 0);
+    (p, Layout { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
+}
+
+/// Can the thrust grow without end? Forces that balance by themselves with `objective · x = −1`, or what they leave:
+/// `min t`, `‖(A x)_i‖ ≤ t` per block.
+pub fn endless_thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Layout) {
+    let (d, rows, forces) = (statics.dimension(), statics.matrix.rows, statics.matrix.columns);
+    let t = forces + rows;
+    let mut p = ConicProgram::new(t + 1);
+    p.objective[t] = 1.0;
+    p.cone(Cone::Zero(rows));
+    copy(&mut p, statics, 0, 0);
+    for row in 0..rows {
+        p.matrix.push(row, forces + row, 1.0);
+    }
+    let grows = p.cone(Cone::Zero(1));
+    for (j, c) in objective.iter().enumerate() {
+        p.matrix.push(grows, j, *c);
+    }
+    p.rhs[grows] = -1.0;
+    force_cones(&mut p, statics, 0);
+    for block in 0..statics.free.len() {
+        let first = p.cone(Cone::SecondOrder(d + 1));
+        p.matrix.push(first, t, -1.0);
+        for k in 0..d {
+            p.matrix.push(first + 1 + k, forces + block * d + k, -1.0);
+        }
+    }
+    (p, Layout { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
+}

@@ -1,0 +1,165 @@
+//! Results of `critical`: the flips, each with a verdict and its evidence on both sides.
+
+mod verify;
+
+pub(super) use verify::verify;
+
+use super::result::{Answer, Certificate, Question, ResultFile, assessment};
+use crate::{
+    analysis::{
+        Critical, Model,
+        critical::{Method, Scanned},
+        flip::Probe,
+    },
+    scene::Scene,
+    verdict::{Verdict, check::Findings},
+};
+use serde::{Deserialize, Serialize};
+
+/// A value at which the verdict flips.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CriticalValue {
+    /// The value.
+    pub value: f64,
+    /// The nearest value below whose verdict is proved.
+    pub lower: f64,
+    /// The nearest value above whose verdict is proved.
+    pub upper: f64,
+    /// The verdict below.
+    pub below: Verdict,
+    /// The verdict above.
+    pub above: Verdict,
+}
+
+/// The scan and the flips.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CriticalResult {
+    /// JSON pointer of the number that varies.
+    pub vary: String,
+    /// The range.
+    pub between: [f64; 2],
+    /// Whether the number is a count.
+    pub whole: bool,
+    /// The scan: computed, not proved.
+    pub scan: Vec<ScanPoint>,
+    /// The flips, in the order of the scan.
+    pub flips: Vec<FlipResult>,
+    /// Without a flip: the verdicts at the ends of the range.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ends: Vec<Side>,
+    /// What the reader should know.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+    /// Scenes asked in all.
+    pub scenes: usize,
+}
+
+/// A value of the scan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScanPoint {
+    /// The value.
+    pub value: f64,
+    /// Its verdict.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
+    /// Its least unbalance, g, as the mechanism bounds it from below.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unbalance: Option<f64>,
+    /// Why there is no scene with this value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+}
+
+/// A flip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FlipResult {
+    /// The value.
+    pub value: f64,
+    /// How it was found.
+    pub method: Method,
+    /// The nearest value below.
+    pub below: Side,
+    /// The nearest value above.
+    pub above: Side,
+}
+
+/// One value with its verdict and the evidence for it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Side {
+    /// The value.
+    pub value: f64,
+    /// The verdict.
+    pub answer: Answer,
+    /// The evidence.
+    pub certificate: Certificate,
+}
+
+impl Side {
+    /// Its verdict, where it is proved.
+    pub fn verdict(&self) -> Option<Verdict> {
+        self.answer.verdict.filter(|v| *v != Verdict::Undecided && self.certificate.claim.is_some())
+    }
+}
+
+impl FlipResult {
+    /// The value with its ends, where both are proved and differ.
+    pub fn proved(&self) -> Option<CriticalValue> {
+        let (below, above) = (self.below.verdict()?, self.above.verdict()?);
+        let value = CriticalValue { value: self.value, lower: self.below.value, upper: self.above.value, below, above };
+        (below != above && value.lower <= value.value && value.value <= value.upper).then_some(value)
+    }
+}
+
+/// The verdict throughout the range, where the scan found no flip and left nothing open.
+pub fn exhausted(file: &ResultFile) -> Option<Verdict> {
+    let c = file.critical.as_ref()?;
+    let first = c.ends.first()?.verdict()?;
+    let same = c.scan.iter().all(|s| s.verdict == Some(first)) && c.ends.iter().all(|e| e.verdict() == Some(first));
+    (same && c.flips.is_empty() && c.ends.len() == 2).then_some(first)
+}
+
+impl ResultFile {
+    /// The result of `critical`; `model` is that of the scene as it was given.
+    pub fn critical(scene: &Scene, model: &Model, c: &Critical) -> Self {
+        let mut refused = Findings::default();
+        let mut side = |probe: &Probe| {
+            let (answer, certificate, findings) = assessment(&probe.model, &probe.assessment);
+            refused.fails.extend(findings.fails);
+            Side { value: probe.value, answer, certificate }
+        };
+        let flips: Vec<FlipResult> = c
+            .changes
+            .iter()
+            .map(|f| FlipResult { value: f.value, method: f.method, below: side(&f.below), above: side(&f.above) })
+            .collect();
+        let ends = if flips.is_empty() { c.ends.iter().map(&mut side).collect() } else { Vec::new() };
+        let values = flips.iter().filter_map(FlipResult::proved).collect();
+        let answer = Answer { critical: Some(values), ..Answer::default() };
+        let mut file = Self::new(Question::Critical, scene, model, answer, Certificate::none());
+        file.critical = Some(CriticalResult {
+            vary: c.range.pointer.clone(),
+            between: [c.range.from, c.range.to],
+            whole: c.whole,
+            scan: c.scan.iter().map(scan_point).collect(),
+            flips,
+            ends,
+            notes: c.notes.clone(),
+            scenes: c.probes,
+        });
+        file.warn(&refused);
+        file
+    }
+}
+
+fn scan_point(s: &Scanned) -> ScanPoint {
+    let (verdict, unbalance, error) = match &s.outcome {
+        Ok((verdict, unbalance)) => (Some(*verdict), Some(*unbalance), None),
+        Err(e) => (None, None, Some(e.to_string())),
+    };
+    ScanPoint { value: s.value, verdict, unbalance, error }
+}

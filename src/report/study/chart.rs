@@ -1,0 +1,142 @@
+//! Charts of studies as SVG: error against time on logarithmic axes, and the performance profile.
+
+use crate::study::{Method, Point, profile};
+use plotters::{
+    prelude::{ChartBuilder, Circle, IntoDrawingArea, IntoLogRange, PathElement, RGBColor, SVGBackend, SeriesLabelPosition, WHITE},
+    style::{Color, IntoFont},
+};
+
+/// A chart that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+#[error("no chart: {0}")]
+pub struct ChartError(String);
+
+const SIZE: (u32, u32) = (680, 420);
+/// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008), and two more.
+const COLOURS: [RGBColor; 10] = [
+    RGBColor(0, 0, 0),
+    RGBColor(0, 114, 178),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(148, 103, 189),
+    RGBColor(204, 121, 167),
+    RGBColor(120, 120, 120),
+    RGBColor(140, 86, 75),
+];
+/// Errors below this are drawn here: rounding.
+const FLOOR: f64 = 1e-15;
+
+fn refused(e: impl std::fmt::Display) -> ChartError {
+    ChartError(e.to_string())
+}
+
+/// Error against run time on one scene, a line per method.
+///
+/// # Errors
+/// No point has an error.
+pub fn errors(scene: &str, points: &[Point]) -> Result<String, ChartError> {
+    let own: Vec<&Point> = points.iter().filter(|p| p.scene == scene && p.error.is_some()).collect();
+    let times = own.iter().map(|p| p.seconds).fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(t), h.max(t)));
+    if own.is_empty() || times.0 <= 0.0 {
+        return Err(ChartError(format!("no run on {scene} gave a value")));
+    }
+    let y = |p: &Point| p.error.unwrap_or(1.0).clamp(FLOOR, 10.0);
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        area.fill(&WHITE).map_err(refused)?;
+        let mut chart = ChartBuilder::on(&area)
+            .margin(12)
+            .caption(scene, ("sans-serif", 18))
+            .x_label_area_size(42)
+            .y_label_area_size(70)
+            .build_cartesian_2d((0.7 * times.0..1.4 * times.1).log_scale(), (FLOOR..10.0).log_scale())
+            .map_err(refused)?;
+        chart
+            .configure_mesh()
+            .label_style(("sans-serif", 14))
+            .x_desc("seconds")
+            .y_desc("relative error of the load factor")
+            .x_label_formatter(&|v| format!("{v:.0e}"))
+            .y_label_formatter(&|v| format!("{v:.0e}"))
+            .light_line_style(WHITE.mix(0.0))
+            .draw()
+            .map_err(refused)?;
+        for (k, method) in Method::ALL.into_iter().enumerate() {
+            let mut line: Vec<(f64, f64)> = own.iter().filter(|p| p.method == method).map(|p| (p.seconds, y(p))).collect();
+            if line.is_empty() {
+                continue;
+            }
+            line.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let colour = COLOURS[k % COLOURS.len()];
+            chart
+                .draw_series([PathElement::new(line.clone(), colour.stroke_width(2))])
+                .map_err(refused)?
+                .label(method.label())
+                .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2)));
+            chart.draw_series(line.into_iter().map(|p| Circle::new(p, 3, colour.filled()))).map_err(refused)?;
+        }
+        legend(&mut chart)?;
+        area.present().map_err(refused)?;
+    }
+    Ok(text)
+}
+
+/// The performance profile: which share of the scenes a method answers to `error` within a multiple of the fastest method's time.
+///
+/// # Errors
+/// There is nothing to draw.
+pub fn profiles(points: &[Point], error: f64) -> Result<String, ChartError> {
+    let ratios: Vec<f64> = (0..=120).map(|k| 10f64.powf(f64::from(k) / 40.0)).collect();
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        area.fill(&WHITE).map_err(refused)?;
+        let mut chart = ChartBuilder::on(&area)
+            .margin(12)
+            .caption(format!("scenes answered to {error:.0e}"), ("sans-serif", 18))
+            .x_label_area_size(42)
+            .y_label_area_size(60)
+            .build_cartesian_2d((1.0..1000.0_f64).log_scale(), 0.0..1.05)
+            .map_err(refused)?;
+        chart
+            .configure_mesh()
+            .label_style(("sans-serif", 14))
+            .x_desc("time over that of the fastest method")
+            .y_desc("share of the scenes")
+            .x_label_formatter(&|v| format!("{v:.0}"))
+            .light_line_style(WHITE.mix(0.0))
+            .draw()
+            .map_err(refused)?;
+        for (k, (method, shares)) in profile(points, error, &ratios).into_iter().enumerate() {
+            let colour = COLOURS[k % COLOURS.len()];
+            let line: Vec<(f64, f64)> = ratios.iter().copied().zip(shares).collect();
+            chart
+                .draw_series([PathElement::new(line, colour.stroke_width(2))])
+                .map_err(refused)?
+                .label(method.label())
+                .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2)));
+        }
+        legend(&mut chart)?;
+        area.present().map_err(refused)?;
+    }
+    Ok(text)
+}
+
+type Chart<'a, 'b, X, Y> = plotters::chart::ChartContext<'a, SVGBackend<'b>, plotters::coord::cartesian::Cartesian2d<X, Y>>;
+
+fn legend<'a, X, Y>(chart: &mut Chart<'a, 'a, X, Y>) -> Result<(), ChartError>
+where
+    X: plotters::coord::ranged1d::Ranged<ValueType = f64>,
+    Y: plotters::coord::ranged1d::Ranged<ValueType = f64>,
+{
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .background_style(WHITE.mix(0.8))
+        .label_font(("sans-serif", 13).into_font())
+        .draw()
+        .map_err(refused)
+}

@@ -1,0 +1,164 @@
+//! Studies as text and tables.
+
+mod chart;
+
+pub use chart::{ChartError, errors, profiles};
+
+use super::text::{Layout, Page, Role};
+use crate::study::{
+    Method, Point,
+    extreme::{Count, Found, Grade, count},
+};
+
+/// The relative error that is called an answer, in the summary and the performance profile.
+pub const ANSWER: f64 = 1e-6;
+
+/// A table of every point, comma-separated.
+///
+/// # Errors
+/// The writer's, which has no reason to fail in memory.
+pub fn csv(points: &[Point]) -> Result<String, csv::Error> {
+    let mut out = csv::Writer::from_writer(Vec::new());
+    out.write_record([
+        "scene",
+        "method",
+        "knob",
+        "setting",
+        "value",
+        "relative_error",
+        "bracket",
+        "seconds",
+        "iterations",
+        "engine_status",
+    ])?;
+    let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
+    for p in points {
+        let status = p.status.map_or(String::new(), |s| format!("{s:?}"));
+        out.write_record([
+            p.scene.clone(),
+            p.method.label().into(),
+            p.method.knob().into(),
+            p.knob.to_string(),
+            number(p.value),
+            number(p.error),
+            number(p.bracket),
+            p.seconds.to_string(),
+            p.iterations.to_string(),
+            status,
+        ])?;
+    }
+    Ok(String::from_utf8_lossy(&out.into_inner().map_err(|e| e.into_error())?).into_owned())
+}
+
+/// A table of every cell of the extreme grid.
+///
+/// # Errors
+/// As [`csv`].
+pub fn extreme_csv(found: &[Found]) -> Result<String, csv::Error> {
+    let mut out = csv::Writer::from_writer(Vec::new());
+    out.write_record(["family", "what", "asked", "grade", "value", "relative_error", "bracket", "iterations", "seconds"])?;
+    let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
+    for f in found {
+        out.write_record([
+            f.family.clone(),
+            f.what.clone(),
+            format!("{:?}", f.ask),
+            format!("{:?}", f.grade).to_lowercase(),
+            number(f.value),
+            number(f.error),
+            number(f.bracket),
+            f.iterations.to_string(),
+            f.seconds.to_string(),
+        ])?;
+    }
+    Ok(String::from_utf8_lossy(&out.into_inner().map_err(|e| e.into_error())?).into_owned())
+}
+
+/// A study as a page: per scene each method at its best, then what was silently wrong.
+pub fn text(points: &[Point], layout: Layout) -> Page {
+    let mut page = Page::new(layout);
+    let mut scenes: Vec<&str> = Vec::new();
+    for p in points {
+        if !scenes.contains(&p.scene.as_str()) {
+            scenes.push(&p.scene);
+        }
+    }
+    let wrong: Vec<&Point> = points.iter().filter(|p| p.is_silently_wrong()).collect();
+    let title = format!("{} runs on {} scenes, {} wrong although the engine said solved", points.len(), scenes.len(), wrong.len());
+    page.title("Error against run time", title, if wrong.is_empty() { Role::Good } else { Role::Value });
+    page.blank();
+    for scene in &scenes {
+        let lines: Vec<String> = Method::ALL
+            .into_iter()
+            .filter_map(|method| {
+                let mut own: Vec<&Point> = points.iter().filter(|p| p.scene == *scene && p.method == method).collect();
+                own.sort_by(|a, b| error(a).total_cmp(&error(b)).then(a.seconds.total_cmp(&b.seconds)));
+                let best = own.first()?;
+                let at = if method.knob().is_empty() {
+                    String::new()
+                } else {
+                    format!(", {} {}", method.knob(), super::text::number::short(best.knob))
+                };
+                Some(format!("{:<28} {:>8}  {}{at}", method.label(), shown(best.error), super::text::number::seconds(best.seconds)))
+            })
+            .collect();
+        page.row(scene, lines);
+    }
+    page.row(
+        "wrong",
+        wrong.iter().map(|p| {
+            format!(
+                "{}: {}, {} {}: error {}",
+                p.scene,
+                p.method.label(),
+                p.method.knob(),
+                super::text::number::short(p.knob),
+                shown(p.error)
+            )
+        }),
+    );
+    page
+}
+
+fn error(p: &Point) -> f64 {
+    p.error.unwrap_or(f64::INFINITY)
+}
+
+fn shown(error: Option<f64>) -> String {
+    error.map_or("none".into(), |e| format!("{e:.1e}"))
+}
+
+/// The extreme grid as a page: sums per family, then every cell without a right answer.
+pub fn extreme_text(found: &[Found], verbose: bool, layout: Layout) -> Page {
+    let mut page = Page::new(layout);
+    let all = count(found, None);
+    let role = if all.wrong > 0 { Role::Bad } else { Role::Good };
+    let title = format!("{} cells, {} wrong, {} undecided", all.cells, all.wrong, all.undecided);
+    page.title("Stiff and extreme scenes", title, role);
+    page.blank();
+    for family in ["column", "wall", "arch"] {
+        page.row(family, [sums(&count(found, Some(family)))]);
+    }
+    page.row("all", [sums(&all)]);
+    let others = |grade: Grade| -> Vec<String> {
+        found.iter().filter(|f| f.grade == grade).map(|f| format!("{}: {}: {:?}", f.family, f.what, f.ask)).collect()
+    };
+    page.row("wrong", others(Grade::Wrong));
+    let undecided = others(Grade::Undecided);
+    let shown = if verbose { undecided.len() } else { undecided.len().min(6) };
+    let more = (shown < undecided.len()).then(|| format!("… and {} more (--verbose for all)", undecided.len() - shown));
+    page.row("undecided", undecided[..shown].iter().cloned().chain(more));
+    page
+}
+
+fn sums(c: &Count) -> String {
+    let share = 100.0 * c.undecided as f64 / c.cells.max(1) as f64;
+    let verdicts = format!("{} cells: {} right, {} undecided ({share:.1} %), {} wrong", c.cells, c.right, c.undecided, c.wrong);
+    if c.load_factors == 0 {
+        return format!("{verdicts}; at most {} iterations", c.iterations);
+    }
+    format!(
+        "{verdicts}; {} of {} brackets within 1e-6, greatest error {:.1e}, at most {} iterations",
+        c.narrow, c.load_factors, c.error, c.iterations
+    )
+}

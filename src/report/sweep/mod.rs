@@ -1,0 +1,30 @@
+//! Sweeps as text, table and chart.
+
+mod chart;
+mod table;
+mod text;
+
+use crate::sweep::{Header, Question, Summary};
+use serde::Serialize;
+
+pub use chart::{ChartError, Kind, chart};
+pub use table::csv;
+pub use text::summary;
+
+/// The summary as JSON (`"format": "voussoir-summary/1"`).
+#[derive(Clone, Debug, Serialize)]
+pub struct Document<'a> {
+    format: &'static str,
+    name: &'a str,
+    question: &'a Question,
+    /// Rows of the plan; `summary.rows` are there.
+    rows: usize,
+    summary: &'a Summary,
+}
+
+impl<'a> Document<'a> {
+    /// A summary with what it is about.
+    pub fn new(header: &'a Header, summary: &'a Summary) -> Self {
+        Self { format: "voussoir-summary/1", name: &header.plan.name, question: &header.plan.question, rows: header.rows, summary }
+    }
+}

@@ -1,0 +1,80 @@
+//! The summary of a sweep as a page.
+
+use crate::{
+    report::text::{
+        Layout, Page, Role,
+        number::{count, seconds, short},
+    },
+    sweep::{Header, Proportion, Summary},
+};
+
+/// So many numbers are listed by their influence.
+const SHOWN: usize = 5;
+
+/// The page; `brief` leaves the first line alone.
+pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) -> Page {
+    let mut page = Page::new(layout);
+    let counts: Vec<String> = summary.counts.iter().map(|(word, n)| format!("{n} {word}")).collect();
+    let missing = header.rows.saturating_sub(summary.rows);
+    let of = if missing > 0 { format!(" of {}", header.rows) } else { String::new() };
+    let ended = if counts.is_empty() { String::new() } else { format!(": {}", counts.join(", ")) };
+    let answer = format!("{}{of}{ended}", count(summary.rows, "row"));
+    page.title(&header.plan.name, answer, if missing > 0 { Role::Unsure } else { Role::Value });
+    if brief {
+        return page;
+    }
+    page.blank();
+    if let (Some(q), Some(quantity)) = (&summary.quantiles, header.plan.question.quantity()) {
+        page.row(
+            quantity,
+            [
+                format!("least {} (row {}), greatest {} (row {})", short(q.least.0), q.least.1, short(q.greatest.0), q.greatest.1),
+                format!(
+                    "quantiles 5 % {}, 25 % {}, median {}, 75 % {}, 95 % {}",
+                    short(q.p05),
+                    short(q.p25),
+                    short(q.median),
+                    short(q.p75),
+                    short(q.p95)
+                ),
+            ],
+        );
+    }
+    if let Some(failed) = summary.failed {
+        let what = match header.plan.question.require() {
+            Some(require) => format!(" (below {require}, or not standing)"),
+            None => String::new(),
+        };
+        // A grid is no sample: its share has no interval.
+        let share = if summary.fragility.is_some() { share(failed) } else { format!("{} of {}", failed.failed, failed.of) };
+        page.row("failed", [format!("{share}{what}")]);
+    }
+    // Where one number varies there is nothing to compare.
+    if header.plan.vary.len() > 1 && !summary.influence.is_empty() {
+        page.row(
+            "matters",
+            summary.influence.iter().take(SHOWN).map(|i| format!("{}: {:.0} % of the variance", i.parameter, 100.0 * i.share)),
+        );
+        page.row(
+            "",
+            ["measured by the correlation ratio: the variance between groups of rows with like values of one number, over the whole; \
+              what is left comes from numbers together"
+                .into()],
+        );
+    }
+    if let Some(f) = &summary.fragility {
+        // A few points of the curve; all of them are in --json and the chart.
+        let every = (f.points.len() - 1).div_ceil(4).max(1);
+        let points = f.points.iter().step_by(every).map(|(at, p)| format!("{} {}: {}", f.along, short(*at), share(*p)));
+        page.row("fragility", points);
+    }
+    if let Some((row, error)) = &summary.first_error {
+        page.row("errors", [format!("the first in row {row}: {error}")]);
+    }
+    page.row("time", [format!("{} of computing", seconds(summary.seconds))]);
+    page
+}
+
+fn share(p: Proportion) -> String {
+    format!("{} of {}, {:.1} % (95 % interval {:.1} to {:.1} %)", p.failed, p.of, 100.0 * p.share, 100.0 * p.lower, 100.0 * p.upper)
+}

@@ -1,0 +1,214 @@
+//! Results of `thrust`: both ends of its range, the line of thrust at every section, the geometric safety factor.
+
+mod verify;
+
+pub(super) use verify::verify;
+
+use super::{
+    critical::Side,
+    result::{Answer, Certificate, Question, ResultFile, assessment, certify},
+};
+use crate::{
+    analysis::{
+        Model, Outcome,
+        flip::Probe,
+        geometric::Geometric,
+        thrust::{Thrust, ThrustEnd},
+    },
+    scene::Scene,
+    verdict::{
+        check::{Claim, Findings},
+        section::{SectionForce, sections},
+        thrust::ThrustAt,
+    },
+};
+use serde::{Deserialize, Serialize};
+
+/// The range of the thrust on a support.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ThrustAnswer {
+    /// The support.
+    pub support: String,
+    /// Unit direction of the thrust.
+    pub direction: [f64; 3],
+    /// Its least value.
+    pub least: ThrustValue,
+    /// Its greatest value.
+    pub greatest: ThrustValue,
+    /// The geometric safety factor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub geometric_factor: Option<Factor>,
+}
+
+/// One end of the range, N.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ThrustValue {
+    /// What became of it.
+    pub status: Outcome,
+    /// The thrust, where found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// Lower end of its bracket.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lower: Option<f64>,
+    /// Upper end of its bracket.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub upper: Option<f64>,
+}
+
+/// A geometric safety factor.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Factor {
+    /// The factor, where there is one; it is beyond `lower` otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// With sections shrunk by this it stands.
+    pub lower: f64,
+    /// With sections shrunk by this it falls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub upper: Option<f64>,
+}
+
+/// The evidence, and the line of thrust.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ThrustResult {
+    /// For the least thrust.
+    pub least: Certificate,
+    /// For the greatest.
+    pub greatest: Certificate,
+    /// Shrunk sections, with the verdict at each: `value` is the share of the section that is left.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shrunk: Vec<Side>,
+    /// Why there is no geometric safety factor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub without_factor: Option<String>,
+    /// The line of thrust, section by section.
+    pub sections: Vec<Section>,
+}
+
+/// A section with the lines of thrust through it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Section {
+    /// The two blocks.
+    pub between: [String; 2],
+    /// At the least thrust, where found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least: Option<Line>,
+    /// At the greatest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub greatest: Option<Line>,
+}
+
+/// The line of thrust at a section.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Line {
+    /// Normal force, N; compression > 0.
+    pub normal: f64,
+    /// Shear force, N.
+    pub shear: f64,
+    /// Centre of pressure, m.
+    pub at: [f64; 3],
+    /// Its distance from the centroid, m.
+    pub eccentricity: f64,
+    /// Share of the section used: 1 at the edge.
+    pub used: f64,
+    /// Whether it lies in the kern: the whole section presses.
+    pub in_kern: bool,
+    /// Whether it lies inside the section.
+    pub inside: bool,
+}
+
+impl From<&SectionForce> for Line {
+    fn from(s: &SectionForce) -> Self {
+        Self {
+            normal: s.normal,
+            shear: s.shear,
+            at: s.at.into(),
+            eccentricity: s.eccentricity.norm(),
+            used: s.used,
+            in_kern: s.in_kern,
+            inside: s.used <= 1.0 + 1e-9,
+        }
+    }
+}
+
+impl ResultFile {
+    /// The result of `thrust`. Where the scene does not stand, it is the verdict.
+    pub fn thrust(scene: &Scene, model: &Model, t: &Thrust) -> Self {
+        let (answer, certificate, findings) = assessment(model, &t.standing);
+        let Some([least, greatest]) = &t.ends else {
+            let mut file = Self::new(Question::Thrust, scene, model, answer, certificate);
+            file.mechanism = t.standing.mechanism.as_ref().map(|m| super::result::words(model, m));
+            file.trace.clone_from(&t.standing.attempts);
+            file.warn(&findings);
+            return file;
+        };
+        let mut refused = Findings::default();
+        let (low, low_proof) = end(model, t.at, least, &mut refused);
+        let (high, high_proof) = end(model, t.at, greatest, &mut refused);
+        let mut side = |probe: &Probe| {
+            let (answer, certificate, findings) = assessment(&probe.model, &probe.assessment);
+            refused.fails.extend(findings.fails);
+            Side { value: probe.value, answer, certificate }
+        };
+        let (shrunk, without_factor, value) = match &t.factor {
+            Some(Geometric::Found(flip)) => (vec![side(&flip.stands), side(&flip.falls)], None, Some(1.0 / flip.value)),
+            Some(Geometric::Beyond(probe)) => (vec![side(probe)], None, None),
+            Some(Geometric::Open(why)) => (Vec::new(), Some(why.clone()), None),
+            None => (Vec::new(), None, None),
+        };
+        let answer = ThrustAnswer {
+            support: model.assembly.blocks[t.at.support].id.clone(),
+            direction: t.at.direction,
+            least: low,
+            greatest: high,
+            geometric_factor: factor(&shrunk, value),
+        };
+        let mut file = Self::new(Question::Thrust, scene, model, Answer { thrust: Some(answer), ..Answer::default() }, Certificate::none());
+        let lines = table(model, [least, greatest].map(|e| (e.outcome == Outcome::Found).then_some(&e.forces)));
+        file.thrust = Some(ThrustResult { least: low_proof, greatest: high_proof, shrunk, without_factor, sections: lines });
+        file.left_out.clone_from(&least.left_out);
+        file.trace = least.attempts.iter().chain(&greatest.attempts).cloned().collect();
+        file.warn(&refused);
+        file.with_dead_load(model, &t.standing)
+    }
+}
+
+/// The factor that shrunk sections prove.
+fn factor(shrunk: &[Side], value: Option<f64>) -> Option<Factor> {
+    let proved = |s: &&Side| s.verdict().is_some();
+    let stands = shrunk.first().filter(proved)?;
+    Some(Factor { value, lower: 1.0 / stands.value, upper: shrunk.get(1).filter(proved).map(|s| 1.0 / s.value) })
+}
+
+fn end(model: &Model, at: ThrustAt, e: &ThrustEnd, refused: &mut Findings) -> (ThrustValue, Certificate) {
+    let claim = match e.outcome {
+        Outcome::Found => Some(Claim::Thrust { at, extreme: e.extreme, value: e.value, lower: e.bracket.lower, upper: e.bracket.upper }),
+        Outcome::Unbounded => Some(Claim::EndlessThrust { at, extreme: e.extreme }),
+        Outcome::Impossible | Outcome::Undecided => None,
+    };
+    let (mut certificate, findings) = certify(model, claim, &e.forces, e.base.as_ref(), &e.rates);
+    let mut status = e.outcome;
+    if !findings.fails.is_empty() {
+        (status, certificate.claim) = (Outcome::Undecided, None);
+    }
+    refused.fails.extend(findings.fails);
+    let finite = |v: f64| v.is_finite().then_some(v);
+    let value = (status == Outcome::Found).then_some(e.value);
+    (ThrustValue { status, value, lower: finite(e.bracket.lower), upper: finite(e.bracket.upper) }, certificate)
+}
+
+/// The line of thrust for up to two sets of forces.
+fn table(model: &Model, forces: [Option<&crate::verdict::Forces>; 2]) -> Vec<Section> {
+    let [least, greatest] = forces.map(|f| f.map(|f| sections(&model.interfaces, f)));
+    let line = |s: &Option<Vec<SectionForce>>, k: usize| s.as_ref().and_then(|s| s.get(k)).map(Line::from);
+    let id = |i: usize| model.assembly.blocks[i].id.clone();
+    let faces = model.interfaces.list.iter().enumerate();
+    faces.map(|(k, f)| Section { between: [id(f.a), id(f.b)], least: line(&least, k), greatest: line(&greatest, k) }).collect()
+}

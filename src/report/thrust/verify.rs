@@ -1,0 +1,126 @@
+//! Verifying thrusts: both ends from their forces and mechanisms, the factor from the shrunk sections, the table from the forces.
+
+use super::{Section, ThrustValue, factor, table};
+use crate::{
+    analysis::{Model, Outcome, geometric::shrunk_model},
+    report::{
+        result::{Certificate, Question, ResultFile},
+        verify::{SAME, Verification, answer, failure, require},
+    },
+    verdict::{
+        Forces, Rate,
+        check::{self, Claim, Findings},
+        evidence::{read_forces, read_rates},
+        thrust::{Extreme, ThrustAt},
+    },
+};
+
+/// Adds the parts of a result of `thrust`.
+pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
+    let (said, proof) = match (&file.answer.thrust, &file.thrust) {
+        (None, None) => return all.part("answer", answer(model, Question::Assess, &file.answer, &file.certificate).0),
+        (Some(said), Some(proof)) => (said, proof),
+        _ => return all.part("answer", failure("the answer is not one to its question")),
+    };
+    let mut form = Findings::default();
+    let others = [file.answer.verdict.is_some(), file.answer.load_factor.is_some(), file.certificate.claim.is_some()];
+    require(&mut form, !others.contains(&true), "nothing else is claimed");
+    let Some(support) = model.assembly.find(&said.support) else {
+        return all.part("answer", failure(format!("the scene has no block {}", said.support)));
+    };
+    let at = ThrustAt { support, direction: said.direction };
+    let mut found = Vec::new();
+    for (title, extreme, value, evidence) in [
+        ("least thrust", Extreme::Least, &said.least, &proof.least),
+        ("greatest thrust", Extreme::Greatest, &said.greatest, &proof.greatest),
+    ] {
+        let (findings, forces) = end(model, at, extreme, value, evidence);
+        all.part(title, findings);
+        found.push(forces.filter(|_| value.status == Outcome::Found));
+    }
+    all.claimed = proof.least.claim.is_some() || proof.greatest.claim.is_some();
+    let value = said.geometric_factor.and_then(|f| f.value);
+    let between = said.geometric_factor.is_none_or(|f| f.value.is_none_or(|v| f.lower <= v && f.upper.is_some_and(|u| v <= u)));
+    let order = match &proof.shrunk[..] {
+        [stands, falls] => {
+            let verdicts = (stands.verdict(), falls.verdict());
+            stands.value > falls.value && matches!(verdicts, (Some(a), Some(b)) if a != b)
+        }
+        _ => value.is_none(),
+    };
+    require(
+        &mut form,
+        between && order && factor(&proof.shrunk, value) == said.geometric_factor,
+        "the geometric safety factor lies between those of the shrunk sections",
+    );
+    if let [least, greatest] = &found[..] {
+        let here = table(model, [least.as_ref(), greatest.as_ref()]);
+        require(&mut form, same(&here, &proof.sections), format!("the line of thrust is that of the forces, at {} sections", here.len()));
+    }
+    all.part("answer", form);
+    for side in &proof.shrunk {
+        let sane = side.value > 0.0 && side.value <= 1.0;
+        let findings = if sane {
+            answer(&shrunk_model(model, side.value), Question::Assess, &side.answer, &side.certificate).0
+        } else {
+            failure("sections cannot be shrunk by this")
+        };
+        all.part(format!("sections shrunk to {}", side.value), findings);
+    }
+}
+
+/// One end of the range; gives back its forces where they could be read.
+fn end(model: &Model, here: ThrustAt, wanted: Extreme, said: &ThrustValue, evidence: &Certificate) -> (Findings, Option<Forces>) {
+    let mut f = Findings::default();
+    let numbers = (said.value, said.lower, said.upper);
+    let agrees = match (&evidence.claim, said.status) {
+        (None, Outcome::Undecided) => {
+            f.holds.push("undecided: nothing is claimed".into());
+            return (f, None);
+        }
+        (Some(Claim::Thrust { at, extreme, value, lower, upper }), Outcome::Found) => {
+            *at == here && *extreme == wanted && numbers == (Some(*value), Some(*lower), Some(*upper))
+        }
+        (Some(Claim::EndlessThrust { at, extreme }), Outcome::Unbounded) => {
+            *at == here && *extreme == wanted && numbers == (None, None, None)
+        }
+        _ => false,
+    };
+    require(&mut f, agrees, "the answer says what the certificate claims");
+    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    let read = || -> Result<(Forces, Option<Forces>, Vec<Rate>), String> {
+        let base = evidence.base.as_ref().map(|b| read_forces(assembly, interfaces, b)).transpose()?;
+        Ok((read_forces(assembly, interfaces, &evidence.forces)?, base, read_rates(assembly, &evidence.rates)?))
+    };
+    match (read(), &evidence.claim) {
+        (Ok((forces, base, rates)), Some(claim)) => {
+            let claimed = check::verify(assembly, interfaces, claim, &forces, base.as_ref(), &rates);
+            f.holds.extend(claimed.holds);
+            f.fails.extend(claimed.fails);
+            (f, Some(forces))
+        }
+        (Ok(_), None) => (f, None),
+        (Err(e), _) => {
+            f.fails.push(e);
+            (f, None)
+        }
+    }
+}
+
+fn same(here: &[Section], said: &[Section]) -> bool {
+    let largest = here.iter().flat_map(|s| [s.least, s.greatest]).flatten().map(|l| l.normal.abs()).fold(0.0, f64::max);
+    let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= SAME * scale.max(a.abs());
+    let lines = |a: &Option<super::Line>, b: &Option<super::Line>| match (a, b) {
+        (None, None) => true,
+        (Some(a), Some(b)) => {
+            near(a.normal, b.normal, largest)
+                && near(a.shear, b.shear, largest)
+                // Where next to nothing presses, its place is rounding.
+                && (a.normal.abs() <= SAME * largest
+                    || (near(a.used, b.used, 1.0) && (0..3).all(|k| near(a.at[k], b.at[k], a.eccentricity)) && a.in_kern == b.in_kern))
+        }
+        _ => false,
+    };
+    here.len() == said.len()
+        && here.iter().zip(said).all(|(a, b)| a.between == b.between && lines(&a.least, &b.least) && lines(&a.greatest, &b.greatest))
+}

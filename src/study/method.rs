@@ -1,0 +1,226 @@
+//! The methods of a study and their knobs.
+
+use super::{Known, Point};
+use crate::{
+    analysis::{
+        Control, Law, LoadFactor, Model, assess, coulomb,
+        limit::{self, Way},
+    },
+    assembly::Assembly,
+    dynamics::{self, Fate, Fidelity},
+    program::{Options, Pyramid, Statics, Unknowns},
+    solve::Settings,
+    verdict::Verdict,
+};
+use serde::{Deserialize, Serialize};
+use std::time::Instant;
+
+/// A way to a load factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// What `limit` does: the ladder of attempts. No knob.
+    Ladder,
+    /// One program in the forces; knob: the engine's tolerance.
+    Forces,
+    /// One program in the rates; knob: the engine's tolerance.
+    Rates,
+    /// One program in the forces with nothing left out; knob: the engine's tolerance.
+    KeepAll,
+    /// One program in newtons and metres, as a textbook writes it; knob: the engine's tolerance.
+    Unscaled,
+    /// Friction pyramids inside the cones; knob: the number of facets.
+    PyramidInside,
+    /// Friction pyramids around the cones; knob: the number of facets.
+    PyramidAround,
+    /// Bisection by verdicts of the least unbalance; knob: the number of verdicts.
+    Bisection,
+    /// The load factor with dry friction. No knob.
+    DryFriction,
+    /// Bisection by simulations in time; knob: steps per second (fast, fine).
+    Simulation,
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Ladder,
+        Self::Forces,
+        Self::Rates,
+        Self::KeepAll,
+        Self::Unscaled,
+        Self::PyramidInside,
+        Self::PyramidAround,
+        Self::Bisection,
+        Self::DryFriction,
+        Self::Simulation,
+    ];
+
+    /// What people call it.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Ladder => "voussoir limit",
+            Self::Forces => "one program in forces",
+            Self::Rates => "one program in rates",
+            Self::KeepAll => "in forces, nothing left out",
+            Self::Unscaled => "in newtons, unscaled",
+            Self::PyramidInside => "pyramids inside",
+            Self::PyramidAround => "pyramids around",
+            Self::Bisection => "bisection of verdicts",
+            Self::DryFriction => "dry friction",
+            Self::Simulation => "simulation in time",
+        }
+    }
+
+    /// What its knob is.
+    pub fn knob(self) -> &'static str {
+        match self {
+            Self::Ladder | Self::DryFriction => "",
+            Self::Forces | Self::Rates | Self::KeepAll | Self::Unscaled => "tolerance",
+            Self::PyramidInside | Self::PyramidAround => "facets",
+            Self::Bisection => "verdicts",
+            Self::Simulation => "steps per second",
+        }
+    }
+
+    /// The settings of its knob that make sense for a scene.
+    pub(super) fn knobs(self, known: &Known, model: &Model, quick: bool) -> Vec<f64> {
+        let plane = || Statics::new(&model.assembly, &model.interfaces, Options { live: true, ..Options::default() }).plane.is_some();
+        let thin = |list: Vec<f64>| if quick { list.into_iter().step_by(2).collect() } else { list };
+        match self {
+            Self::DryFriction | Self::Simulation if known.dry.is_none() => Vec::new(),
+            Self::Ladder | Self::DryFriction => vec![0.0],
+            Self::KeepAll if !plane() => Vec::new(),
+            Self::Forces | Self::Rates | Self::KeepAll | Self::Unscaled => thin((1..=6).map(|k| 10f64.powi(-2 * k)).collect()),
+            // In a plane two edges are the cone.
+            Self::PyramidInside | Self::PyramidAround if plane() => Vec::new(),
+            Self::PyramidInside | Self::PyramidAround => thin(vec![4.0, 8.0, 16.0, 32.0]),
+            Self::Bisection => thin(vec![8.0, 16.0, 24.0, 32.0]),
+            // Minutes on large scenes, for two digits.
+            Self::Simulation if model.assembly.blocks.len() > SIMULATED || quick => Vec::new(),
+            Self::Simulation => vec![240.0, 1000.0],
+        }
+    }
+
+    /// One run.
+    pub(super) fn run(self, known: &Known, model: &Model, knob: f64) -> Point {
+        let start = Instant::now();
+        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let tolerance = |way: Way| Way { settings: Settings { tolerance: knob, ..way.settings }, ..way };
+        let once = |way: Way| From::from(limit::attempt(assembly, interfaces, &way));
+        let pyramid = |around: bool| {
+            let options = Options { pyramid: Some(Pyramid { facets: knob as usize, around }), keep_all: true, ..Options::default() };
+            once(Way { options, ..Way::usual(Unknowns::Forces) })
+        };
+        // What is simulated slides without opening.
+        let dry = matches!(self, Self::DryFriction | Self::Simulation);
+        let truth = if dry { known.dry.unwrap_or(f64::NAN) } else { known.truth };
+        let got: Got = match self {
+            Self::Ladder => {
+                let l = limit::limit(assembly, interfaces, &Control { law: Law::Associative, ..Control::default() });
+                Got { value: Some(l.value), ..Got::from(l) }
+            }
+            Self::Forces => once(tolerance(Way::usual(Unknowns::Forces))),
+            Self::Rates => once(tolerance(Way::usual(Unknowns::Rates))),
+            Self::KeepAll => {
+                once(tolerance(Way { options: Options { keep_all: true, ..Options::default() }, ..Way::usual(Unknowns::Forces) }))
+            }
+            Self::Unscaled => once(Way {
+                options: Options { unscaled: true, ..Options::default() },
+                unknowns: Unknowns::Forces,
+                unit: 1.0,
+                local: false,
+                settings: Settings { tolerance: knob, ..Settings::default() },
+            }),
+            Self::PyramidInside => pyramid(false),
+            Self::PyramidAround => pyramid(true),
+            Self::Bisection => bisection(model, knob as usize, 2.0 * truth),
+            Self::DryFriction => {
+                let l = limit::limit(assembly, interfaces, &Control::default());
+                let d = coulomb::load_factor(assembly, interfaces, &l, &Control::default());
+                Got { value: Some(d.value), iterations: d.solves, ..Got::default() }
+            }
+            Self::Simulation => simulated(model, if knob < 500.0 { Fidelity::Fast } else { Fidelity::Fine }, 2.0 * known.truth),
+        };
+        let value = got.value.filter(|v| v.is_finite());
+        Point {
+            scene: known.name.into(),
+            method: self,
+            knob,
+            value,
+            error: value.map(|v| (v - truth).abs() / truth).filter(|e| e.is_finite()),
+            bracket: got.bracket.map(|b| b / truth).filter(|b| b.is_finite()),
+            seconds: start.elapsed().as_secs_f64(),
+            iterations: got.iterations,
+            status: got.status,
+        }
+    }
+}
+
+/// What a run gives.
+#[derive(Default)]
+struct Got {
+    value: Option<f64>,
+    bracket: Option<f64>,
+    iterations: usize,
+    status: Option<crate::solve::Status>,
+}
+
+impl From<LoadFactor> for Got {
+    fn from(l: LoadFactor) -> Self {
+        Self {
+            value: l.attempts.last().and_then(|a| a.engine_value),
+            bracket: Some(l.bracket.width()),
+            iterations: l.attempts.iter().map(|a| a.iterations).sum(),
+            status: l.attempts.last().map(|a| a.engine_status),
+        }
+    }
+}
+
+/// Scenes with more blocks are not simulated.
+const SIMULATED: usize = 40;
+/// Simulations of a bisection: two digits, more than the steps can tell.
+const SIMULATIONS: usize = 8;
+
+/// Halving between 0 and `high` by what happens in time.
+fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Got {
+    let settings = dynamics::Settings { fidelity: Some(fidelity), ..dynamics::Settings::default() };
+    let mut low = 0.0;
+    for _ in 0..SIMULATIONS {
+        let middle = 0.5 * (low + high);
+        match dynamics::simulate(&loaded(model, middle), &model.interfaces, &settings, &mut |_| std::ops::ControlFlow::Continue(()))
+            .map(|outcome| outcome.fate)
+        {
+            Ok(Fate::Stands) => low = middle,
+            Ok(Fate::Falls) => high = middle,
+            _ => break,
+        }
+    }
+    Got { value: Some(0.5 * (low + high)), bracket: Some(high - low), ..Got::default() }
+}
+
+/// The assembly with a multiple of the live load added to the dead load.
+fn loaded(model: &Model, factor: f64) -> Assembly {
+    let mut loaded = model.assembly.clone();
+    for (dead, live) in loaded.dead.iter_mut().zip(&model.assembly.live) {
+        *dead += *live * factor;
+    }
+    loaded
+}
+
+/// Halving between 0 and `high` by verdicts about the scene under its dead load and that multiple of the live load.
+fn bisection(model: &Model, verdicts: usize, mut high: f64) -> Got {
+    let (mut low, mut iterations) = (0.0, 0);
+    for _ in 0..verdicts {
+        let middle = 0.5 * (low + high);
+        let answer = assess(&loaded(model, middle), &model.interfaces, &Control { law: Law::Associative, ..Control::default() });
+        iterations += answer.attempts.iter().map(|a| a.iterations).sum::<usize>();
+        match answer.verdict {
+            Verdict::Stable | Verdict::Conditional => low = middle,
+            Verdict::Unstable => high = middle,
+            // Too close to tell: the answer is here.
+            Verdict::Undecided => break,
+        }
+    }
+    Got { value: Some(0.5 * (low + high)), bracket: Some(high - low), iterations, status: None }
+}

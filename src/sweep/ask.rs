@@ -1,0 +1,131 @@
+//! One question about one scene, its answer verified from the scene alone. A further question is a further arm of [`ask`].
+
+use super::{Answer, Question, Status, TiltOptions};
+use crate::{
+    analysis::{
+        Control, Law, LoadFactor, Model, Outcome, assess,
+        coulomb::{self, DryLoadFactor, Found},
+        limit, tilt,
+        tilt::{directions, tilted},
+    },
+    assembly::Wrench,
+    error::{InputError, JsonPath},
+    verdict::Verdict,
+};
+
+/// Directions of a tilt where the plan does not say.
+const DIRECTIONS: usize = 8;
+
+/// Answers a question.
+///
+/// # Errors
+/// The question has no meaning for this scene.
+pub fn ask(question: &Question, model: &Model) -> Result<Answer, InputError> {
+    match question {
+        Question::Assess(options) => Ok(assessed(model, &control(options.law))),
+        Question::Limit(options) => limited(model, &control(options.law)),
+        Question::Tilt(options) => least_tilt(options, model),
+    }
+}
+
+fn control(law: Law) -> Control {
+    Control { law, ..Control::default() }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+/// Does it stand under its dead load?
+pub(super) fn assessed(model: &Model, control: &Control) -> Answer {
+    let a = assess(&model.assembly, &model.interfaces, control);
+    let status = match a.verdict {
+        _ if !a.proved(&model.assembly, &model.interfaces) => Status::Undecided,
+        Verdict::Stable => Status::Stable,
+        Verdict::Conditional => Status::Conditional,
+        Verdict::Unstable => Status::Unstable,
+        Verdict::Undecided => Status::Undecided,
+    };
+    Answer { lower: finite(a.unbalance.lower), upper: finite(a.unbalance.upper), ..Answer::of(status) }
+}
+
+/// How large may the live load grow?
+///
+/// # Errors
+/// There is no live load.
+pub(super) fn limited(model: &Model, control: &Control) -> Result<Answer, InputError> {
+    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    if assembly.live.iter().all(|w| *w == Wrench::zero()) {
+        let path = JsonPath::root().key("loads").key("live");
+        return Err(InputError::at(path, "there is no live load on a free block to ask about").hint("give one, or ask \"tilt\""));
+    }
+    let bound = limit(assembly, interfaces, control);
+    let dry = (control.law == Law::Coulomb && bounds(bound.outcome)).then(|| coulomb::load_factor(assembly, interfaces, &bound, control));
+    Ok(combined(model, &bound, dry.as_ref().map(|d| (model, d)), |lambda| lambda))
+}
+
+fn bounds(outcome: Outcome) -> bool {
+    matches!(outcome, Outcome::Found | Outcome::Unbounded)
+}
+
+/// The answer by the bound and, where it was asked for, the load factor with dry friction; values are read through `scale`.
+fn combined(model: &Model, bound: &LoadFactor, dry: Option<(&Model, &DryLoadFactor)>, scale: fn(f64) -> f64) -> Answer {
+    let status = match bound.outcome {
+        _ if !bound.proved(&model.assembly, &model.interfaces) => Status::Undecided,
+        Outcome::Found => Status::Found,
+        Outcome::Unbounded => Status::Unbounded,
+        Outcome::Impossible => Status::Impossible,
+        Outcome::Undecided => Status::Undecided,
+    };
+    let answer = Answer {
+        value: (status == Status::Found).then(|| scale(bound.value)),
+        lower: finite(bound.bracket.lower).map(scale),
+        upper: finite(bound.bracket.upper).map(scale),
+        ..Answer::of(status)
+    };
+    let Some((model, dry)) = dry else { return answer };
+    let proved = dry.proved(&model.assembly, &model.interfaces);
+    let found = if proved || dry.found == Found::Unlimited { dry.found } else { Found::Undecided };
+    match found {
+        // The bound itself is the answer, with its bracket.
+        Found::NothingSlides => Answer { dry: Some(found), ..answer },
+        Found::FixedPoint => Answer { status: Status::Found, value: Some(scale(dry.value)), lower: None, dry: Some(found), ..answer },
+        Found::Unlimited => Answer { dry: Some(found), ..answer },
+        Found::Undecided => Answer { status: Status::Undecided, value: None, lower: None, dry: Some(found), ..answer },
+    }
+}
+
+fn least_tilt(options: &TiltOptions, model: &Model) -> Result<Answer, InputError> {
+    let control = control(options.law);
+    let toward = if options.toward.is_empty() {
+        directions(model.assembly.gravity, options.all.map_or(DIRECTIONS, usize::from))
+    } else {
+        options.toward.iter().map(|&d| d.into()).collect()
+    };
+    let mut least: Option<Answer> = None;
+    for direction in toward {
+        let tilt = tilt(&model.assembly, &model.interfaces, direction, &control)?;
+        let turned = tilted(model, direction, tilt.load_factor.value)?;
+        let dry = if control.law == Law::Coulomb && bounds(tilt.load_factor.outcome) {
+            let dry = tilt::dry(&turned.assembly, &model.interfaces, &tilt.load_factor, &control);
+            Some((tilted(model, direction, dry.value)?, dry))
+        } else {
+            None
+        };
+        let degrees = |lambda: f64| lambda.atan().to_degrees();
+        let answer = combined(&turned, &tilt.load_factor, dry.as_ref().map(|(m, d)| (m, d)), degrees);
+        let answer = Answer { toward: Some(tilt.toward.into()), ..answer };
+        if least.as_ref().is_none_or(|least| height(&answer) < height(least)) {
+            least = Some(answer);
+        }
+    }
+    least.ok_or_else(|| InputError::at(JsonPath::root(), "no direction to tilt towards"))
+}
+
+/// Which direction governs: one without an answer must not hide behind the others.
+fn height(answer: &Answer) -> f64 {
+    match answer.status {
+        Status::Unbounded => 90.0,
+        _ => answer.value.unwrap_or(f64::NEG_INFINITY),
+    }
+}

@@ -1,0 +1,147 @@
+//! The file of rows on the disk: begun, taken up again, appended to. A row is written by one call as one line, so that a killed
+//! run leaves at most one piece of a line, which is cut off when the file is taken up.
+
+use super::{Header, Row};
+use crate::error::RowsError;
+use std::{
+    collections::BTreeMap,
+    fs::{File, OpenOptions, TryLockError},
+    io::{Read, Seek, SeekFrom, Write},
+    path::Path,
+    sync::{Mutex, PoisonError},
+};
+
+/// A file of rows, open for appending and locked against other runs.
+#[derive(Debug)]
+pub struct RowsFile {
+    name: String,
+    file: Mutex<File>,
+}
+
+/// What was found in a file of rows.
+#[derive(Debug)]
+pub struct Opened {
+    /// The file.
+    pub file: RowsFile,
+    /// The rows that were there already, by number.
+    pub rows: Vec<Row>,
+    /// Bytes of a half-written last line that were cut off.
+    pub mended: usize,
+}
+
+impl RowsFile {
+    /// Begins a file, or takes up one with the same header.
+    ///
+    /// # Errors
+    /// The file cannot be written, is being written by another run, is no file of rows, or its rows answer something else.
+    pub fn open(path: &Path, header: &Header, restart: bool) -> Result<Opened, RowsError> {
+        let name = path.display().to_string();
+        let problem = |what, cause| RowsError::File { file: name.clone(), what, cause };
+        let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
+        let mut file = opened.map_err(|e| problem("written", e))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(RowsError::Busy { file: name }),
+            Err(TryLockError::Error(e)) => return Err(problem("locked", e)),
+        }
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(|e| problem("read", e))?;
+        let first = line(header).map_err(|e| problem("written", e))?;
+        // What is there of a header may be the beginning of this one; anything else is somebody's file.
+        let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
+        let nothing = restart && looks_like_rows(&bytes) || whole == 0 && first.as_bytes().starts_with(&bytes);
+        let (kept, rows) = if nothing { (0, Vec::new()) } else { taken_up(&name, &bytes, whole, header)? };
+        let mended = if nothing { 0 } else { bytes.len() - kept };
+        file.set_len(kept as u64).and_then(|()| file.seek(SeekFrom::Start(kept as u64))).map_err(|e| problem("written", e))?;
+        if kept == 0 {
+            file.write_all(first.as_bytes()).map_err(|e| problem("written", e))?;
+        }
+        Ok(Opened { file: Self { name, file: Mutex::new(file) }, rows, mended })
+    }
+
+    /// Appends a row.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn append(&self, row: &Row) -> Result<(), RowsError> {
+        let problem = |cause| RowsError::File { file: self.name.clone(), what: "written", cause };
+        let line = line(row).map_err(problem)?;
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.write_all(line.as_bytes()).map_err(problem)
+    }
+}
+
+/// Whether a file that is to be replaced is one of ours.
+fn looks_like_rows(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"{\"format\":\"voussoir-rows/1\"")
+}
+
+fn taken_up(name: &str, bytes: &[u8], whole: usize, header: &Header) -> Result<(usize, Vec<Row>), RowsError> {
+    let (old, rows) = parse(name, bytes.get(..whole).unwrap_or_default())?;
+    let differs = |why: String| RowsError::Differs {
+        file: name.into(),
+        wanted: "this plan".into(),
+        why,
+        remedy: "give another --output, or --restart to begin again",
+    };
+    if let Some(why) = header.differs(&old) {
+        return Err(differs(why.into()));
+    }
+    if old.shard != header.shard {
+        return Err(differs(format!("they are shard {}, not {}", old.shard, header.shard)));
+    }
+    Ok((whole, rows))
+}
+
+/// Reads a file of rows: its header and its rows by number. A half-written last line is left out.
+///
+/// # Errors
+/// The file cannot be read, or is no file of rows.
+pub fn read_rows(path: &Path) -> Result<(Header, Vec<Row>), RowsError> {
+    let name = path.display().to_string();
+    let bytes = std::fs::read(path).map_err(|cause| RowsError::File { file: name.clone(), what: "read", cause })?;
+    let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
+    parse(&name, bytes.get(..whole).unwrap_or_default())
+}
+
+fn parse(name: &str, bytes: &[u8]) -> Result<(Header, Vec<Row>), RowsError> {
+    let damaged = |line: usize, why: String| RowsError::Damaged { file: name.into(), line, why };
+    let mut lines = bytes.split(|b| *b == b'\n').enumerate().filter(|(_, l)| !l.is_empty());
+    let header: Header = match lines.next() {
+        Some((_, line)) => serde_json::from_slice(line).map_err(|e| damaged(1, format!("not the beginning of a file of rows: {e}")))?,
+        None => return Err(damaged(1, "not the beginning of a file of rows: it has no whole header".into())),
+    };
+    let mut rows = BTreeMap::new();
+    for (index, text) in lines {
+        let at = |why: String| damaged(index + 1, why);
+        let row: Row =
+            serde_json::from_slice(text).map_err(|e| at(format!("not a row: {e}; remove the line to have the row computed again")))?;
+        if row.row >= header.rows || !header.shard.holds(row.row) || row.parameters.len() != header.plan.vary.len() {
+            return Err(at(format!("row {} is none of this plan", row.row)));
+        }
+        add(&mut rows, row).map_err(|number| at(format!("row {number} is there twice with different answers; remove one of them")))?;
+    }
+    Ok((header, rows.into_values().collect()))
+}
+
+/// Adds a row unless the same one is there.
+///
+/// # Errors
+/// Another row with its number is there.
+pub(super) fn add(rows: &mut BTreeMap<usize, Row>, row: Row) -> Result<(), usize> {
+    match rows.get(&row.row) {
+        Some(old) if old.same(&row) => Ok(()),
+        Some(_) => Err(row.row),
+        None => {
+            rows.insert(row.row, row);
+            Ok(())
+        }
+    }
+}
+
+/// A value as one line.
+pub(super) fn line(value: &impl serde::Serialize) -> Result<String, std::io::Error> {
+    let mut text = serde_json::to_string(value)?;
+    text.push('\n');
+    Ok(text)
+}

@@ -1,0 +1,71 @@
+//! Shards → one file of rows.
+
+use super::{
+    Header, Row, Shard,
+    file::{add, line, read_rows},
+};
+use crate::error::RowsError;
+use std::{collections::BTreeMap, path::Path};
+
+/// Rows of several files.
+#[derive(Debug)]
+pub struct Merged {
+    /// What they are about.
+    pub header: Header,
+    /// The rows, by number.
+    pub rows: Vec<Row>,
+}
+
+/// Reads files of rows of the same plan. Rows that several of them have must agree.
+///
+/// # Errors
+/// A file cannot be read, or is about something else than the first.
+pub fn merge(paths: &[impl AsRef<Path>]) -> Result<Option<Merged>, RowsError> {
+    let mut header: Option<(String, Header)> = None;
+    let mut rows = BTreeMap::new();
+    for path in paths {
+        let path = path.as_ref();
+        let file = path.display().to_string();
+        let (own, more) = read_rows(path)?;
+        let differs = |wanted: &str, why: String| RowsError::Differs {
+            file: file.clone(),
+            wanted: wanted.into(),
+            why,
+            remedy: "merge shards of one plan only",
+        };
+        match &header {
+            None => header = Some((file.clone(), own)),
+            Some((first, header)) => {
+                if let Some(why) = own.differs(header) {
+                    return Err(differs(first, why.into()));
+                }
+            }
+        }
+        for row in more {
+            add(&mut rows, row).map_err(|number| differs("the files before it", format!("row {number} has another answer")))?;
+        }
+    }
+    let Some((_, header)) = header else { return Ok(None) };
+    Ok(Some(Merged { header: Header { shard: Shard::ALL, ..header }, rows: rows.into_values().collect() }))
+}
+
+impl Merged {
+    /// The text of one file of rows, in the order of their numbers.
+    ///
+    /// # Errors
+    /// A row has no JSON form.
+    pub fn text(&self) -> Result<String, std::io::Error> {
+        let mut text = line(&self.header)?;
+        for row in &self.rows {
+            text.push_str(&line(row)?);
+        }
+        Ok(text)
+    }
+
+    /// Rows of the plan that none of the files has: how many, and the first.
+    pub fn missing(&self) -> Option<(usize, usize)> {
+        let many = self.header.rows - self.rows.len().min(self.header.rows);
+        let first = self.rows.iter().enumerate().find(|(i, r)| r.row != *i).map_or(self.rows.len(), |(i, _)| i);
+        (many > 0).then_some((many, first))
+    }
+}

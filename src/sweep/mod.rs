@@ -1,0 +1,47 @@
+//! One question over many scenes that differ in a few numbers.
+//!
+//! A [`Plan`] names a scene, a question and the numbers that vary, each by JSON pointer. [`open`] checks all of it and gives a
+//! [`Sweep`]; [`run`] answers it row by row into a file of rows ([`Header`], then one [`Row`] a line as it ends), which a later run
+//! takes up where a killed one left it. Row *i* is a function of (plan, scene, *i*) alone: not of threads, shards, or of which
+//! rows ran before. [`merge`] puts shards together, [`summarize`] says what the rows have in common.
+//!
+//! ```
+//! use voussoir::sweep::{self, Options};
+//! # let folder = tempfile::tempdir().unwrap();
+//! let sweep = sweep::open("structures/sweeps/arch-in-earthquake.json".as_ref())?;
+//! let rows = folder.path().join("rows.jsonl");
+//! # let few = sweep::Shard::new(1, 60).unwrap();
+//! let done = sweep::run(&sweep, &rows, &Options { shard: few, ..Options::default() }, &|_| {})?;
+//! let summary = sweep::summarize(&sweep.header(few), &done.rows);
+//! assert_eq!(summary.rows, done.rows.len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod ask;
+mod distribution;
+mod file;
+mod fragility;
+mod influence;
+mod merge;
+mod open;
+mod plan;
+mod pointer;
+mod row;
+mod run;
+mod sampling;
+mod shard;
+mod summary;
+mod worst;
+
+pub use ask::ask;
+pub use file::{Opened, RowsFile, read_rows};
+pub use fragility::{Fragility, Proportion, wilson};
+pub use influence::{Influence, groups, influence};
+pub use merge::{Merged, merge};
+pub use open::{MOST_ROWS, Sweep, open, open_bytes};
+pub use plan::{AssessOptions, LimitOptions, Lognormal, Normal, Plan, Question, Sampling, TiltOptions, Vary, schema};
+pub use row::{Answer, Header, Row, Status};
+pub use run::{Done, Event, Options, run};
+pub use shard::Shard;
+pub use summary::{Quantiles, Summary, summarize, value_of};
+pub use worst::{Range, Worst, WorstOf, worst};

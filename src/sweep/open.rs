@@ -1,0 +1,220 @@
+//! Plan file → [`Sweep`]: everything that can be wrong before the first row is refused here, with its place in the plan.
+
+use super::{
+    Header, Plan, Question, Sampling, Shard,
+    distribution::Axis,
+    pointer::{Pointer, Touches},
+    sampling::{SOBOL, Sampler},
+};
+use crate::{
+    analysis::reuse::Keys,
+    assembly::{self, Wrench},
+    error::{InputError, JsonPath},
+    scene::{self, Kind, Scene, Source},
+};
+use serde_json::Value;
+use std::path::Path;
+
+/// A plan may have this many rows. More would not fit into the memory of the summary; shards of a plan count together.
+pub const MOST_ROWS: usize = 2_000_000;
+
+const PLAN: Kind = Kind { noun: "plan", format: "voussoir-sweep/1", otherwise: "" };
+
+/// A plan that can be run.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// The plan as read.
+    pub plan: Plan,
+    /// The scene as the file says it; every row changes a few numbers of it.
+    pub scene: Value,
+    pointers: Vec<Pointer>,
+    touches: Vec<Touches>,
+    sampler: Sampler,
+}
+
+/// Reads a plan and the scene it names.
+///
+/// # Errors
+/// The plan or its scene cannot be read, or the plan asks for something that has no meaning.
+pub fn open(path: &Path) -> Result<Sweep, InputError> {
+    let name = path.display().to_string();
+    match std::fs::read(path) {
+        Ok(bytes) => open_bytes(name, bytes, path.parent().unwrap_or(Path::new(""))),
+        Err(e) => Err(InputError { file: Some(name), ..InputError::at(JsonPath::root(), format!("cannot be read: {e}")) }),
+    }
+}
+
+/// Reads a plan from the bytes of a file; its scene is looked for in `folder`.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_bytes(name: impl Into<String>, bytes: Vec<u8>, folder: &Path) -> Result<Sweep, InputError> {
+    let (plan, source): (Plan, Source) = scene::read_as(&PLAN, scene::text(name, bytes)?)?;
+    let refuse = |e: InputError| e.located(&source);
+    let key = JsonPath::root().key("scene");
+    let path = folder.join(&plan.scene);
+    let bytes = std::fs::read(&path).map_err(|e| {
+        let error = InputError::at(key, format!("the scene {} cannot be read: {e}", path.display()));
+        refuse(error.hint("the path is relative to the folder of the plan"))
+    })?;
+    let (_, scene_source) = scene::read_bytes(path.display().to_string(), bytes)?;
+    let value: Value = serde_json::from_str(&scene_source.text)
+        .map_err(|e| InputError { file: Some(scene_source.name.clone()), ..InputError::at(JsonPath::root(), e.to_string()) })?;
+    Sweep::new(plan, value).map_err(refuse)
+}
+
+impl Sweep {
+    /// Checks a plan against its scene.
+    ///
+    /// # Errors
+    /// Something in the plan has no meaning; paths are relative to the plan.
+    pub fn new(plan: Plan, scene: Value) -> Result<Self, InputError> {
+        let root = JsonPath::root();
+        let grid = matches!(plan.sampling, Sampling::Grid {});
+        if plan.vary.is_empty() {
+            return Err(
+                InputError::at(root.key("vary"), "nothing varies").hint("add { \"pointer\": …, \"from\": …, \"to\": …, \"count\": … }")
+            );
+        }
+        question(&plan.question, &root.key("question"))?;
+        let (mut pointers, mut axes) = (Vec::new(), Vec::new());
+        for (k, vary) in plan.vary.iter().enumerate() {
+            let path = root.key("vary").index(k);
+            let axis = Axis::new(vary, grid).map_err(|e| e.under(&path))?;
+            let path = path.key("pointer");
+            let pointer = Pointer::find(&vary.pointer, &scene).map_err(|e| e.under(&path))?;
+            fits(&pointer, &axis, &scene).map_err(|e| e.under(&path))?;
+            if pointers.contains(&pointer) {
+                return Err(InputError::at(path, format!("{:?} varies twice", vary.pointer)).hint("keep one of them"));
+            }
+            pointers.push(pointer);
+            axes.push(axis);
+        }
+        let rows = rows(&plan, &axes)?;
+        let touches = pointers.iter().map(|p| p.touches(&scene)).collect();
+        let sampler = Sampler::new(axes, &plan.sampling, plan.seed, rows);
+        let sweep = Self { plan, scene, pointers, touches, sampler };
+        sweep.asks_about_something()?;
+        Ok(sweep)
+    }
+
+    /// Rows of all shards.
+    pub fn rows(&self) -> usize {
+        self.sampler.rows
+    }
+
+    /// What the numbers are called, in their order.
+    pub fn labels(&self) -> Vec<&str> {
+        self.plan.vary.iter().map(super::Vary::label).collect()
+    }
+
+    /// The numbers of a row.
+    pub fn parameters(&self, row: usize) -> Vec<f64> {
+        self.sampler.parameters(row)
+    }
+
+    /// The scene with these numbers.
+    ///
+    /// # Errors
+    /// The scene does not take one of them.
+    pub fn scene_with(&self, parameters: &[f64]) -> Result<Scene, InputError> {
+        let mut value = self.scene.clone();
+        for (pointer, number) in self.pointers.iter().zip(parameters) {
+            pointer.set(&mut value, *number);
+        }
+        read(value)
+    }
+
+    /// What scenes with these numbers have in common with others.
+    pub fn keys(&self, parameters: &[f64]) -> Keys {
+        let bits = |touches: Touches| {
+            let changed = self.touches.iter().zip(parameters).filter(|(t, _)| **t == touches);
+            changed.map(|(_, v)| v.to_bits()).collect()
+        };
+        Keys { shapes: bits(Touches::Shapes), masses: bits(Touches::Masses) }
+    }
+
+    /// The first line of a file of rows.
+    pub fn header(&self, shard: Shard) -> Header {
+        Header::new(self, shard)
+    }
+
+    /// `limit` without a live load would fail in every row alike.
+    fn asks_about_something(&self) -> Result<(), InputError> {
+        let Question::Limit(_) = self.plan.question else { return Ok(()) };
+        let first = self.scene_with(&self.parameters(0)).and_then(|scene| assembly::resolve(&scene));
+        match first {
+            Ok(assembly) if assembly.live.iter().all(|w| *w == Wrench::zero()) => {
+                let error =
+                    InputError::at(JsonPath::root().key("question"), "the scene of row 0 has no live load on a free block to ask about");
+                Err(error.hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene, or ask \"tilt\""))
+            }
+            // Scenes that cannot be resolved are rows with their errors.
+            _ => Ok(()),
+        }
+    }
+}
+
+fn read(value: Value) -> Result<Scene, InputError> {
+    serde_path_to_error::deserialize(value).map_err(|e| {
+        let path = e.path().to_string();
+        InputError::at(JsonPath::root(), format!("{path}: {}", e.inner()))
+    })
+}
+
+/// A scene must be able to take numbers there; of what kind is tried out.
+fn fits(pointer: &Pointer, axis: &Axis, scene: &Value) -> Result<(), InputError> {
+    let with = |number: f64| {
+        let mut value = scene.clone();
+        pointer.set(&mut value, number);
+        read(value)
+    };
+    let old = pointer.get(scene).and_then(Value::as_f64);
+    let first = old.unwrap_or_else(|| axis.quantile(0.5));
+    if let Err(e) = with(first).and(with(first.floor() + 1.0)) {
+        return Err(InputError::at(JsonPath::root(), format!("the scene has no such number: {}", e.message))
+            .hint("spell it as the scene format does"));
+    }
+    if !axis.is_whole() && with(first.floor() + 0.5).is_err() {
+        let message = format!("{} of the scene is a count, and not all its values are whole numbers", pointer.path);
+        return Err(InputError::at(JsonPath::root(), message).hint("add \"round\": true"));
+    }
+    Ok(())
+}
+
+fn question(question: &Question, path: &JsonPath) -> Result<(), InputError> {
+    let Question::Tilt(tilt) = question else { return Ok(()) };
+    let path = path.key("tilt");
+    match (tilt.all, tilt.toward.is_empty()) {
+        (Some(_), false) => Err(InputError::at(path.key("all"), "\"toward\" and \"all\" are both given").hint("keep one of them")),
+        (Some(n), true) if !(1..=3600).contains(&n) => Err(InputError::at(path.key("all"), format!("must be from 1 to 3600, got {n}"))),
+        _ => Ok(()),
+    }
+}
+
+fn rows(plan: &Plan, axes: &[Axis]) -> Result<usize, InputError> {
+    let path = JsonPath::root().key("sampling");
+    let (key, rows) = match plan.sampling {
+        Sampling::Grid {} => {
+            let all = axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(axis.count));
+            let rows = all.filter(|n| *n <= MOST_ROWS);
+            return rows.ok_or_else(|| {
+                InputError::at(JsonPath::root().key("vary"), format!("the grid has more than {MOST_ROWS} rows"))
+                    .hint("take fewer values, or sample")
+            });
+        }
+        Sampling::LatinHypercube { samples } => ("latin_hypercube", samples),
+        Sampling::Sobol { samples } => ("sobol", samples),
+        Sampling::Random { samples } => ("random", samples),
+    };
+    let path = path.key(key).key("samples");
+    if key == "sobol" && (rows > SOBOL.0 || axes.len() > SOBOL.1) {
+        let message = format!("Sobol points go up to {} rows and {} numbers, got {rows} and {}", SOBOL.0, SOBOL.1, axes.len());
+        return Err(InputError::at(path, message).hint("use \"latin_hypercube\" or \"random\""));
+    }
+    match rows {
+        0 => Err(InputError::at(path, "must be at least 1, got 0")),
+        n if n > MOST_ROWS => Err(InputError::at(path, format!("must be at most {MOST_ROWS}, got {n}"))),
+        n => Ok(n),
+    }
+}

@@ -1,0 +1,185 @@
+//! JSON pointers (RFC 6901) into a scene: finding the number, changing it, and what depends on it.
+
+use crate::{
+    error::{InputError, JsonPath},
+    scene::suggest,
+};
+use serde_json::{Map, Number, Value};
+
+/// A pointer that is known to lead to a number of a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Pointer {
+    tokens: Vec<String>,
+    /// The same place as a path, for messages about the scene.
+    pub path: JsonPath,
+}
+
+/// What changes with a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Touches {
+    /// Joints, loads, gravity: blocks and contacts stay.
+    Loads,
+    /// Masses: contacts stay.
+    Masses,
+    /// Anything.
+    Shapes,
+}
+
+impl Pointer {
+    /// Follows a pointer. Its last key may be missing in an object that is there.
+    ///
+    /// # Errors
+    /// At the root of the returned path: it is no pointer, leads nowhere, or not to a number.
+    pub fn find(text: &str, scene: &Value) -> Result<Self, InputError> {
+        let root = JsonPath::root;
+        let Some(rest) = text.strip_prefix('/') else {
+            return Err(InputError::at(root(), format!("not a JSON pointer: {text:?}"))
+                .hint("a pointer starts at the root of the scene: \"/joints/default/friction\""));
+        };
+        let tokens: Vec<String> = rest.split('/').map(|t| t.replace("~1", "/").replace("~0", "~")).collect();
+        let (mut value, mut path) = (scene, root());
+        for (depth, token) in tokens.iter().enumerate() {
+            let last = depth + 1 == tokens.len();
+            let next = match value {
+                Value::Object(map) => {
+                    path = path.key(token.as_str());
+                    match map.get(token) {
+                        Some(next) => next,
+                        None if last => return Ok(Self { tokens, path }),
+                        None => return Err(no_key(text, token, map)),
+                    }
+                }
+                Value::Array(list) => {
+                    let index = index(token);
+                    path = path.index(index.unwrap_or(0));
+                    match index.and_then(|i| list.get(i)) {
+                        Some(next) => next,
+                        None => {
+                            let message = format!("{text:?} leads nowhere: {token:?} is none of the {} elements of its list", list.len());
+                            return Err(InputError::at(root(), message).hint("elements are counted from 0"));
+                        }
+                    }
+                }
+                _ => {
+                    let message = format!("{text:?} leads nowhere: {path} of the scene is {value}, which has no {token:?}");
+                    return Err(InputError::at(root(), message));
+                }
+            };
+            value = next;
+        }
+        // A coefficient of friction may be the word "infinite".
+        if value.is_number() || value == "infinite" {
+            return Ok(Self { tokens, path });
+        }
+        let what = match value {
+            Value::Object(map) => format!("an object with {}", map.keys().map(|k| format!("{k:?}")).collect::<Vec<_>>().join(", ")),
+            Value::Array(list) => format!("a list of {}", list.len()),
+            scalar => scalar.to_string(),
+        };
+        Err(InputError::at(root(), format!("{path} of the scene is not a number: {what}")).hint("a pointer ends at one number"))
+    }
+
+    /// The number there, where there is one.
+    pub fn get<'a>(&self, scene: &'a Value) -> Option<&'a Value> {
+        self.tokens.iter().try_fold(scene, |value, token| match value {
+            Value::Object(map) => map.get(token),
+            Value::Array(list) => list.get(index(token)?),
+            _ => None,
+        })
+    }
+
+    /// Puts a number there. Whole numbers are written as such: counts are read as well.
+    pub fn set(&self, scene: &mut Value, number: f64) {
+        let Some((last, parents)) = self.tokens.split_last() else { return };
+        let parent = parents.iter().try_fold(scene, |value, token| match value {
+            Value::Object(map) => map.get_mut(token),
+            Value::Array(list) => list.get_mut(index(token)?),
+            _ => None,
+        });
+        match parent {
+            Some(Value::Object(map)) => drop(map.insert(last.clone(), written(number))),
+            Some(Value::Array(list)) => {
+                if let Some(element) = index(last).and_then(|i| list.get_mut(i)) {
+                    *element = written(number);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// What depends on this number. Where it is not sure, everything does; interfaces given by hand take their law from many places.
+    pub fn touches(&self, scene: &Value) -> Touches {
+        let given = scene.get("interfaces").and_then(Value::as_array).is_some_and(|list| !list.is_empty());
+        let tokens: Vec<&str> = self.tokens.iter().map(String::as_str).collect();
+        match tokens[..] {
+            _ if given => Touches::Shapes,
+            ["joints" | "loads" | "gravity", ..] => Touches::Loads,
+            ["materials", _, "density"] | ["blocks", _, "density" | "mass"] => Touches::Masses,
+            _ => Touches::Shapes,
+        }
+    }
+}
+
+fn no_key(text: &str, token: &str, map: &Map<String, Value>) -> InputError {
+    let hint = suggest(token, map.keys().map(String::as_str));
+    InputError { hint, ..InputError::at(JsonPath::root(), format!("{text:?} leads nowhere: the scene has no key {token:?} there")) }
+}
+
+fn index(token: &str) -> Option<usize> {
+    let plain = token.bytes().all(|b| b.is_ascii_digit()) && (token == "0" || !token.starts_with('0'));
+    if plain { token.parse().ok() } else { None }
+}
+
+fn written(number: f64) -> Value {
+    const EXACT: f64 = 9_007_199_254_740_992.0;
+    if number.fract() == 0.0 && number.abs() < EXACT {
+        return Value::from(number as i64);
+    }
+    Number::from_f64(number).map_or(Value::Null, Value::Number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn leads_to_numbers_only_and_says_why_not() {
+        let scene = json!({ "a/b": [{ "m~n": 1.5 }], "t": [1, { "u": "infinite", "v": "word", "w": {} }] });
+        let mut changed = scene.clone();
+        Pointer::find("/a~1b/0/m~0n", &scene).unwrap().set(&mut changed, 3.0);
+        Pointer::find("/t/1/u", &scene).unwrap().set(&mut changed, 0.25);
+        Pointer::find("/t/1/w/new", &scene).unwrap().set(&mut changed, -0.0);
+        assert_eq!(changed, json!({ "a/b": [{ "m~n": 3 }], "t": [1, { "u": 0.25, "v": "word", "w": { "new": 0 } }] }));
+        for (text, word) in [
+            ("t/0", "not a JSON pointer"),
+            ("", "not a JSON pointer"),
+            ("/", "unknown"),
+            ("/t/2", "none of the 2 elements"),
+            ("/t/01", "none of the 2"),
+            ("/t/-1", "none of the 2"),
+            ("/t/0/x", "which has no \"x\""),
+            ("/t/1/v", "not a number"),
+            ("/t/1/w", "not a number"),
+            ("/s/x", "no key \"s\""),
+        ] {
+            match Pointer::find(text, &scene) {
+                Err(e) => assert!(e.to_string().contains(word), "{e}"),
+                Ok(p) => assert!(word == "unknown" && p.get(&scene).is_none()),
+            }
+        }
+    }
+
+    #[test]
+    fn what_depends_on_a_number() {
+        let free = json!({ "joints": { "default": {} }, "materials": { "m": { "density": 1 } }, "templates": [{ "arch": { "radius": 1 } }], "gravity": [0, 0, -9] });
+        let touches = |text: &str, scene: &Value| Pointer::find(text, scene).unwrap().touches(scene);
+        assert_eq!(touches("/joints/default/friction", &free), Touches::Loads);
+        assert_eq!(touches("/gravity/2", &free), Touches::Loads);
+        assert_eq!(touches("/materials/m/density", &free), Touches::Masses);
+        assert_eq!(touches("/templates/0/arch/radius", &free), Touches::Shapes);
+        let mut given = free.clone();
+        given["interfaces"] = json!([{}]);
+        assert_eq!(touches("/joints/default/friction", &given), Touches::Shapes);
+    }
+}

@@ -1,0 +1,202 @@
+//! The thrust on a support: its value from forces, its bound from a mechanism, both re-added from the scene.
+//!
+//! The thrust is the component `T` along a unit direction `d` of the force that the blocks exert on the support (water in the joints
+//! included). Let the support move at the rate `σ d`, the others rest and the free blocks follow at rates `q` with inadmissibility `e`
+//! (see [`certificate`]). Virtual work gives for all admissible forces in equilibrium `σ T = w·q + Σ f·v ≥ w·q − D − Σ e f_n`, with `D` the
+//! dissipation of cohesion, tension and crushing: a bound from below (σ = 1, the support yields) or above (σ = −1, it is pushed in).
+
+use super::{Forces, Rate, certificate, check::Findings, no_forces};
+use crate::{
+    assembly::{Assembly, Wrench},
+    interface::Interfaces,
+    tolerance,
+};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Which end of the range of thrusts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Extreme {
+    /// The least: the support yields.
+    Least,
+    /// The greatest: the support is pushed in.
+    Greatest,
+}
+
+impl Extreme {
+    /// 1 for the least, −1 for the greatest.
+    pub fn sigma(self) -> f64 {
+        match self {
+            Self::Least => 1.0,
+            Self::Greatest => -1.0,
+        }
+    }
+}
+
+/// The support and the direction a thrust is about.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ThrustAt {
+    /// Index of the support in the scene.
+    pub support: usize,
+    /// Unit direction.
+    pub direction: [f64; 3],
+}
+
+impl ThrustAt {
+    fn d(&self) -> Vector3<f64> {
+        self.direction.into()
+    }
+
+    /// The thrust that forces exert, N.
+    pub fn value(&self, interfaces: &Interfaces, forces: &Forces) -> f64 {
+        let mut sum = 0.0;
+        for (face, forces) in interfaces.list.iter().zip(forces) {
+            let sign = f64::from(u8::from(face.b == self.support)) - f64::from(u8::from(face.a == self.support));
+            if sign != 0.0 {
+                let total = forces.iter().map(|f| f.force).chain(face.uplift()).sum::<Vector3<f64>>();
+                sum += sign * self.d().dot(&total);
+            }
+        }
+        sum
+    }
+
+    /// The rates with the support's own.
+    fn with_support(&self, rates: &[Rate], sigma: f64) -> Vec<Rate> {
+        let mut rates = rates.to_vec();
+        if let Some(rate) = rates.get_mut(self.support) {
+            *rate = Rate { velocity: self.d() * sigma, spin: Vector3::zeros() };
+        }
+        rates
+    }
+
+    /// What forces and rates prove about an extreme.
+    pub fn bracket(&self, assembly: &Assembly, interfaces: &Interfaces, extreme: Extreme, forces: &Forces, rates: &[Rate]) -> Proof {
+        let sigma = extreme.sigma();
+        let rates = self.with_support(rates, sigma);
+        let s = certificate::statics(assembly, interfaces, forces, 0.0);
+        let k = certificate::kinematics(assembly, interfaces, &rates, forces);
+        let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
+        let (value, bound) = (self.value(interfaces, forces), sigma * (k.gain() - k.slack));
+        let largest = forces.iter().flatten().map(|f| f.force.norm()).fold(0.0, f64::max);
+        let reached = value + sigma * hidden;
+        let (lower, upper) = if extreme == Extreme::Least { (bound, reached) } else { (reached, bound) };
+        // As if every contact carried the largest force, or the total load: forces that vanish would hide everything.
+        let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
+        Proof { value, lower, upper, behind: k.excess * largest.max(total), statics: s }
+    }
+}
+
+/// What forces and a mechanism prove about a thrust.
+#[derive(Clone, Debug)]
+pub struct Proof {
+    /// The thrust of the forces, N.
+    pub value: f64,
+    /// Lower end of the extreme's bracket, N.
+    pub lower: f64,
+    /// Upper end, N.
+    pub upper: f64,
+    /// What the mechanism's inadmissibility could hide if every contact carried the largest force or the total load, N.
+    pub behind: f64,
+    /// What the forces leave.
+    pub statics: certificate::Statics,
+}
+
+impl Proof {
+    /// Whether the mechanism's inadmissibility is rounding; `total` is the total load, N.
+    pub fn is_admissible(&self, total: f64) -> bool {
+        self.behind <= tolerance::LOAD_FACTOR_BEHIND * self.value.abs() + tolerance::LOAD_FACTOR_WIDTH * total
+    }
+}
+
+/// The width of a bracket that counts as found, N.
+pub fn width(assembly: &Assembly, value: f64) -> f64 {
+    let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
+    tolerance::THRUST_WIDTH * value.abs() + tolerance::THRUST_FLOOR * total
+}
+
+/// The scene without loads, in which endless forces balance by themselves; block weights stay as the scale.
+pub fn unloaded(assembly: &Assembly) -> Assembly {
+    let mut bare = assembly.clone();
+    bare.dead.iter_mut().chain(&mut bare.live).for_each(|w| *w = Wrench::zero());
+    bare
+}
+
+/// Verifies a least or greatest thrust: its value and bracket.
+pub(super) fn verify(
+    f: &mut Findings,
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    (forces, rates): (&Forces, &[Rate]),
+    (at, extreme): (&ThrustAt, Extreme),
+    [value, lower, upper]: [f64; 3],
+) {
+    if !is_support(f, assembly, at) {
+        return;
+    }
+    let p = at.bracket(assembly, interfaces, extreme, forces, rates);
+    let s = &p.statics;
+    super::check::cones(f, "", assembly, interfaces, s);
+    let loose = tolerance::LOOSE_BALANCE.max(s.resolution);
+    f.require(
+        s.unbalance <= loose,
+        format!(
+            "forces balance every free block: largest unbalance {:.1e} g, on {}, allowed {loose:.1e}",
+            s.unbalance, assembly.blocks[s.worst].id
+        ),
+    );
+    let width = width(assembly, p.value);
+    f.require((p.value - value).abs() <= width, format!("their thrust is {:.9e} N, claimed {value:.9e} N", p.value));
+    let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
+    f.require(
+        p.is_admissible(total),
+        format!("the mechanism is admissible: its rounding could hide at most {:.1e} of the total load", p.behind / total),
+    );
+    let holds = p.lower >= lower - width && p.upper <= upper + width;
+    f.require(holds, format!("bracket recomputed: [{:.9e}, {:.9e}] N, claimed [{lower:.9e}, {upper:.9e}] N", p.lower, p.upper));
+    let open = p.upper - p.lower;
+    if open.is_nan() || open > 2.0 * width {
+        f.fails.push(format!("the two sides do not meet: bracket {open:.1e} N wide, allowed {:.1e} N", 2.0 * width));
+    }
+}
+
+/// Verifies that a thrust has no end: forces that balance by themselves and push, beside others that balance the loads.
+pub(super) fn verify_endless(
+    f: &mut Findings,
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    forces: &Forces,
+    base: Option<&Forces>,
+    at: &ThrustAt,
+    extreme: Extreme,
+) {
+    if !is_support(f, assembly, at) {
+        return;
+    }
+    match base {
+        Some(base) => super::check::balanced(f, "", assembly, interfaces, base, 0.0),
+        None => f.fails.push("forces that balance the loads are missing".into()),
+    }
+    let (unlimited, kept) = interfaces.unlimited();
+    let alone: Forces = kept.iter().map(|&k| forces[k].clone()).collect();
+    super::check::balanced(f, "without loads, ", &unloaded(assembly), &unlimited, &alone, 0.0);
+    // Forces in joints that limit them are not counted.
+    let mut counted = no_forces(interfaces);
+    kept.iter().zip(alone).for_each(|(&k, forces)| counted[k] = forces);
+    let dry: f64 = at.value(interfaces, &counted) - at.value(interfaces, &no_forces(interfaces));
+    let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
+    f.require(
+        -extreme.sigma() * dry >= 0.5 * total,
+        format!("they push with {dry:.3e} N, at least half the total load of {total:.3e} N needed, and may be multiplied without end"),
+    );
+}
+
+fn is_support(f: &mut Findings, assembly: &Assembly, at: &ThrustAt) -> bool {
+    let support = assembly.blocks.get(at.support).is_some_and(|b| b.support);
+    let unit = (at.d().norm() - 1.0).abs() <= 1e-9;
+    if !support || !unit {
+        f.fails.push("the thrust is not one on a support along a unit direction".into());
+    }
+    support && unit
+}

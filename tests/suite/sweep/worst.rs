@@ -1,0 +1,108 @@
+//! The worst case within ranges against closed forms and against samples of the ranges.
+
+use super::{arch, block};
+use serde_json::{Value, json};
+use voussoir::{
+    analysis::{Control, assess, limit, prepare},
+    scene::{Friction, Scene},
+    sweep::{Range, Worst, WorstOf, worst},
+    verdict::Verdict,
+};
+
+fn scene(value: &Value) -> Scene {
+    serde_json::from_value(value.clone()).unwrap()
+}
+
+fn ask(value: &Value, ranges: &[&str], of: WorstOf) -> Result<Worst, String> {
+    let ranges: Vec<Range> = ranges.iter().map(|r| r.parse().unwrap()).collect();
+    worst(&scene(value), &ranges, of, &Control::default()).map_err(|e| e.to_string())
+}
+
+fn factor(scene: &Scene) -> f64 {
+    let model = prepare(scene).unwrap();
+    limit(&model.assembly, &model.interfaces, &Control::default()).value
+}
+
+#[test]
+fn the_lowest_friction_is_the_worst() {
+    let w = ask(&block(), &["friction=0.2..0.7"], WorstOf::Limit).unwrap();
+    assert_eq!((w.corners, w.scene.joints.default.friction), (1, Some(Friction::Coefficient(0.2))));
+    assert!((factor(&w.scene) - 0.2).abs() < 1e-6);
+    assert!(w.argument[0].contains("0.2, the lowest"), "{:?}", w.argument);
+}
+
+/// A light block on a heavy one, a force at the top: which density is the worst differs from block to block.
+fn counterweight() -> Value {
+    json!({
+        "format": "voussoir-scene/1",
+        "materials": { "inner": { "density": 2200 }, "outer": { "density": 2200 } },
+        "joints": { "default": { "friction": "infinite" } },
+        "blocks": [
+            { "id": "ground", "shape": { "box": { "size": [1, 1, 1] } }, "at": [0, 0, -0.5], "support": true },
+            { "id": "inner", "shape": { "box": { "size": [1, 1, 1] } }, "at": [0, 0, 0.5], "material": "inner" },
+            { "id": "outer", "shape": { "box": { "size": [2.4, 1, 1] } }, "at": [0.7, 0, 1.5], "material": "outer" }
+        ],
+        "loads": { "live": [{ "block": "outer", "force": [1, 0, 0] }] }
+    })
+}
+
+#[test]
+fn the_worst_densities_are_opposite_ends_where_one_weight_holds_the_other() {
+    let ranges = ["density=2000..2400"];
+    let w = ask(&counterweight(), &ranges, WorstOf::Limit).unwrap();
+    assert_eq!(w.corners, 4);
+    assert_eq!((w.scene.materials["inner"].density, w.scene.materials["outer"].density), (2000.0, 2400.0));
+    assert!(w.argument[1].contains("nothing between them is worse"), "{:?}", w.argument);
+    // No value between is worse.
+    let least = factor(&w.scene);
+    for (inner, outer) in [(2000.0, 2000.0), (2100.0, 2300.0), (2400.0, 2400.0), (2400.0, 2000.0), (2000.0, 2399.0), (2200.0, 2200.0)] {
+        let mut s = scene(&counterweight());
+        s.materials.get_mut("inner").unwrap().density = inner;
+        s.materials.get_mut("outer").unwrap().density = outer;
+        assert!(factor(&s) >= least - 1e-6 * least.abs(), "{inner} {outer}");
+    }
+}
+
+#[test]
+fn one_corner_that_falls_is_the_verdict() {
+    let mut value = counterweight();
+    value["loads"] = json!({ "dead": [{ "block": "outer", "force": [0, 0, -1000], "at": [1.9, 0, 2] }] });
+    // About the edge at x = 0.5: 0.5 W_inner against 0.2 W_outer and 1.4 P.
+    let w = ask(&value, &["load=0.5..6", "density:inner=2000..2400"], WorstOf::Assess).unwrap();
+    let model = prepare(&w.scene).unwrap();
+    let a = assess(&model.assembly, &model.interfaces, &Control::default());
+    let moment = 0.5 * 2000.0 * 9.81 - 0.2 * 2.4 * 2200.0 * 9.81 - 1.4 * 6000.0;
+    assert!(moment < 0.0);
+    assert_eq!((w.corners, a.verdict), (4, Verdict::Unstable));
+    assert_eq!((w.scene.loads.dead[0].force, w.scene.materials["inner"].density), (Some([0.0, 0.0, -6000.0]), 2000.0));
+}
+
+#[test]
+fn other_numbers_are_searched_and_nothing_more_is_claimed() {
+    let w = ask(&arch(), &["/templates/0/arch/thickness=0.15..0.2", "friction=0.6..0.7"], WorstOf::Limit).unwrap();
+    assert!(w.argument.iter().any(|a| a.contains("values between them were not asked")), "{:?}", w.argument);
+    let thin: Value = serde_json::to_value(&w.scene).unwrap();
+    assert_eq!(thin.pointer("/templates/0/arch/thickness"), Some(&json!(0.15)));
+    // The live load is a weight, which densities change as well: no claim about what lies between.
+    let w = ask(&arch(), &["density=2000..2400"], WorstOf::Limit).unwrap();
+    assert!(w.argument[1].contains("values between them were not asked"), "{:?}", w.argument);
+}
+
+#[test]
+fn ranges_that_name_nothing_are_refused() {
+    for (range, word) in [
+        ("frction=0..1", "unknown"),
+        ("friction=-1..1", "not below 0"),
+        ("density=0..1", "above 0"),
+        ("density:stome=1..2", "did you mean \"stone\""),
+        ("load=1..2", "no dead load"),
+        ("/blocks/9/density=1..2", "leads nowhere"),
+    ] {
+        let error = ask(&block(), &[range], WorstOf::Assess).expect_err("refused");
+        assert!(error.contains(word), "{error}");
+    }
+    assert!(ask(&block(), &["friction=0..1", "friction=0..1"], WorstOf::Assess).is_err());
+    for text in ["friction", "friction=1", "friction=2..1", "friction=a..b", "friction=0..inf"] {
+        assert!(text.parse::<Range>().is_err(), "{text}");
+    }
+}
