@@ -1,7 +1,7 @@
 //! Grains that flow and come to rest.
 //!
 //! The same engine as [`simulate`](super::simulate()), run stage by stage: walls are taken away or lifted, grains are poured, gravity is
-//! turned. Grains that fall below the floor are discarded. Restitution is 0 and nothing else damps: contacts are overdamped springs of
+//! turned; at the end they settle once more with finer steps. Grains that fall below the floor are discarded. Restitution is 0 and nothing else damps: contacts are overdamped springs of
 //! natural frequency 0.1 / substep, friction is Coulomb's. A stage ends when the mean kinetic energy of a grain's centre (without its spin:
 //! nothing ever stops a ball that spins between two smooth walls) stays below
 //! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), never after a fixed time; where it does not, that is said.
@@ -27,6 +27,9 @@ const SUBSTEPS: usize = 6;
 /// Contacts are prepared up to this distance, in d. Smaller: fast grains sink in before they are seen. Between spheres and on walls normals
 /// do not depend on it.
 const PREDICTION: f64 = 0.05;
+/// At the end steps are finer by this, and contacts stiffer by its square, so that grains that touch overlap by 1e-4 d and not by 1e-3 d:
+/// the statics takes them as they lie. Smaller: contacts are lost in the overlaps. Larger: time.
+const FINER: f64 = 4.0;
 /// Steps between two looks at the grains.
 const LOOK: usize = 10;
 /// Grains this far below the lowest support's top, in d, are gone.
@@ -135,6 +138,12 @@ pub fn flow(
         if !came {
             break;
         }
+    }
+    if rested {
+        run.world.refine(Step { dt: dt / FINER, ..step });
+        run.dt /= FINER;
+        let mut watch = |time: f64, energy: f64| watch(&Flow { stage: stages.len(), time: time / natural, energy });
+        rested = run.stage(&Change::Settle, horizon * natural, &mut watch).0;
     }
     let gone = run.free.iter().filter(|&&i| !run.there[i]).count();
     let centers = (0..assembly.blocks.len()).map(|i| run.there[i].then(|| run.center(i))).collect();

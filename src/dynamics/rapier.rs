@@ -36,6 +36,11 @@ const ALIKE: f64 = 1e-3;
 /// Marks a contact point that bore no load before.
 const NEW_CONTACT: u64 = 1 << 31;
 
+/// Contacts as stiff as a step allows.
+fn softness(step: Step) -> SpringCoefficients<f64> {
+    SpringCoefficients { natural_frequency: FREQUENCY * step.iterations as f64 / step.dt, damping_ratio: DAMPING }
+}
+
 /// How finely time is cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
@@ -98,7 +103,7 @@ struct Seam {
 impl<'a> World<'a> {
     /// A world; the error says what the engine does not take.
     pub fn new(list: &[Body], frictions: &'a Frictions<'a>, step: Step) -> Result<Self, String> {
-        let softness = SpringCoefficients { natural_frequency: FREQUENCY * step.iterations as f64 / step.dt, damping_ratio: DAMPING };
+        let softness = softness(step);
         let parameters = IntegrationParameters {
             dt: step.dt,
             num_solver_iterations: step.iterations,
@@ -179,6 +184,14 @@ impl<'a> World<'a> {
             body.add_force(vector(force), true);
             body.add_torque(vector(torque), true);
         }
+    }
+
+    /// Goes on with other steps; contacts become as stiff as these allow.
+    pub fn refine(&mut self, step: Step) {
+        self.parameters.dt = step.dt;
+        self.parameters.num_solver_iterations = step.iterations;
+        self.parameters.contact_softness = softness(step);
+        self.parameters.static_contact_softness = softness(step);
     }
 
     /// Takes a body away; nothing may be asked of it but its last pose.
