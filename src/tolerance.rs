@@ -271,7 +271,7 @@ pub const GRAIN_REST_TIME: f64 = 10.0;
 
 /// Grains of a heap at rest touch when they are at most this × their size apart: what the soft contacts of the dynamics leave open or
 /// press in. Larger: near neighbours that do not touch hold each other. Smaller: contacts that carry are missed and the heap falls.
-pub const GRAIN_GAP: f64 = 5e-4;
+pub const GRAIN_GAP: f64 = 1e-3;
 /// Answers of a sweep closer than this × themselves are the same. Larger: neighbours on a fine grid are one. Smaller: the engine's last
 /// digits (1e-10) say which row is the least, or that a number matters on which nothing depends.
 pub const SAME_ANSWER: f64 = 1e-8;

@@ -5,7 +5,11 @@
 //! through their mean. The heap at rest is then a scene like any other, and its static margin, the tilt that it still bears, is
 //! asked for as a cross-check by a method that shares nothing with the dynamics but the places of the grains.
 
-use super::{Control, Model, Outcome, Tilt, prepare, stability::held, tilt};
+use super::{
+    Control, Model, Outcome, Tilt, prepare,
+    stability::{held, without},
+    tilt,
+};
 use crate::{
     assembly,
     dynamics::granular::{Change, Flow, Rest, flow},
@@ -27,6 +31,8 @@ const FEWEST: usize = 3;
 const HORIZON: f64 = 400.0;
 /// √(d/g) between two layers that are poured: a grain falls 3 d in the meantime.
 const POUR: f64 = 2.5;
+/// Rounds in which grains that nothing balances are left out. More: a heap that really falls is taken apart.
+const UNBALANCED: usize = 4;
 /// Cells lower than this, d, are the rough floor with single grains on it: the toe.
 const TOE: f64 = 1.0;
 
@@ -79,6 +85,8 @@ pub struct Margin {
     pub tilt: Tilt,
     /// Grains that nothing held.
     pub loose: usize,
+    /// Grains that no admissible forces balance as they lie, left out: they still creep, too slowly for the dynamics to call it motion.
+    pub unbalanced: usize,
     /// Seconds: contacts, limit.
     pub seconds: [f64; 2],
 }
@@ -240,9 +248,25 @@ pub fn margin(heap: &Heap, control: &Control) -> Result<Margin, InputError> {
     let contacts = start.elapsed().as_secs_f64();
     let start = Instant::now();
     let down = Vector3::x();
-    let tilt = tilt::tilt(&model.assembly, &model.interfaces, down, control)?;
+    let (mut scene, mut model, mut unbalanced) = (scene, model, 0);
+    let mut tilt = tilt::tilt(&model.assembly, &model.interfaces, down, control)?;
+    for _ in 0..UNBALANCED {
+        let moving = tilt.load_factor.mechanism.iter().flat_map(|m| &m.moving);
+        let ids: Vec<String> = moving.map(|&i| model.assembly.blocks[i].id.clone()).collect();
+        if tilt.load_factor.outcome != Outcome::Impossible || ids.is_empty() {
+            break;
+        }
+        let rest = without(&scene, &ids)?;
+        let (rest, next, more) = held(&rest, prepare(&rest)?)?;
+        if next.assembly.free().next().is_none() {
+            break;
+        }
+        unbalanced += ids.len() + more.len();
+        (scene, model) = (rest, next);
+        tilt = tilt::tilt(&model.assembly, &model.interfaces, down, control)?;
+    }
     let model = tilt::tilted(&model, down, tilt.load_factor.value)?;
-    Ok(Margin { scene, model, tilt, loose: loose.len(), seconds: [contacts, start.elapsed().as_secs_f64()] })
+    Ok(Margin { scene, model, tilt, loose: loose.len(), unbalanced, seconds: [contacts, start.elapsed().as_secs_f64()] })
 }
 
 impl Margin {

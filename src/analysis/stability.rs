@@ -117,7 +117,7 @@ fn finish(mut rounds: Vec<Round>, level: &[Model], reached: bool, control: &Cont
 }
 
 /// The scene without some blocks and all that names them; templates become blocks.
-fn without(scene: &Scene, ids: &[String]) -> Result<Scene, InputError> {
+pub(super) fn without(scene: &Scene, ids: &[String]) -> Result<Scene, InputError> {
     let gone: HashSet<&str> = ids.iter().map(String::as_str).collect();
     let mut rest = scene.clone();
     for template in std::mem::take(&mut rest.templates) {

@@ -27,9 +27,9 @@ const SUBSTEPS: usize = 6;
 /// Contacts are prepared up to this distance, in d. Smaller: fast grains sink in before they are seen. Between spheres and on walls normals
 /// do not depend on it.
 const PREDICTION: f64 = 0.05;
-/// At the end steps are finer by this, and contacts stiffer by its square, so that grains that touch overlap by 1e-4 d and not by 1e-3 d:
+/// At the end steps are finer by this, and contacts stiffer by its square, so that grains that touch overlap by a quarter of what they did:
 /// the statics takes them as they lie. Smaller: contacts are lost in the overlaps. Larger: time.
-const FINER: f64 = 4.0;
+const FINER: f64 = 2.0;
 /// Steps between two looks at the grains.
 const LOOK: usize = 10;
 /// Grains this far below the lowest support's top, in d, are gone.
@@ -121,6 +121,7 @@ pub fn flow(
         diameter,
         floor,
         steps: 0,
+        elapsed: 0.0,
         resting: 0.0,
         energy: 0.0,
         dt: natural / STEPS,
@@ -147,7 +148,7 @@ pub fn flow(
     }
     let gone = run.free.iter().filter(|&&i| !run.there[i]).count();
     let centers = (0..assembly.blocks.len()).map(|i| run.there[i].then(|| run.center(i))).collect();
-    let time = run.steps as f64 * run.dt;
+    let time = run.elapsed;
     Ok(Rest { centers, rested, energy: run.energy, gone, turned, time, steps: run.steps, seconds: begin.elapsed().as_secs_f64() })
 }
 
@@ -162,6 +163,8 @@ struct Flowing<'a> {
     diameter: f64,
     floor: f64,
     steps: usize,
+    /// s.
+    elapsed: f64,
     resting: f64,
     energy: f64,
     /// s.
@@ -242,6 +245,7 @@ impl Flowing<'_> {
             }
             self.world.step();
             self.steps += 1;
+            self.elapsed += self.dt;
             time += self.dt;
             if !self.world.is_healthy() {
                 return (false, None);

@@ -97,6 +97,8 @@ pub struct MarginResult {
     pub contacts: usize,
     /// Grains that nothing held, left out.
     pub loose: usize,
+    /// Grains that no admissible forces balance as they lie, left out.
+    pub unbalanced: usize,
     /// Seconds for the contacts and for the limit.
     pub seconds: [f64; 2],
 }
@@ -122,6 +124,7 @@ impl HeapResult {
                 margin_deg: m.degrees(),
                 contacts: m.model.interfaces.list.len(),
                 loose: m.loose,
+                unbalanced: m.unbalanced,
                 seconds: m.seconds,
             }),
             seconds: heap.seconds,

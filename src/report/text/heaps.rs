@@ -59,10 +59,11 @@ fn margin(h: &HeapResult) -> Option<String> {
         None => format!("{:?}", m.status).to_lowercase(),
     };
     Some(format!(
-        "seed {}: {value} ({} contacts, {} loose grains left out; {})",
+        "seed {}: {value} ({} contacts, {} loose grains and {} out of balance left out; {})",
         h.seed,
         m.contacts,
         m.loose,
+        m.unbalanced,
         seconds(m.seconds[0] + m.seconds[1])
     ))
 }
