@@ -24,6 +24,7 @@ fn main() -> ExitCode {
         Verb::Thrust(a) => cli::thrust::run(&a, &terminal),
         Verb::Study(a) => cli::study::run(&a, &terminal),
         Verb::Simulate(a) => cli::simulate::run(&a, &terminal),
+        Verb::Repose(a) => cli::repose::run(&a, &terminal),
         Verb::Generate(a) => cli::generate::run(&a),
         Verb::Import(a) => cli::import::run(&a),
         Verb::Check(a) => cli::check::run(&a, &terminal),

@@ -254,6 +254,24 @@ pub const LEAST_SHRINK: f64 = 1e-3;
 /// Larger: values with fewer digits than are shown. Smaller: δ and ε must fall to where the engine's noise rules.
 pub const NATURAL_MAP: f64 = 1e-6;
 
+/// A contact carries nothing when its normal force is below this × the mean one. Larger: grains at the top of a heap count as loose.
+/// Smaller: the engine's noise in forces that are zero counts as contacts.
+pub const UNLOADED: f64 = 1e-6;
+
+/// A contact is about to slide when it uses all but this of its friction. Larger: contacts count that have something left.
+/// Smaller: the engine's last digits decide.
+pub const ABOUT_TO_SLIDE: f64 = 1e-4;
+
+/// Grains rest when their mean kinetic energy is below this × m g d for [`GRAIN_REST_TIME`]. Larger: slow creep of the surface passes for
+/// rest. Smaller: the shaking of soft contacts counts as flow.
+pub const GRAIN_REST_ENERGY: f64 = 1e-6;
+
+/// How long grains must rest, √(d/g). Longer: time is lost. Shorter: a pause between two avalanches passes for rest.
+pub const GRAIN_REST_TIME: f64 = 10.0;
+
+/// Grains of a heap at rest touch when they are at most this × their size apart: what the soft contacts of the dynamics leave open or
+/// press in. Larger: near neighbours that do not touch hold each other. Smaller: contacts that carry are missed and the heap falls.
+pub const GRAIN_GAP: f64 = 1e-3;
 /// Answers of a sweep closer than this × themselves are the same. Larger: neighbours on a fine grid are one. Smaller: the engine's last
 /// digits (1e-10) say which row is the least, or that a number matters on which nothing depends.
 pub const SAME_ANSWER: f64 = 1e-8;

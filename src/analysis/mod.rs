@@ -7,11 +7,14 @@ mod claim;
 pub mod coulomb;
 pub mod critical;
 mod ends;
+pub mod fabric;
 pub mod flip;
 pub mod geometric;
 pub mod limit;
 mod prepare;
+pub mod repose;
 pub mod reuse;
+pub mod stability;
 pub mod thrust;
 pub mod tilt;
 
@@ -19,8 +22,10 @@ pub use agreement::{Agreement, ForceAgreement, agreement};
 pub use assess::{Assessment, assess};
 pub use attempt::{Attempt, Control, Law};
 pub use critical::{Critical, critical};
+pub use fabric::{Fabric, fabric};
 pub use limit::{LoadFactor, Outcome, limit};
 pub use prepare::{Model, Timings, prepare};
+pub use stability::{Stability, stability};
 pub use tilt::{Tilt, tilt};
 
 use serde::{Deserialize, Serialize};

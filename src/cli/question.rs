@@ -80,6 +80,11 @@ impl<'a> Question<'a> {
         !self.common.quiet
     }
 
+    /// Where the result goes, where it is to be saved.
+    pub fn save(&self) -> Option<&Sink> {
+        self.save.as_ref()
+    }
+
     /// An error in the scene, with its place.
     pub fn refuse(&self, error: InputError) -> anyhow::Error {
         error.located(&self.source).into()

@@ -138,6 +138,8 @@ fn body(block: &Block, units: &Units) -> Result<Body, InputError> {
 /// How any two blocks resist each other, also those that meet only on the way.
 pub(super) struct Frictions<'a> {
     assembly: &'a Assembly,
+    /// The engine's unit of length, m.
+    length: f64,
     known: HashMap<(usize, usize), Resistance>,
     given: HashMap<u32, f64>,
     /// Pairs of blocks whose contact is given by hand.
@@ -159,7 +161,7 @@ const UNLIMITED: f64 = 1e4;
 
 impl<'a> Frictions<'a> {
     pub fn new(assembly: &'a Assembly, interfaces: &Interfaces, units: &Units) -> Self {
-        let mut new = Self { assembly, known: HashMap::new(), given: HashMap::new(), apart: HashSet::new() };
+        let mut new = Self { assembly, length: units.length, known: HashMap::new(), given: HashMap::new(), apart: HashSet::new() };
         for (index, face) in interfaces.list.iter().enumerate() {
             let pair = (face.a.min(face.b), face.a.max(face.b));
             let friction = coefficient(face.law.friction);
@@ -174,17 +176,30 @@ impl<'a> Frictions<'a> {
         new
     }
 
-    /// Between two blocks; nothing where no rule says any. Blocks that meet on the way roll freely.
+    /// Between two blocks; nothing where no rule says any. Of blocks that meet on the way only spheres resist rolling:
+    /// for others it depends on how they meet.
     pub fn between(&self, a: usize, b: usize) -> Resistance {
         let pair = (a.min(b), a.max(b));
         let rule = || self.assembly.joints.law(pair.0, pair.1, &self.assembly.blocks);
-        let met = || rule().map_or(Resistance::default(), |law| Resistance { friction: coefficient(law.friction), arm: 0.0 });
+        let met = || {
+            rule().map_or(Resistance::default(), |law| Resistance {
+                friction: coefficient(law.friction),
+                arm: if self.is_round(pair.0) || self.is_round(pair.1) { law.rolling_arm / self.length } else { 0.0 },
+            })
+        };
         self.known.get(&pair).copied().unwrap_or_else(met)
     }
 
     /// Whether any joint resists rolling.
     pub fn resist_rolling(&self) -> bool {
+        let rules = &self.assembly.joints;
+        let laws = || rules.default.iter().chain(rules.by_material.iter().map(|(_, law)| law)).chain(rules.by_blocks.values());
         self.known.values().any(|r| r.arm > 0.0)
+            || (laws().any(|law| law.rolling_arm > 0.0) && (0..self.assembly.blocks.len()).any(|i| self.is_round(i)))
+    }
+
+    fn is_round(&self, block: usize) -> bool {
+        matches!(self.assembly.blocks.get(block).map(|b| &b.solid), Some(Solid::Sphere { .. }))
     }
 
     /// Of an interface given by hand.

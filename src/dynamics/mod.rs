@@ -14,6 +14,7 @@
 
 mod bodies;
 mod cell;
+pub mod granular;
 mod outcome;
 mod pieces;
 mod rapier;

@@ -13,15 +13,16 @@ use rapier3d::{
     math::{Pose, Rotation, Vector},
     prelude::*,
 };
+use std::collections::BTreeMap;
 
 /// Natural frequency of a contact × substep. Lower: contacts sink in, by its square. Higher: stacks shake.
 const FREQUENCY: f64 = 0.1;
 /// Damping ratio of a contact.
 const DAMPING: f64 = 2.0;
 
-/// Contacts are prepared up to this distance, in median block sizes. Larger: neighbours round a corner are seen at wrong normals.
+/// Contacts of masonry are prepared up to this distance, in median block sizes. Larger: neighbours round a corner are seen at wrong normals.
 /// Smaller: fast blocks sink in before they are seen.
-const PREDICTION: f64 = 0.005;
+pub(super) const PREDICTION: f64 = 0.005;
 
 /// A contact whose normal points more into another piece of the same block than out of it, by this in the cosine, is none.
 const SEAM: f64 = 1e-3;
@@ -35,6 +36,11 @@ const ALIKE: f64 = 1e-3;
 /// Marks a contact point that bore no load before.
 const NEW_CONTACT: u64 = 1 << 31;
 
+/// Contacts as stiff as a step allows.
+fn softness(step: Step) -> SpringCoefficients<f64> {
+    SpringCoefficients { natural_frequency: FREQUENCY * step.iterations as f64 / step.dt, damping_ratio: DAMPING }
+}
+
 /// How finely time is cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
@@ -44,6 +50,8 @@ pub(super) struct Step {
     pub iterations: usize,
     /// Threads of the engine.
     pub threads: usize,
+    /// Contacts are prepared up to this distance, in the engine's unit of length.
+    pub prediction: f64,
 }
 
 /// A force of one contact patch.
@@ -74,6 +82,8 @@ pub(super) struct World<'a> {
     soft_bodies: SoftBodySet,
     ccd: CCDSolver,
     handles: Vec<RigidBodyHandle>,
+    /// Last poses of bodies that were taken away.
+    gone: BTreeMap<usize, Pose>,
     healthy: bool,
 }
 
@@ -93,7 +103,7 @@ struct Seam {
 impl<'a> World<'a> {
     /// A world; the error says what the engine does not take.
     pub fn new(list: &[Body], frictions: &'a Frictions<'a>, step: Step) -> Result<Self, String> {
-        let softness = SpringCoefficients { natural_frequency: FREQUENCY * step.iterations as f64 / step.dt, damping_ratio: DAMPING };
+        let softness = softness(step);
         let parameters = IntegrationParameters {
             dt: step.dt,
             num_solver_iterations: step.iterations,
@@ -102,7 +112,7 @@ impl<'a> World<'a> {
             contact_recycling: false,
             contact_clustering: false,
             friction_model: FrictionModel::Simplified,
-            normalized_prediction_distance: PREDICTION,
+            normalized_prediction_distance: step.prediction,
             normalized_max_linear_velocity: f64::MAX,
             max_ccd_substeps: 0,
             ..IntegrationParameters::default()
@@ -123,6 +133,7 @@ impl<'a> World<'a> {
             soft_bodies: SoftBodySet::new(),
             ccd: CCDSolver::new(),
             handles: Vec::with_capacity(list.len()),
+            gone: BTreeMap::new(),
             healthy: true,
         };
         for (index, body) in list.iter().enumerate() {
@@ -175,6 +186,44 @@ impl<'a> World<'a> {
         }
     }
 
+    /// Goes on with other steps; contacts become as stiff as these allow.
+    pub fn refine(&mut self, step: Step) {
+        self.parameters.dt = step.dt;
+        self.parameters.num_solver_iterations = step.iterations;
+        self.parameters.contact_softness = softness(step);
+        self.parameters.static_contact_softness = softness(step);
+    }
+
+    /// Takes a body away; nothing may be asked of it but its last pose.
+    pub fn remove(&mut self, body: usize) {
+        let last = self.bodies.get(self.handles[body]).map(|b| *b.position());
+        self.bodies.remove(
+            self.handles[body],
+            &mut self.islands,
+            &mut self.colliders,
+            &mut self.impulse_joints,
+            &mut self.multibody_joints,
+            &mut self.soft_bodies,
+            true,
+        );
+        self.gone.extend(last.map(|pose| (body, pose)));
+    }
+
+    /// Puts the centre of a body somewhere else.
+    pub fn place(&mut self, body: usize, center: Vector3<f64>) {
+        if let Some(body) = self.bodies.get_mut(self.handles[body]) {
+            body.set_translation(vector(center), true);
+        }
+    }
+
+    /// Takes the speed out of a body.
+    pub fn stop(&mut self, body: usize) {
+        if let Some(body) = self.bodies.get_mut(self.handles[body]) {
+            body.set_linvel(Vector::ZERO, true);
+            body.set_angvel(Vector::ZERO, true);
+        }
+    }
+
     /// One step in time.
     pub fn step(&mut self) {
         self.pipeline.step(
@@ -202,7 +251,8 @@ impl<'a> World<'a> {
 
     /// Centre of mass and orientation of a body.
     pub fn pose(&self, body: usize) -> (Vector3<f64>, UnitQuaternion<f64>) {
-        let pose = self.bodies[self.handles[body]].position();
+        let there = self.bodies.get(self.handles[body]).map(|b| *b.position());
+        let pose = there.or_else(|| self.gone.get(&body).copied()).unwrap_or(Pose::IDENTITY);
         let r = pose.rotation;
         (back(pose.translation), UnitQuaternion::new_normalize(Quaternion::new(r.w, r.x, r.y, r.z)))
     }

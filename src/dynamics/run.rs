@@ -3,7 +3,7 @@
 use super::{
     Contact, FIRST_MOTION, Fate, Fidelity, Frame, Motion, Outcome, Pose, Progress, Run, Settings, Stop,
     bodies::{Body, Frictions, bodies},
-    rapier::{Step, World},
+    rapier::{PREDICTION, Step, World},
     rolling::Rolling,
     units::Units,
 };
@@ -175,7 +175,7 @@ impl Stage<'_> {
         let begin = Instant::now();
         let (per_unit, iterations) = fidelity.fineness();
         let dt = 1.0 / per_unit;
-        let step = Step { dt, iterations, threads: self.settings.threads.max(1) };
+        let step = Step { dt, iterations, threads: self.settings.threads.max(1), prediction: PREDICTION };
         let mut world = World::new(self.bodies, self.frictions, step)
             .map_err(|text| InputError::at(Default::default(), text).hint("ask `voussoir assess` instead"))?;
         let total = (horizon / dt).ceil().max(1.0) as usize;

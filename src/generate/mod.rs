@@ -8,11 +8,15 @@ mod arch;
 mod barrel;
 mod check;
 mod column;
+mod deposit;
 mod dome;
 mod flat_arch;
+mod lattice;
 mod midline;
 mod stack;
 mod wall;
+
+pub use deposit::{Deposit, deposit};
 
 use crate::{
     error::{InputError, JsonPath},
@@ -33,6 +37,7 @@ pub fn expand(template: &Template) -> Result<Vec<BlockSpec>, InputError> {
         Template::Column(t) => (column::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Dome(t) => (dome::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::FlatArch(t) => (flat_arch::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Lattice(t) => (lattice::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Stack(t) => (stack::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Wall(t) => (wall::blocks(t)?, &t.prefix, t.at, &t.material),
     };
@@ -85,6 +90,7 @@ pub fn examples() -> Vec<Template> {
             center_depth: Some(3.0),
             ..Default::default()
         }),
+        Template::Lattice(template::Lattice { radius: 0.01, layers: 4, ..Default::default() }),
         Template::Stack(template::Stack { blocks: 10, size: [1.0, 1.0, 0.2], shift: Some(0.05), ..Default::default() }),
         Template::Wall(template::Wall { size: [1.0, 0.5, 0.4], courses: 8, blocks: 10, ..Default::default() }),
     ]

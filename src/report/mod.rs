@@ -1,7 +1,10 @@
 //! Answers for people and for programs. No mechanics here: one file per format.
 
+pub mod contacts;
 pub mod critical;
+pub mod heaps;
 pub mod json;
+pub mod packing;
 pub mod read;
 pub mod result;
 pub mod simulation;
@@ -14,6 +17,7 @@ pub mod trajectory;
 pub mod verify;
 pub mod work;
 
+pub use packing::PackingFile;
 pub use result::{Leaning, ResultFile};
 pub use simulation::Simulation;
 pub use verify::verify;

@@ -827,3 +827,37 @@ fn simulate_refuses_what_it_cannot_do() {
     let lost = expect(USAGE, with_input(&["simulate", "-", "--csv", "/nowhere/motion.csv"], PUSHED));
     assert!(err(&lost).contains("/nowhere/motion.csv: cannot be written"), "{}", err(&lost));
 }
+
+#[test]
+fn repose_answers_both_questions() {
+    let desk = Desk::new();
+    expect(YES, voussoir(&["generate", "lattice", "layers=2", "--friction", "0.5", "-o", &desk.at("pile.json")]));
+    let (pile, saved, table) = (desk.at("pile.json"), desk.at("saved.json"), desk.at("contacts.csv"));
+    let options = ["--toward", "0,-1", "--fabric", "--csv", &table, "--save", &saved, "--json"];
+    let answer: Value = serde_json::from_str(&out(&expect(YES, voussoir(&[&["repose", &pile][..], &options].concat())))).unwrap();
+    assert!((answer["directions"][0]["tilt_deg"].as_f64().unwrap() - 19.471220634).abs() < 1e-6, "{answer}");
+    assert_eq!(answer["fabric"]["grains"], 4);
+    expect(YES, voussoir(&["check", &saved]));
+    let rows = fs::read_to_string(&table).unwrap().lines().count();
+    assert_eq!(rows, 1 + answer["fabric"]["contacts"].as_u64().unwrap() as usize, "a row for each contact that carries");
+
+    let protocol = ["repose", "drain", "grains=30", "size=[6,4]", "--question", "repose", "--seeds", "2", "--json"];
+    let heaps = desk.at("heap.json");
+    let one = out(&voussoir(&[&protocol[..], &["--heaps", &heaps, "--skip-margin"]].concat()));
+    let file: Value = serde_json::from_str(&one).unwrap();
+    assert_eq!(file["heaps"].as_array().unwrap().len(), 2, "{one}");
+    assert!(file["heaps"][0]["rested"].as_bool().unwrap());
+    assert!([YES, UNDECIDED].contains(&code(&voussoir(&[
+        "repose",
+        &desk.at("heap.1.json"),
+        "--toward",
+        "1,0",
+        "--law",
+        "associative",
+        "-q"
+    ]))));
+    expect(USAGE, voussoir(&["repose", "heap", "--question", "repose"]));
+    expect(USAGE, voussoir(&["repose", "drain", "grain=30", "--question", "repose"]));
+    expect(USAGE, voussoir(&["repose", "drain", "grains=-1", "--question", "repose"]));
+    expect(USAGE, voussoir(&["repose", &pile, "grains=30"]));
+}

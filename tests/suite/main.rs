@@ -12,6 +12,7 @@ mod critical;
 mod determinism;
 mod dynamics;
 mod extreme;
+mod grains;
 mod invariance;
 mod layering;
 mod published;

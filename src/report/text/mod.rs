@@ -3,13 +3,17 @@
 mod answer;
 mod check;
 mod critical;
+mod heaps;
 mod mechanism;
 pub mod number;
+mod packing;
 mod page;
 mod simulation;
 mod thrust;
 
 pub use check::{inspection, verification};
+pub use heaps::heaps;
+pub use packing::packing;
 pub use page::{Layout, Page, Role, Span, printable};
 
 use super::{

@@ -9,6 +9,7 @@ mod barrel;
 mod column;
 mod dome;
 mod flat_arch;
+mod lattice;
 mod stack;
 mod wall;
 
@@ -17,6 +18,7 @@ pub use barrel::Barrel;
 pub use column::Column;
 pub use dome::Dome;
 pub use flat_arch::FlatArch;
+pub use lattice::{Lattice, Packing};
 pub use stack::Stack;
 pub use wall::{Opening, Wall, WallBase, WallEnd};
 
@@ -37,6 +39,8 @@ pub enum Template {
     Dome(Dome),
     /// A flat arch (platbande) between two abutments.
     FlatArch(FlatArch),
+    /// A pile of equal spheres on a lattice.
+    Lattice(Lattice),
     /// Blocks on top of each other, each shifted against the one below.
     Stack(Stack),
     /// A wall of one leaf in running bond.
@@ -52,6 +56,7 @@ impl Template {
             Template::Column(_) => "column",
             Template::Dome(_) => "dome",
             Template::FlatArch(_) => "flat_arch",
+            Template::Lattice(_) => "lattice",
             Template::Stack(_) => "stack",
             Template::Wall(_) => "wall",
         }

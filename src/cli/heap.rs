@@ -1,0 +1,84 @@
+//! `voussoir repose --question repose`: heaps that flow and come to rest.
+
+use super::{args::Repose, exit::Exit, output::Sink, simulate::threads, terminal, terminal::Terminal};
+use anyhow::{Context, bail};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use rayon::prelude::*;
+use serde_json::Value;
+use std::ops::ControlFlow;
+use voussoir::{
+    analysis::{
+        Control, Law,
+        repose::{heap, margin},
+    },
+    report::{
+        heaps::{HeapResult, ReposeFile},
+        json,
+        text::{self, Options},
+    },
+    scene::Protocol,
+};
+
+pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let protocol = protocol(args)?;
+    let save = args.common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+    let outputs: Vec<Option<Sink>> = (0..u64::from(args.seeds))
+        .map(|k| {
+            let path = |p: &std::path::PathBuf| p.with_extension(format!("{}.json", args.seed + k));
+            args.heaps.as_ref().map(|p| Sink::open(Some(&path(p)))).transpose()
+        })
+        .collect::<anyhow::Result<_>>()?;
+    let target = if args.common.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(None, target);
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
+        bar.set_style(style);
+    }
+    let start = std::time::Instant::now();
+    let left = || args.common.time_limit.map_or(f64::INFINITY, |limit| limit - start.elapsed().as_secs_f64());
+    let one = |(k, output): (usize, &Option<Sink>)| -> anyhow::Result<HeapResult> {
+        let seed = args.seed + k as u64;
+        let heap = heap(&protocol, seed, &mut |flow| {
+            bar.set_message(format!("seed {seed}, stage {}: {:.0} √(d/g), {:.1e} m g d a grain", flow.stage + 1, flow.time, flow.energy));
+            bar.tick();
+            if left() > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        })?;
+        // Kept at once: what follows may take long.
+        if let Some(output) = output {
+            output.write(&json::pretty(&heap.scene)?)?;
+        }
+        let control = Control { law: Law::Associative, keep_all: args.common.keep_all, seconds: left().max(0.0) };
+        let margin = (heap.rested && !args.skip_margin).then(|| margin(&heap, &control)).transpose()?;
+        Ok(HeapResult::new(&heap, margin.as_ref()))
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads(args.threads)).build().context("no threads")?;
+    let heaps: Vec<HeapResult> = pool.install(|| outputs.par_iter().enumerate().map(one).collect::<anyhow::Result<_>>())?;
+    bar.finish_and_clear();
+    let file = ReposeFile::new(&protocol, heaps);
+    let text = json::pretty(&file)?;
+    if let Some(save) = save {
+        save.write(&text)?;
+    }
+    if args.common.json {
+        terminal::print(&text)?;
+    } else {
+        let options = Options { verbose: args.common.verbose, brief: args.common.quiet };
+        terminal.page(&text::heaps(&file, options, terminal.layout(&args.common.scene)))?;
+    }
+    Ok(if file.at_rest == file.heaps.len() { Exit::Yes } else { Exit::Undecided })
+}
+
+/// The protocol by its name, with the values that were changed.
+fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
+    let name = args.common.scene.to_string_lossy();
+    let mut value = serde_json::to_value(Protocol::default())?;
+    value["kind"] = Value::from(name.as_ref());
+    for (key, text) in &args.set {
+        let Some(place) = value.get_mut(key).filter(|_| key != "kind") else {
+            bail!(
+                "{key}: no value of a protocol; there are grains, diameter, sizes, friction, wall_friction, rolling_arm, density, size, rate"
+            );
+        };
+        *place = serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str()));
+    }
+    serde_json::from_value(value).with_context(|| format!("`{name}` with these values is no protocol: drain, funnel, cylinder or tilt"))
+}

@@ -1,0 +1,73 @@
+//! `voussoir repose`: how steep may a packing be?
+
+use super::{
+    args::{Asked, Repose},
+    exit::Exit,
+    heap,
+    output::Sink,
+    question::Question,
+    terminal::{self, Terminal},
+};
+use anyhow::{Context, bail};
+use std::time::Instant;
+use voussoir::{
+    analysis::{Model, assess, fabric, stability, stability::held, tilt::directions},
+    report::{
+        contacts, json,
+        packing::PackingFile,
+        text::{self, Options},
+    },
+    verdict::Forces,
+};
+
+pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
+    if args.question == Asked::Repose {
+        return heap::run(args, terminal);
+    }
+    if let Some((key, _)) = args.set.first() {
+        bail!("{key}=…: only the protocols of --question repose take values");
+    }
+    let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+    let question = Question::open(&args.common)?;
+    let name = question.scene.name.clone();
+    let start = Instant::now();
+    let (scene, model, loose) = held(&question.scene, question.model.clone()).map_err(|e| question.refuse(e))?;
+    let toward = if args.toward.is_empty() {
+        directions(model.assembly.gravity, args.all.into())
+    } else {
+        args.toward.iter().map(|&d| d.into()).collect()
+    };
+    let mut answers = Vec::with_capacity(toward.len());
+    for direction in toward {
+        answers.push(stability(&scene, &model, direction, args.moving_mass, &question.control()).map_err(|e| question.refuse(e))?);
+    }
+    let forces = (args.fabric || csv.is_some()).then(|| level(&question, &model));
+    let solve = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    let (mut file, proof) = PackingFile::new(&model, &name, args.moving_mass, answers, &loose).context("no direction to tilt towards")?;
+    (file.timings.solve, file.timings.check) = (solve, start.elapsed().as_secs_f64());
+    if let Some(forces) = &forces {
+        file.fabric = args.fabric.then(|| fabric(&model.assembly, &model.interfaces, forces));
+        if let Some(csv) = &csv {
+            let table = contacts::csv(&model.assembly, &model.interfaces, forces).map_err(|e| anyhow::anyhow!("{e}"))?;
+            csv.write(&table)?;
+        }
+    }
+    if let Some(save) = question.save() {
+        save.write(&json::pretty(&proof)?)?;
+    }
+    if args.common.json {
+        terminal::print(&json::pretty(&file)?)?;
+    } else {
+        let options = Options { verbose: args.common.verbose, brief: args.common.quiet };
+        terminal.page(&text::packing(&file, options, terminal.layout(&args.common.scene)))?;
+    }
+    let open = !file.directions.iter().all(|d| d.governing().is_finite());
+    Ok(if open { Exit::Undecided } else { Exit::Yes })
+}
+
+/// Forces of the packing when level: those that the weights produce where dry friction was computed, else some that balance.
+fn level(question: &Question, model: &Model) -> Forces {
+    let answer = assess(&model.assembly, &model.interfaces, &question.control());
+    answer.state.map_or(answer.forces, |s| s.forces)
+}

@@ -1,0 +1,322 @@
+//! Grains that flow and come to rest.
+//!
+//! The same engine as [`simulate`](super::simulate()), run stage by stage: walls are taken away or lifted, grains are poured, gravity is
+//! turned; at the end they settle once more with finer steps. Grains that fall below the floor are discarded. Restitution is 0 and nothing else damps: contacts are overdamped springs of
+//! natural frequency 0.1 / substep, friction is Coulomb's. A stage ends when the mean kinetic energy of a grain's centre (without its spin:
+//! nothing ever stops a ball that spins between two smooth walls) stays below
+//! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), never after a fixed time; where it does not, that is said.
+
+use super::{
+    bodies::{Frictions, bodies},
+    rapier::{Step, World},
+    rolling::Rolling,
+    units::Units,
+};
+use crate::{
+    assembly::Assembly,
+    error::InputError,
+    interface::Interfaces,
+    tolerance::{GRAIN_REST_ENERGY, GRAIN_REST_TIME},
+};
+use nalgebra::{Rotation3, Unit, Vector3};
+use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
+
+/// A step is √(d/g) / this; substeps of it. Finer: time. Coarser: grains sink into each other before they are seen.
+const STEPS: f64 = 36.0;
+const SUBSTEPS: usize = 6;
+/// Contacts are prepared up to this distance, in d. Smaller: fast grains sink in before they are seen. Between spheres and on walls normals
+/// do not depend on it.
+const PREDICTION: f64 = 0.05;
+/// At the end steps are finer by this, and contacts stiffer by its square, so that grains that touch overlap by a quarter of what they did:
+/// the statics takes them as they lie. Smaller: contacts are lost in the overlaps. Larger: time.
+const FINER: f64 = 2.0;
+/// Steps between two looks at the grains.
+const LOOK: usize = 10;
+/// Grains this far below the lowest support's top, in d, are gone.
+const BELOW: f64 = 3.0;
+/// A bed flows when a hundredth of the grains moved by d.
+const FLOWING: f64 = 0.01;
+
+/// What is done to the grains in one stage.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    /// Nothing: they settle.
+    Settle,
+    /// These blocks are taken away.
+    Remove(Vec<usize>),
+    /// These blocks rise at this speed, m/s, to this height, m, and are taken away.
+    Lift(Vec<usize>, f64, f64),
+    /// These blocks are set free, a group every so many s, each from 3 d above the highest grain.
+    Pour(Vec<Vec<usize>>, f64),
+    /// Gravity turns about this axis at this rate, radians per s, until the grains flow.
+    Turn(Unit<Vector3<f64>>, f64),
+}
+
+/// Where the grains came to rest.
+#[derive(Clone, Debug)]
+pub struct Rest {
+    /// Centres by block; `None` where a grain is gone or a wall was taken away.
+    pub centers: Vec<Option<Vector3<f64>>>,
+    /// Whether every stage came to rest.
+    pub rested: bool,
+    /// Mean kinetic energy of a grain at the end, over m g d.
+    pub energy: f64,
+    /// Grains that fell over the edge.
+    pub gone: usize,
+    /// Angle by which gravity had turned when the grains began to flow, radians; `None` where it did not turn, or they never flowed.
+    pub turned: Option<f64>,
+    /// Time simulated, s.
+    pub time: f64,
+    /// Steps taken.
+    pub steps: usize,
+    /// Time taken, s.
+    pub seconds: f64,
+}
+
+/// How far a stage is: its index, simulated √(d/g) in it, mean kinetic energy of a grain over m g d.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flow {
+    /// Index of the stage.
+    pub stage: usize,
+    /// Time in the stage, √(d/g).
+    pub time: f64,
+    /// Mean kinetic energy of a grain over m g d.
+    pub energy: f64,
+}
+
+/// Runs the stages; `diameter` is d, `horizon` the longest a stage may take to come to rest after its change, √(d/g).
+///
+/// # Errors
+/// A block that the engine cannot take.
+pub fn flow(
+    assembly: &Assembly,
+    stages: &[Change],
+    diameter: f64,
+    horizon: f64,
+    watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>,
+) -> Result<Rest, InputError> {
+    let begin = Instant::now();
+    let refuse = |text: &str| InputError::at(Default::default(), text.to_string()).hint("give at least one grain, and gravity");
+    let units = Units::of(assembly, &assembly.dead).ok_or_else(|| refuse("there is nothing that could flow"))?;
+    let g = assembly.gravity.norm();
+    if g == 0.0 {
+        return Err(refuse("without gravity nothing flows"));
+    }
+    let interfaces = Interfaces::default();
+    let bodies = bodies(assembly, &interfaces, &units)?;
+    let frictions = Frictions::new(assembly, &interfaces, &units);
+    let natural = (diameter / g).sqrt();
+    let dt = natural / STEPS / units.time;
+    let step = Step { dt, iterations: SUBSTEPS, threads: 1, prediction: PREDICTION * diameter / units.length };
+    let world = World::new(&bodies, &frictions, step).map_err(|text| InputError::at(Default::default(), text))?;
+    let floor = assembly.blocks.iter().filter(|b| b.support).map(|b| b.centroid.z).fold(f64::NEG_INFINITY, f64::max).min(0.0);
+    let free: Vec<usize> = assembly.free().collect();
+    let mut run = Flowing {
+        assembly,
+        units,
+        world,
+        there: vec![true; assembly.blocks.len()],
+        free,
+        gravity: assembly.gravity,
+        diameter,
+        floor,
+        steps: 0,
+        elapsed: 0.0,
+        resting: 0.0,
+        energy: 0.0,
+        dt: natural / STEPS,
+        natural,
+        rolling: Rolling::default(),
+        frictions: &frictions,
+        bodies: &bodies,
+    };
+    let (mut rested, mut turned) = (true, None);
+    for (stage, change) in stages.iter().enumerate() {
+        let mut watch = |time: f64, energy: f64| watch(&Flow { stage, time: time / natural, energy });
+        let (came, angle) = run.stage(change, horizon * natural, &mut watch);
+        rested &= came;
+        turned = angle.or(turned);
+        if !came {
+            break;
+        }
+    }
+    if rested {
+        run.world.refine(Step { dt: dt / FINER, ..step });
+        run.dt /= FINER;
+        let mut watch = |time: f64, energy: f64| watch(&Flow { stage: stages.len(), time: time / natural, energy });
+        rested = run.stage(&Change::Settle, horizon * natural, &mut watch).0;
+    }
+    let gone = run.free.iter().filter(|&&i| !run.there[i]).count();
+    let centers = (0..assembly.blocks.len()).map(|i| run.there[i].then(|| run.center(i))).collect();
+    let time = run.elapsed;
+    Ok(Rest { centers, rested, energy: run.energy, gone, turned, time, steps: run.steps, seconds: begin.elapsed().as_secs_f64() })
+}
+
+struct Flowing<'a> {
+    assembly: &'a Assembly,
+    units: Units,
+    world: World<'a>,
+    /// Whether a block is still in the world.
+    there: Vec<bool>,
+    free: Vec<usize>,
+    gravity: Vector3<f64>,
+    diameter: f64,
+    floor: f64,
+    steps: usize,
+    /// s.
+    elapsed: f64,
+    resting: f64,
+    energy: f64,
+    /// s.
+    dt: f64,
+    /// √(d/g), s.
+    natural: f64,
+    rolling: Rolling,
+    frictions: &'a Frictions<'a>,
+    bodies: &'a [super::bodies::Body],
+}
+
+impl Flowing<'_> {
+    fn center(&self, i: usize) -> Vector3<f64> {
+        self.world.pose(i).0 * self.units.length + self.units.origin
+    }
+
+    /// One stage; whether it came to rest, and by how much gravity had turned when the grains began to flow.
+    fn stage(&mut self, change: &Change, horizon: f64, watch: &mut dyn FnMut(f64, f64) -> ControlFlow<()>) -> (bool, Option<f64>) {
+        let start: Vec<Vector3<f64>> = (0..self.there.len()).map(|i| self.center(i)).collect();
+        let (mut lifted, mut waiting) = (Vec::new(), Vec::new());
+        match change {
+            Change::Remove(blocks) => blocks.iter().for_each(|&i| self.remove(i)),
+            Change::Lift(blocks, ..) => lifted.clone_from(blocks),
+            Change::Pour(groups, _) => {
+                waiting.clone_from(groups);
+                // Far away and without load until their turn comes.
+                for (k, &i) in groups.iter().flatten().enumerate() {
+                    self.park(i, k);
+                }
+            }
+            Change::Settle | Change::Turn(..) => {}
+        }
+        waiting.reverse();
+        let parked: std::collections::BTreeSet<usize> = waiting.iter().flatten().copied().collect();
+        let mut parked = parked;
+        let (mut time, mut poured, mut angle, mut flowing) = (0.0, f64::NEG_INFINITY, 0.0, !matches!(change, Change::Turn(..)));
+        let mut still_since = 0.0;
+        self.resting = 0.0;
+        self.load(&BTreeMap::new(), &parked);
+        loop {
+            let mut loads = false;
+            if let Change::Lift(_, speed, height) = change {
+                if speed * time > *height {
+                    lifted.drain(..).for_each(|i| self.remove(i));
+                } else {
+                    for &i in &lifted {
+                        let at = (start[i] + Vector3::z() * (speed * time) - self.units.origin) / self.units.length;
+                        self.world.place(i, at);
+                    }
+                }
+            }
+            if let (Change::Pour(_, every), true) = (change, !waiting.is_empty()) {
+                if time - poured >= *every {
+                    let top =
+                        self.free.iter().filter(|i| self.there[**i] && !parked.contains(i)).map(|&i| self.center(i).z).fold(0.0, f64::max);
+                    for i in waiting.pop().into_iter().flatten() {
+                        parked.remove(&i);
+                        let base = self.assembly.blocks[i].centroid;
+                        let at = Vector3::new(base.x, base.y, top + 3.0 * self.diameter);
+                        self.world.place(i, (at - self.units.origin) / self.units.length);
+                        self.world.stop(i);
+                    }
+                    (poured, loads) = (time, true);
+                }
+            }
+            if let (Change::Turn(axis, rate), false) = (change, flowing) {
+                angle += rate * self.dt;
+                self.gravity = Rotation3::from_axis_angle(axis, angle) * self.assembly.gravity;
+                loads = true;
+            }
+            let couples = if self.frictions.resist_rolling() {
+                self.rolling.torques(self.bodies, self.frictions, &self.world, self.dt / self.units.time)
+            } else {
+                BTreeMap::new()
+            };
+            if loads || self.frictions.resist_rolling() {
+                self.load(&couples, &parked);
+            }
+            self.world.step();
+            self.steps += 1;
+            self.elapsed += self.dt;
+            time += self.dt;
+            if !self.world.is_healthy() {
+                return (false, None);
+            }
+            if self.steps % LOOK != 0 {
+                continue;
+            }
+            self.look(&parked);
+            if !flowing {
+                let moved = self.free.iter().filter(|&&i| !self.there[i] || (self.center(i) - start[i]).norm() > self.diameter).count();
+                flowing = moved as f64 >= FLOWING * self.free.len() as f64;
+                // Steeper than a cliff, or stuck.
+                if !flowing && angle > std::f64::consts::FRAC_PI_2 {
+                    return (false, None);
+                }
+            }
+            let changing = !lifted.is_empty() || !waiting.is_empty() || !flowing;
+            if changing {
+                still_since = time;
+                self.resting = 0.0;
+            }
+            if watch(time, self.energy).is_break() {
+                return (false, None);
+            }
+            let turned = matches!(change, Change::Turn(..)).then_some(angle);
+            if self.resting >= GRAIN_REST_TIME * self.natural && !changing {
+                return (true, turned);
+            }
+            if time - still_since > horizon {
+                return (false, turned);
+            }
+        }
+    }
+
+    fn remove(&mut self, i: usize) {
+        self.world.remove(i);
+        self.there[i] = false;
+    }
+
+    /// Puts a grain where it meets nothing.
+    fn park(&mut self, i: usize, k: usize) {
+        let side = 64;
+        let (x, y, z) = ((k % side) as f64, (k / side % side) as f64, (k / side / side) as f64);
+        let at = Vector3::new(1e3 + 2.0 * x, 2.0 * y, 1e3 + 2.0 * z) * self.diameter;
+        self.world.place(i, (at - self.units.origin) / self.units.length);
+        self.world.stop(i);
+    }
+
+    fn load(&mut self, couples: &BTreeMap<usize, Vector3<f64>>, parked: &std::collections::BTreeSet<usize>) {
+        for &i in self.free.iter().filter(|i| self.there[**i]) {
+            let weight = if parked.contains(&i) { Vector3::zeros() } else { self.gravity * self.assembly.blocks[i].mass };
+            self.world.load(i, weight / self.units.force(), couples.get(&i).copied().unwrap_or_default());
+        }
+    }
+
+    /// Discards what fell, and sees whether the rest rests.
+    fn look(&mut self, parked: &std::collections::BTreeSet<usize>) {
+        let lowest = self.floor - BELOW * self.diameter;
+        for k in 0..self.free.len() {
+            let i = self.free[k];
+            if self.there[i] && self.center(i).z < lowest {
+                self.remove(i);
+            }
+        }
+        let (mut energy, mut count) = (0.0, 0.0_f64);
+        for &i in self.free.iter().filter(|i| self.there[**i] && !parked.contains(i)) {
+            energy += 0.5 * self.world.velocity(i).0.norm_squared();
+            count += 1.0;
+        }
+        // Gravity is one in the engine's units.
+        self.energy = energy / count.max(1.0) / (self.diameter / self.units.length);
+        self.resting = if self.energy < GRAIN_REST_ENERGY { self.resting + LOOK as f64 * self.dt } else { 0.0 };
+    }
+}

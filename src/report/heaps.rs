@@ -1,0 +1,154 @@
+//! The angle of repose of one protocol over several seeds as a result.
+
+use super::result::Versions;
+use crate::{
+    analysis::{
+        Outcome,
+        repose::{Heap, Margin, Slope},
+    },
+    error::Finding,
+    scene::Protocol,
+};
+use serde::{Deserialize, Serialize};
+
+/// The version of the format.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Format {
+    /// Version 1.
+    #[default]
+    #[serde(rename = "voussoir-repose/1")]
+    V1,
+}
+
+/// The answer over all seeds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReposeFile {
+    /// The format and its version.
+    pub format: Format,
+    /// How the heaps were made.
+    pub protocol: Protocol,
+    /// Restitution of the contacts, and damping beside them: none is hidden.
+    pub restitution: f64,
+    /// See `restitution`.
+    pub damping: f64,
+    /// Mean angle of the heaps at rest, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle_deg: Option<f64>,
+    /// Least and greatest angle over the seeds, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread_deg: Option<[f64; 2]>,
+    /// Heaps that came to rest and have a slope.
+    pub at_rest: usize,
+    /// One heap a seed.
+    pub heaps: Vec<HeapResult>,
+    /// Versions.
+    pub versions: Versions,
+}
+
+/// One heap.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeapResult {
+    /// Its seed.
+    pub seed: u64,
+    /// Whether it came to rest.
+    pub rested: bool,
+    /// Mean kinetic energy of a grain at the end over m g d.
+    pub energy: f64,
+    /// Time simulated over √(d/g).
+    pub time: f64,
+    /// Free grains that stayed.
+    pub grains: usize,
+    /// Free grains that fell over the edge.
+    pub discarded: usize,
+    /// Angle of the fit through the mean surface, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle_deg: Option<f64>,
+    /// Its coefficient of determination.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub r_squared: Option<f64>,
+    /// Cells of the surface on it.
+    pub cells: usize,
+    /// Angles of strips or sectors, degrees.
+    pub parts_deg: Vec<f64>,
+    /// Tilt: the angle at which the bed began to flow, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub avalanche_deg: Option<f64>,
+    /// The static margin, where it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub margin: Option<MarginResult>,
+    /// Seconds of the simulation.
+    pub seconds: f64,
+    /// What the user should know.
+    pub warnings: Vec<Finding>,
+}
+
+/// The tilt downhill that the heap at rest still bears.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MarginResult {
+    /// What became of it.
+    pub status: Outcome,
+    /// Degrees, negative where the heap as it lies has no admissible forces.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub margin_deg: Option<f64>,
+    /// Contacts of the heap.
+    pub contacts: usize,
+    /// Grains that nothing held, left out.
+    pub loose: usize,
+    /// Grains that no admissible forces balance as they lie, left out.
+    pub unbalanced: usize,
+    /// Seconds for the contacts and for the limit.
+    pub seconds: [f64; 2],
+}
+
+impl HeapResult {
+    /// Packs a heap.
+    pub fn new(heap: &Heap, margin: Option<&Margin>) -> Self {
+        let slope = heap.slope.as_ref();
+        Self {
+            seed: heap.seed,
+            rested: heap.rested,
+            energy: heap.energy,
+            time: heap.time,
+            grains: heap.grains[0],
+            discarded: heap.grains[1],
+            angle_deg: slope.map(|s| s.angle_deg),
+            r_squared: slope.map(|s| s.r_squared),
+            cells: slope.map_or(0, |s| s.cells),
+            parts_deg: heap.parts.iter().map(|s: &Slope| s.angle_deg).collect(),
+            avalanche_deg: heap.avalanche_deg,
+            margin: margin.map(|m| MarginResult {
+                status: m.tilt.load_factor.outcome,
+                margin_deg: m.degrees(),
+                contacts: m.model.interfaces.list.len(),
+                loose: m.loose,
+                unbalanced: m.unbalanced,
+                seconds: m.seconds,
+            }),
+            seconds: heap.seconds,
+            warnings: heap.findings.clone(),
+        }
+    }
+}
+
+impl ReposeFile {
+    /// The answer over all heaps; only those at rest count.
+    pub fn new(protocol: &Protocol, heaps: Vec<HeapResult>) -> Self {
+        let angles: Vec<f64> = heaps.iter().filter(|h| h.rested).filter_map(|h| h.angle_deg).collect();
+        let mean = angles.iter().sum::<f64>() / angles.len().max(1) as f64;
+        let ends = [angles.iter().copied().fold(f64::INFINITY, f64::min), angles.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
+        Self {
+            format: Format::V1,
+            protocol: protocol.clone(),
+            restitution: 0.0,
+            damping: 0.0,
+            angle_deg: (!angles.is_empty()).then_some(mean),
+            spread_deg: (!angles.is_empty()).then_some(ends),
+            at_rest: angles.len(),
+            heaps,
+            versions: Versions::default(),
+        }
+    }
+}

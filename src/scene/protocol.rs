@@ -1,0 +1,62 @@
+//! How a heap is made whose angle of repose is asked for.
+
+use serde::{Deserialize, Serialize};
+
+/// A protocol and its numbers. The defaults make the box drain of 2,000 grains.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Protocol {
+    /// What is done.
+    pub kind: ProtocolKind,
+    /// Number of free grains (spheres).
+    pub grains: usize,
+    /// Mean diameter d, m.
+    pub diameter: f64,
+    /// Radii are spread evenly over the mean × (1 ± this).
+    pub sizes: f64,
+    /// Friction between grains, and of grains on the floor.
+    pub friction: f64,
+    /// Friction of grains on walls.
+    pub wall_friction: f64,
+    /// Rolling arm of grains on grains and on the floor, in mean diameters.
+    pub rolling_arm: f64,
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Length and width of the box (drain, tilt), or twice the diameter of the cylinder or of the stream of the funnel and nothing, in mean
+    /// diameters.
+    pub size: [f64; 2],
+    /// Speed at which the cylinder is lifted, √(g d), or rate at which the bed is tilted, degrees per √(d/g).
+    pub rate: f64,
+}
+
+/// What is done with the grains. The floor is rough: fixed grains at random places.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ProtocolKind {
+    /// A box is filled, one end wall is taken away; what falls over the edge is discarded.
+    #[default]
+    Drain,
+    /// Grains are poured in layers onto the middle of a floor, from close above the heap.
+    Funnel,
+    /// A hollow cylinder is filled and lifted.
+    Cylinder,
+    /// A bed in a closed box is tilted slowly until its surface flows, and left at that tilt.
+    Tilt,
+}
+
+impl Default for Protocol {
+    fn default() -> Self {
+        Self {
+            kind: ProtocolKind::Drain,
+            grains: 2000,
+            diameter: 0.01,
+            sizes: 0.2,
+            friction: 0.5,
+            wall_friction: 0.0,
+            rolling_arm: 0.0,
+            density: 2500.0,
+            size: [16.0, 10.0],
+            rate: 0.1,
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! Packings of grains: exact piles of 500 grains and more, rounds of loose grains, averages over contacts, heaps that flow.
+
+use crate::ask::{cuboid, fixed, model, prove, scene, sphere, template};
+use nalgebra::Vector3;
+use serde_json::{Value, json};
+use std::ops::ControlFlow;
+use voussoir::{
+    analysis::{Control, Law, Outcome, assess, fabric, repose, stability, stability::held},
+    generate::deposit,
+    report::{Leaning, ResultFile, json as text, packing::PackingFile},
+    scene::{Protocol, ProtocolKind, Scene, read_str},
+};
+
+fn pile(packing: &str, layers: usize, friction: f64) -> Scene {
+    template(friction, json!({ "lattice": { "packing": packing, "radius": 1.0, "layers": layers } }), json!({}))
+}
+
+fn associative() -> Control {
+    Control { law: Law::Associative, ..Control::default() }
+}
+
+/// The tilt in degrees, proved, and how many grains there are.
+fn falls_at(scene: &Scene, toward: [f64; 3]) -> (f64, usize) {
+    let model = model(scene);
+    let answer = stability(scene, &model, toward.into(), 0.0, &associative()).expect("a direction");
+    let round = answer.rounds.into_iter().next_back().expect("a round");
+    let angle = round.tilt.angle_deg();
+    prove(
+        &round.scene,
+        &ResultFile::tilt(&round.scene, &[Leaning { model: round.model, tilt: round.tilt, dry: None }]).expect("a direction"),
+    );
+    (angle, model.assembly.free().count())
+}
+
+#[test]
+fn a_triangular_pile_of_528_discs_falls_at_thirty_degrees() {
+    // R08 with 32 rows.
+    let (angle, grains) = falls_at(&pile("triangular", 32, 0.5), [1.0, 0.0, 0.0]);
+    assert!(grains == 528 && (angle - 30.0).abs() < 1e-5, "{grains} grains: {angle}");
+}
+
+#[test]
+fn piles_of_spheres_fall_as_their_pockets_do() {
+    // R09 and R05: saddle and sphere of the pocket of three, and of the pocket of four.
+    for (packing, toward, want) in [
+        ("fcc", [0.0, -1.0, 0.0], 19.471220634),
+        ("fcc", [0.0, 1.0, 0.0], 35.264389683),
+        ("square", [1.0, 0.0, 0.0], 35.264389683),
+        ("bed", [1.0, 1.0, 0.0], 45.0),
+    ] {
+        let (angle, _) = falls_at(&pile(packing, 4, 0.5), toward);
+        assert!((angle - want).abs() < 1e-5, "{packing} towards {toward:?}: {angle}, expected {want}");
+    }
+}
+
+#[test]
+fn frictionless_piles_and_beds_have_an_answer() {
+    for (packing, want) in [("fcc", 19.471220634), ("bed", 35.264389683)] {
+        let toward = if packing == "fcc" { [0.0, -1.0, 0.0] } else { [1.0, 0.0, 0.0] };
+        let (angle, _) = falls_at(&pile(packing, 2, 0.0), toward);
+        assert!((angle - want).abs() < 1e-5, "{packing}: {angle}");
+    }
+}
+
+/// A ball on a step that rolls at a slight tilt, beside heavy boxes that slide at the friction angle.
+fn one_loose_grain() -> Scene {
+    let ground = fixed(cuboid("ground", [40.0, 40.0, 1.0], [0.0, 0.0, -1.0]));
+    let ridges = [-0.2, 0.2].map(|x: f64| fixed(sphere(&format!("r{x}"), 0.2, [x, 10.0, 0.2])));
+    let height = 0.2 + (0.7f64.powi(2) - 0.04).sqrt();
+    let blocks = json!([
+        ground,
+        ridges[0],
+        ridges[1],
+        sphere("ball", 0.5, [0.0, 10.0, height]),
+        cuboid("one", [2.0, 2.0, 0.5], [0.0, 0.0, 0.0]),
+        cuboid("two", [2.0, 2.0, 0.5], [5.0, 0.0, 0.0]),
+    ]);
+    scene(0.5, blocks, json!({}))
+}
+
+#[test]
+fn loose_grains_are_taken_away_until_enough_moves() {
+    let scene = one_loose_grain();
+    let model = model(&scene);
+    let toward = Vector3::x();
+    let first = stability(&scene, &model, toward, 0.0, &associative()).unwrap();
+    let ball = (0.2f64 / (0.49f64 - 0.04).sqrt()).atan().to_degrees();
+    assert!(first.reached && first.rounds.len() == 1);
+    assert!((first.rounds[0].tilt.angle_deg() - ball).abs() < 1e-6, "{} and not {ball}", first.rounds[0].tilt.angle_deg());
+    assert_eq!(first.rounds[0].moving, ["ball"]);
+    let half = stability(&scene, &model, toward, 0.5, &associative()).unwrap();
+    let last = &half.rounds[half.answer];
+    assert!(half.reached && half.rounds.len() == 2 && last.moved > 0.99, "{:?}", half.rounds.iter().map(|r| &r.moving).collect::<Vec<_>>());
+    assert!((last.tilt.angle_deg() - 0.5f64.atan().to_degrees()).abs() < 1e-6, "{}", last.tilt.angle_deg());
+    assert!(last.scene.blocks.iter().all(|b| b.id != "ball"), "what fell is gone");
+    // As a result, with the grains that fell and a proof of the last round.
+    let (file, proof) = PackingFile::new(&model, "test", 0.5, vec![half], &[]).unwrap();
+    assert_eq!(file.directions[0].removed[0].grains, ["ball"]);
+    assert_eq!(file.directions[0].status, Outcome::Found);
+    prove(&proof.scene.input, &proof);
+    let read: PackingFile = serde_json::from_str(&text::pretty(&file).unwrap()).unwrap();
+    assert_eq!(read, file, "written and read back");
+}
+
+#[test]
+fn grains_that_nothing_holds_are_left_out() {
+    let mut scene = pile("fcc", 2, 0.5);
+    let mut lost = voussoir::generate::expand(&scene.templates[0]).unwrap().pop().unwrap();
+    (lost.id, lost.at) = ("lost".into(), [0.0, 0.0, 50.0]);
+    scene.blocks.push(lost);
+    let before = model(&scene);
+    let (rest, model, loose) = held(&scene, before).unwrap();
+    assert_eq!(loose, ["lost"]);
+    assert!(model.assembly.find("lost").is_none() && rest.blocks.iter().all(|b| b.id != "lost"));
+    assert_eq!(assess(&model.assembly, &model.interfaces, &associative()).verdict, voussoir::verdict::Verdict::Stable);
+}
+
+#[test]
+fn the_averages_of_one_sphere_in_a_pocket() {
+    // On three spheres at 54.7° to each other's normals, frictionless: every normal force is W / (3 cos α), cos α = √(2/3).
+    let scene = pile("fcc", 1, 0.0);
+    let model = model(&scene);
+    let forces = assess(&model.assembly, &model.interfaces, &associative()).forces;
+    let f = fabric(&model.assembly, &model.interfaces, &forces);
+    let weight = 4.0 / 3.0 * std::f64::consts::PI;
+    assert_eq!((f.grains, f.contacts, f.rattlers), (1, 3, 1), "it carries only itself");
+    assert_eq!((f.coordination, f.coordination_without_rattlers), (3.0, 0.0));
+    assert!((f.mean_force - weight / (3.0 * (2.0f64 / 3.0).sqrt())).abs() < 1e-8 * weight, "{}", f.mean_force);
+    assert!((f.greatest_force - 1.0).abs() < 1e-8 && f.mobilised.is_none());
+    // F = diag(1/6, 1/6, 2/3); σ = Σ l ⊗ f / V with l the radius: trace = Σ R f / V, σ_zz = R cos²α Σ f / V.
+    for (k, want) in [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0].into_iter().enumerate() {
+        assert!((f.tensor[k][k] - want).abs() < 1e-12, "{:?}", f.tensor);
+        let stress = want * 3.0 * f.mean_force / weight;
+        assert!((f.stress[k][k] - stress).abs() < 1e-8, "{:?}, expected {stress}", f.stress);
+    }
+    assert!((f.anisotropy - 0.5).abs() < 1e-12);
+    assert!((f.normals.iter().sum::<f64>() - 1.0).abs() < 1e-12 && (f.forces.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    // The normals lie 35.3° from gravity: 1 − cos = 0.18, the second of nine bins.
+    assert!((f.normals[1] - 1.0).abs() < 1e-12, "{:?}", f.normals);
+}
+
+/// A drain small enough for a test.
+fn small(kind: ProtocolKind) -> Protocol {
+    Protocol { kind, grains: 40, size: [6.0, 4.0], rate: 2.0, ..Protocol::default() }
+}
+
+#[test]
+fn a_deposit_follows_from_its_seed_and_reloads_bit_for_bit() {
+    let [one, again, other] = [7, 7, 8].map(|seed| deposit(&small(ProtocolKind::Drain), seed).unwrap().scene);
+    assert_eq!(one, again);
+    assert_ne!(one.blocks, other.blocks);
+    let written = text::pretty(&one).unwrap();
+    assert_eq!(read_str("deposit", written.as_str()).unwrap().0, one);
+}
+
+#[test]
+fn nothing_overlaps_before_it_falls() {
+    for kind in [ProtocolKind::Drain, ProtocolKind::Funnel, ProtocolKind::Cylinder, ProtocolKind::Tilt] {
+        let deposit = deposit(&Protocol { grains: 300, sizes: 0.5, ..small(kind) }, 1).unwrap();
+        let spheres: Vec<(Vector3<f64>, f64, bool)> = (deposit.scene.blocks.iter())
+            .filter_map(|b| match b.shape {
+                voussoir::scene::Shape::Sphere { radius } => Some((Vector3::from(b.at), radius, b.support)),
+                _ => None,
+            })
+            .collect();
+        let overlaps = |i: usize, j: usize| {
+            let (p, q) = (&spheres[i], &spheres[j]);
+            !(p.2 && q.2) && (p.0 - q.0).norm() < p.1 + q.1
+        };
+        let count = (0..spheres.len()).flat_map(|i| (0..i).map(move |j| (i, j))).filter(|&(i, j)| overlaps(i, j)).count();
+        assert_eq!(count, 0, "{kind:?}");
+        assert_eq!(deposit.layers.iter().map(Vec::len).sum::<usize>(), 300);
+    }
+}
+
+#[test]
+fn values_out_of_range_are_refused_with_their_place() {
+    let bad = |change: fn(&mut Protocol)| {
+        let mut protocol = small(ProtocolKind::Drain);
+        change(&mut protocol);
+        deposit(&protocol, 1).expect_err("a refusal").to_string()
+    };
+    assert!(bad(|p| p.grains = 0).contains("grains"));
+    assert!(bad(|p| p.grains = usize::MAX).contains("at most"));
+    assert!(bad(|p| p.diameter = f64::NAN).contains("diameter"));
+    assert!(bad(|p| p.sizes = 1.0).contains("sizes"));
+    assert!(bad(|p| p.friction = -0.1).contains("friction"));
+    assert!(bad(|p| p.size[1] = 0.0).contains("size[1]"));
+}
+
+#[test]
+fn a_small_heap_comes_to_rest_in_the_same_place_in_every_unit_of_length() {
+    let heap = |diameter: f64| {
+        let protocol = Protocol { diameter, ..small(ProtocolKind::Drain) };
+        repose::heap(&protocol, 3, &mut |_| ControlFlow::Continue(())).unwrap()
+    };
+    let (one, again, large) = (heap(0.01), heap(0.01), heap(10.24));
+    assert!(one.rested, "{:?}", one.findings);
+    assert_eq!(one.scene, again.scene, "bit for bit");
+    assert_eq!(one.grains, large.grains, "the same grains fall over the edge");
+    let written: Value = serde_json::from_str(&text::pretty(&one.scene).unwrap()).unwrap();
+    assert_eq!(read_str("heap", written.to_string()).unwrap().0, one.scene);
+}
+
+#[test]
+fn a_heap_that_is_stopped_says_that_it_still_moves() {
+    let mut looks = 0;
+    let heap = repose::heap(&small(ProtocolKind::Drain), 1, &mut |_| {
+        looks += 1;
+        if looks < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    })
+    .unwrap();
+    assert!(!heap.rested);
+    assert!(heap.findings.iter().any(|f| f.text.contains("still moves")), "{:?}", heap.findings);
+}
