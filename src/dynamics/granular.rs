@@ -198,8 +198,7 @@ impl Flowing<'_> {
             Change::Settle | Change::Turn(..) => {}
         }
         waiting.reverse();
-        let parked: std::collections::BTreeSet<usize> = waiting.iter().flatten().copied().collect();
-        let mut parked = parked;
+        let mut parked: std::collections::BTreeSet<usize> = waiting.iter().flatten().copied().collect();
         let (mut time, mut poured, mut angle, mut flowing) = (0.0, f64::NEG_INFINITY, 0.0, !matches!(change, Change::Turn(..)));
         let mut still_since = 0.0;
         self.resting = 0.0;
@@ -216,19 +215,20 @@ impl Flowing<'_> {
                     }
                 }
             }
-            if let (Change::Pour(_, every), true) = (change, !waiting.is_empty()) {
-                if time - poured >= *every {
-                    let top =
-                        self.free.iter().filter(|i| self.there[**i] && !parked.contains(i)).map(|&i| self.center(i).z).fold(0.0, f64::max);
-                    for i in waiting.pop().into_iter().flatten() {
-                        parked.remove(&i);
-                        let base = self.assembly.blocks[i].centroid;
-                        let at = Vector3::new(base.x, base.y, top + 3.0 * self.diameter);
-                        self.world.place(i, (at - self.units.origin) / self.units.length);
-                        self.world.stop(i);
-                    }
-                    (poured, loads) = (time, true);
+            if let Change::Pour(_, every) = change
+                && !waiting.is_empty()
+                && time - poured >= *every
+            {
+                let top =
+                    self.free.iter().filter(|i| self.there[**i] && !parked.contains(i)).map(|&i| self.center(i).z).fold(0.0, f64::max);
+                for i in waiting.pop().into_iter().flatten() {
+                    parked.remove(&i);
+                    let base = self.assembly.blocks[i].centroid;
+                    let at = Vector3::new(base.x, base.y, top + 3.0 * self.diameter);
+                    self.world.place(i, (at - self.units.origin) / self.units.length);
+                    self.world.stop(i);
                 }
+                (poured, loads) = (time, true);
             }
             if let (Change::Turn(axis, rate), false) = (change, flowing) {
                 angle += rate * self.dt;
@@ -250,7 +250,7 @@ impl Flowing<'_> {
             if !self.world.is_healthy() {
                 return (false, None);
             }
-            if self.steps % LOOK != 0 {
+            if !self.steps.is_multiple_of(LOOK) {
                 continue;
             }
             self.look(&parked);
