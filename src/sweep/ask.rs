@@ -1,16 +1,21 @@
 //! One question about one scene, its answer verified from the scene alone. A further question is a further arm of [`ask`].
 
-use super::{Answer, Question, Status, TiltOptions};
+use super::{Answer, Question, SimulateOptions, Status, ThrustOptions, TiltOptions};
 use crate::{
     analysis::{
         Control, Law, LoadFactor, Model, Outcome, assess,
         coulomb::{self, DryLoadFactor, Found},
-        limit, tilt,
+        limit, thrust, tilt,
         tilt::{directions, tilted},
     },
     assembly::Wrench,
+    dynamics::{self, Fate, Fidelity},
     error::{InputError, JsonPath},
-    verdict::Verdict,
+    verdict::{
+        Verdict,
+        check::{Claim, verify},
+        thrust::{Extreme, ThrustAt},
+    },
 };
 
 /// Directions of a tilt where the plan does not say.
@@ -25,6 +30,8 @@ pub fn ask(question: &Question, model: &Model) -> Result<Answer, InputError> {
         Question::Assess(options) => Ok(assessed(model, &control(options.law))),
         Question::Limit(options) => limited(model, &control(options.law)),
         Question::Tilt(options) => least_tilt(options, model),
+        Question::Thrust(options) => thrust_on(options, model),
+        Question::Simulate(options) => simulated(options, model),
     }
 }
 
@@ -128,4 +135,59 @@ fn height(answer: &Answer) -> f64 {
         Status::Unbounded => 90.0,
         _ => answer.value.unwrap_or(f64::NEG_INFINITY),
     }
+}
+
+/// Least or greatest thrust on a support, proved on both sides.
+fn thrust_on(options: &ThrustOptions, model: &Model) -> Result<Answer, InputError> {
+    let error = |text: &str, hint: &str| InputError::at(JsonPath::root().key("blocks"), text).hint(hint);
+    let support = match &options.support {
+        Some(id) => model.assembly.find(id).filter(|&i| model.assembly.blocks[i].support),
+        None => thrust::first_support(model),
+    };
+    let support = support.ok_or_else(|| error("there is no such support, or none touches a free block", "name a support of the scene"))?;
+    let direction = match options.direction {
+        Some(d) => thrust::level(&model.assembly.gravity, d.into(), nalgebra::Vector3::from(d).norm()),
+        None => thrust::outwards(model, support),
+    };
+    let direction =
+        direction.ok_or_else(|| error("no direction across gravity is outwards for this support", "give \"direction\": [1, 0, 0]"))?;
+    let at = ThrustAt { support, direction: direction.into() };
+    let control = control(options.law);
+    let standing = assess(&model.assembly, &model.interfaces, &control);
+    if !matches!(standing.verdict, Verdict::Stable | Verdict::Conditional) {
+        return Ok(assessed(model, &control));
+    }
+    let extreme = if options.greatest { Extreme::Greatest } else { Extreme::Least };
+    let end = thrust::thrust(model, &at, extreme, &standing.forces, &control);
+    let claim = match end.outcome {
+        Outcome::Found => Some(Claim::Thrust { at, extreme, value: end.value, lower: end.bracket.lower, upper: end.bracket.upper }),
+        Outcome::Unbounded => Some(Claim::EndlessThrust { at, extreme }),
+        Outcome::Impossible | Outcome::Undecided => None,
+    };
+    let proved = claim.is_some_and(|c| verify(&model.assembly, &model.interfaces, &c, &end.forces, end.base.as_ref(), &end.rates).proved());
+    Ok(match end.outcome {
+        Outcome::Found if proved => Answer {
+            value: Some(end.value),
+            lower: finite(end.bracket.lower),
+            upper: finite(end.bracket.upper),
+            ..Answer::of(Status::Found)
+        },
+        Outcome::Unbounded if proved => Answer::of(Status::Unbounded),
+        _ => Answer::of(Status::Undecided),
+    })
+}
+
+/// What happens in time; always on one thread, the rows are what runs side by side.
+fn simulated(options: &SimulateOptions, model: &Model) -> Result<Answer, InputError> {
+    let mut loaded = model.assembly.clone();
+    for (dead, live) in loaded.dead.iter_mut().zip(&model.assembly.live) {
+        *dead += *live * options.load_factor.unwrap_or(0.0);
+    }
+    let settings = dynamics::Settings { fidelity: options.fast.then_some(Fidelity::Fast), ..dynamics::Settings::default() };
+    let outcome = dynamics::simulate(&loaded, &model.interfaces, &settings, &mut |_| std::ops::ControlFlow::Continue(()))?;
+    Ok(Answer::of(match outcome.fate {
+        Fate::Stands => Status::Stable,
+        Fate::Falls => Status::Unstable,
+        Fate::Undecided => Status::Undecided,
+    }))
 }

@@ -66,7 +66,8 @@ pub(super) fn failed(question: &Question, answer: &Answer) -> Option<bool> {
 /// Of a load factor or tilt without a requirement it runs against the demand (a structure fails where its value is below it), else
 /// against the number with index `parameter`.
 pub(super) fn fragility(header: &Header, rows: &[Row], parameter: usize) -> Option<Fragility> {
-    if matches!(header.plan.sampling, Sampling::Grid {}) {
+    // A thrust is no resistance: nothing fails below a demand.
+    if matches!(header.plan.sampling, Sampling::Grid {}) || matches!(header.plan.question, Question::Thrust(_)) {
         return None;
     }
     match (header.plan.question.quantity(), header.plan.question.require()) {

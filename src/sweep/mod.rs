@@ -39,7 +39,9 @@ pub use fragility::{Fragility, Proportion, wilson};
 pub use influence::{Influence, groups, influence};
 pub use merge::{Merged, merge};
 pub use open::{MOST_ROWS, Sweep, open, open_bytes};
-pub use plan::{AssessOptions, LimitOptions, Lognormal, Normal, Plan, Question, Sampling, TiltOptions, Vary, schema};
+pub use plan::{
+    AssessOptions, LimitOptions, Lognormal, Normal, Plan, Question, Sampling, SimulateOptions, ThrustOptions, TiltOptions, Vary, schema,
+};
 pub use row::{Answer, Header, Row, Status};
 pub use run::{Done, Event, Options, run};
 pub use shard::Shard;

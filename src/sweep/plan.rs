@@ -46,6 +46,10 @@ pub enum Question {
     Limit(LimitOptions),
     /// At what tilt does it fall? In several directions the least.
     Tilt(TiltOptions),
+    /// Least or greatest thrust on a support.
+    Thrust(ThrustOptions),
+    /// Does it stand in time, by the rigid-body engine? A second opinion, not a proof.
+    Simulate(SimulateOptions),
 }
 
 /// Options of `assess`.
@@ -82,6 +86,35 @@ pub struct TiltOptions {
     /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub all: Option<u16>,
+}
+
+/// Options of `thrust`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ThrustOptions {
+    /// Whether there must be forces only, or such as the loads produce.
+    pub law: Law,
+    /// The support; the first that touches a free block where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support: Option<String>,
+    /// Direction of the thrust; outwards where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 3]>,
+    /// The greatest thrust instead of the least.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub greatest: bool,
+}
+
+/// Options of `simulate`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SimulateOptions {
+    /// Fast steps only: to be trusted 3 % away from a limit.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub fast: bool,
+    /// This factor × the live loads is added.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_factor: Option<f64>,
 }
 
 /// One number of the scene, and what it takes. Exactly one of `from` and `to`, `values`, `normal`, `lognormal`.
@@ -178,13 +211,16 @@ impl Question {
             Self::Assess(o) => o.law,
             Self::Limit(o) => o.law,
             Self::Tilt(o) => o.law,
+            Self::Thrust(o) => o.law,
+            // What slides in time does not open.
+            Self::Simulate(_) => Law::Coulomb,
         }
     }
 
     /// The value below which an answer counts as failure.
     pub fn require(&self) -> Option<f64> {
         match self {
-            Self::Assess(_) => None,
+            Self::Assess(_) | Self::Thrust(_) | Self::Simulate(_) => None,
             Self::Limit(o) => o.require,
             Self::Tilt(o) => o.require,
         }
@@ -193,7 +229,8 @@ impl Question {
     /// What the value of a row is, with its unit; nothing where the answer is a verdict.
     pub fn quantity(&self) -> Option<&'static str> {
         match self {
-            Self::Assess(_) => None,
+            Self::Assess(_) | Self::Simulate(_) => None,
+            Self::Thrust(o) => Some(if o.greatest { "greatest thrust in N" } else { "least thrust in N" }),
             Self::Limit(_) => Some("load factor"),
             Self::Tilt(_) => Some("tilt in degrees"),
         }

@@ -229,3 +229,23 @@ fn shards_add_up_to_the_whole() {
     done(&mixed(8), &at("other"), 1);
     assert!(merge(&[at("1"), at("other")]).is_err());
 }
+
+#[test]
+fn thrust_and_simulation_can_be_swept() {
+    let folder = tempfile::tempdir().unwrap();
+    // The thrust of an arch grows with its density; least below greatest.
+    let vary = json!([{ "pointer": "/materials/stone/density", "values": [1200.0, 2400.0] }]);
+    let [least, greatest] = [false, true].map(|greatest| {
+        let sweep = sweep(arch(), json!({ "thrust": { "law": "associative", "greatest": greatest } }), vary.clone(), json!({ "grid": {} }));
+        let rows = done(&sweep, &folder.path().join(format!("{greatest}.jsonl")), 1);
+        let values: Vec<f64> = rows.iter().map(|r| r.answer.value.unwrap()).collect();
+        assert!((values[1] / values[0] - 2.0).abs() < 1e-6, "{values:?}");
+        values[0]
+    });
+    assert!(0.0 < least && least < greatest, "{least} {greatest}");
+    // λ = min(friction, width / height) = min(friction, 0.4).
+    let vary = json!([{ "pointer": "/joints/default/friction", "values": [0.25, 0.35] }]);
+    let sweep = sweep(block(), json!({ "simulate": { "fast": true, "load_factor": 0.3 } }), vary, json!({ "grid": {} }));
+    let rows = done(&sweep, &folder.path().join("simulate.jsonl"), 2);
+    assert_eq!([0, 1].map(|k: usize| rows[k].answer.status), [Status::Unstable, Status::Stable]);
+}
