@@ -24,7 +24,7 @@ fn point(p: &Value) -> Value {
 }
 
 /// A case (or a variant of one) as a scene; `case` gives what the variant does not say.
-fn scene(case: &Value, variant: &Value, mu: f64) -> Scene {
+pub fn scene(case: &Value, variant: &Value, mu: f64) -> Scene {
     let get = |key: &str| variant.get(key).or_else(|| case.get(key));
     let g = case["gravity"].as_f64().unwrap_or(1.0);
     let gravity = match case["query"].get("gravity_dir") {
@@ -100,7 +100,7 @@ fn verdict(case: &Value, variant: &Value, mu: f64) -> Verdict {
     assess(&m.assembly, &m.interfaces, &Control { law: Law::Associative, ..Control::default() }).verdict
 }
 
-fn mu_of(case: &Value) -> f64 {
+pub fn mu_of(case: &Value) -> f64 {
     match &case["mu"] {
         Value::Number(n) => n.as_f64().unwrap(),
         Value::String(s) if s.starts_with("infinite") => f64::INFINITY,
