@@ -1,16 +1,19 @@
 //! One question about one scene, its answer verified from the scene alone. A further question is a further arm of [`ask`].
 
-use super::{Answer, Question, SimulateOptions, Status, ThrustOptions, TiltOptions};
+use super::{Answer, Question, ReposeOptions, SimulateOptions, Status, ThrustOptions, TiltOptions};
 use crate::{
     analysis::{
         Control, Law, LoadFactor, Model, Outcome, assess,
         coulomb::{self, DryLoadFactor, Found},
-        limit, thrust, tilt,
+        limit, stability,
+        stability::held,
+        thrust, tilt,
         tilt::{directions, tilted},
     },
     assembly::Wrench,
     dynamics::{self, Fate, Fidelity},
     error::{InputError, JsonPath},
+    scene::Scene,
     verdict::{
         Verdict,
         check::{Claim, verify},
@@ -21,16 +24,17 @@ use crate::{
 /// Directions of a tilt where the plan does not say.
 const DIRECTIONS: usize = 8;
 
-/// Answers a question.
+/// Answers a question about a scene, prepared as `model`.
 ///
 /// # Errors
 /// The question has no meaning for this scene.
-pub fn ask(question: &Question, model: &Model) -> Result<Answer, InputError> {
+pub fn ask(question: &Question, scene: &Scene, model: &Model) -> Result<Answer, InputError> {
     match question {
         Question::Assess(options) => Ok(assessed(model, &control(options.law))),
         Question::Limit(options) => limited(model, &control(options.law)),
         Question::Tilt(options) => least_tilt(options, model),
         Question::Thrust(options) => thrust_on(options, model),
+        Question::Repose(options) => repose(options, scene, model),
         Question::Simulate(options) => simulated(options, model),
     }
 }
@@ -175,6 +179,29 @@ fn thrust_on(options: &ThrustOptions, model: &Model) -> Result<Answer, InputErro
         Outcome::Unbounded if proved => Answer::of(Status::Unbounded),
         _ => Answer::of(Status::Undecided),
     })
+}
+
+/// The least angle of maximum stability of all directions; grains that nothing holds are left out.
+fn repose(options: &ReposeOptions, scene: &Scene, model: &Model) -> Result<Answer, InputError> {
+    let control = control(options.law);
+    let (scene, model, _) = held(scene, model.clone())?;
+    let toward = if options.toward.is_empty() {
+        directions(model.assembly.gravity, options.all.map_or(DIRECTIONS, usize::from))
+    } else {
+        options.toward.iter().map(|&d| d.into()).collect()
+    };
+    let mut least: Option<Answer> = None;
+    for direction in toward {
+        let found = stability(&scene, &model, direction, options.moving_mass, &control)?;
+        let Some(round) = found.rounds.get(found.answer) else { continue };
+        let degrees = |lambda: f64| lambda.atan().to_degrees();
+        let answer = combined(&round.model, &round.tilt.load_factor, round.dry.as_ref().map(|(m, d)| (m, d)), degrees);
+        let answer = Answer { toward: Some(round.tilt.toward.into()), ..answer };
+        if least.as_ref().is_none_or(|least| height(&answer) < height(least)) {
+            least = Some(answer);
+        }
+    }
+    least.ok_or_else(|| InputError::at(JsonPath::root(), "no direction to tilt towards"))
 }
 
 /// What happens in time; always on one thread, the rows are what runs side by side.

@@ -40,7 +40,8 @@ pub use influence::{Influence, groups, influence};
 pub use merge::{Merged, merge};
 pub use open::{MOST_ROWS, Sweep, open, open_bytes};
 pub use plan::{
-    AssessOptions, LimitOptions, Lognormal, Normal, Plan, Question, Sampling, SimulateOptions, ThrustOptions, TiltOptions, Vary, schema,
+    AssessOptions, LimitOptions, Lognormal, Normal, Plan, Question, ReposeOptions, Sampling, SimulateOptions, ThrustOptions, TiltOptions,
+    Vary, schema,
 };
 pub use row::{Answer, Header, Row, Status};
 pub use run::{Done, Event, Options, run};

@@ -48,6 +48,8 @@ pub enum Question {
     Tilt(TiltOptions),
     /// Least or greatest thrust on a support.
     Thrust(ThrustOptions),
+    /// The angle of maximum stability of a packing of grains; in several directions the least.
+    Repose(ReposeOptions),
     /// Does it stand in time, by the rigid-body engine? A second opinion, not a proof.
     Simulate(SimulateOptions),
 }
@@ -103,6 +105,25 @@ pub struct ThrustOptions {
     /// The greatest thrust instead of the least.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub greatest: bool,
+}
+
+/// Options of `repose`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ReposeOptions {
+    /// How grains slide.
+    pub law: Law,
+    /// An angle below this, in degrees, counts as failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub require: Option<f64>,
+    /// Tip towards these directions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub toward: Vec<[f64; 3]>,
+    /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub all: Option<u16>,
+    /// The share of the grains' mass that has to move; 0, the first grain, where nothing is said.
+    pub moving_mass: f64,
 }
 
 /// Options of `simulate`.
@@ -212,6 +233,7 @@ impl Question {
             Self::Limit(o) => o.law,
             Self::Tilt(o) => o.law,
             Self::Thrust(o) => o.law,
+            Self::Repose(o) => o.law,
             // What slides in time does not open.
             Self::Simulate(_) => Law::Coulomb,
         }
@@ -223,6 +245,7 @@ impl Question {
             Self::Assess(_) | Self::Thrust(_) | Self::Simulate(_) => None,
             Self::Limit(o) => o.require,
             Self::Tilt(o) => o.require,
+            Self::Repose(o) => o.require,
         }
     }
 
@@ -233,6 +256,7 @@ impl Question {
             Self::Thrust(o) => Some(if o.greatest { "greatest thrust in N" } else { "least thrust in N" }),
             Self::Limit(_) => Some("load factor"),
             Self::Tilt(_) => Some("tilt in degrees"),
+            Self::Repose(_) => Some("angle of maximum stability in degrees"),
         }
     }
 }

@@ -89,7 +89,7 @@ pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize) -> Row {
     let parameters = sweep.parameters(number);
     let asked = || -> Result<Answer, crate::error::InputError> {
         let scene = sweep.scene_with(&parameters)?;
-        ask(&sweep.plan.question, &reuse.prepare(&scene, &sweep.keys(&parameters))?)
+        ask(&sweep.plan.question, &scene, &reuse.prepare(&scene, &sweep.keys(&parameters))?)
     };
     // A mistake in the program costs one row, not the sweep.
     let (answer, error) = match catch_unwind(AssertUnwindSafe(asked)) {

@@ -89,8 +89,8 @@ fn shared_work_is_done_once_and_changes_no_answer() {
     // Two thicknesses, two densities each.
     assert_eq!((done.rows.len(), done.computed), (24, [4, 2]));
     for row in &done.rows {
-        let model = prepare(&sweep.scene_with(&row.parameters).unwrap()).unwrap();
-        assert_eq!(row.answer, ask(&sweep.plan.question, &model).unwrap(), "row {}", row.row);
+        let scene = sweep.scene_with(&row.parameters).unwrap();
+        assert_eq!(row.answer, ask(&sweep.plan.question, &scene, &prepare(&scene).unwrap()).unwrap(), "row {}", row.row);
     }
 }
 
@@ -108,8 +108,8 @@ fn interfaces_given_by_hand_are_never_shared() {
     let done = run(&sweep, &folder.path().join("rows.jsonl"), &options(1, Shard::ALL), &|_| {}).unwrap();
     assert_eq!(done.computed, [2, 2]);
     for row in &done.rows {
-        let model = prepare(&sweep.scene_with(&row.parameters).unwrap()).unwrap();
-        assert_eq!(row.answer, ask(&sweep.plan.question, &model).unwrap());
+        let scene = sweep.scene_with(&row.parameters).unwrap();
+        assert_eq!(row.answer, ask(&sweep.plan.question, &scene, &prepare(&scene).unwrap()).unwrap());
     }
 }
 
@@ -231,7 +231,7 @@ fn shards_add_up_to_the_whole() {
 }
 
 #[test]
-fn thrust_and_simulation_can_be_swept() {
+fn thrust_repose_and_simulation_can_be_swept() {
     let folder = tempfile::tempdir().unwrap();
     // The thrust of an arch grows with its density; least below greatest.
     let vary = json!([{ "pointer": "/materials/stone/density", "values": [1200.0, 2400.0] }]);
@@ -243,6 +243,13 @@ fn thrust_and_simulation_can_be_swept() {
         values[0]
     });
     assert!(0.0 < least && least < greatest, "{least} {greatest}");
+    // The apex of a tetrahedral pile rolls out of its pocket whatever the friction: sin θ = 1/3.
+    let pile: Value = serde_json::from_str(&fs::read_to_string("structures/tetrahedral-pile.json").unwrap()).unwrap();
+    let vary = json!([{ "pointer": "/joints/default/friction", "values": [0.8, 1.2] }]);
+    let sweep_pile = sweep(pile, json!({ "repose": { "toward": [[0, -1, 0]] } }), vary, json!({ "grid": {} }));
+    for row in done(&sweep_pile, &folder.path().join("repose.jsonl"), 2) {
+        assert!((row.answer.value.unwrap() - (1.0_f64 / 3.0).asin().to_degrees()).abs() < 1e-4, "{row:?}");
+    }
     // λ = min(friction, width / height) = min(friction, 0.4).
     let vary = json!([{ "pointer": "/joints/default/friction", "values": [0.25, 0.35] }]);
     let sweep = sweep(block(), json!({ "simulate": { "fast": true, "load_factor": 0.3 } }), vary, json!({ "grid": {} }));
