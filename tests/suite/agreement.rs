@@ -188,7 +188,7 @@ fn real_assemblies_do_what_is_known_of_them() {
 /// Reference cases on which the two disagree 5 % from the limit, and why.
 const DISAGREE_CASES: [(&str, &str); 1] = [(
     "E16 at 1.05",
-    "between one load factor with dry friction and the associative bound several states are possible: the simulation rests",
+    "conditional, and the simulation rests: below the associative bound more than one state may be possible, not looked into",
 )];
 
 /// Reference cases of classes A, B and E that ask for a load factor, at 0.95 and 1.05 of it.
