@@ -71,6 +71,8 @@
 pub mod error;
 pub mod tolerance;
 
+pub mod limits;
+
 pub mod scene;
 
 pub mod generate;

@@ -27,6 +27,10 @@ pub struct Cli {
     /// Colour of text: auto (on a terminal, unless NO_COLOR is set), always or never.
     #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = Color::Auto, hide_possible_values = true)]
     pub color: Color,
+    /// Take no more memory than this, such as 500M or 8G: what would is refused, mostly before it begins. By default estimates have to fit
+    /// into the memory that is free, and nothing is counted.
+    #[arg(long, global = true, value_name = "SIZE", value_parser = bytes)]
+    pub max_memory: Option<u64>,
 }
 
 /// So many directions a tilt is asked for where nothing is said.
@@ -447,7 +451,7 @@ pub struct Common {
     /// the bound.
     #[arg(long, value_enum, value_name = "LAW", default_value_t = Law::Coulomb, hide_possible_values = true)]
     pub law: Law,
-    /// Stop trying after this many seconds.
+    /// Stop trying after this many seconds, counted from the start, and answer with the best bracket so far. Exit code 3 if that decides nothing.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     pub time_limit: Option<f64>,
     /// Lists in full, and every attempt at the program.
@@ -530,6 +534,19 @@ pub struct Check {
     /// Verify the result against this scene, not the one inside it.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+}
+
+/// Bytes, with a unit of 1024s: 500M, 8G, 8GiB.
+fn bytes(text: &str) -> Result<u64, String> {
+    let wrong = || "not a size such as 500M or 8G".to_string();
+    let text = text.trim().to_ascii_uppercase();
+    let text = text.strip_suffix('B').unwrap_or(&text);
+    let text = text.strip_suffix('I').unwrap_or(text);
+    let power = text.chars().last().and_then(|c| "KMGT".find(c)).map(|k| k + 1);
+    let number = if power.is_some() { &text[..text.len() - 1] } else { text };
+    let value: f64 = number.parse().map_err(|_| wrong())?;
+    let bytes = value * 1024f64.powi(power.unwrap_or(0) as i32);
+    if bytes >= 1.0 && bytes < 2f64.powi(63) { Ok(bytes as u64) } else { Err(wrong()) }
 }
 
 fn finite(text: &str) -> Result<f64, String> {

@@ -12,6 +12,8 @@ mod critical;
 mod determinism;
 mod dynamics;
 mod extreme;
+#[cfg(target_os = "linux")]
+mod faults;
 mod grains;
 mod invariance;
 mod layering;
