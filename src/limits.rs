@@ -146,7 +146,9 @@ mod tests {
 
     #[test]
     fn sizes_are_readable() {
-        for (bytes, text) in [(0, "0 bytes"), (1023, "1023 bytes"), (1024, "1.0 KiB"), (1536, "1.5 KiB"), (500 << 20, "500 MiB"), (u64::MAX, "16777216 TiB")] {
+        for (bytes, text) in
+            [(0, "0 bytes"), (1023, "1023 bytes"), (1024, "1.0 KiB"), (1536, "1.5 KiB"), (500 << 20, "500 MiB"), (u64::MAX, "16777216 TiB")]
+        {
             assert_eq!(size(bytes), text);
         }
     }

@@ -26,7 +26,11 @@ pub struct Counted;
 pub fn limit(bytes: u64) -> anyhow::Result<()> {
     let most = usize::try_from(bytes).unwrap_or(usize::MAX).saturating_sub(OWN);
     if most < OWN {
-        anyhow::bail!("--max-memory {}: the program itself takes up to {}", voussoir::limits::size(bytes), voussoir::limits::size(2 * OWN as u64));
+        anyhow::bail!(
+            "--max-memory {}: the program itself takes up to {}",
+            voussoir::limits::size(bytes),
+            voussoir::limits::size(2 * OWN as u64)
+        );
     }
     // Freed memory goes back to the system at once where pieces are large, so that what is counted is what is taken.
     #[cfg(all(target_os = "linux", target_env = "gnu"))]

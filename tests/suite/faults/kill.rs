@@ -31,7 +31,21 @@ fn killed_at_any_moment_a_file_is_whole_or_absent() {
         &["limit", "wall.json", "--law", "associative", "--save", "result.json"],
         &["simulate", "wall.json", "--fast", "--save", "result.json"],
         &["repose", "wall.json", "--law", "associative", "--all", "2", "--save", "result.json"],
-        &["critical", "wall.json", "--law", "associative", "--vary", "/joints/default/friction", "--between", "0.1", "0.9", "--scan", "3", "--save", "result.json"],
+        &[
+            "critical",
+            "wall.json",
+            "--law",
+            "associative",
+            "--vary",
+            "/joints/default/friction",
+            "--between",
+            "0.1",
+            "0.9",
+            "--scan",
+            "3",
+            "--save",
+            "result.json",
+        ],
         &["generate", "wall", "courses=40", "--expand", "-o", "result.json"],
     ];
     for args in verbs {
@@ -76,7 +90,8 @@ fn killed_while_it_replaces_a_file_the_old_one_stays_or_the_new_one_is_there() {
 fn a_sweep_killed_again_and_again_is_the_sweep_in_one_go() {
     let desk = desk(5, 4, 40);
     let args = ["sweep", "plan.json", "-o", "rows.jsonl", "--csv", "table.csv", "--quiet", "--threads", "2"];
-    let (time, _) = measured(desk.path(), &["sweep", "plan.json", "-o", "direct.jsonl", "--csv", "direct.csv", "--quiet", "--threads", "2"]);
+    let (time, _) =
+        measured(desk.path(), &["sweep", "plan.json", "-o", "direct.jsonl", "--csv", "direct.csv", "--quiet", "--threads", "2"]);
     for k in 0..6 {
         let mut child = command(desk.path()).args(args).spawn().unwrap();
         std::thread::sleep(time / 8);
