@@ -40,7 +40,7 @@ pub const PER_BLOCK: u64 = 6 << 10;
 /// Bytes per pair of blocks near enough to touch.
 pub const PER_PAIR: u64 = 256;
 /// Bytes per contact point while a program is solved: its rows and columns, the engine's copies, the factors.
-pub const PER_CONTACT_POINT: u64 = 12 << 10;
+pub const PER_CONTACT_POINT: u64 = 8 << 10;
 /// Bytes per block and frame of a simulation that is kept.
 pub const PER_POSE: u64 = 640;
 /// Bytes per row of a sweep and per number that varies.
