@@ -4,9 +4,6 @@
 //! heights `z_i`, `λ = min_j min(μ_j, (b_j / 2) Σ w / Σ w (z_i − z_j))`: contacts form a chain, so statics alone decides.
 //! *Arches* of straight-chord voussoirs stand from a critical thickness on that depends on neither density, depth, size nor (above
 //! 0.4) friction; values by the five-hinge closed form (class of Makris & Alexakis 2013).
-//!
-//! *Left out, because answers fail there:* friction of 1e6 with unequal masses (too many undecided), and arches 1,000 radii deep within
-//! 1e-6 of critical: moments are weighed by half the block's diagonal, which hides their unbalance, and they are said to stand.
 
 use crate::{
     analysis::{Control, Law, Outcome, assess, limit, prepare},
@@ -124,9 +121,6 @@ pub fn grid() -> Vec<Cell> {
     }
     cells
 }
-
-/// Least unbalance of a semicircular arch of unit depth over its distance from critical, in multiples of gravity.
-const ARCH_UNBALANCE: f64 = 0.2;
 
 /// Critical t/R of semicircular arches by number of voussoirs.
 const CRITICAL: [(usize, f64); 2] = [(16, 0.10707620314306167), (27, 0.10672090355137132)];

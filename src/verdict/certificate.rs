@@ -5,6 +5,8 @@
 //! axis) over the block's load, in multiples of g. *Kinematic side.* Rates `q` separate the contacts at `v`; for every
 //! admissible force `f·v ≥ −e f_n` with `e = max(0, μ‖v_t‖ − v_n)`, the inadmissibility. So for any equilibrium
 //! `w·q + λ ℓ·q ≤ Σ e f_n`: a mechanism with `e = 0` that gains power proves instability (Heyman 1966; Livesley 1978).
+//! Per newton of the whole force the bound is the size of the projection of `−v` onto the cone, `e / √(1 + μ²)` on its side
+//! ([`hidden`]); where friction is steep that is much less, and rounding of `v_t` is not multiplied by μ.
 //!
 //! *Strength.* With cohesion c and tensile strength T on the corner's share a of the area, `‖f_t‖ ≤ μ f_n + c a`, `f_n ≥ −T a`;
 //! a mechanism then dissipates `c a ‖v_t‖ + T a (v_n − μ‖v_t‖)⁺` there. With a compressive strength σ, joints may close: a joint
@@ -209,11 +211,11 @@ pub struct Kinematics {
     pub norm: f64,
     /// `Σ e f_n` with the given forces: the power that the inadmissibility may hide.
     pub slack: f64,
-    /// Largest inadmissibility `e` over the fastest speed at a contact.
+    /// Largest inadmissibility, per newton of the whole force, over the fastest speed at a contact.
     pub inadmissibility: f64,
-    /// `Σ e`: with contact forces of at most `F` each, the inadmissibility hides at most `F` × this.
+    /// `Σ` inadmissibility per newton: with contact forces of at most `F` each, the mechanism hides at most `F` × this.
     pub excess: f64,
-    /// The part of `excess` from contacts where `e` is more than rounding of the speeds of the two blocks
+    /// The part of `excess` from contacts where that is more than rounding of the speeds of the two blocks
     /// ([`tolerance::ADMISSIBLE`]): blocks that should rest, or joints that are made to close.
     pub coarse: f64,
 }
@@ -296,9 +298,15 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
             if crushes {
                 k.dissipation -= tension * e;
             } else {
-                inadmissible = e.max(0.0);
+                let hides = e.max(0.0) * n.dot(force).max(0.0);
                 k.dissipation += tension * (-e).max(0.0);
-                k.slack += inadmissible * n.dot(force).max(0.0);
+                if cohesion == 0.0 && tension == 0.0 {
+                    inadmissible = e.max(0.0).min(hidden(mu, n.dot(&joint[place]), vt) + rolling);
+                    k.slack += hides.min(inadmissible * force.norm());
+                } else {
+                    inadmissible = e.max(0.0);
+                    k.slack += hides;
+                }
             }
             // What must not slide costs as much as the shear force that it has.
             let slips = if rough { vt } else { 0.0 };
@@ -308,7 +316,7 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
             if size > tolerance::ADMISSIBLE * local(face, point) || e.is_nan() {
                 k.coarse += inadmissible + slips;
             }
-            worst = worst.max(size / mu.hypot(1.0));
+            worst = worst.max(size);
         }
         for (v, force) in joint.iter().zip(face.uplift()) {
             k.dead_power += force.dot(v);
@@ -316,6 +324,12 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
     }
     k.inadmissibility = if fastest > 0.0 { worst / fastest } else { 0.0 };
     k
+}
+
+/// The power that a force of 1 N inside the friction cone can have at most against a joint that separates at `normal` and slides at
+/// `sliding`, m/s: the size of the projection of the closing velocity onto the cone.
+fn hidden(mu: f64, normal: f64, sliding: f64) -> f64 {
+    if sliding <= -mu * normal { normal.hypot(sliding) } else { (mu * sliding - normal).max(0.0) / mu.hypot(1.0) }
 }
 
 /// Velocity of a point moving with a block.
