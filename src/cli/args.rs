@@ -103,7 +103,7 @@ pub enum Verb {
     /// Error against run time, per method, on scenes with known answers.
     ///
     /// Each method runs over its knob (the engine's tolerance, facets of friction pyramids, number of verdicts, time steps); medians of
-    /// repeated runs. With --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
+    /// repeated runs. With --soak, random scenes whose proofs are held against each other; with --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
     /// answer is wrong.
     Study(Study),
     /// Make a scene from a template.
@@ -295,6 +295,13 @@ pub struct Study {
     /// The stiff and extreme grid instead.
     #[arg(long)]
     pub extreme: bool,
+    /// So many random scenes instead: verdicts held against their certificates, against omissions and, of a sample, against simulations.
+    /// Exit code 1 if any two exclude each other.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
+    pub soak: Option<u32>,
+    /// Which random scenes (--soak).
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
+    pub seed: u64,
     /// Write every run to this file, comma-separated.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
