@@ -302,6 +302,9 @@ pub struct Study {
     /// Which random scenes (--soak).
     #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
     pub seed: u64,
+    /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak).
+    #[arg(long, value_name = "NUMBER", requires = "soak", conflicts_with_all = ["csv", "json"])]
+    pub only: Option<u32>,
     /// Write every run to this file, comma-separated.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,

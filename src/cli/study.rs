@@ -39,6 +39,10 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         return Ok(if extreme::count(&found, None).wrong == 0 { Exit::Yes } else { Exit::No });
     }
+    if let Some(index) = args.only {
+        terminal::print(&json::pretty(&soak::scene(args.seed, index as usize)?.0)?)?;
+        return Ok(Exit::Yes);
+    }
     if let Some(count) = args.soak {
         bar.set_length(count.into());
         let list = soak::run(args.seed, count as usize, |_| bar.inc(1));

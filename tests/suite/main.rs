@@ -17,6 +17,7 @@ mod faults;
 mod grains;
 mod invariance;
 mod layering;
+mod meshes;
 mod published;
 mod readme;
 mod real;
