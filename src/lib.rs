@@ -73,6 +73,8 @@ pub mod tolerance;
 
 pub mod limits;
 
+pub mod parallel;
+
 pub mod scene;
 
 pub mod generate;

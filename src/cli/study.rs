@@ -45,7 +45,7 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     if let Some(count) = args.soak {
         bar.set_length(count.into());
-        let list = soak::run(args.seed, count as usize, |_| bar.inc(1));
+        let list = soak::run(args.seed, count as usize, |_| bar.inc(1)).context("no threads")?;
         bar.finish_and_clear();
         if let Some(csv) = csv {
             csv.write(&report::soak_csv(&list)?)?;

@@ -22,7 +22,8 @@ fn corpus() -> Vec<PathBuf> {
 fn differences(text: &str) -> Vec<String> {
     let expected: Vec<&str> = text.lines().map_while(|l| l.strip_prefix("# ")).skip(1).collect();
     let mut wrong = Vec::new();
-    let options = Options { friction: Some(Friction::Coefficient(0.6)), density: Some(1.0), supports: vec!["ground".into()], ..Options::default() };
+    let options =
+        Options { friction: Some(Friction::Coefficient(0.6)), density: Some(1.0), supports: vec!["ground".into()], ..Options::default() };
     let result = import_bytes("mesh.obj", text.as_bytes(), &options).and_then(|imported| prepare(&imported.scene));
     let model = match result {
         Ok(model) => model,

@@ -29,7 +29,7 @@ pub fn soak_csv(list: &[Soaked]) -> Result<String, csv::Error> {
         "kept",
         "fate",
         "agrees",
-        "near",
+        "difference",
         "error",
         "seconds",
     ])?;
@@ -47,7 +47,7 @@ pub fn soak_csv(list: &[Soaked]) -> Result<String, csv::Error> {
             verdict(s.kept),
             s.fate.map_or(String::new(), |f| format!("{f:?}").to_lowercase()),
             flag(s.agrees),
-            flag(s.near),
+            s.difference.map_or(String::new(), |d| format!("{d:?}").to_lowercase()),
             s.error.clone().unwrap_or_default(),
             s.seconds.to_string(),
         ])?;
@@ -93,8 +93,8 @@ fn sums(c: &Count) -> Vec<String> {
         return vec![verdicts];
     }
     let simulated = format!(
-        "{} simulated: {} agree, {} differ near a flip, {} differ elsewhere, {} open",
-        c.simulated, c.agree, c.near, c.disagree, c.open
+        "{} simulated: {} agree, {} open; {} differ near a flip, {} where contacts were left out, {} elsewhere",
+        c.simulated, c.agree, c.open, c.near, c.left_out, c.disagree
     );
     vec![verdicts, simulated]
 }
@@ -109,6 +109,7 @@ fn line(s: &Soaked, seed: u64) -> String {
         text.extend(verdict.map(|v| format!("; {name}{v:?}").to_lowercase()));
     }
     text.extend(s.fate.map(|f| format!("; simulation: {f:?}").to_lowercase()));
+    text.extend(s.difference.map(|d| format!(" ({d:?})").to_lowercase()));
     text.extend(s.error.as_ref().map(|e| format!("; {e}")));
     text
 }

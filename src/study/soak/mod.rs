@@ -11,9 +11,10 @@ pub use scenes::{FAMILIES, scene};
 use crate::{
     analysis::{Assessment, Control, Law, agreement, assess, prepare},
     dynamics::{self, Fate},
+    error::FindingCode,
+    parallel,
     verdict::Verdict,
 };
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::{
     ops::ControlFlow,
@@ -48,6 +49,18 @@ pub enum Perturbation {
     Moved,
 }
 
+/// Why verdict and simulation may say different things.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Difference {
+    /// The verdict is another with a little more weight sideways: within what a simulation can tell.
+    NearAFlip,
+    /// Blocks overlap or nearly touch by more than the tolerance. Of these no contact is made, and that is said; in time they meet.
+    ContactLeftOut,
+    /// Neither.
+    Unexplained,
+}
+
 /// What came of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Soaked {
@@ -70,8 +83,8 @@ pub struct Soaked {
     pub fate: Option<Fate>,
     /// Whether verdict and simulation say the same.
     pub agrees: Option<bool>,
-    /// Whether the verdict is another at slightly more or slightly less weight sideways; asked where they differ.
-    pub near: Option<bool>,
+    /// Why not, where they differ.
+    pub difference: Option<Difference>,
     /// Why the scene was refused, or that the program failed.
     pub error: Option<String>,
     /// Seconds.
@@ -91,15 +104,16 @@ impl Soaked {
 pub const FAILED: &str = "the program failed";
 
 /// Asks scenes number 0 to `count`, on all threads; `each` hears of every one.
-pub fn run(seed: u64, count: usize, each: impl Fn(&Soaked) + Sync) -> Vec<Soaked> {
-    (0..count)
-        .into_par_iter()
-        .map(|index| {
-            let soaked = one(seed, index);
-            each(&soaked);
-            soaked
-        })
-        .collect()
+///
+/// # Errors
+/// Threads cannot be started.
+pub fn run(seed: u64, count: usize, each: impl Fn(&Soaked) + Sync) -> std::io::Result<Vec<Soaked>> {
+    let numbers: Vec<usize> = (0..count).collect();
+    parallel::map(0, &numbers, |&index| {
+        let soaked = one(seed, index);
+        each(&soaked);
+        soaked
+    })
 }
 
 /// Asks one scene.
@@ -115,7 +129,7 @@ pub fn one(seed: u64, index: usize) -> Soaked {
         kept: None,
         fate: None,
         agrees: None,
-        near: None,
+        difference: None,
         error: None,
         seconds: 0.0,
     };
@@ -152,7 +166,12 @@ fn ask(seed: u64, index: usize, soaked: &mut Soaked) {
         let found = agreement(assembly, interfaces, &answer, &outcome);
         (soaked.fate, soaked.agrees) = (Some(outcome.fate), found.agrees);
         if found.agrees == Some(false) {
-            soaked.near = Some(is_near_a_flip(&model, answer.verdict, &control));
+            let apart = |code| matches!(code, FindingCode::Overlap | FindingCode::NearMiss);
+            soaked.difference = Some(match () {
+                () if model.findings().any(|f| apart(f.code)) => Difference::ContactLeftOut,
+                () if is_near_a_flip(&model, answer.verdict, &control) => Difference::NearAFlip,
+                () => Difference::Unexplained,
+            });
         }
     }
 }
@@ -199,6 +218,8 @@ pub struct Count {
     pub open: usize,
     /// In disagreement near a flip.
     pub near: usize,
+    /// In disagreement where contacts were left out, with a word.
+    pub left_out: usize,
     /// In disagreement elsewhere.
     pub disagree: usize,
 }
@@ -218,11 +239,12 @@ pub fn count(list: &[Soaked], of: impl Fn(&Soaked) -> bool) -> Count {
         c.unproved += usize::from(s.unproved.is_some());
         c.wrong += usize::from(s.is_wrong());
         c.simulated += usize::from(s.fate.is_some());
-        match (s.fate, s.agrees, s.near) {
+        match (s.fate, s.agrees, s.difference) {
             (None, ..) => {}
             (_, None, _) => c.open += 1,
             (_, Some(true), _) => c.agree += 1,
-            (_, Some(false), Some(true)) => c.near += 1,
+            (_, Some(false), Some(Difference::NearAFlip)) => c.near += 1,
+            (_, Some(false), Some(Difference::ContactLeftOut)) => c.left_out += 1,
             (_, Some(false), _) => c.disagree += 1,
         }
     }
@@ -235,7 +257,7 @@ mod tests {
 
     #[test]
     fn a_short_soak_has_nothing_wrong() {
-        let list = run(1, 70, |_| {});
+        let list = run(1, 70, |_| {}).unwrap();
         let all = count(&list, |_| true);
         assert_eq!((all.scenes, all.wrong), (70, 0), "{:?}", list.iter().filter(|s| s.is_wrong()).collect::<Vec<_>>());
         assert!(all.stable > 5 && all.unstable > 5, "{all:?}");
