@@ -15,6 +15,7 @@ mod extreme;
 #[cfg(target_os = "linux")]
 mod faults;
 mod grains;
+mod hostile;
 mod invariance;
 mod layering;
 mod meshes;
@@ -22,6 +23,7 @@ mod published;
 mod readme;
 mod real;
 mod reference;
+mod same;
 mod scenes;
 mod strength;
 mod sweep;
