@@ -1,11 +1,12 @@
 //! What the three questions have in common: the scene in, the answer out.
 
-use super::{args::Common, exit::Exit, input, output::Sink, terminal, terminal::Terminal};
+use super::{args::Common, deadline, exit::Exit, input, output::Sink, terminal, terminal::Terminal};
 use anyhow::bail;
 use std::time::Instant;
 use voussoir::{
     analysis::{Control, Model, Outcome, coulomb::Found, prepare},
     error::{Finding, FindingCode, InputError},
+    limits,
     report::{
         ResultFile, json,
         text::{self, Asked, Options},
@@ -21,6 +22,9 @@ pub struct Question<'a> {
     common: &'a Common,
     save: Option<Sink>,
     source: Source,
+    /// When the work began, for the time limit.
+    begin: Instant,
+    /// When the scene was ready.
     start: Instant,
     /// The scene as read.
     pub scene: Scene,
@@ -45,12 +49,15 @@ impl<'a> Question<'a> {
         }
         let save = common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let start = Instant::now();
+        common.time_limit.into_iter().for_each(deadline::watch);
         let (scene, source) = input::scene(&common.scene)?;
         let scene = change(scene);
         let read = start.elapsed().as_secs_f64();
         let mut model = prepare(&scene).map_err(|e| e.located(&source))?;
         model.timings.read = read;
-        Ok(Self { common, save, source, start: Instant::now(), scene, model })
+        let points = model.contact_points() as u64;
+        limits::afford(&format!("solving for {points} contact points"), points, limits::PER_CONTACT_POINT)?;
+        Ok(Self { common, save, source, begin: start, start: Instant::now(), scene, model })
     }
 
     /// Puts the worst case within ranges in the place of the scene, and the argument among what the user should know.
@@ -71,7 +78,7 @@ impl<'a> Question<'a> {
 
     /// What is left of the time for programs.
     pub fn control(&self) -> Control {
-        let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.start.elapsed().as_secs_f64()).max(0.0));
+        let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.begin.elapsed().as_secs_f64()).max(0.0));
         Control { law: self.common.law.into(), keep_all: self.common.keep_all, seconds }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{args::Simulate, exit::Exit, progress::Bar, question::Question, terminal::Terminal};
 use anyhow::Context;
-use std::{fs::File, io::BufWriter, ops::ControlFlow};
+use std::{fs::File, ops::ControlFlow};
 use voussoir::{
     analysis::assess,
     dynamics::{Fate, Fidelity, Outcome, Settings, simulate},
@@ -22,7 +22,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     })?;
     // Created before the work, and filled as it goes.
     let mut csv = match &args.csv {
-        Some(path) => Some(TrajectoryWriter::new(BufWriter::new(File::create(path).with_context(|| written(path))?))?),
+        Some(path) => Some(TrajectoryWriter::new(File::create(path).with_context(|| written(path))?).with_context(|| written(path))?),
         None => None,
     };
     let settings = Settings {

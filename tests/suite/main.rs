@@ -12,9 +12,12 @@ mod critical;
 mod determinism;
 mod dynamics;
 mod extreme;
+#[cfg(target_os = "linux")]
+mod faults;
 mod grains;
 mod invariance;
 mod layering;
+mod meshes;
 mod published;
 mod readme;
 mod real;
