@@ -1,0 +1,136 @@
+//! Which forces and which motion stand on a drawing: those of the answer that is told first.
+
+use super::body::{Solid, posed};
+use crate::report::{
+    text::number::seconds,
+    view::{Body, Mark, Motion, Pose, State, View},
+};
+use crate::tolerance::MECHANISM_REST;
+use nalgebra::{Matrix3, Vector3};
+
+/// The greatest way of a corner that is shown of a mechanism, over the size of the structure.
+const WAY: f64 = 0.07;
+/// The greatest turn that is shown, radians.
+const TURN: f64 = 0.35;
+/// Blocks that turn by less are moved to first order, so that hinges between them stay closed; they are 1 / cos θ too large, by 3 % at most.
+const FIRST_ORDER: f64 = 0.25;
+/// A block counts as moved in time beyond this × the size of the structure. Larger: slow slides look like rest. Smaller: the engine's
+/// contacts, which give way by 1e-4 of a block, do.
+const MOVED: f64 = 1e-4;
+
+/// What is drawn.
+pub struct Choice<'a> {
+    /// One system of forces, or two that enclose all others.
+    pub states: Vec<&'a State>,
+    /// Whether live loads act in them.
+    pub live: bool,
+    /// How it moves.
+    pub movement: Option<Movement>,
+}
+
+/// A motion at the size at which it is drawn.
+pub struct Movement {
+    /// What it is.
+    pub name: String,
+    /// Where each block goes.
+    pub ways: Vec<Way>,
+    /// Whether it moves.
+    pub moves: Vec<bool>,
+    /// Joints that move.
+    pub marks: Vec<Mark>,
+    /// How fast, or how far, each block goes.
+    speeds: Vec<Vector3<f64>>,
+}
+
+/// Where the points of a block go: `p ↦ p + shift + turn (p − c)`, c its centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Way {
+    /// Shift of the centre of mass, m.
+    pub shift: Vector3<f64>,
+    /// Turn less the identity.
+    pub turn: Matrix3<f64>,
+}
+
+impl Way {
+    /// Where it is.
+    pub const NONE: Self = Self { shift: Vector3::new(0.0, 0.0, 0.0), turn: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0) };
+
+    fn rigid(pose: &Pose) -> Self {
+        Self { shift: pose.shift, turn: pose.turn.to_rotation_matrix().into_inner() - Matrix3::identity() }
+    }
+
+    /// How far a point at this distance from the centre goes at most.
+    fn length(&self, radius: f64) -> f64 {
+        self.shift.norm() + self.turn.norm() * radius
+    }
+}
+
+/// How far the fastest corner of a mechanism is shown to go, m.
+pub fn sized(view: &View, motion: &Motion) -> f64 {
+    let spin = motion.rates.iter().map(|r| r.spin.norm()).fold(0.0, f64::max);
+    (WAY * view.size()).min(TURN * motion.reach / spin)
+}
+
+impl<'a> Choice<'a> {
+    /// What is drawn of a view.
+    pub fn of(view: &'a View) -> Self {
+        let named = |word: &str| view.states.iter().find(|s| s.name.contains(word));
+        let states = match (named("least thrust"), named("greatest thrust"), named("with dry friction")) {
+            (Some(least), greatest, _) => std::iter::once(least).chain(greatest).collect(),
+            (None, Some(greatest), _) => vec![greatest],
+            (None, None, Some(dry)) => vec![dry],
+            _ => view.states.first().into_iter().collect(),
+        };
+        // What comes closest balances nothing, and a motion proves that nothing does.
+        let states: Vec<&State> = states.into_iter().filter(|s| !s.name.contains("closest") || view.motions.is_empty()).collect();
+        let motion = view.motions.iter().find(|m| m.name.contains("dry friction")).or(view.motions.first());
+        let fails = motion.filter(|m| !m.name.contains("support") && !(states.len() == 1 && m.name.contains("under the dead load")));
+        let movement = match (view.film.last(), fails) {
+            (Some(_), _) => Movement::in_time(view),
+            (None, Some(motion)) => Movement::mechanism(view, motion),
+            (None, None) => None,
+        };
+        let live = states.iter().any(|s| s.name.contains("λ"));
+        Self { states, live, movement }
+    }
+}
+
+impl Movement {
+    fn mechanism(view: &View, motion: &Motion) -> Option<Self> {
+        let far = sized(view, motion);
+        let by = far / motion.reach;
+        let way = |i: usize| {
+            let rate = &motion.rates[i];
+            if rate.spin.norm() * by <= FIRST_ORDER {
+                Way { shift: rate.velocity * by, turn: rate.spin.cross_matrix() * by }
+            } else {
+                Way::rigid(&motion.pose(i, far))
+            }
+        };
+        let ways: Vec<Way> = (0..view.bodies.len()).map(way).collect();
+        let moves = view.bodies.iter().zip(&ways).map(|(b, w)| w.length(b.radius()) > MECHANISM_REST * far).collect();
+        let speeds = motion.rates.iter().map(|r| r.velocity).collect();
+        Some(Self { name: motion.name.clone(), ways, moves, marks: motion.marks.clone(), speeds })
+    }
+
+    fn in_time(view: &View) -> Option<Self> {
+        let frame = view.film.last()?;
+        let poses = view.bodies.iter().zip(&frame.blocks);
+        let ways: Vec<Way> = poses.map(|(b, p)| Way::rigid(&Pose { shift: p.center - b.center, turn: p.turn })).collect();
+        let far = |(b, w): (&Body, &Way)| !b.support && w.length(b.radius()) > MOVED * view.size();
+        let moves = view.bodies.iter().zip(&ways).map(far).collect();
+        let speeds = ways.iter().map(|w| w.shift).collect();
+        Some(Self { name: format!("after {}", seconds(frame.time)), ways, moves, marks: Vec::new(), speeds })
+    }
+
+    /// Bodies where they go.
+    pub fn bodies<'a>(&self, view: &'a View) -> Vec<Solid<'a>> {
+        view.bodies.iter().zip(&self.ways).map(|(b, w)| posed(b, w)).collect()
+    }
+
+    /// Whether nothing moves along an axis.
+    pub fn stays_across(&self, axis: &Vector3<f64>, near: f64) -> bool {
+        let fastest = self.speeds.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        self.speeds.iter().all(|v| axis.dot(v).abs() <= near * fastest)
+    }
+}
