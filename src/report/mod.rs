@@ -5,6 +5,7 @@ pub mod critical;
 pub mod heaps;
 pub mod json;
 pub mod packing;
+pub mod page;
 pub mod read;
 pub mod result;
 pub mod simulation;
@@ -15,6 +16,7 @@ pub mod text;
 pub mod thrust;
 pub mod trajectory;
 pub mod verify;
+pub mod view;
 pub mod work;
 
 pub use packing::PackingFile;

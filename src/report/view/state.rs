@@ -1,0 +1,187 @@
+//! Systems of contact forces: resultants, use of the sections, lines of thrust.
+
+use crate::{
+    analysis::{Model, Outcome},
+    report::{
+        result::{Certificate, Question, ResultFile},
+        text::number::short,
+    },
+    scene::Friction,
+    tolerance,
+    verdict::{Forces, Verdict, evidence::read_forces, section::sections},
+};
+use nalgebra::Vector3;
+
+/// One system of contact forces.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// What it is, in a few words.
+    pub name: String,
+    /// Force on the second block at each point of each joint, N.
+    pub forces: Vec<Vec<Vector3<f64>>>,
+    /// Resultant at each joint; `None` where it carries nothing.
+    pub resultants: Vec<Option<Resultant>>,
+    /// Share of its joints that each block uses: the greatest of its joints; `None` where nothing presses on it.
+    pub used: Vec<Option<f64>>,
+    /// The line of thrust.
+    pub line: Vec<Segment>,
+}
+
+/// The resultant at a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resultant {
+    /// Force on the second block, N.
+    pub force: Vector3<f64>,
+    /// Normal force, N, pressure positive.
+    pub normal: f64,
+    /// Shear force, N.
+    pub shear: f64,
+    /// Centre of pressure, m.
+    pub at: Vector3<f64>,
+    /// Distance of that from the centroid, m.
+    pub eccentricity: f64,
+    /// Share of the section used: 0 at the centroid, 1 at the edge.
+    pub used: f64,
+    /// Whether the whole section presses.
+    pub in_kern: bool,
+    /// Share of the friction used; `None` where friction has no limit, or is not all that resists.
+    pub mobilised: Option<f64>,
+}
+
+impl Resultant {
+    /// The greater of both shares.
+    pub fn share(&self) -> f64 {
+        self.used.max(self.mobilised.unwrap_or(0.0))
+    }
+}
+
+/// A piece of a line of thrust inside a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Index of the block.
+    pub body: usize,
+    /// From here, m,
+    pub from: Vector3<f64>,
+    /// to here.
+    pub to: Vector3<f64>,
+    /// The force that passes, N.
+    pub force: f64,
+}
+
+impl State {
+    fn new(model: &Model, name: String, forces: &Forces) -> Self {
+        let list = sections(&model.interfaces, forces);
+        let mean = list.iter().map(|s| s.normal.hypot(s.shear)).sum::<f64>() / list.len().max(1) as f64;
+        let resultants: Vec<Option<Resultant>> = list
+            .iter()
+            .zip(forces)
+            .map(|(s, forces)| {
+                let law = &model.interfaces.list[s.interface].law;
+                let carries = s.normal.hypot(s.shear) > tolerance::UNLOADED * mean;
+                carries.then(|| Resultant {
+                    force: forces.iter().map(|w| w.force).sum(),
+                    normal: s.normal,
+                    shear: s.shear,
+                    at: s.at,
+                    eccentricity: s.eccentricity.norm(),
+                    used: s.used,
+                    in_kern: s.in_kern,
+                    mobilised: match law.friction {
+                        Friction::Coefficient(mu) if mu > 0.0 && s.normal > 0.0 && law.friction_only() => Some(s.shear / (mu * s.normal)),
+                        _ => None,
+                    },
+                })
+            })
+            .collect();
+        let forces = forces.iter().map(|list| list.iter().map(|w| w.force).collect()).collect();
+        let (used, line) = (used(model, &resultants), line(model, &resultants));
+        Self { name, forces, resultants, used, line }
+    }
+}
+
+fn pressed<'a>(model: &'a Model, resultants: &'a [Option<Resultant>]) -> impl Iterator<Item = (usize, &'a Resultant)> {
+    let ends = model.interfaces.list.iter().zip(resultants).filter_map(|(f, r)| Some(([f.a, f.b], r.as_ref()?)));
+    ends.flat_map(|(ends, r)| ends.into_iter().map(move |i| (i, r)))
+}
+
+fn used(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Option<f64>> {
+    let mut used: Vec<Option<f64>> = vec![None; model.assembly.blocks.len()];
+    for (i, r) in pressed(model, resultants) {
+        used[i] = Some(used[i].unwrap_or(0.0).max(r.share()));
+    }
+    used
+}
+
+/// Through every block from one centre of pressure to the other; where more or fewer than two joints press, to the centre of mass.
+fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
+    let mut joints: Vec<Vec<(Vector3<f64>, f64)>> = vec![Vec::new(); model.assembly.blocks.len()];
+    for (i, r) in pressed(model, resultants) {
+        joints[i].push((r.at, r.force.norm()));
+    }
+    let mut line = Vec::new();
+    for i in model.assembly.free() {
+        match joints[i][..] {
+            [(from, f), (to, g)] => line.push(Segment { body: i, from, to, force: 0.5 * (f + g) }),
+            _ => {
+                let to = model.assembly.blocks[i].centroid;
+                line.extend(joints[i].iter().map(|&(from, force)| Segment { body: i, from, to, force }));
+            }
+        }
+    }
+    line
+}
+
+/// Every system of forces that a result holds.
+pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String> {
+    let mut list: Vec<(String, &[crate::verdict::evidence::ContactForces])> = Vec::new();
+    let own = |c: &Certificate| !c.forces.is_empty();
+    let lambda = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at λ = {}", short(v)));
+    let tilt = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at {}°", short(v.atan().to_degrees())));
+    let at = |v: Option<f64>| if file.question == Question::Tilt { tilt(v) } else { lambda(v) };
+    if own(&file.certificate) {
+        let name = match (file.answer.verdict, file.answer.load_factor) {
+            (_, Some(l)) => match l.status {
+                Outcome::Found => format!("forces that balance it{}", at(l.value)),
+                Outcome::Unbounded => "forces that balance the live load alone".into(),
+                Outcome::Impossible | Outcome::Undecided => "forces that come closest".into(),
+            },
+            (Some(Verdict::Stable), _) => "forces that balance it".into(),
+            (Some(Verdict::Conditional), _) => "forces with a pre-stress".into(),
+            _ => "forces that come closest".into(),
+        };
+        list.push((name, &file.certificate.forces));
+    }
+    if let Some(base) = &file.certificate.base {
+        let name = if file.answer.verdict == Some(Verdict::Conditional) { "forces without a pre-stress" } else { "forces that balance the dead load" };
+        list.push((name.into(), base));
+    }
+    if let Some(dry) = file.dry.as_ref().filter(|d| own(&d.certificate) && d.value.is_some()) {
+        list.push((format!("forces with dry friction{}", at(dry.value)), &dry.certificate.forces));
+    }
+    if let Some(thrust) = &file.thrust {
+        for (name, certificate) in [("forces of the least thrust", &thrust.least), ("forces of the greatest thrust", &thrust.greatest)] {
+            if own(certificate) && certificate.claim.is_some() {
+                list.push((name.into(), &certificate.forces));
+            }
+        }
+    }
+    if let Some(dead) = file.dead_load.as_ref().filter(|d| own(&d.certificate)) {
+        let stands = matches!(dead.answer.verdict, Some(Verdict::Stable));
+        list.push((if stands { "forces under the dead load" } else { "forces that come closest under the dead load" }.into(), &dead.certificate.forces));
+    }
+    // Forces of a tilt are divided by its cosine, so that gravity keeps its part across the ground.
+    let cosine = |k: usize| match (file.question, file.answer.load_factor.and_then(|l| l.value), file.dry.as_ref().and_then(|d| d.value)) {
+        (Question::Tilt, Some(tangent), dry) => match k {
+            0 => 1.0 / 1f64.hypot(tangent),
+            1 => dry.map_or(1.0, |t| 1.0 / 1f64.hypot(t)),
+            _ => 1.0,
+        },
+        _ => 1.0,
+    };
+    let state = |(k, (name, saved)): (usize, (String, &[_]))| {
+        let mut forces = read_forces(&model.assembly, &model.interfaces, saved)?;
+        forces.iter_mut().flatten().for_each(|w| *w = *w * cosine(k));
+        Ok(State::new(model, name, &forces))
+    };
+    list.into_iter().enumerate().map(state).collect()
+}
