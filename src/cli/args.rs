@@ -181,6 +181,9 @@ pub struct Summary {
     /// Draw a chart.
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// Write charts with values where one points, and a table to sort, as a page for a browser to this file.
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
     /// Which chart: `line` (value against one number), `heat` (against two), `fragility` (share that fails); by default what suits the plan.
     #[arg(long, value_enum, value_name = "KIND", requires = "svg", hide_possible_values = true)]
     pub chart: Option<Chart>,
@@ -297,6 +300,9 @@ pub struct Study {
     /// Draw the charts into this folder: one per scene, and profile.svg over all.
     #[arg(long, value_name = "FOLDER", conflicts_with = "extreme")]
     pub svg: Option<PathBuf>,
+    /// Write charts with values where one points, and a table to sort, as a page for a browser to this file.
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
     /// Print every run as JSON.
     #[arg(long)]
     pub json: bool,
@@ -439,6 +445,9 @@ pub struct Common {
     /// Write the result, with the scene and its proof, to this file for `voussoir check`.
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
+    /// Write the answer as a page for a browser, with a picture, to this file (HTML, without any connection to a network).
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
     /// Solve the scene in full, without leaving out what symmetry or missing friction make needless.
     #[arg(long)]
     pub keep_all: bool,

@@ -14,6 +14,7 @@ pub mod limit;
 mod output;
 mod progress;
 mod question;
+mod report;
 pub mod repose;
 pub mod schema;
 pub mod simulate;

@@ -1,14 +1,16 @@
 //! What the three questions have in common: the scene in, the answer out.
 
-use super::{args::Common, exit::Exit, input, output::Sink, terminal, terminal::Terminal};
+use super::{args::Common, exit::Exit, input, output::Sink, report, terminal, terminal::Terminal};
 use anyhow::bail;
 use std::time::Instant;
 use voussoir::{
     analysis::{Control, Model, Outcome, coulomb::Found, prepare},
+    dynamics::Frame,
     error::{Finding, FindingCode, InputError},
     report::{
-        ResultFile, json,
+        ResultFile, json, page,
         text::{self, Asked, Options},
+        view::View,
         work::Work,
     },
     scene::{Scene, Source},
@@ -20,6 +22,7 @@ use voussoir::{
 pub struct Question<'a> {
     common: &'a Common,
     save: Option<Sink>,
+    report: Option<Sink>,
     source: Source,
     start: Instant,
     /// The scene as read.
@@ -39,18 +42,24 @@ impl<'a> Question<'a> {
         if common.save.as_ref().is_some_and(|p| p.as_os_str() == "-") {
             bail!("--save takes a file; --json prints the result");
         }
+        if common.report.as_ref().is_some_and(|p| p.as_os_str() == "-") && common.json {
+            bail!("--report - and --json both print on standard output");
+        }
         let same = |a: &std::path::Path, b: &std::path::Path| a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b);
-        if let Some(save) = common.save.as_ref().filter(|save| same(save, &common.scene)) {
-            bail!("--save {} would replace the scene by its result", save.display());
+        for (option, path) in [("--save", &common.save), ("--report", &common.report)] {
+            if let Some(path) = path.as_ref().filter(|path| same(path, &common.scene)) {
+                bail!("{option} {} would replace the scene by its result", path.display());
+            }
         }
         let save = common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+        let report = common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let start = Instant::now();
         let (scene, source) = input::scene(&common.scene)?;
         let scene = change(scene);
         let read = start.elapsed().as_secs_f64();
         let mut model = prepare(&scene).map_err(|e| e.located(&source))?;
         model.timings.read = read;
-        Ok(Self { common, save, source, start: Instant::now(), scene, model })
+        Ok(Self { common, save, report, source, start: Instant::now(), scene, model })
     }
 
     /// Puts the worst case within ranges in the place of the scene, and the argument among what the user should know.
@@ -90,9 +99,25 @@ impl<'a> Question<'a> {
         error.located(&self.source).into()
     }
 
+    /// Where the page goes, where there is to be one.
+    pub fn report(&self) -> Option<&Sink> {
+        self.report.as_ref()
+    }
+
     /// Packs the answer with its proof, saves it and prints it. `pack` verifies, which is timed apart from solving; `own` are the
     /// verb's own options that change the answer.
     pub fn answer(&self, terminal: &Terminal, own: &[String], pack: impl FnOnce() -> ResultFile) -> anyhow::Result<ResultFile> {
+        self.answer_with_film(terminal, own, Vec::new(), pack)
+    }
+
+    /// As [`Self::answer`], with what was filmed of a simulation for the page.
+    pub fn answer_with_film(
+        &self,
+        terminal: &Terminal,
+        own: &[String],
+        film: Vec<Frame>,
+        pack: impl FnOnce() -> ResultFile,
+    ) -> anyhow::Result<ResultFile> {
         let solve = self.start.elapsed().as_secs_f64();
         let start = Instant::now();
         let mut file = pack();
@@ -100,23 +125,26 @@ impl<'a> Question<'a> {
         file.timings.solve = (solve - file.timings.simulate).max(0.0);
         file.timings.check = start.elapsed().as_secs_f64();
         file.work = Some(Work::of(&file, &self.model));
-        if self.save.is_some() || self.common.json {
-            let text = json::pretty(&file)?;
-            if let Some(save) = &self.save {
-                save.write(&text)?;
-            }
-            if self.common.json {
-                terminal::print(&text)?;
-                return Ok(file);
-            }
-        }
         let scene = match self.common.scene.to_string_lossy() {
             name if name == "-" => "SCENE".into(),
             name => quoted(&name),
         };
         let asked = Asked { scene: &scene, options: &[own, &self.common.options()].concat().join(" ") };
-        let options = Options { verbose: self.common.verbose, brief: self.common.quiet };
-        terminal.page(&text::render(&file, asked, options, terminal.layout(&self.common.scene)))?;
+        let layout = terminal.layout(&self.common.scene);
+        if let Some(save) = &self.save {
+            save.write(&json::pretty(&file)?)?;
+        }
+        if let Some(report) = &self.report {
+            let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
+            let view = View::new(&self.model, &file, film)?;
+            report.write(&page::page(&text, &view, page::attempts(&file).as_slice())?)?;
+        }
+        if self.common.json {
+            terminal::print(&json::pretty(&file)?)?;
+        } else if !report::is_printed(&self.common.report) {
+            let options = Options { verbose: self.common.verbose, brief: self.common.quiet };
+            terminal.page(&text::render(&file, asked, options, layout))?;
+        }
         Ok(file)
     }
 }

@@ -6,16 +6,19 @@ use super::{
     heap,
     output::Sink,
     question::Question,
+    report,
     terminal::{self, Terminal},
 };
 use anyhow::{Context, bail};
 use std::time::Instant;
 use voussoir::{
-    analysis::{Model, assess, fabric, stability, stability::held, tilt::directions},
+    analysis::{Model, assess, fabric, prepare, stability, stability::held, tilt::directions},
     report::{
         contacts, json,
         packing::PackingFile,
+        page,
         text::{self, Options},
+        view::View,
     },
     verdict::Forces,
 };
@@ -56,11 +59,19 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if let Some(save) = question.save() {
         save.write(&json::pretty(&proof)?)?;
     }
+    let layout = terminal.layout(&args.common.scene);
+    if let Some(report) = question.report() {
+        // The round with the answer: grains that fell earlier are gone.
+        let model = prepare(&proof.scene.input)?;
+        let view = View::new(&model, &proof, Vec::new())?;
+        let words = text::packing(&file, report::EVERYTHING, report::layout(layout));
+        report.write(&page::page(&words, &view, page::attempts(&proof).as_slice())?)?;
+    }
     if args.common.json {
         terminal::print(&json::pretty(&file)?)?;
-    } else {
+    } else if !report::is_printed(&args.common.report) {
         let options = Options { verbose: args.common.verbose, brief: args.common.quiet };
-        terminal.page(&text::packing(&file, options, terminal.layout(&args.common.scene)))?;
+        terminal.page(&text::packing(&file, options, layout))?;
     }
     let open = !file.directions.iter().all(|d| d.governing().is_finite());
     Ok(if open { Exit::Undecided } else { Exit::Yes })

@@ -6,6 +6,7 @@ pub mod drawing;
 pub mod heaps;
 pub mod json;
 pub mod packing;
+pub mod page;
 pub mod read;
 pub mod result;
 pub mod simulation;

@@ -3,7 +3,7 @@
 use super::body::{Solid, posed};
 use crate::report::{
     text::number::seconds,
-    view::{Body, Mark, Motion, Pose, State, View},
+    view::{Body, Mark, Motion, Part, Pose, State, View},
 };
 use crate::tolerance::MECHANISM_REST;
 use nalgebra::{Matrix3, Vector3};
@@ -22,8 +22,6 @@ const MOVED: f64 = 1e-4;
 pub struct Choice<'a> {
     /// One system of forces, or two that enclose all others.
     pub states: Vec<&'a State>,
-    /// Whether live loads act in them.
-    pub live: bool,
     /// How it moves.
     pub movement: Option<Movement>,
 }
@@ -74,24 +72,21 @@ pub fn sized(view: &View, motion: &Motion) -> f64 {
 impl<'a> Choice<'a> {
     /// What is drawn of a view.
     pub fn of(view: &'a View) -> Self {
-        let named = |word: &str| view.states.iter().find(|s| s.name.contains(word));
-        let states = match (named("least thrust"), named("greatest thrust"), named("with dry friction")) {
-            (Some(least), greatest, _) => std::iter::once(least).chain(greatest).collect(),
-            (None, Some(greatest), _) => vec![greatest],
-            (None, None, Some(dry)) => vec![dry],
-            _ => view.states.first().into_iter().collect(),
-        };
-        // What comes closest balances nothing, and a motion proves that nothing does.
-        let states: Vec<&State> = states.into_iter().filter(|s| !s.name.contains("closest") || view.motions.is_empty()).collect();
-        let motion = view.motions.iter().find(|m| m.name.contains("dry friction")).or(view.motions.first());
-        let fails = motion.filter(|m| !m.name.contains("support") && !(states.len() == 1 && m.name.contains("under the dead load")));
+        let state = |part: Part| view.states.iter().find(|s| s.part == part);
+        let ends: Vec<&State> = [Part::Least, Part::Greatest].into_iter().filter_map(state).collect();
+        let mut states = if ends.is_empty() { state(Part::Dry).or(state(Part::Answer)).into_iter().collect() } else { ends };
+        let motion = |part: Part| view.motions.iter().find(|m| m.part == part);
+        let fails = motion(Part::Dry).or(motion(Part::Answer));
+        // What comes closest balances nothing, and a motion without a load factor proves that nothing does.
+        if fails.is_some() && !states.iter().any(|s| s.balances) {
+            states.clear();
+        }
         let movement = match (view.film.last(), fails) {
             (Some(_), _) => Movement::in_time(view),
             (None, Some(motion)) => Movement::mechanism(view, motion),
             (None, None) => None,
         };
-        let live = states.iter().any(|s| s.name.contains("λ"));
-        Self { states, live, movement }
+        Self { states, movement }
     }
 }
 

@@ -8,7 +8,7 @@ use super::{
     sheet::Sheet,
 };
 use crate::{
-    report::view::{Joint, Load, View},
+    report::view::{Joint, Load, State, View},
     verdict::mechanism::Motion as Kind,
 };
 use nalgebra::Vector3;
@@ -53,7 +53,8 @@ fn outline(path: &mut String, joint: &Joint, at: impl Fn(&Vector3<f64>) -> [f64;
 }
 
 /// Loads beside the weight: arrows on the blocks where they are few, in the legend otherwise.
-pub fn loads(sheet: &mut Sheet, view: &View, paper: &Projection, live: bool, legend: &mut Legend) {
+pub fn loads(sheet: &mut Sheet, view: &View, paper: &Projection, state: Option<&State>, legend: &mut Legend) {
+    let live = state.is_some_and(|s| s.live);
     for (of, word) in [(false, "load"), (true, "live load (× λ)")] {
         let list: Vec<&Load> = view.loads.iter().filter(|l| l.live == of && (!l.live || live)).collect();
         let greatest = list.iter().map(|l| l.force.norm()).fold(0.0, f64::max);
@@ -74,9 +75,10 @@ pub fn loads(sheet: &mut Sheet, view: &View, paper: &Projection, live: bool, leg
         }
         legend.add(Glyph::Arrow("load", [1.0, 0.0]), word);
     }
-    let tilt = view.up.angle(&view.ground).to_degrees();
+    let up = state.map_or(view.up, |s| s.up);
+    let tilt = up.angle(&view.ground).to_degrees();
     if tilt > 1e-6 {
-        let [x, y] = paper.direction(&-view.up);
+        let [x, y] = paper.direction(&-up);
         legend.add(Glyph::Arrow("down", [x, y]), &format!("gravity at a tilt of {tilt:.1}°"));
     }
 }

@@ -99,7 +99,7 @@ fn statics(view: &View, choice: &Choice, paper: &Projection, still: &[body::Soli
     for (class, state) in ["one", "two"].into_iter().zip(&choice.states) {
         forces::edges(&mut sheet, paper, state, class, legend);
     }
-    marks::loads(&mut sheet, view, paper, choice.live, legend);
+    marks::loads(&mut sheet, view, paper, choice.states.first().copied(), legend);
     Panel { caption, content: sheet.text }
 }
 
