@@ -19,7 +19,8 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
             scene.loads = scene.loads.fixed(args.load_factor);
         }
         scene
-    })?;
+    })?
+    .drawn(&args.pictures, None)?;
     // Created before the work, and filled as it goes.
     let mut csv = match &args.csv {
         Some(path) => Some(TrajectoryWriter::new(BufWriter::new(File::create(path).with_context(|| written(path))?))?),
@@ -32,9 +33,9 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         frames: args.frames.map_or(if csv.is_some() { FRAMES } else { 0 }, |n| n as usize),
         keep_frames: args.frames.is_some(),
         to_the_end: args.to_the_end,
-        every_step: question.report().is_some(),
+        every_step: question.is_filmed(),
     };
-    let mut film = question.report().map(|_| report::film(question.model.assembly.blocks.len()));
+    let mut film = question.is_filmed().then(|| report::film(question.model.assembly.blocks.len()));
     let mut failure = None;
     let mut keep = |frame: &_| match csv.as_mut().map(|csv| csv.frame(&question.model.assembly, frame)) {
         Some(Err(e)) => {

@@ -11,7 +11,6 @@ pub mod read;
 pub mod result;
 pub mod simulation;
 pub mod study;
-pub mod svg;
 pub mod sweep;
 pub mod table;
 pub mod text;
