@@ -1,7 +1,7 @@
 //! Drawings, files for ParaView and tables of an answer.
 
 use super::{args, output::Sink};
-use anyhow::bail;
+use anyhow::{Context, bail};
 use std::path::{Path, PathBuf};
 use voussoir::report::{
     drawing::{self, Aspect},
@@ -16,6 +16,8 @@ pub struct Pictures {
     svg: Option<Sink>,
     aspect: Aspect,
     vtk: Option<Sink>,
+    /// Where the files of single moments go.
+    frames: Option<PathBuf>,
     /// Joints and blocks.
     csv: Option<[Sink; 2]>,
     printed: usize,
@@ -24,9 +26,25 @@ pub struct Pictures {
 impl Pictures {
     /// Opens what will be written. `table` is where the table of joints goes; that of the blocks goes beside it.
     pub fn open(args: &args::Pictures, table: Option<&Path>) -> anyhow::Result<Self> {
-        if let Some(path) = args.vtk.as_deref().filter(|p| !is_dash(p) && p.extension().is_none_or(|e| e != "vtp")) {
-            let named = path.with_extension("vtp");
-            bail!("--vtk {}: ParaView knows XML PolyData by the ending .vtp: name it {}", path.display(), named.display());
+        Self::open_as(args, table, "vtp")
+    }
+
+    /// As [`Self::open`], for what happens in time: a collection of VTK files, which stand in a folder of the same name.
+    pub fn open_film(args: &args::Pictures) -> anyhow::Result<Self> {
+        let mut pictures = Self::open_as(args, None, "pvd")?;
+        if let Some(path) = &args.vtk {
+            let folder = path.with_extension("");
+            std::fs::create_dir_all(&folder).with_context(|| format!("{}: cannot be written", folder.display()))?;
+            pictures.frames = Some(folder);
+        }
+        Ok(pictures)
+    }
+
+    fn open_as(args: &args::Pictures, table: Option<&Path>, ending: &str) -> anyhow::Result<Self> {
+        let fits = |p: &Path| p.extension().is_some_and(|e| e == ending) || (is_dash(p) && ending == "vtp");
+        if let Some(path) = args.vtk.as_deref().filter(|p| !fits(p)) {
+            let named = if is_dash(path) { PathBuf::from(format!("FILE.{ending}")) } else { path.with_extension(ending) };
+            bail!("--vtk {}: ParaView goes by the ending, which is .{ending} here: name it {}", path.display(), named.display());
         }
         let open = |path: Option<&Path>| path.map(|p| Sink::open(Some(p))).transpose();
         let printed = [args.svg.as_deref(), args.vtk.as_deref(), table].into_iter().flatten().filter(|p| is_dash(p)).count();
@@ -38,7 +56,8 @@ impl Pictures {
             Some(path) => Some([Sink::open(Some(path))?, Sink::open(Some(&beside(path)))?]),
             None => None,
         };
-        Ok(Self { svg: open(args.svg.as_deref())?, aspect: args.view.unwrap_or_default(), vtk: open(args.vtk.as_deref())?, csv: tables, printed })
+        let (svg, vtk) = (open(args.svg.as_deref())?, open(args.vtk.as_deref())?);
+        Ok(Self { svg, aspect: args.view.unwrap_or_default(), vtk, frames: None, csv: tables, printed })
     }
 
     /// Whether anything is to be made.
@@ -56,8 +75,10 @@ impl Pictures {
         if let Some(svg) = &self.svg {
             svg.write(&drawing::svg(view, self.aspect))?;
         }
-        if let Some(vtk) = &self.vtk {
-            vtk.write(&vtk::vtp(view))?;
+        match (&self.vtk, &self.frames) {
+            (Some(sink), Some(folder)) => film(sink, folder, view)?,
+            (Some(sink), None) => sink.write(&vtk::vtp(view))?,
+            (None, _) => {}
         }
         if let Some([joints, blocks]) = &self.csv {
             joints.write(&table::joints(view).map_err(|e| anyhow::anyhow!("{e}"))?)?;
@@ -65,6 +86,16 @@ impl Pictures {
         }
         Ok(())
     }
+}
+
+/// One file a moment, the collection last: it names only what is there.
+fn film(sink: &Sink, folder: &Path, view: &View) -> anyhow::Result<()> {
+    let named = |k: usize| format!("{k:04}.vtp");
+    for (k, frame) in view.film.iter().enumerate() {
+        Sink::open(Some(&folder.join(named(k))))?.write(&vtk::moment(view, frame))?;
+    }
+    let beside = folder.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
+    sink.write(&vtk::collection(view, |k| format!("{beside}/{}", named(k))))
 }
 
 fn is_dash(path: &Path) -> bool {

@@ -73,13 +73,27 @@ impl<'a> Question<'a> {
 
     /// Opens the pictures that are wanted, and the tables.
     pub fn drawn(self, args: &args::Pictures, table: Option<&Path>) -> anyhow::Result<Self> {
+        self.with_pictures(args, table, || Pictures::open(args, table))
+    }
+
+    /// As [`Self::drawn`], for what happens in time.
+    pub fn filmed(self, args: &args::Pictures) -> anyhow::Result<Self> {
+        self.with_pictures(args, None, || Pictures::open_film(args))
+    }
+
+    fn with_pictures(
+        self,
+        args: &args::Pictures,
+        table: Option<&Path>,
+        open: impl FnOnce() -> anyhow::Result<Pictures>,
+    ) -> anyhow::Result<Self> {
         let given = [("--svg", args.svg.as_deref()), ("--vtk", args.vtk.as_deref()), ("--csv", table)];
         for (option, path) in given.into_iter().filter_map(|(o, p)| Some((o, p?))) {
             if is_same(path, &self.common.scene) {
                 bail!("{option} {} would replace the scene", path.display());
             }
         }
-        let pictures = Pictures::open(args, table)?;
+        let pictures = open()?;
         if pictures.printed() && (self.common.json || report::is_printed(&self.common.report)) {
             bail!("standard output takes one of --svg, --vtk, --report and --json");
         }

@@ -20,7 +20,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         scene
     })?
-    .drawn(&args.pictures, None)?;
+    .filmed(&args.pictures)?;
     // Created before the work, and filled as it goes.
     let mut csv = match &args.csv {
         Some(path) => Some(TrajectoryWriter::new(BufWriter::new(File::create(path).with_context(|| written(path))?))?),

@@ -15,6 +15,7 @@ mod extreme;
 mod grains;
 mod invariance;
 mod layering;
+mod pictures;
 mod published;
 mod readme;
 mod real;

@@ -3,16 +3,19 @@
 use super::body::{Solid, posed};
 use crate::report::{
     text::number::seconds,
-    view::{Body, Mark, Motion, Part, Pose, State, View},
+    view::{Body, Mark, Motion, Part, Pose, Shape, State, View},
 };
 use crate::tolerance::MECHANISM_REST;
 use nalgebra::{Matrix3, Vector3};
 
 /// The greatest way of a corner that is shown of a mechanism, over the size of the structure.
 const WAY: f64 = 0.07;
-/// The greatest turn that is shown, radians.
-const TURN: f64 = 0.35;
-/// Blocks that turn by less are moved to first order, so that hinges between them stay closed; they are 1 / cos θ too large, by 3 % at most.
+/// The least: a pebble that turns must not hide how the wall moves.
+const LEAST_WAY: f64 = 0.02;
+/// The greatest turn that is shown, radians, as long as the way is not the least.
+const TURN: f64 = 0.2;
+/// Blocks that turn by less are moved to first order, so that hinges between them stay closed exactly; they are 1 / cos θ too large, by 3 %
+/// at most. Blocks that turn by more are moved along their screw.
 const FIRST_ORDER: f64 = 0.25;
 /// A block counts as moved in time beyond this × the size of the structure. Larger: slow slides look like rest. Smaller: the engine's
 /// contacts, which give way by 1e-4 of a block, do.
@@ -65,8 +68,10 @@ impl Way {
 
 /// How far the fastest corner of a mechanism is shown to go, m.
 pub fn sized(view: &View, motion: &Motion) -> f64 {
-    let spin = motion.rates.iter().map(|r| r.spin.norm()).fold(0.0, f64::max);
-    (WAY * view.size()).min(TURN * motion.reach / spin)
+    // Of balls nobody sees how they turn.
+    let angular = view.bodies.iter().zip(&motion.rates).filter(|(b, _)| !matches!(b.shape, Shape::Sphere(_)));
+    let spin = angular.map(|(_, r)| r.spin.norm()).fold(0.0, f64::max);
+    (WAY * view.size()).min(TURN * motion.reach / spin).max(LEAST_WAY * view.size())
 }
 
 impl<'a> Choice<'a> {
@@ -110,12 +115,23 @@ impl Movement {
 
     fn in_time(view: &View) -> Option<Self> {
         let frame = view.film.last()?;
-        let poses = view.bodies.iter().zip(&frame.blocks);
-        let ways: Vec<Way> = poses.map(|(b, p)| Way::rigid(&Pose { shift: p.center - b.center, turn: p.turn })).collect();
-        let far = |(b, w): (&Body, &Way)| !b.support && w.length(b.radius()) > MOVED * view.size();
-        let moves = view.bodies.iter().zip(&ways).map(far).collect();
+        let poses = || view.bodies.iter().zip(&frame.blocks);
+        let ways = |by: f64| -> Vec<Way> {
+            let pose = |(b, p): (&Body, &crate::dynamics::Pose)| Pose { shift: (p.center - b.center) * by, turn: p.turn.powf(by) };
+            poses().map(|bp| Way::rigid(&pose(bp))).collect()
+        };
+        let once = ways(1.0);
+        let lengths: Vec<f64> = view.bodies.iter().zip(&once).map(|(b, w)| if b.support { 0.0 } else { w.length(b.radius()) }).collect();
+        let greatest = lengths.iter().copied().fold(0.0, f64::max);
+        // A block that has only begun to fall has hardly moved.
+        let by = (WAY * view.size() / greatest).floor();
+        let (ways, times) = match by {
+            by if greatest > MOVED * view.size() && by >= 2.0 => (ways(by), format!(", motion × {by}")),
+            _ => (once, String::new()),
+        };
+        let moves = lengths.iter().map(|l| *l > MOVED * view.size()).collect();
         let speeds = ways.iter().map(|w| w.shift).collect();
-        Some(Self { name: format!("after {}", seconds(frame.time)), ways, moves, marks: Vec::new(), speeds })
+        Some(Self { name: format!("after {}{times}", seconds(frame.time)), ways, moves, marks: Vec::new(), speeds })
     }
 
     /// Bodies where they go.

@@ -2,6 +2,7 @@
 //! press; as thick as the force that passes. In walls and heaps it shows the chains of forces.
 
 use super::{
+    MANY,
     legend::{Glyph, Legend},
     projection::Projection,
     sheet::Sheet,
@@ -37,9 +38,11 @@ pub fn line(sheet: &mut Sheet, paper: &Projection, state: &State, class: &str) {
 pub fn edges(sheet: &mut Sheet, paper: &Projection, state: &State, class: &str, legend: &mut Legend) {
     let pressed = || state.resultants.iter().flatten();
     let greatest = pressed().map(|r| r.normal).fold(0.0, f64::max);
-    for r in pressed().filter(|r| r.normal > LEAST * greatest && r.used >= 1.0 - tolerance::AT_EDGE) {
+    let list = || pressed().filter(|r| r.normal > LEAST * greatest && r.used >= 1.0 - tolerance::AT_EDGE);
+    let radius = if list().count() > MANY { 2.6 } else { 4.0 };
+    for r in list() {
         let [x, y] = paper.at(&r.at);
-        sheet.put(format_args!("<circle class=\"pin {class}\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4\"/>\n"));
+        sheet.put(format_args!("<circle class=\"pin {class}\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\"/>\n"));
         legend.add(Glyph::Pin("one"), "presses at its edge");
     }
 }

@@ -1,6 +1,7 @@
 //! What is marked on the blocks: joints, loads, hinges and slides.
 
 use super::{
+    MANY,
     body::moved,
     choice::Movement,
     legend::{Glyph, Legend},
@@ -18,8 +19,6 @@ use std::fmt::Write;
 const LOADED: usize = 12;
 /// Length of the arrow of the greatest load, and of the least one, units of the sheet.
 const ARROW: [f64; 2] = [46.0, 16.0];
-/// More hinges than this are drawn smaller.
-const MANY: usize = 60;
 
 /// The outline of every joint.
 pub fn joints(sheet: &mut Sheet, view: &View, paper: &Projection) {
@@ -86,7 +85,7 @@ pub fn loads(sheet: &mut Sheet, view: &View, paper: &Projection, state: Option<&
 /// Hinges where they go, joints that slide along their length.
 pub fn mechanism(sheet: &mut Sheet, view: &View, paper: &Projection, movement: &Movement, legend: &mut Legend) {
     let hinges = movement.marks.iter().filter(|m| m.kind == Kind::Hinge || m.kind == Kind::HingeAndSlide).count();
-    let radius = if hinges > MANY { 2.4 } else { 4.0 };
+    let radius = if hinges > MANY { 2.6 } else { 4.0 };
     // Between both blocks, so that what opens to second order is shared.
     let at = |joint: &Joint, p: &Vector3<f64>| {
         let [a, b] = [joint.a, joint.b].map(|i| moved(&view.bodies[i], &movement.ways[i], p));

@@ -34,6 +34,8 @@ const MARGIN: f64 = 20.0;
 const TALL: f64 = 900.0;
 /// Height of a line of text with its gap.
 const LINE: f64 = 24.0;
+/// More signs of a kind than this are drawn smaller.
+const MANY: usize = 24;
 /// Panels of structures flatter than this stand below each other.
 const FLAT: f64 = 0.6;
 
@@ -144,6 +146,3 @@ fn lay_out(panels: &[Panel], paper: &Projection, beside: bool, legend: &Legend) 
     bottom = legend.draw(&mut sheet, bottom + 0.5 * LINE, paper);
     (sheet.text, bottom + 0.5 * MARGIN)
 }
-
-#[cfg(test)]
-mod tests;

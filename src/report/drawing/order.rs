@@ -25,6 +25,9 @@ pub fn back_to_front(view: &View, bodies: &[Solid], paper: &Projection) -> Vec<u
     let eye = paper.axes.eye;
     let depth: Vec<f64> = bodies.iter().map(|b| eye.dot(&b.middle)).collect();
     let frames: Vec<[[f64; 2]; 2]> = bodies.iter().map(|b| [b.reach(&paper.axes.right), b.reach(&paper.axes.up)]).collect();
+    // Most masonry is built along the axes: what they separate needs no look at the corners.
+    let axes = [eye, Vector3::x(), Vector3::y(), Vector3::z()];
+    let boxes: Vec<[[f64; 2]; 4]> = bodies.iter().map(|b| axes.map(|a| b.reach(&a))).collect();
     let hulls: Vec<Hull> = bodies.iter().map(|b| Hull::new(b, paper)).collect();
     let faces: HashMap<(usize, usize), Vector3<f64>> =
         view.joints.iter().map(|f| ((f.a.min(f.b), f.a.max(f.b)), f.normal)).collect();
@@ -38,7 +41,8 @@ pub fn back_to_front(view: &View, bodies: &[Solid], paper: &Projection) -> Vec<u
         let later = by_left[k + 1..].iter().take_while(|&&j| frames[j][0][0] < frames[i][0][1]);
         for &j in later.filter(|&&j| overlap(&frames[i][1], &frames[j][1]) && hulls[i].overlaps(&hulls[j])) {
             let known = faces.get(&(i.min(j), i.max(j)));
-            let (far, near) = match in_front(&bodies[i], &bodies[j], known, &eye, [depth[i], depth[j]]) {
+            let quick = (0..4).find_map(|k| apart(boxes[i][k], boxes[j][k], axes[k].dot(&eye)));
+            let (far, near) = match quick.unwrap_or_else(|| in_front(&bodies[i], &bodies[j], known, &eye, [depth[i], depth[j]])) {
                 Ordering::Less => (i, j),
                 Ordering::Greater => (j, i),
                 Ordering::Equal => continue,
@@ -73,6 +77,18 @@ pub fn back_to_front(view: &View, bodies: &[Solid], paper: &Projection) -> Vec<u
 
 fn overlap(a: &[f64; 2], b: &[f64; 2]) -> bool {
     a[0] < b[1] && b[0] < a[1]
+}
+
+/// The order of two bodies that lie apart along an axis, `towards` its cosine to the eye.
+fn apart(a: [f64; 2], b: [f64; 2], towards: f64) -> Option<Ordering> {
+    if towards.abs() <= EDGE_ON {
+        return None;
+    }
+    match (a[1] <= b[0], b[1] <= a[0]) {
+        (true, false) => Some(if towards > 0.0 { Ordering::Less } else { Ordering::Greater }),
+        (false, true) => Some(if towards > 0.0 { Ordering::Greater } else { Ordering::Less }),
+        _ => None,
+    }
 }
 
 /// `Less` where `a` is behind `b`, `Equal` where neither hides the other.

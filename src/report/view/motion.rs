@@ -9,7 +9,7 @@
 
 use super::{Body, Part};
 use crate::{
-    analysis::Model,
+    analysis::{Model, coulomb::Found},
     report::{
         result::{Certificate, ResultFile},
         view::Shape,
@@ -98,7 +98,7 @@ pub(super) fn of(model: &Model, file: &ResultFile, bodies: &[Body]) -> Result<Ve
     let mut list: Vec<(Part, &str, &Certificate)> = Vec::new();
     let moves = |c: &Certificate| !matches!(c.claim, None | Some(Claim::Stable | Claim::Unbounded { .. }));
     list.push((Part::Answer, if file.answer.verdict.is_some() { "how it moves" } else { "how it fails" }, &file.certificate));
-    if let Some(dry) = &file.dry {
+    if let Some(dry) = file.dry.as_ref().filter(|d| d.found != Found::NothingSlides) {
         list.push((Part::Dry, "how it fails with dry friction", &dry.certificate));
     }
     if let Some(thrust) = &file.thrust {

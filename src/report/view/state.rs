@@ -1,7 +1,7 @@
 //! Systems of contact forces: resultants, use of the sections, lines of thrust.
 
 use crate::{
-    analysis::{Model, Outcome},
+    analysis::{Model, Outcome, coulomb::Found},
     report::{
         result::{Certificate, Question, ResultFile},
         text::number::short,
@@ -188,7 +188,8 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String>
         let name = if file.answer.verdict == Some(Verdict::Conditional) { "forces without a pre-stress" } else { "forces that balance the dead load" };
         list.push((Part::Base, name.into(), base));
     }
-    if let Some(dry) = file.dry.as_ref().filter(|d| own(&d.certificate) && d.value.is_some()) {
+    // Where nothing slides they are the same.
+    if let Some(dry) = file.dry.as_ref().filter(|d| own(&d.certificate) && d.value.is_some() && d.found != Found::NothingSlides) {
         list.push((Part::Dry, format!("forces with dry friction{}", at(dry.value)), &dry.certificate.forces));
     }
     if let (Some(thrust), Some(answer)) = (&file.thrust, &file.answer.thrust) {

@@ -21,8 +21,10 @@ pub struct Point {
 pub struct Cell {
     /// What it is.
     pub part: Part,
-    /// The block it belongs to.
+    /// The block it belongs to; of a joint and its forces the second block, on which they act.
     pub block: Option<usize>,
+    /// Of a joint and its forces: the first block.
+    pub other: Option<usize>,
     /// The joint it belongs to.
     pub joint: Option<usize>,
     /// Of a line of thrust: the system of forces, and the force that passes, N.
@@ -45,14 +47,18 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The mesh of a view; where there is a film, of its blocks alone.
+    /// The mesh of a view.
     pub fn of(view: &View) -> Self {
+        let mut mesh = Self::blocks_of(view);
+        mesh.joints(view);
+        mesh.thrust(view);
+        mesh
+    }
+
+    /// The mesh of its blocks alone.
+    pub fn blocks_of(view: &View) -> Self {
         let mut mesh = Self::default();
         mesh.blocks(view);
-        if view.film.is_empty() {
-            mesh.joints(view);
-            mesh.thrust(view);
-        }
         mesh
     }
 
@@ -67,7 +73,7 @@ impl Mesh {
         for (i, body) in view.bodies.iter().enumerate() {
             let part = if body.support { Part::Support } else { Part::Block };
             let first = self.points.len() as u32;
-            let mut face = |points: Vec<u32>| self.polys.push(Cell { part, block: Some(i), joint: None, segment: None, points });
+            let mut face = |points: Vec<u32>| self.polys.push(Cell { part, block: Some(i), other: None, joint: None, segment: None, points });
             match &body.shape {
                 Shape::Surface(s) => {
                     s.pieces.iter().for_each(|piece| face(piece.iter().map(|v| first + v).collect()));
@@ -85,10 +91,11 @@ impl Mesh {
     fn joints(&mut self, view: &View) {
         for (k, joint) in view.joints.iter().enumerate() {
             let points: Vec<u32> = joint.points.iter().enumerate().map(|(c, &at)| self.point(at, None, Some((k, c)))).collect();
+            let cell = |part, points| Cell { part, block: Some(joint.b), other: Some(joint.a), joint: Some(k), segment: None, points };
             for &p in &points {
-                self.verts.push(Cell { part: Part::Force, block: None, joint: Some(k), segment: None, points: vec![p] });
+                self.verts.push(cell(Part::Force, vec![p]));
             }
-            let cell = Cell { part: Part::Joint, block: None, joint: Some(k), segment: None, points };
+            let cell = cell(Part::Joint, points);
             match cell.points.len() {
                 0 => {}
                 1 => self.verts.push(cell),
@@ -103,7 +110,7 @@ impl Mesh {
             for part in &state.line {
                 let points = [part.from, part.to].map(|at| self.point(at, None, None)).to_vec();
                 let (block, segment) = (Some(part.body), Some((k, part.force)));
-                self.lines.push(Cell { part: Part::Thrust, block, joint: None, segment, points });
+                self.lines.push(Cell { part: Part::Thrust, block, other: None, joint: None, segment, points });
             }
         }
     }

@@ -1,10 +1,12 @@
 //! Answers for ParaView and everything else that is built on VTK: one file of XML PolyData (`.vtp`) with blocks, joints, contact forces,
 //! lines of thrust and mechanisms.
 //!
-//! Cells of all kinds stand in one file and are told apart by the cell array `part` ([`Part`]). Arrays that belong to a system of forces or
+//! Cells of all kinds stand in one file and are told apart by the cell array `part` ([`Part`]); `block`, `other block` and `joint` are indices in
+//! scene order (−1: none), the names of blocks stand in the field data. Arrays that belong to a system of forces or
 //! a mechanism carry its name in parentheses: `force (…)`, N, on the points of contact forces; `normal force (…)`, N, and `used (…)`, the
 //! share of the section or of the friction, on joints and blocks; `displacement (…)`, m, on the points of blocks, to first order and as far
-//! as it is seen well. A simulation holds its blocks alone, at every time that was filmed.
+//! as it is seen well. A simulation is a collection (`.pvd`) of such files, one a time, that hold the blocks alone with their velocity: readers
+//! of VTK 9 add up the cells of all times that stand in one file.
 //!
 //! W. Schroeder, K. Martin, B. Lorensen, *The Visualization Toolkit*, 4th ed., Kitware 2006; file formats of VTK,
 //! <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
@@ -13,7 +15,11 @@ mod ball;
 mod mesh;
 mod xml;
 
-use super::{drawing::sized, view::View};
+use super::{
+    drawing::{escape, sized},
+    view::View,
+};
+use crate::dynamics::Frame;
 use mesh::Mesh;
 use nalgebra::Vector3;
 use xml::Xml;
@@ -33,16 +39,28 @@ pub enum Part {
     Thrust = 4,
 }
 
-/// The file.
+/// The file of an answer.
 pub fn vtp(view: &View) -> String {
-    let mesh = Mesh::of(view);
-    let mut xml = Xml::new();
-    if view.film.is_empty() {
-        xml.open("PolyData", "");
-    } else {
-        let times: Vec<String> = view.film.iter().map(|f| f.time.to_string()).collect();
-        xml.open("PolyData", &format!(" TimeValues=\"{}\"", times.join(" ")));
+    document(view, &Mesh::of(view), None)
+}
+
+/// The file of one moment of a film: the blocks alone.
+pub fn moment(view: &View, frame: &Frame) -> String {
+    document(view, &Mesh::blocks_of(view), Some(frame))
+}
+
+/// The collection of a film, whose files are `named`.
+pub fn collection(view: &View, named: impl Fn(usize) -> String) -> String {
+    let mut xml = Xml::new("Collection");
+    for (k, frame) in view.film.iter().enumerate() {
+        xml.open("DataSet", &format!(" timestep=\"{}\" file=\"{}\"", frame.time, escape(&named(k))));
+        xml.close("DataSet");
     }
+    xml.end("Collection")
+}
+
+fn document(view: &View, mesh: &Mesh, frame: Option<&Frame>) -> String {
+    let mut xml = Xml::new("PolyData");
     xml.open("FieldData", "");
     xml.strings("block names", view.bodies.iter().map(|b| b.id.as_str()));
     xml.close("FieldData");
@@ -54,9 +72,14 @@ pub fn vtp(view: &View) -> String {
             mesh.points.len()
         ),
     );
-    point_data(&mut xml, view, &mesh);
-    cell_data(&mut xml, view, &mesh);
-    points(&mut xml, view, &mesh);
+    match frame {
+        Some(frame) => velocities(&mut xml, view, mesh, frame),
+        None => point_data(&mut xml, view, mesh),
+    }
+    cell_data(&mut xml, view, mesh, frame.is_none());
+    xml.open("Points", "");
+    xml.vectors("points", mesh.points.iter().map(|p| place(view, p, frame)));
+    xml.close("Points");
     for (name, cells) in [("Verts", &mesh.verts), ("Lines", &mesh.lines), ("Polys", &mesh.polys)] {
         xml.open(name, "");
         xml.integers("connectivity", cells.iter().flat_map(|c| c.points.iter().map(|&p| i64::from(p))));
@@ -69,55 +92,56 @@ pub fn vtp(view: &View) -> String {
         xml.close(name);
     }
     xml.close("Piece");
-    xml.close("PolyData");
-    xml.end()
+    xml.end("PolyData")
 }
 
-fn points(xml: &mut Xml, view: &View, mesh: &Mesh) {
-    xml.open("Points", "");
-    if view.film.is_empty() {
-        xml.vectors("points", "", mesh.points.iter().map(|p| p.at));
+/// Where a point is.
+fn place(view: &View, p: &mesh::Point, frame: Option<&Frame>) -> Vector3<f64> {
+    match (p.block, frame) {
+        (Some(i), Some(frame)) => frame.blocks[i].center + frame.blocks[i].turn * (p.at - view.bodies[i].center),
+        _ => p.at,
     }
-    for (k, frame) in view.film.iter().enumerate() {
-        let at = mesh.points.iter().map(|p| match p.block {
-            Some(i) => frame.blocks[i].center + frame.blocks[i].turn * (p.at - view.bodies[i].center),
-            None => p.at,
-        });
-        xml.vectors("points", &format!(" TimeStep=\"{k}\""), at);
-    }
-    xml.close("Points");
+}
+
+fn velocities(xml: &mut Xml, view: &View, mesh: &Mesh, frame: &Frame) {
+    xml.open("PointData", "");
+    let velocity = |p: &mesh::Point| match p.block {
+        Some(i) => frame.blocks[i].velocity + frame.blocks[i].spin.cross(&(place(view, p, Some(frame)) - frame.blocks[i].center)),
+        None => Vector3::zeros(),
+    };
+    xml.vectors("velocity", mesh.points.iter().map(velocity));
+    xml.close("PointData");
 }
 
 fn point_data(xml: &mut Xml, view: &View, mesh: &Mesh) {
     xml.open("PointData", "");
-    if view.film.is_empty() {
-        for state in &view.states {
-            let force = |p: &mesh::Point| match p.contact {
-                Some((joint, corner)) => state.forces[joint][corner],
-                None => Vector3::zeros(),
-            };
-            xml.vectors(&named("force", &state.name), "", mesh.points.iter().map(force));
-        }
-        for motion in &view.motions {
-            let by = sized(view, motion) / motion.reach;
-            let way = |p: &mesh::Point| match p.block {
-                Some(i) => (motion.rates[i].velocity + motion.rates[i].spin.cross(&(p.at - view.bodies[i].center))) * by,
-                None => Vector3::zeros(),
-            };
-            xml.vectors(&named("displacement", &motion.name), "", mesh.points.iter().map(way));
-        }
+    for state in &view.states {
+        let force = |p: &mesh::Point| match p.contact {
+            Some((joint, corner)) => state.forces[joint][corner],
+            None => Vector3::zeros(),
+        };
+        xml.vectors(&named("force", &state.name), mesh.points.iter().map(force));
+    }
+    for motion in &view.motions {
+        let by = sized(view, motion) / motion.reach;
+        let way = |p: &mesh::Point| match p.block {
+            Some(i) => (motion.rates[i].velocity + motion.rates[i].spin.cross(&(p.at - view.bodies[i].center))) * by,
+            None => Vector3::zeros(),
+        };
+        xml.vectors(&named("displacement", &motion.name), mesh.points.iter().map(way));
     }
     xml.close("PointData");
 }
 
-fn cell_data(xml: &mut Xml, view: &View, mesh: &Mesh) {
+fn cell_data(xml: &mut Xml, view: &View, mesh: &Mesh, statics: bool) {
     let cells = || mesh.verts.iter().chain(&mesh.lines).chain(&mesh.polys);
     let index = |i: Option<usize>| i.map_or(-1, |i| i as i64);
     xml.open("CellData", "");
     xml.integers("part", cells().map(|c| c.part as i64));
     xml.integers("block", cells().map(|c| index(c.block)));
+    xml.integers("other block", cells().map(|c| index(c.other)));
     xml.integers("joint", cells().map(|c| index(c.joint)));
-    if view.film.is_empty() {
+    if statics {
         for (k, state) in view.states.iter().enumerate() {
             let at = |c: &mesh::Cell| c.joint.and_then(|j| state.resultants[j]);
             let normal = |c: &mesh::Cell| match c.segment {
@@ -142,5 +166,3 @@ fn named(what: &str, name: &str) -> String {
     format!("{what} ({name})")
 }
 
-#[cfg(test)]
-mod tests;

@@ -8,9 +8,9 @@ use std::fmt::{Display, Write};
 pub struct Xml(String);
 
 impl Xml {
-    /// The head.
-    pub fn new() -> Self {
-        Self("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n".into())
+    /// The head of a document of a kind.
+    pub fn new(kind: &str) -> Self {
+        Self(format!("<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\">\n<{kind}>\n"))
     }
 
     /// Opens an element.
@@ -34,9 +34,8 @@ impl Xml {
     }
 
     /// Vectors.
-    pub fn vectors(&mut self, name: &str, attributes: &str, values: impl Iterator<Item = Vector3<f64>>) {
-        let attributes = format!(" NumberOfComponents=\"3\"{attributes}");
-        self.array("Float64", name, &attributes, values.flat_map(|v| [v.x, v.y, v.z].map(plain)));
+    pub fn vectors(&mut self, name: &str, values: impl Iterator<Item = Vector3<f64>>) {
+        self.array("Float64", name, " NumberOfComponents=\"3\"", values.flat_map(|v| [v.x, v.y, v.z].map(plain)));
     }
 
     /// Strings: VTK wants their bytes as numbers, each ended by 0.
@@ -57,7 +56,8 @@ impl Xml {
     }
 
     /// The whole text.
-    pub fn end(mut self) -> String {
+    pub fn end(mut self, kind: &str) -> String {
+        self.close(kind);
         self.close("VTKFile");
         self.0
     }
