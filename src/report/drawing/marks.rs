@@ -86,10 +86,10 @@ pub fn loads(sheet: &mut Sheet, view: &View, paper: &Projection, state: Option<&
 pub fn mechanism(sheet: &mut Sheet, view: &View, paper: &Projection, movement: &Movement, legend: &mut Legend) {
     let hinges = movement.marks.iter().filter(|m| m.kind == Kind::Hinge || m.kind == Kind::HingeAndSlide).count();
     let radius = if hinges > MANY { 2.6 } else { 4.0 };
-    // Between both blocks, so that what opens to second order is shared.
+    // With the block that goes less far: joints that slide open as well.
     let at = |joint: &Joint, p: &Vector3<f64>| {
         let [a, b] = [joint.a, joint.b].map(|i| moved(&view.bodies[i], &movement.ways[i], p));
-        paper.at(&((a + b) * 0.5))
+        paper.at(if (a - p).norm() <= (b - p).norm() { &a } else { &b })
     };
     let mut slides = String::new();
     for mark in movement.marks.iter().filter(|m| matches!(m.kind, Kind::Slide | Kind::HingeAndSlide)) {

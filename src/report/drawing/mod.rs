@@ -61,14 +61,30 @@ pub fn svg(view: &View, aspect: Aspect) -> String {
     }
     let (text, height) = lay_out(&panels, &paper, beside, &legend);
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH:.0} {height:.0}\" width=\"{WIDTH:.0}\" height=\"{height:.0}\" role=\"img\">\n<title>{}</title>\n<desc>{}</desc>\n<style>{}</style>\n<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH:.0} {height:.0}\" width=\"{WIDTH:.0}\" height=\"{height:.0}\" role=\"img\">\n<title>{}</title>\n<desc>{}</desc>\n<style>{}{}</style>\n<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n",
         escape(&view.name),
         escape(&panels.iter().map(|p| p.caption.as_str()).collect::<Vec<_>>().join("; ")),
-        sheet::STYLE
+        sheet::STYLE,
+        thin(view, &paper)
     );
     out.push_str(&text);
     out.push_str("</svg>\n");
     out
+}
+
+/// Edges are thinner where blocks are small on the sheet: a wall of thousands would be black.
+fn thin(view: &View, paper: &Projection) -> String {
+    /// Over the size of a block on the sheet.
+    const THIN: f64 = 0.05;
+    let mut sizes: Vec<f64> = view.bodies.iter().map(|b| 2.0 * b.radius() * paper.scale).collect();
+    sizes.sort_by(f64::total_cmp);
+    match sizes.get(sizes.len() / 2).map(|size| THIN * size) {
+        Some(edge) if edge < sheet::EDGE => {
+            let edge = edge.max(0.1);
+            format!(".edge,circle.f1{{stroke-width:{edge:.2}}}.joint{{stroke-width:{:.2}}}", 1.5 * edge)
+        }
+        _ => String::new(),
+    }
 }
 
 /// A part of the drawing with its caption.
@@ -89,7 +105,9 @@ fn statics(view: &View, choice: &Choice, paper: &Projection, still: &[body::Soli
     let caption = match choice.states[..] {
         [] => String::new(),
         [state] => {
-            legend.add(Glyph::Line("one"), "line of thrust, as thick as the force");
+            if !state.line.is_empty() {
+                legend.add(Glyph::Line("one"), "line of thrust, as thick as the force");
+            }
             state.name.clone()
         }
         [one, two, ..] => {

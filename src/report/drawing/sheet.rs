@@ -2,6 +2,9 @@
 
 use std::fmt::{Arguments, Write};
 
+/// Thickness of the edges in [`STYLE`].
+pub const EDGE: f64 = 0.9;
+
 /// Four shades a kind of block, the first the brightest. Programs that leave media queries out (Inkscape, librsvg) draw the light page.
 pub const STYLE: &str = "\
 .page{fill:#ffffff}\
