@@ -14,17 +14,43 @@ function axes() {
 function lens(width, height) {
   const { x, y, z } = axes(), at = add(eye.target, mul(z, eye.distance));
   const near = Math.max(eye.distance - 3, 0.02 * eye.distance), camera = looking(x, y, z, at);
-  return { camera, x, y, z, at, matrix: product(perspective(SLOPE, width / height, near, eye.distance + 30), camera), aspect: width / height };
+  return { camera, x, y, z, at, matrix: product(perspective(SLOPE, width / height, near, eye.distance + 3), camera), aspect: width / height };
 }
 
-// Stands back until the box of the scene fills the picture.
+// The corners to be seen, some thousand at most; of supports only what lies in the box of the scene.
+function corners() {
+  const list = [], half = mul(view.extent, 0.5), every = Math.max(1, Math.floor(COUNT / 2500));
+  const inside = (p) => p.map((v, k) => Math.min(Math.max(v, -half[k]), half[k]));
+  for (let i = 0; i < COUNT; i += every) {
+    const c = at3(bodies.center, i), r = bodies.radius[i];
+    const own = r > 0 ? [[r, 0, 0], [-r, 0, 0], [0, r, 0], [0, -r, 0], [0, 0, r], [0, 0, -r]].map((d) => add(c, d)) : Array.from({ length: bodies.cornerStart[i + 1] - bodies.cornerStart[i] }, (_, k) => at3(bodies.corners, bodies.cornerStart[i] + k));
+    list.push(...own.map(inside));
+  }
+  return list.length ? list : [[0, 0, 0]];
+}
+
+// Stands back until the scene fills the picture.
 function look(name) {
   [eye.angle, eye.height] = RIGHTS[name];
   if (name === "start" && flatScene()) [eye.angle, eye.height] = [0.3, 0.16];
-  const { x, y, z } = axes(), e = view.extent, box = el("canvas"), aspect = Math.max(0.3, box.clientWidth / Math.max(1, box.clientHeight));
-  const half = (a) => 0.5 * (Math.abs(a[0] * e[0]) + Math.abs(a[1] * e[1]) + Math.abs(a[2] * e[2]));
-  eye.target = mul(y, -0.03);
-  eye.distance = 1.1 * (Math.max(half(y) * 1.08, half(x) / aspect) / SLOPE + half(z));
+  const { x, y, z } = axes(), box = el("view"), aspect = Math.max(0.3, box.clientWidth / Math.max(1, box.clientHeight)), list = corners();
+  eye.target = [0, 0, 0];
+  for (let round = 0; round < 4; round++) {
+    let distance = 0.05, low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    for (const p of list) {
+      const d = sub(p, eye.target), far = dot(d, z);
+      distance = Math.max(distance, Math.abs(dot(d, x)) / (0.86 * SLOPE * aspect) + far, Math.abs(dot(d, y)) / (0.8 * SLOPE) + far);
+    }
+    for (const p of list) {
+      const d = sub(p, eye.target), w = (distance - dot(d, z)) / distance, seen = [dot(d, x) / w, dot(d, y) / w];
+      low = low.map((v, k) => Math.min(v, seen[k]));
+      high = high.map((v, k) => Math.max(v, seen[k]));
+    }
+    eye.target = add(eye.target, add(mul(x, (low[0] + high[0]) / 2), mul(y, (low[1] + high[1]) / 2)));
+    eye.distance = distance;
+  }
+  // A little above the middle: the legend stands below.
+  eye.target = add(eye.target, mul(y, -0.04 * eye.distance * SLOPE));
   redraw();
 }
 const flatScene = () => Math.abs(dot(front, view.extent)) < 0.3;

@@ -28,7 +28,7 @@ function plain(canvas) {
         if (dot(normal, sub(l.at, loop[0])) <= 0) continue;
         const flat = loop.map(seen);
         if (flat.includes(null)) continue;
-        const light = 0.4 + 0.26 * (0.5 + 0.5 * dot(normal, up)) + 0.34 * Math.max(0, dot(normal, sun)) + 0.1 * Math.max(0, dot(normal, l.z));
+        const light = 0.5 + 0.22 * (0.5 + 0.5 * dot(normal, up)) + 0.3 * Math.max(0, dot(normal, sun)) + 0.12 * Math.max(0, dot(normal, l.z));
         pieces.push({ far: flat.reduce((s, p) => s + p[2], 0) / flat.length, flat, fill: paint(mul(colour, light)) });
       }
     }

@@ -45,7 +45,7 @@ function strokes() {
   }
   if (on("marks") && state.motion >= 0) {
     const motion = view.motions[state.motion];
-    for (let k = 0; k < motion.markJoint.length; k++) dots.push([moved(joints.a[motion.markJoint[k]], at3(motion.markAt, k)), 2.3 * r, rgb("--mark")]);
+    for (let k = 0; k < motion.markJoint.length; k++) dots.push([moved(joints.a[motion.markJoint[k]], at3(motion.markAt, k)), 2 * r, rgb("--mark")]);
   }
   if (forces && on("line") && JOINTS < 400) for (let k = 0; k < JOINTS; k++) if (forces.used[k] >= 0.9999) dots.push([moved(joints.a[k], at3(forces.at, k)), 1.9 * r, rgb("--line")]);
   return { rods, arrows, dots };
@@ -68,6 +68,7 @@ function legend() {
   const scale = { share: ["Share of a joint that is used", "0", "all"], force: ["Greatest force on a joint", "0", newtons(1)], speed: ["Speed in the mechanism", "0", "fastest"], moved: ["Way so far", "0", farthest > 0 ? meters(farthest / (state.motion === FILM ? state.magnify : 1)) : "0"] }[state.colour];
   const keys = LAYERS.filter(([name, , ink, there]) => ink && state.layers.has(name) && there()).map(([name, title, ink]) => make("span", {}, make("i", { class: name === "marks" ? "dot" : false, style: `border-color:var(${ink});${name === "marks" ? `background:var(${ink})` : ""}` }), title));
   if (state.colour === "material") bodies.materials.forEach((name, k) => keys.push(make("span", {}, make("i", { class: "dot", style: `background:rgb(${PALETTE[k % PALETTE.length].map((v) => Math.round(255 * v)).join(",")})` }), name)));
+  if (view.tilt) keys.push(make("span", {}, `tipped by ${short(view.tilt)}°`));
   const parts = [make("div", { class: "keys" }, keys)];
   if (scale) parts.push(scale[0], make("div", { class: "bar", style: "background:linear-gradient(90deg,var(--low),var(--middle),var(--high))" }), make("div", { class: "ends" }, make("span", {}, scale[1]), make("span", {}, scale[2])));
   el("legend").replaceChildren(...parts);

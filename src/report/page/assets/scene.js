@@ -145,11 +145,17 @@ canvas.addEventListener("webglcontextlost", (e) => e.preventDefault());
 // Printers get an image: a canvas may come out empty.
 addEventListener("beforeprint", () => { el("printed").src = shown.toDataURL("image/png"); el("printed").alt = shown.getAttribute("aria-label"); });
 
+// At a limit nearly every joint is used up: then the forces say more.
+function telling() {
+  const used = forcesNow() ? [...forcesNow().bodyUsed].filter((u) => !Number.isNaN(u)) : [];
+  return used.filter((u) => u > 0.97).length > 0.4 * used.length ? "force" : "share";
+}
+
 // What is shown at first: how it fails where it falls, else how it carries.
 choices();
 const falls = Boolean(document.querySelector("h1.bad"));
 layer("edges");
-if (view.film) { state.way = 1; colour("moved"); motionNow(FILM); } else if (falls && view.motions.length) { state.way = 0.55; colour("speed"); layer("marks"); motionNow(0); } else { layer("line"); colour("share"); layer("marks"); motionNow(view.motions.length ? 0 : -1); }
+if (view.film) { state.way = 1; colour("moved"); motionNow(FILM); } else if (falls && view.motions.length) { state.way = 0.55; colour("speed"); layer("marks"); motionNow(0); } else { layer("line"); colour(telling()); layer("marks"); if (loads.body.length <= 24) layer("loads"); motionNow(view.motions.length ? 0 : -1); }
 el("motion").value = state.motion;
 fillList();
 numbers();

@@ -11,7 +11,7 @@ precision highp float;
 uniform vec3 upward,sun,eye;
 vec3 lit(vec3 colour,vec3 n){
 float sky=0.5+0.5*dot(n,upward);float key=max(dot(n,sun),0.0);float fill=max(dot(n,eye),0.0);
-return colour*(0.40+0.26*sky+0.34*key+0.10*fill);}
+return colour*(0.50+0.22*sky+0.30*key+0.12*fill);}
 `;
 const SHADERS = {
   solid: [`${POSED}
@@ -24,7 +24,7 @@ in vec3 normal;in vec3 colour;in vec3 own;uniform float ball;out vec4 ink;
 void main(){vec3 c=lit(colour,normalize(normal));if(ball>0.5&&abs(own.z)<0.045)c*=0.8;ink=vec4(c,1.0);}`],
   edge: [`${POSED}
 layout(location=0) in vec3 p;layout(location=2) in uint body;
-void main(){vec4 q=texel(body,0);vec4 c=texel(body,1);gl_Position=matrix*vec4(c.xyz+rotated(q,p*c.w),1.0);gl_Position.z-=0.0004*gl_Position.w;}`,
+void main(){vec4 q=texel(body,0);vec4 c=texel(body,1);gl_Position=matrix*vec4(c.xyz+rotated(q,p*c.w),1.0);}`,
   `#version 300 es
 precision highp float;uniform vec4 tint;out vec4 ink;void main(){ink=tint;}`],
   // Profiles turned about the way from one end to the other: x in lengths, y and z in radii, along and across.

@@ -80,6 +80,8 @@ function webgl(canvas) {
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.CULL_FACE);
     gl.disable(gl.BLEND);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 1.5);
     let at = use("solid");
     gl.uniform1f(at.ball, 0);
     gl.bindVertexArray(solids);
@@ -89,6 +91,7 @@ function webgl(canvas) {
       gl.bindVertexArray(balls);
       gl.drawArraysInstanced(gl.TRIANGLES, 0, globe.length / 3, spheres.length);
     }
+    gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.disable(gl.CULL_FACE);
