@@ -109,7 +109,7 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
     Some(Chart {
         title: "Error against time".into(),
         x: Axis::new("seconds", true),
-        y: Axis::new("width of the bracket", true),
+        y: Axis::new("error: width of the bracket", true),
         series,
         note: "Each point is an attempt; its bracket is recomputed from the scene, not the solver's word.".into(),
         cells: None,

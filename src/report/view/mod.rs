@@ -38,6 +38,8 @@ pub struct View {
     pub up: Vector3<f64>,
     /// Unit vector against gravity as the scene has it.
     pub ground: Vector3<f64>,
+    /// Of a tilt, the angle between `up` and the vertical of the scene, degrees.
+    pub tilt_deg: Option<f64>,
     /// Unit vector across `up` from which one looks: across the greater extent.
     pub front: Vector3<f64>,
     /// The box to look at: that of the free blocks and of what supports them nearby, m.
@@ -117,7 +119,10 @@ impl View {
     pub fn new(model: &Model, file: &ResultFile, film: Vec<Frame>) -> Result<Self, ViewError> {
         let mut view = Self::bare(model);
         view.name.clone_from(&file.scene.name);
-        view.up = tipped(view.up, file);
+        if let Some(up) = tipped(view.up, file) {
+            view.tilt_deg = Some(up.angle(&view.up).to_degrees());
+            view.up = up;
+        }
         view.front = front(view.up, view.high - view.low);
         view.states = state::of(model, file).map_err(ViewError)?;
         view.motions = motion::of(model, file, &view.bodies).map_err(ViewError)?;
@@ -157,6 +162,7 @@ impl View {
             name: assembly.name.clone(),
             up,
             ground: up,
+            tilt_deg: None,
             front: front(up, high - low),
             low,
             high,
@@ -182,10 +188,10 @@ impl View {
 }
 
 /// The ground of a tilt as it is tipped when the answer says that it falls.
-fn tipped(up: Vector3<f64>, file: &ResultFile) -> Vector3<f64> {
+fn tipped(up: Vector3<f64>, file: &ResultFile) -> Option<Vector3<f64>> {
     match (file.question, file.answer.toward, file.answer.load_factor.and_then(|l| l.value)) {
-        (Question::Tilt, Some(toward), Some(tangent)) => (up - Vector3::from(toward) * tangent).normalize(),
-        _ => up,
+        (Question::Tilt, Some(toward), Some(tangent)) => Some((up - Vector3::from(toward) * tangent).normalize()),
+        _ => None,
     }
 }
 

@@ -30,7 +30,7 @@ function short(value, digits = 4) {
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  const text = size < 1e-3 || size >= 1e6 ? value.toExponential(digits - 1) : String(+value.toPrecision(digits));
+  const text = size < 1e-3 || size >= 1e6 ? Number(value.toPrecision(digits)).toExponential() : String(+value.toPrecision(digits));
   return text.replace("e+", "e").replace(/-/g, "−");
 }
 

@@ -1,5 +1,5 @@
 // Charts as SVG with values where one points, or where the arrow keys go.
-const INKS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b", "#9467bd", "#7f7f7f", "#b8a100"];
+const inkOf = (k) => `var(--c${k % 10})`;
 const SCALE = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
 
 function viridis(share) {
@@ -51,7 +51,7 @@ function drawChart(chart) {
   svg.append(make("text", { x: 13, y: (top + H - bottom) / 2, "text-anchor": "middle", transform: `rotate(-90 13 ${(top + H - bottom) / 2})` }, chart.y.label));
   const spots = [];
   chart.series.forEach((s, k) => {
-    const ink = INKS[k % INKS.length];
+    const ink = inkOf(k);
     if (cells) {
       const [low, high] = tight(s.values);
       s.points.forEach(([x, y], i) => {
@@ -66,12 +66,12 @@ function drawChart(chart) {
     const path = (list) => list.map(([x, y], i) => `${i ? "L" : "M"}${px(x).toFixed(1)} ${py(y).toFixed(1)}`).join("");
     if (s.band) {
       const up = s.points.map(([x], i) => [x, s.band[i][1]]), down = s.points.map(([x], i) => [x, s.band[i][0]]).reverse();
-      svg.append(make("path", { d: `${path([...up, ...down])}Z`, fill: ink, opacity: 0.16 }));
+      svg.append(make("path", { d: `${path([...up, ...down])}Z`, style: `fill:${ink}`, opacity: 0.16 }));
     }
-    if (s.line) svg.append(make("path", { d: path(s.points), fill: "none", stroke: ink, "stroke-width": 2, "stroke-linejoin": "round" }));
+    if (s.line) svg.append(make("path", { d: path(s.points), fill: "none", style: `stroke:${ink}`, "stroke-width": 2, "stroke-linejoin": "round" }));
     const r = s.line ? (s.points.length > 45 ? 0 : 3.2) : s.points.length > 500 ? 1.7 : 2.6;
     s.points.forEach(([x, y], i) => {
-      if (r > 0) svg.append(make("circle", { cx: px(x).toFixed(1), cy: py(y).toFixed(1), r, fill: ink, opacity: s.line ? 1 : 0.55 }));
+      if (r > 0) svg.append(make("circle", { cx: px(x).toFixed(1), cy: py(y).toFixed(1), r, style: `fill:${ink}`, opacity: s.line ? 1 : 0.55 }));
       spots.push([px(x), py(y), s.hints[i]]);
     });
   });
@@ -100,7 +100,7 @@ function drawChart(chart) {
     e.preventDefault();
     show(order[(order.indexOf(at) + step + (at < 0 && step < 0 ? 1 : 0) + order.length) % order.length]);
   });
-  const keys = !cells && (chart.series.length > 1 || chart.series[0].band) ? make("div", { class: "keysrow" }, chart.series.map((s, k) => make("span", {}, make("i", { style: `background:${INKS[k % INKS.length]}` }), s.name))) : null;
+  const keys = !cells && (chart.series.length > 1 || chart.series[0].band) ? make("div", { class: "keysrow" }, chart.series.map((s, k) => make("span", {}, make("i", { style: `background:${inkOf(k)}` }), s.name))) : null;
   return make("figure", {}, make("figcaption", {}, chart.title), keys, svg, hint);
 }
 
