@@ -271,6 +271,26 @@ fn text_says_the_answer_first_and_what_next() {
     assert!(text.starts_with("Arch: λ = 0.1") && text.lines().count() == 1, "{text}");
 }
 
+/// A terminal of 40 lines shows the whole answer, first line included; `--verbose` says the rest.
+#[test]
+fn an_answer_fits_one_screen() {
+    for (wanted, question) in [
+        (YES, &["limit", "running-bond-wall.json"][..]),
+        (YES, &["limit", "wall-with-openings.json"]),
+        (YES, &["tilt", "wall-with-two-openings.json", "--all", "16"]),
+        (YES, &["thrust", "semicircular-arch-thick.json"]),
+        (NO, &["assess", "semicircular-arch-thin.json"]),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("structures").join(question[1]);
+        let asked = [&[question[0], path.to_str().unwrap()], &question[2..], &["--law", "associative"]].concat();
+        let short = out(&expect(wanted, voussoir(&asked)));
+        let long = out(&expect(wanted, voussoir(&[&asked[..], &["--verbose"]].concat())));
+        assert!(short.lines().count() <= 40, "{} lines:\n{short}", short.lines().count());
+        assert!(long.lines().count() > short.lines().count() && !long.contains("--verbose for all"), "{long}");
+        assert_eq!(short.lines().next(), long.lines().next());
+    }
+}
+
 #[test]
 fn digits_beyond_the_bracket_are_not_shown() {
     let desk = Desk::new();
