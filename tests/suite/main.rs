@@ -18,6 +18,7 @@ mod grains;
 mod invariance;
 mod layering;
 mod meshes;
+mod pictures;
 mod published;
 mod readme;
 mod real;
