@@ -34,7 +34,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         to_the_end: args.to_the_end,
         every_step: question.report().is_some(),
     };
-    let mut film = question.report().map(|_| report::film(question.model.assembly.blocks.len()));
+    let mut film = question.report().map(|_| Film::fitting(question.model.assembly.blocks.len()));
     let mut failure = None;
     let mut keep = |frame: &_| match csv.as_mut().map(|csv| csv.frame(&question.model.assembly, frame)) {
         Some(Err(e)) => {
