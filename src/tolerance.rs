@@ -279,3 +279,7 @@ pub const SAME_ANSWER: f64 = 1e-8;
 /// A truncated distribution keeps at least this probability. Larger: tails that somebody asks for are refused. Smaller: quantiles are
 /// rounding of the distribution function.
 pub const TRUNCATION_KEEPS: f64 = 1e-9;
+
+/// Radii of gyration count as at least this × the block's greatest. Larger: turning a long beam about its axis is measured too coarsely.
+/// Smaller: rounding of the inertia of the thinnest needles (its square root is exact to 1e-8 of the greatest) measures their moments.
+pub const LEAST_GYRATION: f64 = 1e-7;

@@ -5,7 +5,7 @@ use super::{
     shape::{self, Frame},
 };
 use crate::{
-    assembly::{Block, Mend},
+    assembly::{Block, Gyration, Mend},
     error::{Finding, FindingCode, InputError, JsonPath, Step},
     generate,
     scene::{BlockSpec, Scene, suggest},
@@ -106,6 +106,7 @@ fn block(scene: &Scene, spec: &BlockSpec, place: &Place, mended: &mut Mended) ->
         material: spec.material.clone(),
         mass,
         centroid,
+        gyration: Gyration::new(&inertia, mass),
         inertia,
         solid: body.solid,
         size: body.size,
