@@ -35,7 +35,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         to_the_end: args.to_the_end,
         every_step: question.is_filmed(),
     };
-    let mut film = question.is_filmed().then(|| report::film(question.model.assembly.blocks.len()));
+    let mut film = question.is_filmed().then(|| Film::fitting(question.model.assembly.blocks.len()));
     let mut failure = None;
     let mut keep = |frame: &_| match csv.as_mut().map(|csv| csv.frame(&question.model.assembly, frame)) {
         Some(Err(e)) => {
