@@ -5,7 +5,7 @@ use super::{
     units::Units,
 };
 use crate::{
-    assembly::{Assembly, Block, Solid},
+    assembly::{Assembly, Block, JointLaw, Solid},
     error::InputError,
     interface::{ContactKind, Interfaces},
     scene::Friction,
@@ -144,6 +144,45 @@ pub(super) struct Frictions<'a> {
     given: HashMap<u32, f64>,
     /// Pairs of blocks whose contact is given by hand.
     apart: HashSet<(usize, usize)>,
+    rules: Table,
+}
+
+/// What rules for materials say, by two small numbers in place of four names: the engine asks for every pair in every step.
+struct Table {
+    /// By block: 0 where no rule names its material.
+    kinds: Vec<usize>,
+    /// Number of kinds.
+    count: usize,
+    /// By two kinds; empty where there are too many of them.
+    laws: Vec<Option<JointLaw>>,
+}
+
+/// More kinds than this are looked up by name.
+const KINDS: usize = 64;
+
+impl Table {
+    fn of(assembly: &Assembly) -> Self {
+        let rules = &assembly.joints;
+        let mut names: Vec<&String> = rules.by_material.iter().flat_map(|(pair, _)| pair).collect();
+        names.sort_unstable();
+        names.dedup();
+        let kind = |b: &Block| b.material.as_ref().and_then(|m| names.binary_search(&m).ok()).map_or(0, |k| k + 1);
+        let kinds: Vec<usize> = assembly.blocks.iter().map(kind).collect();
+        let count = names.len() + 1;
+        let law = |a: Option<&&String>, b: Option<&&String>| rules.of_materials(a.copied(), b.copied());
+        let name = |kind: usize| kind.checked_sub(1).and_then(|k| names.get(k));
+        let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
+        let laws = if count <= KINDS { pairs.map(|(a, b)| law(name(a), name(b))).collect() } else { Vec::new() };
+        Self { kinds, count, laws }
+    }
+
+    fn law(&self, a: usize, b: usize, assembly: &Assembly) -> Option<JointLaw> {
+        let rules = &assembly.joints;
+        if self.laws.is_empty() || !rules.by_blocks.is_empty() {
+            return rules.law(a, b, &assembly.blocks);
+        }
+        self.laws.get(self.kinds.get(a)? * self.count + self.kinds.get(b)?).copied().flatten()
+    }
 }
 
 /// What the simulation knows of a joint.
@@ -161,7 +200,7 @@ const UNLIMITED: f64 = 1e4;
 
 impl<'a> Frictions<'a> {
     pub fn new(assembly: &'a Assembly, interfaces: &Interfaces, units: &Units) -> Self {
-        let mut new = Self { assembly, length: units.length, known: HashMap::new(), given: HashMap::new(), apart: HashSet::new() };
+        let mut new = Self { assembly, length: units.length, known: HashMap::new(), given: HashMap::new(), apart: HashSet::new(), rules: Table::of(assembly) };
         for (index, face) in interfaces.list.iter().enumerate() {
             let pair = (face.a.min(face.b), face.a.max(face.b));
             let friction = coefficient(face.law.friction);
@@ -180,7 +219,7 @@ impl<'a> Frictions<'a> {
     /// for others it depends on how they meet.
     pub fn between(&self, a: usize, b: usize) -> Resistance {
         let pair = (a.min(b), a.max(b));
-        let rule = || self.assembly.joints.law(pair.0, pair.1, &self.assembly.blocks);
+        let rule = || self.rules.law(pair.0, pair.1, self.assembly);
         let met = || {
             rule().map_or(Resistance::default(), |law| Resistance {
                 friction: coefficient(law.friction),
