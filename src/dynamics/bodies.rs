@@ -103,6 +103,14 @@ fn body(block: &Block, units: &Units) -> Result<Body, InputError> {
             let reach = if off > 1e-9 * radius { off + radius } else { 0.0 };
             return Ok(body(vec![part(Form::Ball { at, radius: radius - skin }, skin)], 2.0 * radius, reach));
         }
+        Solid::Clump { balls, .. } => {
+            let placed: Vec<_> = balls.iter().map(|(at, radius)| (units.place(*at) - center, radius / units.length)).collect();
+            let least = placed.iter().map(|b| b.1).fold(f64::INFINITY, f64::min);
+            let skin = (SKIN * size).min(SKIN_OF_THICKNESS * least);
+            let reach = placed.iter().map(|(at, radius)| at.norm() + radius).fold(0.0, f64::max);
+            let shapes = placed.into_iter().map(|(at, radius)| part(Form::Ball { at, radius: radius - skin }, skin)).collect();
+            return Ok(body(shapes, 2.0 * least, reach));
+        }
         Solid::Polyhedron(polyhedron) => polyhedron,
     };
     let Some(cells) = pieces::pieces(polyhedron, block.centroid, units.length) else {
@@ -215,7 +223,7 @@ impl<'a> Frictions<'a> {
         new
     }
 
-    /// Between two blocks; nothing where no rule says any. Of blocks that meet on the way only spheres resist rolling:
+    /// Between two blocks; nothing where no rule says any. Of blocks that meet on the way only spheres and clumps resist rolling:
     /// for others it depends on how they meet.
     pub fn between(&self, a: usize, b: usize) -> Resistance {
         let pair = (a.min(b), a.max(b));
@@ -238,7 +246,7 @@ impl<'a> Frictions<'a> {
     }
 
     fn is_round(&self, block: usize) -> bool {
-        matches!(self.assembly.blocks.get(block).map(|b| &b.solid), Some(Solid::Sphere { .. }))
+        self.assembly.blocks.get(block).is_some_and(|b| b.solid.is_round())
     }
 
     /// Of an interface given by hand.

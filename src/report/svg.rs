@@ -73,6 +73,7 @@ impl View {
         match &block.solid {
             Solid::Polyhedron(p) => p.vertices.iter().for_each(|v| add(v, 0.0)),
             Solid::Sphere { center, radius } => add(center, *radius),
+            Solid::Clump { balls, .. } => balls.iter().for_each(|(c, r)| add(c, *r)),
         }
     }
 
@@ -128,10 +129,8 @@ fn blocks(svg: &mut String, model: &Model, view: &View) {
         let class = if block.support { "support" } else { "block" };
         put(svg, format_args!("<g class=\"{class}\"><title>{}</title>", escape(&block.id)));
         match &block.solid {
-            Solid::Sphere { center, radius } => {
-                let [x, y] = view.at(center);
-                put(svg, format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\"/>", radius * view.scale));
-            }
+            Solid::Sphere { center, radius } => circle(svg, view, center, *radius),
+            Solid::Clump { balls, .. } => balls.iter().for_each(|(c, r)| circle(svg, view, c, *r)),
             Solid::Polyhedron(p) => {
                 for facet in p.facets.iter().filter(|f| f.normal.dot(&view.eye) > 1e-6) {
                     for piece in &facet.pieces {
@@ -143,6 +142,11 @@ fn blocks(svg: &mut String, model: &Model, view: &View) {
         }
         svg.push_str("</g>\n");
     }
+}
+
+fn circle(svg: &mut String, view: &View, center: &Vector3<f64>, radius: f64) {
+    let [x, y] = view.at(center);
+    put(svg, format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\"/>", radius * view.scale));
 }
 
 /// Through every block from one centre of pressure to the other; where more than two joints press, to the centre of mass.
