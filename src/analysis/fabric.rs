@@ -13,13 +13,7 @@
 //!
 //! M. Satake, *Fabric tensor in granular materials*, IUTAM Symposium on Deformation and Failure of Granular Materials, Delft 1982.
 
-use crate::{
-    assembly::Assembly,
-    interface::Interfaces,
-    scene::Friction,
-    tolerance,
-    verdict::Forces,
-};
+use crate::{assembly::Assembly, interface::Interfaces, scene::Friction, tolerance, verdict::Forces};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use serde::{Deserialize, Serialize};
 

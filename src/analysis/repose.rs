@@ -185,7 +185,8 @@ fn lay(spec: &mut BlockSpec, block: &assembly::Block, center: Vector3<f64>, turn
     let before = spec.rotation_deg.as_ref().and_then(|r| Unit::try_new(Vector3::from(r.axis), 0.0).map(|axis| (axis, r.angle)));
     let before = before.map_or(UnitQuaternion::identity(), |(axis, angle)| UnitQuaternion::from_axis_angle(&axis, angle.to_radians()));
     spec.at = (center + turn * (Vector3::from(spec.at) - block.centroid)).into();
-    spec.rotation_deg = (turn * before).axis_angle().map(|(axis, angle)| Rotation { axis: axis.into_inner().into(), angle: angle.to_degrees() });
+    spec.rotation_deg =
+        (turn * before).axis_angle().map(|(axis, angle)| Rotation { axis: axis.into_inner().into(), angle: angle.to_degrees() });
 }
 
 /// The fit through the mean surface, and the fits along strips or sectors.

@@ -80,5 +80,7 @@ fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
         };
         *place = serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str()));
     }
-    serde_json::from_value(value).with_context(|| format!("`{name}` with these values is no protocol: drain, funnel, cylinder or tilt, with grain=sphere, clump or hull"))
+    serde_json::from_value(value).with_context(|| {
+        format!("`{name}` with these values is no protocol: drain, funnel, cylinder or tilt, with grain=sphere, clump or hull")
+    })
 }

@@ -60,9 +60,9 @@ pub(super) enum Form {
 const GIVEN_BALL: f64 = 0.02;
 const GIVEN_PLATE: f64 = 0.3;
 
-/// The bodies of a scene.
-pub(super) fn bodies(assembly: &Assembly, interfaces: &Interfaces, units: &Units) -> Result<Vec<Body>, InputError> {
-    let mut bodies = assembly.blocks.iter().map(|b| body(b, units)).collect::<Result<Vec<_>, _>>()?;
+/// The bodies of a scene; polyhedra are smaller by `skin` × their size.
+pub(super) fn bodies(assembly: &Assembly, interfaces: &Interfaces, units: &Units, skin: f64) -> Result<Vec<Body>, InputError> {
+    let mut bodies = assembly.blocks.iter().map(|b| body(b, units, skin)).collect::<Result<Vec<_>, _>>()?;
     for (index, face) in interfaces.list.iter().enumerate().filter(|(_, f)| f.kind == ContactKind::Given) {
         let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size) / units.length;
         let points: Vec<_> = face.points.iter().map(|p| units.place(*p)).collect();
@@ -82,7 +82,7 @@ pub(super) fn bodies(assembly: &Assembly, interfaces: &Interfaces, units: &Units
     Ok(bodies)
 }
 
-fn body(block: &Block, units: &Units) -> Result<Body, InputError> {
+fn body(block: &Block, units: &Units, skin: f64) -> Result<Body, InputError> {
     let center = units.place(block.centroid);
     let size = block.size / units.length;
     let body = |shapes, thickness, reach| Body {
@@ -129,7 +129,7 @@ fn body(block: &Block, units: &Units) -> Result<Body, InputError> {
         .map(|cell| {
             let own = cell.mesh().0;
             let thin = cell.faces.iter().map(|f| depth(&f.normal, &own)).fold(size, f64::min);
-            let skin = (SKIN * size).min(SKIN_OF_THICKNESS * thin);
+            let skin = (skin * size).min(SKIN_OF_THICKNESS * thin);
             if let Some((half, turn, at)) = pieces::as_box(cell) {
                 return part(Form::Cuboid { at, turn, half: half.map(|h| h - skin) }, skin);
             }
@@ -208,7 +208,14 @@ const UNLIMITED: f64 = 1e4;
 
 impl<'a> Frictions<'a> {
     pub fn new(assembly: &'a Assembly, interfaces: &Interfaces, units: &Units) -> Self {
-        let mut new = Self { assembly, length: units.length, known: HashMap::new(), given: HashMap::new(), apart: HashSet::new(), rules: Table::of(assembly) };
+        let mut new = Self {
+            assembly,
+            length: units.length,
+            known: HashMap::new(),
+            given: HashMap::new(),
+            apart: HashSet::new(),
+            rules: Table::of(assembly),
+        };
         for (index, face) in interfaces.list.iter().enumerate() {
             let pair = (face.a.min(face.b), face.a.max(face.b));
             let friction = coefficient(face.law.friction);

@@ -16,7 +16,7 @@ use crate::{
     assembly::Assembly,
     error::InputError,
     interface::Interfaces,
-    tolerance::{GRAIN_REST_ENERGY, GRAIN_REST_TIME},
+    tolerance::{GRAIN_REST_ENERGY, GRAIN_REST_TIME, GRAIN_SKIN},
 };
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
@@ -105,7 +105,7 @@ pub fn flow(
         return Err(refuse("without gravity nothing flows"));
     }
     let interfaces = Interfaces::default();
-    let bodies = bodies(assembly, &interfaces, &units)?;
+    let bodies = bodies(assembly, &interfaces, &units, GRAIN_SKIN)?;
     let frictions = Frictions::new(assembly, &interfaces, &units);
     let natural = (diameter / g).sqrt();
     let dt = natural / STEPS / units.time;

@@ -187,7 +187,11 @@ fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
         }
         ProtocolKind::Funnel => {}
     }
-    let mut scene = Scene { name: format!("{:?} of {} {}, seed {seed}", p.kind, p.grains, p.grain.plural()).to_lowercase(), blocks, ..Scene::default() };
+    let mut scene = Scene {
+        name: format!("{:?} of {} {}, seed {seed}", p.kind, p.grains, p.grain.plural()).to_lowercase(),
+        blocks,
+        ..Scene::default()
+    };
     scene.source = format!("voussoir repose --question repose, seed {seed}");
     for name in ["grain", "wall"] {
         scene.materials.insert(name.into(), Material { density: p.density });

@@ -13,6 +13,7 @@ mod determinism;
 mod dynamics;
 mod extreme;
 mod grains;
+mod granular;
 mod invariance;
 mod layering;
 mod published;
