@@ -441,8 +441,8 @@ pub struct Repose {
     pub common: Common,
     #[command(flatten)]
     pub pictures: Pictures,
-    /// Values of the protocol that differ from the defaults (--question repose): grains=2000 diameter=0.01 sizes=0.2 friction=0.5
-    /// wall_friction=0 rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
+    /// Values of the protocol that differ from the defaults (--question repose): grain=sphere (or clump, hull) elongation=1.5 (of clumps and
+    /// hulls) corners=16 (of hulls) grains=2000 diameter=0.01 (of spheres of the same volume) sizes=0.2 friction=0.5 wall_friction=0 rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
     /// `stability`: the greatest tilt of the packing SCENE as it lies; `repose`: the slope that a heap leaves behind which flowed, SCENE then
