@@ -530,6 +530,10 @@ pub struct Check {
     /// Verify the result against this scene, not the one inside it.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+    /// Print one JSON object and nothing else: of a result, what holds and what fails; of a scene, its blocks with their masses and loads, its
+    /// interfaces with contact points and frames, and the findings.
+    #[arg(long)]
+    pub json: bool,
 }
 
 fn finite(text: &str) -> Result<f64, String> {
