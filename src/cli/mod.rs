@@ -17,6 +17,7 @@ mod question;
 pub mod repose;
 pub mod schema;
 pub mod simulate;
+mod slurm;
 pub mod study;
 pub mod sweep;
 pub mod terminal;
