@@ -195,7 +195,7 @@ def main():
             text += [f"### {title[0].upper()}{title[1:]}", "", f"Reference λ = {truth:.13f} (forces outside their cones by {outside:.0e} block weights, multipliers by {wrong:.0e}); "
                      f"voussoir's certified bracket [{ends[0]:.12f}, {ends[1]:.12f}].", "", *markdown(rows, rows[0]), "",
                      "Verdict under dead load alone:", "", *markdown(decided, decided[0]), ""]
-            print("\n".join(text[-len(rows) - len(decided) - 10:]), flush=True)
+            print("\n".join(text[-len(rows) - len(decided) - 11:]), flush=True)
             with open(out / "table.csv", "w", newline="", encoding="utf-8") as file:
                 writer = csv.DictWriter(file, COLUMNS)
                 writer.writeheader()

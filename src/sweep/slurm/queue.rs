@@ -36,7 +36,7 @@ pub struct Task {
 pub enum State {
     /// It waits.
     Pending,
-    /// It runs, or is about to begin or end.
+    /// It runs, or is about to.
     Running,
     /// It has come to its end.
     Completed,
@@ -53,7 +53,8 @@ impl State {
     fn of(word: &str) -> Self {
         match word {
             "PENDING" | "REQUEUED" | "REQUEUE_HOLD" | "REQUEUE_FED" | "SPECIAL_EXIT" | "RESV_DEL_HOLD" => Self::Pending,
-            "COMPLETED" => Self::Completed,
+            // Its program has ended, or is being ended.
+            "COMPLETED" | "COMPLETING" => Self::Completed,
             "BOOT_FAIL" | "CANCELLED" | "DEADLINE" | "FAILED" | "NODE_FAIL" | "OUT_OF_MEMORY" | "PREEMPTED" | "REVOKED" | "TIMEOUT" => {
                 Self::Ended
             }
@@ -192,7 +193,7 @@ mod tests {
         assert!(partition(&all, Some("new")).unwrap_err().to_string().contains("main, old"));
         let states = read_states("1|RUNNING|None\n2|PENDING|Resources\n3|CANCELLED|None\n4|COMPLETING|None\nN/A|PENDING|x\n");
         assert_eq!(states.len(), 4);
-        assert!(states[&1].state.is_alive() && states[&2].state.is_alive() && states[&4].state.is_alive());
+        assert!(states[&1].state.is_alive() && states[&2].state.is_alive() && !states[&4].state.is_alive());
         assert_eq!((states[&3].state, states[&2].reason.as_str()), (State::Ended, "Resources"));
     }
 }

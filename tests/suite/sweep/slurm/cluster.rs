@@ -63,7 +63,8 @@ impl Cluster {
 
     /// What one of Slurm's commands prints.
     pub fn answer(&self, program: &str, args: &[&str]) -> String {
-        let output = Command::new(program).args(args).env("SLURM_CONF", &self.config).output().unwrap();
+        let output = Command::new(program).args(args).env("SLURM_CONF", &self.config).stdin(Stdio::null()).output().unwrap();
+        assert!(output.status.success(), "{program}: {}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8_lossy(&output.stdout).into_owned()
     }
 
@@ -99,7 +100,7 @@ impl Cluster {
 }
 
 fn quiet(command: &mut Command) -> bool {
-    command.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success())
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success())
 }
 
 impl Drop for Cluster {

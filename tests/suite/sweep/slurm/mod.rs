@@ -169,7 +169,7 @@ fn a_task_killed_again_and_again_loses_no_row_and_does_none_twice() {
 /// Whole rows in all files of a folder, those that are there twice counted twice.
 fn rows_of(folder: &Path) -> usize {
     let lines = |path: &Path| fs::read_to_string(path).unwrap().matches('\n').count().saturating_sub(1);
-    fs::read_dir(folder.join("rows")).unwrap().map(|e| lines(&e.unwrap().path())).sum()
+    fs::read_dir(folder.join("rows")).map_or(0, |files| files.map(|e| lines(&e.unwrap().path())).sum())
 }
 
 #[test]

@@ -1,12 +1,17 @@
 //! On a real Slurm: a node goes down, a task is cancelled, the terminal is lost; the file is that of one machine.
 
 use super::{
-    super::command::{desk, expect_in},
+    super::{
+        arch,
+        command::{desk, expect_in},
+    },
     cluster::Cluster,
     rows_of, untimed,
 };
+use serde_json::Value;
 use std::{
     fs,
+    io::Read,
     path::Path,
     process::{Child, Command, Stdio},
     thread::sleep,
@@ -30,11 +35,15 @@ fn until(what: &str, seconds: u64, mut enough: impl FnMut() -> bool) {
     }
 }
 
-/// Rows so far, and the seconds that all of it took.
+/// A sweep without faults, and one with all of them. Prints the seconds; says why where there is no Slurm.
 fn survives(rows: usize, tasks: usize) -> Result<(), String> {
     let cluster = Cluster::start()?;
     let folder = desk(rows);
     let at = folder.path();
+    // Rows of some 10 ms, so that there is a middle to be disturbed in.
+    let mut scene = arch();
+    scene["templates"][0]["arch"]["voussoirs"] = 100.into();
+    fs::write(at.join("scene.json"), scene.to_string()).unwrap();
     let start = Instant::now();
     expect_in(0, voussoir(at, &cluster, &["sweep", "plan.json", "-o", "alone.jsonl", "-q", "--threads", "4"]).output().unwrap());
     let alone = start.elapsed().as_secs_f64();
@@ -49,21 +58,32 @@ fn survives(rows: usize, tasks: usize) -> Result<(), String> {
     );
     assert_eq!(untimed(&at.join("out.jsonl")), untimed(&at.join("merged.jsonl")));
 
-    // Once more, and now nothing goes well.
+    // Once more, and now nothing goes well. The last rows are there a moment before their tasks have ended.
+    until("the tasks to end", 60, || cluster.answer("squeue", &["-h", "-t", "pending,running", "-o", "%K"]).trim().is_empty());
     let done = at.join("out.jsonl.slurm");
     let start = Instant::now();
     let mut watching: Child = voussoir(at, &cluster, &[&slurm[..], &["--restart"]].concat()).spawn().unwrap();
-    let first = |path: &Path| fs::read_to_string(path.join("job.json")).ok().and_then(|t| t.contains("\"jobs\":[2]").then_some(()));
-    until("the first rows", 60, || first(&done).is_some() && rows_of(&done) > rows / 10);
+    let mut job = String::new();
+    until("the first rows", 60, || {
+        if watching.try_wait().unwrap().is_some() {
+            let mut said = String::new();
+            watching.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+            panic!("it ended early: {said}");
+        }
+        let record: Option<Value> = fs::read_to_string(done.join("job.json")).ok().and_then(|t| serde_json::from_str(&t).ok());
+        job = record.map(|r| r["jobs"][0].to_string()).unwrap_or_default();
+        !job.is_empty() && rows_of(&done) > rows / 10
+    });
     watching.kill().unwrap();
     watching.wait().unwrap();
     let running = |node: &str| {
         let text = cluster.answer("squeue", &["-h", "-r", "-t", "running", "-o", "%K %N"]);
         text.lines().filter_map(|l| l.split_once(' ')).filter(|l| l.1 == node).map(|l| l.0.to_string()).collect::<Vec<_>>()
     };
+    eprintln!("{}", cluster.answer("squeue", &["-t", "all", "-r"]));
     until("tasks on both nodes", 60, || !running("n1").is_empty() && !running("n2").is_empty());
     let cancelled = running("n2")[0].clone();
-    assert!(cluster.slurm("scancel", &[&format!("2_{cancelled}")]));
+    assert!(cluster.slurm("scancel", &[&format!("{job}_{cancelled}")]));
     assert!(cluster.kill_node(1) > 0, "no task ran on the node");
     let attached = voussoir(at, &cluster, &["sweep", "--attach", "out.jsonl"]).spawn().unwrap();
     until("the node to be missed", 120, || cluster.answer("sinfo", &["-h", "-n", "n1", "-o", "%T"]).contains("down"));
@@ -82,7 +102,7 @@ fn survives(rows: usize, tasks: usize) -> Result<(), String> {
     });
     let half = expect_in(3, attached.wait_with_output().unwrap());
     let said = String::from_utf8_lossy(&half.stderr).into_owned();
-    assert!(said.contains(&format!("task {cancelled} of job 2 was stopped: CANCELLED")), "{said}");
+    assert!(said.contains(&format!("task {cancelled} of job {job} was stopped: CANCELLED")), "{said}");
     let again =
         fs::read_dir(done.join("rows")).unwrap().filter(|e| e.as_ref().unwrap().file_name().to_string_lossy().ends_with("-2.jsonl"));
     assert!(again.count() > 0, "no task was started again");
