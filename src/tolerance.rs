@@ -293,3 +293,10 @@ pub const TRUNCATION_KEEPS: f64 = 1e-9;
 /// Radii of gyration count as at least this × the block's greatest. Larger: turning a long beam about its axis is measured too coarsely.
 /// Smaller: rounding of the inertia of the thinnest needles (its square root is exact to 1e-8 of the greatest) measures their moments.
 pub const LEAST_GYRATION: f64 = 1e-7;
+
+/// What it takes to start a task on a cluster, in seconds: scheduling, the process, reading what is done. Larger: few large tasks, and
+/// processors wait for the last one. Smaller: clusters that take this long spend their time on starting (0.3 to 1.5 s on an idle one).
+pub const TASK_START: f64 = 1.0;
+
+/// The share of a task's work that starting it may cost. Larger: time is lost. Smaller: sweeps of minutes are not spread at all.
+pub const SCHEDULING_SHARE: f64 = 0.05;
