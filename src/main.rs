@@ -37,6 +37,8 @@ fn main() -> ExitCode {
         Verb::Check(a) => cli::check::run(&a, &terminal),
         Verb::Sweep(a) => cli::sweep::run(&a, &terminal),
         Verb::Schema(a) => cli::schema::run(&a),
+        Verb::Completions(a) => cli::completions::run(&a),
+        Verb::Man(a) => cli::man::run(&a),
     };
     match result {
         Ok(exit) => exit.into(),
