@@ -37,7 +37,7 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
         "vary": [{ "pointer": "/joints/default/friction", "name": HOSTILE, "values": [0.4, 0.5, 0.6] }], "sampling": { "grid": {} } });
     fs::write(at.join("plan.json"), plan.to_string()).unwrap();
     for args in [
-        &["assess", "scene.json", "--verbose"][..],
+        &["assess", "scene.json", "--verbose", "--report", "page.html", "--svg", "assess.svg"][..],
         &["assess", "scene.json", "--simulate"],
         &["limit", "scene.json", "--verbose", "--save", "result.json"],
         &["check", "result.json"],
@@ -47,13 +47,19 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
         &["thrust", "scene.json", "--direction", "1,0", "--svg", "thrust.svg"],
         &["critical", "scene.json", "--vary", "/joints/default/friction", "--between", "0.1", "0.9", "--scan", "3"],
         &["simulate", "scene.json", "--fast", "--csv", "way.csv"],
-        &["sweep", "plan.json", "-o", "rows.jsonl", "--csv", "table.csv", "--svg", "chart.svg"],
+        &["sweep", "plan.json", "-o", "rows.jsonl", "--csv", "table.csv", "--svg", "chart.svg", "--report", "rows.html"],
     ] {
         let (code, out, err) = run(at, args);
         assert!(matches!(code, Some(0 | 1)), "{args:?}: {code:?} {err}");
         assert!(plain(&out) && plain(&err), "{args:?} lets control characters through: {out:?} {err:?}");
     }
-    for drawing in ["thrust.svg", "chart.svg"] {
+    for page in ["page.html", "rows.html"] {
+        let text = fs::read_to_string(at.join(page)).unwrap();
+        // Neither as markup nor inside the page's own script, where `</script>` would end it.
+        assert!(!text.contains("<script>alert") && !text.contains("alert(1)</script>"), "{page} lets markup through");
+        assert!(text.contains("alert(1)") && !text.contains('\u{1b}'), "{page}");
+    }
+    for drawing in ["assess.svg", "thrust.svg", "chart.svg"] {
         let text = fs::read_to_string(at.join(drawing)).unwrap();
         assert!(!text.contains("<script") && plain(&text), "{drawing}");
         // Every `&` begins an entity and every quote in a text is one.
@@ -68,8 +74,20 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
     // Nothing was written elsewhere, nothing was run.
     let mut names: Vec<String> = fs::read_dir(at).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
     names.sort();
-    let wanted =
-        ["chart.svg", "contacts.csv", "plan.json", "result.json", "rows.jsonl", "scene.json", "table.csv", "thrust.svg", "way.csv"];
+    let wanted = [
+        "assess.svg",
+        "chart.svg",
+        "contacts.csv",
+        "page.html",
+        "plan.json",
+        "result.json",
+        "rows.html",
+        "rows.jsonl",
+        "scene.json",
+        "table.csv",
+        "thrust.svg",
+        "way.csv",
+    ];
     assert_eq!(names, wanted);
     assert!(!at.parent().unwrap().join("evil").exists());
 }
