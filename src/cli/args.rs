@@ -117,6 +117,7 @@ pub enum Verb {
     /// A result is verified from the scene inside it, or from --scene: forces are added up block by block, powers of the mechanism joint by
     /// joint, and every word of the answer is compared. Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing.
     /// Of a scene, near misses, overlaps, loose blocks and slips of units are listed. Exit code 0 if there is none, 1 otherwise.
+    /// Pictures show what is proved, or the scene.
     Check(Check),
     /// Ask a question of many scenes that differ in a few numbers.
     ///
@@ -606,6 +607,10 @@ pub struct Check {
     /// Verify the result against this scene, not the one inside it.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    #[command(flatten)]
+    pub tables: Tables,
 }
 
 fn finite(text: &str) -> Result<f64, String> {

@@ -1,17 +1,20 @@
 //! Looking for slips in a scene.
 
-use crate::cli::{exit::Exit, terminal::Terminal};
+use crate::cli::{exit::Exit, pictures::Pictures, terminal::Terminal};
 use voussoir::{
     analysis::prepare,
     error::{Finding, FindingCode},
-    report::text,
+    report::{text, view::View},
     scene::{Scene, Source},
 };
 
-pub fn run(scene: &Scene, source: &Source, terminal: &Terminal, layout: text::Layout) -> anyhow::Result<Exit> {
+pub fn run(scene: &Scene, source: &Source, pictures: &Pictures, terminal: &Terminal, layout: text::Layout) -> anyhow::Result<Exit> {
     let model = prepare(scene).map_err(|e| e.located(source))?;
     let (slips, notes): (Vec<Finding>, Vec<Finding>) = model.findings().cloned().partition(is_slip);
-    terminal.page(&text::inspection(&model, &slips, &notes, layout))?;
+    pictures.write(&View::bare(&model))?;
+    if !pictures.printed() {
+        terminal.page(&text::inspection(&model, &slips, &notes, layout))?;
+    }
     Ok(if slips.is_empty() { Exit::Yes } else { Exit::No })
 }
 
