@@ -28,6 +28,10 @@ pub struct Cli {
     /// Colour of text: auto (on a terminal, unless NO_COLOR is set), always or never.
     #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = Color::Auto, hide_possible_values = true)]
     pub color: Color,
+    /// Take no more memory than this, such as 500M or 8G: what would is refused, mostly before it begins. By default estimates have to fit
+    /// into the memory that is free, and nothing is counted.
+    #[arg(long, global = true, value_name = "SIZE", value_parser = bytes)]
+    pub max_memory: Option<u64>,
 }
 
 /// So many directions a tilt is asked for where nothing is said.
@@ -100,7 +104,7 @@ pub enum Verb {
     /// Error against run time, per method, on scenes with known answers.
     ///
     /// Each method runs over its knob (the engine's tolerance, facets of friction pyramids, number of verdicts, time steps); medians of
-    /// repeated runs. With --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
+    /// repeated runs. With --soak, random scenes whose proofs are held against each other; with --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
     /// answer is wrong.
     Study(Study),
     /// Make a scene from a template.
@@ -351,6 +355,16 @@ pub struct Study {
     /// The stiff and extreme grid instead.
     #[arg(long)]
     pub extreme: bool,
+    /// So many random scenes instead: verdicts held against their certificates, against omissions and, of a sample, against simulations.
+    /// Exit code 1 if any two exclude each other.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
+    pub soak: Option<u32>,
+    /// Which random scenes (--soak).
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
+    pub seed: u64,
+    /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak).
+    #[arg(long, value_name = "NUMBER", requires = "soak", conflicts_with_all = ["csv", "json"])]
+    pub only: Option<u32>,
     /// Write every run to this file, comma-separated.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
@@ -524,7 +538,7 @@ pub struct Common {
     /// the bound.
     #[arg(long, value_enum, value_name = "LAW", default_value_t = Law::Coulomb, hide_possible_values = true)]
     pub law: Law,
-    /// Stop trying after this many seconds.
+    /// Stop trying after this many seconds, counted from the start, and answer with the best bracket so far. Exit code 3 if that decides nothing.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     pub time_limit: Option<f64>,
     /// Lists in full, and every attempt at the program.
@@ -611,6 +625,19 @@ pub struct Check {
     pub pictures: Pictures,
     #[command(flatten)]
     pub tables: Tables,
+}
+
+/// Bytes, with a unit of 1024s: 500M, 8G, 8GiB.
+fn bytes(text: &str) -> Result<u64, String> {
+    let wrong = || "not a size such as 500M or 8G".to_string();
+    let text = text.trim().to_ascii_uppercase();
+    let text = text.strip_suffix('B').unwrap_or(&text);
+    let text = text.strip_suffix('I').unwrap_or(text);
+    let power = text.chars().last().and_then(|c| "KMGT".find(c)).map(|k| k + 1);
+    let number = if power.is_some() { &text[..text.len() - 1] } else { text };
+    let value: f64 = number.parse().map_err(|_| wrong())?;
+    let bytes = value * 1024f64.powi(power.unwrap_or(0) as i32);
+    if bytes >= 1.0 && bytes < 2f64.powi(63) { Ok(bytes as u64) } else { Err(wrong()) }
 }
 
 fn finite(text: &str) -> Result<f64, String> {

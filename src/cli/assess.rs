@@ -4,7 +4,6 @@ use super::{
     args::Assess,
     exit::Exit,
     question::{Question, verdict},
-    report,
     simulate::{threads, watch},
     terminal::Terminal,
 };
@@ -22,7 +21,7 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     question.worst(&args.worst, WorstOf::Assess)?;
     let assessment = assess(&question.model.assembly, &question.model.interfaces, &question.control());
     let doubt = matches!(assessment.verdict, Verdict::Conditional | Verdict::Undecided);
-    let mut film = question.report().map(|_| report::film(question.model.assembly.blocks.len()));
+    let mut film = question.report().map(|_| Film::fitting(question.model.assembly.blocks.len()));
     let settings = Settings { threads: threads(args.threads), every_step: film.is_some(), ..Settings::default() };
     let outcome = match args.simulate || (args.thorough && doubt) {
         true => Some(watch(&question, &settings, &mut film, &mut |_| ControlFlow::Continue(()))?),

@@ -25,7 +25,9 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let protocol = protocol(args)?;
     let save = args.common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     if args.csv.is_some() {
-        bail!("--csv writes the contact forces of a packing as it lies: keep the heaps with --heaps, and ask `voussoir repose` about one of them");
+        bail!(
+            "--csv writes the contact forces of a packing as it lies: keep the heaps with --heaps, and ask `voussoir repose` about one of them"
+        );
     }
     let pictures = Pictures::open(&args.pictures, None)?;
     let report = args.common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;

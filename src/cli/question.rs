@@ -2,6 +2,7 @@
 
 use super::{
     args::{self, Common},
+    deadline,
     exit::Exit,
     input,
     output::Sink,
@@ -15,6 +16,7 @@ use voussoir::{
     analysis::{Control, Model, Outcome, coulomb::Found, prepare},
     dynamics::Frame,
     error::{Finding, FindingCode, InputError},
+    limits,
     report::{
         ResultFile, json, page,
         result::Question as Kind,
@@ -34,6 +36,9 @@ pub struct Question<'a> {
     report: Option<Sink>,
     pictures: Pictures,
     source: Source,
+    /// When the work began, for the time limit.
+    begin: Instant,
+    /// When the scene was ready.
     start: Instant,
     /// The scene as read.
     pub scene: Scene,
@@ -63,12 +68,15 @@ impl<'a> Question<'a> {
         let save = common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let report = common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let start = Instant::now();
+        common.time_limit.into_iter().for_each(deadline::watch);
         let (scene, source) = input::scene(&common.scene)?;
         let scene = change(scene);
         let read = start.elapsed().as_secs_f64();
         let mut model = prepare(&scene).map_err(|e| e.located(&source))?;
         model.timings.read = read;
-        Ok(Self { common, save, report, pictures: Pictures::default(), source, start: Instant::now(), scene, model })
+        let points = model.contact_points() as u64;
+        limits::afford(&format!("solving for {points} contact points"), points, limits::PER_CONTACT_POINT)?;
+        Ok(Self { common, save, report, pictures: Pictures::default(), source, begin: start, start: Instant::now(), scene, model })
     }
 
     /// Opens the pictures that are wanted, and the tables.
@@ -118,7 +126,7 @@ impl<'a> Question<'a> {
 
     /// What is left of the time for programs.
     pub fn control(&self) -> Control {
-        let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.start.elapsed().as_secs_f64()).max(0.0));
+        let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.begin.elapsed().as_secs_f64()).max(0.0));
         Control { law: self.common.law.into(), keep_all: self.common.keep_all, seconds }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{args::Simulate, exit::Exit, progress::Bar, question::Question, report, terminal::Terminal};
 use anyhow::Context;
-use std::{fs::File, io::BufWriter, ops::ControlFlow};
+use std::{fs::File, ops::ControlFlow};
 use voussoir::{
     analysis::assess,
     dynamics::{Fate, Fidelity, Outcome, Settings, simulate},
@@ -23,7 +23,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     .filmed(&args.pictures)?;
     // Created before the work, and filled as it goes.
     let mut csv = match &args.csv {
-        Some(path) => Some(TrajectoryWriter::new(BufWriter::new(File::create(path).with_context(|| written(path))?))?),
+        Some(path) => Some(TrajectoryWriter::new(File::create(path).with_context(|| written(path))?).with_context(|| written(path))?),
         None => None,
     };
     let settings = Settings {
@@ -35,7 +35,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         to_the_end: args.to_the_end,
         every_step: question.is_filmed(),
     };
-    let mut film = question.is_filmed().then(|| report::film(question.model.assembly.blocks.len()));
+    let mut film = question.is_filmed().then(|| Film::fitting(question.model.assembly.blocks.len()));
     let mut failure = None;
     let mut keep = |frame: &_| match csv.as_mut().map(|csv| csv.frame(&question.model.assembly, frame)) {
         Some(Err(e)) => {

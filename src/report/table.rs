@@ -8,15 +8,33 @@ use std::error::Error;
 /// `b`, the area that touches (m²), μ, the system of forces, the force on `b` (N), its normal and tangential part, the distance of the centre
 /// of pressure from the middle (m), the shares of section and friction that are used, what the joint does in the mechanism.
 const JOINTS: [&str; 21] = [
-    "a", "b", "contact", "x", "y", "z", "nx", "ny", "nz", "area", "friction", "forces", "fx", "fy", "fz", "normal_force", "shear_force",
-    "eccentricity", "section_used", "friction_used", "motion",
+    "a",
+    "b",
+    "contact",
+    "x",
+    "y",
+    "z",
+    "nx",
+    "ny",
+    "nz",
+    "area",
+    "friction",
+    "forces",
+    "fx",
+    "fy",
+    "fz",
+    "normal_force",
+    "shear_force",
+    "eccentricity",
+    "section_used",
+    "friction_used",
+    "motion",
 ];
 
 /// Blocks: name, whether it is a support, material, mass (kg), centre of mass (m), the share that its joints use of section or friction in the
 /// first system of forces, and its rate in the first mechanism (velocity of the centre of mass and spin, on a scale on which the fastest corner
 /// moves at 1).
-const BLOCKS: [&str; 14] =
-    ["block", "support", "material", "mass", "x", "y", "z", "used", "vx", "vy", "vz", "wx", "wy", "wz"];
+const BLOCKS: [&str; 14] = ["block", "support", "material", "mass", "x", "y", "z", "used", "vx", "vy", "vz", "wx", "wy", "wz"];
 
 /// The table of joints.
 ///
@@ -31,7 +49,9 @@ pub fn joints(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
     };
     for (k, joint) in view.joints.iter().enumerate() {
         if view.states.is_empty() {
-            writer.write_record(head(view, joint, joint.center).into_iter().chain(std::iter::repeat_n(String::new(), 9)).chain([motion(k)]))?;
+            writer.write_record(
+                head(view, joint, joint.center).into_iter().chain(std::iter::repeat_n(String::new(), 9)).chain([motion(k)]),
+            )?;
         }
         for state in &view.states {
             let resultant = state.resultants[k].as_ref();

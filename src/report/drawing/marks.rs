@@ -39,7 +39,8 @@ fn outline(path: &mut String, joint: &Joint, at: impl Fn(&Vector3<f64>) -> [f64;
     if joint.normal.dot(&paper.axes.eye).abs() < 1e-3 {
         let along = joint.normal.cross(&paper.axes.eye);
         let way = |k: &usize| along.dot(&joint.points[*k]);
-        let ends = (0..points.len()).min_by(|a, b| way(a).total_cmp(&way(b))).zip((0..points.len()).max_by(|a, b| way(a).total_cmp(&way(b))));
+        let ends =
+            (0..points.len()).min_by(|a, b| way(a).total_cmp(&way(b))).zip((0..points.len()).max_by(|a, b| way(a).total_cmp(&way(b))));
         if let Some((a, b)) = ends {
             let _ = write!(path, "M{:.2} {:.2}L{:.2} {:.2}", points[a][0], points[a][1], points[b][0], points[b][1]);
         }
@@ -112,7 +113,13 @@ pub fn mechanism(sheet: &mut Sheet, view: &View, paper: &Projection, movement: &
             Kind::Crush => {
                 legend.add(Glyph::Dot("act"), "crushes");
                 let s = 0.9 * radius;
-                sheet.put(format_args!("<path class=\"slide act\" d=\"M{:.2} {:.2}l{s:.1} {s:.1}m0 {:.1}l{:.1} {s:.1}\"/>\n", x - 0.5 * s, y - 0.5 * s, -s, -s));
+                sheet.put(format_args!(
+                    "<path class=\"slide act\" d=\"M{:.2} {:.2}l{s:.1} {s:.1}m0 {:.1}l{:.1} {s:.1}\"/>\n",
+                    x - 0.5 * s,
+                    y - 0.5 * s,
+                    -s,
+                    -s
+                ));
                 continue;
             }
             Kind::Slide | Kind::Part => continue,

@@ -29,8 +29,7 @@ pub fn back_to_front(view: &View, bodies: &[Solid], paper: &Projection) -> Vec<u
     let axes = [eye, Vector3::x(), Vector3::y(), Vector3::z()];
     let boxes: Vec<[[f64; 2]; 4]> = bodies.iter().map(|b| axes.map(|a| b.reach(&a))).collect();
     let hulls: Vec<Hull> = bodies.iter().map(|b| Hull::new(b, paper)).collect();
-    let faces: HashMap<(usize, usize), Vector3<f64>> =
-        view.joints.iter().map(|f| ((f.a.min(f.b), f.a.max(f.b)), f.normal)).collect();
+    let faces: HashMap<(usize, usize), Vector3<f64>> = view.joints.iter().map(|f| ((f.a.min(f.b), f.a.max(f.b)), f.normal)).collect();
 
     let mut by_left: Vec<usize> = (0..bodies.len()).collect();
     by_left.sort_by(|&i, &j| frames[i][0][0].total_cmp(&frames[j][0][0]));

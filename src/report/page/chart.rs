@@ -99,7 +99,13 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
         for s in states {
             spent += s.seconds;
             line.points.push([spent, s.acceleration]);
-            line.hints.push(format!("after {}: {:.1e} g left, ε = {:.0e}, {} programs", seconds(spent), s.acceleration, s.epsilon, s.solves));
+            line.hints.push(format!(
+                "after {}: {:.1e} g left, ε = {:.0e}, {} programs",
+                seconds(spent),
+                s.acceleration,
+                s.epsilon,
+                s.solves
+            ));
         }
         series.push(line);
     }

@@ -69,11 +69,8 @@ impl Units {
 /// Everything that the page draws.
 pub(super) fn view(view: &View) -> Value {
     let greatest = view.states.iter().flat_map(|s| s.resultants.iter().flatten()).map(|r| r.force.norm()).fold(0.0, f64::max);
-    let units = Units {
-        length: view.size(),
-        middle: view.middle(),
-        force: if greatest.is_finite() && greatest > 0.0 { greatest } else { 1.0 },
-    };
+    let units =
+        Units { length: view.size(), middle: view.middle(), force: if greatest.is_finite() && greatest > 0.0 { greatest } else { 1.0 } };
     json!({
         "name": view.name,
         "length": units.length,
@@ -91,7 +88,7 @@ pub(super) fn view(view: &View) -> Value {
             "newton": view.loads.iter().flat_map(|l| l.force.iter().copied().collect::<Vec<_>>()).collect::<Vec<f64>>(),
             "live": wholes(view.loads.iter().map(|l| usize::from(l.live))),
         },
-        "states": view.states.iter().map(|s| state(s, &units)).collect::<Vec<_>>(),
+        "states": view.states.iter().map(|s| state(s, view.joints.len(), &units)).collect::<Vec<_>>(),
         "motions": view.motions.iter().map(|m| motion(m, &units)).collect::<Vec<_>>(),
         "film": film(view, &units),
     })
@@ -101,13 +98,16 @@ fn bodies(view: &View, units: &Units) -> Value {
     let mut materials: Vec<&str> = view.bodies.iter().filter_map(|b| b.material.as_deref()).collect();
     materials.sort_unstable();
     materials.dedup();
-    let material = |b: &crate::report::view::Body| {
-        b.material.as_deref().and_then(|m| materials.binary_search(&m).ok()).map_or(0, |k| k + 1)
-    };
-    let surfaces: Vec<_> = view.bodies.iter().map(|b| match &b.shape {
-        Shape::Surface(s) => Some(s),
-        Shape::Sphere(_) => None,
-    }).collect();
+    let material =
+        |b: &crate::report::view::Body| b.material.as_deref().and_then(|m| materials.binary_search(&m).ok()).map_or(0, |k| k + 1);
+    let surfaces: Vec<_> = view
+        .bodies
+        .iter()
+        .map(|b| match &b.shape {
+            Shape::Surface(s) => Some(s),
+            Shape::Sphere(_) => None,
+        })
+        .collect();
     let there = || surfaces.iter().flatten();
     json!({
         "ids": view.bodies.iter().map(|b| b.id.as_str()).collect::<Vec<_>>(),
@@ -179,25 +179,22 @@ fn law(law: &crate::assembly::JointLaw) -> String {
     words.join(", ")
 }
 
-fn state(s: &State, units: &Units) -> Value {
+/// Resultants are the sums of the forces, which the page adds up. A share of the section that is not a number: nothing presses.
+fn state(s: &State, joints: usize, units: &Units) -> Value {
     let of = |f: &dyn Fn(&crate::report::view::Resultant) -> f64| singles(s.resultants.iter().map(|r| r.as_ref().map_or(f64::NAN, f)));
     let at: Vec<Vector3<f64>> = s.resultants.iter().map(|r| r.map_or(units.middle, |r| r.at)).collect();
-    let force: Vec<Vector3<f64>> = s.resultants.iter().map(|r| r.map_or_else(Vector3::zeros, |r| r.force)).collect();
     json!({
         "name": s.name,
         "forces": units.forces(s.forces.iter().flatten()),
-        "force": units.forces(&force),
         "at": units.points(&at),
-        "normal": of(&|r| r.normal / units.force),
-        "shear": of(&|r| r.shear / units.force),
-        "eccentricity": of(&|r| r.eccentricity / units.length),
         "used": of(&|r| r.used),
         "mobilised": of(&|r| r.mobilised.unwrap_or(f64::NAN)),
         "kern": wholes(s.resultants.iter().map(|r| usize::from(r.is_some_and(|r| r.in_kern)))),
         "bodyUsed": singles(s.used.iter().map(|u| u.unwrap_or(f64::NAN))),
         "lineBody": wholes(s.line.iter().map(|l| l.body)),
-        "line": units.points(s.line.iter().flat_map(|l| [&l.from, &l.to])),
-        "lineForce": singles(s.line.iter().map(|l| l.force / units.force)),
+        "lineJoint": wholes(s.line.iter().map(|l| l.joint)),
+        // One more than the last joint: the centre of mass.
+        "lineOther": wholes(s.line.iter().map(|l| l.other.unwrap_or(joints))),
     })
 }
 
@@ -225,11 +222,8 @@ fn film(view: &View, units: &Units) -> Value {
     if view.film.len() < 2 {
         return Value::Null;
     }
-    let shift: Vec<Vector3<f64>> = view
-        .film
-        .iter()
-        .flat_map(|f| f.blocks.iter().zip(&view.bodies).map(|(p, b)| (p.center - b.center) / units.length))
-        .collect();
+    let shift: Vec<Vector3<f64>> =
+        view.film.iter().flat_map(|f| f.blocks.iter().zip(&view.bodies).map(|(p, b)| (p.center - b.center) / units.length)).collect();
     let turn: Vec<Vector3<f64>> = view.film.iter().flat_map(|f| f.blocks.iter().map(|p| p.turn.scaled_axis())).collect();
     let greatest = |list: &[Vector3<f64>]| list.iter().map(|v| v.amax()).filter(|m| m.is_finite()).fold(f64::MIN_POSITIVE.sqrt(), f64::max);
     let (far, wide) = (greatest(&shift), greatest(&turn));

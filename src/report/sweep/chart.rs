@@ -180,9 +180,8 @@ const STEPS: i32 = 40;
 fn heat(area: &Area, title: &str, labels: [&str; 3], xs: &[f64], ys: &[f64], values: &[f64]) -> Result<(), ChartError> {
     let cells = cells(xs, ys, values);
     let (low, high) = ends(cells.iter().map(|c| c.mean)).ok_or_else(|| ChartError("no row has a value".into()))?;
-    let hull = |of: fn(&Cell) -> [f64; 2]| {
-        cells.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], [a, b]| [l.min(a), h.max(b)])
-    };
+    let hull =
+        |of: fn(&Cell) -> [f64; 2]| cells.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], [a, b]| [l.min(a), h.max(b)]);
     let ([x0, x1], [y0, y1]) = (hull(|c| c.x), hull(|c| c.y));
     let area = area.titled(title, TITLE).map_err(refused)?;
     let (left, bar) = area.split_horizontally(SIZE.0 - BAR);

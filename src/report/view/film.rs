@@ -2,6 +2,11 @@
 
 use crate::dynamics::{Fidelity, Frame};
 
+/// Frames in a page at most. More: nothing is seen between them.
+const FRAMES: usize = 120;
+/// Poses of blocks in a page at most, of 12 bytes each.
+const POSES: usize = 150_000;
+
 /// Frames of the run that is under way.
 #[derive(Clone, Debug)]
 pub struct Film {
@@ -16,6 +21,11 @@ impl Film {
     /// So many frames at most; at least 2.
     pub fn new(most: usize) -> Self {
         Self { most: most.max(2), stride: 1, seen: 0, frames: Vec::new() }
+    }
+
+    /// A film of a scene of so many blocks for a page: at most 1.8 MB, and at least its end.
+    pub fn fitting(blocks: usize) -> Self {
+        Self::new((POSES / blocks.max(1)).min(FRAMES))
     }
 
     /// Looks at the next moment. Where there are too many frames, every other one is dropped; where a new run begins, all are.
@@ -66,7 +76,10 @@ mod tests {
             let times: Vec<f64> = film.frames().iter().map(|f| f.time).collect();
             assert!(times[0] == 0.0 && times.len() <= 8 && times.len() >= count.min(4), "{count}: {times:?}");
             let apart = times.windows(2).map(|w| w[1] - w[0]);
-            assert!(apart.clone().all(|d| d == times[1]) && (count as f64 - 1.0 - times[times.len() - 1]) < apart.last().unwrap_or(1.0), "{times:?}");
+            assert!(
+                apart.clone().all(|d| d == times[1]) && (count as f64 - 1.0 - times[times.len() - 1]) < apart.last().unwrap_or(1.0),
+                "{times:?}"
+            );
         }
     }
 }

@@ -15,13 +15,7 @@ pub use state::{Part, Resultant, Segment, State};
 pub use surface::{Shape, Surface};
 
 use super::result::{Question, ResultFile};
-use crate::{
-    analysis::Model,
-    assembly::JointLaw,
-    dynamics::Frame,
-    interface::ContactKind,
-    verdict::section::centroid,
-};
+use crate::{analysis::Model, assembly::JointLaw, dynamics::Frame, interface::ContactKind, verdict::section::centroid};
 use nalgebra::Vector3;
 
 /// A certificate that does not fit the scene it is shown with.

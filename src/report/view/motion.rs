@@ -126,7 +126,13 @@ mod tests {
     use super::*;
 
     fn motion(velocity: [f64; 3], spin: [f64; 3]) -> Motion {
-        Motion { part: Part::Answer, name: String::new(), rates: vec![Rate { velocity: velocity.into(), spin: spin.into() }], reach: 1.0, marks: Vec::new() }
+        Motion {
+            part: Part::Answer,
+            name: String::new(),
+            rates: vec![Rate { velocity: velocity.into(), spin: spin.into() }],
+            reach: 1.0,
+            marks: Vec::new(),
+        }
     }
 
     /// Pivoting about a corner, the corner stays where it is, however far; the start is the rate.

@@ -89,9 +89,13 @@ impl Resultant {
 pub struct Segment {
     /// Index of the block.
     pub body: usize,
-    /// From here, m,
+    /// From the centre of pressure of this joint
+    pub joint: usize,
+    /// to that of this one, or to the centre of mass.
+    pub other: Option<usize>,
+    /// Where it begins, m.
     pub from: Vector3<f64>,
-    /// to here.
+    /// Where it ends, m.
     pub to: Vector3<f64>,
     /// The force that passes, N.
     pub force: f64,
@@ -129,14 +133,15 @@ impl State {
     }
 }
 
-fn pressed<'a>(model: &'a Model, resultants: &'a [Option<Resultant>]) -> impl Iterator<Item = (usize, &'a Resultant)> {
-    let ends = model.interfaces.list.iter().zip(resultants).filter_map(|(f, r)| Some(([f.a, f.b], r.as_ref()?)));
-    ends.flat_map(|(ends, r)| ends.into_iter().map(move |i| (i, r)))
+/// Block, joint and resultant wherever one presses on the other.
+fn pressed<'a>(model: &'a Model, resultants: &'a [Option<Resultant>]) -> impl Iterator<Item = (usize, usize, &'a Resultant)> {
+    let there = resultants.iter().enumerate().filter_map(|(k, r)| Some((k, r.as_ref()?)));
+    there.flat_map(|(k, r)| [model.interfaces.list[k].a, model.interfaces.list[k].b].into_iter().map(move |i| (i, k, r)))
 }
 
 fn used(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Option<f64>> {
     let mut used: Vec<Option<f64>> = vec![None; model.assembly.blocks.len()];
-    for (i, r) in pressed(model, resultants) {
+    for (i, _, r) in pressed(model, resultants) {
         used[i] = Some(used[i].unwrap_or(0.0).max(r.share()));
     }
     used
@@ -144,18 +149,21 @@ fn used(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Option<f64>> {
 
 /// Through every block from one centre of pressure to the other; where more or fewer than two joints press, to the centre of mass.
 fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
-    let mut joints: Vec<Vec<(Vector3<f64>, f64)>> = vec![Vec::new(); model.assembly.blocks.len()];
-    for (i, r) in pressed(model, resultants) {
-        joints[i].push((r.at, r.force.norm()));
+    let mut joints: Vec<Vec<(usize, &Resultant)>> = vec![Vec::new(); model.assembly.blocks.len()];
+    for (body, joint, r) in pressed(model, resultants) {
+        joints[body].push((joint, r));
     }
     let mut line = Vec::new();
-    for i in model.assembly.free() {
-        match joints[i][..] {
-            [(from, f), (to, g)] => line.push(Segment { body: i, from, to, force: 0.5 * (f + g) }),
-            _ => {
-                let to = model.assembly.blocks[i].centroid;
-                line.extend(joints[i].iter().map(|&(from, force)| Segment { body: i, from, to, force }));
+    for body in model.assembly.free() {
+        match joints[body][..] {
+            [(joint, r), (other, s)] => {
+                let force = 0.5 * (r.force.norm() + s.force.norm());
+                line.push(Segment { body, joint, other: Some(other), from: r.at, to: s.at, force });
             }
+            _ => line.extend(joints[body].iter().map(|&(joint, r)| {
+                let to = model.assembly.blocks[body].centroid;
+                Segment { body, joint, other: None, from: r.at, to, force: r.force.norm() }
+            })),
         }
     }
     line
@@ -185,7 +193,11 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String>
         list.push((Part::Answer, name, &file.certificate.forces));
     }
     if let Some(base) = &file.certificate.base {
-        let name = if file.answer.verdict == Some(Verdict::Conditional) { "forces without a pre-stress" } else { "forces that balance the dead load" };
+        let name = if file.answer.verdict == Some(Verdict::Conditional) {
+            "forces without a pre-stress"
+        } else {
+            "forces that balance the dead load"
+        };
         list.push((Part::Base, name.into(), base));
     }
     // Where nothing slides they are the same.

@@ -73,7 +73,8 @@ impl Mesh {
         for (i, body) in view.bodies.iter().enumerate() {
             let part = if body.support { Part::Support } else { Part::Block };
             let first = self.points.len() as u32;
-            let mut face = |points: Vec<u32>| self.polys.push(Cell { part, block: Some(i), other: None, joint: None, segment: None, points });
+            let mut face =
+                |points: Vec<u32>| self.polys.push(Cell { part, block: Some(i), other: None, joint: None, segment: None, points });
             match &body.shape {
                 Shape::Surface(s) => {
                     s.pieces.iter().for_each(|piece| face(piece.iter().map(|v| first + v).collect()));

@@ -165,4 +165,3 @@ fn cell_data(xml: &mut Xml, view: &View, mesh: &Mesh, statics: bool) {
 fn named(what: &str, name: &str) -> String {
     format!("{what} ({name})")
 }
-

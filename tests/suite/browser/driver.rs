@@ -86,7 +86,8 @@ impl Browser {
             answer.extend_from_slice(&part[..read]);
             let text = String::from_utf8_lossy(&answer);
             if let Some((head, rest)) = text.split_once("\r\n\r\n") {
-                let length = head.lines().find_map(|l| l.to_ascii_lowercase().strip_prefix("content-length:")?.trim().parse::<usize>().ok());
+                let length =
+                    head.lines().find_map(|l| l.to_ascii_lowercase().strip_prefix("content-length:")?.trim().parse::<usize>().ok());
                 if length.is_some_and(|n| rest.len() >= n) || read == 0 {
                     let value: Value = serde_json::from_str(rest).unwrap_or_else(|e| panic!("{path}: {e}: {rest}"));
                     let value = value["value"].clone();
@@ -152,7 +153,9 @@ impl Browser {
         let list = self.post("/se/log", json!({ "type": "browser" }));
         let bad = |m: &&Value| matches!(m["level"].as_str(), Some("SEVERE" | "WARNING"));
         // Chromium complains of its own software drawing.
-        let own = |m: &&Value| !m["message"].as_str().is_some_and(|t| t.contains("GPU stall") || t.contains("swiftshader") || t.contains("SwiftShader"));
+        let own = |m: &&Value| {
+            !m["message"].as_str().is_some_and(|t| t.contains("GPU stall") || t.contains("swiftshader") || t.contains("SwiftShader"))
+        };
         list.as_array().into_iter().flatten().filter(bad).filter(own).map(|m| m["message"].to_string()).collect()
     }
 

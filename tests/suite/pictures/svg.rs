@@ -142,9 +142,14 @@ fn nothing_hides_what_is_in_front(name: &str, m: &Model, view: &View, eye: [f64;
 #[test]
 fn blocks_in_front_are_drawn_last() {
     let dome = template(0.7, json!({ "dome": { "radius": 2.0, "thickness": 0.3, "rings": 4, "segments": 12 } }), json!({}));
-    let vault = template(0.7, json!({ "barrel": { "radius": 1.0, "thickness": 0.2, "depth": 2.0, "voussoirs": 9, "courses": 4 } }), json!({}));
+    let vault =
+        template(0.7, json!({ "barrel": { "radius": 1.0, "thickness": 0.2, "depth": 2.0, "voussoirs": 9, "courses": 4 } }), json!({}));
     // The centre of the slab is nearer to the eye than the block at its far end.
-    let slab = scene(0.7, json!([ground(), cuboid("far", [0.5, 0.5, 0.5], [0.0, 19.0, 0.0]), cuboid("top", [0.2, 0.2, 0.2], [0.0, 19.0, 0.5])]), json!({}));
+    let slab = scene(
+        0.7,
+        json!([ground(), cuboid("far", [0.5, 0.5, 0.5], [0.0, 19.0, 0.0]), cuboid("top", [0.2, 0.2, 0.2], [0.0, 19.0, 0.5])]),
+        json!({}),
+    );
     for (name, scene) in [("dome", dome), ("vault", vault), ("slab", slab)] {
         let m = model(&scene);
         for eye in [[0.5, -0.75, 0.45], [1.0, 1.0, 1.0], [-1.0, 0.2, 0.1], [0.3, 0.1, -1.0]] {

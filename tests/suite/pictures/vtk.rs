@@ -8,7 +8,11 @@ use std::{ops::ControlFlow, process::Command};
 use voussoir::{
     analysis::Model,
     dynamics::{Fidelity, Settings, simulate},
-    report::{ResultFile, view::{Film, View}, vtk::{collection, moment, vtp}},
+    report::{
+        ResultFile,
+        view::{Film, View},
+        vtk::{collection, moment, vtp},
+    },
 };
 
 struct File<'a>(Document<'a>);
@@ -21,7 +25,8 @@ impl File<'_> {
     /// The numbers of an array whose name begins so, below an element.
     fn array(&self, below: &'static str, name: &str) -> Vec<f64> {
         let parent = all(self.0.root_element(), below).next().unwrap();
-        let array = all(parent, "DataArray").find(|a| a.attribute("Name").unwrap().starts_with(name)).unwrap_or_else(|| panic!("no {name}"));
+        let array =
+            all(parent, "DataArray").find(|a| a.attribute("Name").unwrap().starts_with(name)).unwrap_or_else(|| panic!("no {name}"));
         array.text().unwrap().split_whitespace().map(|w| w.parse().unwrap()).collect()
     }
 

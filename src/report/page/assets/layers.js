@@ -14,14 +14,15 @@ const LONGEST = 0.16, THICK = 0.0042;
 // Rods and arrows as [from, to, radius, colour], dots as [at, radius, colour].
 function strokes() {
   const rods = [], arrows = [], dots = [], on = (name) => state.layers.has(name), forces = forcesNow();
-  const many = Math.max(1, Math.cbrt(JOINTS / 120)), r = THICK / Math.sqrt(many);
+  const many = Math.max(1, Math.cbrt(JOINTS / 120)), r = THICK / Math.max(1, JOINTS / 60) ** 0.3;
   if (forces && on("line")) {
     const ink = rgb("--line");
     let most = 1e-30;
     for (const f of forces.lineForce) most = Math.max(most, f);
     for (let k = 0; k < forces.lineBody.length; k++) {
       const i = forces.lineBody[k], thick = 0.25 + 1.1 * Math.sqrt(forces.lineForce[k] / most);
-      rods.push([moved(i, at3(forces.line, 2 * k)), moved(i, at3(forces.line, 2 * k + 1)), r * thick, ink]);
+      const other = forces.lineOther[k], end = other < JOINTS ? at3(forces.at, other) : at3(bodies.center, i);
+      rods.push([moved(i, at3(forces.at, forces.lineJoint[k])), moved(i, end), r * thick, ink]);
     }
   }
   if (forces && on("resultants")) for (let k = 0; k < JOINTS; k++) {
@@ -42,6 +43,10 @@ function strokes() {
       const live = loads.live[k], at = moved(loads.body[k], at3(loads.at, k)), f = mul(at3(loads.newton, k), (0.9 * LONGEST) / many / most[live]);
       if (norm(f) > 2e-4) arrows.push([sub(at, f), at, r, rgb(live ? "--live" : "--ink")]);
     }
+  }
+  if (state.picked && state.picked.body !== undefined) {
+    const i = state.picked.body, corner = (k) => moved(i, at3(bodies.corners, bodies.cornerStart[i] + bodies.edges[k]));
+    for (let k = bodies.edgeStart[i]; k < bodies.edgeStart[i + 1]; k += 2) rods.push([corner(k), corner(k + 1), 0.0016, rgb("--pick")]);
   }
   if (on("marks") && state.motion >= 0) {
     const motion = view.motions[state.motion];

@@ -6,6 +6,20 @@ view.states.forEach(unpack);
 view.motions.forEach(unpack);
 if (view.film) unpack(view.film);
 const COUNT = bodies.ids.length, JOINTS = joints.a.length;
+// Resultants of each system of forces, and what the line of thrust carries.
+for (const s of view.states) {
+  for (const [key, size] of [["force", 3], ["normal", 1], ["shear", 1], ["eccentricity", 1]]) s[key] = new Float32Array(size * JOINTS);
+  for (let k = 0; k < JOINTS; k++) {
+    let f = [0, 0, 0];
+    for (let p = joints.pointStart[k]; p < joints.pointStart[k + 1]; p++) f = add(f, at3(s.forces, p));
+    const n = at3(joints.normal, k), fn = dot(f, n), there = !Number.isNaN(s.used[k]);
+    s.force.set(f, 3 * k);
+    s.normal[k] = there ? fn : NaN;
+    s.shear[k] = there ? norm(sub(f, mul(n, fn))) : NaN;
+    s.eccentricity[k] = norm(sub(at3(s.at, k), at3(joints.center, k)));
+  }
+  s.lineForce = Float32Array.from(s.lineJoint, (k, m) => { const f = norm(at3(s.force, k)), o = s.lineOther[m]; return o < JOINTS ? 0.5 * (f + norm(at3(s.force, o))) : f; });
+}
 const meters = (v) => withUnit(v * view.length, "m");
 const newtons = (v) => withUnit(v * view.force, "N");
 

@@ -36,7 +36,9 @@ function pick(picked) {
     if (el("kind").value !== kind) { el("kind").value = kind; el("find").value = ""; fillList(); }
     if (![...el("list").options].some((o) => Number(o.value) === index) && el("find").value) { el("find").value = ""; fillList(); }
   }
-  el("list").value = String(index);
+  const list = el("list");
+  list.value = String(index);
+  if (picked && list.options.length) list.scrollTop = (list.selectedIndex / list.options.length) * list.scrollHeight - list.clientHeight / 2;
   redraw(true);
 }
 
