@@ -1,19 +1,26 @@
 //! Looking for slips in a scene.
 
-use crate::cli::{exit::Exit, pictures::Pictures, terminal::Terminal};
+use crate::cli::{
+    args::Check,
+    exit::Exit,
+    pictures::Pictures,
+    terminal::{self, Terminal},
+};
 use voussoir::{
     analysis::prepare,
     error::{Finding, FindingCode},
-    report::{text, view::View},
+    report::{self, Inspection, text, view::View},
     scene::{Scene, Source},
 };
 
-pub fn run(scene: &Scene, source: &Source, pictures: &Pictures, terminal: &Terminal, layout: text::Layout) -> anyhow::Result<Exit> {
+pub fn run(scene: &Scene, source: &Source, args: &Check, pictures: &Pictures, terminal: &Terminal) -> anyhow::Result<Exit> {
     let model = prepare(scene).map_err(|e| e.located(source))?;
     let (slips, notes): (Vec<Finding>, Vec<Finding>) = model.findings().cloned().partition(is_slip);
     pictures.write(&View::bare(&model))?;
-    if !pictures.printed() {
-        terminal.page(&text::inspection(&model, &slips, &notes, layout))?;
+    if args.json {
+        terminal::print(&report::json::pretty(&Inspection::new(&model))?)?;
+    } else if !pictures.printed() {
+        terminal.page(&text::inspection(&model, &slips, &notes, terminal.layout(&args.file)))?;
     }
     Ok(if slips.is_empty() { Exit::Yes } else { Exit::No })
 }
