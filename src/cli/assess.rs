@@ -17,7 +17,7 @@ use voussoir::{
 };
 
 pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let mut question = Question::open(&args.common)?;
+    let mut question = Question::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     question.worst(&args.worst, WorstOf::Assess)?;
     let assessment = assess(&question.model.assembly, &question.model.interfaces, &question.control());
     let doubt = matches!(assessment.verdict, Verdict::Conditional | Verdict::Undecided);

@@ -1,6 +1,6 @@
 //! `voussoir repose --question repose`: heaps that flow and come to rest.
 
-use super::{args::Repose, exit::Exit, output::Sink, report, simulate::threads, terminal, terminal::Terminal};
+use super::{args::Repose, exit::Exit, output::Sink, pictures::Pictures, report, simulate::threads, terminal, terminal::Terminal};
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::prelude::*;
@@ -24,6 +24,12 @@ use voussoir::{
 pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let protocol = protocol(args)?;
     let save = args.common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+    if args.csv.is_some() {
+        bail!(
+            "--csv writes the contact forces of a packing as it lies: keep the heaps with --heaps, and ask `voussoir repose` about one of them"
+        );
+    }
+    let pictures = Pictures::open(&args.pictures, None)?;
     let report = args.common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let outputs: Vec<Option<Sink>> = (0..u64::from(args.seeds))
         .map(|k| {
@@ -51,8 +57,8 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         let control = Control { law: Law::Associative, keep_all: args.common.keep_all, seconds: left().max(0.0) };
         let margin = (heap.rested && !args.skip_margin).then(|| margin(&heap, &control)).transpose()?;
-        // The page shows the first heap.
-        let view = (k == 0 && report.is_some()).then(|| picture(&heap, margin.as_ref())).transpose()?;
+        // Page and pictures show the first heap.
+        let view = (k == 0 && (report.is_some() || pictures.wanted())).then(|| picture(&heap, margin.as_ref())).transpose()?;
         Ok((HeapResult::new(&heap, margin.as_ref()), view))
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads(args.threads)).build().context("no threads")?;
@@ -65,13 +71,16 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         save.write(&text)?;
     }
     let layout = terminal.layout(&args.common.scene);
+    if let Some(view) = views.iter().flatten().next() {
+        pictures.write(view)?;
+    }
     if let (Some(report), Some(view)) = (report, views.iter().flatten().next()) {
         let words = text::heaps(&file, report::EVERYTHING, report::layout(layout));
         report.write(&page::page(&words, view, page::heaps(&file).as_slice())?)?;
     }
     if args.common.json {
         terminal::print(&text)?;
-    } else if !report::is_printed(&args.common.report) {
+    } else if !(report::is_printed(&args.common.report) || pictures.printed()) {
         let options = Options { verbose: args.common.verbose, brief: args.common.quiet };
         terminal.page(&text::heaps(&file, options, layout))?;
     }

@@ -9,7 +9,7 @@ use super::{
     terminal::Terminal,
 };
 use anyhow::Context;
-use std::{fs::File, io::BufWriter, ops::ControlFlow};
+use std::{fs::File, ops::ControlFlow};
 use voussoir::{
     analysis::assess,
     dynamics::{Fate, Fidelity, Outcome, Settings, simulate},
@@ -26,10 +26,11 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
             scene.loads = scene.loads.fixed(args.load_factor);
         }
         scene
-    })?;
+    })?
+    .filmed(&args.pictures)?;
     // Created before the work, and filled as it goes.
     let mut csv = match &args.csv {
-        Some(path) => Some(TrajectoryWriter::new(BufWriter::new(File::create(path).with_context(|| written(path))?))?),
+        Some(path) => Some(TrajectoryWriter::new(File::create(path).with_context(|| written(path))?).with_context(|| written(path))?),
         None => None,
     };
     let settings = Settings {
@@ -39,9 +40,9 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         frames: args.frames.map_or(if csv.is_some() { FRAMES } else { 0 }, |n| n as usize),
         keep_frames: args.frames.is_some(),
         to_the_end: args.to_the_end,
-        every_step: question.report().is_some(),
+        every_step: question.is_filmed(),
     };
-    let mut film = question.report().map(|_| Film::fitting(question.model.assembly.blocks.len()));
+    let mut film = question.is_filmed().then(|| Film::fitting(question.model.assembly.blocks.len()));
     let mut failure = None;
     let mut keep = |frame: &_| match csv.as_mut().map(|csv| csv.frame(&question.model.assembly, frame)) {
         Some(Err(e)) => {

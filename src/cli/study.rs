@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{io::IsTerminal, path::Path};
 use voussoir::{
     report::{json, page, study as report},
-    study::{self, Known, extreme},
+    study::{self, Known, extreme, soak},
 };
 
 pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -44,6 +44,24 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
             terminal.page(&report::extreme_text(&found, args.verbose, layout))?;
         }
         return Ok(if extreme::count(&found, None).wrong == 0 { Exit::Yes } else { Exit::No });
+    }
+    if let Some(index) = args.only {
+        terminal::print(&json::pretty(&soak::scene(args.seed, index as usize)?.0)?)?;
+        return Ok(Exit::Yes);
+    }
+    if let Some(count) = args.soak {
+        bar.set_length(count.into());
+        let list = soak::run(args.seed, count as usize, |_| bar.inc(1)).context("no threads")?;
+        bar.finish_and_clear();
+        if let Some(csv) = csv {
+            csv.write(&report::soak_csv(&list)?)?;
+        }
+        if args.json {
+            terminal::print(&json::pretty(&list)?)?;
+        } else {
+            terminal.page(&report::soak_text(&list, args.seed, args.verbose, layout))?;
+        }
+        return Ok(if list.iter().any(soak::Soaked::is_wrong) { Exit::No } else { Exit::Yes });
     }
     let scenes = chosen(&args.scenes)?;
     if args.omissions {

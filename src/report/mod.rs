@@ -2,6 +2,7 @@
 
 pub mod contacts;
 pub mod critical;
+pub mod drawing;
 pub mod heaps;
 pub mod json;
 pub mod packing;
@@ -10,13 +11,14 @@ pub mod read;
 pub mod result;
 pub mod simulation;
 pub mod study;
-pub mod svg;
 pub mod sweep;
+pub mod table;
 pub mod text;
 pub mod thrust;
 pub mod trajectory;
 pub mod verify;
 pub mod view;
+pub mod vtk;
 pub mod work;
 
 pub use packing::PackingFile;

@@ -13,10 +13,14 @@ mod critical;
 mod determinism;
 mod dynamics;
 mod extreme;
+#[cfg(target_os = "linux")]
+mod faults;
 mod grains;
 mod invariance;
 mod layering;
+mod meshes;
 mod page;
+mod pictures;
 mod published;
 mod readme;
 mod real;

@@ -11,7 +11,7 @@ mod surface;
 
 pub use film::Film;
 pub use motion::{Mark, Motion, Pose};
-pub use state::{Resultant, Segment, State};
+pub use state::{Part, Resultant, Segment, State};
 pub use surface::{Shape, Surface};
 
 use super::{
@@ -35,6 +35,8 @@ pub struct View {
     pub up: Vector3<f64>,
     /// What is seen, where that is not the scene as it is: tipped, or with another number in it. May be empty.
     pub caption: String,
+    /// Unit vector against gravity as the scene has it.
+    pub ground: Vector3<f64>,
     /// Unit vector across `up` from which one looks: across the greater extent.
     pub front: Vector3<f64>,
     /// The box to look at: that of the free blocks and of what supports them nearby, m.
@@ -157,6 +159,7 @@ impl View {
             name: assembly.name.clone(),
             up,
             caption: String::new(),
+            ground: up,
             front: front(up, high - low),
             low,
             high,

@@ -7,9 +7,9 @@
 //!
 //! R. S. Ball, *A Treatise on the Theory of Screws*, Cambridge 1900.
 
-use super::Body;
+use super::{Body, Part};
 use crate::{
-    analysis::Model,
+    analysis::{Model, coulomb::Found},
     report::{
         result::{Certificate, ResultFile},
         view::Shape,
@@ -26,6 +26,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 /// A mechanism.
 #[derive(Clone, Debug)]
 pub struct Motion {
+    /// What it is to the answer.
+    pub part: Part,
     /// What it is, in a few words.
     pub name: String,
     /// The rate of each block (arbitrary common scale).
@@ -57,14 +59,14 @@ pub struct Pose {
 }
 
 impl Motion {
-    fn new(model: &Model, name: &str, rates: Vec<Rate>, bodies: &[Body]) -> Option<Self> {
+    fn new(model: &Model, part: Part, name: &str, rates: Vec<Rate>, bodies: &[Body]) -> Option<Self> {
         let reach = bodies.iter().zip(&rates).map(|(b, r)| speed(b, r)).fold(0.0, f64::max);
         if !(reach.is_finite() && reach > 0.0) {
             return None;
         }
         let read = mechanism::read(&model.assembly, &model.interfaces, &rates);
         let marks = read.joints.iter().map(|j| Mark { joint: j.interface, kind: j.motion, at: j.at }).collect();
-        Some(Self { name: name.into(), rates, reach, marks })
+        Some(Self { part, name: name.into(), rates, reach, marks })
     }
 
     /// Where a block is when the corner that moves fastest would have gone `way` m straight on.
@@ -93,28 +95,28 @@ fn speed(body: &Body, rate: &Rate) -> f64 {
 
 /// Every mechanism that a result holds.
 pub(super) fn of(model: &Model, file: &ResultFile, bodies: &[Body]) -> Result<Vec<Motion>, String> {
-    let mut list: Vec<(&str, &Certificate)> = Vec::new();
+    let mut list: Vec<(Part, &str, &Certificate)> = Vec::new();
     let moves = |c: &Certificate| !matches!(c.claim, None | Some(Claim::Stable | Claim::Unbounded { .. }));
-    list.push((if file.answer.verdict.is_some() { "how it moves" } else { "how it fails" }, &file.certificate));
-    if let Some(dry) = &file.dry {
-        list.push(("how it fails with dry friction", &dry.certificate));
+    list.push((Part::Answer, if file.answer.verdict.is_some() { "how it moves" } else { "how it fails" }, &file.certificate));
+    if let Some(dry) = file.dry.as_ref().filter(|d| d.found != Found::NothingSlides) {
+        list.push((Part::Dry, "how it fails with dry friction", &dry.certificate));
     }
     if let Some(thrust) = &file.thrust {
-        list.push(("the support yields", &thrust.least));
-        list.push(("the support is pushed in", &thrust.greatest));
+        list.push((Part::Least, "the support yields", &thrust.least));
+        list.push((Part::Greatest, "the support is pushed in", &thrust.greatest));
     }
     if let Some(dead) = &file.dead_load {
-        list.push(("how it moves under the dead load", &dead.certificate));
+        list.push((Part::Dead, "how it moves under the dead load", &dead.certificate));
     }
     let mut motions = Vec::new();
-    for (name, certificate) in list.into_iter().filter(|(_, c)| moves(c)) {
+    for (part, name, certificate) in list.into_iter().filter(|(_, _, c)| moves(c)) {
         let mut rates = read_rates(&model.assembly, &certificate.rates)?;
         if let Some(Claim::Thrust { at, extreme, .. }) = certificate.claim
             && let Some(support) = rates.get_mut(at.support)
         {
             support.velocity = Vector3::from(at.direction) * extreme.sigma();
         }
-        motions.extend(Motion::new(model, name, rates, bodies));
+        motions.extend(Motion::new(model, part, name, rates, bodies));
     }
     Ok(motions)
 }
@@ -124,7 +126,13 @@ mod tests {
     use super::*;
 
     fn motion(velocity: [f64; 3], spin: [f64; 3]) -> Motion {
-        Motion { name: String::new(), rates: vec![Rate { velocity: velocity.into(), spin: spin.into() }], reach: 1.0, marks: Vec::new() }
+        Motion {
+            part: Part::Answer,
+            name: String::new(),
+            rates: vec![Rate { velocity: velocity.into(), spin: spin.into() }],
+            reach: 1.0,
+            marks: Vec::new(),
+        }
     }
 
     /// Pivoting about a corner, the corner stays where it is, however far; the start is the rate.

@@ -1,20 +1,49 @@
 //! Systems of contact forces: resultants, use of the sections, lines of thrust.
 
 use crate::{
-    analysis::{Model, Outcome},
+    analysis::{Model, Outcome, coulomb::Found},
     report::{
         result::{Certificate, Question, ResultFile},
         text::number::short,
     },
     scene::Friction,
     tolerance,
-    verdict::{Forces, Verdict, evidence::read_forces, section::sections},
+    verdict::{
+        Forces, Verdict,
+        evidence::{ContactForces, read_forces},
+        section::sections,
+    },
 };
 use nalgebra::Vector3;
+
+/// What a system of forces, or a mechanism, is to the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// It goes with the answer.
+    Answer,
+    /// Forces that stand beside it: without the pre-stress, or at a load factor at which the scene stands.
+    Base,
+    /// With dry friction.
+    Dry,
+    /// Of the least thrust.
+    Least,
+    /// Of the greatest thrust.
+    Greatest,
+    /// Under the dead load alone.
+    Dead,
+}
 
 /// One system of contact forces.
 #[derive(Clone, Debug)]
 pub struct State {
+    /// What it is to the answer.
+    pub part: Part,
+    /// Whether it balances what it is about; otherwise it is what comes closest.
+    pub balances: bool,
+    /// Whether live loads act.
+    pub live: bool,
+    /// Unit vector against gravity, turned where the ground is tipped.
+    pub up: Vector3<f64>,
     /// What it is, in a few words.
     pub name: String,
     /// Force on the second block at each point of each joint, N.
@@ -73,7 +102,7 @@ pub struct Segment {
 }
 
 impl State {
-    fn new(model: &Model, name: String, forces: &Forces) -> Self {
+    fn new(model: &Model, part: Part, name: String, forces: &Forces) -> Self {
         let list = sections(&model.interfaces, forces);
         let mean = list.iter().map(|s| s.normal.hypot(s.shear)).sum::<f64>() / list.len().max(1) as f64;
         let resultants: Vec<Option<Resultant>> = list
@@ -99,7 +128,8 @@ impl State {
             .collect();
         let forces = forces.iter().map(|list| list.iter().map(|w| w.force).collect()).collect();
         let (used, line) = (used(model, &resultants), line(model, &resultants));
-        Self { name, forces, resultants, used, line }
+        let up = -model.assembly.gravity.normalize();
+        Self { part, balances: true, live: false, up, name, forces, resultants, used, line }
     }
 }
 
@@ -139,9 +169,12 @@ fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
     line
 }
 
+/// Forces that leave something unbalanced.
+const CLOSEST: &str = "forces that come closest";
+
 /// Every system of forces that a result holds.
 pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String> {
-    let mut list: Vec<(String, &[crate::verdict::evidence::ContactForces])> = Vec::new();
+    let mut list: Vec<(Part, String, &[ContactForces])> = Vec::new();
     let own = |c: &Certificate| !c.forces.is_empty();
     let lambda = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at λ = {}", short(v)));
     let tilt = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at {}°", short(v.atan().to_degrees())));
@@ -151,13 +184,13 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String>
             (_, Some(l)) => match l.status {
                 Outcome::Found => format!("forces that balance it{}", at(l.value)),
                 Outcome::Unbounded => "forces that balance the live load alone".into(),
-                Outcome::Impossible | Outcome::Undecided => "forces that come closest".into(),
+                Outcome::Impossible | Outcome::Undecided => CLOSEST.into(),
             },
             (Some(Verdict::Stable), _) => "forces that balance it".into(),
             (Some(Verdict::Conditional), _) => "forces with a pre-stress".into(),
-            _ => "forces that come closest".into(),
+            _ => CLOSEST.into(),
         };
-        list.push((name, &file.certificate.forces));
+        list.push((Part::Answer, name, &file.certificate.forces));
     }
     if let Some(base) = &file.certificate.base {
         let name = if file.answer.verdict == Some(Verdict::Conditional) {
@@ -165,38 +198,44 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String>
         } else {
             "forces that balance the dead load"
         };
-        list.push((name.into(), base));
+        list.push((Part::Base, name.into(), base));
     }
-    if let Some(dry) = file.dry.as_ref().filter(|d| own(&d.certificate) && d.value.is_some()) {
-        list.push((format!("forces with dry friction{}", at(dry.value)), &dry.certificate.forces));
+    // Where nothing slides they are the same.
+    if let Some(dry) = file.dry.as_ref().filter(|d| own(&d.certificate) && d.value.is_some() && d.found != Found::NothingSlides) {
+        list.push((Part::Dry, format!("forces with dry friction{}", at(dry.value)), &dry.certificate.forces));
     }
-    if let Some(thrust) = &file.thrust {
-        for (name, certificate) in [("forces of the least thrust", &thrust.least), ("forces of the greatest thrust", &thrust.greatest)] {
-            if own(certificate) && certificate.claim.is_some() {
-                list.push((name.into(), &certificate.forces));
-            }
+    if let (Some(thrust), Some(answer)) = (&file.thrust, &file.answer.thrust) {
+        let ends = [
+            (Part::Least, "forces of the least thrust", &thrust.least, &answer.least),
+            (Part::Greatest, "forces of the greatest thrust", &thrust.greatest, &answer.greatest),
+        ];
+        for (part, name, certificate, end) in ends.into_iter().filter(|(_, _, c, _)| own(c) && c.claim.is_some()) {
+            let value = end.value.map_or(String::new(), |v| format!(", {} N", short(v)));
+            list.push((part, format!("{name}{value}"), &certificate.forces));
         }
     }
     if let Some(dead) = file.dead_load.as_ref().filter(|d| own(&d.certificate)) {
         let stands = matches!(dead.answer.verdict, Some(Verdict::Stable));
-        list.push((
-            if stands { "forces under the dead load" } else { "forces that come closest under the dead load" }.into(),
-            &dead.certificate.forces,
-        ));
+        let name = if stands { "forces under the dead load" } else { "forces that come closest under the dead load" };
+        list.push((Part::Dead, name.into(), &dead.certificate.forces));
     }
-    // Forces of a tilt are divided by its cosine, so that gravity keeps its part across the ground.
-    let cosine = |k: usize| match (file.question, file.answer.load_factor.and_then(|l| l.value), file.dry.as_ref().and_then(|d| d.value)) {
-        (Question::Tilt, Some(tangent), dry) => match k {
-            0 => 1.0 / 1f64.hypot(tangent),
-            1 => dry.map_or(1.0, |t| 1.0 / 1f64.hypot(t)),
-            _ => 1.0,
-        },
-        _ => 1.0,
+    let tangent = |part: Part| match (file.question, part) {
+        (Question::Tilt, Part::Answer) => file.answer.load_factor.and_then(|l| l.value).unwrap_or(0.0),
+        (Question::Tilt, Part::Dry) => file.dry.as_ref().and_then(|d| d.value).unwrap_or(0.0),
+        _ => 0.0,
     };
-    let state = |(k, (name, saved)): (usize, (String, &[_]))| {
+    let state = |(part, name, saved): (Part, String, &[_])| {
         let mut forces = read_forces(&model.assembly, &model.interfaces, saved)?;
-        forces.iter_mut().flatten().for_each(|w| *w = *w * cosine(k));
-        Ok(State::new(model, name, &forces))
+        // Forces of a tilt are divided by its cosine, so that gravity keeps its part across the ground.
+        let tangent = tangent(part);
+        forces.iter_mut().flatten().for_each(|w| *w = *w * (1.0 / 1f64.hypot(tangent)));
+        let mut state = State::new(model, part, name, &forces);
+        state.balances = !state.name.contains(CLOSEST);
+        state.live = file.question == Question::Limit && part != Part::Dead;
+        if let Some(toward) = file.answer.toward {
+            state.up = (state.up - Vector3::from(toward) * tangent).normalize();
+        }
+        Ok(state)
     };
-    list.into_iter().enumerate().map(state).collect()
+    list.into_iter().map(state).collect()
 }
