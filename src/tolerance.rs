@@ -202,6 +202,11 @@ pub const DRY_BALANCE: f64 = 1e-4;
 /// are but never touch exactly. Larger: edges and corners are visibly round. Smaller: the engine's contact normals are rounding noise.
 pub const SKIN: f64 = 2e-5;
 
+/// As [`SKIN`], for hulls that flow: contacts are softer there, and hulls press into each other by 3e-4 of their size. Larger: edges are
+/// visibly round, and hulls that touch overlap at their corners. Smaller: hulls overlap beyond their skins, and the engine's normals are
+/// those of its search for the way out.
+pub const GRAIN_SKIN: f64 = 5e-4;
+
 /// [`SKIN`] is at most this × the thickness of the thinnest piece of the block. Larger: thin plates turn inside out.
 /// Smaller: plates of 1e-4 of their size get a skin of rounding noise.
 pub const SKIN_OF_THICKNESS: f64 = 0.01;
@@ -288,3 +293,10 @@ pub const TRUNCATION_KEEPS: f64 = 1e-9;
 /// Radii of gyration count as at least this × the block's greatest. Larger: turning a long beam about its axis is measured too coarsely.
 /// Smaller: rounding of the inertia of the thinnest needles (its square root is exact to 1e-8 of the greatest) measures their moments.
 pub const LEAST_GYRATION: f64 = 1e-7;
+
+/// What it takes to start a task on a cluster, in seconds: scheduling, the process, reading what is done. Larger: few large tasks, and
+/// processors wait for the last one. Smaller: clusters that take this long spend their time on starting (0.3 to 1.5 s on an idle one).
+pub const TASK_START: f64 = 1.0;
+
+/// The share of a task's work that starting it may cost. Larger: time is lost. Smaller: sweeps of minutes are not spread at all.
+pub const SCHEDULING_SHARE: f64 = 0.05;

@@ -1,6 +1,7 @@
 //! A [`Scene`](crate::scene::Scene) resolved once and completely: SI units, scene coordinates, closed outward shapes,
 //! positive masses, every default applied, every name resolved.
 
+mod clump;
 mod gyration;
 mod joint;
 mod polyhedron;
@@ -79,6 +80,29 @@ pub enum Solid {
         /// Radius, m.
         radius: f64,
     },
+    /// Spheres rigidly joined.
+    Clump {
+        /// Centres and radii, m.
+        balls: Vec<(Vector3<f64>, f64)>,
+        /// Volume of their union, m³.
+        volume: f64,
+    },
+}
+
+impl Solid {
+    /// Volume, m³.
+    pub fn volume(&self) -> f64 {
+        match self {
+            Self::Sphere { radius, .. } => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+            Self::Clump { volume, .. } => *volume,
+            Self::Polyhedron(p) => p.mass_properties().volume,
+        }
+    }
+
+    /// Whether the surface is made of spheres alone, so that whatever touches it touches it at points.
+    pub fn is_round(&self) -> bool {
+        !matches!(self, Self::Polyhedron(_))
+    }
 }
 
 /// A force acting off a block's centre of mass.

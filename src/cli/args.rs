@@ -144,9 +144,9 @@ pub enum Verb {
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct Sweep {
     #[command(subcommand)]
-    pub merge: Option<SweepVerb>,
+    pub verb: Option<SweepVerb>,
     /// The plan (JSON), `-` for standard input.
-    #[arg(required = true)]
+    #[arg(required_unless_present = "attach")]
     pub plan: Option<PathBuf>,
     /// The file of rows (JSON lines), which is continued if it holds rows of this plan; by default the plan's name with the ending
     /// `.rows.jsonl`, in the current folder.
@@ -162,11 +162,77 @@ pub struct Sweep {
     #[arg(long)]
     pub restart: bool,
     #[command(flatten)]
+    pub slurm: Slurm,
+    #[command(flatten)]
     pub summary: Summary,
+}
+
+/// A sweep on a cluster.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "On a Slurm cluster")]
+pub struct Slurm {
+    /// Do the rows in an array of Slurm tasks, watch them arrive in the folder OUT.slurm, and merge them into OUT at the end. The
+    /// same command goes on where an array was stopped.
+    #[arg(long, conflicts_with_all = ["shard", "threads"])]
+    pub slurm: bool,
+    /// Watch an array that was submitted for this file of rows, and merge at the end.
+    #[arg(long, value_name = "OUT", conflicts_with_all = ["plan", "slurm", "output", "shard", "threads", "restart"])]
+    pub attach: Option<PathBuf>,
+    /// Cut the sweep into so many tasks; by default as many as keep what starting them takes below 5 % of the work, a few rows being
+    /// measured first.
+    #[arg(long, value_name = "N", requires = "slurm", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub tasks: Option<u32>,
+    /// The partition; by default the cluster's own choice.
+    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word)]
+    pub partition: Option<String>,
+    /// Time limit of a task, as sbatch takes it (minutes, or [DAYS-]HOURS:MINUTES:SECONDS).
+    #[arg(long, value_name = "TIME", requires = "slurm", value_parser = word)]
+    pub time: Option<String>,
+    /// Processors a task.
+    #[arg(long, value_name = "N", requires = "slurm", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub cpus: u16,
+    /// Another option of sbatch, such as --sbatch-arg=--account=stone; may be given several times.
+    #[arg(long, value_name = "OPTION", requires = "slurm", allow_hyphen_values = true, value_parser = one_line)]
+    pub sbatch_arg: Vec<String>,
+    /// The nodes see the folder of the output under the same path, although it looks like a disk of this machine.
+    #[arg(long, requires = "slurm")]
+    pub shared: bool,
+    /// Print the batch script; submit and write nothing.
+    #[arg(long, requires = "slurm")]
+    pub dry_run: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct SweepStatus {
+    /// The output of a sweep on a cluster, its folder, or any file of rows.
+    pub rows: PathBuf,
+    /// Print one JSON object and nothing else.
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Task {
+    /// The folder of the sweep.
+    pub folder: PathBuf,
+    /// The K-th of N shards.
+    #[arg(long, value_name = "K/N")]
+    pub shard: Shard,
+    /// Threads; by default one a processor.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
 }
 
 #[derive(Debug, Subcommand)]
 pub enum SweepVerb {
+    /// How far a sweep is: rows that are done, tasks that run, wait or were stopped.
+    ///
+    /// Works while rows are being written. Exit code 3 if rows are missing.
+    Status(SweepStatus),
+    /// Do one shard of a sweep on a cluster, from its folder alone; this is what a task of the array runs.
+    ///
+    /// Rows that any earlier run of any task has done are left out.
+    Task(Task),
     /// Put files of rows together, in the order of the rows, and sum them up.
     ///
     /// Exit code 3 if rows are missing.
@@ -175,7 +241,7 @@ pub enum SweepVerb {
 
 #[derive(Debug, Args)]
 pub struct Merge {
-    /// Files of rows of one plan.
+    /// Files of rows of one plan, or folders of a sweep on a cluster, which may still be running.
     #[arg(required = true)]
     pub rows: Vec<PathBuf>,
     /// Write all rows to this file.
@@ -441,8 +507,8 @@ pub struct Repose {
     pub common: Common,
     #[command(flatten)]
     pub pictures: Pictures,
-    /// Values of the protocol that differ from the defaults (--question repose): grains=2000 diameter=0.01 sizes=0.2 friction=0.5
-    /// wall_friction=0 rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
+    /// Values of the protocol that differ from the defaults (--question repose): grain=sphere (or clump, hull) elongation=1.5 (of clumps and
+    /// hulls) corners=16 (of hulls) grains=2000 diameter=0.01 (of spheres of the same volume) sizes=0.2 friction=0.5 wall_friction=0 rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
     /// `stability`: the greatest tilt of the packing SCENE as it lies; `repose`: the slope that a heap leaves behind which flowed, SCENE then
@@ -620,6 +686,10 @@ pub struct Check {
     /// Verify the result against this scene, not the one inside it.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+    /// Print one JSON object and nothing else: of a result, what holds and what fails; of a scene, its blocks with their masses and loads, its
+    /// interfaces with contact points and frames, and the findings.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Bytes, with a unit of 1024s: 500M, 8G, 8GiB.
@@ -637,6 +707,16 @@ fn bytes(text: &str) -> Result<u64, String> {
 
 fn finite(text: &str) -> Result<f64, String> {
     text.trim().parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| "not a finite number".into())
+}
+
+fn word(text: &str) -> Result<String, String> {
+    let ok = !text.is_empty() && !text.chars().any(|c| c.is_whitespace() || c.is_control());
+    ok.then(|| text.to_string()).ok_or_else(|| "not one word".into())
+}
+
+fn one_line(text: &str) -> Result<String, String> {
+    let ok = text.starts_with('-') && !text.chars().any(char::is_control);
+    ok.then(|| text.to_string()).ok_or_else(|| "not an option on one line, such as --account=stone".into())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -108,10 +108,12 @@ fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
     for (key, text) in &args.set {
         let Some(place) = value.get_mut(key).filter(|_| key != "kind") else {
             bail!(
-                "{key}: no value of a protocol; there are grains, diameter, sizes, friction, wall_friction, rolling_arm, density, size, rate"
+                "{key}: no value of a protocol; there are grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, density, size, rate"
             );
         };
         *place = serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str()));
     }
-    serde_json::from_value(value).with_context(|| format!("`{name}` with these values is no protocol: drain, funnel, cylinder or tilt"))
+    serde_json::from_value(value).with_context(|| {
+        format!("`{name}` with these values is no protocol: drain, funnel, cylinder or tilt, with grain=sphere, clump or hull")
+    })
 }

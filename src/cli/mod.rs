@@ -23,6 +23,7 @@ mod report;
 pub mod repose;
 pub mod schema;
 pub mod simulate;
+mod slurm;
 pub mod study;
 pub mod sweep;
 pub mod terminal;

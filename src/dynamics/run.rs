@@ -11,7 +11,7 @@ use crate::{
     assembly::{Assembly, Wrench},
     error::{Finding, FindingCode, InputError},
     interface::{Interface, Interfaces},
-    tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE},
+    tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE, SKIN},
 };
 use nalgebra::Vector3;
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
@@ -64,7 +64,7 @@ pub fn simulate(
         findings: Vec::new(),
     };
     let Some(units) = Units::of(assembly, &loads.total) else { return Ok(outcome) };
-    let bodies = bodies(assembly, interfaces, &units)?;
+    let bodies = bodies(assembly, interfaces, &units, SKIN)?;
     let frictions = Frictions::new(assembly, interfaces, &units);
     let scene = Stage { assembly, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
     let ladder = match settings.fidelity {

@@ -11,6 +11,8 @@ mod column;
 mod deposit;
 mod dome;
 mod flat_arch;
+mod grain;
+mod hull;
 mod lattice;
 mod midline;
 mod stack;
@@ -104,6 +106,7 @@ fn is_finite(block: &BlockSpec) -> bool {
             Shape::Polyhedron { vertices, .. } => vertices.iter().all(|v| all(v)),
             Shape::Prism { polygon, depth } => depth.is_finite() && polygon.iter().all(|p| all(p)),
             Shape::Sphere { radius } => radius.is_finite(),
+            Shape::Clump { spheres } => spheres.iter().all(|b| all(&b.at) && b.radius.is_finite()),
         }
 }
 

@@ -183,19 +183,13 @@ impl Meeting {
 fn meet(a: &Body, b: &Body, limits: &Limits) -> Meeting {
     match (&a.shape, &b.shape) {
         (Form::Polyhedron(p), Form::Polyhedron(q)) => polyhedra(a, p, b, q, limits),
-        (&Form::Sphere { center, radius }, &Form::Sphere { center: c, radius: r }) => {
-            round(spheres::sphere_sphere((center, radius), (c, r), limits), 1.0, limits)
-        }
-        (&Form::Sphere { center, radius }, Form::Polyhedron(q)) => {
-            round(spheres::sphere_polyhedron(center, radius, q, limits), 1.0, limits)
-        }
-        (Form::Polyhedron(p), &Form::Sphere { center, radius }) => {
-            round(spheres::sphere_polyhedron(center, radius, p, limits), -1.0, limits)
-        }
+        (Form::Balls(one), Form::Balls(other)) => round(spheres::balls_balls(one, other, limits), 1.0, limits),
+        (Form::Balls(balls), Form::Polyhedron(q)) => round(spheres::balls_polyhedron(balls, q, limits), 1.0, limits),
+        (Form::Polyhedron(p), Form::Balls(balls)) => round(spheres::balls_polyhedron(balls, p, limits), -1.0, limits),
     }
 }
 
-/// What a sphere met; `sign` turns the normals to point from `a` into `b`.
+/// What spheres met; `sign` turns the normals to point from `a` into `b`.
 fn round(meeting: spheres::Meeting, sign: f64, limits: &Limits) -> Meeting {
     let closing = |gap: f64| Closing { gap, lean: 0.0 };
     Meeting {

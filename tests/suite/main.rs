@@ -16,6 +16,7 @@ mod extreme;
 #[cfg(target_os = "linux")]
 mod faults;
 mod grains;
+mod granular;
 mod invariance;
 mod layering;
 mod meshes;

@@ -231,6 +231,12 @@ fn grow(shape: &mut Shape, by: f64) {
             *depth *= by;
         }
         Shape::Sphere { radius } => *radius *= by,
+        Shape::Clump { spheres } => {
+            for ball in spheres {
+                ball.at.iter_mut().for_each(|x| *x *= by);
+                ball.radius *= by;
+            }
+        }
     }
 }
 
