@@ -226,3 +226,61 @@ pub enum RowsError {
         cause: String,
     },
 }
+
+/// A sweep that cannot be given to Slurm.
+#[derive(Debug, thiserror::Error)]
+pub enum SlurmError {
+    /// A command is missing.
+    #[error(
+        "`{program}` is not on the path; hint: --slurm works on a machine from which jobs are submitted; without it the sweep runs on this \
+         machine alone"
+    )]
+    NotInstalled {
+        /// The command.
+        program: String,
+    },
+    /// A command failed.
+    #[error("{program} refuses: {said}")]
+    Refused {
+        /// The command.
+        program: String,
+        /// Its words.
+        said: String,
+    },
+    /// The partition is unknown.
+    #[error("{}; hint: this cluster has {known}", no_partition(.asked.as_deref()))]
+    NoPartition {
+        /// The one that was asked for.
+        asked: Option<String>,
+        /// Those there are.
+        known: String,
+    },
+    /// The partition starts no jobs.
+    #[error("partition {name} starts no jobs now; hint: `sinfo` shows which do")]
+    PartitionDown {
+        /// The partition.
+        name: String,
+    },
+    /// The nodes do not see the folder.
+    #[error(
+        "{folder} lies on a disk of this machine ({kind}, mounted at {at}), which nodes such as {node} do not see; hint: give an --output in a \
+         shared folder, or --shared if the nodes see this one under the same path"
+    )]
+    NotShared {
+        /// The folder.
+        folder: String,
+        /// The kind of file system.
+        kind: String,
+        /// Where that is mounted.
+        at: String,
+        /// A node.
+        node: String,
+    },
+}
+
+fn no_partition(asked: Option<&str>) -> String {
+    match asked {
+        Some(name) => format!("there is no partition {name:?}"),
+        None => "no partition takes jobs that name none, give --partition".into(),
+    }
+}

@@ -2,10 +2,12 @@
 //! positive masses, every default applied, every name resolved.
 
 mod clump;
+mod gyration;
 mod joint;
 mod polyhedron;
 mod resolve;
 
+pub use gyration::Gyration;
 pub use joint::{JointLaw, JointRules};
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
 pub use resolve::{Blocks, resolve, resolve_blocks, resolve_with};
@@ -58,6 +60,8 @@ pub struct Block {
     pub centroid: Vector3<f64>,
     /// Inertia about the centre of mass, kg·m².
     pub inertia: Matrix3<f64>,
+    /// Its radii of gyration: what moments and spins are measured by.
+    pub gyration: Gyration,
     /// Geometry in scene coordinates.
     pub solid: Solid,
     /// Bounding-box diagonal, m; the length scale of every tolerance about this block.

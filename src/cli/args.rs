@@ -4,6 +4,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use voussoir::{
     import::Up,
+    report::drawing::Aspect,
     scene::Friction,
     sweep::{Range, Shard},
 };
@@ -27,6 +28,10 @@ pub struct Cli {
     /// Colour of text: auto (on a terminal, unless NO_COLOR is set), always or never.
     #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = Color::Auto, hide_possible_values = true)]
     pub color: Color,
+    /// Take no more memory than this, such as 500M or 8G: what would is refused, mostly before it begins. By default estimates have to fit
+    /// into the memory that is free, and nothing is counted.
+    #[arg(long, global = true, value_name = "SIZE", value_parser = bytes)]
+    pub max_memory: Option<u64>,
 }
 
 /// So many directions a tilt is asked for where nothing is said.
@@ -99,7 +104,7 @@ pub enum Verb {
     /// Error against run time, per method, on scenes with known answers.
     ///
     /// Each method runs over its knob (the engine's tolerance, facets of friction pyramids, number of verdicts, time steps); medians of
-    /// repeated runs. With --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
+    /// repeated runs. With --soak, random scenes whose proofs are held against each other; with --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
     /// answer is wrong.
     Study(Study),
     /// Make a scene from a template.
@@ -125,15 +130,23 @@ pub enum Verb {
     Sweep(Sweep),
     /// Print the JSON Schema of scenes, or of sweep plans.
     Schema(Schema),
+    /// Print what a shell needs to complete verbs and options.
+    ///
+    /// bash: `voussoir completions bash > ~/.local/share/bash-completion/completions/voussoir`
+    Completions(Completions),
+    /// Print a manual page, or write all of them.
+    ///
+    /// `voussoir man limit | man -l -` shows one; `voussoir man --folder ~/.local/share/man/man1` keeps them all.
+    Man(Man),
 }
 
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct Sweep {
     #[command(subcommand)]
-    pub merge: Option<SweepVerb>,
+    pub verb: Option<SweepVerb>,
     /// The plan (JSON), `-` for standard input.
-    #[arg(required = true)]
+    #[arg(required_unless_present = "attach")]
     pub plan: Option<PathBuf>,
     /// The file of rows (JSON lines), which is continued if it holds rows of this plan; by default the plan's name with the ending
     /// `.rows.jsonl`, in the current folder.
@@ -149,11 +162,77 @@ pub struct Sweep {
     #[arg(long)]
     pub restart: bool,
     #[command(flatten)]
+    pub slurm: Slurm,
+    #[command(flatten)]
     pub summary: Summary,
+}
+
+/// A sweep on a cluster.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "On a Slurm cluster")]
+pub struct Slurm {
+    /// Do the rows in an array of Slurm tasks, watch them arrive in the folder OUT.slurm, and merge them into OUT at the end. The
+    /// same command goes on where an array was stopped.
+    #[arg(long, conflicts_with_all = ["shard", "threads"])]
+    pub slurm: bool,
+    /// Watch an array that was submitted for this file of rows, and merge at the end.
+    #[arg(long, value_name = "OUT", conflicts_with_all = ["plan", "slurm", "output", "shard", "threads", "restart"])]
+    pub attach: Option<PathBuf>,
+    /// Cut the sweep into so many tasks; by default as many as keep what starting them takes below 5 % of the work, a few rows being
+    /// measured first.
+    #[arg(long, value_name = "N", requires = "slurm", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub tasks: Option<u32>,
+    /// The partition; by default the cluster's own choice.
+    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word)]
+    pub partition: Option<String>,
+    /// Time limit of a task, as sbatch takes it (minutes, or [DAYS-]HOURS:MINUTES:SECONDS).
+    #[arg(long, value_name = "TIME", requires = "slurm", value_parser = word)]
+    pub time: Option<String>,
+    /// Processors a task.
+    #[arg(long, value_name = "N", requires = "slurm", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub cpus: u16,
+    /// Another option of sbatch, such as --sbatch-arg=--account=stone; may be given several times.
+    #[arg(long, value_name = "OPTION", requires = "slurm", allow_hyphen_values = true, value_parser = one_line)]
+    pub sbatch_arg: Vec<String>,
+    /// The nodes see the folder of the output under the same path, although it looks like a disk of this machine.
+    #[arg(long, requires = "slurm")]
+    pub shared: bool,
+    /// Print the batch script; submit and write nothing.
+    #[arg(long, requires = "slurm")]
+    pub dry_run: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct SweepStatus {
+    /// The output of a sweep on a cluster, its folder, or any file of rows.
+    pub rows: PathBuf,
+    /// Print one JSON object and nothing else.
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Task {
+    /// The folder of the sweep.
+    pub folder: PathBuf,
+    /// The K-th of N shards.
+    #[arg(long, value_name = "K/N")]
+    pub shard: Shard,
+    /// Threads; by default one a processor.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
 }
 
 #[derive(Debug, Subcommand)]
 pub enum SweepVerb {
+    /// How far a sweep is: rows that are done, tasks that run, wait or were stopped.
+    ///
+    /// Works while rows are being written. Exit code 3 if rows are missing.
+    Status(SweepStatus),
+    /// Do one shard of a sweep on a cluster, from its folder alone; this is what a task of the array runs.
+    ///
+    /// Rows that any earlier run of any task has done are left out.
+    Task(Task),
     /// Put files of rows together, in the order of the rows, and sum them up.
     ///
     /// Exit code 3 if rows are missing.
@@ -162,7 +241,7 @@ pub enum SweepVerb {
 
 #[derive(Debug, Args)]
 pub struct Merge {
-    /// Files of rows of one plan.
+    /// Files of rows of one plan, or folders of a sweep on a cluster, which may still be running.
     #[arg(required = true)]
     pub rows: Vec<PathBuf>,
     /// Write all rows to this file.
@@ -181,6 +260,9 @@ pub struct Summary {
     /// Draw a chart.
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// Write charts with values where one points, and a table to sort, as a page for a browser to this file.
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
     /// Which chart: `line` (value against one number), `heat` (against two), `fragility` (share that fails); by default what suits the plan.
     #[arg(long, value_enum, value_name = "KIND", requires = "svg", hide_possible_values = true)]
     pub chart: Option<Chart>,
@@ -223,9 +305,54 @@ pub enum Format {
 }
 
 #[derive(Debug, Args)]
+pub struct Completions {
+    /// bash, elvish, fish, powershell or zsh.
+    #[arg(value_enum, hide_possible_values = true)]
+    pub shell: clap_complete::Shell,
+}
+
+#[derive(Debug, Args)]
+pub struct Man {
+    /// The verb that the page is about; the program as a whole where none is named.
+    #[arg(conflicts_with = "folder")]
+    pub verb: Option<String>,
+    /// Write the pages of the program and of all verbs into this folder.
+    #[arg(long, value_name = "FOLDER")]
+    pub folder: Option<PathBuf>,
+}
+
+/// Pictures of an answer.
+#[derive(Debug, Args)]
+pub struct Pictures {
+    /// Draw the answer to this file: blocks, joints, line of thrust or chains of forces, and beside it how it moves.
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// From where --svg looks: front, back, left, right, top, corner, or a direction such as 1,-2,0.5; by default along the normal of a plane
+    /// scene, and from a corner at others.
+    #[arg(long, value_name = "FROM", requires = "svg", allow_hyphen_values = true)]
+    pub view: Option<Aspect>,
+    /// Write blocks, joints, forces, lines of thrust and mechanisms to this file (.vtp) for ParaView; of `simulate` the blocks, time by time
+    /// (.pvd, with a folder of the same name beside it).
+    #[arg(long, value_name = "FILE")]
+    pub vtk: Option<PathBuf>,
+}
+
+/// Tables of an answer.
+#[derive(Debug, Args)]
+pub struct Tables {
+    /// Write joints with their forces to this file, comma-separated, and blocks to another with `.blocks` before its ending.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
 pub struct Assess {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    #[command(flatten)]
+    pub tables: Tables,
     /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is `friction` (of all joints without an exception),
     /// `density` (every material by itself), `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is the worst is said.
     #[arg(long, value_name = "RANGES", value_delimiter = ',')]
@@ -245,6 +372,8 @@ pub struct Assess {
 pub struct Simulate {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
     /// Fast steps only: to be trusted 3 % away from a limit.
     #[arg(long, conflicts_with = "fine")]
     pub fast: bool,
@@ -291,12 +420,25 @@ pub struct Study {
     /// The stiff and extreme grid instead.
     #[arg(long)]
     pub extreme: bool,
+    /// So many random scenes instead: verdicts held against their certificates, against omissions and, of a sample, against simulations.
+    /// Exit code 1 if any two exclude each other.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
+    pub soak: Option<u32>,
+    /// Which random scenes (--soak).
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
+    pub seed: u64,
+    /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak).
+    #[arg(long, value_name = "NUMBER", requires = "soak", conflicts_with_all = ["csv", "json"])]
+    pub only: Option<u32>,
     /// Write every run to this file, comma-separated.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
     /// Draw the charts into this folder: one per scene, and profile.svg over all.
     #[arg(long, value_name = "FOLDER", conflicts_with = "extreme")]
     pub svg: Option<PathBuf>,
+    /// Write charts with values where one points, and a table to sort, as a page for a browser to this file.
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
     /// Print every run as JSON.
     #[arg(long)]
     pub json: bool,
@@ -312,6 +454,10 @@ pub struct Study {
 pub struct Limit {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    #[command(flatten)]
+    pub tables: Tables,
     /// The load factor that is needed: exit code 1 if the greatest one, with dry friction too unless --law associative, is below, 3 if
     /// that stays open.
     #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = finite)]
@@ -329,6 +475,10 @@ pub struct Limit {
 pub struct Tilt {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    #[command(flatten)]
+    pub tables: Tables,
     /// Tip towards this direction (its part across gravity); may be given several times.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub toward: Vec<[f64; 3]>,
@@ -355,6 +505,8 @@ pub enum Asked {
 pub struct Repose {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
     /// Values of the protocol that differ from the defaults (--question repose): grain=sphere (or clump, hull) elongation=1.5 (of clumps and
     /// hulls) corners=16 (of hulls) grains=2000 diameter=0.01 (of spheres of the same volume) sizes=0.2 friction=0.5 wall_friction=0 rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
@@ -390,7 +542,7 @@ pub struct Repose {
     /// Show as well how the packing carries its load when level: coordination, fabric, forces, stress, mobilised friction.
     #[arg(long)]
     pub fabric: bool,
-    /// Write the contact forces of the packing when level to this file.
+    /// Write the contact forces of the packing when level to this file (not with --question repose).
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
 }
@@ -417,15 +569,16 @@ pub struct Critical {
 pub struct Thrust {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    #[command(flatten)]
+    pub tables: Tables,
     /// The support; the first one that carries a free block where none is named.
     #[arg(long, value_name = "ID")]
     pub support: Option<String>,
     /// The direction of the thrust (its part across gravity); outwards from the blocks' centre of mass where none is given.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub direction: Option<[f64; 3]>,
-    /// Draw the blocks and the two lines of thrust, seen across the thrust, to this file.
-    #[arg(long, value_name = "FILE")]
-    pub svg: Option<PathBuf>,
 }
 
 /// What every question takes.
@@ -439,6 +592,9 @@ pub struct Common {
     /// Write the result, with the scene and its proof, to this file for `voussoir check`.
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
+    /// Write the answer as a page for a browser, with a picture, to this file (HTML, without any connection to a network).
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
     /// Solve the scene in full, without leaving out what symmetry or missing friction make needless.
     #[arg(long)]
     pub keep_all: bool,
@@ -447,7 +603,7 @@ pub struct Common {
     /// the bound.
     #[arg(long, value_enum, value_name = "LAW", default_value_t = Law::Coulomb, hide_possible_values = true)]
     pub law: Law,
-    /// Stop trying after this many seconds.
+    /// Stop trying after this many seconds, counted from the start, and answer with the best bracket so far. Exit code 3 if that decides nothing.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     pub time_limit: Option<f64>,
     /// Lists in full, and every attempt at the program.
@@ -530,10 +686,37 @@ pub struct Check {
     /// Verify the result against this scene, not the one inside it.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+    /// Print one JSON object and nothing else: of a result, what holds and what fails; of a scene, its blocks with their masses and loads, its
+    /// interfaces with contact points and frames, and the findings.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Bytes, with a unit of 1024s: 500M, 8G, 8GiB.
+fn bytes(text: &str) -> Result<u64, String> {
+    let wrong = || "not a size such as 500M or 8G".to_string();
+    let text = text.trim().to_ascii_uppercase();
+    let text = text.strip_suffix('B').unwrap_or(&text);
+    let text = text.strip_suffix('I').unwrap_or(text);
+    let power = text.chars().last().and_then(|c| "KMGT".find(c)).map(|k| k + 1);
+    let number = if power.is_some() { &text[..text.len() - 1] } else { text };
+    let value: f64 = number.parse().map_err(|_| wrong())?;
+    let bytes = value * 1024f64.powi(power.unwrap_or(0) as i32);
+    if bytes >= 1.0 && bytes < 2f64.powi(63) { Ok(bytes as u64) } else { Err(wrong()) }
 }
 
 fn finite(text: &str) -> Result<f64, String> {
     text.trim().parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| "not a finite number".into())
+}
+
+fn word(text: &str) -> Result<String, String> {
+    let ok = !text.is_empty() && !text.chars().any(|c| c.is_whitespace() || c.is_control());
+    ok.then(|| text.to_string()).ok_or_else(|| "not one word".into())
+}
+
+fn one_line(text: &str) -> Result<String, String> {
+    let ok = text.starts_with('-') && !text.chars().any(char::is_control);
+    ok.then(|| text.to_string()).ok_or_else(|| "not an option on one line, such as --account=stone".into())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -5,6 +5,7 @@ use super::{
     exit::Exit,
     input,
     output::Sink,
+    report as pages, slurm,
     terminal::{self, Terminal},
 };
 use anyhow::{Context, bail};
@@ -14,13 +15,19 @@ use std::{
     path::{Path, PathBuf},
 };
 use voussoir::{
-    report::{json, sweep as report},
+    report::{json, page, sweep as report},
     sweep::{self, Event, Header, Options, Row},
 };
 
 pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
-    if let Some(SweepVerb::Merge(merge)) = &args.merge {
-        return merged(merge, terminal);
+    match &args.verb {
+        Some(SweepVerb::Merge(merge)) => return merged(merge, terminal),
+        Some(SweepVerb::Status(status)) => return slurm::status::run(status, terminal),
+        Some(SweepVerb::Task(task)) => return slurm::task::run(task),
+        None => {}
+    }
+    if let Some(output) = &args.slurm.attach {
+        return slurm::watch::attach(output, &args.summary, terminal);
     }
     let plan = args.plan.as_deref().context("no plan is given")?;
     let (name, bytes) = input::bytes(plan)?;
@@ -29,6 +36,9 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     args.summary.chart.map_or(Ok(()), |kind| report::Kind::from(kind).fits(&sweep.plan))?;
     let output = rows_file(args, plan)?;
     let sinks = Sinks::open(&args.summary)?;
+    if args.slurm.slurm {
+        return slurm::run(args, &sweep, &output, &sinks, terminal);
+    }
     let options = Options { shard: args.shard, threads: args.threads.map(usize::from), restart: args.restart };
     let bar = bar(args.summary.quiet);
     let quiet = args.summary.quiet;
@@ -58,6 +68,7 @@ fn merged(args: &Merge, terminal: &Terminal) -> anyhow::Result<Exit> {
         rows.write(&merged.text()?)?;
     }
     sinks.write(&args.summary, &merged.header, &merged.rows, terminal)?;
+    slurm::say_damaged(merged.damaged);
     match merged.missing() {
         None => Ok(Exit::Yes),
         Some((many, first)) => {
@@ -78,38 +89,44 @@ fn rows_file(args: &Sweep, plan: &Path) -> anyhow::Result<PathBuf> {
 }
 
 /// Progress on standard error, where that is a terminal.
-fn bar(quiet: bool) -> ProgressBar {
+pub(super) fn bar(quiet: bool) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
     if quiet || !std::io::stderr().is_terminal() {
         bar.set_draw_target(ProgressDrawTarget::hidden());
     }
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len} rows, {per_sec}, {eta} left") {
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len} rows, {per_sec}, {eta} left{msg}") {
         bar.set_style(style);
     }
     bar
 }
 
 /// Files that are made of rows, opened before the work.
-struct Sinks {
+pub(super) struct Sinks {
     csv: Option<Sink>,
     svg: Option<Sink>,
+    report: Option<Sink>,
 }
 
 impl Sinks {
-    fn open(args: &Summary) -> anyhow::Result<Self> {
+    pub(super) fn open(args: &Summary) -> anyhow::Result<Self> {
         let open = |path: &Option<PathBuf>| path.as_deref().map(|p| Sink::open(Some(p))).transpose();
-        Ok(Self { csv: open(&args.csv)?, svg: open(&args.svg)? })
+        Ok(Self { csv: open(&args.csv)?, svg: open(&args.svg)?, report: open(&args.report)? })
     }
 
-    fn write(&self, args: &Summary, header: &Header, rows: &[Row], terminal: &Terminal) -> anyhow::Result<()> {
+    pub(super) fn write(&self, args: &Summary, header: &Header, rows: &[Row], terminal: &Terminal) -> anyhow::Result<()> {
         let summary = sweep::summarize(header, rows);
         if let Some(csv) = &self.csv {
             csv.write(&report::csv(header, rows)?)?;
         }
+        let layout = terminal.layout(Path::new(&header.plan.scene));
+        if let Some(sink) = &self.report {
+            let words = report::summary(header, &summary, false, pages::layout(layout));
+            sink.write(&page::sweep(&words, header, rows, &summary)?)?;
+        }
         if args.json {
             terminal::print(&json::pretty(&report::Document::new(header, &summary))?)?;
-        } else {
-            terminal.page(&report::summary(header, &summary, args.quiet, terminal.layout(Path::new(&header.plan.scene))))?;
+        } else if !pages::is_printed(&args.report) {
+            terminal.page(&report::summary(header, &summary, args.quiet, layout))?;
         }
         if let Some(svg) = &self.svg {
             let kind = args.chart.map_or_else(|| report::Kind::suited(header, &summary), Into::into);

@@ -26,7 +26,7 @@ use crate::{
 };
 
 /// The most blocks one template may make. More is taken for a slip (a count of 10⁹ would otherwise end in memory exhaustion).
-pub const MAX_BLOCKS: usize = 1_000_000;
+pub const MAX_BLOCKS: usize = crate::limits::BLOCKS;
 
 /// The blocks of a template, in order.
 ///

@@ -11,6 +11,9 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
+/// The ending of files of rows.
+pub(super) const ENDING: &str = "jsonl";
+
 /// A file of rows, open for appending and locked against other runs.
 #[derive(Debug)]
 pub struct RowsFile {
@@ -59,6 +62,29 @@ impl RowsFile {
         Ok(Opened { file: Self { name, file: Mutex::new(file) }, rows, mended })
     }
 
+    /// Begins a file that nobody else has or will have: `name` in `folder`, or `name-2`, `name-3`, …, the first that is not there.
+    ///
+    /// It needs no lock, which not every shared file system gives.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn fresh(folder: &Path, name: &str, header: &Header) -> Result<Self, RowsError> {
+        let mut number = 1_u64;
+        loop {
+            let own = if number == 1 { format!("{name}.{ENDING}") } else { format!("{name}-{number}.{ENDING}") };
+            let path = folder.join(own);
+            let problem = |cause| RowsError::File { file: path.display().to_string(), what: "written", cause };
+            match OpenOptions::new().append(true).create_new(true).open(&path) {
+                Ok(mut file) => {
+                    file.write_all(line(header).map_err(problem)?.as_bytes()).map_err(problem)?;
+                    return Ok(Self { name: path.display().to_string(), file: Mutex::new(file) });
+                }
+                Err(e) if e.kind() == std::io::ErrorKind::AlreadyExists => number += 1,
+                Err(e) => return Err(problem(e)),
+            }
+        }
+    }
+
     /// Appends a row.
     ///
     /// # Errors
@@ -100,8 +126,50 @@ fn taken_up(name: &str, bytes: &[u8], whole: usize, header: &Header) -> Result<(
 pub fn read_rows(path: &Path) -> Result<(Header, Vec<Row>), RowsError> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|cause| RowsError::File { file: name.clone(), what: "read", cause })?;
+    parse_rows(&name, &bytes)
+}
+
+/// As [`read_rows`], from the bytes of a file; `name` stands for it in messages.
+///
+/// # Errors
+/// The bytes are no file of rows.
+pub fn parse_rows(name: &str, bytes: &[u8]) -> Result<(Header, Vec<Row>), RowsError> {
     let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
-    parse(&name, bytes.get(..whole).unwrap_or_default())
+    parse(name, bytes.get(..whole).unwrap_or_default())
+}
+
+/// What could be read of a file that another process may be writing, or whose writer lost its machine.
+#[derive(Debug, Default)]
+pub(super) struct Remains {
+    /// Its header, where that is whole.
+    pub header: Option<Header>,
+    /// Its rows, in the order of the lines.
+    pub rows: Vec<Row>,
+    /// Lines that are no rows of it.
+    pub damaged: usize,
+}
+
+/// Reads what can be read: a half-written last line is left out, other lines that are no rows are counted.
+///
+/// # Errors
+/// The file cannot be read.
+pub(super) fn read_remains(path: &Path) -> Result<Remains, RowsError> {
+    let bytes = std::fs::read(path).map_err(|cause| RowsError::File { file: path.display().to_string(), what: "read", cause })?;
+    let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
+    let mut lines = bytes.get(..whole).unwrap_or_default().split(|b| *b == b'\n').filter(|l| !l.is_empty());
+    let Some(first) = lines.next() else { return Ok(Remains::default()) };
+    let Ok(header) = serde_json::from_slice::<Header>(first) else {
+        return Ok(Remains { damaged: 1 + lines.count(), ..Remains::default() });
+    };
+    let mut remains = Remains::default();
+    for line in lines {
+        match serde_json::from_slice::<Row>(line) {
+            Ok(row) if row.row < header.rows && row.parameters.len() == header.plan.vary.len() => remains.rows.push(row),
+            _ => remains.damaged += 1,
+        }
+    }
+    remains.header = Some(header);
+    Ok(remains)
 }
 
 fn parse(name: &str, bytes: &[u8]) -> Result<(Header, Vec<Row>), RowsError> {

@@ -1,7 +1,7 @@
 //! Shards → one file of rows.
 
 use super::{
-    Header, Row, Shard,
+    Folder, Header, Row, Shard,
     file::{add, line, read_rows},
 };
 use crate::error::RowsError;
@@ -10,23 +10,32 @@ use std::{collections::BTreeMap, path::Path};
 /// Rows of several files.
 #[derive(Debug)]
 pub struct Merged {
+    /// Lines in folders that are no rows, left out.
+    pub damaged: usize,
     /// What they are about.
     pub header: Header,
     /// The rows, by number.
     pub rows: Vec<Row>,
 }
 
-/// Reads files of rows of the same plan. Rows that several of them have must agree.
+/// Reads files of rows of the same plan, and [`Folder`]s of such files, which may still be written. Rows that several of them have must agree.
 ///
 /// # Errors
 /// A file cannot be read, or is about something else than the first.
 pub fn merge(paths: &[impl AsRef<Path>]) -> Result<Option<Merged>, RowsError> {
     let mut header: Option<(String, Header)> = None;
-    let mut rows = BTreeMap::new();
+    let (mut rows, mut damaged) = (BTreeMap::new(), 0);
     for path in paths {
         let path = path.as_ref();
         let file = path.display().to_string();
-        let (own, more) = read_rows(path)?;
+        let (own, more) = if path.is_dir() {
+            let folder = Folder::open(path)?;
+            let gathered = folder.read()?;
+            damaged += gathered.damaged;
+            (folder.header, gathered.rows.into_values().collect())
+        } else {
+            read_rows(path)?
+        };
         let differs = |wanted: &str, why: String| RowsError::Differs {
             file: file.clone(),
             wanted: wanted.into(),
@@ -46,7 +55,7 @@ pub fn merge(paths: &[impl AsRef<Path>]) -> Result<Option<Merged>, RowsError> {
         }
     }
     let Some((_, header)) = header else { return Ok(None) };
-    Ok(Some(Merged { header: Header { shard: Shard::ALL, ..header }, rows: rows.into_values().collect() }))
+    Ok(Some(Merged { damaged, header: Header { shard: Shard::ALL, ..header }, rows: rows.into_values().collect() }))
 }
 
 impl Merged {

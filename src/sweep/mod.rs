@@ -3,7 +3,7 @@
 //! A [`Plan`] names a scene, a question and the numbers that vary, each by JSON pointer. [`open`] checks all of it and gives a
 //! [`Sweep`]; [`run`] answers it row by row into a file of rows ([`Header`], then one [`Row`] a line as it ends), which a later run
 //! takes up where a killed one left it. Row *i* is a function of (plan, scene, *i*) alone: not of threads, shards, or of which
-//! rows ran before. [`merge`] puts shards together, [`summarize`] says what the rows have in common.
+//! rows ran before. [`merge`] puts shards together, [`Folder`] and [`slurm`] spread them over the machines of a cluster, [`summarize`] says what the rows have in common.
 //!
 //! ```
 //! use voussoir::sweep::{self, Options};
@@ -20,6 +20,7 @@
 mod ask;
 mod distribution;
 mod file;
+mod folder;
 mod fragility;
 mod influence;
 mod merge;
@@ -30,21 +31,23 @@ mod row;
 mod run;
 mod sampling;
 mod shard;
+pub mod slurm;
 mod summary;
 mod worst;
 
 pub use ask::ask;
-pub use file::{Opened, RowsFile, read_rows};
+pub use file::{Opened, RowsFile, parse_rows, read_rows};
+pub use folder::{Folder, Gathered, Tally};
 pub use fragility::{Fragility, Proportion, wilson};
 pub use influence::{Influence, groups, influence};
 pub use merge::{Merged, merge};
-pub use open::{MOST_ROWS, Sweep, open, open_bytes};
+pub use open::{MOST_ROWS, Sweep, open, open_bytes, read_plan};
 pub use plan::{
     AssessOptions, LimitOptions, Lognormal, Normal, Plan, Question, ReposeOptions, Sampling, SimulateOptions, ThrustOptions, TiltOptions,
     Vary, schema,
 };
 pub use row::{Answer, Header, Row, Status};
-pub use run::{Done, Event, Options, run};
+pub use run::{Done, Event, Options, measure, run, run_in};
 pub use shard::Shard;
 pub use summary::{Quantiles, Summary, summarize, value_of};
 pub use worst::{Range, Worst, WorstOf, worst};

@@ -1,8 +1,7 @@
 //! Rows → answers, on as many threads as wanted, each written as it ends.
 
-use super::{Answer, Header, Opened, Row, RowsFile, Shard, Status, Sweep, ask};
-use crate::{analysis::reuse::Reuse, error::RowsError};
-use rayon::prelude::*;
+use super::{Answer, Folder, Header, Opened, Row, RowsFile, Shard, Status, Sweep, ask};
+use crate::{analysis::reuse::Reuse, error::RowsError, parallel};
 use std::{
     collections::HashSet,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -59,28 +58,72 @@ pub fn run(sweep: &Sweep, path: &Path, options: &Options, watch: &(dyn Fn(Event)
     let header = sweep.header(options.shard);
     let Opened { file, rows, mended } = RowsFile::open(path, &header, options.restart)?;
     let there: HashSet<usize> = rows.iter().map(|r| r.row).collect();
-    let mine = (0..sweep.rows()).filter(|row| options.shard.holds(*row));
-    let mut open: Vec<usize> = mine.filter(|row| !there.contains(row)).collect();
+    let open = options.shard.rows(sweep.rows()).filter(|row| !there.contains(row)).collect::<Vec<_>>();
     watch(Event::Begin { rows: there.len() + open.len(), there: there.len(), mended });
-    open.sort_by_cached_key(|row| (sweep.keys(&sweep.parameters(*row)), *row));
-
-    let threads = options.threads.unwrap_or(0);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|e| RowsError::Threads { threads, cause: e.to_string() })?;
-    let reuse = Reuse::default();
-    let rows = Mutex::new(rows);
-    pool.install(|| {
-        open.par_iter().try_for_each(|&number| {
-            let row = answer(sweep, &reuse, number);
-            file.append(&row)?;
-            watch(Event::Row(row.answer.status));
-            rows.lock().unwrap_or_else(PoisonError::into_inner).push(row);
-            Ok(())
-        })
-    })?;
-    let mut rows = rows.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let (more, computed) = answers(sweep, &file, open, options.threads, watch)?;
+    let mut rows = rows;
+    rows.extend(more);
     rows.sort_by_key(|r| r.row);
-    Ok(Done { header, rows, computed: reuse.computed() })
+    Ok(Done { header, rows, computed })
+}
+
+/// Answers the rows of a shard that no file of the folder holds yet, each appended to a file of its own, `name` with an ending, as it
+/// ends. Returns how many there were.
+///
+/// # Errors
+/// A file cannot be used.
+pub fn run_in(sweep: &Sweep, folder: &Folder, name: &str, options: &Options, watch: &(dyn Fn(Event) + Sync)) -> Result<usize, RowsError> {
+    let there = folder.read()?.rows;
+    let mine: Vec<usize> = options.shard.rows(sweep.rows()).collect();
+    let open: Vec<usize> = mine.iter().copied().filter(|row| !there.contains_key(row)).collect();
+    watch(Event::Begin { rows: mine.len(), there: mine.len() - open.len(), mended: 0 });
+    if open.is_empty() {
+        return Ok(0);
+    }
+    let file = RowsFile::fresh(&folder.rows_folder(), name, &sweep.header(options.shard))?;
+    Ok(answers(sweep, &file, open, options.threads, watch)?.0.len())
+}
+
+/// Rows, spread evenly over those of `open`, one after the other until there are `most` or `seconds` have passed: how long one takes.
+/// They are appended to `file`, where there is one.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn measure(sweep: &Sweep, open: &[usize], most: usize, seconds: f64, file: Option<&RowsFile>) -> Result<Option<f64>, RowsError> {
+    let start = Instant::now();
+    let (reuse, mut done, mut sum) = (Reuse::default(), 0_usize, 0.0);
+    for &number in open.iter().step_by(open.len().div_ceil(most.max(1)).max(1)) {
+        let row = answer(sweep, &reuse, number);
+        (done, sum) = (done + 1, sum + row.seconds);
+        file.map_or(Ok(()), |file| file.append(&row))?;
+        if start.elapsed().as_secs_f64() > seconds {
+            break;
+        }
+    }
+    Ok((done > 0).then(|| sum / done as f64))
+}
+
+/// Answers rows, each appended as it ends. Also how often blocks were resolved and contacts detected.
+fn answers(
+    sweep: &Sweep,
+    file: &RowsFile,
+    mut open: Vec<usize>,
+    threads: Option<usize>,
+    watch: &(dyn Fn(Event) + Sync),
+) -> Result<(Vec<Row>, [usize; 2]), RowsError> {
+    open.sort_by_cached_key(|row| (sweep.keys(&sweep.parameters(*row)), *row));
+    let threads = threads.unwrap_or(0);
+    let reuse = Reuse::default();
+    let rows = Mutex::new(Vec::new());
+    parallel::for_each(threads, &open, |&number| {
+        let row = answer(sweep, &reuse, number);
+        file.append(&row)?;
+        watch(Event::Row(row.answer.status));
+        rows.lock().unwrap_or_else(PoisonError::into_inner).push(row);
+        Ok(())
+    })
+    .map_err(|e| RowsError::Threads { threads, cause: e.to_string() })??;
+    Ok((rows.into_inner().unwrap_or_else(PoisonError::into_inner), reuse.computed()))
 }
 
 /// One row.

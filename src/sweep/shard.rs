@@ -20,6 +20,16 @@ impl Shard {
         (one >= 1 && one <= of).then_some(Self { one, of })
     }
 
+    /// Which it is, of how many.
+    pub fn numbers(self) -> (usize, usize) {
+        (self.one, self.of)
+    }
+
+    /// Its rows, of so many.
+    pub fn rows(self, all: usize) -> impl Iterator<Item = usize> {
+        (self.one - 1..all).step_by(self.of)
+    }
+
     /// Whether a row belongs to it.
     pub fn holds(self, row: usize) -> bool {
         row % self.of == self.one - 1

@@ -370,3 +370,26 @@ fn strengths_that_are_left_out_are_told_and_not_compared() {
     let answer = assess(&model.assembly, &model.interfaces, &Control::default());
     assert_eq!(agreement(&model.assembly, &model.interfaces, &answer, &outcome).agrees, None);
 }
+
+#[test]
+fn many_simulations_in_a_work_stealing_pool_do_not_pile_up_on_one_stack() {
+    // A worker that waited for the engine began the next simulation on top of the last, until the stack was full.
+    use rayon::prelude::*;
+    use std::cell::Cell;
+    thread_local! { static DEPTH: Cell<usize> = const { Cell::new(0) }; }
+    let text = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.6 } },
+        "templates": [{ "column": { "blocks": 2, "size": [1, 1, 0.5] } }] }"#;
+    let (scene, _) = voussoir::scene::read_str("test", text).unwrap();
+    let model = voussoir::analysis::prepare(&scene).unwrap();
+    let settings = voussoir::dynamics::Settings { fidelity: Some(voussoir::dynamics::Fidelity::Fast), ..Default::default() };
+    let one = |_| {
+        DEPTH.set(DEPTH.get() + 1);
+        let depth = DEPTH.get();
+        let watch = &mut |_: &voussoir::dynamics::Progress| std::ops::ControlFlow::Continue(());
+        assert!(voussoir::dynamics::simulate(&model.assembly, &model.interfaces, &settings, watch).is_ok());
+        DEPTH.set(DEPTH.get() - 1);
+        depth
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    assert_eq!(pool.install(|| (0..24).into_par_iter().map(one).max()), Some(1));
+}

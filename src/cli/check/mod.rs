@@ -13,14 +13,14 @@ use voussoir::{
 pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
     let (name, bytes) = input::bytes(&args.file)?;
     match std::str::from_utf8(&bytes).ok().filter(|text| read::is_result(text)) {
-        Some(text) => result::run(&read::read_str(name, text)?, args.scene.as_deref(), terminal, terminal.layout(&args.file)),
+        Some(text) => result::run(&read::read_str(name, text)?, args.scene.as_deref(), args.json, terminal, terminal.layout(&args.file)),
         None if args.scene.is_some() => {
             let error = InputError::at(JsonPath::root(), "not a result: only results are verified against a scene");
             Err(InputError { file: Some(name), ..error.hint("save one with --save, or leave --scene out") }.into())
         }
         None => {
             let (scene, source) = read_bytes(name, bytes)?;
-            scene::run(&scene, &source, terminal, terminal.layout(&args.file))
+            scene::run(&scene, &source, args.json, terminal, terminal.layout(&args.file))
         }
     }
 }

@@ -1,17 +1,24 @@
 //! Looking for slips in a scene.
 
-use crate::cli::{exit::Exit, terminal::Terminal};
+use crate::cli::{
+    exit::Exit,
+    terminal::{self, Terminal},
+};
 use voussoir::{
     analysis::prepare,
     error::{Finding, FindingCode},
-    report::text,
+    report::{self, Inspection, text},
     scene::{Scene, Source},
 };
 
-pub fn run(scene: &Scene, source: &Source, terminal: &Terminal, layout: text::Layout) -> anyhow::Result<Exit> {
+pub fn run(scene: &Scene, source: &Source, json: bool, terminal: &Terminal, layout: text::Layout) -> anyhow::Result<Exit> {
     let model = prepare(scene).map_err(|e| e.located(source))?;
     let (slips, notes): (Vec<Finding>, Vec<Finding>) = model.findings().cloned().partition(is_slip);
-    terminal.page(&text::inspection(&model, &slips, &notes, layout))?;
+    if json {
+        terminal::print(&report::json::pretty(&Inspection::new(&model))?)?;
+    } else {
+        terminal.page(&text::inspection(&model, &slips, &notes, layout))?;
+    }
     Ok(if slips.is_empty() { Exit::Yes } else { Exit::No })
 }
 

@@ -1,6 +1,8 @@
 //! Sweeps as text, table and chart.
 
 mod chart;
+pub(in crate::report) mod group;
+mod progress;
 mod table;
 mod text;
 
@@ -8,6 +10,7 @@ use crate::sweep::{Header, Question, Summary};
 use serde::Serialize;
 
 pub use chart::{ChartError, Kind, chart};
+pub use progress::{Progress, progress};
 pub use table::csv;
 pub use text::summary;
 

@@ -12,7 +12,7 @@ use std::{
 use tempfile::TempDir;
 
 /// A folder with `scene.json` and `plan.json`.
-fn desk(samples: usize) -> TempDir {
+pub fn desk(samples: usize) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let plan = json!({
         "format": "voussoir-sweep/1",
@@ -38,14 +38,19 @@ fn command(folder: &Path, args: &[&str]) -> Command {
 
 #[track_caller]
 fn expect(code: i32, folder: &Path, args: &[&str]) -> Output {
-    let output = command(folder, args).output().unwrap();
+    expect_in(code, command(folder, args).output().unwrap())
+}
+
+/// A run that ended with the code, and without a panic.
+#[track_caller]
+pub fn expect_in(code: i32, output: Output) -> Output {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{error}");
     assert!(!error.contains("panicked"), "{error}");
     output
 }
 
-fn rows(path: &Path) -> BTreeMap<u64, String> {
+pub fn rows(path: &Path) -> BTreeMap<u64, String> {
     let text = fs::read_to_string(path).unwrap();
     let mut rows = BTreeMap::new();
     for line in text.lines().skip(1) {

@@ -3,6 +3,7 @@
 mod command;
 mod plan;
 mod rows;
+mod slurm;
 mod summary;
 mod worst;
 

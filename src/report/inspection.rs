@@ -1,0 +1,125 @@
+//! A scene as it was resolved (`"format": "voussoir-model/1"`): blocks with their loads, interfaces with their contact points and
+//! frames. Everything another program needs to ask its own questions about the very same contacts.
+//!
+//! Loads are forces (N) and moments (N·m) about the centre of mass. The frame `(t1, t2, n)` is right-handed, `n` points from the first
+//! block into the second; contact forces act on the second. Indices count `blocks` from 0.
+
+use crate::{
+    analysis::Model,
+    assembly::{JointLaw, Wrench},
+    error::Finding,
+    interface::ContactKind,
+    scene::Friction,
+};
+use serde::Serialize;
+
+/// The resolved scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct Inspection<'a> {
+    format: &'static str,
+    name: &'a str,
+    gravity: [f64; 3],
+    blocks: Vec<Block<'a>>,
+    interfaces: Vec<Contact<'a>>,
+    findings: Vec<&'a Finding>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct Block<'a> {
+    id: &'a str,
+    support: bool,
+    mass: f64,
+    centroid: [f64; 3],
+    dead: Load,
+    live: Load,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct Load {
+    force: [f64; 3],
+    moment: [f64; 3],
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct Contact<'a> {
+    between: [usize; 2],
+    kind: ContactKind,
+    t1: [f64; 3],
+    t2: [f64; 3],
+    n: [f64; 3],
+    points: Vec<[f64; 3]>,
+    area: f64,
+    gap: f64,
+    #[serde(flatten)]
+    law: Law<'a>,
+}
+
+/// Strengths that a joint does not have are left out.
+#[derive(Clone, Debug, Serialize)]
+struct Law<'a> {
+    friction: &'a Friction,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cohesion: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tension: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compression: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pore_pressure: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rolling_arm: Option<f64>,
+}
+
+impl<'a> Inspection<'a> {
+    /// A model as it stands.
+    pub fn new(model: &'a Model) -> Self {
+        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let blocks = assembly.blocks.iter().zip(assembly.dead.iter().zip(&assembly.live)).map(|(b, (dead, live))| Block {
+            id: &b.id,
+            support: b.support,
+            mass: b.mass,
+            centroid: b.centroid.into(),
+            dead: dead.into(),
+            live: live.into(),
+        });
+        let contacts = interfaces.list.iter().map(|face| Contact {
+            between: [face.a, face.b],
+            kind: face.kind,
+            t1: face.frame.t1.into(),
+            t2: face.frame.t2.into(),
+            n: face.frame.n.into(),
+            points: face.points.iter().map(|&p| p.into()).collect(),
+            area: face.area,
+            gap: face.gap,
+            law: (&face.law).into(),
+        });
+        Self {
+            format: "voussoir-model/1",
+            name: &assembly.name,
+            gravity: assembly.gravity.into(),
+            blocks: blocks.collect(),
+            interfaces: contacts.collect(),
+            findings: model.findings().collect(),
+        }
+    }
+}
+
+impl From<&Wrench> for Load {
+    fn from(w: &Wrench) -> Self {
+        Self { force: w.force.into(), moment: w.moment.into() }
+    }
+}
+
+impl<'a> From<&'a JointLaw> for Law<'a> {
+    fn from(law: &'a JointLaw) -> Self {
+        let some = |v: f64| (v != 0.0 && v.is_finite()).then_some(v);
+        Self {
+            friction: &law.friction,
+            cohesion: some(law.cohesion),
+            tension: some(law.tension),
+            compression: law.compression.is_finite().then_some(law.compression),
+            pore_pressure: some(law.pore_pressure),
+            rolling_arm: some(law.rolling_arm),
+        }
+    }
+}

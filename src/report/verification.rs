@@ -1,0 +1,41 @@
+//! What the verification of a result found (`"format": "voussoir-verification/1"`), for programs.
+
+use super::verify::Verification;
+use serde::Serialize;
+
+/// The outcome and its reasons.
+#[derive(Clone, Debug, Serialize)]
+pub struct VerificationFile<'a> {
+    format: &'static str,
+    name: &'a str,
+    /// Whether any part fails.
+    refuted: bool,
+    /// Whether the answer claims something and every part holds.
+    proved: bool,
+    parts: Vec<Part<'a>>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct Part<'a> {
+    title: &'a str,
+    fails: &'a [String],
+    holds: &'a [String],
+}
+
+impl<'a> VerificationFile<'a> {
+    /// The verification of the result called `name`.
+    pub fn new(name: &'a str, verification: &'a Verification) -> Self {
+        let part = |(title, findings): &'a (String, crate::verdict::check::Findings)| Part {
+            title,
+            fails: &findings.fails,
+            holds: &findings.holds,
+        };
+        Self {
+            format: "voussoir-verification/1",
+            name,
+            refuted: verification.refuted(),
+            proved: verification.proved(),
+            parts: verification.parts.iter().map(part).collect(),
+        }
+    }
+}
