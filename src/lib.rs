@@ -71,6 +71,10 @@
 pub mod error;
 pub mod tolerance;
 
+pub mod limits;
+
+pub mod parallel;
+
 pub mod scene;
 
 pub mod generate;

@@ -10,12 +10,19 @@ use cli::{
 };
 use std::process::ExitCode;
 
+#[global_allocator]
+static MEMORY: cli::memory::Counted = cli::memory::Counted;
+
 fn main() -> ExitCode {
     let arguments = match Cli::try_parse() {
         Ok(arguments) => arguments,
         Err(answer) => return terminal::usage(&answer).into(),
     };
     let terminal = Terminal::new(arguments.color);
+    if let Err(error) = arguments.max_memory.map_or(Ok(()), cli::memory::limit) {
+        terminal::error(&error);
+        return Exit::Usage.into();
+    }
     let result = match arguments.verb {
         Verb::Assess(a) => cli::assess::run(&a, &terminal),
         Verb::Limit(a) => cli::limit::run(&a, &terminal),
@@ -30,6 +37,8 @@ fn main() -> ExitCode {
         Verb::Check(a) => cli::check::run(&a, &terminal),
         Verb::Sweep(a) => cli::sweep::run(&a, &terminal),
         Verb::Schema(a) => cli::schema::run(&a),
+        Verb::Completions(a) => cli::completions::run(&a),
+        Verb::Man(a) => cli::man::run(&a),
     };
     match result {
         Ok(exit) => exit.into(),

@@ -10,7 +10,12 @@ use super::{
     flip::{Flip, Probe, refine},
     prepare,
 };
-use crate::{error::InputError, scene::Scene, tolerance, verdict::Verdict};
+use crate::{
+    error::{InputError, JsonPath},
+    scene::Scene,
+    tolerance,
+    verdict::Verdict,
+};
 use std::time::Instant;
 
 /// What is varied, and how the range is scanned.
@@ -91,6 +96,9 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     let statics = || Control { law: Law::Associative, ..control_now() };
     let mut probes = 0;
     let mut ask = |value: f64, control: Control| {
+        if probes > 0 && control.seconds <= 0.0 {
+            return Err(InputError::at(JsonPath::root(), "the time is up"));
+        }
         probes += 1;
         probe(scene, &range.pointer, value, &control)
     };
@@ -101,7 +109,12 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     let mut open: Vec<f64> = Vec::new();
     let values = values(range, whole);
     let count = values.len();
+    let mut notes = Vec::new();
     for (k, value) in values.into_iter().enumerate() {
+        if k > 0 && control_now().seconds <= 0.0 {
+            notes.push(format!("the time was up after {k} of {count} values of the scan: the rest of the range is not known"));
+            break;
+        }
         let answer = ask(value, control_now());
         let outcome = answer.as_ref().map(|p| (p.assessment.verdict, p.unbalance())).map_err(Clone::clone);
         scan.push(Scanned { value, outcome });
@@ -123,7 +136,6 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     if let (true, Some(error)) = (scan.iter().all(|s| s.outcome.is_err()), scan.iter().find_map(|s| s.outcome.as_ref().err())) {
         return Err(error.clone());
     }
-    let mut notes = Vec::new();
     if !whole {
         for (at, window) in windows(&found, &mut |v| ask(v, statics())).into_iter().rev() {
             let with_law = ask(window.value, control_now()).unwrap_or(window);

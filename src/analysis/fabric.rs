@@ -13,13 +13,7 @@
 //!
 //! M. Satake, *Fabric tensor in granular materials*, IUTAM Symposium on Deformation and Failure of Granular Materials, Delft 1982.
 
-use crate::{
-    assembly::{Assembly, Solid},
-    interface::Interfaces,
-    scene::Friction,
-    tolerance,
-    verdict::Forces,
-};
+use crate::{assembly::Assembly, interface::Interfaces, scene::Friction, tolerance, verdict::Forces};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -140,7 +134,7 @@ pub fn fabric(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> 
         let force: Vector3<f64> = forces[contact.interface].iter().map(|w| w.force).sum();
         stress += (end(face.b) - end(face.a)) * force.transpose();
     }
-    let volume: f64 = assembly.free().map(|i| volume(&assembly.blocks[i].solid)).sum();
+    let volume: f64 = assembly.free().map(|i| assembly.blocks[i].solid.volume()).sum();
     let eigen = SymmetricEigen::new(tensor).eigenvalues;
     let used: Vec<f64> = list.iter().filter_map(|c| c.mobilised).collect();
     let sliding = used.iter().filter(|m| **m >= 1.0 - tolerance::ABOUT_TO_SLIDE).count() as f64;
@@ -177,11 +171,4 @@ fn rattlers(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, list:
         }
     }
     rattles
-}
-
-fn volume(solid: &Solid) -> f64 {
-    match solid {
-        Solid::Sphere { radius, .. } => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
-        Solid::Polyhedron(p) => p.mass_properties().volume,
-    }
 }

@@ -153,6 +153,7 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step:
         if upper < answer.bracket.upper {
             (answer.bracket.upper, answer.rates) = (upper, c.rates);
         }
+        pair(assembly, interfaces, answer);
     }
     answer.attempts.push(Attempt {
         program: format!("load factor in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
@@ -168,6 +169,19 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step:
         upper,
     });
     base.sections = statics.sections;
+}
+
+/// The bracket of the best forces and the best mechanism together. Each end is corrected to first order by the other side, and the best
+/// of the other side corrects best: a mechanism weighed by the forces of a poor attempt may seem to fall below the limit.
+fn pair(assembly: &Assembly, interfaces: &Interfaces, answer: &mut LoadFactor) {
+    if !answer.bracket.width().is_finite() {
+        return;
+    }
+    let k = certificate::kinematics(assembly, interfaces, &answer.rates, &answer.forces);
+    let s = certificate::statics(assembly, interfaces, &answer.forces, answer.value);
+    let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &answer.rates[i]).abs()).sum();
+    let (lower, upper) = (answer.value - hidden / k.live_power, k.upper());
+    answer.bracket = Bracket { lower, upper };
 }
 
 /// One attempt at program L with a way of one's own, for studies: nothing is tried again.

@@ -15,10 +15,10 @@ use crate::{
     dynamics::granular::{Change, Flow, Rest, flow},
     error::{Finding, FindingCode, InputError},
     generate::{Deposit, deposit},
-    scene::{Protocol, ProtocolKind, Scene},
+    scene::{BlockSpec, Protocol, ProtocolKind, Rotation, Scene},
     tolerance::GRAIN_GAP,
 };
-use nalgebra::{Unit, Vector3};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
 use std::{collections::BTreeMap, f64::consts::TAU, ops::ControlFlow, time::Instant};
 
 /// Width of a cell, d.
@@ -118,8 +118,9 @@ pub fn heap(protocol: &Protocol, seed: u64, watch: &mut dyn FnMut(&Flow) -> Cont
     };
     let rest = flow(&assembly, &stages, d, HORIZON, watch)?;
     let spots: Vec<(Vector3<f64>, f64)> =
-        assembly.free().filter_map(|i| rest.centers[i].map(|c| (c, radius(&assembly.blocks[i].solid)))).collect();
-    let (slope, parts) = surface(protocol, &spots);
+        assembly.free().filter_map(|i| rest.poses[i].map(|p| (i, p))).flat_map(|(i, pose)| tops(&assembly.blocks[i], pose)).collect();
+    let turned = rest.turned.unwrap_or(0.0);
+    let (slope, parts) = surface(protocol, &spots, turned);
     let mut findings = Vec::new();
     let mut say = |text: String| findings.push(Finding::new(FindingCode::Numerics, text));
     if !rest.rested {
@@ -137,22 +138,20 @@ pub fn heap(protocol: &Protocol, seed: u64, watch: &mut dyn FnMut(&Flow) -> Cont
         time: rest.time / natural,
         seconds: rest.seconds,
         grains: [free - rest.gone, rest.gone],
-        slope: slope.map(|s| seen_from(s, &rest)),
-        parts: parts.into_iter().map(|s| seen_from(s, &rest)).collect(),
+        slope,
+        parts,
         avalanche_deg: rest.turned.map(f64::to_degrees),
         findings,
     })
 }
 
-/// A slope against gravity as it has turned.
-fn seen_from(slope: Slope, rest: &Rest) -> Slope {
-    Slope { angle_deg: slope.angle_deg + rest.turned.map_or(0.0, f64::to_degrees), ..slope }
-}
-
-fn radius(solid: &assembly::Solid) -> f64 {
-    match solid {
-        assembly::Solid::Sphere { radius, .. } => *radius,
-        assembly::Solid::Polyhedron(_) => 0.0,
+/// Spheres with these centres and radii, one of whose tops is the top of the grain as it has moved.
+fn tops(block: &assembly::Block, (center, turn): (Vector3<f64>, UnitQuaternion<f64>)) -> Vec<(Vector3<f64>, f64)> {
+    let moved = |p: &Vector3<f64>| center + turn * (p - block.centroid);
+    match &block.solid {
+        assembly::Solid::Sphere { center, radius } => vec![(moved(center), *radius)],
+        assembly::Solid::Clump { balls, .. } => balls.iter().map(|(c, r)| (moved(c), *r)).collect(),
+        assembly::Solid::Polyhedron(p) => p.vertices.iter().map(|v| (moved(v), 0.0)).collect(),
     }
 }
 
@@ -167,17 +166,34 @@ fn settled(scene: &Scene, assembly: &assembly::Assembly, rest: &Rest, index: &BT
     }
     heap.blocks.retain_mut(|block| {
         let Some(&i) = index.get(block.id.as_str()) else { return false };
-        let Some(center) = rest.centers.get(i).copied().flatten() else { return false };
+        let Some((center, turn)) = rest.poses.get(i).copied().flatten() else { return false };
         if !block.support {
-            block.at = center.into();
+            lay(block, &assembly.blocks[i], center, turn);
         }
         true
     });
     heap
 }
 
+/// Moves a block: the frame x ↦ R x + t turns about the centre of mass.
+fn lay(spec: &mut BlockSpec, block: &assembly::Block, center: Vector3<f64>, turn: UnitQuaternion<f64>) {
+    if matches!(block.solid, assembly::Solid::Sphere { .. }) {
+        // A sphere looks the same however it has turned.
+        spec.at = center.into();
+        return;
+    }
+    let before = spec.rotation_deg.as_ref().and_then(|r| Unit::try_new(Vector3::from(r.axis), 0.0).map(|axis| (axis, r.angle)));
+    let before = before.map_or(UnitQuaternion::identity(), |(axis, angle)| UnitQuaternion::from_axis_angle(&axis, angle.to_radians()));
+    spec.at = (center + turn * (Vector3::from(spec.at) - block.centroid)).into();
+    spec.rotation_deg =
+        (turn * before).axis_angle().map(|(axis, angle)| Rotation { axis: axis.into_inner().into(), angle: angle.to_degrees() });
+}
+
 /// The fit through the mean surface, and the fits along strips or sectors.
-fn surface(protocol: &Protocol, spots: &[(Vector3<f64>, f64)]) -> (Option<Slope>, Vec<Slope>) {
+///
+/// Where the bed has been tilted by `turned` radians, ways and heights count as gravity sees them: against the bed the surface is
+/// nearly level, and a line through it would explain little of its roughness.
+fn surface(protocol: &Protocol, spots: &[(Vector3<f64>, f64)], turned: f64) -> (Option<Slope>, Vec<Slope>) {
     let d = protocol.diameter;
     let width = CELL * d;
     let open = matches!(protocol.kind, ProtocolKind::Funnel | ProtocolKind::Cylinder);
@@ -215,14 +231,15 @@ fn surface(protocol: &Protocol, spots: &[(Vector3<f64>, f64)]) -> (Option<Slope>
     };
     // A step that not every path reaches lies beyond the toe of the mean.
     let profile: Vec<(f64, f64)> = steps.values().filter(|cells| 2 * cells.len() > full).map(mean).collect();
-    (fit(&profile, d), paths.values().filter_map(|cells| fit(cells, d)).collect())
+    (fit(&profile, d, turned), paths.values().filter_map(|cells| fit(cells, d, turned)).collect())
 }
 
 /// A straight line through cells, the first (at the wall, or the top) and the toe left out.
-fn fit(cells: &[(f64, f64)], d: f64) -> Option<Slope> {
+fn fit(cells: &[(f64, f64)], d: f64, turned: f64) -> Option<Slope> {
     // Beyond the last cell that stands clear of the floor is the toe; its own last cell is cut by it.
     let end = cells.iter().rposition(|c| c.1 > TOE * d)?;
-    let inner = cells.get(1..end)?;
+    let (sin, cos) = turned.sin_cos();
+    let inner: Vec<(f64, f64)> = cells.get(1..end)?.iter().map(|(x, z)| (x * cos + z * sin, z * cos - x * sin)).collect();
     if inner.len() < FEWEST {
         return None;
     }
@@ -293,12 +310,16 @@ mod tests {
                 (Vector3::new(x * d, y * d, (8.5 - slope * x) * d), 0.5 * d)
             })
             .collect();
-        let (mean, parts) = surface(&protocol, &spots);
+        let (mean, parts) = surface(&protocol, &spots, 0.0);
         let mean = mean.expect("a slope");
         assert!((mean.angle_deg - 25.0).abs() < 1e-9 && mean.r_squared > 1.0 - 1e-12 && mean.cells >= 5, "{mean:?}");
         assert_eq!(parts.len(), 5);
         assert!(parts.iter().all(|p| (p.angle_deg - 25.0).abs() < 1e-9), "{parts:?}");
-        assert_eq!(surface(&protocol, &spots[..10]).0, None, "one row of grains has no slope");
-        assert_eq!(surface(&protocol, &[]), (None, Vec::new()));
+        // The same grains where gravity has turned by 10°: ten more, with the same fit.
+        let (mean, _) = surface(&protocol, &spots, 10f64.to_radians());
+        let mean = mean.expect("a slope");
+        assert!((mean.angle_deg - 35.0).abs() < 1e-9 && mean.r_squared > 1.0 - 1e-12, "{mean:?}");
+        assert_eq!(surface(&protocol, &spots[..10], 0.0).0, None, "one row of grains has no slope");
+        assert_eq!(surface(&protocol, &[], 0.0), (None, Vec::new()));
     }
 }

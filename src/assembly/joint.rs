@@ -68,10 +68,13 @@ impl JointRules {
         if let Some(law) = self.by_blocks.get(&(a.min(b), a.max(b))) {
             return Some(*law);
         }
-        let of_materials = |[m, n]: &[String; 2]| {
-            let (one, two) = (blocks[a].material.as_ref(), blocks[b].material.as_ref());
-            (one == Some(m) && two == Some(n)) || (one == Some(n) && two == Some(m))
-        };
-        self.by_material.iter().rev().find(|(pair, _)| of_materials(pair)).map(|(_, law)| *law).or(self.default)
+        let material = |i: usize| blocks.get(i).and_then(|b| b.material.as_ref());
+        self.of_materials(material(a), material(b))
+    }
+
+    /// The law between two blocks of these materials that no rule names by themselves.
+    pub fn of_materials(&self, one: Option<&String>, two: Option<&String>) -> Option<JointLaw> {
+        let named = |[m, n]: &[String; 2]| (one == Some(m) && two == Some(n)) || (one == Some(n) && two == Some(m));
+        self.by_material.iter().rev().find(|(pair, _)| named(pair)).map(|(_, law)| *law).or(self.default)
     }
 }

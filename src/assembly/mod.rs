@@ -1,10 +1,13 @@
 //! A [`Scene`](crate::scene::Scene) resolved once and completely: SI units, scene coordinates, closed outward shapes,
 //! positive masses, every default applied, every name resolved.
 
+mod clump;
+mod gyration;
 mod joint;
 mod polyhedron;
 mod resolve;
 
+pub use gyration::Gyration;
 pub use joint::{JointLaw, JointRules};
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
 pub use resolve::{Blocks, resolve, resolve_blocks, resolve_with};
@@ -57,6 +60,8 @@ pub struct Block {
     pub centroid: Vector3<f64>,
     /// Inertia about the centre of mass, kg·m².
     pub inertia: Matrix3<f64>,
+    /// Its radii of gyration: what moments and spins are measured by.
+    pub gyration: Gyration,
     /// Geometry in scene coordinates.
     pub solid: Solid,
     /// Bounding-box diagonal, m; the length scale of every tolerance about this block.
@@ -75,6 +80,29 @@ pub enum Solid {
         /// Radius, m.
         radius: f64,
     },
+    /// Spheres rigidly joined.
+    Clump {
+        /// Centres and radii, m.
+        balls: Vec<(Vector3<f64>, f64)>,
+        /// Volume of their union, m³.
+        volume: f64,
+    },
+}
+
+impl Solid {
+    /// Volume, m³.
+    pub fn volume(&self) -> f64 {
+        match self {
+            Self::Sphere { radius, .. } => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+            Self::Clump { volume, .. } => *volume,
+            Self::Polyhedron(p) => p.mass_properties().volume,
+        }
+    }
+
+    /// Whether the surface is made of spheres alone, so that whatever touches it touches it at points.
+    pub fn is_round(&self) -> bool {
+        !matches!(self, Self::Polyhedron(_))
+    }
 }
 
 /// A force acting off a block's centre of mass.

@@ -4,6 +4,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use voussoir::{
     import::Up,
+    report::drawing::Aspect,
     scene::Friction,
     sweep::{Range, Shard},
 };
@@ -27,6 +28,10 @@ pub struct Cli {
     /// Colour of text: auto (on a terminal, unless NO_COLOR is set), always or never.
     #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = Color::Auto, hide_possible_values = true)]
     pub color: Color,
+    /// Take no more memory than this, such as 500M or 8G: what would is refused, mostly before it begins. By default estimates have to fit
+    /// into the memory that is free, and nothing is counted.
+    #[arg(long, global = true, value_name = "SIZE", value_parser = bytes)]
+    pub max_memory: Option<u64>,
 }
 
 /// So many directions a tilt is asked for where nothing is said.
@@ -99,7 +104,7 @@ pub enum Verb {
     /// Error against run time, per method, on scenes with known answers.
     ///
     /// Each method runs over its knob (the engine's tolerance, facets of friction pyramids, number of verdicts, time steps); medians of
-    /// repeated runs. With --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
+    /// repeated runs. With --soak, random scenes whose proofs are held against each other; with --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
     /// answer is wrong.
     Study(Study),
     /// Make a scene from a template.
@@ -125,6 +130,14 @@ pub enum Verb {
     Sweep(Sweep),
     /// Print the JSON Schema of scenes, or of sweep plans.
     Schema(Schema),
+    /// Print what a shell needs to complete verbs and options.
+    ///
+    /// bash: `voussoir completions bash > ~/.local/share/bash-completion/completions/voussoir`
+    Completions(Completions),
+    /// Print a manual page, or write all of them.
+    ///
+    /// `voussoir man limit | man -l -` shows one; `voussoir man --folder ~/.local/share/man/man1` keeps them all.
+    Man(Man),
 }
 
 #[derive(Debug, Args)]
@@ -247,6 +260,9 @@ pub struct Summary {
     /// Draw a chart.
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// Write charts with values where one points, and a table to sort, as a page for a browser to this file.
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
     /// Which chart: `line` (value against one number), `heat` (against two), `fragility` (share that fails); by default what suits the plan.
     #[arg(long, value_enum, value_name = "KIND", requires = "svg", hide_possible_values = true)]
     pub chart: Option<Chart>,
@@ -289,9 +305,54 @@ pub enum Format {
 }
 
 #[derive(Debug, Args)]
+pub struct Completions {
+    /// bash, elvish, fish, powershell or zsh.
+    #[arg(value_enum, hide_possible_values = true)]
+    pub shell: clap_complete::Shell,
+}
+
+#[derive(Debug, Args)]
+pub struct Man {
+    /// The verb that the page is about; the program as a whole where none is named.
+    #[arg(conflicts_with = "folder")]
+    pub verb: Option<String>,
+    /// Write the pages of the program and of all verbs into this folder.
+    #[arg(long, value_name = "FOLDER")]
+    pub folder: Option<PathBuf>,
+}
+
+/// Pictures of an answer.
+#[derive(Debug, Args)]
+pub struct Pictures {
+    /// Draw the answer to this file: blocks, joints, line of thrust or chains of forces, and beside it how it moves.
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// From where --svg looks: front, back, left, right, top, corner, or a direction such as 1,-2,0.5; by default along the normal of a plane
+    /// scene, and from a corner at others.
+    #[arg(long, value_name = "FROM", requires = "svg", allow_hyphen_values = true)]
+    pub view: Option<Aspect>,
+    /// Write blocks, joints, forces, lines of thrust and mechanisms to this file (.vtp) for ParaView; of `simulate` the blocks, time by time
+    /// (.pvd, with a folder of the same name beside it).
+    #[arg(long, value_name = "FILE")]
+    pub vtk: Option<PathBuf>,
+}
+
+/// Tables of an answer.
+#[derive(Debug, Args)]
+pub struct Tables {
+    /// Write joints with their forces to this file, comma-separated, and blocks to another with `.blocks` before its ending.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
 pub struct Assess {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    #[command(flatten)]
+    pub tables: Tables,
     /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is `friction` (of all joints without an exception),
     /// `density` (every material by itself), `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is the worst is said.
     #[arg(long, value_name = "RANGES", value_delimiter = ',')]
@@ -311,6 +372,8 @@ pub struct Assess {
 pub struct Simulate {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
     /// Fast steps only: to be trusted 3 % away from a limit.
     #[arg(long, conflicts_with = "fine")]
     pub fast: bool,
@@ -357,12 +420,25 @@ pub struct Study {
     /// The stiff and extreme grid instead.
     #[arg(long)]
     pub extreme: bool,
+    /// So many random scenes instead: verdicts held against their certificates, against omissions and, of a sample, against simulations.
+    /// Exit code 1 if any two exclude each other.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
+    pub soak: Option<u32>,
+    /// Which random scenes (--soak).
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
+    pub seed: u64,
+    /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak).
+    #[arg(long, value_name = "NUMBER", requires = "soak", conflicts_with_all = ["csv", "json"])]
+    pub only: Option<u32>,
     /// Write every run to this file, comma-separated.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
     /// Draw the charts into this folder: one per scene, and profile.svg over all.
     #[arg(long, value_name = "FOLDER", conflicts_with = "extreme")]
     pub svg: Option<PathBuf>,
+    /// Write charts with values where one points, and a table to sort, as a page for a browser to this file.
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
     /// Print every run as JSON.
     #[arg(long)]
     pub json: bool,
@@ -378,6 +454,10 @@ pub struct Study {
 pub struct Limit {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    #[command(flatten)]
+    pub tables: Tables,
     /// The load factor that is needed: exit code 1 if the greatest one, with dry friction too unless --law associative, is below, 3 if
     /// that stays open.
     #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = finite)]
@@ -395,6 +475,10 @@ pub struct Limit {
 pub struct Tilt {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    #[command(flatten)]
+    pub tables: Tables,
     /// Tip towards this direction (its part across gravity); may be given several times.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub toward: Vec<[f64; 3]>,
@@ -421,8 +505,10 @@ pub enum Asked {
 pub struct Repose {
     #[command(flatten)]
     pub common: Common,
-    /// Values of the protocol that differ from the defaults (--question repose): grains=2000 diameter=0.01 sizes=0.2 friction=0.5
-    /// wall_friction=0 rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
+    #[command(flatten)]
+    pub pictures: Pictures,
+    /// Values of the protocol that differ from the defaults (--question repose): grain=sphere (or clump, hull) elongation=1.5 (of clumps and
+    /// hulls) corners=16 (of hulls) grains=2000 diameter=0.01 (of spheres of the same volume) sizes=0.2 friction=0.5 wall_friction=0 rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
     /// `stability`: the greatest tilt of the packing SCENE as it lies; `repose`: the slope that a heap leaves behind which flowed, SCENE then
@@ -456,7 +542,7 @@ pub struct Repose {
     /// Show as well how the packing carries its load when level: coordination, fabric, forces, stress, mobilised friction.
     #[arg(long)]
     pub fabric: bool,
-    /// Write the contact forces of the packing when level to this file.
+    /// Write the contact forces of the packing when level to this file (not with --question repose).
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
 }
@@ -483,15 +569,16 @@ pub struct Critical {
 pub struct Thrust {
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    #[command(flatten)]
+    pub tables: Tables,
     /// The support; the first one that carries a free block where none is named.
     #[arg(long, value_name = "ID")]
     pub support: Option<String>,
     /// The direction of the thrust (its part across gravity); outwards from the blocks' centre of mass where none is given.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub direction: Option<[f64; 3]>,
-    /// Draw the blocks and the two lines of thrust, seen across the thrust, to this file.
-    #[arg(long, value_name = "FILE")]
-    pub svg: Option<PathBuf>,
 }
 
 /// What every question takes.
@@ -505,6 +592,9 @@ pub struct Common {
     /// Write the result, with the scene and its proof, to this file for `voussoir check`.
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
+    /// Write the answer as a page for a browser, with a picture, to this file (HTML, without any connection to a network).
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
     /// Solve the scene in full, without leaving out what symmetry or missing friction make needless.
     #[arg(long)]
     pub keep_all: bool,
@@ -513,7 +603,7 @@ pub struct Common {
     /// the bound.
     #[arg(long, value_enum, value_name = "LAW", default_value_t = Law::Coulomb, hide_possible_values = true)]
     pub law: Law,
-    /// Stop trying after this many seconds.
+    /// Stop trying after this many seconds, counted from the start, and answer with the best bracket so far. Exit code 3 if that decides nothing.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     pub time_limit: Option<f64>,
     /// Lists in full, and every attempt at the program.
@@ -600,6 +690,19 @@ pub struct Check {
     /// interfaces with contact points and frames, and the findings.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Bytes, with a unit of 1024s: 500M, 8G, 8GiB.
+fn bytes(text: &str) -> Result<u64, String> {
+    let wrong = || "not a size such as 500M or 8G".to_string();
+    let text = text.trim().to_ascii_uppercase();
+    let text = text.strip_suffix('B').unwrap_or(&text);
+    let text = text.strip_suffix('I').unwrap_or(text);
+    let power = text.chars().last().and_then(|c| "KMGT".find(c)).map(|k| k + 1);
+    let number = if power.is_some() { &text[..text.len() - 1] } else { text };
+    let value: f64 = number.parse().map_err(|_| wrong())?;
+    let bytes = value * 1024f64.powi(power.unwrap_or(0) as i32);
+    if bytes >= 1.0 && bytes < 2f64.powi(63) { Ok(bytes as u64) } else { Err(wrong()) }
 }
 
 fn finite(text: &str) -> Result<f64, String> {

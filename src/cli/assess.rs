@@ -8,19 +8,27 @@ use super::{
     terminal::Terminal,
 };
 use std::ops::ControlFlow;
-use voussoir::{analysis::assess, dynamics::Settings, report::ResultFile, sweep::WorstOf, verdict::Verdict};
+use voussoir::{
+    analysis::assess,
+    dynamics::Settings,
+    report::{ResultFile, view::Film},
+    sweep::WorstOf,
+    verdict::Verdict,
+};
 
 pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let mut question = Question::open(&args.common)?;
+    let mut question = Question::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     question.worst(&args.worst, WorstOf::Assess)?;
     let assessment = assess(&question.model.assembly, &question.model.interfaces, &question.control());
     let doubt = matches!(assessment.verdict, Verdict::Conditional | Verdict::Undecided);
-    let settings = Settings { threads: threads(args.threads), ..Settings::default() };
+    let mut film = question.report().map(|_| Film::fitting(question.model.assembly.blocks.len()));
+    let settings = Settings { threads: threads(args.threads), every_step: film.is_some(), ..Settings::default() };
     let outcome = match args.simulate || (args.thorough && doubt) {
-        true => Some(watch(&question, &settings, &mut |_| ControlFlow::Continue(()))?),
+        true => Some(watch(&question, &settings, &mut film, &mut |_| ControlFlow::Continue(()))?),
         false => None,
     };
-    let file = question.answer(terminal, &args.options(), || {
+    let frames = film.map(Film::frames).unwrap_or_default();
+    let file = question.answer_with_film(terminal, &args.options(), frames, || {
         let file = ResultFile::assessment(&question.scene, &question.model, &assessment);
         match &outcome {
             Some(outcome) => file.with_simulation(&question.model, Some(&assessment), outcome),

@@ -16,7 +16,7 @@ use voussoir::{
 };
 
 pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let mut question = Question::open(&args.common)?;
+    let mut question = Question::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     no_live_load(&question)?;
     question.worst(&args.worst, WorstOf::Limit)?;
     let (assembly, interfaces) = (&question.model.assembly, &question.model.interfaces);

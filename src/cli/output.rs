@@ -21,7 +21,7 @@ pub enum Sink {
 
 impl Sink {
     /// A sink for `path`; `None` and `-` are standard output. Writing is tried out now, so that a long answer is not lost later:
-    /// a file is created in the target's folder and removed again.
+    /// a file without a name is made in the target's folder.
     pub fn open(path: Option<&Path>) -> anyhow::Result<Self> {
         let Some(path) = path.filter(|p| p.as_os_str() != "-") else { return Ok(Self::Stdout) };
         let context = || format!("{}: cannot be written", path.display());
@@ -35,7 +35,7 @@ impl Sink {
             Err(_) if !folder(&target).is_dir() => bail!("{}: cannot be written: there is no such folder", path.display()),
             Err(_) => {}
         }
-        beside(&target).with_context(context)?;
+        tempfile::tempfile_in(folder(&target)).with_context(context)?;
         Ok(Self::File(target))
     }
 
@@ -56,8 +56,12 @@ fn folder(target: &Path) -> &Path {
     target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// An empty file beside the target, gone when dropped.
-fn beside(target: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+/// Puts a file with this text in the place of the target, whole or not at all.
+fn replace(target: &Path, text: &str) -> std::io::Result<()> {
+    #[cfg(target_os = "linux")]
+    if let Some(done) = nameless(target, text) {
+        return done;
+    }
     let mut builder = tempfile::Builder::new();
     builder.prefix(".voussoir-").suffix(".tmp");
     #[cfg(unix)]
@@ -66,15 +70,40 @@ fn beside(target: &Path) -> std::io::Result<tempfile::NamedTempFile> {
         // Less what the user's mask takes away, as for any new file.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder(target))
+    let mut file = builder.tempfile_in(folder(target))?;
+    fill(file.as_file_mut(), target, text)?;
+    file.persist(target).map(drop).map_err(|e| e.error)
 }
 
-fn replace(target: &Path, text: &str) -> std::io::Result<()> {
-    let mut file = beside(target)?;
+fn fill(file: &mut fs::File, target: &Path, text: &str) -> std::io::Result<()> {
     file.write_all(text.as_bytes())?;
     if let Ok(old) = fs::metadata(target) {
-        file.as_file().set_permissions(old.permissions())?;
+        file.set_permissions(old.permissions())?;
     }
-    file.as_file().sync_all()?;
-    file.persist(target).map(drop).map_err(|e| e.error)
+    file.sync_all()
+}
+
+/// Writes a file that has no name until it is whole, so that even a kill leaves nothing beside the target. `None` where the system or
+/// the file system has no such files.
+#[cfg(target_os = "linux")]
+fn nameless(target: &Path, text: &str) -> Option<std::io::Result<()>> {
+    use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat, openat};
+    use std::os::fd::AsRawFd;
+    let fd = openat(CWD, folder(target), OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC, Mode::from_raw_mode(0o666)).ok()?;
+    let mut file = fs::File::from(fd);
+    if let Err(e) = fill(&mut file, target, text) {
+        return Some(Err(e));
+    }
+    let open = format!("/proc/self/fd/{}", file.as_raw_fd());
+    let name_it = |name: &Path| linkat(CWD, open.as_str(), CWD, name, AtFlags::SYMLINK_FOLLOW);
+    match name_it(target) {
+        Ok(()) => return Some(Ok(())),
+        Err(rustix::io::Errno::EXIST) => {}
+        // No /proc, or a file system that gives no names afterwards.
+        Err(_) => return None,
+    }
+    // A file is replaced by renaming, which takes a name for a moment.
+    let passing = folder(target).join(format!(".voussoir-{}.tmp", std::process::id()));
+    name_it(&passing).ok()?;
+    Some(fs::rename(&passing, target).inspect_err(|_| drop(fs::remove_file(&passing))))
 }

@@ -1,14 +1,27 @@
 //! What the three questions have in common: the scene in, the answer out.
 
-use super::{args::Common, exit::Exit, input, output::Sink, terminal, terminal::Terminal};
+use super::{
+    args::{self, Common},
+    deadline,
+    exit::Exit,
+    input,
+    output::Sink,
+    pictures::Pictures,
+    report, terminal,
+    terminal::Terminal,
+};
 use anyhow::bail;
-use std::time::Instant;
+use std::{path::Path, time::Instant};
 use voussoir::{
     analysis::{Control, Model, Outcome, coulomb::Found, prepare},
+    dynamics::Frame,
     error::{Finding, FindingCode, InputError},
+    limits,
     report::{
-        ResultFile, json,
+        ResultFile, json, page,
+        result::Question as Kind,
         text::{self, Asked, Options},
+        view::View,
         work::Work,
     },
     scene::{Scene, Source},
@@ -20,7 +33,12 @@ use voussoir::{
 pub struct Question<'a> {
     common: &'a Common,
     save: Option<Sink>,
+    report: Option<Sink>,
+    pictures: Pictures,
     source: Source,
+    /// When the work began, for the time limit.
+    begin: Instant,
+    /// When the scene was ready.
     start: Instant,
     /// The scene as read.
     pub scene: Scene,
@@ -39,18 +57,55 @@ impl<'a> Question<'a> {
         if common.save.as_ref().is_some_and(|p| p.as_os_str() == "-") {
             bail!("--save takes a file; --json prints the result");
         }
-        let same = |a: &std::path::Path, b: &std::path::Path| a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b);
-        if let Some(save) = common.save.as_ref().filter(|save| same(save, &common.scene)) {
-            bail!("--save {} would replace the scene by its result", save.display());
+        if common.report.as_ref().is_some_and(|p| p.as_os_str() == "-") && common.json {
+            bail!("--report - and --json both print on standard output");
+        }
+        for (option, path) in [("--save", &common.save), ("--report", &common.report)] {
+            if let Some(path) = path.as_ref().filter(|path| is_same(path, &common.scene)) {
+                bail!("{option} {} would replace the scene by its result", path.display());
+            }
         }
         let save = common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+        let report = common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let start = Instant::now();
+        common.time_limit.into_iter().for_each(deadline::watch);
         let (scene, source) = input::scene(&common.scene)?;
         let scene = change(scene);
         let read = start.elapsed().as_secs_f64();
         let mut model = prepare(&scene).map_err(|e| e.located(&source))?;
         model.timings.read = read;
-        Ok(Self { common, save, source, start: Instant::now(), scene, model })
+        let points = model.contact_points() as u64;
+        limits::afford(&format!("solving for {points} contact points"), points, limits::PER_CONTACT_POINT)?;
+        Ok(Self { common, save, report, pictures: Pictures::default(), source, begin: start, start: Instant::now(), scene, model })
+    }
+
+    /// Opens the pictures that are wanted, and the tables.
+    pub fn drawn(self, args: &args::Pictures, table: Option<&Path>) -> anyhow::Result<Self> {
+        self.with_pictures(args, table, || Pictures::open(args, table))
+    }
+
+    /// As [`Self::drawn`], for what happens in time.
+    pub fn filmed(self, args: &args::Pictures) -> anyhow::Result<Self> {
+        self.with_pictures(args, None, || Pictures::open_film(args))
+    }
+
+    fn with_pictures(
+        self,
+        args: &args::Pictures,
+        table: Option<&Path>,
+        open: impl FnOnce() -> anyhow::Result<Pictures>,
+    ) -> anyhow::Result<Self> {
+        let given = [("--svg", args.svg.as_deref()), ("--vtk", args.vtk.as_deref()), ("--csv", table)];
+        for (option, path) in given.into_iter().filter_map(|(o, p)| Some((o, p?))) {
+            if is_same(path, &self.common.scene) {
+                bail!("{option} {} would replace the scene", path.display());
+            }
+        }
+        let pictures = open()?;
+        if pictures.printed() && (self.common.json || report::is_printed(&self.common.report)) {
+            bail!("standard output takes one of --svg, --vtk, --report and --json");
+        }
+        Ok(Self { pictures, ..self })
     }
 
     /// Puts the worst case within ranges in the place of the scene, and the argument among what the user should know.
@@ -71,7 +126,7 @@ impl<'a> Question<'a> {
 
     /// What is left of the time for programs.
     pub fn control(&self) -> Control {
-        let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.start.elapsed().as_secs_f64()).max(0.0));
+        let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.begin.elapsed().as_secs_f64()).max(0.0));
         Control { law: self.common.law.into(), keep_all: self.common.keep_all, seconds }
     }
 
@@ -90,9 +145,40 @@ impl<'a> Question<'a> {
         error.located(&self.source).into()
     }
 
+    /// Where the page goes, where there is to be one.
+    pub fn report(&self) -> Option<&Sink> {
+        self.report.as_ref()
+    }
+
+    /// The pictures that are wanted.
+    pub fn pictures(&self) -> &Pictures {
+        &self.pictures
+    }
+
+    /// Whether there is to be something to see: a page or pictures.
+    pub fn is_filmed(&self) -> bool {
+        self.report.is_some() || self.pictures.wanted()
+    }
+
+    /// Whether standard output holds a page or a picture.
+    pub fn is_printed(&self) -> bool {
+        report::is_printed(&self.common.report) || self.pictures.printed()
+    }
+
     /// Packs the answer with its proof, saves it and prints it. `pack` verifies, which is timed apart from solving; `own` are the
     /// verb's own options that change the answer.
     pub fn answer(&self, terminal: &Terminal, own: &[String], pack: impl FnOnce() -> ResultFile) -> anyhow::Result<ResultFile> {
+        self.answer_with_film(terminal, own, Vec::new(), pack)
+    }
+
+    /// As [`Self::answer`], with what was filmed of a simulation for the page.
+    pub fn answer_with_film(
+        &self,
+        terminal: &Terminal,
+        own: &[String],
+        film: Vec<Frame>,
+        pack: impl FnOnce() -> ResultFile,
+    ) -> anyhow::Result<ResultFile> {
         let solve = self.start.elapsed().as_secs_f64();
         let start = Instant::now();
         let mut file = pack();
@@ -100,25 +186,40 @@ impl<'a> Question<'a> {
         file.timings.solve = (solve - file.timings.simulate).max(0.0);
         file.timings.check = start.elapsed().as_secs_f64();
         file.work = Some(Work::of(&file, &self.model));
-        if self.save.is_some() || self.common.json {
-            let text = json::pretty(&file)?;
-            if let Some(save) = &self.save {
-                save.write(&text)?;
-            }
-            if self.common.json {
-                terminal::print(&text)?;
-                return Ok(file);
-            }
-        }
         let scene = match self.common.scene.to_string_lossy() {
             name if name == "-" => "SCENE".into(),
             name => quoted(&name),
         };
         let asked = Asked { scene: &scene, options: &[own, &self.common.options()].concat().join(" ") };
-        let options = Options { verbose: self.common.verbose, brief: self.common.quiet };
-        terminal.page(&text::render(&file, asked, options, terminal.layout(&self.common.scene)))?;
+        let layout = terminal.layout(&self.common.scene);
+        if let Some(save) = &self.save {
+            save.write(&json::pretty(&file)?)?;
+        }
+        if self.is_filmed() {
+            let mut view = View::new(&self.model, &file, film)?;
+            if let Some(report) = &self.report {
+                let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
+                report.write(&page::page(&text, &view, page::attempts(&file).as_slice())?)?;
+            }
+            if file.question != Kind::Simulate {
+                // A verdict is drawn with its mechanism, whatever else was seen.
+                view.film.clear();
+            }
+            self.pictures.write(&view)?;
+        }
+        if self.common.json {
+            terminal::print(&json::pretty(&file)?)?;
+        } else if !self.is_printed() {
+            let options = Options { verbose: self.common.verbose, brief: self.common.quiet };
+            terminal.page(&text::render(&file, asked, options, layout))?;
+        }
         Ok(file)
     }
+}
+
+/// Whether two paths name one file.
+fn is_same(a: &Path, b: &Path) -> bool {
+    a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
 }
 
 /// A word as a shell takes it whole.

@@ -6,16 +6,19 @@ use super::{
     heap,
     output::Sink,
     question::Question,
+    report,
     terminal::{self, Terminal},
 };
 use anyhow::{Context, bail};
 use std::time::Instant;
 use voussoir::{
-    analysis::{Model, assess, fabric, stability, stability::held, tilt::directions},
+    analysis::{Model, assess, fabric, prepare, stability, stability::held, tilt::directions},
     report::{
         contacts, json,
         packing::PackingFile,
+        page,
         text::{self, Options},
+        view::View,
     },
     verdict::Forces,
 };
@@ -28,7 +31,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         bail!("{key}=…: only the protocols of --question repose take values");
     }
     let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
-    let question = Question::open(&args.common)?;
+    let question = Question::open(&args.common)?.drawn(&args.pictures, None)?;
     let name = question.scene.name.clone();
     let start = Instant::now();
     let (scene, model, loose) = held(&question.scene, question.model.clone()).map_err(|e| question.refuse(e))?;
@@ -56,11 +59,21 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if let Some(save) = question.save() {
         save.write(&json::pretty(&proof)?)?;
     }
+    let layout = terminal.layout(&args.common.scene);
+    // The round with the answer: grains that fell earlier are gone.
+    let seen = question.is_filmed().then(|| anyhow::Ok(View::new(&prepare(&proof.scene.input)?, &proof, Vec::new())?)).transpose()?;
+    if let Some(view) = &seen {
+        question.pictures().write(view)?;
+    }
+    if let (Some(report), Some(view)) = (question.report(), &seen) {
+        let words = text::packing(&file, report::EVERYTHING, report::layout(layout));
+        report.write(&page::page(&words, view, page::attempts(&proof).as_slice())?)?;
+    }
     if args.common.json {
         terminal::print(&json::pretty(&file)?)?;
-    } else {
+    } else if !question.is_printed() {
         let options = Options { verbose: args.common.verbose, brief: args.common.quiet };
-        terminal.page(&text::packing(&file, options, terminal.layout(&args.common.scene)))?;
+        terminal.page(&text::packing(&file, options, layout))?;
     }
     let open = !file.directions.iter().all(|d| d.governing().is_finite());
     Ok(if open { Exit::Undecided } else { Exit::Yes })

@@ -1,12 +1,12 @@
 //! `voussoir simulate`
 
-use super::{args::Simulate, exit::Exit, progress::Bar, question::Question, terminal::Terminal};
+use super::{args::Simulate, exit::Exit, progress::Bar, question::Question, report, terminal::Terminal};
 use anyhow::Context;
-use std::{fs::File, io::BufWriter, ops::ControlFlow};
+use std::{fs::File, ops::ControlFlow};
 use voussoir::{
     analysis::assess,
     dynamics::{Fate, Fidelity, Outcome, Settings, simulate},
-    report::{ResultFile, trajectory::TrajectoryWriter},
+    report::{ResultFile, trajectory::TrajectoryWriter, view::Film},
 };
 
 /// So many times are written to --csv where nothing is said.
@@ -19,10 +19,11 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
             scene.loads = scene.loads.fixed(args.load_factor);
         }
         scene
-    })?;
+    })?
+    .filmed(&args.pictures)?;
     // Created before the work, and filled as it goes.
     let mut csv = match &args.csv {
-        Some(path) => Some(TrajectoryWriter::new(BufWriter::new(File::create(path).with_context(|| written(path))?))?),
+        Some(path) => Some(TrajectoryWriter::new(File::create(path).with_context(|| written(path))?).with_context(|| written(path))?),
         None => None,
     };
     let settings = Settings {
@@ -32,7 +33,9 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         frames: args.frames.map_or(if csv.is_some() { FRAMES } else { 0 }, |n| n as usize),
         keep_frames: args.frames.is_some(),
         to_the_end: args.to_the_end,
+        every_step: question.is_filmed(),
     };
+    let mut film = question.is_filmed().then(|| Film::fitting(question.model.assembly.blocks.len()));
     let mut failure = None;
     let mut keep = |frame: &_| match csv.as_mut().map(|csv| csv.frame(&question.model.assembly, frame)) {
         Some(Err(e)) => {
@@ -41,13 +44,14 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         _ => ControlFlow::Continue(()),
     };
-    let outcome = watch(&question, &settings, &mut keep)?;
+    let outcome = watch(&question, &settings, &mut film, &mut keep)?;
     if let (Some(e), Some(path)) = (failure, &args.csv) {
         return Err(e).with_context(|| written(path));
     }
     let model = &question.model;
     let verdict = (!args.skip_verdict).then(|| assess(&model.assembly, &model.interfaces, &question.control()));
-    let file = question.answer(terminal, &args.options(), || ResultFile::simulated(&question.scene, model, verdict.as_ref(), &outcome))?;
+    let pack = || ResultFile::simulated(&question.scene, model, verdict.as_ref(), &outcome);
+    let file = question.answer_with_film(terminal, &args.options(), film.map(Film::frames).unwrap_or_default(), pack)?;
     Ok(match file.answer.fate {
         Some(Fate::Stands) => Exit::Yes,
         Some(Fate::Falls) => Exit::No,
@@ -55,16 +59,18 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     })
 }
 
-/// Simulates under a bar until the time limit.
+/// Simulates under a bar until the time limit, and films it where there is a film.
 pub fn watch(
     question: &Question,
     settings: &Settings,
+    film: &mut Option<Film>,
     keep: &mut dyn FnMut(&voussoir::dynamics::Frame) -> ControlFlow<()>,
 ) -> anyhow::Result<Outcome> {
     let bar = Bar::new(question.shows_progress());
     let model = &question.model;
     simulate(&model.assembly, &model.interfaces, settings, &mut |progress| {
         bar.show(progress);
+        report::see(film, progress.moment);
         if question.control().seconds <= 0.0 {
             return ControlFlow::Break(());
         }

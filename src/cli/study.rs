@@ -1,16 +1,18 @@
 //! `voussoir study`
 
-use super::{args::Study, exit::Exit, output::Sink, terminal, terminal::Terminal};
+use super::{args::Study, exit::Exit, output::Sink, report as pages, terminal, terminal::Terminal};
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{io::IsTerminal, path::Path};
 use voussoir::{
-    report::{json, study as report},
-    study::{self, Known, extreme},
+    report::{json, page, study as report},
+    study::{self, Known, extreme, soak},
 };
 
 pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+    let sink = args.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+    let printed = pages::is_printed(&args.report);
     if let Some(folder) = &args.svg
         && !folder.is_dir()
     {
@@ -24,6 +26,7 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         bar.set_style(style);
     }
     let layout = terminal.layout(Path::new("study"));
+    let wide = pages::layout(layout);
     if args.extreme {
         let cells = extreme::grid();
         bar.set_length(cells.len() as u64);
@@ -32,21 +35,45 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         if let Some(csv) = csv {
             csv.write(&report::extreme_csv(&found)?)?;
         }
+        if let Some(sink) = &sink {
+            sink.write(&page::extreme(&report::extreme_text(&found, true, wide), &found)?)?;
+        }
         if args.json {
             terminal::print(&json::pretty(&found)?)?;
-        } else {
+        } else if !printed {
             terminal.page(&report::extreme_text(&found, args.verbose, layout))?;
         }
         return Ok(if extreme::count(&found, None).wrong == 0 { Exit::Yes } else { Exit::No });
+    }
+    if let Some(index) = args.only {
+        terminal::print(&json::pretty(&soak::scene(args.seed, index as usize)?.0)?)?;
+        return Ok(Exit::Yes);
+    }
+    if let Some(count) = args.soak {
+        bar.set_length(count.into());
+        let list = soak::run(args.seed, count as usize, |_| bar.inc(1)).context("no threads")?;
+        bar.finish_and_clear();
+        if let Some(csv) = csv {
+            csv.write(&report::soak_csv(&list)?)?;
+        }
+        if args.json {
+            terminal::print(&json::pretty(&list)?)?;
+        } else {
+            terminal.page(&report::soak_text(&list, args.seed, args.verbose, layout))?;
+        }
+        return Ok(if list.iter().any(soak::Soaked::is_wrong) { Exit::No } else { Exit::Yes });
     }
     let scenes = chosen(&args.scenes)?;
     if args.omissions {
         bar.set_length(2 * scenes.len() as u64);
         let list = study::omissions(&scenes, args.repeat.map_or(3, usize::from), || bar.inc(1))?;
         bar.finish_and_clear();
+        if let Some(sink) = &sink {
+            sink.write(&page::omissions(&report::omissions_text(&list, wide), &list)?)?;
+        }
         if args.json {
             terminal::print(&json::pretty(&list)?)?;
-        } else {
+        } else if !printed {
             terminal.page(&report::omissions_text(&list, layout))?;
         }
         return Ok(Exit::Yes);
@@ -64,9 +91,12 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         Sink::open(Some(&folder.join("profile.svg")))?.write(&report::profiles(&points, report::ANSWER)?)?;
     }
+    if let Some(sink) = &sink {
+        sink.write(&page::study(&report::text(&points, wide), &points)?)?;
+    }
     if args.json {
         terminal::print(&json::pretty(&points)?)?;
-    } else {
+    } else if !printed {
         terminal.page(&report::text(&points, layout))?;
     }
     Ok(Exit::Yes)

@@ -5,7 +5,7 @@ use super::{
     exit::Exit,
     input,
     output::Sink,
-    slurm,
+    report as pages, slurm,
     terminal::{self, Terminal},
 };
 use anyhow::{Context, bail};
@@ -15,7 +15,7 @@ use std::{
     path::{Path, PathBuf},
 };
 use voussoir::{
-    report::{json, sweep as report},
+    report::{json, page, sweep as report},
     sweep::{self, Event, Header, Options, Row},
 };
 
@@ -104,12 +104,13 @@ pub(super) fn bar(quiet: bool) -> ProgressBar {
 pub(super) struct Sinks {
     csv: Option<Sink>,
     svg: Option<Sink>,
+    report: Option<Sink>,
 }
 
 impl Sinks {
     pub(super) fn open(args: &Summary) -> anyhow::Result<Self> {
         let open = |path: &Option<PathBuf>| path.as_deref().map(|p| Sink::open(Some(p))).transpose();
-        Ok(Self { csv: open(&args.csv)?, svg: open(&args.svg)? })
+        Ok(Self { csv: open(&args.csv)?, svg: open(&args.svg)?, report: open(&args.report)? })
     }
 
     pub(super) fn write(&self, args: &Summary, header: &Header, rows: &[Row], terminal: &Terminal) -> anyhow::Result<()> {
@@ -117,10 +118,15 @@ impl Sinks {
         if let Some(csv) = &self.csv {
             csv.write(&report::csv(header, rows)?)?;
         }
+        let layout = terminal.layout(Path::new(&header.plan.scene));
+        if let Some(sink) = &self.report {
+            let words = report::summary(header, &summary, false, pages::layout(layout));
+            sink.write(&page::sweep(&words, header, rows, &summary)?)?;
+        }
         if args.json {
             terminal::print(&json::pretty(&report::Document::new(header, &summary))?)?;
-        } else {
-            terminal.page(&report::summary(header, &summary, args.quiet, terminal.layout(Path::new(&header.plan.scene))))?;
+        } else if !pages::is_printed(&args.report) {
+            terminal.page(&report::summary(header, &summary, args.quiet, layout))?;
         }
         if let Some(svg) = &self.svg {
             let kind = args.chart.map_or_else(|| report::Kind::suited(header, &summary), Into::into);

@@ -3,7 +3,6 @@
 use super::{
     args::Thrust,
     exit::Exit,
-    output::Sink,
     question::{Question, verdict},
     terminal::Terminal,
 };
@@ -13,18 +12,14 @@ use voussoir::{
         thrust::{answer, first_support, level, outwards},
     },
     error::{InputError, JsonPath},
-    report::{ResultFile, svg},
+    report::ResultFile,
     verdict::thrust::ThrustAt,
 };
 
 pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let drawing = args.svg.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
-    let question = Question::open(&args.common)?;
+    let question = Question::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     let at = place(args, &question.model).map_err(|e| question.refuse(e))?;
     let thrust = answer(&question.model, at, &question.control());
-    if let Some(sink) = drawing {
-        sink.write(&svg::thrust(&question.model, &thrust))?;
-    }
     let file = question.answer(terminal, &args.options(), || ResultFile::thrust(&question.scene, &question.model, &thrust))?;
     let Some(found) = &file.answer.thrust else { return Ok(verdict(file.answer.verdict)) };
     let open = [found.least.status, found.greatest.status].contains(&Outcome::Undecided);

@@ -16,7 +16,7 @@ use voussoir::{
 };
 
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let question = Question::open(&args.common)?;
+    let question = Question::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     let model = &question.model;
     let toward = if args.toward.is_empty() {
         directions(model.assembly.gravity, args.all.into())

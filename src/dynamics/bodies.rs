@@ -5,7 +5,7 @@ use super::{
     units::Units,
 };
 use crate::{
-    assembly::{Assembly, Block, Solid},
+    assembly::{Assembly, Block, JointLaw, Solid},
     error::InputError,
     interface::{ContactKind, Interfaces},
     scene::Friction,
@@ -60,9 +60,9 @@ pub(super) enum Form {
 const GIVEN_BALL: f64 = 0.02;
 const GIVEN_PLATE: f64 = 0.3;
 
-/// The bodies of a scene.
-pub(super) fn bodies(assembly: &Assembly, interfaces: &Interfaces, units: &Units) -> Result<Vec<Body>, InputError> {
-    let mut bodies = assembly.blocks.iter().map(|b| body(b, units)).collect::<Result<Vec<_>, _>>()?;
+/// The bodies of a scene; polyhedra are smaller by `skin` × their size.
+pub(super) fn bodies(assembly: &Assembly, interfaces: &Interfaces, units: &Units, skin: f64) -> Result<Vec<Body>, InputError> {
+    let mut bodies = assembly.blocks.iter().map(|b| body(b, units, skin)).collect::<Result<Vec<_>, _>>()?;
     for (index, face) in interfaces.list.iter().enumerate().filter(|(_, f)| f.kind == ContactKind::Given) {
         let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size) / units.length;
         let points: Vec<_> = face.points.iter().map(|p| units.place(*p)).collect();
@@ -82,7 +82,7 @@ pub(super) fn bodies(assembly: &Assembly, interfaces: &Interfaces, units: &Units
     Ok(bodies)
 }
 
-fn body(block: &Block, units: &Units) -> Result<Body, InputError> {
+fn body(block: &Block, units: &Units, skin: f64) -> Result<Body, InputError> {
     let center = units.place(block.centroid);
     let size = block.size / units.length;
     let body = |shapes, thickness, reach| Body {
@@ -103,6 +103,14 @@ fn body(block: &Block, units: &Units) -> Result<Body, InputError> {
             let reach = if off > 1e-9 * radius { off + radius } else { 0.0 };
             return Ok(body(vec![part(Form::Ball { at, radius: radius - skin }, skin)], 2.0 * radius, reach));
         }
+        Solid::Clump { balls, .. } => {
+            let placed: Vec<_> = balls.iter().map(|(at, radius)| (units.place(*at) - center, radius / units.length)).collect();
+            let least = placed.iter().map(|b| b.1).fold(f64::INFINITY, f64::min);
+            let skin = (SKIN * size).min(SKIN_OF_THICKNESS * least);
+            let reach = placed.iter().map(|(at, radius)| at.norm() + radius).fold(0.0, f64::max);
+            let shapes = placed.into_iter().map(|(at, radius)| part(Form::Ball { at, radius: radius - skin }, skin)).collect();
+            return Ok(body(shapes, 2.0 * least, reach));
+        }
         Solid::Polyhedron(polyhedron) => polyhedron,
     };
     let Some(cells) = pieces::pieces(polyhedron, block.centroid, units.length) else {
@@ -121,7 +129,7 @@ fn body(block: &Block, units: &Units) -> Result<Body, InputError> {
         .map(|cell| {
             let own = cell.mesh().0;
             let thin = cell.faces.iter().map(|f| depth(&f.normal, &own)).fold(size, f64::min);
-            let skin = (SKIN * size).min(SKIN_OF_THICKNESS * thin);
+            let skin = (skin * size).min(SKIN_OF_THICKNESS * thin);
             if let Some((half, turn, at)) = pieces::as_box(cell) {
                 return part(Form::Cuboid { at, turn, half: half.map(|h| h - skin) }, skin);
             }
@@ -144,6 +152,45 @@ pub(super) struct Frictions<'a> {
     given: HashMap<u32, f64>,
     /// Pairs of blocks whose contact is given by hand.
     apart: HashSet<(usize, usize)>,
+    rules: Table,
+}
+
+/// What rules for materials say, by two small numbers in place of four names: the engine asks for every pair in every step.
+struct Table {
+    /// By block: 0 where no rule names its material.
+    kinds: Vec<usize>,
+    /// Number of kinds.
+    count: usize,
+    /// By two kinds; empty where there are too many of them.
+    laws: Vec<Option<JointLaw>>,
+}
+
+/// More kinds than this are looked up by name.
+const KINDS: usize = 64;
+
+impl Table {
+    fn of(assembly: &Assembly) -> Self {
+        let rules = &assembly.joints;
+        let mut names: Vec<&String> = rules.by_material.iter().flat_map(|(pair, _)| pair).collect();
+        names.sort_unstable();
+        names.dedup();
+        let kind = |b: &Block| b.material.as_ref().and_then(|m| names.binary_search(&m).ok()).map_or(0, |k| k + 1);
+        let kinds: Vec<usize> = assembly.blocks.iter().map(kind).collect();
+        let count = names.len() + 1;
+        let law = |a: Option<&&String>, b: Option<&&String>| rules.of_materials(a.copied(), b.copied());
+        let name = |kind: usize| kind.checked_sub(1).and_then(|k| names.get(k));
+        let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
+        let laws = if count <= KINDS { pairs.map(|(a, b)| law(name(a), name(b))).collect() } else { Vec::new() };
+        Self { kinds, count, laws }
+    }
+
+    fn law(&self, a: usize, b: usize, assembly: &Assembly) -> Option<JointLaw> {
+        let rules = &assembly.joints;
+        if self.laws.is_empty() || !rules.by_blocks.is_empty() {
+            return rules.law(a, b, &assembly.blocks);
+        }
+        self.laws.get(self.kinds.get(a)? * self.count + self.kinds.get(b)?).copied().flatten()
+    }
 }
 
 /// What the simulation knows of a joint.
@@ -161,7 +208,14 @@ const UNLIMITED: f64 = 1e4;
 
 impl<'a> Frictions<'a> {
     pub fn new(assembly: &'a Assembly, interfaces: &Interfaces, units: &Units) -> Self {
-        let mut new = Self { assembly, length: units.length, known: HashMap::new(), given: HashMap::new(), apart: HashSet::new() };
+        let mut new = Self {
+            assembly,
+            length: units.length,
+            known: HashMap::new(),
+            given: HashMap::new(),
+            apart: HashSet::new(),
+            rules: Table::of(assembly),
+        };
         for (index, face) in interfaces.list.iter().enumerate() {
             let pair = (face.a.min(face.b), face.a.max(face.b));
             let friction = coefficient(face.law.friction);
@@ -176,11 +230,11 @@ impl<'a> Frictions<'a> {
         new
     }
 
-    /// Between two blocks; nothing where no rule says any. Of blocks that meet on the way only spheres resist rolling:
+    /// Between two blocks; nothing where no rule says any. Of blocks that meet on the way only spheres and clumps resist rolling:
     /// for others it depends on how they meet.
     pub fn between(&self, a: usize, b: usize) -> Resistance {
         let pair = (a.min(b), a.max(b));
-        let rule = || self.assembly.joints.law(pair.0, pair.1, &self.assembly.blocks);
+        let rule = || self.rules.law(pair.0, pair.1, self.assembly);
         let met = || {
             rule().map_or(Resistance::default(), |law| Resistance {
                 friction: coefficient(law.friction),
@@ -199,7 +253,7 @@ impl<'a> Frictions<'a> {
     }
 
     fn is_round(&self, block: usize) -> bool {
-        matches!(self.assembly.blocks.get(block).map(|b| &b.solid), Some(Solid::Sphere { .. }))
+        self.assembly.blocks.get(block).is_some_and(|b| b.solid.is_round())
     }
 
     /// Of an interface given by hand.

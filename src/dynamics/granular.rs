@@ -2,7 +2,7 @@
 //!
 //! The same engine as [`simulate`](super::simulate()), run stage by stage: walls are taken away or lifted, grains are poured, gravity is
 //! turned; at the end they settle once more with finer steps. Grains that fall below the floor are discarded. Restitution is 0 and nothing else damps: contacts are overdamped springs of
-//! natural frequency 0.1 / substep, friction is Coulomb's. A stage ends when the mean kinetic energy of a grain's centre (without its spin:
+//! natural frequency 0.1 / substep, friction is Coulomb's. A stage ends when the mean kinetic energy of a grain (of a sphere without its spin:
 //! nothing ever stops a ball that spins between two smooth walls) stays below
 //! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), never after a fixed time; where it does not, that is said.
 
@@ -16,20 +16,22 @@ use crate::{
     assembly::Assembly,
     error::InputError,
     interface::Interfaces,
-    tolerance::{GRAIN_REST_ENERGY, GRAIN_REST_TIME},
+    tolerance::{GRAIN_REST_ENERGY, GRAIN_REST_TIME, GRAIN_SKIN},
 };
-use nalgebra::{Rotation3, Unit, Vector3};
+use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
 /// A step is √(d/g) / this; substeps of it. Finer: time. Coarser: grains sink into each other before they are seen.
-const STEPS: f64 = 36.0;
+const STEPS: f64 = 30.0;
 const SUBSTEPS: usize = 6;
 /// Contacts are prepared up to this distance, in d. Smaller: fast grains sink in before they are seen. Between spheres and on walls normals
 /// do not depend on it.
 const PREDICTION: f64 = 0.05;
-/// At the end steps are finer by this, and contacts stiffer by its square, so that grains that touch overlap by a quarter of what they did:
+/// The same where grains have faces. Larger: neighbours round a corner are seen at wrong normals.
+const PREDICTION_FACES: f64 = 0.02;
+/// At the end steps are finer by this, and contacts stiffer by its square, so that grains that touch overlap by a sixth of what they did:
 /// the statics takes them as they lie. Smaller: contacts are lost in the overlaps. Larger: time.
-const FINER: f64 = 2.0;
+const FINER: f64 = 2.4;
 /// Steps between two looks at the grains.
 const LOOK: usize = 10;
 /// Grains this far below the lowest support's top, in d, are gone.
@@ -55,8 +57,8 @@ pub enum Change {
 /// Where the grains came to rest.
 #[derive(Clone, Debug)]
 pub struct Rest {
-    /// Centres by block; `None` where a grain is gone or a wall was taken away.
-    pub centers: Vec<Option<Vector3<f64>>>,
+    /// Centre of mass, and turn from the orientation at the start, by block; `None` where a grain is gone or a wall was taken away.
+    pub poses: Vec<Option<(Vector3<f64>, UnitQuaternion<f64>)>>,
     /// Whether every stage came to rest.
     pub rested: bool,
     /// Mean kinetic energy of a grain at the end, over m g d.
@@ -103,11 +105,13 @@ pub fn flow(
         return Err(refuse("without gravity nothing flows"));
     }
     let interfaces = Interfaces::default();
-    let bodies = bodies(assembly, &interfaces, &units)?;
+    let bodies = bodies(assembly, &interfaces, &units, GRAIN_SKIN)?;
     let frictions = Frictions::new(assembly, &interfaces, &units);
     let natural = (diameter / g).sqrt();
     let dt = natural / STEPS / units.time;
-    let step = Step { dt, iterations: SUBSTEPS, threads: 1, prediction: PREDICTION * diameter / units.length };
+    let round = assembly.free().all(|i| assembly.blocks[i].solid.is_round());
+    let prediction = if round { PREDICTION } else { PREDICTION_FACES } * diameter / units.length;
+    let step = Step { dt, iterations: SUBSTEPS, threads: 1, prediction };
     let world = World::new(&bodies, &frictions, step).map_err(|text| InputError::at(Default::default(), text))?;
     let floor = assembly.blocks.iter().filter(|b| b.support).map(|b| b.centroid.z).fold(f64::NEG_INFINITY, f64::max).min(0.0);
     let free: Vec<usize> = assembly.free().collect();
@@ -129,6 +133,7 @@ pub fn flow(
         rolling: Rolling::default(),
         frictions: &frictions,
         bodies: &bodies,
+        gyration: bodies.iter().map(|b| if b.reach > 0.0 { b.inertia.symmetric_eigenvalues().max() / b.mass } else { 0.0 }).collect(),
     };
     let (mut rested, mut turned) = (true, None);
     for (stage, change) in stages.iter().enumerate() {
@@ -147,9 +152,9 @@ pub fn flow(
         rested = run.stage(&Change::Settle, horizon * natural, &mut watch).0;
     }
     let gone = run.free.iter().filter(|&&i| !run.there[i]).count();
-    let centers = (0..assembly.blocks.len()).map(|i| run.there[i].then(|| run.center(i))).collect();
+    let poses = (0..assembly.blocks.len()).map(|i| run.there[i].then(|| (run.center(i), run.world.pose(i).1))).collect();
     let time = run.elapsed;
-    Ok(Rest { centers, rested, energy: run.energy, gone, turned, time, steps: run.steps, seconds: begin.elapsed().as_secs_f64() })
+    Ok(Rest { poses, rested, energy: run.energy, gone, turned, time, steps: run.steps, seconds: begin.elapsed().as_secs_f64() })
 }
 
 struct Flowing<'a> {
@@ -174,6 +179,8 @@ struct Flowing<'a> {
     rolling: Rolling,
     frictions: &'a Frictions<'a>,
     bodies: &'a [super::bodies::Body],
+    /// Greatest moment of inertia over mass; 0 for spheres.
+    gyration: Vec<f64>,
 }
 
 impl Flowing<'_> {
@@ -312,7 +319,8 @@ impl Flowing<'_> {
         }
         let (mut energy, mut count) = (0.0, 0.0_f64);
         for &i in self.free.iter().filter(|i| self.there[**i] && !parked.contains(i)) {
-            energy += 0.5 * self.world.velocity(i).0.norm_squared();
+            let (velocity, spin) = self.world.velocity(i);
+            energy += 0.5 * (velocity.norm_squared() + self.gyration[i] * spin.norm_squared());
             count += 1.0;
         }
         // Gravity is one in the engine's units.

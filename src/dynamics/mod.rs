@@ -47,11 +47,13 @@ pub struct Settings {
     pub keep_frames: bool,
     /// Simulate to the horizon although the outcome is clear.
     pub to_the_end: bool,
+    /// Show every step to whoever watches ([`Progress::moment`]).
+    pub every_step: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { fidelity: None, seconds: None, threads: 1, frames: 0, keep_frames: true, to_the_end: false }
+        Self { fidelity: None, seconds: None, threads: 1, frames: 0, keep_frames: true, to_the_end: false, every_step: false }
     }
 }
 
@@ -68,4 +70,6 @@ pub struct Progress<'a> {
     pub relative: f64,
     /// A frame that has just been taken.
     pub frame: Option<&'a Frame>,
+    /// Where everything is now, if every step was asked for.
+    pub moment: Option<&'a Frame>,
 }

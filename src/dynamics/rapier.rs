@@ -226,6 +226,17 @@ impl<'a> World<'a> {
 
     /// One step in time.
     pub fn step(&mut self) {
+        // A worker of a work-stealing pool that waited for the engine's threads would begin other work meanwhile, on the same stack,
+        // and with simulations in that work without end. A plain thread waits.
+        if rayon::current_thread_index().is_some() {
+            let ended = std::thread::scope(|scope| scope.spawn(|| self.advance()).join());
+            ended.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        } else {
+            self.advance();
+        }
+    }
+
+    fn advance(&mut self) {
         self.pipeline.step(
             Vector::ZERO,
             &self.parameters,

@@ -11,7 +11,7 @@ use crate::{
     assembly::{Assembly, Wrench},
     error::{Finding, FindingCode, InputError},
     interface::{Interface, Interfaces},
-    tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE},
+    tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE, SKIN},
 };
 use nalgebra::Vector3;
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
@@ -64,7 +64,7 @@ pub fn simulate(
         findings: Vec::new(),
     };
     let Some(units) = Units::of(assembly, &loads.total) else { return Ok(outcome) };
-    let bodies = bodies(assembly, interfaces, &units)?;
+    let bodies = bodies(assembly, interfaces, &units, SKIN)?;
     let frictions = Frictions::new(assembly, interfaces, &units);
     let scene = Stage { assembly, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
     let ladder = match settings.fidelity {
@@ -184,11 +184,14 @@ impl Stage<'_> {
         let (mut steps, mut resting) = (0, 0.0);
         let mut state = State { farthest: (self.assembly.free().next().unwrap_or(0), 0.0), now: 0.0, energy: 0.0, fallen: false };
         let (mut first_motion, mut frames, mut fell_at) = (Vec::new(), Vec::new(), None);
-        if self.settings.frames > 0 {
-            self.frame(&world, fidelity, 0.0, &state, &mut frames);
-            let (time, horizon) = (0.0, horizon * self.units.time);
+        let moment = |world: &World, time, state: &State| self.settings.every_step.then(|| self.frame(world, fidelity, time, state));
+        if self.settings.frames > 0 || self.settings.every_step {
+            if self.settings.frames > 0 {
+                frames.push(self.frame(&world, fidelity, 0.0, &state));
+            }
+            let (time, horizon, now) = (0.0, horizon * self.units.time, moment(&world, 0.0, &state));
             // Stopping is heard at the first step.
-            let _ = watch(&Progress { fidelity, time, horizon, relative: 0.0, frame: frames.last() });
+            let _ = watch(&Progress { fidelity, time, horizon, relative: 0.0, frame: frames.last(), moment: now.as_ref() });
         }
         let stop = loop {
             if steps == total {
@@ -212,12 +215,13 @@ impl Stage<'_> {
             resting = if state.energy < REST_ENERGY { resting + dt } else { 0.0 };
             let framed = steps % every == 0;
             if framed {
-                self.frame(&world, fidelity, time, &state, &mut frames);
+                frames.push(self.frame(&world, fidelity, time, &state));
             }
-            if framed || steps % REPORT == 0 {
-                let frame = frames.last().filter(|_| framed);
+            let now = moment(&world, time, &state);
+            if framed || now.is_some() || steps % REPORT == 0 {
+                let (frame, moment) = (frames.last().filter(|_| framed), now.as_ref());
                 let (time, horizon) = (time * self.units.time, horizon * self.units.time);
-                if watch(&Progress { fidelity, time, horizon, relative: state.farthest.1, frame }).is_break() {
+                if watch(&Progress { fidelity, time, horizon, relative: state.farthest.1, frame, moment }).is_break() {
                     break Stop::Stopped;
                 }
             }
@@ -321,7 +325,7 @@ impl Stage<'_> {
         self.bodies.iter().enumerate().map(motion).collect()
     }
 
-    fn frame(&self, world: &World, fidelity: Fidelity, time: f64, state: &State, frames: &mut Vec<Frame>) {
+    fn frame(&self, world: &World, fidelity: Fidelity, time: f64, state: &State) -> Frame {
         let Units { origin, length, time: unit, mass } = self.units;
         let speed = length / unit;
         let mut energy = 0.0;
@@ -336,7 +340,7 @@ impl Stage<'_> {
                 Pose { center: center * length + origin, turn, velocity: velocity * speed, spin: spin / unit }
             })
             .collect();
-        frames.push(Frame { time: time * unit, fidelity, relative: state.farthest.1, energy: energy * mass * speed * speed, blocks });
+        Frame { time: time * unit, fidelity, relative: state.farthest.1, energy: energy * mass * speed * speed, blocks }
     }
 
     /// Contact forces by pairs of blocks, N.

@@ -1,7 +1,10 @@
 //! Ranges of template parameters, each refusal with its place, the value and a remedy.
 
 use super::MAX_BLOCKS;
-use crate::error::{InputError, JsonPath};
+use crate::{
+    error::{InputError, JsonPath},
+    limits,
+};
 
 /// The place of a template (or a part of one) in errors.
 pub struct Place(pub JsonPath);
@@ -50,7 +53,8 @@ impl Place {
     /// The number of blocks that a product of counts makes.
     pub fn total(&self, field: &str, factors: &[usize]) -> Result<(), InputError> {
         match factors.iter().try_fold(1_usize, |product, f| product.checked_mul(*f)) {
-            Some(total) if total <= MAX_BLOCKS => Ok(()),
+            Some(total) if total <= MAX_BLOCKS => limits::afford(&format!("a template of {total} blocks"), total as u64, limits::PER_BLOCK)
+                .map_err(|e| InputError { path: self.0.key(field), ..e }),
             _ => Err(self.error(
                 field,
                 format!("makes {} blocks, more than {MAX_BLOCKS}", factors.iter().map(ToString::to_string).collect::<Vec<_>>().join(" × ")),

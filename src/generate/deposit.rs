@@ -1,14 +1,14 @@
-//! Grains before they fall: a rough floor, walls, and loose layers of spheres of random sizes above.
+//! Grains before they fall: a rough floor, walls, and loose layers of grains of random sizes above.
 //!
 //! Everything follows from the seed (PCG-64 XSL RR; O'Neill 2014), to the last bit.
 //!
 //! * M. E. O'Neill, *PCG: A family of simple fast space-efficient statistically good algorithms for random number generation*, Harvey Mudd
 //!   College 2014.
 
-use super::{check::Place, numbered, support};
+use super::{check::Place, grain::Grain, numbered, support};
 use crate::{
     error::InputError,
-    scene::{BlockSpec, Friction, JointOverride, JointSpec, Material, Protocol, ProtocolKind, Scene, Shape},
+    scene::{BlockSpec, Friction, GrainKind, JointOverride, JointSpec, Material, Protocol, ProtocolKind, Scene, Shape},
 };
 use rand_pcg::{
     Pcg64,
@@ -38,6 +38,10 @@ const TRIES: f64 = 80.0;
 const APART: f64 = 0.7;
 /// Walls are so thick, in d: more than a grain passes in a step.
 const WALL: f64 = 4.0;
+/// Corners that a hull may have. More: contacts of hulls cost time.
+const CORNERS: std::ops::RangeInclusive<usize> = 6..=100;
+/// The stream of random numbers for shapes, so that places and sizes of grains do not depend on their shapes.
+const SHAPES: u128 = 1;
 /// Sides of the hollow cylinder.
 const SIDES: usize = 16;
 
@@ -60,9 +64,21 @@ pub fn deposit(protocol: &Protocol, seed: u64) -> Result<Deposit, InputError> {
         if (0.0..=most).contains(&value) { Ok(()) } else { Err(place.error(field, format!("must be from 0 to {most}, got {value}"), hint)) }
     };
     between("sizes", p.sizes, WIDEST)?;
+    let longest = if p.grain == GrainKind::Clump { 2.0 } else { 4.0 };
+    if !(1.0..=longest).contains(&p.elongation) {
+        return Err(place.error("elongation", format!("must be from 1 to {longest}, got {}", p.elongation), "length over width"));
+    }
+    if !CORNERS.contains(&p.corners) {
+        let text = format!("must be from {} to {}, got {}", CORNERS.start(), CORNERS.end(), p.corners);
+        return Err(place.error("corners", text, "the number of corners of a hull"));
+    }
     between("friction", p.friction, 1e3)?;
     between("wall_friction", p.wall_friction, 1e3)?;
     between("rolling_arm", p.rolling_arm, 1e3)?;
+    if p.grain == GrainKind::Hull && p.rolling_arm > 0.0 {
+        let text = format!("must be 0 for hulls, got {}", p.rolling_arm);
+        return Err(place.error("rolling_arm", text, "hulls resist rolling by their faces; spheres and clumps take a rolling arm"));
+    }
     for (k, s) in p.size.iter().enumerate() {
         if !(4.0..=1e3).contains(s) {
             return Err(InputError::at(place.0.key("size").index(k), format!("must be from 4 to 1000, got {s}")).hint("in grain diameters"));
@@ -72,14 +88,14 @@ pub fn deposit(protocol: &Protocol, seed: u64) -> Result<Deposit, InputError> {
 }
 
 /// Numbers between 0 and 1 with 53 random bits.
-struct Random(Pcg64);
+pub(super) struct Random(Pcg64);
 
 impl Random {
-    fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 }
@@ -87,7 +103,9 @@ impl Random {
 fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
     let d = p.diameter;
     let [length, width] = p.size;
-    let pitch = LOOSE * (1.0 + p.sizes);
+    let mut forms = Random(Pcg64::new(seed.into(), SHAPES));
+    let grains: Vec<Grain> = (0..p.grains).map(|_| Grain::new(p, &mut forms)).collect();
+    let pitch = LOOSE * (1.0 + p.sizes) * grains.iter().map(|g| g.reach).fold(1.0, f64::max);
     // In diameters: the cell that the loose layers fill, and the floor.
     let heap = 2.0 * (p.grains as f64).cbrt().max(4.0) + 4.0;
     let (cell, floor) = match p.kind {
@@ -127,12 +145,14 @@ fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
                 continue;
             }
             let radius = 0.5 * (1.0 + p.sizes * random.between(-1.0, 1.0));
-            let room = 0.5 * pitch - radius;
+            let grain = &grains[placed];
+            let room = 0.5 * pitch - radius * grain.reach;
             let mut near = |c: f64| (c + random.between(-room, room)) * d;
             let at = [near(x), near(y), near(0.5 + pitch * (level as f64 + 0.6))];
             let id = numbered("g", placed, p.grains);
             layer.push(id.clone());
-            blocks.push(BlockSpec { at, material: Some("grain".into()), ..BlockSpec::new(id, Shape::Sphere { radius: radius * d }) });
+            let (shape, rotation_deg) = grain.of_radius(radius * d);
+            blocks.push(BlockSpec { at, rotation_deg, material: Some("grain".into()), ..BlockSpec::new(id, shape) });
             placed += 1;
         }
         layers.push(layer);
@@ -167,7 +187,11 @@ fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
         }
         ProtocolKind::Funnel => {}
     }
-    let mut scene = Scene { name: format!("{:?} of {} grains, seed {seed}", p.kind, p.grains).to_lowercase(), blocks, ..Scene::default() };
+    let mut scene = Scene {
+        name: format!("{:?} of {} {}, seed {seed}", p.kind, p.grains, p.grain.plural()).to_lowercase(),
+        blocks,
+        ..Scene::default()
+    };
     scene.source = format!("voussoir repose --question repose, seed {seed}");
     for name in ["grain", "wall"] {
         scene.materials.insert(name.into(), Material { density: p.density });

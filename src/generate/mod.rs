@@ -11,6 +11,8 @@ mod column;
 mod deposit;
 mod dome;
 mod flat_arch;
+mod grain;
+mod hull;
 mod lattice;
 mod midline;
 mod stack;
@@ -24,7 +26,7 @@ use crate::{
 };
 
 /// The most blocks one template may make. More is taken for a slip (a count of 10⁹ would otherwise end in memory exhaustion).
-pub const MAX_BLOCKS: usize = 1_000_000;
+pub const MAX_BLOCKS: usize = crate::limits::BLOCKS;
 
 /// The blocks of a template, in order.
 ///
@@ -104,6 +106,7 @@ fn is_finite(block: &BlockSpec) -> bool {
             Shape::Polyhedron { vertices, .. } => vertices.iter().all(|v| all(v)),
             Shape::Prism { polygon, depth } => depth.is_finite() && polygon.iter().all(|p| all(p)),
             Shape::Sphere { radius } => radius.is_finite(),
+            Shape::Clump { spheres } => spheres.iter().all(|b| all(&b.at) && b.radius.is_finite()),
         }
 }
 

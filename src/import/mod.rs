@@ -31,6 +31,7 @@ pub use options::{Options, Up};
 
 use crate::{
     error::{Finding, InputError, JsonPath},
+    limits,
     scene::Scene,
 };
 use raw::Raw;
@@ -86,10 +87,7 @@ fn add_support_files(files: &mut Vec<Raw>, options: &Options) -> Result<(), Inpu
 
 fn load(path: &Path, is_support: bool, options: &Options) -> Result<Raw, InputError> {
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|e| {
-        let error = InputError::at(JsonPath::root(), format!("cannot be read: {e}")).hint("check the path and the permissions");
-        InputError { file: Some(name.clone()), ..error }
-    })?;
+    let bytes = limits::read_file(path, limits::PER_FOREIGN_BYTE)?;
     read(&name, &bytes, is_support, options)
 }
 

@@ -64,7 +64,8 @@ pub(super) struct Body<'a> {
 /// The shape of a [`Body`].
 pub(super) enum Form<'a> {
     Polyhedron(Solidity<'a>),
-    Sphere { center: Vector3<f64>, radius: f64 },
+    /// One sphere, or several rigidly joined: centres and radii.
+    Balls(Vec<(Vector3<f64>, f64)>),
 }
 
 /// A polyhedron with a box around each facet.
@@ -120,12 +121,18 @@ impl<'a> Body<'a> {
                     topology: OnceCell::new(),
                 }),
             },
-            Solid::Sphere { center, radius } => Self {
-                block,
-                bounds: Bounds { lo: *center, hi: *center }.loosened(*radius),
-                shape: Form::Sphere { center: *center, radius: *radius },
-            },
+            Solid::Sphere { center, radius } => Self::of_balls(block, vec![(*center, *radius)]),
+            Solid::Clump { balls, .. } => Self::of_balls(block, balls.clone()),
         }
+    }
+}
+
+impl<'a> Body<'a> {
+    fn of_balls(block: &'a Block, balls: Vec<(Vector3<f64>, f64)>) -> Self {
+        let one = |(c, r): &(Vector3<f64>, f64)| Bounds { lo: *c, hi: *c }.loosened(*r);
+        let all = |a: Bounds, b: Bounds| Bounds { lo: a.lo.inf(&b.lo), hi: a.hi.sup(&b.hi) };
+        let bounds = balls.iter().map(one).reduce(all).unwrap_or(Bounds { lo: block.centroid, hi: block.centroid });
+        Self { block, bounds, shape: Form::Balls(balls) }
     }
 }
 

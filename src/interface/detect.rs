@@ -25,6 +25,7 @@ use super::{
 use crate::{
     assembly::{Assembly, JointLaw},
     error::{InputError, JsonPath},
+    limits::CONTACT_POINTS,
 };
 use nalgebra::Vector3;
 use std::collections::{HashMap, HashSet};
@@ -46,7 +47,7 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
 
     let mut tally = Tally::default();
     let mut pairs = Vec::new();
-    for (a, b, limits) in candidates(&bodies, &assembly.contact) {
+    for (a, b, limits) in candidates(&bodies, &assembly.contact)? {
         if !by_hand.contains(&(a, b)) {
             let meeting = meet(&bodies[a], &bodies[b], &limits);
             if !meeting.is_nothing() {
@@ -56,6 +57,7 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
     }
     take_apart(&mut pairs, &mut tally, assembly);
 
+    let mut points = 0;
     for Pair { a, b, limits, meeting } in pairs {
         if assembly.blocks[a].support && assembly.blocks[b].support {
             interfaces.support_pairs += usize::from(!meeting.contacts.is_empty());
@@ -75,6 +77,11 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
             continue;
         }
         let law = law(assembly, a, b)?;
+        points += meeting.contacts.iter().map(|c| c.points.len()).sum::<usize>();
+        if points > CONTACT_POINTS {
+            return Err(InputError::at(JsonPath::root(), format!("the blocks touch in more than {CONTACT_POINTS} points"))
+                .hint("ask about a part of the structure, or simplify its blocks"));
+        }
         for contact in meeting.contacts {
             tally.contact(contact.gap, &limits);
             interfaces.list.push(Interface {
@@ -176,19 +183,13 @@ impl Meeting {
 fn meet(a: &Body, b: &Body, limits: &Limits) -> Meeting {
     match (&a.shape, &b.shape) {
         (Form::Polyhedron(p), Form::Polyhedron(q)) => polyhedra(a, p, b, q, limits),
-        (&Form::Sphere { center, radius }, &Form::Sphere { center: c, radius: r }) => {
-            round(spheres::sphere_sphere((center, radius), (c, r), limits), 1.0, limits)
-        }
-        (&Form::Sphere { center, radius }, Form::Polyhedron(q)) => {
-            round(spheres::sphere_polyhedron(center, radius, q, limits), 1.0, limits)
-        }
-        (Form::Polyhedron(p), &Form::Sphere { center, radius }) => {
-            round(spheres::sphere_polyhedron(center, radius, p, limits), -1.0, limits)
-        }
+        (Form::Balls(one), Form::Balls(other)) => round(spheres::balls_balls(one, other, limits), 1.0, limits),
+        (Form::Balls(balls), Form::Polyhedron(q)) => round(spheres::balls_polyhedron(balls, q, limits), 1.0, limits),
+        (Form::Polyhedron(p), Form::Balls(balls)) => round(spheres::balls_polyhedron(balls, p, limits), -1.0, limits),
     }
 }
 
-/// What a sphere met; `sign` turns the normals to point from `a` into `b`.
+/// What spheres met; `sign` turns the normals to point from `a` into `b`.
 fn round(meeting: spheres::Meeting, sign: f64, limits: &Limits) -> Meeting {
     let closing = |gap: f64| Closing { gap, lean: 0.0 };
     Meeting {

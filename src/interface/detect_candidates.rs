@@ -6,7 +6,12 @@ use super::{
     body::{Body, Bounds},
     limits::{self, Limits},
 };
-use crate::{scene::ContactSpec, tolerance::COORDINATE_ROUNDING};
+use crate::{
+    error::{InputError, JsonPath},
+    limits as most,
+    scene::ContactSpec,
+    tolerance::COORDINATE_ROUNDING,
+};
 use parry3d::{
     bounding_volume::Aabb,
     math::Vector,
@@ -14,7 +19,10 @@ use parry3d::{
 };
 
 /// Pairs `(a, b)`, `a < b`, ascending, whose boxes are within the reach of near misses of each other.
-pub(super) fn candidates(bodies: &[Body], spec: &ContactSpec) -> Vec<(usize, usize, Limits)> {
+///
+/// # Errors
+/// There are more than can be looked at.
+pub(super) fn candidates(bodies: &[Body], spec: &ContactSpec) -> Result<Vec<(usize, usize, Limits)>, InputError> {
     let reach = limits::near(spec);
     let loose = |b: &Body| aabb(&b.bounds.loosened(reach * b.block.size + COORDINATE_ROUNDING * b.bounds.reach()));
     let boxes: Vec<Aabb> = bodies.iter().map(loose).collect();
@@ -29,8 +37,23 @@ pub(super) fn candidates(bodies: &[Body], spec: &ContactSpec) -> Vec<(usize, usi
             }
         }
         pairs[start..].sort_unstable_by_key(|&(_, b, _)| b);
+        few(pairs.len(), || (body.block.id.clone(), pairs.len() - start))?;
     }
-    pairs
+    Ok(pairs)
+}
+
+/// Refuses more pairs than can be looked at; `last` is the last block, with its own pairs.
+fn few(pairs: usize, last: impl Fn() -> (String, usize)) -> Result<(), InputError> {
+    let refuse = |message: String| {
+        let (id, own) = last();
+        InputError::at(JsonPath::root(), format!("{message} (block {id:?} alone has {own} neighbours)"))
+            .hint("look for blocks that lie in one place, and for a contact.gap that is too large")
+    };
+    if pairs > most::PAIRS {
+        return Err(refuse(format!("more than {} pairs of blocks are near enough to touch", most::PAIRS)));
+    }
+    most::afford(&format!("looking at {pairs} pairs of blocks that are near enough to touch"), pairs as u64, most::PER_PAIR)
+        .map_err(|e| refuse(e.message))
 }
 
 fn aabb(bounds: &Bounds) -> Aabb {

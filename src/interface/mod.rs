@@ -9,6 +9,9 @@ mod detect;
 mod detect_candidates;
 mod faces;
 mod features;
+#[cfg(fuzzing)]
+#[doc(hidden)]
+pub mod fuzzing;
 mod given;
 mod limits;
 mod overlap;

@@ -1,4 +1,7 @@
-//! Spheres: exact nearest points.
+//! Spheres, alone or rigidly joined to a clump: exact nearest points.
+//!
+//! The members of a clump touch each by itself. Where a member would touch at a point inside another member of the same clump there is no
+//! surface, and nothing touches.
 //!
 //! A sphere touches a polyhedron wherever the distance from its centre to the surface has a local least value equal to the radius:
 //! one point on a convex block, two in the groove of a non-convex one.
@@ -26,6 +29,14 @@ pub(super) struct Meeting {
 }
 
 impl Meeting {
+    /// Takes over what a member met, but for touches at points that are `hidden`.
+    fn join(&mut self, other: Self, hidden: impl Fn(&Vector3<f64>) -> bool) {
+        self.touches.extend(other.touches.into_iter().filter(|t| !t.points.iter().any(&hidden)));
+        let (near, overlap) = (self.near, self.overlap);
+        self.near = other.near.map_or(near, |g| Some(near.map_or(g, |n| n.min(g))));
+        self.overlap = other.overlap.map_or(overlap, |d| Some(overlap.map_or(d, |o| o.max(d))));
+    }
+
     fn add(&mut self, touch: Touch, limits: &Limits) {
         let gap = touch.gap.mean;
         if gap.abs() <= limits.gap {
@@ -38,8 +49,42 @@ impl Meeting {
     }
 }
 
+/// What members `(centre, radius)` of two blocks have to do with each other.
+pub(super) fn balls_balls(one: &[Ball], other: &[Ball], limits: &Limits) -> Meeting {
+    if let ([a], [b]) = (one, other) {
+        return sphere_sphere(*a, *b, limits);
+    }
+    let mut all = Meeting::default();
+    for (i, a) in one.iter().enumerate() {
+        for (j, b) in other.iter().enumerate().filter(|(_, b)| (a.0 - b.0).norm() <= a.1 + b.1 + limits.near) {
+            all.join(sphere_sphere(*a, *b, limits), |p| is_inside(p, one, i, limits) || is_inside(p, other, j, limits));
+        }
+    }
+    all
+}
+
+/// What members of a block have to do with a polyhedron; normals point into the polyhedron.
+pub(super) fn balls_polyhedron(balls: &[Ball], solid: &Solidity, limits: &Limits) -> Meeting {
+    if let [ball] = balls {
+        return sphere_polyhedron(ball.0, ball.1, solid, limits);
+    }
+    let mut all = Meeting::default();
+    for (i, ball) in balls.iter().enumerate() {
+        all.join(sphere_polyhedron(ball.0, ball.1, solid, limits), |p| is_inside(p, balls, i, limits));
+    }
+    all
+}
+
+/// Centre and radius.
+type Ball = (Vector3<f64>, f64);
+
+/// Whether a point on one member lies inside another one.
+fn is_inside(point: &Vector3<f64>, balls: &[Ball], member: usize, limits: &Limits) -> bool {
+    balls.iter().enumerate().any(|(k, (c, r))| k != member && (point - c).norm() < r - limits.gap)
+}
+
 /// Two spheres, `(centre, radius)`.
-pub(super) fn sphere_sphere(a: (Vector3<f64>, f64), b: (Vector3<f64>, f64), limits: &Limits) -> Meeting {
+fn sphere_sphere(a: (Vector3<f64>, f64), b: (Vector3<f64>, f64), limits: &Limits) -> Meeting {
     let mut meeting = Meeting::default();
     let between = b.0 - a.0;
     let n = unit(between);
@@ -53,7 +98,7 @@ pub(super) fn sphere_sphere(a: (Vector3<f64>, f64), b: (Vector3<f64>, f64), limi
 }
 
 /// A sphere against a polyhedron; normals point from the sphere into the polyhedron.
-pub(super) fn sphere_polyhedron(center: Vector3<f64>, radius: f64, solid: &Solidity, limits: &Limits) -> Meeting {
+fn sphere_polyhedron(center: Vector3<f64>, radius: f64, solid: &Solidity, limits: &Limits) -> Meeting {
     let mut meeting = Meeting::default();
     if let Some(depth) = overlap::depth_inside(solid, center) {
         meeting.overlap = Some(radius + depth);

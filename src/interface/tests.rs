@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    assembly::{Assembly, Block, JointLaw, JointRules, Mend, Polyhedron, Solid, Wrench},
+    assembly::{Assembly, Block, Gyration, JointLaw, JointRules, Mend, Polyhedron, Solid, Wrench},
     error::{FindingCode, InputError, JsonPath},
     scene::{ContactSpec, Friction},
 };
@@ -117,6 +117,7 @@ fn assembly(shapes: &[Shape]) -> Assembly {
                 material: None,
                 mass: 1.0,
                 centroid: V::zeros(),
+                gyration: Gyration::new(&Matrix3::identity(), 1.0),
                 inertia: Matrix3::identity(),
                 solid,
                 size,

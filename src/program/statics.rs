@@ -10,11 +10,11 @@ use super::{
     section::{Section, sections},
 };
 use crate::{
-    assembly::{Assembly, Wrench},
+    assembly::{Assembly, Gyration, Wrench},
     interface::Interfaces,
     scene::Friction,
 };
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// What to leave out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,8 +48,8 @@ pub struct FreeBlock {
     pub block: usize,
     /// Force scale, N: the greatest of own weight and dead load.
     pub weight: f64,
-    /// Length scale of moments, m: half the block's size.
-    pub length: f64,
+    /// What moments are measured by: the block's own radii of gyration, or metres ([`Options::unscaled`]).
+    pub gyration: Gyration,
 }
 
 /// `A x + w + λ ℓ = 0`, reduced and scaled. `A` has `d·n_free` rows, `d` = 6 in space and 3 in a plane.
@@ -87,7 +87,7 @@ impl Statics {
             .map(|block| FreeBlock {
                 block,
                 weight: if options.unscaled { 1.0 } else { assembly.weight(block).max(assembly.dead[block].force.norm()) },
-                length: if options.unscaled { 1.0 } else { 0.5 * assembly.blocks[block].size },
+                gyration: if options.unscaled { Gyration::new(&Matrix3::identity(), 1.0) } else { assembly.blocks[block].gyration.clone() },
             })
             .collect();
         let mut row_of = vec![None; assembly.blocks.len()];
@@ -184,11 +184,17 @@ impl Statics {
 
     /// A wrench on the block of `row` in scaled row coordinates (the first `dimension` entries count).
     fn scaled(&self, row: usize, wrench: Wrench) -> [f64; 6] {
-        let FreeBlock { weight, length, .. } = self.free[row];
-        let (f, m) = (wrench.force / weight, wrench.moment / (weight * length));
+        let FreeBlock { weight, gyration, .. } = &self.free[row];
+        let f = wrench.force / *weight;
         match self.plane {
-            Some(p) => [p.e1.dot(&f), p.e2.dot(&f), p.axis.dot(&m), 0.0, 0.0, 0.0],
-            None => [f.x, f.y, f.z, m.x, m.y, m.z],
+            Some(p) => {
+                let m = p.axis.dot(&wrench.moment) * gyration.force(&p.axis).norm() / weight;
+                [p.e1.dot(&f), p.e2.dot(&f), m, 0.0, 0.0, 0.0]
+            }
+            None => {
+                let m = gyration.force(&wrench.moment) / *weight;
+                [f.x, f.y, f.z, m.x, m.y, m.z]
+            }
         }
     }
 
@@ -251,15 +257,15 @@ impl Statics {
     }
 
     /// Velocity of the centre of mass and spin of every block (zero for supports) from scaled rates `y`, in units where
-    /// a velocity of 1 and a spin of 1 / length weigh the same.
+    /// a velocity of 1 and a spin that moves the block's mass at 1 (root mean square) weigh the same.
     pub fn rates(&self, blocks: usize, y: &[f64]) -> Vec<(Vector3<f64>, Vector3<f64>)> {
         let mut rates = vec![(Vector3::zeros(), Vector3::zeros()); blocks];
         for (row, free) in self.free.iter().enumerate() {
             let y = &y[row * self.rates_per_block..(row + 1) * self.rates_per_block];
-            let (v, s) = (1.0 / free.weight, 1.0 / (free.weight * free.length));
+            let (v, gyration) = (1.0 / free.weight, &free.gyration);
             rates[free.block] = match self.plane {
-                Some(p) => ((p.e1 * y[0] + p.e2 * y[1]) * v, p.axis * (y[2] * s)),
-                None => (Vector3::new(y[0], y[1], y[2]) * v, Vector3::new(y[3], y[4], y[5]) * s),
+                Some(p) => ((p.e1 * y[0] + p.e2 * y[1]) * v, p.axis * (y[2] * v * gyration.force(&p.axis).norm())),
+                None => (Vector3::new(y[0], y[1], y[2]) * v, gyration.spin(&Vector3::new(y[3], y[4], y[5])) * v),
             };
         }
         rates

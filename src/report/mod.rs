@@ -2,21 +2,25 @@
 
 pub mod contacts;
 pub mod critical;
+pub mod drawing;
 pub mod heaps;
 pub mod inspection;
 pub mod json;
 pub mod packing;
+pub mod page;
 pub mod read;
 pub mod result;
 pub mod simulation;
 pub mod study;
-pub mod svg;
 pub mod sweep;
+pub mod table;
 pub mod text;
 pub mod thrust;
 pub mod trajectory;
 pub mod verification;
 pub mod verify;
+pub mod view;
+pub mod vtk;
 pub mod work;
 
 pub use inspection::Inspection;

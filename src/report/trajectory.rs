@@ -7,7 +7,7 @@ use std::io::Write;
 const HEAD: [&str; 16] = ["run", "time", "block", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"];
 
 /// Writes frames.
-pub struct TrajectoryWriter<W: Write>(csv::Writer<W>);
+pub struct TrajectoryWriter<W: Write>(W);
 
 impl<W: Write> TrajectoryWriter<W> {
     /// Writes the head: `run` is `fast` or `fine`, time in s, `x, y, z` the centre of mass (m), `q…` the rotation from the start
@@ -16,25 +16,32 @@ impl<W: Write> TrajectoryWriter<W> {
     /// # Errors
     /// The output cannot be written.
     pub fn new(out: W) -> std::io::Result<Self> {
-        let mut writer = csv::Writer::from_writer(out);
-        writer.write_record(HEAD)?;
-        writer.flush()?;
-        Ok(Self(writer))
+        let mut writer = Self(out);
+        let mut head = csv::Writer::from_writer(Vec::new());
+        head.write_record(HEAD)?;
+        writer.write(head)?;
+        Ok(writer)
     }
 
-    /// Writes one frame and flushes it.
+    /// Writes one frame, in one piece: what a killed run leaves ends with a whole frame.
     ///
     /// # Errors
     /// The output cannot be written.
     pub fn frame(&mut self, assembly: &Assembly, frame: &Frame) -> std::io::Result<()> {
+        let mut rows = csv::Writer::from_writer(Vec::new());
         let run = format!("{:?}", frame.fidelity).to_lowercase();
         for (block, pose) in assembly.blocks.iter().zip(&frame.blocks) {
             let (q, text) = (pose.turn, |v: f64| v.to_string());
             let mut row = vec![run.clone(), text(frame.time), block.id.clone()];
             let numbers = pose.center.iter().chain([&q.w, &q.i, &q.j, &q.k]).chain(pose.velocity.iter()).chain(pose.spin.iter());
             row.extend(numbers.map(|&v| text(v)));
-            self.0.write_record(&row)?;
+            rows.write_record(&row)?;
         }
+        self.write(rows)
+    }
+
+    fn write(&mut self, rows: csv::Writer<Vec<u8>>) -> std::io::Result<()> {
+        self.0.write_all(&rows.into_inner().map_err(|e| std::io::Error::other(e.to_string()))?)?;
         self.0.flush()
     }
 }

@@ -73,6 +73,21 @@ pub enum Shape {
         /// Radius.
         radius: f64,
     },
+    /// Spheres rigidly joined, apart, touching or overlapping; where they overlap there is mass once.
+    Clump {
+        /// The spheres.
+        spheres: Vec<Ball>,
+    },
+}
+
+/// A sphere of a clump.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ball {
+    /// Centre in the block's own frame, m.
+    pub at: [f64; 3],
+    /// Radius, m.
+    pub radius: f64,
 }
 
 impl BlockSpec {

@@ -21,12 +21,12 @@ pub mod template;
 #[cfg(test)]
 mod tests;
 
-pub use block::{BlockSpec, Rotation, Shape};
+pub use block::{Ball, BlockSpec, Rotation, Shape};
 pub use contact::ContactSpec;
 pub use interface::InterfaceSpec;
 pub use joint::{Friction, JointOverride, JointSpec, Joints, Material};
 pub use load::{At, Load, Loads};
-pub use protocol::{Protocol, ProtocolKind};
+pub use protocol::{GrainKind, Protocol, ProtocolKind};
 pub(crate) use read::{Kind, read_as, text};
 pub use read::{read_bytes, read_file, read_str};
 pub use schema::schema;

@@ -8,9 +8,15 @@ use serde::{Deserialize, Serialize};
 pub struct Protocol {
     /// What is done.
     pub kind: ProtocolKind,
-    /// Number of free grains (spheres).
+    /// Shape of the free grains; the fixed ones on the floor are spheres.
+    pub grain: GrainKind,
+    /// Length over width of clumps (1 to 2), longest over shortest axis of hulls (1 to 4).
+    pub elongation: f64,
+    /// Corners of hulls.
+    pub corners: usize,
+    /// Number of free grains.
     pub grains: usize,
-    /// Mean diameter d, m.
+    /// Mean diameter d, m: of the spheres, and of spheres of the same volume as the clumps or hulls.
     pub diameter: f64,
     /// Radii are spread evenly over the mean × (1 ± this).
     pub sizes: f64,
@@ -27,6 +33,30 @@ pub struct Protocol {
     pub size: [f64; 2],
     /// Speed at which the cylinder is lifted, √(g d), or rate at which the bed is tilted, degrees per √(d/g).
     pub rate: f64,
+}
+
+/// The shape of the grains.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GrainKind {
+    /// Spheres.
+    #[default]
+    Sphere,
+    /// Two equal spheres rigidly joined.
+    Clump,
+    /// Convex hulls of random points on an ellipsoid, no two alike.
+    Hull,
+}
+
+impl GrainKind {
+    /// What many of them are called.
+    pub fn plural(self) -> &'static str {
+        match self {
+            Self::Sphere => "grains",
+            Self::Clump => "clumps",
+            Self::Hull => "hulls",
+        }
+    }
 }
 
 /// What is done with the grains. The floor is rough: fixed grains at random places.
@@ -48,6 +78,9 @@ impl Default for Protocol {
     fn default() -> Self {
         Self {
             kind: ProtocolKind::Drain,
+            grain: GrainKind::Sphere,
+            elongation: 1.5,
+            corners: 16,
             grains: 2000,
             diameter: 0.01,
             sizes: 0.2,

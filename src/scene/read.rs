@@ -1,7 +1,10 @@
 //! JSON text → [`Scene`], with errors that name file, line, column, JSON path and remedy.
 
 use super::{Format, Scene, Source, explain};
-use crate::error::{InputError, JsonPath};
+use crate::{
+    error::{InputError, JsonPath},
+    limits,
+};
 use serde::{Deserialize, de::DeserializeOwned};
 
 /// Reads a scene file.
@@ -9,11 +12,7 @@ use serde::{Deserialize, de::DeserializeOwned};
 /// # Errors
 /// The file cannot be read, is not UTF-8, is not JSON, or is not a scene.
 pub fn read_file(path: &std::path::Path) -> Result<(Scene, Source), InputError> {
-    let name = path.display().to_string();
-    match std::fs::read(path) {
-        Ok(bytes) => read_bytes(name, bytes),
-        Err(e) => Err(InputError { file: Some(name), ..InputError::at(JsonPath::root(), format!("cannot be read: {e}")) }),
-    }
+    read_bytes(path.display().to_string(), limits::read_file(path, limits::PER_BYTE)?)
 }
 
 /// Reads a scene from the bytes of a file; `name` stands for the file in messages.

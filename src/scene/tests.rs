@@ -183,6 +183,8 @@ fn shape() -> impl Strategy<Value = Shape> {
         (prop::collection::vec(vector(), 0..5), faces).prop_map(|(vertices, faces)| Shape::Polyhedron { vertices, faces }),
         (prop::collection::vec([number(), number()], 0..5), number()).prop_map(|(polygon, depth)| Shape::Prism { polygon, depth }),
         number().prop_map(|radius| Shape::Sphere { radius }),
+        prop::collection::vec((vector(), number()), 0..4)
+            .prop_map(|list| Shape::Clump { spheres: list.into_iter().map(|(at, radius)| Ball { at, radius }).collect() }),
     ]
 }
 

@@ -8,18 +8,11 @@ use clarabel::{
 };
 use std::{
     sync::{Arc, Mutex},
-    time::Instant,
+    time::{Duration, Instant},
 };
 
-/// Solves a program with clarabel's interior-point method (Goulart & Chen 2024).
-pub fn solve(program: &ConicProgram, settings: &Settings) -> Solution {
-    match Session::new(program, settings) {
-        Some(mut session) => session.solve(),
-        None => Solution { x: Vec::new(), z: Vec::new(), status: Status::Refused, trace: Vec::new(), seconds: 0.0 },
-    }
-}
-
-/// A program that is solved several times with changed right-hand sides and objectives: ordering and set-up are kept.
+/// A program that is solved several times with changed right-hand sides and objectives by clarabel's interior-point method (Goulart & Chen
+/// 2024): ordering and set-up are kept.
 pub struct Session {
     engine: DefaultSolver<f64>,
     trace: Arc<Mutex<Vec<Iteration>>>,
@@ -30,6 +23,8 @@ impl Session {
     /// Sets a program up; `None` where the engine refuses it.
     pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
         let start = Arc::new(Mutex::new(Instant::now()));
+        // The engine counts the seconds of each solve anew.
+        let end = Duration::try_from_secs_f64(settings.seconds.max(0.0)).ok().and_then(|d| Instant::now().checked_add(d));
         let m = &program.matrix;
         let matrix = CscMatrix::new_from_triplets(m.rows, m.columns, m.i.clone(), m.j.clone(), m.v.clone());
         let n = m.columns;
@@ -48,7 +43,6 @@ impl Session {
             })
             .collect();
         let engine_settings = DefaultSettings {
-            verbose: false,
             max_iter: settings.iterations,
             time_limit: settings.seconds,
             tol_gap_abs: settings.tolerance,
@@ -56,7 +50,11 @@ impl Session {
             tol_feas: settings.tolerance,
             static_regularization_constant: settings.regularization,
             equilibrate_enable: settings.equilibrate,
+            verbose: false,
             max_threads: 1,
+            // By the fill of the factor: scalar where it is sparse (walls pushed in their plane, arches), in dense blocks where it is not
+            // (heaps of grains: 4,495 spheres in 36 s instead of more than 120 s).
+            direct_solve_method: "auto".into(),
             presolve_enable: false,
             ..DefaultSettings::default()
         };
@@ -73,7 +71,7 @@ impl Session {
                     dual_residual: info.res_dual,
                 });
             }
-            false
+            end.is_some_and(|end| Instant::now() >= end)
         });
         Some(Self { engine, trace, start })
     }

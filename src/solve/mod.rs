@@ -1,8 +1,9 @@
 //! Solving a conic program. What comes back is a candidate, never an answer: every verdict is recomputed from the scene.
 
 mod clarabel;
+mod watched;
 
-pub use self::clarabel::{Session, solve};
+pub use self::watched::{Session, solve};
 
 use serde::{Deserialize, Serialize};
 
@@ -37,7 +38,7 @@ pub struct Settings {
     pub equilibrate: bool,
     /// Most iterations.
     pub iterations: u32,
-    /// Most seconds.
+    /// Most seconds, of all solves of a session together.
     pub seconds: f64,
 }
 

@@ -126,8 +126,16 @@ fn taken_up(name: &str, bytes: &[u8], whole: usize, header: &Header) -> Result<(
 pub fn read_rows(path: &Path) -> Result<(Header, Vec<Row>), RowsError> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|cause| RowsError::File { file: name.clone(), what: "read", cause })?;
+    parse_rows(&name, &bytes)
+}
+
+/// As [`read_rows`], from the bytes of a file; `name` stands for it in messages.
+///
+/// # Errors
+/// The bytes are no file of rows.
+pub fn parse_rows(name: &str, bytes: &[u8]) -> Result<(Header, Vec<Row>), RowsError> {
     let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
-    parse(&name, bytes.get(..whole).unwrap_or_default())
+    parse(name, bytes.get(..whole).unwrap_or_default())
 }
 
 /// What could be read of a file that another process may be writing, or whose writer lost its machine.

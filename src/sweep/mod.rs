@@ -36,12 +36,12 @@ mod summary;
 mod worst;
 
 pub use ask::ask;
-pub use file::{Opened, RowsFile, read_rows};
+pub use file::{Opened, RowsFile, parse_rows, read_rows};
 pub use folder::{Folder, Gathered, Tally};
 pub use fragility::{Fragility, Proportion, wilson};
 pub use influence::{Influence, groups, influence};
 pub use merge::{Merged, merge};
-pub use open::{MOST_ROWS, Sweep, open, open_bytes};
+pub use open::{MOST_ROWS, Sweep, open, open_bytes, read_plan};
 pub use plan::{
     AssessOptions, LimitOptions, Lognormal, Normal, Plan, Question, ReposeOptions, Sampling, SimulateOptions, ThrustOptions, TiltOptions,
     Vary, schema,

@@ -10,6 +10,7 @@ use crate::{
     analysis::reuse::Keys,
     assembly::{self, Wrench},
     error::{InputError, JsonPath},
+    limits,
     scene::{self, Kind, Scene, Source},
 };
 use serde_json::Value;
@@ -37,11 +38,16 @@ pub struct Sweep {
 /// # Errors
 /// The plan or its scene cannot be read, or the plan asks for something that has no meaning.
 pub fn open(path: &Path) -> Result<Sweep, InputError> {
-    let name = path.display().to_string();
-    match std::fs::read(path) {
-        Ok(bytes) => open_bytes(name, bytes, path.parent().unwrap_or(Path::new(""))),
-        Err(e) => Err(InputError { file: Some(name), ..InputError::at(JsonPath::root(), format!("cannot be read: {e}")) }),
-    }
+    let bytes = limits::read_file(path, limits::PER_BYTE)?;
+    open_bytes(path.display().to_string(), bytes, path.parent().unwrap_or(Path::new("")))
+}
+
+/// Reads a plan from the bytes of a file, without the scene it names.
+///
+/// # Errors
+/// The bytes are not UTF-8, not JSON, or not a plan.
+pub fn read_plan(name: impl Into<String>, bytes: Vec<u8>) -> Result<(Plan, Source), InputError> {
+    scene::read_as(&PLAN, scene::text(name, bytes)?)
 }
 
 /// Reads a plan from the bytes of a file; its scene is looked for in `folder`.
@@ -49,12 +55,12 @@ pub fn open(path: &Path) -> Result<Sweep, InputError> {
 /// # Errors
 /// As [`open`].
 pub fn open_bytes(name: impl Into<String>, bytes: Vec<u8>, folder: &Path) -> Result<Sweep, InputError> {
-    let (plan, source): (Plan, Source) = scene::read_as(&PLAN, scene::text(name, bytes)?)?;
+    let (plan, source) = read_plan(name, bytes)?;
     let refuse = |e: InputError| e.located(&source);
     let key = JsonPath::root().key("scene");
     let path = folder.join(&plan.scene);
-    let bytes = std::fs::read(&path).map_err(|e| {
-        let error = InputError::at(key, format!("the scene {} cannot be read: {e}", path.display()));
+    let bytes = limits::read_file(&path, limits::PER_BYTE).map_err(|e| {
+        let error = InputError::at(key, format!("the scene {}: {}", path.display(), e.message));
         refuse(error.hint("the path is relative to the folder of the plan"))
     })?;
     let (_, scene_source) = scene::read_bytes(path.display().to_string(), bytes)?;

@@ -1,8 +1,7 @@
 //! Rows → answers, on as many threads as wanted, each written as it ends.
 
 use super::{Answer, Folder, Header, Opened, Row, RowsFile, Shard, Status, Sweep, ask};
-use crate::{analysis::reuse::Reuse, error::RowsError};
-use rayon::prelude::*;
+use crate::{analysis::reuse::Reuse, error::RowsError, parallel};
 use std::{
     collections::HashSet,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -114,19 +113,16 @@ fn answers(
 ) -> Result<(Vec<Row>, [usize; 2]), RowsError> {
     open.sort_by_cached_key(|row| (sweep.keys(&sweep.parameters(*row)), *row));
     let threads = threads.unwrap_or(0);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|e| RowsError::Threads { threads, cause: e.to_string() })?;
     let reuse = Reuse::default();
     let rows = Mutex::new(Vec::new());
-    pool.install(|| {
-        open.par_iter().try_for_each(|&number| {
-            let row = answer(sweep, &reuse, number);
-            file.append(&row)?;
-            watch(Event::Row(row.answer.status));
-            rows.lock().unwrap_or_else(PoisonError::into_inner).push(row);
-            Ok(())
-        })
-    })?;
+    parallel::for_each(threads, &open, |&number| {
+        let row = answer(sweep, &reuse, number);
+        file.append(&row)?;
+        watch(Event::Row(row.answer.status));
+        rows.lock().unwrap_or_else(PoisonError::into_inner).push(row);
+        Ok(())
+    })
+    .map_err(|e| RowsError::Threads { threads, cause: e.to_string() })??;
     Ok((rows.into_inner().unwrap_or_else(PoisonError::into_inner), reuse.computed()))
 }
 

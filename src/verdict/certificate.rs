@@ -1,10 +1,12 @@
 //! Re-adding forces and powers block by block.
 //!
 //! *Static side.* Contact forces inside their friction cones leave each free block the wrench
-//! `r_i = w_i + λ ℓ_i + Σ` contact wrenches. Its size is `max(‖force‖, ‖moment‖ / (size / 2))`-like: the norm of (force; moment / L)
-//! over the block's load, in multiples of g. *Kinematic side.* Rates `q` separate the contacts at `v`; for every
+//! `r_i = w_i + λ ℓ_i + Σ` contact wrenches. Its [`size`] is the norm of (force; moment over the radius of gyration about its
+//! axis) over the block's load, in multiples of g. *Kinematic side.* Rates `q` separate the contacts at `v`; for every
 //! admissible force `f·v ≥ −e f_n` with `e = max(0, μ‖v_t‖ − v_n)`, the inadmissibility. So for any equilibrium
 //! `w·q + λ ℓ·q ≤ Σ e f_n`: a mechanism with `e = 0` that gains power proves instability (Heyman 1966; Livesley 1978).
+//! Per newton of the whole force the bound is the size of the projection of `−v` onto the cone, `e / √(1 + μ²)` on its side
+//! ([`hidden`]); where friction is steep that is much less, and rounding of `v_t` is not multiplied by μ.
 //!
 //! *Strength.* With cohesion c and tensile strength T on the corner's share a of the area, `‖f_t‖ ≤ μ f_n + c a`, `f_n ≥ −T a`;
 //! a mechanism then dissipates `c a ‖v_t‖ + T a (v_n − μ‖v_t‖)⁺` there. With a compressive strength σ, joints may close: a joint
@@ -26,9 +28,17 @@ pub fn load_scale(assembly: &Assembly, block: usize) -> f64 {
     assembly.weight(block).max(assembly.dead[block].force.norm())
 }
 
-/// Length scale of a block's moments, m.
-pub fn length_scale(assembly: &Assembly, block: usize) -> f64 {
-    0.5 * assembly.blocks[block].size
+/// Size of a wrench on a block, N: `‖(F; G⁻¹ M)‖`, moments measured by the radii of gyration about their own axes ([`Gyration`]).
+/// Over the mass it is the acceleration that the wrench gives the block, as a root mean square over its mass.
+///
+/// [`Gyration`]: crate::assembly::Gyration
+pub fn size(assembly: &Assembly, block: usize, w: &Wrench) -> f64 {
+    w.force.norm().hypot(assembly.blocks[block].gyration.force(&w.moment).norm())
+}
+
+/// Root mean square speed of a block's mass, m/s: `‖(v; G ω)‖`, dual to [`size`].
+pub fn speed(assembly: &Assembly, block: usize, q: &Rate) -> f64 {
+    q.velocity.norm().hypot(assembly.blocks[block].gyration.speed(&q.spin).norm())
 }
 
 /// What forces leave unbalanced.
@@ -87,7 +97,7 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
                 let arm = point - assembly.blocks[block].centroid;
                 residuals[block] += Wrench { force: total * sign, moment: (arm.cross(&total) + moment) * sign };
-                rounding[block] += total.norm().min(most) * (1.0 + point.amax() / length_scale(assembly, block));
+                rounding[block] += total.norm().min(most) * (1.0 + point.amax() / assembly.blocks[block].gyration.least());
             }
         }
         if let Some(used) = strength.crushing(face, forces) {
@@ -188,10 +198,6 @@ fn outside(face: &Interface, force: &Vector3<f64>, couple: &Vector3<f64>, [cohes
     outside
 }
 
-fn size(assembly: &Assembly, block: usize, w: &Wrench) -> f64 {
-    w.force.norm().hypot(w.moment.norm() / length_scale(assembly, block))
-}
-
 /// What a set of rates gains and where it is inadmissible.
 #[derive(Clone, Debug)]
 pub struct Kinematics {
@@ -201,15 +207,15 @@ pub struct Kinematics {
     pub live_power: f64,
     /// What cohesion, tension and crushing dissipate.
     pub dissipation: f64,
-    /// `Σ` load scale × ‖(velocity; spin × L)‖ over the free blocks: the power that an unbalance of 1 g everywhere would have.
+    /// `Σ` load scale × [`speed`] over the free blocks: the power that an unbalance of 1 g everywhere would have.
     pub norm: f64,
     /// `Σ e f_n` with the given forces: the power that the inadmissibility may hide.
     pub slack: f64,
-    /// Largest inadmissibility `e` over the fastest speed at a contact.
+    /// Largest inadmissibility, per newton of the whole force, over the fastest speed at a contact.
     pub inadmissibility: f64,
-    /// `Σ e`: with contact forces of at most `F` each, the inadmissibility hides at most `F` × this.
+    /// `Σ` inadmissibility per newton: with contact forces of at most `F` each, the mechanism hides at most `F` × this.
     pub excess: f64,
-    /// The part of `excess` from contacts where `e` is more than rounding of the speeds of the two blocks
+    /// The part of `excess` from contacts where that is more than rounding of the speeds of the two blocks
     /// ([`tolerance::ADMISSIBLE`]): blocks that should rest, or joints that are made to close.
     pub coarse: f64,
 }
@@ -258,10 +264,10 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
         let (q, w, l) = (&rates[i], &assembly.dead[i], &assembly.live[i]);
         k.dead_power += power(w, q);
         k.live_power += power(l, q);
-        k.norm += load_scale(assembly, i) * q.velocity.norm().hypot(q.spin.norm() * length_scale(assembly, i));
+        k.norm += load_scale(assembly, i) * speed(assembly, i, q);
     }
-    let speed = |i: usize, p: &Vector3<f64>| at(assembly, rates, i, p).norm();
-    let local = |face: &Interface, p: &Vector3<f64>| speed(face.a, p).max(speed(face.b, p));
+    let local_speed = |i: usize, p: &Vector3<f64>| at(assembly, rates, i, p).norm();
+    let local = |face: &Interface, p: &Vector3<f64>| local_speed(face.a, p).max(local_speed(face.b, p));
     let fastest = interfaces.list.iter().flat_map(|face| face.points.iter().map(|p| local(face, p))).fold(0.0, f64::max);
     let mut worst = 0.0_f64;
     for (face, forces) in interfaces.list.iter().zip(forces) {
@@ -292,9 +298,15 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
             if crushes {
                 k.dissipation -= tension * e;
             } else {
-                inadmissible = e.max(0.0);
+                let hides = e.max(0.0) * n.dot(force).max(0.0);
                 k.dissipation += tension * (-e).max(0.0);
-                k.slack += inadmissible * n.dot(force).max(0.0);
+                if cohesion == 0.0 && tension == 0.0 {
+                    inadmissible = e.max(0.0).min(hidden(mu, n.dot(&joint[place]), vt) + rolling);
+                    k.slack += hides.min(inadmissible * force.norm());
+                } else {
+                    inadmissible = e.max(0.0);
+                    k.slack += hides;
+                }
             }
             // What must not slide costs as much as the shear force that it has.
             let slips = if rough { vt } else { 0.0 };
@@ -304,7 +316,7 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
             if size > tolerance::ADMISSIBLE * local(face, point) || e.is_nan() {
                 k.coarse += inadmissible + slips;
             }
-            worst = worst.max(size / mu.hypot(1.0));
+            worst = worst.max(size);
         }
         for (v, force) in joint.iter().zip(face.uplift()) {
             k.dead_power += force.dot(v);
@@ -312,6 +324,12 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
     }
     k.inadmissibility = if fastest > 0.0 { worst / fastest } else { 0.0 };
     k
+}
+
+/// The power that a force of 1 N inside the friction cone can have at most against a joint that separates at `normal` and slides at
+/// `sliding`, m/s: the size of the projection of the closing velocity onto the cone.
+fn hidden(mu: f64, normal: f64, sliding: f64) -> f64 {
+    if sliding <= -mu * normal { normal.hypot(sliding) } else { (mu * sliding - normal).max(0.0) / mu.hypot(1.0) }
 }
 
 /// Velocity of a point moving with a block.

@@ -185,7 +185,10 @@ fn moves(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, base: &
     let dot = |a: &[Rate], b: &[Rate]| -> f64 {
         assembly
             .free()
-            .map(|i| a[i].velocity.dot(&b[i].velocity) + a[i].spin.dot(&b[i].spin) * certificate::length_scale(assembly, i).powi(2))
+            .map(|i| {
+                let gyration = &assembly.blocks[i].gyration;
+                a[i].velocity.dot(&b[i].velocity) + gyration.speed(&a[i].spin).dot(&gyration.speed(&b[i].spin))
+            })
             .sum()
     };
     let cosine = dot(rates, &m.rates) / (dot(rates, rates) * dot(&m.rates, &m.rates)).sqrt();
@@ -198,9 +201,7 @@ const REACH: f64 = 1e6;
 
 /// Total dead over total live load: the size a load factor has when both weigh the same.
 pub fn natural_factor(assembly: &Assembly) -> f64 {
-    let sum = |loads: &[Wrench]| {
-        assembly.free().map(|i| loads[i].force.norm().hypot(loads[i].moment.norm() / certificate::length_scale(assembly, i))).sum::<f64>()
-    };
+    let sum = |loads: &[Wrench]| assembly.free().map(|i| certificate::size(assembly, i, &loads[i])).sum::<f64>();
     sum(&assembly.dead) / sum(&assembly.live)
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     Forces, Rate,
-    certificate::{Strength, at, length_scale, load_scale, statics},
+    certificate::{Strength, at, load_scale, statics},
 };
 use crate::{
     assembly::{Assembly, Wrench},
@@ -145,14 +145,14 @@ pub struct Released {
 
 /// The motion that starts from rest under contact forces, and how exactly the two obey Coulomb's law.
 ///
-/// Each block moves by its own unbalance; a block's inertia is taken as its load scale squared, in force and, with its length
-/// scale, in moment. The law of contact does not depend on that choice, only the speeds do.
+/// Each block moves by its own unbalance; a block's mass is taken as its load scale squared, with its own radii of gyration. The law of contact does not depend on that choice, only the speeds do.
 pub fn motion(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Released {
     let s = statics(assembly, interfaces, forces, 0.0);
     let mut rates = vec![Rate::zero(); assembly.blocks.len()];
     for i in assembly.free() {
-        let (w, l) = (load_scale(assembly, i), length_scale(assembly, i));
-        rates[i] = Rate { velocity: s.residuals[i].force / (w * w), spin: s.residuals[i].moment / (w * l * w * l) };
+        let (w, gyration) = (load_scale(assembly, i), &assembly.blocks[i].gyration);
+        let spin = gyration.spin(&gyration.force(&s.residuals[i].moment));
+        rates[i] = Rate { velocity: s.residuals[i].force / (w * w), spin: spin / (w * w) };
     }
     let natural_map = natural_map(assembly, interfaces, forces, &rates).unwrap_or(f64::INFINITY);
     let natural_map_in_loads = natural_map_in_loads(assembly, interfaces, forces, &rates, 1.0).unwrap_or(f64::INFINITY);

@@ -48,7 +48,7 @@ pub struct Mechanism {
 
 /// Reads the rates of a mechanism.
 pub fn read(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Mechanism {
-    let speed = |i: usize| rates[i].velocity.norm().hypot(rates[i].spin.norm() * certificate::length_scale(assembly, i));
+    let speed = |i: usize| certificate::speed(assembly, i, &rates[i]);
     let fastest = assembly.free().map(speed).fold(0.0, f64::max);
     let mut moving: Vec<usize> = assembly.free().filter(|&i| speed(i) > tolerance::MECHANISM_REST * fastest).collect();
     moving.sort_by(|&i, &j| speed(j).total_cmp(&speed(i)).then(i.cmp(&j)));

@@ -27,7 +27,10 @@ fn voussoir(args: &[&str]) -> Output {
 
 fn with_input(args: &[&str], input: &str) -> Output {
     let mut child = command().args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    // A refusal may come before the input is read.
+    if let Err(e) = child.stdin.take().unwrap().write_all(input.as_bytes()) {
+        assert_eq!(e.kind(), std::io::ErrorKind::BrokenPipe);
+    }
     ended(child.wait_with_output().unwrap())
 }
 
@@ -269,6 +272,26 @@ fn text_says_the_answer_first_and_what_next() {
     assert!(text.contains("\x1b[1;31mfalls") && text.contains("hinges"), "{text}");
     let text = out(&expect(YES, voussoir(&["limit", &desk.at("pushed.json"), "--quiet"])));
     assert!(text.starts_with("Arch: λ = 0.1") && text.lines().count() == 1, "{text}");
+}
+
+/// A terminal of 40 lines shows the whole answer, first line included; `--verbose` says the rest.
+#[test]
+fn an_answer_fits_one_screen() {
+    for (wanted, question) in [
+        (YES, &["limit", "running-bond-wall.json"][..]),
+        (YES, &["limit", "wall-with-openings.json"]),
+        (YES, &["tilt", "wall-with-two-openings.json", "--all", "16"]),
+        (YES, &["thrust", "semicircular-arch-thick.json"]),
+        (NO, &["assess", "semicircular-arch-thin.json"]),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("structures").join(question[1]);
+        let asked = [&[question[0], path.to_str().unwrap()], &question[2..], &["--law", "associative"]].concat();
+        let short = out(&expect(wanted, voussoir(&asked)));
+        let long = out(&expect(wanted, voussoir(&[&asked[..], &["--verbose"]].concat())));
+        assert!(short.lines().count() <= 40, "{} lines:\n{short}", short.lines().count());
+        assert!(long.lines().count() > short.lines().count() && !long.contains("--verbose for all"), "{long}");
+        assert_eq!(short.lines().next(), long.lines().next());
+    }
 }
 
 #[test]
@@ -913,4 +936,101 @@ fn repose_answers_both_questions() {
     expect(USAGE, voussoir(&["repose", "drain", "grain=30", "--question", "repose"]));
     expect(USAGE, voussoir(&["repose", "drain", "grains=-1", "--question", "repose"]));
     expect(USAGE, voussoir(&["repose", &pile, "grains=30"]));
+}
+
+/// Files of an answer beside its text: each is there, whole, and the text stays what it is.
+#[test]
+fn pictures_and_tables_are_written_beside_the_answer() {
+    let desk = Desk::new();
+    let [svg, vtp, csv] = ["a.svg", "a.vtp", "a.csv"].map(|n| desk.at(n));
+    let files = ["--svg", &svg, "--vtk", &vtp, "--csv", &csv];
+    for (wanted, question) in [
+        (NO, vec!["assess", "thin.json"]),
+        (YES, vec!["limit", "pushed.json", "--law", "associative"]),
+        (YES, vec!["tilt", "arch.json", "--toward", "1,0", "--law", "associative"]),
+        (YES, vec!["thrust", "arch.json", "--law", "associative"]),
+    ] {
+        let scene = desk.at(question[1]);
+        let asked = [&[question[0], &scene], &question[2..]].concat();
+        let plain = out(&expect(wanted, voussoir(&[&asked[..], &["-q"]].concat())));
+        let with = out(&expect(wanted, voussoir(&[&asked[..], &files, &["-q"]].concat())));
+        assert_eq!(plain, with);
+        let read = |name: &str| fs::read_to_string(desk.path(name)).unwrap();
+        assert!(read("a.svg").starts_with("<svg ") && read("a.svg").ends_with("</svg>\n"));
+        assert!(read("a.vtp").contains("type=\"PolyData\"") && read("a.vtp").ends_with("</VTKFile>\n"));
+        assert_eq!([read("a.csv").lines().count() > 14, read("a.blocks.csv").lines().count() == 18], [true; 2]);
+        ["a.svg", "a.vtp", "a.csv", "a.blocks.csv"].iter().for_each(|n| fs::remove_file(desk.path(n)).unwrap());
+    }
+    let packing = desk.at("pile.json");
+    expect(YES, voussoir(&["generate", "lattice", "layers=2", "--friction", "0.5", "-o", &packing]));
+    expect(YES, voussoir(&["repose", &packing, "--toward", "0,-1", "--law", "associative", "--svg", &svg, "--vtk", &vtp, "-q"]));
+    assert!(desk.files().contains(&"a.svg".into()) && desk.files().contains(&"a.vtp".into()));
+    // A picture on standard output stands alone.
+    let drawn = out(&expect(YES, voussoir(&["assess", &desk.at("arch.json"), "--law", "associative", "--svg", "-", "--view", "corner"])));
+    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n") && drawn.matches("<svg ").count() == 2);
+}
+
+#[test]
+fn a_simulation_is_a_collection_of_moments() {
+    let desk = Desk::new();
+    let (pvd, svg) = (desk.at("fall.pvd"), desk.at("fall.svg"));
+    expect(NO, voussoir(&["simulate", &desk.at("thin.json"), "--fast", "--skip-verdict", "--vtk", &pvd, "--svg", &svg, "-q"]));
+    let text = fs::read_to_string(&pvd).unwrap();
+    let named: Vec<&str> = text.split("file=\"").skip(1).filter_map(|t| t.split('"').next()).collect();
+    assert!(named.len() > 2 && named.iter().all(|n| desk.path(n).is_file()), "{text}");
+    assert!(fs::read_to_string(&svg).unwrap().contains("after "));
+}
+
+#[test]
+fn pictures_that_cannot_be_made_are_refused_before_the_work() {
+    let desk = Desk::new();
+    let arch = desk.at("arch.json");
+    for (wrong, word) in [
+        (&["--vtk", "a.vtk"][..], "name it a.vtp"),
+        (&["--vtk", "-", "--svg", "-"], "standard output takes one of"),
+        (&["--svg", "-", "--json"], "standard output takes one of"),
+        (&["--csv", "-"], "--csv takes a file"),
+        (&["--svg", &arch], "would replace the scene"),
+        (&["--svg", "no/such/folder.svg"], "no such folder"),
+        (&["--view", "corner"], "--svg"),
+        (&["--svg", "a.svg", "--view", "inside"], "not auto, front"),
+    ] {
+        let answer = expect(USAGE, voussoir(&[&["assess", &arch], wrong].concat()));
+        assert!(err(&answer).contains(word), "{wrong:?}: {}", err(&answer));
+    }
+    let answer = expect(USAGE, voussoir(&["simulate", &arch, "--vtk", "a.vtp"]));
+    assert!(err(&answer).contains("name it a.pvd"), "{}", err(&answer));
+    let answer = expect(USAGE, voussoir(&["repose", "drain", "--question", "repose", "--csv", "a.csv"]));
+    assert!(err(&answer).contains("--heaps"), "{}", err(&answer));
+}
+
+/// Verbs of the help's list.
+fn verbs() -> Vec<String> {
+    let help = out(&expect(YES, voussoir(&["--help"])));
+    let list = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap().to_string();
+    let words = list.lines().filter(|l| l.starts_with("  ") && !l.starts_with("   ")).filter_map(|l| l.split_whitespace().next());
+    words.map(String::from).filter(|w| w != "help").collect()
+}
+
+#[test]
+fn shells_and_manuals_know_every_verb() {
+    assert!(verbs().len() >= 14, "{:?}", verbs());
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = out(&expect(YES, voussoir(&["completions", shell])));
+        assert!(verbs().iter().all(|v| script.contains(v)) && script.contains("moving-mass"), "{shell}");
+    }
+    assert!(err(&expect(USAGE, voussoir(&["completions", "sh"]))).contains("bash"));
+    let desk = Desk::new();
+    expect(YES, voussoir(&["man", "--folder", &desk.at("")]));
+    let whole = out(&expect(YES, voussoir(&["man"])));
+    for verb in verbs() {
+        let page = out(&expect(YES, voussoir(&["man", &verb])));
+        assert!(page.contains(&format!(".TH voussoir-{verb} 1")) && page.contains(".SH SYNOPSIS"), "{verb}");
+        assert_eq!(fs::read_to_string(desk.path(&format!("voussoir-{verb}.1"))).unwrap(), page);
+        assert!(whole.contains(&format!("voussoir\\-{verb}(1)")), "{verb}");
+    }
+    assert_eq!(fs::read_to_string(desk.path("voussoir.1")).unwrap(), whole);
+    assert!(whole.contains("Exit codes") && whole.contains("130"));
+    expect(USAGE, voussoir(&["man", "nonsense"]));
+    expect(USAGE, voussoir(&["man", "--folder", &desk.at("no/folder")]));
 }

@@ -314,6 +314,39 @@ fn a_rolling_arm_holds_a_sphere_up_to_its_slope() {
     }
 }
 
+/// A sphere of radius r in a groove, with a rolling arm c: 30° + atan(c/r), and no earlier, by couples that the engine does not know.
+#[test]
+fn a_rolling_arm_holds_a_sphere_in_a_groove_beyond_its_slope() {
+    let at = |share: f64| {
+        let (s, c) = (share * 35.71059f64.to_radians().tan()).atan().sin_cos();
+        let ball = |id: &str, x: f64, z: f64, support: bool| json!({ "id": id, "shape": { "sphere": { "radius": 0.5 } }, "at": [x, 0, z], "support": support });
+        let blocks = json!([ball("left", -0.5, 0.0, true), ball("right", 0.5, 0.0, true), ball("ball", 0.0, 0.75f64.sqrt(), false)]);
+        let mut scene = scene(0.5, blocks, json!({ "gravity": [s, 0, -c] }));
+        scene.joints.default.rolling_arm = Some(0.05);
+        scene
+    };
+    for (share, fate) in [(0.97, Fate::Stands), (1.03, Fate::Falls)] {
+        becomes(&format!("{share} of the slope"), &at(share), fate);
+    }
+}
+
+/// Three spheres on the ground and a fourth above them, rigidly joined: it topples over two of them.
+#[test]
+fn a_clump_topples_at_the_limit_and_not_before() {
+    let (r, foot) = (0.5, 1.0 / 3f64.sqrt());
+    let limit = 0.5 * foot / (r * (1.0 + (8.0f64 / 3.0).sqrt() / 4.0));
+    let at = |share: f64| {
+        let (s, c) = (share * limit).atan().sin_cos();
+        let ball = |degrees: f64| json!({ "at": [foot * degrees.to_radians().cos(), foot * degrees.to_radians().sin(), r], "radius": r });
+        let spheres = json!([ball(60.0), ball(180.0), ball(300.0), { "at": [0, 0, r + (2.0f64 / 3.0).sqrt()], "radius": r }]);
+        let ground = json!({ "id": "ground", "shape": { "box": { "size": [20, 20, 1] } }, "at": [0, 0, -0.5], "support": true });
+        scene(0.8, json!([ground, { "id": "clump", "shape": { "clump": { "spheres": spheres } } }]), json!({ "gravity": [s, 0, -c] }))
+    };
+    for (share, fate) in [(0.97, Fate::Stands), (1.03, Fate::Falls)] {
+        becomes(&format!("{share} of the limit"), &at(share), fate);
+    }
+}
+
 /// Water in a joint takes its part off the pressure that friction sees.
 #[test]
 fn water_in_a_joint_lets_it_slide_earlier() {
@@ -336,4 +369,27 @@ fn strengths_that_are_left_out_are_told_and_not_compared() {
     let model = model(&scene);
     let answer = assess(&model.assembly, &model.interfaces, &Control::default());
     assert_eq!(agreement(&model.assembly, &model.interfaces, &answer, &outcome).agrees, None);
+}
+
+#[test]
+fn many_simulations_in_a_work_stealing_pool_do_not_pile_up_on_one_stack() {
+    // A worker that waited for the engine began the next simulation on top of the last, until the stack was full.
+    use rayon::prelude::*;
+    use std::cell::Cell;
+    thread_local! { static DEPTH: Cell<usize> = const { Cell::new(0) }; }
+    let text = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.6 } },
+        "templates": [{ "column": { "blocks": 2, "size": [1, 1, 0.5] } }] }"#;
+    let (scene, _) = voussoir::scene::read_str("test", text).unwrap();
+    let model = voussoir::analysis::prepare(&scene).unwrap();
+    let settings = voussoir::dynamics::Settings { fidelity: Some(voussoir::dynamics::Fidelity::Fast), ..Default::default() };
+    let one = |_| {
+        DEPTH.set(DEPTH.get() + 1);
+        let depth = DEPTH.get();
+        let watch = &mut |_: &voussoir::dynamics::Progress| std::ops::ControlFlow::Continue(());
+        assert!(voussoir::dynamics::simulate(&model.assembly, &model.interfaces, &settings, watch).is_ok());
+        DEPTH.set(DEPTH.get() - 1);
+        depth
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    assert_eq!(pool.install(|| (0..24).into_par_iter().map(one).max()), Some(1));
 }

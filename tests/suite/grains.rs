@@ -1,14 +1,15 @@
 //! Packings of grains: exact piles of 500 grains and more, rounds of loose grains, averages over contacts, heaps that flow.
 
-use crate::ask::{cuboid, fixed, model, prove, scene, sphere, template};
+use crate::ask::{cuboid, fixed, ground, model, prove, scene, sphere, template};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use voussoir::{
     analysis::{Control, Law, Outcome, assess, fabric, repose, stability, stability::held},
+    error::FindingCode,
     generate::deposit,
     report::{Leaning, ResultFile, json as text, packing::PackingFile},
-    scene::{Protocol, ProtocolKind, Scene, read_str},
+    scene::{GrainKind, Protocol, ProtocolKind, Scene, read_str},
 };
 
 fn pile(packing: &str, layers: usize, friction: f64) -> Scene {
@@ -50,6 +51,99 @@ fn piles_of_spheres_fall_as_their_pockets_do() {
     ] {
         let (angle, _) = falls_at(&pile(packing, 4, 0.5), toward);
         assert!((angle - want).abs() < 1e-5, "{packing} towards {toward:?}: {angle}, expected {want}");
+    }
+}
+
+#[test]
+fn a_tetrahedral_pile_of_560_spheres_falls_as_its_apex_does() {
+    // R09 with 14 layers.
+    let (angle, grains) = falls_at(&pile("fcc", 14, 0.5), [0.0, -1.0, 0.0]);
+    assert!(grains == 560 && (angle - 19.471220634).abs() < 1e-5, "{grains} grains: {angle}");
+}
+
+fn clump(id: &str, balls: &[[f64; 3]]) -> Value {
+    let spheres: Vec<Value> = balls.iter().map(|at| json!({ "at": at, "radius": 1.0 })).collect();
+    json!({ "id": id, "shape": { "clump": { "spheres": spheres } } })
+}
+
+#[test]
+fn clumps_of_spheres_have_exact_limits() {
+    let one = |friction: f64, block: Value| scene(friction, json!([ground(), block]), json!({}));
+    // Two spheres in a row along y: they slide or topple along it, and roll across it at once.
+    let dumbbell = |friction: f64| one(friction, clump("dumbbell", &[[0.0, -1.0, 1.0], [0.0, 1.0, 1.0]]));
+    assert!((falls_at(&dumbbell(0.5), [0.0, 1.0, 0.0]).0 - 0.5f64.atan().to_degrees()).abs() < 1e-6);
+    assert!((falls_at(&dumbbell(2.0), [0.0, 1.0, 0.0]).0 - 45.0).abs() < 1e-6);
+    assert!(falls_at(&dumbbell(0.5), [1.0, 0.0, 0.0]).0.abs() < 1e-6);
+    // Overlapping by half a radius: the centre of mass is in the middle still, the feet are closer.
+    let peanut = one(2.0, clump("peanut", &[[0.0, -0.5, 1.0], [0.0, 0.5, 1.0]]));
+    assert!((falls_at(&peanut, [0.0, 1.0, 0.0]).0 - 0.5f64.atan().to_degrees()).abs() < 1e-6);
+    // Three spheres and a fourth on top: over the edge between two feet.
+    let (foot, rise) = (2.0 / 3f64.sqrt(), (8.0f64 / 3.0).sqrt());
+    let feet = [60.0, 180.0, 300.0f64].map(|a| [foot * a.to_radians().cos(), foot * a.to_radians().sin(), 1.0]);
+    let tetrapod = one(2.0, clump("tetrapod", &[feet[0], feet[1], feet[2], [0.0, 0.0, 1.0 + rise]]));
+    let want = (0.5 * foot / (1.0 + rise / 4.0)).atan().to_degrees();
+    assert!((falls_at(&tetrapod, [1.0, 0.0, 0.0]).0 - want).abs() < 1e-6);
+    // R04 on three spheres that are one block, and turned as a whole with its frame.
+    let bed = feet.map(|p| [p[0], p[1], 0.0]);
+    let turn = json!({ "axis": [0, 0, 1], "angle": 30 });
+    let mut fixed_bed = fixed(clump("bed", &bed));
+    fixed_bed["rotation_deg"] = turn;
+    let pocket = scene(0.5, json!([fixed_bed, sphere("ball", 1.0, [0.0, 0.0, rise])]), json!({}));
+    let saddle = [30f64.to_radians().cos(), 30f64.to_radians().sin(), 0.0];
+    assert!((falls_at(&pocket, saddle).0 - 19.471220634).abs() < 1e-6);
+}
+
+#[test]
+fn clumps_that_cannot_be_are_refused_with_their_place() {
+    let bad = |spheres: Value| {
+        let block = json!([{ "id": "c", "shape": { "clump": { "spheres": spheres } } }]);
+        voussoir::analysis::prepare(&scene(0.5, block, json!({}))).expect_err("a refusal").to_string()
+    };
+    assert!(bad(json!([])).contains("blocks[0].shape.clump.spheres: a clump needs at least one sphere"), "{}", bad(json!([])));
+    assert!(bad(json!([{ "at": [0, 0, 0], "radius": 0 }])).contains("spheres[0].radius"));
+    assert!(bad(json!(vec![json!({ "at": [0, 0, 0], "radius": 1 }); 201])).contains("at most 200"));
+}
+
+#[test]
+fn grains_of_every_shape_have_the_volume_of_their_sphere() {
+    for grain in [GrainKind::Sphere, GrainKind::Clump, GrainKind::Hull] {
+        let protocol = Protocol { grain, sizes: 0.0, elongation: 1.7, ..small(ProtocolKind::Drain) };
+        let deposit = deposit(&protocol, 3).unwrap();
+        let model = model(&deposit.scene);
+        let want = protocol.density * std::f64::consts::PI / 6.0 * protocol.diameter.powi(3);
+        assert_eq!(model.assembly.free().count(), 40);
+        assert!(model.assembly.free().all(|i| (model.assembly.blocks[i].mass / want - 1.0).abs() < 1e-12), "{grain:?}");
+        // Nothing touches before it falls, whatever its shape.
+        let free = |i: usize| !model.assembly.blocks[i].support;
+        assert!(!model.interfaces.list.iter().any(|f| free(f.a) || free(f.b)), "{grain:?}");
+        assert!(model.interfaces.findings.iter().all(|f| f.code != FindingCode::Overlap), "{:?}", model.interfaces.findings);
+    }
+}
+
+#[test]
+fn heaps_of_clumps_and_hulls_rest_reload_and_are_asked_about() {
+    for grain in [GrainKind::Clump, GrainKind::Hull] {
+        let protocol = Protocol { grain, ..small(ProtocolKind::Drain) };
+        let heap = repose::heap(&protocol, 3, &mut |_| ControlFlow::Continue(())).unwrap();
+        assert!(heap.rested, "{grain:?}: {:?}", heap.findings);
+        let written = text::pretty(&heap.scene).unwrap();
+        assert_eq!(read_str("heap", written.as_str()).unwrap().0, heap.scene, "written and read back");
+        let margin = repose::margin(&heap, &associative()).unwrap();
+        assert!(margin.model.interfaces.list.len() > heap.grains[0], "{grain:?} at rest touch");
+        assert_ne!(margin.tilt.load_factor.outcome, Outcome::Undecided, "{grain:?}");
+        if grain == GrainKind::Clump {
+            assert!(margin.degrees().is_some_and(|d| d > 0.0) && margin.loose + margin.unbalanced == 0, "{:?}", margin.degrees());
+        }
+    }
+}
+
+#[test]
+fn frictionless_heaps_and_one_layer_beds_are_told_for_what_they_are() {
+    // Without friction all but the grains that the floor holds run out; one layer has no surface to fit.
+    for protocol in [Protocol { friction: 0.0, ..small(ProtocolKind::Drain) }, Protocol { grains: 12, ..small(ProtocolKind::Tilt) }] {
+        let heap = repose::heap(&protocol, 1, &mut |_| ControlFlow::Continue(())).unwrap();
+        assert!(heap.slope.is_none() && heap.findings.iter().any(|f| f.text.contains("cells of the surface")), "{:?}", heap.findings);
+        assert_eq!(heap.rested, !heap.findings.iter().any(|f| f.text.contains("still moves")));
     }
 }
 
@@ -186,6 +280,9 @@ fn values_out_of_range_are_refused_with_their_place() {
     assert!(bad(|p| p.sizes = 1.0).contains("sizes"));
     assert!(bad(|p| p.friction = -0.1).contains("friction"));
     assert!(bad(|p| p.size[1] = 0.0).contains("size[1]"));
+    assert!(bad(|p| (p.grain, p.elongation) = (GrainKind::Clump, 2.5)).contains("elongation"));
+    assert!(bad(|p| (p.grain, p.corners) = (GrainKind::Hull, 3)).contains("corners"));
+    assert!(bad(|p| (p.grain, p.rolling_arm) = (GrainKind::Hull, 0.1)).contains("rolling_arm"));
 }
 
 #[test]

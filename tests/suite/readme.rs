@@ -86,6 +86,7 @@ fn every_console_block_prints_what_it_says() {
             }
         }
     }
+    std::fs::create_dir(folder.path().join("structures/drawings")).unwrap();
     let examples = examples(&readme());
     assert!(examples.len() >= 7, "only {} commands found", examples.len());
     for (command, printed) in examples {
@@ -93,6 +94,21 @@ fn every_console_block_prints_what_it_says() {
         assert!(want == got, "{}", difference(&command, &want, &got));
     }
     charts_are_those_of_the_commands(folder.path());
+    drawings_are_those_of_the_commands(folder.path());
+}
+
+fn drawings_are_those_of_the_commands(folder: &Path) {
+    let mut drawings = 0;
+    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/structures/drawings")).unwrap() {
+        let path = entry.unwrap().path();
+        let name = Path::new("structures/drawings").join(path.file_name().unwrap());
+        let [kept, made] = [&path, &folder.join(&name)].map(|p| std::fs::read(p).unwrap_or_else(|e| panic!("{}: {e}", p.display())));
+        assert!(kept == made, "{} is not what the command in the README draws", name.display());
+        assert!(readme().contains(&format!("]({})", name.display())), "the README does not show {}", name.display());
+        assert!(kept.len() < 30_000, "{} is large", name.display());
+        drawings += 1;
+    }
+    assert!(drawings > 0);
 }
 
 fn charts_are_those_of_the_commands(folder: &Path) {

@@ -7,7 +7,7 @@ use voussoir::{
         Control, Law, Outcome,
         thrust::{answer, first_support, outwards},
     },
-    report::{ResultFile, svg, thrust::ThrustAnswer},
+    report::{ResultFile, drawing, thrust::ThrustAnswer, view::View},
     scene::Scene,
     verdict::{Verdict, thrust::ThrustAt},
 };
@@ -236,11 +236,12 @@ fn drawings_hold_every_block_and_both_lines() {
     let m = model(&s);
     let support = first_support(&m).unwrap();
     let at = ThrustAt { support, direction: outwards(&m, support).unwrap().into() };
-    let text = svg::thrust(&m, &answer(&m, at, &associative()));
+    let file = ResultFile::thrust(&s, &m, &answer(&m, at, &associative()));
+    let text = drawing::svg(&View::new(&m, &file, Vec::new()).unwrap(), Default::default());
     assert_eq!(text.matches("<g class=\"block\">").count(), 8);
     assert_eq!(text.matches("<g class=\"support\">").count(), 2);
-    assert!(text.contains("a &lt; b &amp; c") && text.contains("class=\"line least\"") && text.contains("class=\"line greatest\""));
-    assert!(!text.contains("NaN") && !text.contains("inf") && text.matches("class=\"hinge least\"").count() >= 3);
+    assert!(text.contains("a &lt; b &amp; c") && text.contains("class=\"line one\"") && text.contains("class=\"line two\""));
+    assert!(!text.contains("NaN") && !text.contains("inf") && text.matches("class=\"pin one\"").count() >= 3);
     // Every element that is opened is closed.
     assert_eq!(text.matches("<g ").count(), text.matches("</g>").count());
 }

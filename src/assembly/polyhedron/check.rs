@@ -39,6 +39,24 @@ pub(super) fn refuse_crossed(surface: &Surface) -> Result<(), ShapeError> {
     surface.faces.iter().filter(|f| f.corners.len() > 3).try_for_each(|face| check_face(surface, face))
 }
 
+/// Refuses faces so far from plane ([`tolerance::GREATEST_WARP`]) that their corners alone do not say where they run.
+pub(super) fn refuse_folded(surface: &Surface) -> Result<(), ShapeError> {
+    for face in surface.faces.iter().filter(|f| f.corners.len() > 3) {
+        let Some(normal) = surface.area_vector(face).try_normalize(0.0) else { continue };
+        let points = || face.corners.iter().map(|&c| surface.point(c));
+        let heights = points().map(|p| normal.dot(&p));
+        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        let warp = (high - low) / 2.0;
+        let corner = surface.point(face.corners[0]);
+        // Between once and twice the greatest distance of two corners, which all pairs would have to be looked at for.
+        let across = 2.0 * points().map(|p| (p - corner).norm()).fold(0.0, f64::max);
+        if warp > tolerance::GREATEST_WARP * across {
+            return Err(ShapeError::Folded { face: face.source, warp });
+        }
+    }
+    Ok(())
+}
+
 fn check_face(surface: &Surface, face: &Face) -> Result<(), ShapeError> {
     let reach = tolerance::COPLANAR * surface.size;
     let points = || -> Vec<Vector3<f64>> { face.corners.iter().map(|&c| surface.point(c)).collect() };

@@ -169,6 +169,14 @@ pub enum ShapeError {
         /// Where, m.
         at: [f64; 3],
     },
+    /// A face too far from plane.
+    #[error("face {face} is folded: its corners lie up to {} m off its mean plane", short(*warp))]
+    Folded {
+        /// The face.
+        face: usize,
+        /// The largest distance of a corner from the mean plane, m.
+        warp: f64,
+    },
     /// The same face twice.
     #[error("faces {first} and {second} are the same face")]
     DuplicateFace {
@@ -253,6 +261,7 @@ impl ShapeError {
             Self::NoSuchVertex { .. } => "vertex indices are counted from 0; files that count from 1 need 1 subtracted",
             Self::TooFewCorners { .. } => "leave the face out or list at least three different vertices",
             Self::CrossedFace { .. } => "list the corners in order around the face",
+            Self::Folded { .. } => "cut it into plane faces, or into triangles",
             Self::DuplicateFace { .. } => "leave one of them out",
             Self::Open { .. } => {
                 "close the surface: add the missing faces or cap the holes; vertices that should coincide must agree to 1e-7 of the shape's size"

@@ -64,6 +64,7 @@ impl Polyhedron {
         check::refuse_plane(&surface)?;
         let edges = split::split_edges(&mut surface, &mut mends);
         check::refuse_crossed(&surface)?;
+        check::refuse_folded(&surface)?;
         let shells = orient::orient(&mut surface, &edges, &mut mends)?;
         let mass = mass::mass_properties(&surface);
         let regions = facets::regions(&surface, &edges, &mut mends);

@@ -315,6 +315,43 @@ fn warped_face_is_kept_whole_and_said() {
 }
 
 #[test]
+fn folded_face_is_refused() {
+    // Two sides of a box as one face of six corners, the others as they are: where it runs between them nobody can say.
+    let (points, mut faces) = cuboid(1.0, 1.0, 1.0);
+    let shared = |f: &[usize]| f.iter().filter(|&v| faces[0].contains(v)).count();
+    let beside = (1..6).find(|&f| shared(&faces[f]) == 2).unwrap();
+    let second = faces.remove(beside);
+    let first = &mut faces[0];
+    let n = first.len();
+    let i = (0..n).find(|&i| second.contains(&first[i]) && second.contains(&first[(i + 1) % n])).unwrap();
+    let from = second.iter().position(|&v| v == first[i]).unwrap();
+    // Counter-clockwise the neighbour runs the shared edge the other way, so its own two corners follow it.
+    let own: Vec<usize> = (1..=2).map(|k| second[(from + k) % 4]).collect();
+    for (k, v) in own.into_iter().enumerate() {
+        first.insert(i + 1 + k, v);
+    }
+    assert!(matches!(refused(&(points, faces)), ShapeError::Folded { face: 0, .. }));
+}
+
+#[test]
+fn a_tangle_of_folded_faces_that_encloses_more_than_its_box_is_refused() {
+    // Found by the fuzzer.
+    let points = [
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [-1.0 + 1e-19, -1.0 + 1e-19, -1.0],
+        [0.0, 0.0, 4.0 + 1e-3],
+        [-2.0 + 1e-3, -2.0 + 1e-3, -2.0 + 1e-3],
+        [0.0, -2.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [0.0, -2.0, 0.0],
+    ];
+    let points: Points = points.iter().map(|&p| p.into()).collect();
+    let faces = vec![vec![2, 4, 0], vec![0, 7, 5, 3, 2, 4, 0], vec![5, 5, 4, 5, 3, 2, 1]];
+    refused(&(points, faces));
+}
+
+#[test]
 fn two_bodies_are_said() {
     let (p, mends) = build(&with(cuboid(1.0, 1.0, 1.0), inverted(cuboid_at([2.0, 0.0, 0.0], [1.0; 3])))).unwrap();
     assert_eq!(mends, [Mend::Bodies { bodies: 2 }, Mend::Turned { faces: 6, first: 6, of: 12 }]);

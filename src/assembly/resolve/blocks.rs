@@ -5,9 +5,9 @@ use super::{
     shape::{self, Frame},
 };
 use crate::{
-    assembly::{Block, Mend},
+    assembly::{Block, Gyration, Mend},
     error::{Finding, FindingCode, InputError, JsonPath, Step},
-    generate,
+    generate, limits,
     scene::{BlockSpec, Scene, suggest},
     tolerance::DEFAULT_DENSITY,
 };
@@ -51,18 +51,33 @@ pub(super) fn resolve(scene: &Scene) -> Result<(Vec<Block>, Vec<Finding>), Input
         chosen.push(density);
         Ok(())
     };
+    let mut count = scene.blocks.len();
+    few(count, &root.key("blocks"))?;
     for (i, spec) in scene.blocks.iter().enumerate() {
         add(spec, &Place { path: root.key("blocks").index(i), generated: None })?;
     }
     for (i, template) in scene.templates.iter().enumerate() {
         let path = root.key("templates").index(i);
-        for spec in generate::expand(template).map_err(|e| e.under(&path))? {
+        let specs = generate::expand(template).map_err(|e| e.under(&path))?;
+        count += specs.len();
+        few(count, &path)?;
+        for spec in specs {
             add(&spec, &Place { path: path.clone(), generated: Some(spec.id.clone()) })?;
         }
     }
     let mut findings = mended.findings();
     findings.extend(assumed_density(scene, &blocks, &chosen));
     Ok((blocks, findings))
+}
+
+/// Refuses more blocks than a scene may have, or than fit into the memory.
+fn few(count: usize, path: &JsonPath) -> Result<(), InputError> {
+    if count > limits::BLOCKS {
+        let message = format!("the scene has {count} blocks with these, at most {} are taken", limits::BLOCKS);
+        return Err(InputError::at(path.clone(), message).hint("give fewer blocks, or ask about a part of the structure"));
+    }
+    let each = limits::PER_BLOCK;
+    limits::afford(&format!("a scene of {count} blocks"), count as u64, each).map_err(|e| InputError { path: path.clone(), ..e })
 }
 
 /// One block, and its density where the scene gives it (as such, by a material, or as a mass).
@@ -106,6 +121,7 @@ fn block(scene: &Scene, spec: &BlockSpec, place: &Place, mended: &mut Mended) ->
         material: spec.material.clone(),
         mass,
         centroid,
+        gyration: Gyration::new(&inertia, mass),
         inertia,
         solid: body.solid,
         size: body.size,

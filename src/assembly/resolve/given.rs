@@ -261,6 +261,7 @@ fn away(normal: Point, one: &Block, two: &Block, path: &JsonPath) -> Result<Poin
 fn outside(point: &Point, block: &Block) -> f64 {
     match &block.solid {
         Solid::Sphere { center, radius } => ((point - center).norm() - radius).max(0.0),
+        Solid::Clump { balls, .. } => balls.iter().map(|(c, r)| (point - c).norm() - r).fold(f64::INFINITY, f64::min).max(0.0),
         Solid::Polyhedron(p) => {
             let first = p.vertices.first().copied().unwrap_or_default();
             let (low, high) = p.vertices.iter().fold((first, first), |(l, h), v| (l.inf(v), h.sup(v)));

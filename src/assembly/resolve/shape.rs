@@ -2,7 +2,7 @@
 
 use super::{blocks::Place, check, prism};
 use crate::{
-    assembly::{MassProperties, Mend, Polyhedron, Solid},
+    assembly::{MassProperties, Mend, Polyhedron, Solid, clump},
     error::{InputError, JsonPath},
     scene::{BlockSpec, Shape},
 };
@@ -30,6 +30,11 @@ impl Frame {
         Ok(Self { turn, shift })
     }
 
+    fn properties(&self, own: MassProperties) -> MassProperties {
+        let inertia = self.turn.map_or(own.inertia, |turn| turn * own.inertia * turn.inverse());
+        MassProperties { centroid: self.apply(own.centroid), inertia, ..own }
+    }
+
     pub(super) fn apply(&self, point: Vector3<f64>) -> Vector3<f64> {
         self.turn.map_or(point, |turn| turn * point) + self.shift
     }
@@ -54,6 +59,31 @@ pub(super) fn body(spec: &BlockSpec, frame: &Frame, place: &Place) -> Result<Bod
             let inertia = Matrix3::identity() * (0.4 * volume * radius * radius);
             let properties = MassProperties { volume, centroid: center, inertia };
             Ok(Body { solid: Solid::Sphere { center, radius }, properties, size: 2.0 * radius * 3f64.sqrt(), mended: Vec::new() })
+        }
+        Shape::Clump { spheres } => {
+            let path = path.key("clump").key("spheres");
+            if spheres.is_empty() {
+                let hint = "for example { \"at\": [0, 0, 0], \"radius\": 1 }";
+                return place.check(Err(InputError::at(path, "a clump needs at least one sphere").hint(hint)));
+            }
+            if spheres.len() > clump::MOST {
+                let text = format!("a clump has at most {} spheres, got {}", clump::MOST, spheres.len());
+                return place.check(Err(InputError::at(path, text).hint("give the block a simpler shape")));
+            }
+            for (k, ball) in spheres.iter().enumerate() {
+                place.check(check::vector(ball.at, &path.index(k).key("at")))?;
+                place.check(check::positive(ball.radius, &path.index(k).key("radius"), "m"))?;
+            }
+            // In the block's own frame, so that turning it changes nothing but the frame.
+            let own: Vec<(Vector3<f64>, f64)> = spheres.iter().map(|b| (Vector3::from(b.at), b.radius)).collect();
+            let properties = frame.properties(clump::mass_properties(&own));
+            let balls: Vec<_> = own.into_iter().map(|(c, r)| (frame.apply(c), r)).collect();
+            let ends: Vec<_> = balls.iter().flat_map(|(c, r)| [c.add_scalar(-r), c.add_scalar(*r)]).collect();
+            if ends.iter().any(|v| v.iter().any(|x| !x.is_finite())) {
+                return place.check(Err(InputError::at(path, "the coordinates are too large to compute with").hint("lengths are in m")));
+            }
+            let size = diagonal(&ends);
+            Ok(Body { solid: Solid::Clump { balls, volume: properties.volume }, properties, size, mended: Vec::new() })
         }
         shape => {
             let (kind, vertices, faces) = match shape {
@@ -85,7 +115,7 @@ pub(super) fn body(spec: &BlockSpec, frame: &Frame, place: &Place) -> Result<Bod
                     place.check(indices(vertices.len(), faces, &path.key("faces")))?;
                     ("polyhedron", vertices.iter().map(|&v| v.into()).collect(), faces.clone())
                 }
-                Shape::Sphere { .. } => unreachable!("spheres are handled above"),
+                Shape::Sphere { .. } | Shape::Clump { .. } => unreachable!("spheres are handled above"),
             };
             let path = path.key(kind);
             let vertices: Vec<Vector3<f64>> = vertices.into_iter().map(|v| frame.apply(v)).collect();

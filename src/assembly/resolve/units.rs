@@ -1,7 +1,7 @@
 //! Numbers that look like a slip of units by a thousand or more. Findings only: there are grains and there are cliffs.
 
 use crate::{
-    assembly::{Assembly, Block, Solid},
+    assembly::{Assembly, Block},
     error::{Finding, FindingCode},
     tolerance::{SLIP_DENSITY, SLIP_GRAVITY, SLIP_SIZE, SLIP_SIZE_RATIO},
 };
@@ -17,7 +17,7 @@ pub(super) fn slips(assembly: &Assembly) -> Vec<Finding> {
     }
 
     let blocks = &assembly.blocks;
-    let density = |b: &Block| b.mass / volume(b);
+    let density = |b: &Block| b.mass / b.solid.volume();
     if let Some((block, value, others)) = first(blocks.iter().filter(|b| !b.support), density, |d| !SLIP_DENSITY.contains(&d)) {
         tell(format!(
             "Block {:?}{others} has a density of {value:.3e} kg/m³; stone has about 2400. Is it in kg/m³ (not t/m³ or g/cm³), and are lengths in m?",
@@ -53,11 +53,4 @@ fn first<'a>(
     let (block, value) = hits.next()?;
     let count = hits.count();
     Some((block, value, if count > 0 { format!(" (and {count} more)") } else { String::new() }))
-}
-
-fn volume(block: &Block) -> f64 {
-    match &block.solid {
-        Solid::Sphere { radius, .. } => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
-        Solid::Polyhedron(p) => p.mass_properties().volume,
-    }
 }

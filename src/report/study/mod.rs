@@ -1,8 +1,10 @@
 //! Studies as text and tables.
 
 mod chart;
+mod soak;
 
 pub use chart::{ChartError, errors, profiles};
+pub use soak::{soak_csv, soak_text};
 
 use super::text::{Layout, Page, Role};
 use crate::study::{

@@ -1,8 +1,9 @@
 //! Charts of sweeps as SVG: the value against one number, against two, and the fragility curve.
 
+use super::group::{Cell, bands, cells};
 use crate::{
     report::text::number::short,
-    sweep::{Fragility, Header, Plan, Row, Sampling, Summary, groups, value_of},
+    sweep::{Fragility, Header, Plan, Row, Sampling, Summary, value_of},
 };
 use plotters::{
     coord::Shift,
@@ -158,29 +159,9 @@ fn fragility(area: &Area, title: &str, f: &Fragility) -> Result<(), ChartError> 
 }
 
 fn line(area: &Area, title: &str, labels: [&str; 2], xs: &[f64], values: &[f64]) -> Result<(), ChartError> {
-    let points: Vec<[f64; 4]> = groups(xs)
-        .iter()
-        .map(|group| {
-            let n = group.len() as f64;
-            let mean = |of: &[f64]| group.iter().map(|&i| of[i]).sum::<f64>() / n;
-            let (low, high) = group.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &i| (l.min(values[i]), h.max(values[i])));
-            [mean(xs), low, mean(values), high]
-        })
-        .collect();
+    let points = bands(xs, values);
     let y = ends(values.iter().copied()).ok_or_else(|| ChartError("no row has a value".into()))?;
     curve(area, title, labels, y, &points)
-}
-
-/// The cell borders along one axis: halfway between group means, as far outside at both ends.
-fn borders(xs: &[f64], groups: &[Vec<usize>]) -> Vec<f64> {
-    let means: Vec<f64> = groups.iter().map(|g| g.iter().map(|&i| xs[i]).sum::<f64>() / g.len() as f64).collect();
-    let between: Vec<f64> = means.windows(2).map(|w| (w[0] + w[1]) / 2.0).collect();
-    let (Some(first), Some(last)) = (means.first(), means.last()) else { return Vec::new() };
-    let (low, high) = match (between.first(), between.last()) {
-        (Some(a), Some(b)) => (2.0 * first - a, 2.0 * last - b),
-        _ => (first - 0.5, last + 0.5),
-    };
-    [low].into_iter().chain(between).chain([high]).collect()
 }
 
 fn colour(share: f64) -> RGBColor {
@@ -197,31 +178,18 @@ const BAR: u32 = 122;
 const STEPS: i32 = 40;
 
 fn heat(area: &Area, title: &str, labels: [&str; 3], xs: &[f64], ys: &[f64], values: &[f64]) -> Result<(), ChartError> {
-    let (columns, lines) = (groups(xs), groups(ys));
-    let (bx, by) = (borders(xs, &columns), borders(ys, &lines));
-    let place = |groups: &[Vec<usize>]| {
-        let mut at = vec![0; values.len()];
-        groups.iter().enumerate().for_each(|(g, list)| list.iter().for_each(|&i| at[i] = g));
-        at
-    };
-    let (px, py) = (place(&columns), place(&lines));
-    let mut cells = vec![(0.0, 0_usize); columns.len() * lines.len()];
-    for (i, value) in values.iter().enumerate() {
-        let cell = &mut cells[px[i] * lines.len() + py[i]];
-        *cell = (cell.0 + value, cell.1 + 1);
-    }
-    let mean = |cell: &(f64, usize)| (cell.1 > 0).then(|| cell.0 / cell.1 as f64);
-    let (low, high) = ends(cells.iter().filter_map(mean)).ok_or_else(|| ChartError("no row has a value".into()))?;
-    let (Some(x0), Some(x1), Some(y0), Some(y1)) = (bx.first(), bx.last(), by.first(), by.last()) else {
-        return Err(ChartError("no row has a value".into()));
-    };
+    let cells = cells(xs, ys, values);
+    let (low, high) = ends(cells.iter().map(|c| c.mean)).ok_or_else(|| ChartError("no row has a value".into()))?;
+    let hull =
+        |of: fn(&Cell) -> [f64; 2]| cells.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], [a, b]| [l.min(a), h.max(b)]);
+    let ([x0, x1], [y0, y1]) = (hull(|c| c.x), hull(|c| c.y));
     let area = area.titled(title, TITLE).map_err(refused)?;
     let (left, bar) = area.split_horizontally(SIZE.0 - BAR);
     let mut chart = ChartBuilder::on(&left)
         .margin(12)
         .x_label_area_size(42)
         .y_label_area_size(64)
-        .build_cartesian_2d(*x0..*x1, *y0..*y1)
+        .build_cartesian_2d(x0..x1, y0..y1)
         .map_err(refused)?;
     let tick = |v: &f64| short(*v);
     chart
@@ -237,10 +205,9 @@ fn heat(area: &Area, title: &str, labels: [&str; 3], xs: &[f64], ys: &[f64], val
         .y_label_formatter(&tick)
         .draw()
         .map_err(refused)?;
-    let boxes = cells.iter().enumerate().filter_map(|(k, cell)| {
-        let (cx, cy) = (k / lines.len(), k % lines.len());
-        let shade = colour((mean(cell)? - low) / (high - low));
-        Some(Rectangle::new([(bx[cx], by[cy]), (bx[cx + 1], by[cy + 1])], shade.filled()))
+    let boxes = cells.iter().map(|c| {
+        let shade = colour((c.mean - low) / (high - low));
+        Rectangle::new([(c.x[0], c.y[0]), (c.x[1], c.y[1])], shade.filled())
     });
     chart.draw_series(boxes).map_err(refused)?;
     let (top, bottom) = (40, area.dim_in_pixel().1 as i32 - 60);

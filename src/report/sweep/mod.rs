@@ -1,6 +1,7 @@
 //! Sweeps as text, table and chart.
 
 mod chart;
+pub(in crate::report) mod group;
 mod progress;
 mod table;
 mod text;

@@ -11,7 +11,7 @@ use crate::report::heaps::{HeapResult, ReposeFile};
 pub fn heaps(file: &ReposeFile, options: Options, layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let p = &file.protocol;
-    let name = format!("{:?} of {} grains, friction {}", p.kind, p.grains, short(p.friction));
+    let name = format!("{:?} of {} {}, friction {}", p.kind, p.grains, p.grain.plural(), short(p.friction));
     match (file.angle_deg, file.spread_deg) {
         (Some(angle), Some([low, high])) => {
             let seeds = count(file.at_rest, "heap");

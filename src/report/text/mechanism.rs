@@ -10,6 +10,17 @@ use crate::{
     verdict::mechanism::Motion,
 };
 
+const LABELS: [(&str, Motion); 5] = [
+    ("hinges", Motion::Hinge),
+    ("crushes", Motion::Crush),
+    ("slides", Motion::Slide),
+    ("slip hinges", Motion::HingeAndSlide),
+    ("parts", Motion::Part),
+];
+
+/// So many joints of a kind are shown where there are several kinds.
+const FEW: usize = 2;
+
 /// Which blocks move, and which joints hinge, slide or part.
 pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
     let Some(m) = &file.mechanism else { return };
@@ -18,17 +29,15 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
     let verb = if m.moving.len() == 1 { "moves" } else { "move, the fastest first" };
     let text = format!("{} of {} {verb}: {}", m.moving.len(), count(free, "free block"), fastest.join(", "));
     page.row("mechanism", [if fastest.len() < m.moving.len() { format!("{text}, …") } else { text }]);
-    for (label, motion) in [
-        ("hinges", Motion::Hinge),
-        ("crushes", Motion::Crush),
-        ("slides", Motion::Slide),
-        ("slip hinges", Motion::HingeAndSlide),
-        ("parts", Motion::Part),
-    ] {
-        let joints: Vec<&JointWords> = m.joints.iter().filter(|j| j.motion == motion).collect();
+    let of = |motion: Motion| m.joints.iter().filter(move |j| j.motion == motion);
+    // Together they leave room on the screen for what follows.
+    let kinds = LABELS.iter().filter(|(_, motion)| of(*motion).next().is_some()).count();
+    let shown = if kinds > 2 { FEW } else { SHOWN };
+    for (label, motion) in LABELS {
+        let joints: Vec<&JointWords> = of(motion).collect();
         let width = joints.iter().map(|j| between(j).chars().count()).max().unwrap_or(0);
         let lines: Vec<String> = joints.iter().map(|j| format!("{:<width$}  at {}", between(j), point(j.at))).collect();
-        page.row(label, cut(&lines, SHOWN, options));
+        page.row(label, cut(&lines, shown, options));
     }
 }
 

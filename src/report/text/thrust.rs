@@ -1,7 +1,7 @@
 //! Thrusts for people.
 
 use super::{
-    Options, SHOWN, cut,
+    Options, cut,
     number::{bracketed, ends, fixed, point, short},
     page::{Page, Role},
 };
@@ -83,6 +83,9 @@ fn factor(t: &ThrustAnswer, file: &ResultFile) -> String {
     }
 }
 
+/// So many sections are shown of each line.
+const SECTIONS: usize = 4;
+
 /// Both ends, their proofs and the sections.
 pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
     let (Some(t), Some(proof)) = (&file.answer.thrust, &file.thrust) else { return };
@@ -101,7 +104,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
     }
     for (label, line) in [("line, least", least as fn(&Section) -> Option<&Line>), ("greatest", greatest)] {
         let list: Vec<(&Section, &Line)> = proof.sections.iter().filter_map(|s| Some((s, line(s)?))).collect();
-        page.row(label, cut(&table(&list), SHOWN, options));
+        page.row(label, cut(&table(&list), SECTIONS, options));
     }
     let legend = "normal and shear force, eccentricity (of the way to the edge), centre of pressure; kern: the whole section presses";
     if !proof.sections.is_empty() {

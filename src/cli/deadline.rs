@@ -1,0 +1,23 @@
+//! `--time-limit`: the last resort. Every stage watches the time itself and gives what it has; what does not (a stage without programs on an
+//! enormous scene) is ended here, with a word.
+
+use super::{exit::Exit, terminal};
+use std::time::Duration;
+
+/// Time that is left for packing and checking an answer, as a share of the limit and in seconds. More: the limit means little.
+/// Less: answers with a bracket are cut off while they are written down.
+const SHARE: f64 = 0.5;
+const SECONDS: f64 = 2.0;
+
+/// Ends the program once the limit is well past.
+pub fn watch(limit: f64) {
+    let Ok(patience) = Duration::try_from_secs_f64(limit * (1.0 + SHARE) + SECONDS) else { return };
+    // Without a thread there is no last resort, and the stages still watch the time.
+    let _ = std::thread::Builder::new().name("time limit".into()).spawn(move || {
+        std::thread::sleep(patience);
+        terminal::say(&format!(
+            "error: --time-limit {limit} is past and the scene is still being worked on: there is no answer\nhint: allow more time, or ask about a smaller scene"
+        ));
+        std::process::exit(Exit::Undecided as i32);
+    });
+}

@@ -1,0 +1,109 @@
+//! Drawings, files for ParaView and tables of an answer.
+
+use super::{args, output::Sink};
+use anyhow::{Context, bail};
+use std::path::{Path, PathBuf};
+use voussoir::report::{
+    drawing::{self, Aspect},
+    table,
+    view::View,
+    vtk,
+};
+
+/// What is to be made of an answer, and where it goes.
+#[derive(Debug, Default)]
+pub struct Pictures {
+    svg: Option<Sink>,
+    aspect: Aspect,
+    vtk: Option<Sink>,
+    /// Where the files of single moments go.
+    frames: Option<PathBuf>,
+    /// Joints and blocks.
+    csv: Option<[Sink; 2]>,
+    printed: usize,
+}
+
+impl Pictures {
+    /// Opens what will be written. `table` is where the table of joints goes; that of the blocks goes beside it.
+    pub fn open(args: &args::Pictures, table: Option<&Path>) -> anyhow::Result<Self> {
+        Self::open_as(args, table, "vtp")
+    }
+
+    /// As [`Self::open`], for what happens in time: a collection of VTK files, which stand in a folder of the same name.
+    pub fn open_film(args: &args::Pictures) -> anyhow::Result<Self> {
+        let mut pictures = Self::open_as(args, None, "pvd")?;
+        if let Some(path) = &args.vtk {
+            let folder = path.with_extension("");
+            std::fs::create_dir_all(&folder).with_context(|| format!("{}: cannot be written", folder.display()))?;
+            pictures.frames = Some(folder);
+        }
+        Ok(pictures)
+    }
+
+    fn open_as(args: &args::Pictures, table: Option<&Path>, ending: &str) -> anyhow::Result<Self> {
+        let fits = |p: &Path| p.extension().is_some_and(|e| e == ending) || (is_dash(p) && ending == "vtp");
+        if let Some(path) = args.vtk.as_deref().filter(|p| !fits(p)) {
+            let named = if is_dash(path) { PathBuf::from(format!("FILE.{ending}")) } else { path.with_extension(ending) };
+            bail!("--vtk {}: ParaView goes by the ending, which is .{ending} here: name it {}", path.display(), named.display());
+        }
+        let open = |path: Option<&Path>| path.map(|p| Sink::open(Some(p))).transpose();
+        let printed = [args.svg.as_deref(), args.vtk.as_deref(), table].into_iter().flatten().filter(|p| is_dash(p)).count();
+        if printed > 1 {
+            bail!("standard output takes one of --svg, --vtk and --csv");
+        }
+        let tables = match table {
+            Some(path) if is_dash(path) => bail!("--csv takes a file: the table of the blocks is written beside it"),
+            Some(path) => Some([Sink::open(Some(path))?, Sink::open(Some(&beside(path)))?]),
+            None => None,
+        };
+        let (svg, vtk) = (open(args.svg.as_deref())?, open(args.vtk.as_deref())?);
+        Ok(Self { svg, aspect: args.view.unwrap_or_default(), vtk, frames: None, csv: tables, printed })
+    }
+
+    /// Whether anything is to be made.
+    pub fn wanted(&self) -> bool {
+        self.svg.is_some() || self.vtk.is_some() || self.csv.is_some()
+    }
+
+    /// Whether one of them is what standard output holds.
+    pub fn printed(&self) -> bool {
+        self.printed > 0
+    }
+
+    /// Writes them.
+    pub fn write(&self, view: &View) -> anyhow::Result<()> {
+        if let Some(svg) = &self.svg {
+            svg.write(&drawing::svg(view, self.aspect))?;
+        }
+        match (&self.vtk, &self.frames) {
+            (Some(sink), Some(folder)) => film(sink, folder, view)?,
+            (Some(sink), None) => sink.write(&vtk::vtp(view))?,
+            (None, _) => {}
+        }
+        if let Some([joints, blocks]) = &self.csv {
+            joints.write(&table::joints(view).map_err(|e| anyhow::anyhow!("{e}"))?)?;
+            blocks.write(&table::blocks(view).map_err(|e| anyhow::anyhow!("{e}"))?)?;
+        }
+        Ok(())
+    }
+}
+
+/// One file a moment, the collection last: it names only what is there.
+fn film(sink: &Sink, folder: &Path, view: &View) -> anyhow::Result<()> {
+    let named = |k: usize| format!("{k:04}.vtp");
+    for (k, frame) in view.film.iter().enumerate() {
+        Sink::open(Some(&folder.join(named(k))))?.write(&vtk::moment(view, frame))?;
+    }
+    let beside = folder.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
+    sink.write(&vtk::collection(view, |k| format!("{beside}/{}", named(k))))
+}
+
+fn is_dash(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// `forces.csv` → `forces.blocks.csv`.
+fn beside(path: &Path) -> PathBuf {
+    let ending = path.extension().map_or(String::new(), |e| format!(".{}", e.to_string_lossy()));
+    path.with_extension(format!("blocks{ending}"))
+}

@@ -1,0 +1,83 @@
+//! Independent pieces of work on several threads, in order of their start.
+//!
+//! Plain threads and not a work-stealing pool: a simulation inside such a pool waits for the engine's own threads, and the pool uses the
+//! wait to begin further pieces on the same stack, until it overflows.
+
+use std::{
+    io,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
+    },
+    thread,
+};
+
+/// Stack of a thread, bytes. Larger than usual: no work here is deep, and a stack that is not touched costs nothing.
+const STACK: usize = 16 << 20;
+
+/// Does `work` for every item on so many threads (0 for as many as there are processors); the first error ends it.
+///
+/// # Errors
+/// The outer error says that threads cannot be started; the inner one is that of the work.
+pub fn for_each<T: Sync, E: Send>(threads: usize, items: &[T], work: impl Fn(&T) -> Result<(), E> + Sync) -> io::Result<Result<(), E>> {
+    let threads = match threads {
+        0 => thread::available_parallelism().map_or(1, |n| n.get()),
+        n => n,
+    };
+    let (next, stop, failed) = (AtomicUsize::new(0), AtomicBool::new(false), Mutex::new(None));
+    thread::scope(|scope| {
+        for _ in 0..threads.min(items.len()) {
+            let serve = || {
+                while !stop.load(Ordering::Relaxed) {
+                    let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
+                    if let Err(e) = work(item) {
+                        stop.store(true, Ordering::Relaxed);
+                        failed.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(e);
+                    }
+                }
+            };
+            let started = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, serve);
+            if let Err(e) = started {
+                stop.store(true, Ordering::Relaxed);
+                return Err(e);
+            }
+        }
+        Ok(())
+    })?;
+    Ok(failed.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err))
+}
+
+/// The results of `work` for every item, in the order of the items.
+///
+/// # Errors
+/// Threads cannot be started.
+pub fn map<T: Sync, R: Send>(threads: usize, items: &[T], work: impl Fn(&T) -> R + Sync) -> io::Result<Vec<R>> {
+    let slots: Vec<(usize, Mutex<Option<R>>)> = (0..items.len()).map(|k| (k, Mutex::new(None))).collect();
+    for_each(threads, &slots, |(k, slot)| {
+        *slot.lock().unwrap_or_else(PoisonError::into_inner) = items.get(*k).map(&work);
+        Ok::<(), std::convert::Infallible>(())
+    })?
+    .unwrap_or_else(|e| match e {});
+    Ok(slots.into_iter().filter_map(|(_, slot)| slot.into_inner().unwrap_or_else(PoisonError::into_inner)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_item_is_done_once_in_order_and_errors_end_the_work() {
+        let items: Vec<usize> = (0..1000).collect();
+        for threads in [0, 1, 3, 2000] {
+            assert_eq!(map(threads, &items, |x| x * x).unwrap(), items.iter().map(|x| x * x).collect::<Vec<_>>());
+        }
+        assert_eq!(map(4, &[0; 0], |x| *x).unwrap(), [0; 0]);
+        let done = AtomicUsize::new(0);
+        let result = for_each(2, &items, |&x| {
+            done.fetch_add(1, Ordering::Relaxed);
+            if x == 10 { Err(x) } else { Ok(()) }
+        });
+        assert_eq!(result.unwrap(), Err(10));
+        assert!(done.load(Ordering::Relaxed) < 1000);
+    }
+}

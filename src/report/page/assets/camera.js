@@ -1,0 +1,99 @@
+// The eye: turned about a point, nearer or farther, with the pointer or the keys.
+const SLOPE = Math.tan((13 * Math.PI) / 180);
+const up = view.up, front = view.front, right = cross(up, front);
+const RIGHTS = { start: [0.42, 0.26], front: [0, 0], side: [Math.PI / 2, 0], top: [0, Math.PI / 2 - 1e-4] };
+const eye = { angle: 0, height: 0, distance: 1, target: [0, 0, 0] };
+
+function axes() {
+  const level = add(mul(front, Math.cos(eye.angle)), mul(right, Math.sin(eye.angle)));
+  const z = add(mul(level, Math.cos(eye.height)), mul(up, Math.sin(eye.height)));
+  const x = unit(cross(up, z).some((v) => Math.abs(v) > 1e-9) ? cross(up, z) : right);
+  return { x, y: cross(z, x), z };
+}
+
+function lens(width, height) {
+  const { x, y, z } = axes(), at = add(eye.target, mul(z, eye.distance));
+  const near = Math.max(eye.distance - 3, 0.02 * eye.distance), camera = looking(x, y, z, at);
+  return { camera, x, y, z, at, matrix: product(perspective(SLOPE, width / height, near, eye.distance + 3), camera), aspect: width / height };
+}
+
+// The corners to be seen, some thousand at most; of supports only what lies in the box of the scene.
+function corners() {
+  const list = [], half = mul(view.extent, 0.5), every = Math.max(1, Math.floor(COUNT / 2500));
+  const inside = (p) => p.map((v, k) => Math.min(Math.max(v, -half[k]), half[k]));
+  for (let i = 0; i < COUNT; i += every) {
+    const c = at3(bodies.center, i), r = bodies.radius[i];
+    const own = r > 0 ? [[r, 0, 0], [-r, 0, 0], [0, r, 0], [0, -r, 0], [0, 0, r], [0, 0, -r]].map((d) => add(c, d)) : Array.from({ length: bodies.cornerStart[i + 1] - bodies.cornerStart[i] }, (_, k) => at3(bodies.corners, bodies.cornerStart[i] + k));
+    list.push(...own.map(inside));
+  }
+  return list.length ? list : [[0, 0, 0]];
+}
+
+// Stands back until the scene fills the picture.
+function look(name) {
+  [eye.angle, eye.height] = RIGHTS[name];
+  if (name === "start" && flatScene()) [eye.angle, eye.height] = [0.3, 0.16];
+  const { x, y, z } = axes(), box = el("view"), aspect = Math.max(0.3, box.clientWidth / Math.max(1, box.clientHeight)), list = corners();
+  eye.target = [0, 0, 0];
+  for (let round = 0; round < 4; round++) {
+    let distance = 0.05, low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    for (const p of list) {
+      const d = sub(p, eye.target), far = dot(d, z);
+      distance = Math.max(distance, Math.abs(dot(d, x)) / (0.86 * SLOPE * aspect) + far, Math.abs(dot(d, y)) / (0.8 * SLOPE) + far);
+    }
+    for (const p of list) {
+      const d = sub(p, eye.target), w = (distance - dot(d, z)) / distance, seen = [dot(d, x) / w, dot(d, y) / w];
+      low = low.map((v, k) => Math.min(v, seen[k]));
+      high = high.map((v, k) => Math.max(v, seen[k]));
+    }
+    eye.target = add(eye.target, add(mul(x, (low[0] + high[0]) / 2), mul(y, (low[1] + high[1]) / 2)));
+    eye.distance = distance;
+  }
+  // A little above the middle: the legend stands below.
+  eye.target = add(eye.target, mul(y, -0.04 * eye.distance * SLOPE));
+  redraw();
+}
+const flatScene = () => Math.abs(dot(front, view.extent)) < 0.3;
+
+function turnBy(dx, dy) {
+  eye.angle -= dx;
+  eye.height = Math.min(Math.max(eye.height + dy, -Math.PI / 2 + 1e-3), Math.PI / 2 - 1e-3);
+  redraw();
+}
+
+function shiftBy(dx, dy) {
+  const { x, y } = axes(), s = 2 * SLOPE * eye.distance;
+  eye.target = add(eye.target, add(mul(x, -dx * s), mul(y, dy * s)));
+  redraw();
+}
+
+function zoomBy(factor) {
+  eye.distance = Math.min(Math.max(eye.distance * factor, 0.02), 60);
+  redraw();
+}
+
+// Pointers: one turns, one with the right button or two together move, two apart zoom. `picked` hears of a click.
+function steer(canvas, picked) {
+  const down = new Map();
+  let way = 0;
+  canvas.addEventListener("pointerdown", (e) => { canvas.focus({ preventScroll: true }); canvas.setPointerCapture(e.pointerId); down.set(e.pointerId, [e.clientX, e.clientY]); way = 0; });
+  canvas.addEventListener("pointermove", (e) => {
+    const last = down.get(e.pointerId);
+    if (!last) return;
+    const [dx, dy] = [e.clientX - last[0], e.clientY - last[1]], h = canvas.clientHeight;
+    way += Math.hypot(dx, dy);
+    if (down.size === 2) {
+      const other = [...down].find(([id]) => id !== e.pointerId)[1];
+      const before = Math.hypot(last[0] - other[0], last[1] - other[1]), now = Math.hypot(e.clientX - other[0], e.clientY - other[1]);
+      zoomBy(Math.max(before, 1) / Math.max(now, 1));
+      shiftBy(dx / h / 2, dy / h / 2);
+    } else if (e.buttons & 6 || e.shiftKey) shiftBy(dx / h, dy / h);
+    else turnBy((3.2 * dx) / h, (3.2 * dy) / h);
+    down.set(e.pointerId, [e.clientX, e.clientY]);
+  });
+  const up = (e) => { if (down.delete(e.pointerId) && way < 4 && e.type === "pointerup") picked(e); };
+  canvas.addEventListener("pointerup", up);
+  canvas.addEventListener("pointercancel", up);
+  canvas.addEventListener("contextmenu", (e) => e.preventDefault());
+  canvas.addEventListener("wheel", (e) => { e.preventDefault(); zoomBy(Math.exp(Math.min(Math.max(e.deltaY, -120), 120) * 0.0016)); }, { passive: false });
+}

@@ -1,0 +1,124 @@
+// The scene in units of its size, and where its blocks are at the moment.
+const view = data.view;
+const unpack = (part) => { for (const key in part) if (typeof part[key] === "string" && /^(f32|u16|u32|i16):/.test(part[key]) && !["name", "run"].includes(key)) part[key] = decode(part[key]); return part; };
+const bodies = unpack(view.bodies), joints = unpack(view.joints), loads = unpack(view.loads);
+view.states.forEach(unpack);
+view.motions.forEach(unpack);
+if (view.film) unpack(view.film);
+const COUNT = bodies.ids.length, JOINTS = joints.a.length;
+// Resultants of each system of forces, and what the line of thrust carries.
+for (const s of view.states) {
+  for (const [key, size] of [["force", 3], ["normal", 1], ["shear", 1], ["eccentricity", 1]]) s[key] = new Float32Array(size * JOINTS);
+  for (let k = 0; k < JOINTS; k++) {
+    let f = [0, 0, 0];
+    for (let p = joints.pointStart[k]; p < joints.pointStart[k + 1]; p++) f = add(f, at3(s.forces, p));
+    const n = at3(joints.normal, k), fn = dot(f, n), there = !Number.isNaN(s.used[k]);
+    s.force.set(f, 3 * k);
+    s.normal[k] = there ? fn : NaN;
+    s.shear[k] = there ? norm(sub(f, mul(n, fn))) : NaN;
+    s.eccentricity[k] = norm(sub(at3(s.at, k), at3(joints.center, k)));
+  }
+  s.lineForce = Float32Array.from(s.lineJoint, (k, m) => { const f = norm(at3(s.force, k)), o = s.lineOther[m]; return o < JOINTS ? 0.5 * (f + norm(at3(s.force, o))) : f; });
+}
+const meters = (v) => withUnit(v * view.length, "m");
+const newtons = (v) => withUnit(v * view.force, "N");
+
+// The farthest corner of each block from its centre of mass.
+const reach = bodies.radius.map((r, i) => {
+  let far = r;
+  for (let k = bodies.cornerStart[i]; k < bodies.cornerStart[i + 1]; k++) far = Math.max(far, norm(sub(at3(bodies.corners, k), at3(bodies.center, i))));
+  return far;
+});
+
+// The joints of each block.
+const jointsOf = Array.from({ length: COUNT }, () => []);
+for (let k = 0; k < JOINTS; k++) { jointsOf[joints.a[k]].push(k); jointsOf[joints.b[k]].push(k); }
+
+// What is chosen. `way` runs from 0 to 1.
+const state = { motion: -1, way: 0, magnify: 1, force: 0, colour: "stone", layers: new Set(), picked: null };
+// The greatest way of a corner in a mechanism, over the size of the scene.
+const AMPLITUDE = 0.16;
+const FILM = -2;
+
+// Rotation and shift of each block: 8 numbers, the last one unused.
+const poses = new Float32Array(8 * COUNT);
+
+function posed(i) {
+  if (state.motion === FILM) return filmed(i);
+  const motion = view.motions[state.motion];
+  if (!motion || state.way === 0) return [[0, 0, 0, 1], [0, 0, 0]];
+  const s = state.way * AMPLITUDE, v = at3(motion.velocity, i), w = at3(motion.spin, i), spin = norm(w);
+  if (spin * s < 1e-9) return [[0, 0, 0, 1], mul(v, s)];
+  // Along the screw of the rates: a block that pivots about a hinge keeps it.
+  const axis = mul(w, 1 / spin), arm = mul(cross(axis, v), 1 / spin), q = turn(mul(w, s));
+  return [q, add(sub(arm, rotate(q, arm)), mul(axis, dot(axis, v) * s))];
+}
+
+function filmed(i) {
+  const film = view.film, last = film.times.length - 1, t = state.way * last, k = Math.min(Math.floor(t), last - 1), f = t - k;
+  const mix = (list, scale) => {
+    const a = at3(list, k * COUNT + i), b = at3(list, (k + 1) * COUNT + i);
+    return mul(add(mul(a, 1 - f), mul(b, f)), (scale / 32767) * state.magnify);
+  };
+  return [turn(mix(film.turn, film.wide)), mix(film.shift, film.far)];
+}
+
+function pose() {
+  for (let i = 0; i < COUNT; i++) {
+    const [q, t] = posed(i);
+    poses.set(q, 8 * i);
+    poses.set(t, 8 * i + 4);
+  }
+}
+
+// Where a point of a block is now.
+function moved(i, p) {
+  const c = at3(bodies.center, i), q = poses.subarray(8 * i, 8 * i + 4);
+  return add(add(c, [poses[8 * i + 4], poses[8 * i + 5], poses[8 * i + 6]]), rotate(q, sub(p, c)));
+}
+
+// How far the centre and the corners of a block went, at most.
+function displaced(i) {
+  const w = Math.min(1, Math.abs(poses[8 * i + 3]));
+  return Math.hypot(poses[8 * i + 4], poses[8 * i + 5], poses[8 * i + 6]) + 2 * Math.acos(w) * reach[i];
+}
+
+// The colour of a block on the scale from 0 to 1; null for plain stone.
+function shade(i) {
+  const forces = view.states[state.force];
+  if (bodies.support[i] && state.colour !== "material") return null;
+  switch (state.colour) {
+    case "share": return forces ? forces.bodyUsed[i] : null;
+    case "force": {
+      let most = NaN;
+      if (forces) for (const k of jointsOf[i]) { const f = Math.hypot(forces.normal[k], forces.shear[k]); if (!(most >= f) && !Number.isNaN(f)) most = f; }
+      return most;
+    }
+    case "speed": {
+      const motion = view.motions[Math.max(state.motion, 0)];
+      if (!motion) return null;
+      return Math.min(1, norm(at3(motion.velocity, i)) + norm(at3(motion.spin, i)) * reach[i]);
+    }
+    case "moved": return farthest > 0 ? displaced(i) / farthest : 0;
+    default: return null;
+  }
+}
+let farthest = 0;
+
+// What fills a picture of the scene: the colour of every block.
+const PALETTE = [[0.82, 0.76, 0.66], [0.62, 0.71, 0.78], [0.76, 0.62, 0.56], [0.66, 0.74, 0.6], [0.75, 0.68, 0.78], [0.56, 0.6, 0.66]];
+function colours() {
+  const [low, middle, high, stone, support, pick] = ["--low", "--middle", "--high", "--stone", "--support", "--pick"].map(rgb);
+  const mix = (a, b, t) => a.map((v, k) => v + (b[k] - v) * t);
+  if (state.colour === "moved") { farthest = 0; for (let i = 0; i < COUNT; i++) farthest = Math.max(farthest, displaced(i)); }
+  const list = new Float32Array(3 * COUNT);
+  for (let i = 0; i < COUNT; i++) {
+    const share = shade(i);
+    let colour = bodies.support[i] ? support : stone;
+    if (state.colour === "material" && bodies.material[i]) colour = PALETTE[(bodies.material[i] - 1) % PALETTE.length];
+    else if (share !== null && !Number.isNaN(share)) { const t = Math.min(Math.max(share, 0), 1); colour = t < 0.5 ? mix(low, middle, 2 * t) : mix(middle, high, 2 * t - 1); }
+    if (state.picked && state.picked.body === i) colour = mix(colour, pick, 0.75);
+    list.set(colour, 3 * i);
+  }
+  return list;
+}

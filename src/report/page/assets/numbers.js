@@ -1,0 +1,94 @@
+// Picking with a ray, and the numbers of what is picked.
+function ray(x, y, width, height) {
+  const l = lens(width, height), u = (2 * x) / width - 1, v = 1 - (2 * y) / height;
+  return { from: l.at, way: unit(add(add(mul(l.x, u * SLOPE * l.aspect), mul(l.y, v * SLOPE)), mul(l.z, -1))) };
+}
+
+// How far along a ray a convex loop is hit.
+function hitLoop(from, way, loop) {
+  let normal = [0, 0, 0];
+  for (let m = 1; m + 1 < loop.length; m++) normal = add(normal, cross(sub(loop[m], loop[0]), sub(loop[m + 1], loop[0])));
+  const slope = dot(normal, way);
+  if (!slope) return Infinity;
+  const t = dot(normal, sub(loop[0], from)) / slope, p = add(from, mul(way, t));
+  if (t <= 0) return Infinity;
+  for (let m = 0; m < loop.length; m++) if (dot(normal, cross(sub(loop[(m + 1) % loop.length], loop[m]), sub(p, loop[m]))) < 0) return Infinity;
+  return t;
+}
+
+function hitBody(i, from, way) {
+  const c = moved(i, at3(bodies.center, i)), to = sub(c, from), along = dot(to, way), miss = dot(to, to) - along * along, r = reach[i] * 1.0001;
+  if (miss > r * r) return Infinity;
+  if (bodies.radius[i] > 0) return along - Math.sqrt(r * r - miss);
+  const q = back(poses.subarray(8 * i, 8 * i + 4)), own = at3(bodies.center, i), f = add(rotate(q, sub(from, c)), own), w = rotate(q, way);
+  let best = Infinity;
+  for (let k = bodies.pieceStart[i]; k < bodies.pieceStart[i + 1]; k += bodies.pieces[k] + 1) best = Math.min(best, hitLoop(f, w, Array.from(bodies.pieces.subarray(k + 1, k + 1 + bodies.pieces[k]), (n) => at3(bodies.corners, bodies.cornerStart[i] + n))));
+  return best;
+}
+
+// The nearest block; where joints are shown, a joint whose polygon or point lies under the pointer.
+function hit(x, y, width, height) {
+  const { from, way } = ray(x, y, width, height);
+  let best = Infinity, found = null;
+  if (state.layers.has("joints")) for (let k = 0; k < JOINTS; k++) {
+    const points = [];
+    for (let p = joints.pointStart[k]; p < joints.pointStart[k + 1]; p++) points.push(moved(joints.a[k], at3(joints.points, p)));
+    let t = points.length > 2 ? hitLoop(from, way, points) : Infinity;
+    const to = sub(moved(joints.a[k], at3(joints.center, k)), from), along = dot(to, way);
+    if (t === Infinity && along > 0 && Math.sqrt(Math.max(0, dot(to, to) - along * along)) < 0.012 * along * SLOPE) t = along;
+    if (t < best) [best, found] = [t, { joint: k }];
+  }
+  if (found) return found;
+  for (let i = 0; i < COUNT; i++) { const t = hitBody(i, from, way); if (t < best) [best, found] = [t, { body: i }]; }
+  return found;
+}
+
+const place = (p) => `(${mul(p, view.length).map((v, k) => short(v + view.middle[k])).join(", ")}) m`;
+const nameOf = (k) => `${bodies.ids[joints.a[k]]} | ${bodies.ids[joints.b[k]]}`;
+const jump = (picked, text) => make("button", { type: "button", onclick: () => pick(picked) }, text);
+const tableOf = (rows) => make("table", {}, make("tbody", {}, rows.filter((r) => r[1] !== null).map(([head, value]) => make("tr", {}, make("th", { scope: "row" }, head), make("td", {}, value)))));
+
+function numbers() {
+  const box = el("picked"), p = state.picked;
+  if (!p) return box.replaceChildren(make("p", { class: "note" }, "Click a block, or choose one from the list, to read its numbers. With joints shown, click a joint."));
+  box.replaceChildren(...(p.body !== undefined ? bodyNumbers(p.body) : jointNumbers(p.joint)));
+}
+
+function bodyNumbers(i) {
+  const forces = forcesNow(), motion = view.motions[Math.max(0, state.motion)], mine = loads.body.length ? [...loads.body.keys()].filter((k) => loads.body[k] === i) : [];
+  const rows = [
+    ["", bodies.support[i] ? "support, held in place" : "free block"],
+    ["material", bodies.material[i] ? bodies.materials[bodies.material[i] - 1] : null],
+    ["mass", withUnit(bodies.mass[i], "kg").replace("kkg", "t").replace("Mkg", "kt").replace("Gkg", "Mt")],
+    ["centre of mass", place(at3(bodies.center, i))],
+    ["radius", bodies.radius[i] > 0 ? meters(bodies.radius[i]) : null],
+    ["joints used", forces ? percent(forces.bodyUsed[i]) : null],
+    ["speed", motion && !bodies.support[i] ? `${percent(Math.min(1, norm(at3(motion.velocity, i)) + norm(at3(motion.spin, i)) * reach[i]))} of the fastest corner` : null],
+    ["moved", state.motion === FILM ? `${meters(norm([poses[8 * i + 4], poses[8 * i + 5], poses[8 * i + 6]]) / state.magnify)}, turned ${short((360 / Math.PI) * Math.acos(Math.min(1, Math.abs(poses[8 * i + 3]))) / state.magnify, 3)}°` : null],
+    ...mine.map((k) => [loads.live[k] ? "live load" : "dead load", `${withUnit(norm(at3(loads.newton, k)), "N")} at ${place(at3(loads.at, k))}`]),
+    ["touches", make("div", { class: "links" }, jointsOf[i].map((k) => jump({ joint: k }, bodies.ids[joints.a[k] === i ? joints.b[k] : joints.a[k]])))],
+  ];
+  return [make("h2", {}, bodies.ids[i]), tableOf(rows)];
+}
+
+function jointNumbers(k) {
+  const forces = forcesNow(), there = forces && !Number.isNaN(forces.normal[k]), from = joints.pointStart[k], to = joints.pointStart[k + 1];
+  const motion = view.motions[Math.max(0, state.motion)], mark = motion ? [...motion.markJoint].indexOf(k) : -1;
+  const rows = [
+    ["", ["face on face", "edge", "point", "given by hand"][joints.kind[k]]],
+    ["area", joints.area[k] > 0 ? `${short(joints.area[k] * view.length ** 2)} m²` : null],
+    ["law", joints.laws[joints.law[k]]],
+    ["normal force", there ? newtons(forces.normal[k]) : forces ? "carries nothing" : null],
+    ["shear force", there ? newtons(forces.shear[k]) : null],
+    ["friction used", there && !Number.isNaN(forces.mobilised[k]) ? percent(forces.mobilised[k]) : null],
+    ["mean pressure", there && joints.area[k] > 0 ? withUnit((forces.normal[k] * view.force) / (joints.area[k] * view.length ** 2), "Pa") : null],
+    ["eccentricity", there && joints.area[k] > 0 ? `${meters(forces.eccentricity[k])}, ${percent(forces.used[k])} of the way to the edge${forces.kern[k] ? ", in the kern" : ""}` : null],
+    ["centre of pressure", there ? place(at3(forces.at, k)) : place(at3(joints.center, k))],
+    ["mechanism", mark >= 0 ? motion.markKind[mark] : motion ? "at rest" : null],
+    ["blocks", make("div", { class: "links" }, [joints.a[k], joints.b[k]].map((i) => jump({ body: i }, bodies.ids[i])))],
+  ];
+  const n = at3(joints.normal, k), points = [];
+  if (there) for (let p = from; p < to; p++) { const f = at3(forces.forces, p), fn = dot(f, n); points.push(make("tr", {}, make("td", {}, place(at3(joints.points, p))), make("td", {}, newtons(fn)), make("td", {}, newtons(norm(sub(f, mul(n, fn))))))); }
+  const list = points.length ? [make("div", { class: "scroll", tabindex: "0" }, make("table", { class: "grid" }, make("thead", {}, make("tr", {}, ["contact point", "normal", "shear"].map((h) => make("th", { scope: "col" }, h)))), make("tbody", {}, points)))] : [];
+  return [make("h2", {}, nameOf(k)), tableOf(rows), ...list];
+}

@@ -1,0 +1,164 @@
+// The picture and its controls put together.
+const canvas = el("canvas"), flatCanvas = el("flat");
+let draw = null, shown = canvas;
+try { draw = webgl(canvas); } catch (error) { console.warn("WebGL is not used:", error.message); }
+if (!draw) {
+  canvas.hidden = true;
+  flatCanvas.hidden = false;
+  for (const key of ["tabindex", "role", "aria-roledescription", "aria-describedby"]) flatCanvas.setAttribute(key, canvas.getAttribute(key));
+  shown = flatCanvas;
+  draw = plain(flatCanvas) || (() => {});
+}
+shown.setAttribute("aria-label", `${view.name || "The scene"}: ${COUNT} blocks, ${JOINTS} joints`);
+
+let waiting = false, stale = true;
+function redraw(changed) {
+  stale = stale || Boolean(changed);
+  if (waiting) return;
+  waiting = true;
+  requestAnimationFrame(() => {
+    waiting = false;
+    const scale = Math.min(window.devicePixelRatio || 1, 2), w = Math.max(1, Math.round(shown.clientWidth * scale)), h = Math.max(1, Math.round(shown.clientHeight * scale));
+    if (shown.width !== w || shown.height !== h) [shown.width, shown.height] = [w, h];
+    if (stale) pose();
+    draw(w, h, stale);
+    if (stale) legend();
+    stale = false;
+    document.documentElement.dataset.drawn = "yes";
+  });
+}
+
+function pick(picked) {
+  state.picked = picked;
+  numbers();
+  const kind = picked && picked.joint !== undefined ? "joints" : "blocks", index = picked ? (kind === "joints" ? picked.joint : picked.body) : -1;
+  if (picked) {
+    if (el("kind").value !== kind) { el("kind").value = kind; el("find").value = ""; fillList(); }
+    if (![...el("list").options].some((o) => Number(o.value) === index) && el("find").value) { el("find").value = ""; fillList(); }
+  }
+  const list = el("list");
+  list.value = String(index);
+  if (picked && list.options.length) list.scrollTop = (list.selectedIndex / list.options.length) * list.scrollHeight - list.clientHeight / 2;
+  redraw(true);
+}
+
+// The list of blocks or joints, as far as it is asked for.
+const MOST = 4000;
+function fillList() {
+  const kind = el("kind").value, wanted = el("find").value.toLowerCase(), count = kind === "blocks" ? COUNT : JOINTS, options = [];
+  let left = 0;
+  for (let k = 0; k < count; k++) {
+    const name = kind === "blocks" ? bodies.ids[k] : nameOf(k);
+    if (wanted && !name.toLowerCase().includes(wanted)) continue;
+    if (options.length < MOST) options.push(make("option", { value: k }, kind === "blocks" && bodies.support[k] ? `${name} (support)` : name));
+    else left++;
+  }
+  el("list").replaceChildren(...options);
+  el("list").setAttribute("aria-label", kind === "blocks" ? "Blocks" : "Joints");
+  el("find").placeholder = `Find a ${kind === "blocks" ? "block" : "joint"}`;
+  el("listNote").textContent = left ? `${left} more: type a part of the name` : "";
+}
+el("kind").addEventListener("change", () => { el("find").value = ""; fillList(); });
+el("find").addEventListener("input", fillList);
+el("list").addEventListener("change", () => pick({ [el("kind").value === "blocks" ? "body" : "joint"]: Number(el("list").value) }));
+
+function next(kind, step) {
+  const key = kind === "blocks" ? "body" : "joint", count = kind === "blocks" ? COUNT : JOINTS, now = state.picked && state.picked[key];
+  if (count) pick({ [key]: now === undefined || now === null ? (step > 0 ? 0 : count - 1) : (now + step + count) % count });
+}
+
+// Choices of forces, motions, colours, layers.
+const options = (list) => list.map(([value, text]) => make("option", { value }, text));
+function motionNow(value) {
+  state.motion = value;
+  const film = value === FILM, motion = view.motions[value];
+  el("play").hidden = !film && !motion;
+  el("wayLabel").textContent = film ? "Time" : "Motion";
+  el("magnifyBox").hidden = !film;
+  setWay(state.way);
+}
+function setWay(way) {
+  state.way = way;
+  el("way").value = Math.round(1000 * way);
+  const film = state.motion === FILM;
+  const text = film ? `${short(view.film.times[Math.round(way * (view.film.times.length - 1))], 3)} s` : way ? `${meters(way * AMPLITUDE)} at the fastest corner` : "at rest";
+  el("wayText").textContent = text;
+  el("way").setAttribute("aria-valuetext", text);
+  if (film && state.picked) numbers();
+  redraw(true);
+}
+let playing = 0;
+function play(on) {
+  playing = on ? performance.now() : 0;
+  el("run").textContent = on ? "❚❚" : "▶";
+  el("run").setAttribute("aria-label", on ? "Stop" : "Play");
+  if (!on) return;
+  const film = state.motion === FILM, seconds = film ? Math.min(Math.max(view.film.times[view.film.times.length - 1], 4), 12) : 3.2;
+  const begin = performance.now() - (film ? (state.way < 1 ? state.way : 0) * seconds * 1000 : (Math.acos(1 - 2 * state.way) / Math.PI) * seconds * 1000), mine = playing;
+  const step = (now) => {
+    if (playing !== mine) return;
+    const t = Math.max(0, now - begin) / 1000 / seconds;
+    setWay(film ? t % 1.15 > 1 ? 1 : t % 1.15 : 0.5 - 0.5 * Math.cos(Math.PI * t));
+    requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+}
+el("run").addEventListener("click", () => play(!playing));
+el("way").addEventListener("input", () => { play(false); setWay(el("way").value / 1000); });
+
+function choices() {
+  el("state").replaceChildren(...options(view.states.map((s, k) => [k, s.name])));
+  el("stateBox").hidden = !view.states.length;
+  const motions = view.motions.map((m, k) => [k, m.name]);
+  if (view.film) motions.unshift([FILM, `simulation, ${view.film.run} steps`]);
+  el("motion").replaceChildren(...options(motions));
+  el("motionBox").hidden = !motions.length;
+  const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "joint share used"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", "speed in the mechanism"], view.film && ["moved", "way in the simulation"]].filter(Boolean);
+  el("colour").replaceChildren(...options(kinds));
+  if (view.film) {
+    // The greatest round number that keeps the motion within a tenth of the picture.
+    const far = Math.max(view.film.far, view.film.wide * 0.05), all = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 10000, 100000];
+    el("magnify").replaceChildren(...options(all.map((m) => [m, `${m} ×`])));
+    state.magnify = all.filter((m) => m * far < 0.12).pop() || 1;
+    if (far < 1e-9) state.magnify = 1;
+    el("magnify").value = state.magnify;
+  }
+  for (const [name, title, , there] of LAYERS) if (there()) el("layers").append(make("label", {}, make("input", { type: "checkbox", value: name, id: `layer-${name}`, onchange: (e) => { e.target.checked ? state.layers.add(name) : state.layers.delete(name); redraw(true); } }), title));
+}
+const layer = (name) => { const box = el(`layer-${name}`); if (box) { box.checked = true; state.layers.add(name); } };
+const colour = (name) => { if ([...el("colour").options].some((o) => o.value === name)) { el("colour").value = name; state.colour = name; } };
+el("state").addEventListener("change", () => { state.force = Number(el("state").value); numbers(); redraw(true); });
+el("motion").addEventListener("change", () => { play(false); state.way = Math.max(state.way, 0.5); motionNow(Number(el("motion").value)); numbers(); });
+el("colour").addEventListener("change", () => { state.colour = el("colour").value; redraw(true); });
+el("magnify").addEventListener("change", () => { state.magnify = Number(el("magnify").value); redraw(true); });
+document.querySelectorAll("[data-look]").forEach((b) => b.addEventListener("click", () => look(b.dataset.look)));
+
+steer(shown, (e) => { const box = shown.getBoundingClientRect(); pick(hit(e.clientX - box.left, e.clientY - box.top, box.width, box.height)); });
+shown.addEventListener("keydown", (e) => {
+  if (e.ctrlKey || e.metaKey || e.altKey) return;
+  const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key];
+  const acts = { "+": () => zoomBy(0.88), "=": () => zoomBy(0.88), "-": () => zoomBy(1.14), Home: () => look("start"), f: () => look("front"), s: () => look("side"), t: () => look("top"), n: () => next("blocks", 1), p: () => next("blocks", -1), j: () => next("joints", 1), J: () => next("joints", -1), Escape: () => pick(null), " ": () => el("play").hidden || play(!playing) };
+  const act = turns ? () => (e.shiftKey ? shiftBy(-0.05 * turns[0], 0.05 * turns[1]) : turnBy(-0.09 * turns[0], 0.09 * turns[1])) : acts[e.key];
+  if (act) { e.preventDefault(); act(); }
+});
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraw(true));
+new ResizeObserver(() => redraw()).observe(shown);
+canvas.addEventListener("webglcontextlost", (e) => e.preventDefault());
+// Printers get an image: a canvas may come out empty.
+addEventListener("beforeprint", () => { el("printed").src = shown.toDataURL("image/png"); el("printed").alt = shown.getAttribute("aria-label"); });
+
+// At a limit nearly every joint is used up: then the forces say more.
+function telling() {
+  const used = forcesNow() ? [...forcesNow().bodyUsed].filter((u) => !Number.isNaN(u)) : [];
+  return used.filter((u) => u > 0.97).length > 0.4 * used.length ? "force" : "share";
+}
+
+// What is shown at first: how it fails where it falls, else how it carries.
+choices();
+const falls = Boolean(document.querySelector("h1.bad"));
+layer("edges");
+if (view.film) { state.way = 1; colour("moved"); motionNow(FILM); } else if (falls && view.motions.length) { state.way = 0.55; colour("speed"); layer("marks"); motionNow(0); } else { layer("line"); colour(telling()); layer("marks"); if (loads.body.length <= 24) layer("loads"); motionNow(view.motions.length ? 0 : -1); }
+el("motion").value = state.motion;
+fillList();
+numbers();
+look("start");

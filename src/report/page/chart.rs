@@ -1,0 +1,154 @@
+//! Charts as data; the page draws them, with values where one points.
+
+use crate::{
+    analysis::Attempt,
+    report::{
+        ResultFile,
+        heaps::ReposeFile,
+        text::number::{seconds, short},
+    },
+};
+use serde::Serialize;
+
+/// A chart.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Chart {
+    /// Its title.
+    pub title: String,
+    /// Along.
+    pub x: Axis,
+    /// Up.
+    pub y: Axis,
+    /// What is drawn.
+    pub series: Vec<Series>,
+    /// A sentence below it.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub note: String,
+    /// Values shown by colour, for charts of cells: a name for them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cells: Option<String>,
+}
+
+/// An axis.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Axis {
+    /// What is measured, with its unit.
+    pub label: String,
+    /// Logarithmic.
+    pub log: bool,
+}
+
+impl Axis {
+    /// An axis.
+    pub fn new(label: impl Into<String>, log: bool) -> Self {
+        Self { label: label.into(), log }
+    }
+}
+
+/// Points of one kind.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Series {
+    /// What they are.
+    pub name: String,
+    /// Joined by a line.
+    pub line: bool,
+    /// x, y; of cells their middle.
+    pub points: Vec<[f64; 2]>,
+    /// What is said where one points; one for each point.
+    pub hints: Vec<String>,
+    /// Lower and upper end of a band at each point, where there is one; of cells half their width and height.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub band: Vec<[f64; 2]>,
+    /// Of cells their value.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub values: Vec<f64>,
+}
+
+/// Width of the bracket against the time spent, from the attempts at each program.
+pub fn attempts(file: &ResultFile) -> Option<Chart> {
+    let mut series: Vec<Series> = Vec::new();
+    let mut spent = 0.0;
+    // Attempts that follow each other at the same question share a line.
+    let mut last: Option<&str> = None;
+    for a in &file.trace {
+        let about = a.program.split(" in ").next().unwrap_or(&a.program);
+        if last != Some(about) || a.force_unit.is_nan() {
+            spent = 0.0;
+            last = Some(about);
+        }
+        spent += a.seconds;
+        let width = a.upper - a.lower;
+        if !(width.is_finite() && width > 0.0 && spent > 0.0) {
+            continue;
+        }
+        let line = match series.iter().position(|s| s.name == about) {
+            Some(k) => &mut series[k],
+            None => {
+                series.push(Series { name: about.to_string(), line: true, ..Series::default() });
+                let end = series.len() - 1;
+                &mut series[end]
+            }
+        };
+        line.points.push([spent, width]);
+        line.hints.push(hint(a, spent, width));
+    }
+    let states: Vec<_> = file.coulomb_state.iter().flat_map(|s| &s.steps).filter(|s| s.acceleration > 0.0 && s.seconds > 0.0).collect();
+    if !states.is_empty() {
+        let mut line = Series { name: "acceleration left with dry friction, g".into(), line: true, ..Series::default() };
+        let mut spent = 0.0;
+        for s in states {
+            spent += s.seconds;
+            line.points.push([spent, s.acceleration]);
+            line.hints.push(format!(
+                "after {}: {:.1e} g left, ε = {:.0e}, {} programs",
+                seconds(spent),
+                s.acceleration,
+                s.epsilon,
+                s.solves
+            ));
+        }
+        series.push(line);
+    }
+    if series.is_empty() {
+        return None;
+    }
+    Some(Chart {
+        title: "Error against time".into(),
+        x: Axis::new("seconds", true),
+        y: Axis::new("error: width of the bracket", true),
+        series,
+        note: "Each point is an attempt; its bracket is recomputed from the scene, not the solver's word.".into(),
+        cells: None,
+    })
+}
+
+fn hint(a: &Attempt, spent: f64, width: f64) -> String {
+    format!(
+        "{}: bracket {width:.1e} wide after {}; {} iterations, engine says {:?}",
+        a.program,
+        seconds(spent),
+        a.iterations,
+        a.engine_status
+    )
+}
+
+/// The angle of every heap against its seed.
+pub fn heaps(file: &ReposeFile) -> Option<Chart> {
+    let there: Vec<_> = file.heaps.iter().filter_map(|h| Some((h, h.angle_deg?))).collect();
+    if there.is_empty() {
+        return None;
+    }
+    let series = Series {
+        name: "angle of repose".into(),
+        points: there.iter().map(|(h, angle)| [h.seed as f64, *angle]).collect(),
+        hints: there.iter().map(|(h, angle)| format!("seed {}: {}°, {} grains", h.seed, short(*angle), h.grains)).collect(),
+        ..Series::default()
+    };
+    Some(Chart {
+        title: "Angle of every heap".into(),
+        x: Axis::new("seed", false),
+        y: Axis::new("degrees", false),
+        series: vec![series],
+        ..Chart::default()
+    })
+}

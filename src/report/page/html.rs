@@ -1,0 +1,65 @@
+//! Text inside HTML.
+
+use serde_json::Value;
+
+/// Text as it may stand between tags and inside quoted attributes. Control characters are left out.
+pub(super) fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            c if c.is_control() && c != '\n' && c != '\t' => {}
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// JSON as it may stand in a `script` element of type `application/json`: nothing in it ends the element or opens a comment.
+///
+/// # Errors
+/// Only if memory runs out.
+pub(super) fn json(value: &Value) -> Result<String, serde_json::Error> {
+    // Outside strings JSON has none of these characters.
+    Ok(serde_json::to_string(value)?.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026"))
+}
+
+/// The template with every `{{name}}` replaced, in one pass: what is put in is not looked at again.
+pub(super) fn fill(template: &str, values: &[(&str, &str)]) -> String {
+    let mut out = String::with_capacity(template.len() + values.iter().map(|v| v.1.len()).sum::<usize>());
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once("{{") {
+        out.push_str(before);
+        let (name, after) = after.split_once("}}").unwrap_or((after, ""));
+        if let Some((_, value)) = values.iter().find(|v| v.0 == name) {
+            out.push_str(value);
+        }
+        rest = after;
+    }
+    out.push_str(rest);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HOSTILE: &str = "</script><img src=x onerror='alert(1)'>&\"<!--";
+
+    #[test]
+    fn nothing_ends_the_element_it_stands_in() {
+        for text in [escape(HOSTILE), json(&Value::from(HOSTILE)).unwrap()] {
+            assert!(!text.contains(['<', '>']) && !text.contains("&\""), "{text}");
+        }
+        assert_eq!(serde_json::from_str::<String>(&json(&Value::from(HOSTILE)).unwrap()).unwrap(), HOSTILE);
+    }
+
+    #[test]
+    fn what_is_put_in_is_not_a_template() {
+        assert_eq!(fill("a {{x}} {{y}} {{none}}!", &[("x", "{{y}}"), ("y", "2")]), "a {{y}} 2 !");
+    }
+}

@@ -1,0 +1,81 @@
+//! A report as one page: a single HTML file without any connection to a network, for a browser of 2020 or later.
+//!
+//! The page holds the answer in words as printed on a terminal, the [`View`] as packed arrays, and charts. Its styles and scripts are
+//! in `assets/`. Without WebGL 2 the picture is drawn on a plain canvas; without scripts the words are still there. Every string that
+//! comes from a scene is escaped ([`html::escape`], [`html::json`]) or set by the script as text, never as markup.
+
+mod chart;
+mod facts;
+mod html;
+mod pack;
+mod study;
+mod sweep;
+
+pub use chart::{Axis, Chart, Series, attempts, heaps};
+pub use study::{extreme, omissions, study};
+pub use sweep::sweep;
+
+use super::{text::Page, view::View};
+use serde_json::json;
+
+const TEMPLATE: &str = include_str!("assets/page.html");
+const STYLE: &str = include_str!("assets/page.css");
+/// What every page needs.
+const BASE: &str = include_str!("assets/base.js");
+const CHARTS: &str = include_str!("assets/chart.js");
+/// The picture: state, camera, drawing on both kinds of canvas, picking, controls, numbers.
+const SCENE: [&str; 9] = [
+    include_str!("assets/vector.js"),
+    include_str!("assets/model.js"),
+    include_str!("assets/layers.js"),
+    include_str!("assets/camera.js"),
+    include_str!("assets/shaders.js"),
+    include_str!("assets/webgl.js"),
+    include_str!("assets/canvas.js"),
+    include_str!("assets/numbers.js"),
+    include_str!("assets/scene.js"),
+];
+const TABLES: &str = include_str!("assets/table.js");
+const PICTURE: &str = include_str!("assets/picture.html");
+
+/// The page of one answer: its words, its picture, its charts.
+///
+/// # Errors
+/// Only if memory runs out.
+pub fn page(text: &Page, view: &View, charts: &[Chart]) -> Result<String, serde_json::Error> {
+    let data = json!({ "view": pack::view(view), "charts": charts });
+    let scripts: Vec<&str> = [BASE, CHARTS].into_iter().chain(SCENE).collect();
+    Ok(html::fill(
+        TEMPLATE,
+        &[
+            ("title", &html::escape(&facts::plain_title(text))),
+            ("style", STYLE),
+            ("head", &facts::head(text)),
+            ("kind", "picture"),
+            ("main", PICTURE),
+            ("facts", &facts::body(text)),
+            ("version", env!("CARGO_PKG_VERSION")),
+            ("data", &html::json(&data)?),
+            ("script", &scripts.join("\n")),
+        ],
+    ))
+}
+
+/// A page of charts and tables.
+fn tables(text: &Page, charts: &[Chart], tables: &[serde_json::Value]) -> Result<String, serde_json::Error> {
+    let data = json!({ "charts": charts, "tables": tables });
+    Ok(html::fill(
+        TEMPLATE,
+        &[
+            ("title", &html::escape(&facts::plain_title(text))),
+            ("style", STYLE),
+            ("head", &facts::head(text)),
+            ("kind", "tables"),
+            ("main", "<div id=\"charts\" class=\"charts\"></div><div id=\"tables\"></div>"),
+            ("facts", &facts::body(text)),
+            ("version", env!("CARGO_PKG_VERSION")),
+            ("data", &html::json(&data)?),
+            ("script", &[BASE, CHARTS, TABLES].join("\n")),
+        ],
+    ))
+}

@@ -1,0 +1,152 @@
+//! Pages of studies: error against time on every scene, the performance profile, and tables to sort.
+
+use super::{Axis, Chart, Series, tables};
+use crate::{
+    report::{
+        study::ANSWER,
+        text::{
+            Page,
+            number::{seconds, short},
+        },
+    },
+    study::{
+        Method, Omission, Point,
+        extreme::{Ask, Found},
+        profile,
+    },
+};
+use serde_json::{Value, json};
+
+/// Errors below this are drawn here: rounding.
+const FLOOR: f64 = 1e-15;
+
+/// The page of a study.
+///
+/// # Errors
+/// Only if memory runs out.
+pub fn study(text: &Page, points: &[Point]) -> Result<String, serde_json::Error> {
+    let mut scenes: Vec<&str> = Vec::new();
+    for p in points {
+        if !scenes.contains(&p.scene.as_str()) {
+            scenes.push(&p.scene);
+        }
+    }
+    let mut charts = vec![profiles(points)];
+    charts.extend(scenes.iter().map(|s| errors(s, points)));
+    charts.retain(|c| c.series.iter().any(|s| !s.points.is_empty()));
+    let rows: Vec<Value> = points
+        .iter()
+        .map(|p| {
+            let status = p.status.map(|s| format!("{s:?}"));
+            let knob = if p.method.knob().is_empty() { Value::Null } else { json!(format!("{} {}", p.method.knob(), short(p.knob))) };
+            json!([p.scene, p.method.label(), knob, p.value, p.error, p.bracket, p.seconds, p.iterations, status])
+        })
+        .collect();
+    let columns = ["scene", "method", "setting", "value", "relative error", "bracket", "seconds", "iterations", "engine says"];
+    tables(text, &charts, &[json!({ "title": "Runs", "columns": columns, "rows": rows })])
+}
+
+/// Error against time on one scene, a line per method.
+fn errors(scene: &str, points: &[Point]) -> Chart {
+    let of = |method: Method| {
+        let mut own: Vec<&Point> = points.iter().filter(|p| p.scene == scene && p.method == method && p.seconds > 0.0).collect();
+        own.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        let known: Vec<(&Point, f64)> = own.into_iter().filter_map(|p| Some((p, p.error?))).collect();
+        Series {
+            name: method.label().into(),
+            line: true,
+            points: known.iter().map(|(p, e)| [p.seconds, e.clamp(FLOOR, 10.0)]).collect(),
+            hints: known
+                .iter()
+                .map(|(p, e)| {
+                    let knob = if method.knob().is_empty() { String::new() } else { format!(", {} {}", method.knob(), short(p.knob)) };
+                    format!("{}{knob}: error {e:.1e} in {}", method.label(), seconds(p.seconds))
+                })
+                .collect(),
+            ..Series::default()
+        }
+    };
+    Chart {
+        title: scene.into(),
+        x: Axis::new("seconds", true),
+        y: Axis::new("relative error of the load factor", true),
+        series: Method::ALL.into_iter().map(of).filter(|s| !s.points.is_empty()).collect(),
+        ..Chart::default()
+    }
+}
+
+/// Which share of the scenes a method answers within a multiple of the fastest method's time.
+fn profiles(points: &[Point]) -> Chart {
+    let ratios: Vec<f64> = (0..=60).map(|k| 10f64.powf(f64::from(k) / 20.0)).collect();
+    let series = profile(points, ANSWER, &ratios).into_iter().map(|(method, shares)| Series {
+        name: method.label().into(),
+        line: true,
+        hints: ratios
+            .iter()
+            .zip(&shares)
+            .map(|(r, s)| format!("{}: {} % of the scenes within {} × the fastest", method.label(), short(100.0 * s), short(*r)))
+            .collect(),
+        points: ratios.iter().zip(&shares).map(|(r, s)| [*r, *s]).collect(),
+        ..Series::default()
+    });
+    Chart {
+        title: format!("Scenes answered to {ANSWER:.0e}"),
+        x: Axis::new("time over that of the fastest method", true),
+        y: Axis::new("share of the scenes", false),
+        series: series.collect(),
+        note: "Performance profile after Dolan and Moré (2002).".into(),
+        ..Chart::default()
+    }
+}
+
+/// The page of what omissions save.
+///
+/// # Errors
+/// Only if memory runs out.
+pub fn omissions(text: &Page, list: &[Omission]) -> Result<String, serde_json::Error> {
+    let rows: Vec<Value> = list
+        .iter()
+        .map(|o| json!([o.scene, o.unknowns[0], o.unknowns[1], o.seconds[0], o.seconds[1], o.values[0], o.difference()]))
+        .collect();
+    let columns = ["scene", "unknowns", "of", "seconds", "of", "load factor", "difference"];
+    tables(text, &[], &[json!({ "title": "Scenes", "columns": columns, "rows": rows })])
+}
+
+/// The page of the extreme grid.
+///
+/// # Errors
+/// Only if memory runs out.
+pub fn extreme(text: &Page, found: &[Found]) -> Result<String, serde_json::Error> {
+    let series = |family: &str| {
+        let own: Vec<(&Found, f64)> =
+            found.iter().filter(|f| f.family == family && f.seconds > 0.0).filter_map(|f| Some((f, f.error?))).collect();
+        Series {
+            name: family.into(),
+            points: own.iter().map(|(f, e)| [f.seconds, e.clamp(FLOOR, 10.0)]).collect(),
+            hints: own.iter().map(|(f, e)| format!("{}: error {e:.1e} in {}", f.what, seconds(f.seconds))).collect(),
+            ..Series::default()
+        }
+    };
+    let chart = Chart {
+        title: "Load factors: error against time".into(),
+        x: Axis::new("seconds", true),
+        y: Axis::new("relative error", true),
+        series: ["column", "wall", "arch"].map(series).into_iter().filter(|s| !s.points.is_empty()).collect(),
+        ..Chart::default()
+    };
+    let asked = |ask: Ask| match ask {
+        Ask::LoadFactor(v) => format!("load factor {}", short(v)),
+        Ask::Stands(true, by) => format!("stands, {by:.0e} from critical"),
+        Ask::Stands(false, by) => format!("falls, {by:.0e} from critical"),
+    };
+    let rows: Vec<Value> = found
+        .iter()
+        .map(|f| {
+            let grade = format!("{:?}", f.grade).to_lowercase();
+            json!([f.family, f.what, asked(f.ask), grade, f.value, f.error, f.bracket, f.iterations, f.seconds])
+        })
+        .collect();
+    let columns = ["family", "what", "right answer", "grade", "value", "relative error", "bracket", "iterations", "seconds"];
+    let charts = if chart.series.is_empty() { Vec::new() } else { vec![chart] };
+    tables(text, &charts, &[json!({ "title": "Cells", "columns": columns, "rows": rows })])
+}

@@ -1,0 +1,251 @@
+//! What there is to see of an answer: blocks as surfaces, where they touch, the forces, the lines of thrust, the mechanisms and what
+//! happened in time. One plain value that pages and drawings share, so that all of them show the same.
+//!
+//! Lengths in m, forces in N on the second block of a joint, in the coordinates of the scene. Forces and rates are those of the
+//! certificates in the result, fitted to the scene again.
+
+mod film;
+mod motion;
+mod state;
+mod surface;
+
+pub use film::Film;
+pub use motion::{Mark, Motion, Pose};
+pub use state::{Part, Resultant, Segment, State};
+pub use surface::{Shape, Surface};
+
+use super::result::{Question, ResultFile};
+use crate::{analysis::Model, assembly::JointLaw, dynamics::Frame, interface::ContactKind, verdict::section::centroid};
+use nalgebra::Vector3;
+
+/// A certificate that does not fit the scene it is shown with.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("cannot be drawn: {0}")]
+pub struct ViewError(pub String);
+
+/// Everything that can be drawn.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// Name of the scene.
+    pub name: String,
+    /// Unit vector against gravity; of a tilt, as the ground is tipped when it falls.
+    pub up: Vector3<f64>,
+    /// Unit vector against gravity as the scene has it.
+    pub ground: Vector3<f64>,
+    /// Of a tilt, the angle between `up` and the vertical of the scene, degrees.
+    pub tilt_deg: Option<f64>,
+    /// Unit vector across `up` from which one looks: across the greater extent.
+    pub front: Vector3<f64>,
+    /// The box to look at: that of the free blocks and of what supports them nearby, m.
+    pub low: Vector3<f64>,
+    /// Its upper corner.
+    pub high: Vector3<f64>,
+    /// Blocks in scene order.
+    pub bodies: Vec<Body>,
+    /// Joints in the order of the interfaces.
+    pub joints: Vec<Joint>,
+    /// Loads beside the blocks' own weight.
+    pub loads: Vec<Load>,
+    /// Systems of contact forces; the first one goes with the answer.
+    pub states: Vec<State>,
+    /// Mechanisms; the first one goes with the answer.
+    pub motions: Vec<Motion>,
+    /// What happened in time, evenly spread.
+    pub film: Vec<Frame>,
+}
+
+/// A block.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Its name.
+    pub id: String,
+    /// Held in place.
+    pub support: bool,
+    /// Its material, where it has one.
+    pub material: Option<String>,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass, m.
+    pub center: Vector3<f64>,
+    /// Its surface.
+    pub shape: Shape,
+}
+
+/// Where two blocks touch.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Index of the first block.
+    pub a: usize,
+    /// Index of the second block.
+    pub b: usize,
+    /// What touches what.
+    pub kind: ContactKind,
+    /// Unit normal from `a` into `b`.
+    pub normal: Vector3<f64>,
+    /// Contact points in order around the normal, m.
+    pub points: Vec<Vector3<f64>>,
+    /// Centroid of their hull, m.
+    pub center: Vector3<f64>,
+    /// Area that touches, m².
+    pub area: f64,
+    /// How it resists.
+    pub law: JointLaw,
+}
+
+/// A load on a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Index of the block.
+    pub body: usize,
+    /// Where it acts, m.
+    pub at: Vector3<f64>,
+    /// N.
+    pub force: Vector3<f64>,
+    /// Whether it is multiplied by λ.
+    pub live: bool,
+}
+
+impl View {
+    /// What there is to see of a result; `model` is that of its scene, `film` what was taken of its simulation.
+    ///
+    /// # Errors
+    /// A certificate that does not belong to the scene.
+    pub fn new(model: &Model, file: &ResultFile, film: Vec<Frame>) -> Result<Self, ViewError> {
+        let mut view = Self::bare(model);
+        view.name.clone_from(&file.scene.name);
+        if let Some(up) = tipped(view.up, file) {
+            view.tilt_deg = Some(up.angle(&view.up).to_degrees());
+            view.up = up;
+        }
+        view.front = front(view.up, view.high - view.low);
+        view.states = state::of(model, file).map_err(ViewError)?;
+        view.motions = motion::of(model, file, &view.bodies).map_err(ViewError)?;
+        view.film = film;
+        view.film.retain(|f| f.blocks.len() == view.bodies.len());
+        Ok(view)
+    }
+
+    /// Blocks, joints and loads alone.
+    pub fn bare(model: &Model) -> Self {
+        let assembly = &model.assembly;
+        let bodies: Vec<Body> = assembly
+            .blocks
+            .iter()
+            .map(|b| Body {
+                id: b.id.clone(),
+                support: b.support,
+                material: b.material.clone(),
+                mass: b.mass,
+                center: b.centroid,
+                shape: Shape::of(&b.solid),
+            })
+            .collect();
+        let joints = model.interfaces.list.iter().map(|f| Joint {
+            a: f.a,
+            b: f.b,
+            kind: f.kind,
+            normal: f.frame.n,
+            points: f.points.clone(),
+            center: centroid(f),
+            area: f.area,
+            law: f.law,
+        });
+        let up = -assembly.gravity.normalize();
+        let (low, high) = extent(&bodies);
+        Self {
+            name: assembly.name.clone(),
+            up,
+            ground: up,
+            tilt_deg: None,
+            front: front(up, high - low),
+            low,
+            high,
+            joints: joints.collect(),
+            loads: loads(model),
+            states: Vec::new(),
+            motions: Vec::new(),
+            film: Vec::new(),
+            bodies,
+        }
+    }
+
+    /// The length by which drawings measure: the diagonal of the box to look at, m; 1 where there is nothing to see.
+    pub fn size(&self) -> f64 {
+        let size = (self.high - self.low).norm();
+        if size.is_finite() && size > 0.0 { size } else { 1.0 }
+    }
+
+    /// The middle of that box, m.
+    pub fn middle(&self) -> Vector3<f64> {
+        (self.low + self.high) * 0.5
+    }
+}
+
+/// The ground of a tilt as it is tipped when the answer says that it falls.
+fn tipped(up: Vector3<f64>, file: &ResultFile) -> Option<Vector3<f64>> {
+    match (file.question, file.answer.toward, file.answer.load_factor.and_then(|l| l.value)) {
+        (Question::Tilt, Some(toward), Some(tangent)) => Some((up - Vector3::from(toward) * tangent).normalize()),
+        _ => None,
+    }
+}
+
+/// A support is shown as far as this × the extent of the free blocks; a ground slab as wide as one likes would leave no room for them.
+const AROUND: f64 = 0.15;
+
+/// The box of the free blocks, grown towards supports that reach beyond it.
+fn extent(bodies: &[Body]) -> (Vector3<f64>, Vector3<f64>) {
+    let inf = Vector3::repeat(f64::INFINITY);
+    let hull = |want: bool| {
+        bodies.iter().filter(|b| b.support == want).map(Body::extent).fold((inf, -inf), |(l, h), (bl, bh)| (l.inf(&bl), h.sup(&bh)))
+    };
+    let (free, held) = (hull(false), hull(true));
+    if free.0.x > free.1.x {
+        return if held.0.x > held.1.x { (Vector3::zeros(), Vector3::zeros()) } else { held };
+    }
+    let rim = Vector3::repeat(AROUND * (free.1 - free.0).norm());
+    (free.0.inf(&held.0.sup(&(free.0 - rim))), free.1.sup(&held.1.inf(&(free.1 + rim))))
+}
+
+impl Body {
+    /// Its bounding box.
+    pub fn extent(&self) -> (Vector3<f64>, Vector3<f64>) {
+        match &self.shape {
+            Shape::Sphere(radius) => (self.center.add_scalar(-radius), self.center.add_scalar(*radius)),
+            Shape::Surface(s) => {
+                let inf = Vector3::repeat(f64::INFINITY);
+                s.corners.iter().fold((inf, -inf), |(l, h), p| (l.inf(p), h.sup(p)))
+            }
+        }
+    }
+}
+
+/// The horizontal axis along which the scene is thinnest; −y where there is none, as one looks at elevations.
+fn front(up: Vector3<f64>, extent: Vector3<f64>) -> Vector3<f64> {
+    let axes = [-Vector3::y(), Vector3::x(), -Vector3::z()];
+    let level = axes.into_iter().filter(|a| a.dot(&up).abs() < 0.5);
+    let thin = level.min_by(|a, b| a.dot(&extent).abs().total_cmp(&b.dot(&extent).abs())).unwrap_or(axes[0]);
+    (thin - up * up.dot(&thin)).normalize()
+}
+
+fn loads(model: &Model) -> Vec<Load> {
+    let assembly = &model.assembly;
+    let off = assembly.dead_forces.iter().map(|f| Load {
+        body: f.block,
+        at: assembly.blocks[f.block].centroid + f.arm,
+        force: f.force,
+        live: false,
+    });
+    let mut list: Vec<Load> = off.collect();
+    for i in assembly.free() {
+        let at = assembly.blocks[i].centroid;
+        let elsewhere: Vector3<f64> = assembly.dead_forces.iter().filter(|f| f.block == i).map(|f| f.force).sum();
+        let dead = assembly.dead[i].force - assembly.self_weight(i).force - elsewhere;
+        if dead.norm() > 1e-9 * (assembly.weight(i) + elsewhere.norm()) {
+            list.push(Load { body: i, at, force: dead, live: false });
+        }
+        if assembly.live[i].force != Vector3::zeros() {
+            list.push(Load { body: i, at, force: assembly.live[i].force, live: true });
+        }
+    }
+    list
+}

@@ -1,0 +1,241 @@
+//! Systems of contact forces: resultants, use of the sections, lines of thrust.
+
+use crate::{
+    analysis::{Model, Outcome, coulomb::Found},
+    report::{
+        result::{Certificate, Question, ResultFile},
+        text::number::short,
+    },
+    scene::Friction,
+    tolerance,
+    verdict::{
+        Forces, Verdict,
+        evidence::{ContactForces, read_forces},
+        section::sections,
+    },
+};
+use nalgebra::Vector3;
+
+/// What a system of forces, or a mechanism, is to the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// It goes with the answer.
+    Answer,
+    /// Forces that stand beside it: without the pre-stress, or at a load factor at which the scene stands.
+    Base,
+    /// With dry friction.
+    Dry,
+    /// Of the least thrust.
+    Least,
+    /// Of the greatest thrust.
+    Greatest,
+    /// Under the dead load alone.
+    Dead,
+}
+
+/// One system of contact forces.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// What it is to the answer.
+    pub part: Part,
+    /// Whether it balances what it is about; otherwise it is what comes closest.
+    pub balances: bool,
+    /// Whether live loads act.
+    pub live: bool,
+    /// Unit vector against gravity, turned where the ground is tipped.
+    pub up: Vector3<f64>,
+    /// What it is, in a few words.
+    pub name: String,
+    /// Force on the second block at each point of each joint, N.
+    pub forces: Vec<Vec<Vector3<f64>>>,
+    /// Resultant at each joint; `None` where it carries nothing.
+    pub resultants: Vec<Option<Resultant>>,
+    /// Share of its joints that each block uses: the greatest of its joints; `None` where nothing presses on it.
+    pub used: Vec<Option<f64>>,
+    /// The line of thrust.
+    pub line: Vec<Segment>,
+}
+
+/// The resultant at a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resultant {
+    /// Force on the second block, N.
+    pub force: Vector3<f64>,
+    /// Normal force, N, pressure positive.
+    pub normal: f64,
+    /// Shear force, N.
+    pub shear: f64,
+    /// Centre of pressure, m.
+    pub at: Vector3<f64>,
+    /// Distance of that from the centroid, m.
+    pub eccentricity: f64,
+    /// Share of the section used: 0 at the centroid, 1 at the edge.
+    pub used: f64,
+    /// Whether the whole section presses.
+    pub in_kern: bool,
+    /// Share of the friction used; `None` where friction has no limit, or is not all that resists.
+    pub mobilised: Option<f64>,
+}
+
+impl Resultant {
+    /// The greater of both shares.
+    pub fn share(&self) -> f64 {
+        self.used.max(self.mobilised.unwrap_or(0.0))
+    }
+}
+
+/// A piece of a line of thrust inside a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Index of the block.
+    pub body: usize,
+    /// From the centre of pressure of this joint
+    pub joint: usize,
+    /// to that of this one, or to the centre of mass.
+    pub other: Option<usize>,
+    /// Where it begins, m.
+    pub from: Vector3<f64>,
+    /// Where it ends, m.
+    pub to: Vector3<f64>,
+    /// The force that passes, N.
+    pub force: f64,
+}
+
+impl State {
+    fn new(model: &Model, part: Part, name: String, forces: &Forces) -> Self {
+        let list = sections(&model.interfaces, forces);
+        let mean = list.iter().map(|s| s.normal.hypot(s.shear)).sum::<f64>() / list.len().max(1) as f64;
+        let resultants: Vec<Option<Resultant>> = list
+            .iter()
+            .zip(forces)
+            .map(|(s, forces)| {
+                let law = &model.interfaces.list[s.interface].law;
+                let carries = s.normal.hypot(s.shear) > tolerance::UNLOADED * mean;
+                carries.then(|| Resultant {
+                    force: forces.iter().map(|w| w.force).sum(),
+                    normal: s.normal,
+                    shear: s.shear,
+                    at: s.at,
+                    eccentricity: s.eccentricity.norm(),
+                    used: s.used,
+                    in_kern: s.in_kern,
+                    mobilised: match law.friction {
+                        Friction::Coefficient(mu) if mu > 0.0 && s.normal > 0.0 && law.friction_only() => Some(s.shear / (mu * s.normal)),
+                        _ => None,
+                    },
+                })
+            })
+            .collect();
+        let forces = forces.iter().map(|list| list.iter().map(|w| w.force).collect()).collect();
+        let (used, line) = (used(model, &resultants), line(model, &resultants));
+        let up = -model.assembly.gravity.normalize();
+        Self { part, balances: true, live: false, up, name, forces, resultants, used, line }
+    }
+}
+
+/// Block, joint and resultant wherever one presses on the other.
+fn pressed<'a>(model: &'a Model, resultants: &'a [Option<Resultant>]) -> impl Iterator<Item = (usize, usize, &'a Resultant)> {
+    let there = resultants.iter().enumerate().filter_map(|(k, r)| Some((k, r.as_ref()?)));
+    there.flat_map(|(k, r)| [model.interfaces.list[k].a, model.interfaces.list[k].b].into_iter().map(move |i| (i, k, r)))
+}
+
+fn used(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Option<f64>> {
+    let mut used: Vec<Option<f64>> = vec![None; model.assembly.blocks.len()];
+    for (i, _, r) in pressed(model, resultants) {
+        used[i] = Some(used[i].unwrap_or(0.0).max(r.share()));
+    }
+    used
+}
+
+/// Through every block from one centre of pressure to the other; where more or fewer than two joints press, to the centre of mass.
+fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
+    let mut joints: Vec<Vec<(usize, &Resultant)>> = vec![Vec::new(); model.assembly.blocks.len()];
+    for (body, joint, r) in pressed(model, resultants) {
+        joints[body].push((joint, r));
+    }
+    let mut line = Vec::new();
+    for body in model.assembly.free() {
+        match joints[body][..] {
+            [(joint, r), (other, s)] => {
+                let force = 0.5 * (r.force.norm() + s.force.norm());
+                line.push(Segment { body, joint, other: Some(other), from: r.at, to: s.at, force });
+            }
+            _ => line.extend(joints[body].iter().map(|&(joint, r)| {
+                let to = model.assembly.blocks[body].centroid;
+                Segment { body, joint, other: None, from: r.at, to, force: r.force.norm() }
+            })),
+        }
+    }
+    line
+}
+
+/// Forces that leave something unbalanced.
+const CLOSEST: &str = "forces that come closest";
+
+/// Every system of forces that a result holds.
+pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String> {
+    let mut list: Vec<(Part, String, &[ContactForces])> = Vec::new();
+    let own = |c: &Certificate| !c.forces.is_empty();
+    let lambda = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at λ = {}", short(v)));
+    let tilt = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at {}°", short(v.atan().to_degrees())));
+    let at = |v: Option<f64>| if file.question == Question::Tilt { tilt(v) } else { lambda(v) };
+    if own(&file.certificate) {
+        let name = match (file.answer.verdict, file.answer.load_factor) {
+            (_, Some(l)) => match l.status {
+                Outcome::Found => format!("forces that balance it{}", at(l.value)),
+                Outcome::Unbounded => "forces that balance the live load alone".into(),
+                Outcome::Impossible | Outcome::Undecided => CLOSEST.into(),
+            },
+            (Some(Verdict::Stable), _) => "forces that balance it".into(),
+            (Some(Verdict::Conditional), _) => "forces with a pre-stress".into(),
+            _ => CLOSEST.into(),
+        };
+        list.push((Part::Answer, name, &file.certificate.forces));
+    }
+    if let Some(base) = &file.certificate.base {
+        let name = if file.answer.verdict == Some(Verdict::Conditional) {
+            "forces without a pre-stress"
+        } else {
+            "forces that balance the dead load"
+        };
+        list.push((Part::Base, name.into(), base));
+    }
+    // Where nothing slides they are the same.
+    if let Some(dry) = file.dry.as_ref().filter(|d| own(&d.certificate) && d.value.is_some() && d.found != Found::NothingSlides) {
+        list.push((Part::Dry, format!("forces with dry friction{}", at(dry.value)), &dry.certificate.forces));
+    }
+    if let (Some(thrust), Some(answer)) = (&file.thrust, &file.answer.thrust) {
+        let ends = [
+            (Part::Least, "forces of the least thrust", &thrust.least, &answer.least),
+            (Part::Greatest, "forces of the greatest thrust", &thrust.greatest, &answer.greatest),
+        ];
+        for (part, name, certificate, end) in ends.into_iter().filter(|(_, _, c, _)| own(c) && c.claim.is_some()) {
+            let value = end.value.map_or(String::new(), |v| format!(", {} N", short(v)));
+            list.push((part, format!("{name}{value}"), &certificate.forces));
+        }
+    }
+    if let Some(dead) = file.dead_load.as_ref().filter(|d| own(&d.certificate)) {
+        let stands = matches!(dead.answer.verdict, Some(Verdict::Stable));
+        let name = if stands { "forces under the dead load" } else { "forces that come closest under the dead load" };
+        list.push((Part::Dead, name.into(), &dead.certificate.forces));
+    }
+    let tangent = |part: Part| match (file.question, part) {
+        (Question::Tilt, Part::Answer) => file.answer.load_factor.and_then(|l| l.value).unwrap_or(0.0),
+        (Question::Tilt, Part::Dry) => file.dry.as_ref().and_then(|d| d.value).unwrap_or(0.0),
+        _ => 0.0,
+    };
+    let state = |(part, name, saved): (Part, String, &[_])| {
+        let mut forces = read_forces(&model.assembly, &model.interfaces, saved)?;
+        // Forces of a tilt are divided by its cosine, so that gravity keeps its part across the ground.
+        let tangent = tangent(part);
+        forces.iter_mut().flatten().for_each(|w| *w = *w * (1.0 / 1f64.hypot(tangent)));
+        let mut state = State::new(model, part, name, &forces);
+        state.balances = !state.name.contains(CLOSEST);
+        state.live = file.question == Question::Limit && part != Part::Dead;
+        if let Some(toward) = file.answer.toward {
+            state.up = (state.up - Vector3::from(toward) * tangent).normalize();
+        }
+        Ok(state)
+    };
+    list.into_iter().map(state).collect()
+}

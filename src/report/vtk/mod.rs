@@ -1,0 +1,167 @@
+//! Answers for ParaView and everything else that is built on VTK: one file of XML PolyData (`.vtp`) with blocks, joints, contact forces,
+//! lines of thrust and mechanisms.
+//!
+//! Cells of all kinds stand in one file and are told apart by the cell array `part` ([`Part`]); `block`, `other block` and `joint` are indices in
+//! scene order (−1: none), the names of blocks stand in the field data. Arrays that belong to a system of forces or
+//! a mechanism carry its name in parentheses: `force (…)`, N, on the points of contact forces; `normal force (…)`, N, and `used (…)`, the
+//! share of the section or of the friction, on joints and blocks; `displacement (…)`, m, on the points of blocks, to first order and as far
+//! as it is seen well. A simulation is a collection (`.pvd`) of such files, one a time, that hold the blocks alone with their velocity: readers
+//! of VTK 9 add up the cells of all times that stand in one file.
+//!
+//! W. Schroeder, K. Martin, B. Lorensen, *The Visualization Toolkit*, 4th ed., Kitware 2006; file formats of VTK,
+//! <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
+
+mod ball;
+mod mesh;
+mod xml;
+
+use super::{
+    drawing::{escape, sized},
+    view::View,
+};
+use crate::dynamics::Frame;
+use mesh::Mesh;
+use nalgebra::Vector3;
+use xml::Xml;
+
+/// What a cell is: the numbers of the array `part`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A face of a free block.
+    Block = 0,
+    /// A face of a support.
+    Support = 1,
+    /// A joint.
+    Joint = 2,
+    /// A contact point, with the force on the second block.
+    Force = 3,
+    /// A piece of a line of thrust.
+    Thrust = 4,
+}
+
+/// The file of an answer.
+pub fn vtp(view: &View) -> String {
+    document(view, &Mesh::of(view), None)
+}
+
+/// The file of one moment of a film: the blocks alone.
+pub fn moment(view: &View, frame: &Frame) -> String {
+    document(view, &Mesh::blocks_of(view), Some(frame))
+}
+
+/// The collection of a film, whose files are `named`.
+pub fn collection(view: &View, named: impl Fn(usize) -> String) -> String {
+    let mut xml = Xml::new("Collection");
+    for (k, frame) in view.film.iter().enumerate() {
+        xml.open("DataSet", &format!(" timestep=\"{}\" file=\"{}\"", frame.time, escape(&named(k))));
+        xml.close("DataSet");
+    }
+    xml.end("Collection")
+}
+
+fn document(view: &View, mesh: &Mesh, frame: Option<&Frame>) -> String {
+    let mut xml = Xml::new("PolyData");
+    xml.open("FieldData", "");
+    xml.strings("block names", view.bodies.iter().map(|b| b.id.as_str()));
+    xml.close("FieldData");
+    let [verts, lines, polys] = [&mesh.verts, &mesh.lines, &mesh.polys].map(Vec::len);
+    xml.open(
+        "Piece",
+        &format!(
+            " NumberOfPoints=\"{}\" NumberOfVerts=\"{verts}\" NumberOfLines=\"{lines}\" NumberOfStrips=\"0\" NumberOfPolys=\"{polys}\"",
+            mesh.points.len()
+        ),
+    );
+    match frame {
+        Some(frame) => velocities(&mut xml, view, mesh, frame),
+        None => point_data(&mut xml, view, mesh),
+    }
+    cell_data(&mut xml, view, mesh, frame.is_none());
+    xml.open("Points", "");
+    xml.vectors("points", mesh.points.iter().map(|p| place(view, p, frame)));
+    xml.close("Points");
+    for (name, cells) in [("Verts", &mesh.verts), ("Lines", &mesh.lines), ("Polys", &mesh.polys)] {
+        xml.open(name, "");
+        xml.integers("connectivity", cells.iter().flat_map(|c| c.points.iter().map(|&p| i64::from(p))));
+        let mut end = 0;
+        let ends = cells.iter().map(|c| {
+            end += c.points.len() as i64;
+            end
+        });
+        xml.integers("offsets", ends);
+        xml.close(name);
+    }
+    xml.close("Piece");
+    xml.end("PolyData")
+}
+
+/// Where a point is.
+fn place(view: &View, p: &mesh::Point, frame: Option<&Frame>) -> Vector3<f64> {
+    match (p.block, frame) {
+        (Some(i), Some(frame)) => frame.blocks[i].center + frame.blocks[i].turn * (p.at - view.bodies[i].center),
+        _ => p.at,
+    }
+}
+
+fn velocities(xml: &mut Xml, view: &View, mesh: &Mesh, frame: &Frame) {
+    xml.open("PointData", "");
+    let velocity = |p: &mesh::Point| match p.block {
+        Some(i) => frame.blocks[i].velocity + frame.blocks[i].spin.cross(&(place(view, p, Some(frame)) - frame.blocks[i].center)),
+        None => Vector3::zeros(),
+    };
+    xml.vectors("velocity", mesh.points.iter().map(velocity));
+    xml.close("PointData");
+}
+
+fn point_data(xml: &mut Xml, view: &View, mesh: &Mesh) {
+    xml.open("PointData", "");
+    for state in &view.states {
+        let force = |p: &mesh::Point| match p.contact {
+            Some((joint, corner)) => state.forces[joint][corner],
+            None => Vector3::zeros(),
+        };
+        xml.vectors(&named("force", &state.name), mesh.points.iter().map(force));
+    }
+    for motion in &view.motions {
+        let by = sized(view, motion) / motion.reach;
+        let way = |p: &mesh::Point| match p.block {
+            Some(i) => (motion.rates[i].velocity + motion.rates[i].spin.cross(&(p.at - view.bodies[i].center))) * by,
+            None => Vector3::zeros(),
+        };
+        xml.vectors(&named("displacement", &motion.name), mesh.points.iter().map(way));
+    }
+    xml.close("PointData");
+}
+
+fn cell_data(xml: &mut Xml, view: &View, mesh: &Mesh, statics: bool) {
+    let cells = || mesh.verts.iter().chain(&mesh.lines).chain(&mesh.polys);
+    let index = |i: Option<usize>| i.map_or(-1, |i| i as i64);
+    xml.open("CellData", "");
+    xml.integers("part", cells().map(|c| c.part as i64));
+    xml.integers("block", cells().map(|c| index(c.block)));
+    xml.integers("other block", cells().map(|c| index(c.other)));
+    xml.integers("joint", cells().map(|c| index(c.joint)));
+    if statics {
+        for (k, state) in view.states.iter().enumerate() {
+            let at = |c: &mesh::Cell| c.joint.and_then(|j| state.resultants[j]);
+            let normal = |c: &mesh::Cell| match c.segment {
+                Some((owner, force)) if owner == k => force,
+                Some(_) => 0.0,
+                None => at(c).map_or(0.0, |r| r.normal),
+            };
+            xml.numbers(&named("normal force", &state.name), cells().map(normal));
+            let used = |c: &mesh::Cell| match (c.joint, c.block) {
+                (Some(_), _) => at(c).map_or(0.0, |r| r.share()),
+                (None, Some(i)) => state.used[i].unwrap_or(0.0),
+                (None, None) => 0.0,
+            };
+            xml.numbers(&named("used", &state.name), cells().map(used));
+        }
+    }
+    xml.close("CellData");
+}
+
+/// The name of an array that belongs to a system of forces or a mechanism.
+fn named(what: &str, name: &str) -> String {
+    format!("{what} ({name})")
+}

@@ -1,0 +1,152 @@
+//! Time limits that hold: the engine looks at the clock between iterations only, and setting up or factoring a large program
+//! can take minutes. Under a time limit it runs on a thread of its own, which is left to itself when it does not answer in time;
+//! what was found before is not lost then.
+
+use super::{Settings, Solution, Status, clarabel};
+use crate::program::ConicProgram;
+use std::{
+    sync::mpsc::{Receiver, Sender, channel},
+    time::{Duration, Instant},
+};
+
+/// How long the engine is waited for once its time is past, as a share of it and in seconds. Longer: the limit means less.
+/// Shorter: the last iterate, which may close a bracket, is lost with the iteration under way.
+const PATIENCE: f64 = 0.05;
+const LEAST_PATIENCE: f64 = 0.1;
+
+/// Solves a program.
+pub fn solve(program: &ConicProgram, settings: &Settings) -> Solution {
+    Session::new(program, settings).map_or_else(|| none(Status::Refused), |mut session| session.solve())
+}
+
+/// A program that is solved several times with changed right-hand sides and objectives: ordering and set-up are kept. The seconds of
+/// its settings are those of all solves together.
+pub struct Session(Way);
+
+enum Way {
+    Here(Box<clarabel::Session>),
+    Apart { orders: Sender<Order>, answers: Receiver<Answer>, end: Option<Instant> },
+}
+
+enum Order {
+    Rhs(Vec<f64>),
+    Objective(Vec<f64>),
+    Solve,
+}
+
+enum Answer {
+    Done(bool),
+    Solved(Solution),
+}
+
+impl Session {
+    /// Sets a program up; `None` where the engine refuses it.
+    pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
+        let own = || clarabel::Session::new(program, settings).map(|s| Self(Way::Here(Box::new(s))));
+        let seconds = settings.seconds.max(0.0);
+        let Ok(patience) = Duration::try_from_secs_f64(seconds * (1.0 + PATIENCE) + LEAST_PATIENCE) else { return own() };
+        let end = Instant::now().checked_add(patience);
+        let (orders, inbox) = channel();
+        let (outbox, answers) = channel();
+        let (program, settings) = (program.clone(), *settings);
+        let spawned = std::thread::Builder::new().name("engine".into()).spawn(move || serve(&program, &settings, &inbox, &outbox));
+        match spawned {
+            Ok(_) => Some(Self(Way::Apart { orders, answers, end })),
+            Err(_) => None,
+        }
+    }
+
+    /// Changes the right-hand side; false where the engine refuses it.
+    pub fn set_rhs(&mut self, rhs: &[f64]) -> bool {
+        match &mut self.0 {
+            Way::Here(session) => session.set_rhs(rhs),
+            Way::Apart { .. } => matches!(self.ask(Order::Rhs(rhs.to_vec())), Some(Answer::Done(true))),
+        }
+    }
+
+    /// Changes the objective; false where the engine refuses it.
+    pub fn set_objective(&mut self, objective: &[f64]) -> bool {
+        match &mut self.0 {
+            Way::Here(session) => session.set_objective(objective),
+            Way::Apart { .. } => matches!(self.ask(Order::Objective(objective.to_vec())), Some(Answer::Done(true))),
+        }
+    }
+
+    /// Solves the program as it stands.
+    pub fn solve(&mut self) -> Solution {
+        match &mut self.0 {
+            Way::Here(session) => session.solve(),
+            Way::Apart { .. } => match self.ask(Order::Solve) {
+                Some(Answer::Solved(solution)) => solution,
+                _ => none(Status::Limit),
+            },
+        }
+    }
+
+    /// The answer to an order; `None` where it does not come in time.
+    fn ask(&self, order: Order) -> Option<Answer> {
+        let Way::Apart { orders, answers, end } = &self.0 else { return None };
+        orders.send(order).ok()?;
+        match end {
+            Some(end) => answers.recv_timeout(end.saturating_duration_since(Instant::now())).ok(),
+            None => answers.recv().ok(),
+        }
+    }
+}
+
+/// The engine's side; it ends with the session, or after the order under way.
+fn serve(program: &ConicProgram, settings: &Settings, inbox: &Receiver<Order>, outbox: &Sender<Answer>) {
+    let mut session = clarabel::Session::new(program, settings);
+    while let Ok(order) = inbox.recv() {
+        let answer = match (order, &mut session) {
+            (Order::Solve, Some(session)) => Answer::Solved(session.solve()),
+            (Order::Rhs(rhs), Some(session)) => Answer::Done(session.set_rhs(&rhs)),
+            (Order::Objective(objective), Some(session)) => Answer::Done(session.set_objective(&objective)),
+            (Order::Solve, None) => Answer::Solved(none(Status::Refused)),
+            (Order::Rhs(_) | Order::Objective(_), None) => Answer::Done(false),
+        };
+        if outbox.send(answer).is_err() {
+            return;
+        }
+    }
+}
+
+fn none(status: Status) -> Solution {
+    Solution { x: Vec::new(), z: Vec::new(), status, trace: Vec::new(), seconds: 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::{Cone, ConicProgram, Sparse};
+
+    /// min x subject to x ≥ 2.
+    fn program() -> ConicProgram {
+        let mut matrix = Sparse::zeros(1, 1);
+        matrix.push(0, 0, -1.0);
+        ConicProgram { quadratic: Vec::new(), objective: vec![1.0], matrix, rhs: vec![-2.0], cones: vec![Cone::NonNegative(1)] }
+    }
+
+    #[test]
+    fn answers_are_the_same_with_and_without_a_time_limit() {
+        let solve = |seconds: f64| {
+            let mut session = Session::new(&program(), &Settings { seconds, ..Settings::default() }).unwrap();
+            let first = session.solve();
+            assert!(session.set_rhs(&[-3.0]) && session.set_objective(&[2.0]));
+            [first, session.solve()].map(|s| (s.status, s.x[0].to_bits(), s.z[0].to_bits()))
+        };
+        assert_eq!(solve(f64::INFINITY), solve(1e3));
+        assert!((f64::from_bits(solve(1e3)[1].1) - 3.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn without_time_there_is_no_answer_and_no_waiting() {
+        let start = Instant::now();
+        let mut session = Session::new(&program(), &Settings { seconds: -1.0, ..Settings::default() }).unwrap();
+        for _ in 0..3 {
+            let solution = session.solve();
+            assert!(matches!(solution.status, Status::Limit | Status::Solved), "{:?}", solution.status);
+        }
+        assert!(start.elapsed().as_secs() < 60);
+    }
+}

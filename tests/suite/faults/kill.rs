@@ -1,0 +1,137 @@
+//! Kills and interrupts at any moment.
+
+use super::{command, desk, expect, files, rows, run};
+use std::{
+    fs,
+    path::Path,
+    process::{Child, ExitStatus},
+    time::{Duration, Instant},
+};
+
+/// Ends a child with a signal; the status it ended with, by the signal or by itself if it was faster.
+fn signal(child: &mut Child, number: i32) -> ExitStatus {
+    // SAFETY: a child of this test that has not been waited for: its number is its own.
+    unsafe { libc::kill(i32::try_from(child.id()).unwrap(), number) };
+    child.wait().unwrap()
+}
+
+/// How long a command takes, at least a moment.
+fn measured(folder: &Path, args: &[&str]) -> (Duration, Option<i32>) {
+    let start = Instant::now();
+    let output = run(folder, args);
+    (start.elapsed().max(Duration::from_millis(5)), output.status.code())
+}
+
+#[test]
+fn killed_at_any_moment_a_file_is_whole_or_absent() {
+    use std::os::unix::process::ExitStatusExt;
+    let desk = desk(4, 4, 4);
+    let verbs: [&[&str]; 6] = [
+        &["assess", "wall.json", "--save", "result.json"],
+        &["limit", "wall.json", "--law", "associative", "--save", "result.json"],
+        &["simulate", "wall.json", "--fast", "--save", "result.json"],
+        &["repose", "wall.json", "--law", "associative", "--all", "2", "--save", "result.json"],
+        &[
+            "critical",
+            "wall.json",
+            "--law",
+            "associative",
+            "--vary",
+            "/joints/default/friction",
+            "--between",
+            "0.1",
+            "0.9",
+            "--scan",
+            "3",
+            "--save",
+            "result.json",
+        ],
+        &["generate", "wall", "courses=40", "--expand", "-o", "result.json"],
+    ];
+    for args in verbs {
+        let (time, code) = measured(desk.path(), args);
+        let mut cut = 0;
+        for (k, number) in (0..16).zip([libc::SIGKILL, libc::SIGINT, libc::SIGTERM].into_iter().cycle()) {
+            let _ = fs::remove_file(desk.path().join("result.json"));
+            let mut child = command(desk.path()).args(args).spawn().unwrap();
+            // The end, where files are written, more often than the beginning.
+            std::thread::sleep(time.mul_f64(1.1 * (f64::from(k) / 15.0).sqrt()));
+            let status = signal(&mut child, number);
+            assert!(status.signal() == Some(number) || status.code() == code, "{args:?}: {status}");
+            cut += usize::from(status.signal().is_some());
+            match fs::read_to_string(desk.path().join("result.json")) {
+                Err(_) => {}
+                Ok(text) => drop(serde_json::from_str::<serde_json::Value>(&text).unwrap_or_else(|e| panic!("{args:?}: {e}"))),
+            }
+            let left: Vec<String> = files(desk.path()).into_iter().filter(|f| f != "result.json").collect();
+            assert_eq!(left, ["plan.json", "wall.json"], "{args:?} left something");
+        }
+        assert!(cut > 0, "{args:?} was never cut off");
+    }
+}
+
+#[test]
+fn killed_while_it_replaces_a_file_the_old_one_stays_or_the_new_one_is_there() {
+    let desk = desk(2, 2, 4);
+    let args = ["generate", "wall", "courses=100", "--expand", "-o", "scene.json"];
+    let (time, _) = measured(desk.path(), &args);
+    let new = fs::read_to_string(desk.path().join("scene.json")).unwrap();
+    for k in 0..20 {
+        fs::write(desk.path().join("scene.json"), "old").unwrap();
+        let mut child = command(desk.path()).args(args).spawn().unwrap();
+        std::thread::sleep(time.mul_f64(1.05 * f64::from(k) / 19.0));
+        signal(&mut child, libc::SIGKILL);
+        let text = fs::read_to_string(desk.path().join("scene.json")).unwrap();
+        assert!(text == "old" || text == new);
+    }
+}
+
+#[test]
+fn a_sweep_killed_again_and_again_is_the_sweep_in_one_go() {
+    let desk = desk(5, 4, 40);
+    let args = ["sweep", "plan.json", "-o", "rows.jsonl", "--csv", "table.csv", "--quiet", "--threads", "2"];
+    let (time, _) =
+        measured(desk.path(), &["sweep", "plan.json", "-o", "direct.jsonl", "--csv", "direct.csv", "--quiet", "--threads", "2"]);
+    for k in 0..6 {
+        let mut child = command(desk.path()).args(args).spawn().unwrap();
+        std::thread::sleep(time / 8);
+        signal(&mut child, if k % 2 == 0 { libc::SIGKILL } else { libc::SIGINT });
+    }
+    let kept = fs::read_to_string(desk.path().join("rows.jsonl")).unwrap().matches('\n').count();
+    assert!(kept > 1, "nothing was kept");
+    expect(0, &run(desk.path(), &args));
+    assert_eq!(rows(&desk.path().join("rows.jsonl")), rows(&desk.path().join("direct.jsonl")));
+    assert_eq!(files(desk.path()), ["direct.csv", "direct.jsonl", "plan.json", "rows.jsonl", "table.csv", "wall.json"]);
+}
+
+#[test]
+fn a_trajectory_that_was_cut_off_ends_with_a_whole_frame() {
+    let desk = desk(4, 4, 4);
+    let args = ["simulate", "wall.json", "--fine", "--frames", "2000", "--skip-verdict", "--to-the-end", "--csv", "way.csv"];
+    let mut child = command(desk.path()).args(args).spawn().unwrap();
+    let begun = Instant::now();
+    let lines = || fs::read_to_string(desk.path().join("way.csv")).map_or(0, |t| t.lines().count());
+    while lines() < 100 && begun.elapsed().as_secs() < 60 {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    signal(&mut child, libc::SIGKILL);
+    let text = fs::read_to_string(desk.path().join("way.csv")).unwrap();
+    let blocks = 1 + 4 * 4 + 2;
+    assert!(text.ends_with('\n') && text.lines().skip(1).all(|l| l.split(',').count() == 16));
+    assert_eq!((text.lines().count() - 1) % blocks, 0, "a frame was cut");
+}
+
+#[test]
+fn a_study_that_is_interrupted_leaves_no_half_table() {
+    use std::os::unix::process::ExitStatusExt;
+    let desk = desk(2, 2, 4);
+    for number in [libc::SIGINT, libc::SIGKILL] {
+        let mut child = command(desk.path()).args(["study", "--quick", "--scenes", "arch", "--csv", "study.csv"]).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(50));
+        let status = signal(&mut child, number);
+        assert!(status.signal() == Some(number) || status.success());
+        assert!(status.success() || !desk.path().join("study.csv").exists());
+        assert!(files(desk.path()).iter().all(|f| !f.starts_with('.')));
+        let _ = fs::remove_file(desk.path().join("study.csv"));
+    }
+}
