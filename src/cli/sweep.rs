@@ -37,7 +37,7 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     let output = rows_file(args, plan)?;
     let sinks = Sinks::open(&args.summary)?;
     if args.slurm.slurm {
-        return slurm::run(args, &sweep, &output, &sinks, terminal);
+        return slurm::submit::run(args, &sweep, &output, &sinks, terminal);
     }
     let options = Options { shard: args.shard, threads: args.threads.map(usize::from), restart: args.restart };
     let bar = bar(args.summary.quiet);

@@ -1,6 +1,7 @@
 //! What was submitted, kept beside the rows (`job.json`).
 
-use crate::error::RowsError;
+use super::states;
+use crate::error::{RowsError, SlurmError};
 use serde::{Deserialize, Serialize};
 use std::{fs, io::Write, path::Path};
 
@@ -47,6 +48,19 @@ impl Job {
             why: format!("not the record of a job: {e}; remove the file, the rows stay"),
         };
         serde_json::from_str(&text).map(Some).map_err(damaged)
+    }
+
+    /// The last of the arrays of which a task may still write, by Slurm's number.
+    ///
+    /// # Errors
+    /// Slurm does not answer.
+    pub fn alive(&self) -> Result<Option<u64>, SlurmError> {
+        for &number in self.jobs.iter().rev() {
+            if states(number)?.values().any(|task| task.state.is_alive()) {
+                return Ok(Some(number));
+            }
+        }
+        Ok(None)
     }
 
     /// Writes the record, whole or not at all.

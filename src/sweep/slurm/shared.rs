@@ -1,11 +1,33 @@
 //! Whether the nodes of a cluster see a folder of this machine. What can be told without running anything there: the kind of the file
 //! system, and whether the nodes are this machine.
 
+use super::hosts;
+use crate::error::SlurmError;
+use std::path::Path;
+
 /// File systems that lie on disks or in the memory of one machine. What is not named here counts as shared.
 const LOCAL: [&str; 20] = [
     "ext2", "ext3", "ext4", "xfs", "btrfs", "bcachefs", "zfs", "f2fs", "jfs", "reiserfs", "vfat", "exfat", "ntfs", "ntfs3", "tmpfs",
     "ramfs", "rootfs", "overlay", "squashfs", "devtmpfs",
 ];
+
+/// Refuses a folder, which need not exist yet, that the nodes of a partition cannot see. Where the system does not tell what is mounted,
+/// the tasks will say so.
+///
+/// # Errors
+/// The folder lies on a disk of this machine, and a node is another one; or Slurm does not answer.
+pub fn require_shared(folder: &Path, partition: &str) -> Result<(), SlurmError> {
+    let parent = folder.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let read = |file: &str| std::fs::read_to_string(file).unwrap_or_default();
+    let Ok(parent) = parent.canonicalize() else { return Ok(()) };
+    let Some(mount) = mount_of(&parent.to_string_lossy(), &read("/proc/self/mountinfo")) else { return Ok(()) };
+    let (this, hosts) = (read("/proc/sys/kernel/hostname"), hosts(partition)?);
+    if is_shared(&mount, &hosts, this.trim()) {
+        return Ok(());
+    }
+    let node = hosts.into_iter().find(|h| h != this.trim()).unwrap_or_default();
+    Err(SlurmError::NotShared { folder: parent.display().to_string(), kind: mount.kind, at: mount.at, node })
+}
 
 /// Where a file system is mounted.
 #[derive(Clone, Debug, PartialEq, Eq)]
