@@ -82,7 +82,11 @@ impl Browser {
         let mut part = [0; 65536];
         // The length tells the end: not every driver closes the connection.
         loop {
-            let read = stream.read(&mut part).unwrap();
+            let read = match stream.read(&mut part) {
+                // A signal, such as the end of another test's process.
+                Err(e) if e.kind() == std::io::ErrorKind::Interrupted => continue,
+                read => read.unwrap(),
+            };
             answer.extend_from_slice(&part[..read]);
             let text = String::from_utf8_lossy(&answer);
             if let Some((head, rest)) = text.split_once("\r\n\r\n") {
