@@ -64,7 +64,7 @@ pub struct DryLoadFactor {
 const STAGES: [(f64, Stop); 4] = [
     (1e-4, Stop { change: 3e-2, solves: 20 }),
     (1e-5, Stop { change: 3e-3, solves: 20 }),
-    (1e-7, Stop { change: 3e-5, solves: 20 }),
+    (6e-8, Stop { change: 3e-5, solves: 20 }),
     (5e-7, Stop { change: 1e-7, solves: 10 }),
 ];
 /// Stages after which a value is looked for.
