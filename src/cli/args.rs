@@ -1,13 +1,16 @@
 //! Every argument of every verb, and nothing else.
 
+mod parse;
+mod pictures;
+mod sweep;
+
+pub use pictures::{Pictures, Tables};
+pub use sweep::{Merge, Slurm, Summary, Sweep, SweepStatus, SweepVerb, Task};
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use parse::{assignment, bytes, direction, finite, friction, not_negative, positive, share, up};
 use std::path::PathBuf;
-use voussoir::{
-    import::Up,
-    report::drawing::Aspect,
-    scene::Friction,
-    sweep::{Range, Shard},
-};
+use voussoir::{import::Up, scene::Friction, sweep::Range};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -121,6 +124,7 @@ pub enum Verb {
     /// A result is verified from the scene inside it, or from --scene: forces are added up block by block, powers of the mechanism joint by
     /// joint, and every word of the answer is compared. Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing.
     /// Of a scene, near misses, overlaps, loose blocks and slips of units are listed. Exit code 0 if there is none, 1 otherwise.
+    /// Pictures show what is proved, or the scene.
     Check(Check),
     /// Ask a question of many scenes that differ in a few numbers.
     ///
@@ -138,157 +142,6 @@ pub enum Verb {
     ///
     /// `voussoir man limit | man -l -` shows one; `voussoir man --folder ~/.local/share/man/man1` keeps them all.
     Man(Man),
-}
-
-#[derive(Debug, Args)]
-#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
-pub struct Sweep {
-    #[command(subcommand)]
-    pub verb: Option<SweepVerb>,
-    /// The plan (JSON), `-` for standard input.
-    #[arg(required_unless_present = "attach")]
-    pub plan: Option<PathBuf>,
-    /// The file of rows (JSON lines), which is continued if it holds rows of this plan; by default the plan's name with the ending
-    /// `.rows.jsonl`, in the current folder.
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// Do every N-th row, starting with the K-th; `sweep merge` puts the files together.
-    #[arg(long, value_name = "K/N", default_value_t = Shard::ALL)]
-    pub shard: Shard,
-    /// Threads; by default one a processor.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
-    /// Begin again where the file holds rows already.
-    #[arg(long)]
-    pub restart: bool,
-    #[command(flatten)]
-    pub slurm: Slurm,
-    #[command(flatten)]
-    pub summary: Summary,
-}
-
-/// A sweep on a cluster.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "On a Slurm cluster")]
-pub struct Slurm {
-    /// Do the rows in an array of Slurm tasks, watch them arrive in the folder OUT.slurm, and merge them into OUT at the end. The
-    /// same command goes on where an array was stopped.
-    #[arg(long, conflicts_with_all = ["shard", "threads"])]
-    pub slurm: bool,
-    /// Watch an array that was submitted for this file of rows, and merge at the end.
-    #[arg(long, value_name = "OUT", conflicts_with_all = ["plan", "slurm", "output", "shard", "threads", "restart"])]
-    pub attach: Option<PathBuf>,
-    /// Cut the sweep into so many tasks; by default as many as keep what starting them takes below 5 % of the work, a few rows being
-    /// measured first.
-    #[arg(long, value_name = "N", requires = "slurm", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    pub tasks: Option<u32>,
-    /// The partition; by default the cluster's own choice.
-    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word)]
-    pub partition: Option<String>,
-    /// Time limit of a task, as sbatch takes it (minutes, or [DAYS-]HOURS:MINUTES:SECONDS).
-    #[arg(long, value_name = "TIME", requires = "slurm", value_parser = word)]
-    pub time: Option<String>,
-    /// Processors a task.
-    #[arg(long, value_name = "N", requires = "slurm", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub cpus: u16,
-    /// Another option of sbatch, such as --sbatch-arg=--account=stone; may be given several times.
-    #[arg(long, value_name = "OPTION", requires = "slurm", allow_hyphen_values = true, value_parser = one_line)]
-    pub sbatch_arg: Vec<String>,
-    /// The nodes see the folder of the output under the same path, although it looks like a disk of this machine.
-    #[arg(long, requires = "slurm")]
-    pub shared: bool,
-    /// Print the batch script; submit and write nothing.
-    #[arg(long, requires = "slurm")]
-    pub dry_run: bool,
-}
-
-#[derive(Debug, Args)]
-pub struct SweepStatus {
-    /// The output of a sweep on a cluster, its folder, or any file of rows.
-    pub rows: PathBuf,
-    /// Print one JSON object and nothing else.
-    #[arg(long)]
-    pub json: bool,
-}
-
-#[derive(Debug, Args)]
-pub struct Task {
-    /// The folder of the sweep.
-    pub folder: PathBuf,
-    /// The K-th of N shards.
-    #[arg(long, value_name = "K/N")]
-    pub shard: Shard,
-    /// Threads; by default one a processor.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
-}
-
-#[derive(Debug, Subcommand)]
-pub enum SweepVerb {
-    /// How far a sweep is: rows that are done, tasks that run, wait or were stopped.
-    ///
-    /// Works while rows are being written. Exit code 3 if rows are missing.
-    Status(SweepStatus),
-    /// Do one shard of a sweep on a cluster, from its folder alone; this is what a task of the array runs.
-    ///
-    /// Rows that any earlier run of any task has done are left out.
-    Task(Task),
-    /// Put files of rows together, in the order of the rows, and sum them up.
-    ///
-    /// Exit code 3 if rows are missing.
-    Merge(Merge),
-}
-
-#[derive(Debug, Args)]
-pub struct Merge {
-    /// Files of rows of one plan, or folders of a sweep on a cluster, which may still be running.
-    #[arg(required = true)]
-    pub rows: Vec<PathBuf>,
-    /// Write all rows to this file.
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    #[command(flatten)]
-    pub summary: Summary,
-}
-
-/// What is made of rows.
-#[derive(Debug, Args)]
-pub struct Summary {
-    /// Write the rows as a table.
-    #[arg(long, value_name = "FILE")]
-    pub csv: Option<PathBuf>,
-    /// Draw a chart.
-    #[arg(long, value_name = "FILE")]
-    pub svg: Option<PathBuf>,
-    /// Write charts with values where one points, and a table to sort, as a page for a browser to this file.
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
-    /// Which chart: `line` (value against one number), `heat` (against two), `fragility` (share that fails); by default what suits the plan.
-    #[arg(long, value_enum, value_name = "KIND", requires = "svg", hide_possible_values = true)]
-    pub chart: Option<Chart>,
-    /// Print the summary as one JSON object and nothing else.
-    #[arg(long)]
-    pub json: bool,
-    /// The first line only, and no progress.
-    #[arg(short, long)]
-    pub quiet: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Chart {
-    Line,
-    Heat,
-    Fragility,
-}
-
-impl From<Chart> for voussoir::report::sweep::Kind {
-    fn from(chart: Chart) -> Self {
-        match chart {
-            Chart::Line => Self::Line,
-            Chart::Heat => Self::Heat,
-            Chart::Fragility => Self::Fragility,
-        }
-    }
 }
 
 #[derive(Debug, Args)]
@@ -319,30 +172,6 @@ pub struct Man {
     /// Write the pages of the program and of all verbs into this folder.
     #[arg(long, value_name = "FOLDER")]
     pub folder: Option<PathBuf>,
-}
-
-/// Pictures of an answer.
-#[derive(Debug, Args)]
-pub struct Pictures {
-    /// Draw the answer to this file: blocks, joints, line of thrust or chains of forces, and beside it how it moves.
-    #[arg(long, value_name = "FILE")]
-    pub svg: Option<PathBuf>,
-    /// From where --svg looks: front, back, left, right, top, corner, or a direction such as 1,-2,0.5; by default along the normal of a plane
-    /// scene, and from a corner at others.
-    #[arg(long, value_name = "FROM", requires = "svg", allow_hyphen_values = true)]
-    pub view: Option<Aspect>,
-    /// Write blocks, joints, forces, lines of thrust and mechanisms to this file (.vtp) for ParaView; of `simulate` the blocks, time by time
-    /// (.pvd, with a folder of the same name beside it).
-    #[arg(long, value_name = "FILE")]
-    pub vtk: Option<PathBuf>,
-}
-
-/// Tables of an answer.
-#[derive(Debug, Args)]
-pub struct Tables {
-    /// Write joints with their forces to this file, comma-separated, and blocks to another with `.blocks` before its ending.
-    #[arg(long, value_name = "FILE")]
-    pub csv: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -686,82 +515,12 @@ pub struct Check {
     /// Verify the result against this scene, not the one inside it.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    #[command(flatten)]
+    pub tables: Tables,
     /// Print one JSON object and nothing else: of a result, what holds and what fails; of a scene, its blocks with their masses and loads, its
     /// interfaces with contact points and frames, and the findings.
     #[arg(long)]
     pub json: bool,
-}
-
-/// Bytes, with a unit of 1024s: 500M, 8G, 8GiB.
-fn bytes(text: &str) -> Result<u64, String> {
-    let wrong = || "not a size such as 500M or 8G".to_string();
-    let text = text.trim().to_ascii_uppercase();
-    let text = text.strip_suffix('B').unwrap_or(&text);
-    let text = text.strip_suffix('I').unwrap_or(text);
-    let power = text.chars().last().and_then(|c| "KMGT".find(c)).map(|k| k + 1);
-    let number = if power.is_some() { &text[..text.len() - 1] } else { text };
-    let value: f64 = number.parse().map_err(|_| wrong())?;
-    let bytes = value * 1024f64.powi(power.unwrap_or(0) as i32);
-    if bytes >= 1.0 && bytes < 2f64.powi(63) { Ok(bytes as u64) } else { Err(wrong()) }
-}
-
-fn finite(text: &str) -> Result<f64, String> {
-    text.trim().parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| "not a finite number".into())
-}
-
-fn word(text: &str) -> Result<String, String> {
-    let ok = !text.is_empty() && !text.chars().any(|c| c.is_whitespace() || c.is_control());
-    ok.then(|| text.to_string()).ok_or_else(|| "not one word".into())
-}
-
-fn one_line(text: &str) -> Result<String, String> {
-    let ok = text.starts_with('-') && !text.chars().any(char::is_control);
-    ok.then(|| text.to_string()).ok_or_else(|| "not an option on one line, such as --account=stone".into())
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    finite(text).ok().filter(|v| *v > 0.0).ok_or_else(|| "not a number > 0".into())
-}
-
-fn not_negative(text: &str) -> Result<f64, String> {
-    finite(text).ok().filter(|v| *v >= 0.0).ok_or_else(|| "not a number >= 0".into())
-}
-
-fn share(text: &str) -> Result<f64, String> {
-    not_negative(text).ok().filter(|v| *v <= 1.0).ok_or_else(|| "not a share from 0 to 1".into())
-}
-
-fn friction(text: &str) -> Result<Friction, String> {
-    match text {
-        "infinite" => Ok(Friction::Infinite),
-        _ => not_negative(text).map(Friction::Coefficient).map_err(|_| "not a coefficient >= 0 or `infinite`".into()),
-    }
-}
-
-fn direction(text: &str) -> Result<[f64; 3], String> {
-    let parts: Result<Vec<f64>, String> = text.split(',').map(finite).collect();
-    match parts.map_err(|_| "not two or three numbers with commas between, such as 1,0")?[..] {
-        [x, y] => Ok([x, y, 0.0]),
-        [x, y, z] => Ok([x, y, z]),
-        _ => Err("not two or three numbers with commas between, such as 1,0".into()),
-    }
-}
-
-fn assignment(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((key, value)) if !key.is_empty() => Ok((key.into(), value.into())),
-        _ => Err("not of the form key=value".into()),
-    }
-}
-
-fn up(text: &str) -> Result<Up, String> {
-    match text.to_ascii_lowercase().trim_start_matches('+') {
-        "x" => Ok(Up::X),
-        "y" => Ok(Up::Y),
-        "z" => Ok(Up::Z),
-        "-x" => Ok(Up::MinusX),
-        "-y" => Ok(Up::MinusY),
-        "-z" => Ok(Up::MinusZ),
-        _ => Err("not one of x, y, z, -x, -y, -z".into()),
-    }
 }

@@ -3,7 +3,7 @@
 use super::{
     args::Assess,
     exit::Exit,
-    question::{Question, verdict},
+    question::{Question, Seen, verdict},
     simulate::{threads, watch},
     terminal::Terminal,
 };
@@ -28,7 +28,7 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
         false => None,
     };
     let frames = film.map(Film::frames).unwrap_or_default();
-    let file = question.answer_with_film(terminal, &args.options(), frames, || {
+    let file = question.answer_seen(terminal, &args.options(), Seen::Scene(frames), || {
         let file = ResultFile::assessment(&question.scene, &question.model, &assessment);
         match &outcome {
             Some(outcome) => file.with_simulation(&question.model, Some(&assessment), outcome),

@@ -1,11 +1,20 @@
 //! `voussoir critical`
 
-use super::{args::Critical, exit::Exit, question::Question, terminal::Terminal};
+use super::{
+    args::Critical,
+    exit::Exit,
+    question::{Question, Seen},
+    terminal::Terminal,
+};
 use anyhow::bail;
 use voussoir::{
-    analysis::{critical, critical::Range},
-    report::{ResultFile, critical::exhausted},
+    analysis::{Critical as Answer, critical, critical::Range},
+    report::{ResultFile, critical::exhausted, text::number::fixed, view::View},
+    verdict::Verdict,
 };
+
+/// Decimals of the value that the picture is of: flips are known to 1e-9.
+const DIGITS: usize = 10;
 
 /// More steps than this are taken for a slip.
 const MOST: f64 = 100_000.0;
@@ -23,10 +32,24 @@ pub fn run(args: &Critical, terminal: &Terminal) -> anyhow::Result<Exit> {
     let question = Question::open(&args.common)?;
     let range = Range { pointer: args.vary.clone(), from, to, scan };
     let answer = critical(&question.scene, &range, &question.control()).map_err(|e| question.refuse(e))?;
-    let file = question.answer(terminal, &args.options(), || ResultFile::critical(&question.scene, &question.model, &answer))?;
+    let seen = match question.report() {
+        Some(_) => picture(&question, &answer)?,
+        None => Seen::Scene(Vec::new()),
+    };
+    let file = question.answer_seen(terminal, &args.options(), seen, || ResultFile::critical(&question.scene, &question.model, &answer))?;
     Ok(match &file.answer.critical {
         Some(values) if !values.is_empty() => Exit::Yes,
         _ if exhausted(&file).is_some() => Exit::No,
         _ => Exit::Undecided,
     })
+}
+
+/// The scene beside the first flip, on the side where it falls; as it is where there is none.
+fn picture(question: &Question, answer: &Answer) -> anyhow::Result<Seen> {
+    let sides = answer.changes.iter().flat_map(|c| [&c.below, &c.above]);
+    let Some(side) = sides.into_iter().find(|s| s.assessment.verdict == Verdict::Unstable) else { return Ok(Seen::Scene(Vec::new())) };
+    let file = ResultFile::assessment(&question.scene, &side.model, &side.assessment);
+    let mut view = View::new(&side.model, &file, Vec::new())?;
+    view.caption = format!("falls with {} at {}", answer.range.pointer, fixed(side.value, DIGITS));
+    Ok(Seen::Other(Box::new(view)))
 }

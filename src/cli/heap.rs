@@ -91,10 +91,13 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
 fn picture(heap: &Heap, margin: Option<&Margin>) -> anyhow::Result<View> {
     let leaning = margin.map(|m| (m, Leaning { model: m.model.clone(), tilt: m.tilt.clone(), dry: None }));
     let proof = leaning.and_then(|(m, leaning)| Some((m, ResultFile::tilt(&m.scene, &[leaning])?)));
-    Ok(match proof {
+    let mut view = match proof {
         Some((margin, file)) => View::new(&prepare(&margin.scene)?, &file, Vec::new())?,
         None => View::bare(&prepare(&heap.scene)?),
-    })
+    };
+    let tipped = if view.caption.is_empty() { String::new() } else { format!(", {}", view.caption) };
+    view.caption = format!("the heap of seed {}{tipped}", heap.seed);
+    Ok(view)
 }
 
 /// The protocol by its name, with the values that were changed.

@@ -29,6 +29,14 @@ use voussoir::{
     verdict::Verdict,
 };
 
+/// What a page shows beside an answer.
+pub enum Seen {
+    /// The scene with the evidence of the answer, and what was filmed of a simulation.
+    Scene(Vec<Frame>),
+    /// Something else.
+    Other(Box<View>),
+}
+
 /// A scene that is ready for a question.
 pub struct Question<'a> {
     common: &'a Common,
@@ -168,15 +176,15 @@ impl<'a> Question<'a> {
     /// Packs the answer with its proof, saves it and prints it. `pack` verifies, which is timed apart from solving; `own` are the
     /// verb's own options that change the answer.
     pub fn answer(&self, terminal: &Terminal, own: &[String], pack: impl FnOnce() -> ResultFile) -> anyhow::Result<ResultFile> {
-        self.answer_with_film(terminal, own, Vec::new(), pack)
+        self.answer_seen(terminal, own, Seen::Scene(Vec::new()), pack)
     }
 
-    /// As [`Self::answer`], with what was filmed of a simulation for the page.
-    pub fn answer_with_film(
+    /// As [`Self::answer`], and says what a page shows.
+    pub fn answer_seen(
         &self,
         terminal: &Terminal,
         own: &[String],
-        film: Vec<Frame>,
+        seen: Seen,
         pack: impl FnOnce() -> ResultFile,
     ) -> anyhow::Result<ResultFile> {
         let solve = self.start.elapsed().as_secs_f64();
@@ -196,7 +204,10 @@ impl<'a> Question<'a> {
             save.write(&json::pretty(&file)?)?;
         }
         if self.is_filmed() {
-            let mut view = View::new(&self.model, &file, film)?;
+            let mut view = match seen {
+                Seen::Scene(film) => View::new(&self.model, &file, film)?,
+                Seen::Other(view) => *view,
+            };
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
                 report.write(&page::page(&text, &view, page::attempts(&file).as_slice())?)?;

@@ -1,6 +1,13 @@
 //! `voussoir simulate`
 
-use super::{args::Simulate, exit::Exit, progress::Bar, question::Question, report, terminal::Terminal};
+use super::{
+    args::Simulate,
+    exit::Exit,
+    progress::Bar,
+    question::{Question, Seen},
+    report,
+    terminal::Terminal,
+};
 use anyhow::Context;
 use std::{fs::File, ops::ControlFlow};
 use voussoir::{
@@ -51,7 +58,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     let model = &question.model;
     let verdict = (!args.skip_verdict).then(|| assess(&model.assembly, &model.interfaces, &question.control()));
     let pack = || ResultFile::simulated(&question.scene, model, verdict.as_ref(), &outcome);
-    let file = question.answer_with_film(terminal, &args.options(), film.map(Film::frames).unwrap_or_default(), pack)?;
+    let file = question.answer_seen(terminal, &args.options(), Seen::Scene(film.map(Film::frames).unwrap_or_default()), pack)?;
     Ok(match file.answer.fate {
         Some(Fate::Stands) => Exit::Yes,
         Some(Fate::Falls) => Exit::No,

@@ -6,7 +6,7 @@
 //! admissible force `f·v ≥ −e f_n` with `e = max(0, μ‖v_t‖ − v_n)`, the inadmissibility. So for any equilibrium
 //! `w·q + λ ℓ·q ≤ Σ e f_n`: a mechanism with `e = 0` that gains power proves instability (Heyman 1966; Livesley 1978).
 //! Per newton of the whole force the bound is the size of the projection of `−v` onto the cone, `e / √(1 + μ²)` on its side
-//! ([`hidden`]); where friction is steep that is much less, and rounding of `v_t` is not multiplied by μ.
+//! (`hidden`); where friction is steep that is much less, and rounding of `v_t` is not multiplied by μ.
 //!
 //! *Strength.* With cohesion c and tensile strength T on the corner's share a of the area, `‖f_t‖ ≤ μ f_n + c a`, `f_n ≥ −T a`;
 //! a mechanism then dissipates `c a ‖v_t‖ + T a (v_n − μ‖v_t‖)⁺` there. With a compressive strength σ, joints may close: a joint

@@ -971,6 +971,26 @@ fn pictures_and_tables_are_written_beside_the_answer() {
 }
 
 #[test]
+fn saved_results_and_scenes_are_drawn_by_check() {
+    let desk = Desk::new();
+    let svg = desk.at("a.svg");
+    let mut result = desk.saved(NO, &["assess", &desk.at("thin.json"), "--law", "associative", "--svg", &svg]);
+    let asked = fs::read_to_string(&svg).unwrap();
+    expect(YES, voussoir(&["check", &desk.at("saved.json"), "--svg", &svg]));
+    assert_eq!(fs::read_to_string(&svg).unwrap(), asked);
+    assert!(asked.contains("class=\"moved\"") && asked.contains(">hinge<"));
+    fs::remove_file(&svg).unwrap();
+    // What is refuted is not drawn.
+    scale(&mut result["certificate"]["rates"][0]["velocity"], -1.0);
+    let file = desk.write("forged.json", &result);
+    expect(NO, voussoir(&["check", &file, "--svg", &svg]));
+    assert!(!desk.path("a.svg").exists());
+    expect(YES, voussoir(&["check", &desk.at("arch.json"), "--svg", &svg]));
+    let bare = fs::read_to_string(&svg).unwrap();
+    assert!(bare.contains("class=\"block\"") && !bare.contains("<path class=\"line"));
+}
+
+#[test]
 fn a_simulation_is_a_collection_of_moments() {
     let desk = Desk::new();
     let (pvd, svg) = (desk.at("fall.pvd"), desk.at("fall.svg"));

@@ -7,7 +7,7 @@
 //! * B. Mirtich, *Fast and accurate computation of polyhedral mass properties*, J. Graphics Tools 1(2), 1996.
 //! * J. Blow, A. Binstock, *How to find the inertia tensor (or other mass properties) of a 3D solid body represented by a triangle mesh*, 2004.
 
-use super::surface::Surface;
+use super::{ShapeError, surface::Surface};
 use nalgebra::{Matrix3, Vector3};
 
 /// Volume, centroid and inertia for unit density.
@@ -44,4 +44,24 @@ pub(super) fn mass_properties(surface: &Surface) -> MassProperties {
     let about_origin = Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz);
     let covariance = about_origin - volume * centroid * centroid.transpose();
     MassProperties { volume, centroid: centroid + surface.center, inertia: Matrix3::identity() * covariance.trace() - covariance }
+}
+
+/// Slack for rounding: of the box for the centroid and the volume, of the greatest second moment for the least. Larger: tangles that
+/// enclose hardly anything pass. Smaller: thin plates, whose moments across are rounding, are refused.
+const SLACK: f64 = 1e-6;
+
+/// Refuses what no body can have: more volume than its box, its centroid outside of the box, a negative second moment. Such a surface winds
+/// around some places more than once and around others backwards, which warped faces hide from the tests that see them as plane.
+pub(super) fn refuse_impossible(surface: &Surface, mass: &MassProperties) -> Result<(), ShapeError> {
+    let corners = || surface.faces.iter().flat_map(|f| &f.corners).map(|&c| surface.point(c));
+    let (low, high) =
+        corners().fold((Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY)), |(l, h), p| (l.inf(&p), h.sup(&p)));
+    let (slack, centroid) = (SLACK * surface.size, mass.centroid - surface.center);
+    let inside = (0..3).all(|k| (low[k] - slack..=high[k] + slack).contains(&centroid[k]));
+    // Per volume and size², so that nothing leaves the range of numbers.
+    let scale = mass.volume * surface.size * surface.size;
+    let inertia = mass.inertia / scale;
+    let moments = (Matrix3::identity() * (0.5 * inertia.trace()) - inertia).symmetric_eigenvalues();
+    let possible = mass.volume <= (high - low).product() * (1.0 + SLACK) && moments.min() >= -SLACK * moments.max().max(0.0);
+    if inside && possible { Ok(()) } else { Err(ShapeError::Tangled) }
 }

@@ -239,6 +239,9 @@ pub enum ShapeError {
         /// A face of the outer one.
         outer: usize,
     },
+    /// Volume, centroid or moments that no body has.
+    #[error("the surface winds around itself: it encloses some places more than once, others backwards")]
+    Tangled,
     /// Two faces that cut through each other, or lie on each other facing the same way.
     #[error("faces {first} and {second} cut through or cover each other near {}", place(at))]
     Overlap {
@@ -270,6 +273,7 @@ impl ShapeError {
             Self::OneSided { .. } => "the mesh closes on itself with a twist; model the solid anew or export it from a solid modeller",
             Self::Flat { .. } => "a block needs a volume: give it thickness, and check that the unit is the same along all axes",
             Self::Nested { .. } => "wind the faces of a cavity so that they face into the cavity, or leave the inner surface out",
+            Self::Tangled => "model the solid anew, with plane faces that meet at their edges only",
             Self::Overlap { .. } => "make the parts one solid (boolean union) or separate blocks",
         }
     }

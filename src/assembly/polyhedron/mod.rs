@@ -73,6 +73,8 @@ impl Polyhedron {
         if !convex {
             overlap::refuse_overlap(&surface, &regions)?;
         }
+        // Last, for it names no place.
+        mass::refuse_impossible(&surface, &mass)?;
         Ok((facets::assemble(&surface, vertices, regions, convex, mass), mends))
     }
 

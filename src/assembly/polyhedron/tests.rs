@@ -352,6 +352,34 @@ fn a_tangle_of_folded_faces_that_encloses_more_than_its_box_is_refused() {
 }
 
 #[test]
+fn a_tangle_with_negative_moments_is_refused() {
+    // Found by the fuzzer: warped faces that run through each other.
+    let far = |x: f64| x + 1e-19;
+    let points = [
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [0.0, 4.0, 3.0],
+        [far(-1.0), -1.0 + 10f64.powi(-3), far(-2.0)],
+        [far(-1.0), far(-1.0), far(-1.0)],
+        [-1.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [-3.0, -1.0, -1.0],
+        [-1.0, -1.0, -2.0],
+        [0.0, 0.0, 0.0],
+        [-4.0, -1.0, -2.0],
+        [0.0, 0.0, 4.0],
+        [-2.0 + 1e-3, -2.0 + 1e-3, -2.0 + 1e-3],
+    ];
+    let points: Points = points.iter().map(|&p| p.into()).collect();
+    let faces = vec![vec![5, 5, 5, 5, 5, 13, 5, 7], vec![5, 5, 5, 5, 4, 0], vec![5, 4, 5, 3, 2, 1], vec![4, 5, 3, 2, 1]];
+    refused(&(points, faces));
+    // And by hand: two boxes of which the larger is wound inward would weigh less than nothing where they overlap.
+    let surface = with(cuboid(1.0, 1.0, 1.0), cuboid_at([0.2, 0.2, 0.2], [0.5, 0.5, 1.5]));
+    refused(&surface);
+}
+
+#[test]
 fn two_bodies_are_said() {
     let (p, mends) = build(&with(cuboid(1.0, 1.0, 1.0), inverted(cuboid_at([2.0, 0.0, 0.0], [1.0; 3])))).unwrap();
     assert_eq!(mends, [Mend::Bodies { bodies: 2 }, Mend::Turned { faces: 6, first: 6, of: 12 }]);

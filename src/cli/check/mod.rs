@@ -3,7 +3,8 @@
 mod result;
 mod scene;
 
-use super::{args::Check, exit::Exit, input, terminal::Terminal};
+use super::{args::Check, exit::Exit, input, pictures::Pictures, terminal::Terminal};
+use anyhow::bail;
 use voussoir::{
     error::{InputError, JsonPath},
     report::read,
@@ -11,16 +12,20 @@ use voussoir::{
 };
 
 pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let pictures = Pictures::open(&args.pictures, args.tables.csv.as_deref())?;
+    if pictures.printed() && args.json {
+        bail!("standard output takes one of --svg, --vtk and --json");
+    }
     let (name, bytes) = input::bytes(&args.file)?;
     match std::str::from_utf8(&bytes).ok().filter(|text| read::is_result(text)) {
-        Some(text) => result::run(&read::read_str(name, text)?, args.scene.as_deref(), args.json, terminal, terminal.layout(&args.file)),
+        Some(text) => result::run(&read::read_str(name, text)?, args, &pictures, terminal),
         None if args.scene.is_some() => {
             let error = InputError::at(JsonPath::root(), "not a result: only results are verified against a scene");
             Err(InputError { file: Some(name), ..error.hint("save one with --save, or leave --scene out") }.into())
         }
         None => {
             let (scene, source) = read_bytes(name, bytes)?;
-            scene::run(&scene, &source, args.json, terminal, terminal.layout(&args.file))
+            scene::run(&scene, &source, args, &pictures, terminal)
         }
     }
 }

@@ -1,25 +1,33 @@
 //! Verifying a saved result.
 
 use crate::cli::{
+    args::Check,
     exit::Exit,
     input,
+    pictures::Pictures,
     terminal::{self, Terminal},
 };
-use std::path::Path;
-use voussoir::report::{self, ResultFile, VerificationFile, text, verify};
+use voussoir::{
+    analysis::prepare,
+    report::{self, ResultFile, VerificationFile, text, verify, view::View},
+};
 
-pub fn run(file: &ResultFile, scene: Option<&Path>, json: bool, terminal: &Terminal, layout: text::Layout) -> anyhow::Result<Exit> {
-    let verification = match scene {
-        None => verify(file, &file.scene.input)?,
-        Some(path) => {
-            let (scene, source) = input::scene(path)?;
-            verify(file, &scene).map_err(|e| e.located(&source))?
-        }
+pub fn run(file: &ResultFile, args: &Check, pictures: &Pictures, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let other = args.scene.as_deref().map(input::scene).transpose()?;
+    let scene = other.as_ref().map_or(&file.scene.input, |(scene, _)| scene);
+    let located = |e: voussoir::error::InputError| match &other {
+        Some((_, source)) => e.located(source),
+        None => e,
     };
-    if json {
+    let verification = verify(file, scene).map_err(located)?;
+    // What is refuted is not drawn.
+    if pictures.wanted() && !verification.refuted() {
+        pictures.write(&View::new(&prepare(scene).map_err(located)?, file, Vec::new())?)?;
+    }
+    if args.json {
         terminal::print(&report::json::pretty(&VerificationFile::new(&file.scene.name, &verification))?)?;
-    } else {
-        terminal.page(&text::verification(file, &verification, layout))?;
+    } else if !pictures.printed() || verification.refuted() {
+        terminal.page(&text::verification(file, &verification, terminal.layout(&args.file)))?;
     }
     Ok(match (verification.refuted(), verification.claimed) {
         (true, _) => Exit::No,

@@ -1,23 +1,26 @@
 //! Looking for slips in a scene.
 
 use crate::cli::{
+    args::Check,
     exit::Exit,
+    pictures::Pictures,
     terminal::{self, Terminal},
 };
 use voussoir::{
     analysis::prepare,
     error::{Finding, FindingCode},
-    report::{self, Inspection, text},
+    report::{self, Inspection, text, view::View},
     scene::{Scene, Source},
 };
 
-pub fn run(scene: &Scene, source: &Source, json: bool, terminal: &Terminal, layout: text::Layout) -> anyhow::Result<Exit> {
+pub fn run(scene: &Scene, source: &Source, args: &Check, pictures: &Pictures, terminal: &Terminal) -> anyhow::Result<Exit> {
     let model = prepare(scene).map_err(|e| e.located(source))?;
     let (slips, notes): (Vec<Finding>, Vec<Finding>) = model.findings().cloned().partition(is_slip);
-    if json {
+    pictures.write(&View::bare(&model))?;
+    if args.json {
         terminal::print(&report::json::pretty(&Inspection::new(&model))?)?;
-    } else {
-        terminal.page(&text::inspection(&model, &slips, &notes, layout))?;
+    } else if !pictures.printed() {
+        terminal.page(&text::inspection(&model, &slips, &notes, terminal.layout(&args.file)))?;
     }
     Ok(if slips.is_empty() { Exit::Yes } else { Exit::No })
 }

@@ -2,7 +2,7 @@
 //!
 //! The page holds the answer in words as printed on a terminal, the [`View`] as packed arrays, and charts. Its styles and scripts are
 //! in `assets/`. Without WebGL 2 the picture is drawn on a plain canvas; without scripts the words are still there. Every string that
-//! comes from a scene is escaped ([`html::escape`], [`html::json`]) or set by the script as text, never as markup.
+//! comes from a scene is escaped (`html::escape`, `html::json`) or set by the script as text, never as markup.
 
 mod chart;
 mod facts;

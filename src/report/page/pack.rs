@@ -77,7 +77,7 @@ pub(super) fn view(view: &View) -> Value {
         "middle": view.middle().as_slice(),
         "force": units.force,
         "up": view.up.as_slice(),
-        "tilt": view.tilt_deg,
+        "caption": view.caption,
         "front": view.front.as_slice(),
         "extent": ((view.high - view.low) / units.length).as_slice(),
         "bodies": bodies(view, &units),

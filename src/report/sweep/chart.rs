@@ -101,6 +101,8 @@ pub fn chart(header: &Header, rows: &[Row], summary: &Summary, kind: Kind) -> Re
         }?;
         area.present().map_err(refused)?;
     }
+    // Markup in names is escaped where they are drawn; control characters are not allowed in XML at all.
+    text.retain(|c| !c.is_control() || matches!(c, '\t' | '\n'));
     Ok(text)
 }
 

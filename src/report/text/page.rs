@@ -118,8 +118,14 @@ impl Page {
     }
 }
 
+/// Whatever a page is made of comes through here: nothing of a file reaches a terminal as anything but text.
 fn span(text: impl Into<String>, role: Role) -> Span {
-    Span { text: text.into(), role }
+    let text = text.into();
+    let text = match printable(&text) {
+        Cow::Borrowed(_) => text,
+        Cow::Owned(printable) => printable,
+    };
+    Span { text, role }
 }
 
 /// Text from a scene without what would move the cursor or change the colours of a terminal.

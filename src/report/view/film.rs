@@ -75,11 +75,9 @@ mod tests {
             (0..count).for_each(|t| film.see(&frame(t, Fidelity::Fine)));
             let times: Vec<f64> = film.frames().iter().map(|f| f.time).collect();
             assert!(times[0] == 0.0 && times.len() <= 8 && times.len() >= count.min(4), "{count}: {times:?}");
-            let apart = times.windows(2).map(|w| w[1] - w[0]);
-            assert!(
-                apart.clone().all(|d| d == times[1]) && (count as f64 - 1.0 - times[times.len() - 1]) < apart.last().unwrap_or(1.0),
-                "{times:?}"
-            );
+            let apart: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
+            let left = count as f64 - 1.0 - times[times.len() - 1];
+            assert!(apart.iter().all(|d| *d == apart[0]) && left < apart.last().copied().unwrap_or(1.0), "{times:?}");
         }
     }
 }

@@ -14,7 +14,10 @@ pub use motion::{Mark, Motion, Pose};
 pub use state::{Part, Resultant, Segment, State};
 pub use surface::{Shape, Surface};
 
-use super::result::{Question, ResultFile};
+use super::{
+    result::{Question, ResultFile},
+    text::number::short,
+};
 use crate::{analysis::Model, assembly::JointLaw, dynamics::Frame, interface::ContactKind, verdict::section::centroid};
 use nalgebra::Vector3;
 
@@ -30,10 +33,10 @@ pub struct View {
     pub name: String,
     /// Unit vector against gravity; of a tilt, as the ground is tipped when it falls.
     pub up: Vector3<f64>,
+    /// What is seen, where that is not the scene as it is: tipped, or with another number in it. May be empty.
+    pub caption: String,
     /// Unit vector against gravity as the scene has it.
     pub ground: Vector3<f64>,
-    /// Of a tilt, the angle between `up` and the vertical of the scene, degrees.
-    pub tilt_deg: Option<f64>,
     /// Unit vector across `up` from which one looks: across the greater extent.
     pub front: Vector3<f64>,
     /// The box to look at: that of the free blocks and of what supports them nearby, m.
@@ -114,7 +117,7 @@ impl View {
         let mut view = Self::bare(model);
         view.name.clone_from(&file.scene.name);
         if let Some(up) = tipped(view.up, file) {
-            view.tilt_deg = Some(up.angle(&view.up).to_degrees());
+            view.caption = format!("tipped by {}°", short(up.angle(&view.up).to_degrees()));
             view.up = up;
         }
         view.front = front(view.up, view.high - view.low);
@@ -155,8 +158,8 @@ impl View {
         Self {
             name: assembly.name.clone(),
             up,
+            caption: String::new(),
             ground: up,
-            tilt_deg: None,
             front: front(up, high - low),
             low,
             high,

@@ -157,10 +157,10 @@ fn ask(seed: u64, index: usize, soaked: &mut Soaked) {
     soaked.blocks = assembly.blocks.len();
     soaked.verdict = Some(said(&answer));
     soaked.unproved = Some(answer.verdict).filter(|v| *v != said(&answer));
-    if index % EVERY_KEPT == 0 {
+    if index.is_multiple_of(EVERY_KEPT) {
         soaked.kept = Some(said(&assess(assembly, interfaces, &Control { keep_all: true, ..control })));
     }
-    if index % EVERY_SIMULATED == 0
+    if index.is_multiple_of(EVERY_SIMULATED)
         && let Ok(outcome) = dynamics::simulate(assembly, interfaces, &dynamics::Settings::default(), &mut |_| ControlFlow::Continue(()))
     {
         let found = agreement(assembly, interfaces, &answer, &outcome);

@@ -138,11 +138,6 @@ impl Browser {
         self.post("/actions", json!({ "actions": [{ "type": "key", "id": "keyboard", "actions": list }] }));
     }
 
-    /// The size of the window.
-    pub fn size(&self, width: u32, height: u32) {
-        self.post("/window/rect", json!({ "width": width, "height": height }));
-    }
-
     /// A command of the browser's own protocol.
     pub fn command(&self, name: &str, parameters: Value) -> Value {
         self.post("/goog/cdp/execute", json!({ "cmd": name, "params": parameters }))

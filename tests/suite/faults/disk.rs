@@ -62,13 +62,17 @@ fn a_full_disk_leaves_results_whole_or_absent() {
     for args in [
         &["generate", "wall", "--expand", "-o", &small.at("scene.json")][..],
         &["thrust", "wall.json", "--support", "base", "--direction", "1,0", "--law", "associative", "--svg", &small.at("thrust.svg")],
-        &["simulate", "wall.json", "--fast", "--frames", "1000", "--skip-verdict", "--csv", &small.at("way.csv")],
     ] {
         let output = run(desk.path(), args);
         expect(USAGE, &output);
         assert!(said(&output).contains("cannot be written"), "{args:?}: {}", said(&output));
     }
     // A trajectory is written as it comes: what is there are whole rows, but for the last.
+    fs::remove_file(small.place.join("old.json")).unwrap();
+    let output =
+        run(desk.path(), &["simulate", "wall.json", "--fast", "--frames", "1000", "--skip-verdict", "--csv", &small.at("way.csv")]);
+    expect(USAGE, &output);
+    assert!(said(&output).contains("way.csv: cannot be written"), "{}", said(&output));
     let text = fs::read_to_string(small.place.join("way.csv")).unwrap();
     assert!(text.lines().count() > 3 && text.lines().rev().skip(1).all(|l| l.split(',').count() == 16));
 }

@@ -69,6 +69,7 @@ fn what_asks_for_too_much_is_refused_before_it_is_taken() {
 #[test]
 fn memory_stays_below_what_is_allowed_whatever_is_asked() {
     let desk = desk(2, 2, 2);
+    let mut greatest = 0;
     for (courses, blocks) in [(4, 4), (12, 20), (40, 40), (90, 90)] {
         fs::write(desk.path().join("wall.json"), wall(courses, blocks)).unwrap();
         for most in [64_u64, 100, 200] {
@@ -78,7 +79,8 @@ fn memory_stays_below_what_is_allowed_whatever_is_asked() {
                 &["limit", "wall.json", "--law", "associative", "--skip-dead", "--max-memory", &allowed, "--time-limit", "20"],
             );
             println!("{courses} × {blocks} with {most} MiB: exit {code:?}, {:.1} MiB", memory as f64 / f64::from(1 << 20));
-            assert!(memory > 1 << 20 && memory <= most << 20, "{courses} × {blocks} took {memory} bytes of {most} MiB");
+            greatest = greatest.max(memory);
+            assert!(memory <= most << 20, "{courses} × {blocks} took {memory} bytes of {most} MiB");
             match code {
                 Some(0 | UNDECIDED) => {}
                 Some(USAGE) => assert!(said.contains("memory") && said.contains("hint: "), "{said}"),
@@ -86,6 +88,8 @@ fn memory_stays_below_what_is_allowed_whatever_is_asked() {
             }
         }
     }
+    // The shortest runs may end before the mark is read.
+    assert!(greatest > 10 << 20, "nothing was weighed");
 }
 
 #[test]

@@ -2,7 +2,8 @@
 const SLOPE = Math.tan((13 * Math.PI) / 180);
 const up = view.up, front = view.front, right = cross(up, front);
 const RIGHTS = { start: [0.42, 0.26], front: [0, 0], side: [Math.PI / 2, 0], top: [0, Math.PI / 2 - 1e-4] };
-const eye = { angle: 0, height: 0, distance: 1, target: [0, 0, 0] };
+// `preset` names where one looks from, until the camera is moved by hand.
+const eye = { angle: 0, height: 0, distance: 1, target: [0, 0, 0], preset: null };
 
 function axes() {
   const level = add(mul(front, Math.cos(eye.angle)), mul(right, Math.sin(eye.angle)));
@@ -51,23 +52,27 @@ function look(name) {
   }
   // A little above the middle: the legend stands below.
   eye.target = add(eye.target, mul(y, -0.04 * eye.distance * SLOPE));
+  eye.preset = name;
   redraw();
 }
 const flatScene = () => Math.abs(dot(front, view.extent)) < 0.3;
 
 function turnBy(dx, dy) {
+  eye.preset = null;
   eye.angle -= dx;
   eye.height = Math.min(Math.max(eye.height + dy, -Math.PI / 2 + 1e-3), Math.PI / 2 - 1e-3);
   redraw();
 }
 
 function shiftBy(dx, dy) {
+  eye.preset = null;
   const { x, y } = axes(), s = 2 * SLOPE * eye.distance;
   eye.target = add(eye.target, add(mul(x, -dx * s), mul(y, dy * s)));
   redraw();
 }
 
 function zoomBy(factor) {
+  eye.preset = null;
   eye.distance = Math.min(Math.max(eye.distance * factor, 0.02), 60);
   redraw();
 }

@@ -9,7 +9,7 @@ const LAYERS = [
   ["edges", "Edges", null, () => bodies.edges.length],
 ];
 const forcesNow = () => view.states[state.force];
-const LONGEST = 0.16, THICK = 0.0042;
+const LONGEST = 0.16, THICK = 0.0036;
 
 // Rods and arrows as [from, to, radius, colour], dots as [at, radius, colour].
 function strokes() {
@@ -25,13 +25,13 @@ function strokes() {
       rods.push([moved(i, at3(forces.at, forces.lineJoint[k])), moved(i, end), r * thick, ink]);
     }
   }
+  const ink = rgb("--arrow");
   if (forces && on("resultants")) for (let k = 0; k < JOINTS; k++) {
     if (Number.isNaN(forces.normal[k])) continue;
     const at = moved(joints.a[k], at3(forces.at, k)), f = mul(at3(forces.force, k), LONGEST / many);
-    rods.push([sub(at, mul(f, 0.5)), add(at, mul(f, 0.5)), r, rgb("--arrow")]);
+    rods.push([sub(at, mul(f, 0.5)), add(at, mul(f, 0.5)), r, ink]);
   }
   if (forces && on("contacts")) {
-    const ink = rgb("--arrow");
     for (let k = 0; k < JOINTS; k++) for (let p = joints.pointStart[k]; p < joints.pointStart[k + 1]; p++) {
       const f = mul(at3(forces.forces, p), (1.6 * LONGEST) / many);
       if (norm(f) > 2e-4) { const at = moved(joints.b[k], at3(joints.points, p)); arrows.push([at, add(at, f), 0.7 * r, ink]); }
@@ -73,7 +73,7 @@ function legend() {
   const scale = { share: ["Share of a joint that is used", "0", "all"], force: ["Greatest force on a joint", "0", newtons(1)], speed: ["Speed in the mechanism", "0", "fastest"], moved: ["Way so far", "0", farthest > 0 ? meters(farthest / (state.motion === FILM ? state.magnify : 1)) : "0"] }[state.colour];
   const keys = LAYERS.filter(([name, , ink, there]) => ink && state.layers.has(name) && there()).map(([name, title, ink]) => make("span", {}, make("i", { class: name === "marks" ? "dot" : false, style: `border-color:var(${ink});${name === "marks" ? `background:var(${ink})` : ""}` }), title));
   if (state.colour === "material") bodies.materials.forEach((name, k) => keys.push(make("span", {}, make("i", { class: "dot", style: `background:rgb(${PALETTE[k % PALETTE.length].map((v) => Math.round(255 * v)).join(",")})` }), name)));
-  if (view.tilt) keys.push(make("span", {}, `tipped by ${short(view.tilt)}°`));
+  if (view.caption) keys.push(make("span", {}, view.caption));
   const parts = [make("div", { class: "keys" }, keys)];
   if (scale) parts.push(scale[0], make("div", { class: "bar", style: "background:linear-gradient(90deg,var(--low),var(--middle),var(--high))" }), make("div", { class: "ends" }, make("span", {}, scale[1]), make("span", {}, scale[2])));
   el("legend").replaceChildren(...parts);

@@ -36,8 +36,10 @@ for (let k = 0; k < JOINTS; k++) { jointsOf[joints.a[k]].push(k); jointsOf[joint
 
 // What is chosen. `way` runs from 0 to 1.
 const state = { motion: -1, way: 0, magnify: 1, force: 0, colour: "stone", layers: new Set(), picked: null };
-// The greatest way of a corner in a mechanism, over the size of the scene.
-const AMPLITUDE = 0.16;
+// Greatest and least way of the fastest corner in a mechanism, over the size of the scene, when the slider is at its end.
+const FAR = 0.16, NEAR = 0.05;
+// Where it can be, no block turns by more than this then, radians; those that do not may grow by 1 / cos of it, 5 %.
+const WIDEST = 0.3;
 const FILM = -2;
 
 // Rotation and shift of each block: 8 numbers, the last one unused.
@@ -47,9 +49,9 @@ function posed(i) {
   if (state.motion === FILM) return filmed(i);
   const motion = view.motions[state.motion];
   if (!motion || state.way === 0) return [[0, 0, 0, 1], [0, 0, 0]];
-  const s = state.way * AMPLITUDE, v = at3(motion.velocity, i), w = at3(motion.spin, i), spin = norm(w);
-  if (spin * s < 1e-9) return [[0, 0, 0, 1], mul(v, s)];
-  // Along the screw of the rates: a block that pivots about a hinge keeps it.
+  const far = amplitude(motion), s = state.way * far, v = at3(motion.velocity, i), w = at3(motion.spin, i), spin = norm(w);
+  // To first order hinges stay closed, and blocks grow a little; those that turn by more follow the screw of their rates as they are.
+  if (spin * far <= 1.001 * WIDEST) return [[...mul(w, s), FIRST], mul(v, s)];
   const axis = mul(w, 1 / spin), arm = mul(cross(axis, v), 1 / spin), q = turn(mul(w, s));
   return [q, add(sub(arm, rotate(q, arm)), mul(axis, dot(axis, v) * s))];
 }
@@ -79,8 +81,28 @@ function moved(i, p) {
 
 // How far the centre and the corners of a block went, at most.
 function displaced(i) {
-  const w = Math.min(1, Math.abs(poses[8 * i + 3]));
-  return Math.hypot(poses[8 * i + 4], poses[8 * i + 5], poses[8 * i + 6]) + 2 * Math.acos(w) * reach[i];
+  const w = poses[8 * i + 3], angle = w === FIRST ? norm(at3(poses.subarray(8 * i), 0)) : 2 * Math.acos(Math.min(1, Math.abs(w)));
+  return Math.hypot(poses[8 * i + 4], poses[8 * i + 5], poses[8 * i + 6]) + angle * reach[i];
+}
+
+function amplitude(motion) {
+  if (!motion.far) {
+    let most = 1e-9;
+    for (let i = 0; i < COUNT; i++) most = Math.max(most, norm(at3(motion.spin, i)));
+    motion.far = Math.max(NEAR, Math.min(FAR, WIDEST / most));
+  }
+  return motion.far;
+}
+
+// The speed of the fastest corner of each block over that of all.
+function speeds(motion) {
+  motion.speeds = motion.speeds || bodies.radius.map((r, i) => {
+    const v = at3(motion.velocity, i), w = at3(motion.spin, i);
+    let most = r > 0 ? norm(v) + r * norm(w) : 0;
+    for (let k = bodies.cornerStart[i]; k < bodies.cornerStart[i + 1]; k++) most = Math.max(most, norm(add(v, cross(w, sub(at3(bodies.corners, k), at3(bodies.center, i))))));
+    return Math.min(1, most);
+  });
+  return motion.speeds;
 }
 
 // The colour of a block on the scale from 0 to 1; null for plain stone.
@@ -97,7 +119,7 @@ function shade(i) {
     case "speed": {
       const motion = view.motions[Math.max(state.motion, 0)];
       if (!motion) return null;
-      return Math.min(1, norm(at3(motion.velocity, i)) + norm(at3(motion.spin, i)) * reach[i]);
+      return speeds(motion)[i];
     }
     case "moved": return farthest > 0 ? displaced(i) / farthest : 0;
     default: return null;

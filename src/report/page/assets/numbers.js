@@ -20,7 +20,7 @@ function hitBody(i, from, way) {
   const c = moved(i, at3(bodies.center, i)), to = sub(c, from), along = dot(to, way), miss = dot(to, to) - along * along, r = reach[i] * 1.0001;
   if (miss > r * r) return Infinity;
   if (bodies.radius[i] > 0) return along - Math.sqrt(r * r - miss);
-  const q = back(poses.subarray(8 * i, 8 * i + 4)), own = at3(bodies.center, i), f = add(rotate(q, sub(from, c)), own), w = rotate(q, way);
+  const q = poses.subarray(8 * i, 8 * i + 4), own = at3(bodies.center, i), f = add(back(q, sub(from, c)), own), w = back(q, way);
   let best = Infinity;
   for (let k = bodies.pieceStart[i]; k < bodies.pieceStart[i + 1]; k += bodies.pieces[k] + 1) best = Math.min(best, hitLoop(f, w, Array.from(bodies.pieces.subarray(k + 1, k + 1 + bodies.pieces[k]), (n) => at3(bodies.corners, bodies.cornerStart[i] + n))));
   return best;
@@ -63,7 +63,7 @@ function bodyNumbers(i) {
     ["centre of mass", place(at3(bodies.center, i))],
     ["radius", bodies.radius[i] > 0 ? meters(bodies.radius[i]) : null],
     ["joints used", forces ? percent(forces.bodyUsed[i]) : null],
-    ["speed", motion && !bodies.support[i] ? `${percent(Math.min(1, norm(at3(motion.velocity, i)) + norm(at3(motion.spin, i)) * reach[i]))} of the fastest corner` : null],
+    ["speed", motion && !bodies.support[i] ? `${percent(speeds(motion)[i])} of the fastest corner` : null],
     ["moved", state.motion === FILM ? `${meters(norm([poses[8 * i + 4], poses[8 * i + 5], poses[8 * i + 6]]) / state.magnify)}, turned ${short((360 / Math.PI) * Math.acos(Math.min(1, Math.abs(poses[8 * i + 3]))) / state.magnify, 3)}°` : null],
     ...mine.map((k) => [loads.live[k] ? "live load" : "dead load", `${withUnit(norm(at3(loads.newton, k)), "N")} at ${place(at3(loads.at, k))}`]),
     ["touches", make("div", { class: "links" }, jointsOf[i].map((k) => jump({ joint: k }, bodies.ids[joints.a[k] === i ? joints.b[k] : joints.a[k]])))],

@@ -81,7 +81,7 @@ function setWay(way) {
   state.way = way;
   el("way").value = Math.round(1000 * way);
   const film = state.motion === FILM;
-  const text = film ? `${short(view.film.times[Math.round(way * (view.film.times.length - 1))], 3)} s` : way ? `${meters(way * AMPLITUDE)} at the fastest corner` : "at rest";
+  const text = state.motion === -1 ? "" : film ? `${short(view.film.times[Math.round(way * (view.film.times.length - 1))], 3)} s` : way ? `${meters(way * amplitude(view.motions[state.motion]))} at the fastest corner` : "at rest";
   el("wayText").textContent = text;
   el("way").setAttribute("aria-valuetext", text);
   if (film && state.picked) numbers();
@@ -142,11 +142,20 @@ shown.addEventListener("keydown", (e) => {
   if (act) { e.preventDefault(); act(); }
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraw(true));
-new ResizeObserver(() => redraw()).observe(shown);
+let before = [shown.clientWidth, shown.clientHeight].join();
+new ResizeObserver(() => {
+  const now = [shown.clientWidth, shown.clientHeight].join();
+  if (now === before) return;
+  before = now;
+  if (eye.preset) look(eye.preset);
+  else redraw();
+}).observe(shown);
 canvas.addEventListener("webglcontextlost", (e) => e.preventDefault());
 // Printers get an image: a canvas may come out empty.
 addEventListener("beforeprint", () => { el("printed").src = shown.toDataURL("image/png"); el("printed").alt = shown.getAttribute("aria-label"); });
 
+// Of more lines than these nothing is seen but lines.
+const CROWD = 4000;
 // At a limit nearly every joint is used up: then the forces say more.
 function telling() {
   const used = forcesNow() ? [...forcesNow().bodyUsed].filter((u) => !Number.isNaN(u)) : [];
@@ -157,7 +166,7 @@ function telling() {
 choices();
 const falls = Boolean(document.querySelector("h1.bad"));
 layer("edges");
-if (view.film) { state.way = 1; colour("moved"); motionNow(FILM); } else if (falls && view.motions.length) { state.way = 0.55; colour("speed"); layer("marks"); motionNow(0); } else { layer("line"); colour(telling()); layer("marks"); if (loads.body.length <= 24) layer("loads"); motionNow(view.motions.length ? 0 : -1); }
+if (view.film) { state.way = 1; colour("moved"); motionNow(FILM); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!forcesNow() || forcesNow().lineBody.length <= CROWD) layer("line"); colour(telling()); layer("marks"); if (loads.body.length <= 24) layer("loads"); motionNow(view.motions.length ? 0 : -1); }
 el("motion").value = state.motion;
 fillList();
 numbers();

@@ -4,7 +4,7 @@ precision highp float;
 uniform mat4 matrix;
 uniform highp sampler2D blocks;
 vec4 texel(uint body, int k){int w=textureSize(blocks,0).x/3;return texelFetch(blocks,ivec2(int(body)%w*3+k,int(body)/w),0);}
-vec3 rotated(vec4 q,vec3 v){vec3 t=2.0*cross(q.xyz,v);return v+q.w*t+cross(q.xyz,t);}
+vec3 rotated(vec4 q,vec3 v){if(q.w>1.5)return v+cross(q.xyz,v);vec3 t=2.0*cross(q.xyz,v);return v+q.w*t+cross(q.xyz,t);}
 `;
 const LIGHT = `#version 300 es
 precision highp float;

@@ -15,11 +15,18 @@ function turn(v) {
   return [v[0] * s, v[1] * s, v[2] * s, Math.cos(angle / 2)];
 }
 
+// A fourth number of 2 says that the other three are a small rotation vector that acts to first order: hinges stay closed.
+const FIRST = 2;
 function rotate(q, v) {
+  if (q[3] === FIRST) return add(v, cross(q, v));
   const t = mul(cross(q, v), 2);
   return add(add(v, mul(t, q[3])), cross(q, t));
 }
-const back = (q) => [-q[0], -q[1], -q[2], q[3]];
+// What undoes that.
+function back(q, v) {
+  if (q[3] === FIRST) return mul(sub(add(v, mul(q, dot(q, v))), cross(q, v)), 1 / (1 + dot(q, q)));
+  return rotate([-q[0], -q[1], -q[2], q[3]], v);
+}
 
 function product(a, b) {
   const m = new Float32Array(16);

@@ -145,7 +145,7 @@ function ball(times) {
 
 // Triangles of a profile turned about the first axis; normals per piece of the profile.
 function profile(points) {
-  const list = [], sides = 10;
+  const list = [], sides = JOINTS > 2000 ? 5 : 10;
   for (let k = 0; k + 1 < points.length; k++) {
     const [a, b] = [points[k], points[k + 1]], along = b[0] - a[0] + 0.2 * (b[1] - a[1]), across = b[2] - a[2], size = Math.hypot(along, across) || 1;
     for (let s = 0; s < sides; s++) {

@@ -107,10 +107,10 @@ impl Drop for Cluster {
     fn drop(&mut self) {
         self.slurm("scancel", &["--user=root"]);
         quiet(&mut self.tool(&["stop"], &[]));
-        if self.munge {
-            if let Ok(pid) = fs::read_to_string("/run/munge/munged.pid") {
-                quiet(Command::new("kill").arg(pid.trim()));
-            }
+        if self.munge
+            && let Ok(pid) = fs::read_to_string("/run/munge/munged.pid")
+        {
+            quiet(Command::new("kill").arg(pid.trim()));
         }
     }
 }

@@ -1,0 +1,77 @@
+//! Words of the command line as values.
+
+use voussoir::{import::Up, scene::Friction};
+
+/// Bytes, with a unit of 1024s: 500M, 8G, 8GiB.
+pub fn bytes(text: &str) -> Result<u64, String> {
+    let wrong = || "not a size such as 500M or 8G".to_string();
+    let text = text.trim().to_ascii_uppercase();
+    let text = text.strip_suffix('B').unwrap_or(&text);
+    let text = text.strip_suffix('I').unwrap_or(text);
+    let power = text.chars().last().and_then(|c| "KMGT".find(c)).map(|k| k + 1);
+    let number = if power.is_some() { &text[..text.len() - 1] } else { text };
+    let value: f64 = number.parse().map_err(|_| wrong())?;
+    let bytes = value * 1024f64.powi(power.unwrap_or(0) as i32);
+    if bytes >= 1.0 && bytes < 2f64.powi(63) { Ok(bytes as u64) } else { Err(wrong()) }
+}
+
+pub fn finite(text: &str) -> Result<f64, String> {
+    text.trim().parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| "not a finite number".into())
+}
+
+pub fn word(text: &str) -> Result<String, String> {
+    let ok = !text.is_empty() && !text.chars().any(|c| c.is_whitespace() || c.is_control());
+    ok.then(|| text.to_string()).ok_or_else(|| "not one word".into())
+}
+
+pub fn one_line(text: &str) -> Result<String, String> {
+    let ok = text.starts_with('-') && !text.chars().any(char::is_control);
+    ok.then(|| text.to_string()).ok_or_else(|| "not an option on one line, such as --account=stone".into())
+}
+
+pub fn positive(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|v| *v > 0.0).ok_or_else(|| "not a number > 0".into())
+}
+
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|v| *v >= 0.0).ok_or_else(|| "not a number >= 0".into())
+}
+
+pub fn share(text: &str) -> Result<f64, String> {
+    not_negative(text).ok().filter(|v| *v <= 1.0).ok_or_else(|| "not a share from 0 to 1".into())
+}
+
+pub fn friction(text: &str) -> Result<Friction, String> {
+    match text {
+        "infinite" => Ok(Friction::Infinite),
+        _ => not_negative(text).map(Friction::Coefficient).map_err(|_| "not a coefficient >= 0 or `infinite`".into()),
+    }
+}
+
+pub fn direction(text: &str) -> Result<[f64; 3], String> {
+    let parts: Result<Vec<f64>, String> = text.split(',').map(finite).collect();
+    match parts.map_err(|_| "not two or three numbers with commas between, such as 1,0")?[..] {
+        [x, y] => Ok([x, y, 0.0]),
+        [x, y, z] => Ok([x, y, z]),
+        _ => Err("not two or three numbers with commas between, such as 1,0".into()),
+    }
+}
+
+pub fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.is_empty() => Ok((key.into(), value.into())),
+        _ => Err("not of the form key=value".into()),
+    }
+}
+
+pub fn up(text: &str) -> Result<Up, String> {
+    match text.to_ascii_lowercase().trim_start_matches('+') {
+        "x" => Ok(Up::X),
+        "y" => Ok(Up::Y),
+        "z" => Ok(Up::Z),
+        "-x" => Ok(Up::MinusX),
+        "-y" => Ok(Up::MinusY),
+        "-z" => Ok(Up::MinusZ),
+        _ => Err("not one of x, y, z, -x, -y, -z".into()),
+    }
+}
