@@ -69,11 +69,12 @@ impl Polyhedron {
         let mass = mass::mass_properties(&surface);
         let regions = facets::regions(&surface, &edges, &mut mends);
         facets::refuse_flat(&surface, &regions, mass.volume)?;
-        mass::refuse_impossible(&surface, &mass)?;
         let convex = shells == 1 && convex::is_convex(&surface, &regions);
         if !convex {
             overlap::refuse_overlap(&surface, &regions)?;
         }
+        // Last, for it cannot say where.
+        mass::refuse_impossible(&surface, &mass)?;
         Ok((facets::assemble(&surface, vertices, regions, convex, mass), mends))
     }
 
