@@ -73,7 +73,7 @@ impl Polyhedron {
         if !convex {
             overlap::refuse_overlap(&surface, &regions)?;
         }
-        // Last, for it cannot say where.
+        // Last, for it names no place.
         mass::refuse_impossible(&surface, &mass)?;
         Ok((facets::assemble(&surface, vertices, regions, convex, mass), mends))
     }
