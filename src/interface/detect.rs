@@ -201,6 +201,9 @@ fn round(meeting: spheres::Meeting, sign: f64, limits: &Limits) -> Meeting {
 }
 
 fn polyhedra(a: &Body, p: &Solidity, b: &Body, q: &Solidity, limits: &Limits) -> Meeting {
+    if p.polyhedron.is_apart_from(q.polyhedron, limits.near) || q.polyhedron.is_apart_from(p.polyhedron, limits.near) {
+        return Meeting::default();
+    }
     let window = |slack: f64| a.bounds.loosened(slack).common(&b.bounds.loosened(slack));
     let facing = faces::facing(p, q, &window(limits.near), limits);
     let convex = p.polyhedron.convex && q.polyhedron.convex;

@@ -50,6 +50,9 @@ pub struct Facet {
     pub warp: f64,
 }
 
+/// Bodies of at most so many facets are tried as separators ([`Polyhedron::is_apart_from`]).
+const FEW_FACETS: usize = 32;
+
 impl Polyhedron {
     /// A polyhedron from corners (m) and faces, each a loop of vertex indices, ideally counter-clockwise seen from outside.
     ///
@@ -76,6 +79,17 @@ impl Polyhedron {
         // Last, for it names no place.
         mass::refuse_impossible(&surface, &mass)?;
         Ok((facets::assemble(&surface, vertices, regions, convex, mass), mends))
+    }
+
+    /// Whether a plane along one of this body's facets keeps another further than `distance` (m) away: then all of it is. Leaning slabs, whose
+    /// boxes reach across many neighbours, are told apart by their large faces. Bodies of many small facets are not tried: it would cost more
+    /// than it saves.
+    pub fn is_apart_from(&self, other: &Self, distance: f64) -> bool {
+        self.facets.len() <= FEW_FACETS
+            && self.facets.iter().any(|facet| {
+                let own = self.vertices.iter().map(|v| facet.normal.dot(v)).fold(f64::NEG_INFINITY, f64::max);
+                other.vertices.iter().all(|v| facet.normal.dot(v) > own + distance)
+            })
     }
 
     /// Volume, centroid and inertia for unit density.

@@ -847,3 +847,17 @@ fn read_ply(bytes: &[u8]) -> (Points, Faces) {
         .collect();
     (points, faces)
 }
+
+#[test]
+fn bodies_apart_by_more_than_a_distance_along_a_facet() {
+    // Two slabs 0.1 thick that lean by 45°, 0.05 apart: their boxes overlap almost entirely.
+    let turn = Rotation3::from_euler_angles(0.0, 0.25 * std::f64::consts::PI, 0.0);
+    let slab = |low: f64| {
+        let (points, faces) = cuboid_at([0.0, 0.0, low], [1.0, 1.0, 0.1]);
+        build(&(points.into_iter().map(|p| turn * p).collect(), faces)).unwrap().0
+    };
+    let (a, b) = (slab(0.0), slab(0.15));
+    for (p, q) in [(&a, &b), (&b, &a)] {
+        assert!(p.is_apart_from(q, 0.049) && !p.is_apart_from(q, 0.051));
+    }
+}
