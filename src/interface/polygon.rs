@@ -66,14 +66,35 @@ pub(super) fn tidy(polygon: &mut Vec<P2>, tol: f64) {
 }
 
 /// The convex hull, counter-clockwise, without collinear corners (within `tol`); Andrew's monotone chain (Andrew 1979).
+///
+/// The turn at two corners that are one but for rounding has any sign, and behind it a corner that dents the hull may be kept: the chain
+/// is made anew without such pairs until it is convex.
 pub(super) fn hull(points: &[P2], tol: f64) -> Vec<P2> {
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
-    sorted.dedup();
-    if sorted.len() < 3 {
-        return sorted;
+    let mut points = points.to_vec();
+    loop {
+        let mut hull = chain(&mut points);
+        tidy(&mut hull, tol);
+        if hull.len() == points.len() || is_convex(&hull) {
+            return hull;
+        }
+        points = hull;
     }
-    let mut chain: Vec<P2> = Vec::with_capacity(2 * sorted.len());
+}
+
+/// Whether every corner turns left, by rounding at least.
+fn is_convex(polygon: &[P2]) -> bool {
+    let n = polygon.len();
+    (0..n).all(|i| cross(polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]) >= 0.0)
+}
+
+/// The monotone chain; sorts the points and drops repeated ones.
+fn chain(points: &mut Vec<P2>) -> Vec<P2> {
+    points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+    points.dedup();
+    if points.len() < 3 {
+        return points.clone();
+    }
+    let mut chain: Vec<P2> = Vec::with_capacity(2 * points.len());
     let mut half = |points: &mut dyn Iterator<Item = &P2>| {
         let start = chain.len();
         for &p in points {
@@ -84,9 +105,8 @@ pub(super) fn hull(points: &[P2], tol: f64) -> Vec<P2> {
         }
         chain.pop();
     };
-    half(&mut sorted.iter());
-    half(&mut sorted.iter().rev());
-    tidy(&mut chain, tol);
+    half(&mut points.iter());
+    half(&mut points.iter().rev());
     chain
 }
 
@@ -123,6 +143,23 @@ pub(super) fn touch(a: &[P2], b: &[P2], tol: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two corners that are one but for rounding: the turn at them says nothing.
+    #[test]
+    fn a_corner_twice_does_not_dent_the_hull() {
+        for shift in [1e-16, -1e-16, 3e-16, -3e-16] {
+            for turn in 0..8 {
+                let (sin, cos) = (std::f64::consts::FRAC_PI_4 * f64::from(turn)).sin_cos();
+                let at = |x: f64, y: f64| p(cos * x - sin * y, sin * x + cos * y);
+                // The third lies inside, just above the lower side; a twin of it, moved by rounding, beside it.
+                let low =
+                    [at(0.0, 0.0), at(2.0, 0.0), at(1.0, 1e-3), at(1.0 + shift, 1e-3), at(1.0, 1e-3 + shift), at(2.0, 2.0), at(0.0, 2.0)];
+                let hull = hull(&low, 1e-9);
+                assert_eq!(hull.len(), 4, "{hull:?}");
+                assert!(low.iter().all(|&c| contains(&hull, c, 1e-12)));
+            }
+        }
+    }
 
     fn p(x: f64, y: f64) -> P2 {
         P2::new(x, y)
