@@ -18,6 +18,7 @@ mod planar;
 mod reach;
 mod section;
 mod statics;
+mod symmetry;
 mod thrust;
 mod unbalance;
 
