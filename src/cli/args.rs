@@ -260,6 +260,9 @@ pub struct Study {
     /// Which random scenes (--soak).
     #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
     pub seed: u64,
+    /// Keep every scene in this file as soon as it is asked; the same command takes it up again after a kill at any point (--soak).
+    #[arg(long, value_name = "FILE", requires = "soak", conflicts_with = "only")]
+    pub keep: Option<PathBuf>,
     /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak).
     #[arg(long, value_name = "NUMBER", requires = "soak", conflicts_with_all = ["csv", "json"])]
     pub only: Option<u32>,

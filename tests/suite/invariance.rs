@@ -96,7 +96,7 @@ fn faces(b: &BlockSpec) -> Option<(Vec<V>, Vec<Vec<usize>>)> {
         f
     };
     let (points, faces): (Vec<V>, _) = match &b.shape {
-        Shape::Sphere { .. } | Shape::Clump { .. } | Shape::Mesh { .. } => return None,
+        Shape::Sphere { .. } | Shape::Clump { .. } => return None,
         Shape::Cuboid { size } => {
             let c = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
             let at = |k: usize, y: f64| V::new(c[k][0] * size[0], y * size[1], c[k][1] * size[2]);
@@ -109,9 +109,8 @@ fn faces(b: &BlockSpec) -> Option<(Vec<V>, Vec<Vec<usize>>)> {
                 quad(n),
             )
         }
-        Shape::Polyhedron { vertices, faces } | Shape::Mesh { vertices, faces, scale: 1.0, .. } => {
-            (vertices.iter().map(|&v| v.into()).collect(), faces.clone())
-        }
+        Shape::Polyhedron { vertices, faces } => (vertices.iter().map(|&v| v.into()).collect(), faces.clone()),
+        Shape::Mesh { scale, vertices, faces, .. } => (vertices.iter().map(|&v| V::from(v) * *scale).collect(), faces.clone()),
     };
     let turn =
         b.rotation_deg.as_ref().map_or(Rotation3::identity(), |r| Rotation3::new(V::from(r.axis).normalize() * r.angle.to_radians()));
