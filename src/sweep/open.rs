@@ -71,7 +71,7 @@ pub fn open_bytes(name: impl Into<String>, bytes: Vec<u8>, folder: &Path, reach:
     let mut value: Value = serde_json::from_str(&scene_source.text)
         .map_err(|e| InputError { file: Some(scene_source.name.clone()), ..InputError::at(JsonPath::root(), e.to_string()) })?;
     let findings = read_meshes(&mut scene, path.parent().unwrap_or(Path::new("")), reach).map_err(|e| e.located(&scene_source))?;
-    for (block, written) in scene.blocks.iter().zip(value["blocks"].as_array_mut().into_iter().flatten()) {
+    for (block, written) in scene.blocks.iter().zip(value.get_mut("blocks").and_then(Value::as_array_mut).into_iter().flatten()) {
         if let (Shape::Mesh { .. }, Some(written)) = (&block.shape, written.as_object_mut()) {
             let shape = serde_json::to_value(&block.shape).map_err(|e| InputError::at(JsonPath::root(), e.to_string()))?;
             written.insert("shape".into(), shape);

@@ -4,7 +4,7 @@ use super::{command, desk, expect, files, rows, run};
 use std::{
     fs,
     path::Path,
-    process::{Child, ExitStatus},
+    process::{Child, ExitStatus, Stdio},
     time::{Duration, Instant},
 };
 
