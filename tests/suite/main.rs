@@ -32,4 +32,5 @@ mod same;
 mod scenes;
 mod strength;
 mod sweep;
+mod symmetry;
 mod thrust;
