@@ -1,7 +1,14 @@
 //! The same answer everywhere: whatever the threads, and however often, the same bytes but for times.
 
 use serde_json::Value;
-use std::{path::Path, process::Command};
+use std::{
+    path::Path,
+    process::Command,
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
+};
 
 /// A result without what time and place have to do with.
 fn timeless(mut value: Value) -> String {
@@ -149,9 +156,11 @@ fn debug_and_release_give_the_same_bytes() {
         (output.status.code(), said, serde_json::from_slice(&output.stdout).map_or_else(|_| String::new(), timeless))
     };
     let questions = questions();
-    let differ = std::sync::Mutex::new(Vec::new());
+    let (answered, differ) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     voussoir::parallel::for_each(0, &questions, |question| {
-        if ask(this, question) != ask(&that, question) {
+        let answer = ask(this, question);
+        answered.fetch_add(usize::from(!answer.2.is_empty()), Ordering::Relaxed);
+        if answer != ask(&that, question) {
             differ.lock().unwrap().push(question.join(" "));
         }
         Ok::<(), ()>(())
@@ -160,6 +169,8 @@ fn debug_and_release_give_the_same_bytes() {
     .unwrap();
     let mut differ = differ.into_inner().unwrap();
     differ.sort();
-    println!("{} answers, {} differ", questions.len(), differ.len());
-    assert!(differ.is_empty(), "{differ:#?}");
+    let answered = answered.into_inner();
+    println!("{} questions, {answered} answers, {} differ", questions.len(), differ.len());
+    // Some scenes have no thrust.
+    assert!(differ.is_empty() && answered > questions.len() * 9 / 10, "{differ:#?}");
 }
