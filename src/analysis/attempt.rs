@@ -71,6 +71,10 @@ pub struct Attempt {
     pub upper: f64,
 }
 
+/// From this step on a symmetric scene is solved whole: what its parts leave off balance for not being quite alike would decide.
+/// Fewer: symmetric scenes near their limit cost twice. More: time lost on those that are symmetric in eleven digits only.
+pub(super) const WHOLE_FROM: usize = 2;
+
 /// One step of a ladder.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rung {

@@ -19,6 +19,7 @@ mod reach;
 pub mod response;
 mod section;
 mod statics;
+mod symmetry;
 mod thrust;
 mod unbalance;
 

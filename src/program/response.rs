@@ -1,26 +1,27 @@
 //! What compliant contacts answer rates with: the state of [`coulomb`](super::coulomb) in the rates of the blocks.
 //!
-//! *Law.* Each point has one compliance `c` for all its columns. With the rates `q = (A f + w) / ε` of the blocks and `u = Aᵀ q` of its joint,
+//! *Law.* Each point has one compliance `c` for all its columns. With the rates `q = (A f + w) / ε` of the blocks and `u = Aᵀ q` of its joint
+//! (each multiplied or divided by the number of its images where a part stands for a symmetric scene),
 //! the forces of program C are therefore no unknowns: `f = P_K(−u / c)`, the nearest point of its set `K` (limits held), or
 //! `f = P_K(−(u + r n) / c)` with the friction cone as `K` (sliding rates `r` held). What remains is one equation a block,
 //! `g(q) = ε q − A f(q) − w = 0`, the gradient of a convex function that is once differentiable, and `∂g/∂q = ε + A D Aᵀ` with
 //! `D = P_K′ / c`, symmetric and positive definite (Alart & Curnier 1991; Qi & Sun 1993 for Newton's method on it).
 
 use super::coulomb::{Contacts, Hold, Point};
+use std::ops::Range;
 
 /// Most columns of a point: a force and three couples.
 const MOST: usize = 6;
 
 /// A contact point and the blocks it acts on.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Joint {
-    /// The free blocks it touches, in row order; how many there are.
-    blocks: [usize; 2],
-    count: usize,
-    /// Which of the neighbours of the first block the second one is.
-    neighbour: usize,
-    /// First entry of its part of `A`: for each block, `columns × d` numbers, a column of the point after the other.
-    first: usize,
+    /// Rows of the free blocks it touches, in row order; none for a support.
+    blocks: [Range<usize>; 2],
+    /// Where each block's part of `A` starts: a column of the point after the other.
+    first: [usize; 2],
+    /// Where the rows of the second block follow in a column of the first, after its own.
+    after: usize,
     /// First disc.
     disc: usize,
 }
@@ -28,8 +29,6 @@ struct Joint {
 /// Program C in the rates.
 #[derive(Clone, Debug)]
 pub struct Response {
-    dimension: usize,
-    rows: usize,
     joints: Vec<Joint>,
     /// The parts of `A`, joint by joint.
     operator: Vec<f64>,
@@ -43,61 +42,82 @@ impl Response {
     /// The equilibrium of contacts, point by point. `None` where forces of several points are bounded together (crushing), or a point acts
     /// on more than two blocks.
     pub fn new(contacts: &Contacts) -> Option<Self> {
-        let statics = &contacts.statics;
-        let (d, rows, matrix) = (statics.dimension(), statics.matrix.rows, &statics.matrix);
-        if !statics.sections.is_empty() || d > MOST {
+        let (statics, matrix) = (&contacts.statics, &contacts.statics.matrix);
+        if !statics.sections.is_empty() {
             return None;
         }
-        let mut point_of = vec![None; matrix.columns];
-        let (mut joints, mut size, mut disc) = (Vec::with_capacity(contacts.points.len()), 0, 0);
+        let mut block_of = vec![0; matrix.rows];
+        for (k, free) in statics.free.iter().enumerate() {
+            if free.rows.len() > MOST {
+                return None;
+            }
+            block_of.get_mut(free.rows.clone())?.fill(k);
+        }
+        let mut point_of = vec![0; matrix.columns];
+        let mut touched = vec![[None; 2]; contacts.points.len()];
         for (k, p) in contacts.points.iter().enumerate() {
             if p.columns > MOST {
                 return None;
             }
-            point_of.get_mut(p.column..p.column + p.columns)?.fill(Some(k));
-            joints.push(Joint { blocks: [0; 2], count: 0, neighbour: 0, first: size, disc });
-            size += 2 * d * p.columns;
-            disc += p.discs.len();
+            point_of.get_mut(p.column..p.column + p.columns)?.fill(k);
         }
         for (&i, &j) in matrix.i.iter().zip(&matrix.j) {
-            let joint = joints.get_mut(point_of[j]?)?;
-            let block = i / d;
-            if !joint.blocks[..joint.count].contains(&block) {
-                if joint.count == 2 {
-                    return None;
-                }
-                joint.blocks[joint.count] = block;
-                joint.count += 1;
-                joint.blocks[..joint.count].sort_unstable();
+            let (block, own) = (Some(block_of[i]), &mut touched[point_of[j]]);
+            match own {
+                [first, second] if *first == block || *second == block => {}
+                [first @ None, _] => *first = block,
+                [first, second @ None] => (*first, *second) = ((*first).min(block), (*first).max(block)),
+                _ => return None,
             }
         }
-        let mut operator = vec![0.0; size];
-        for ((&i, &j), &v) in matrix.i.iter().zip(&matrix.j).zip(&matrix.v) {
-            let k = point_of[j]?;
-            let (joint, point) = (&joints[k], &contacts.points[k]);
-            let side = usize::from(joint.blocks[0] != i / d);
-            operator[joint.first + (side * point.columns + j - point.column) * d + i % d] += v;
-        }
-        let mut neighbours = vec![Vec::new(); rows / d];
-        for joint in joints.iter().filter(|j| j.count == 2) {
-            neighbours[joint.blocks[0]].push(joint.blocks[1]);
+        let mut neighbours = vec![Vec::new(); statics.free.len()];
+        for blocks in &touched {
+            if let [Some(a), Some(b)] = *blocks {
+                neighbours[a].push((b, 0));
+            }
         }
         for list in &mut neighbours {
             list.sort_unstable();
             list.dedup();
+            let mut after = 0;
+            for (b, offset) in list {
+                *offset = after;
+                after += statics.free[*b].rows.len();
+            }
         }
-        for joint in joints.iter_mut().filter(|j| j.count == 2) {
-            joint.neighbour = neighbours[joint.blocks[0]].binary_search(&joint.blocks[1]).ok()?;
+        let (mut joints, mut size, mut disc) = (Vec::with_capacity(contacts.points.len()), 0, 0);
+        for (p, blocks) in contacts.points.iter().zip(&touched) {
+            let mut joint = Joint { disc, ..Joint::default() };
+            for (side, block) in blocks.iter().enumerate() {
+                joint.first[side] = size;
+                if let Some(block) = block {
+                    joint.blocks[side] = statics.free[*block].rows.clone();
+                    size += p.columns * joint.blocks[side].len();
+                }
+            }
+            if let [Some(a), Some(b)] = *blocks {
+                let place = neighbours[a].binary_search_by_key(&b, |(b, _)| *b).ok()?;
+                joint.after = neighbours[a][place].1;
+            }
+            disc += p.discs.len();
+            joints.push(joint);
+        }
+        let mut operator = vec![0.0; size];
+        for ((&i, &j), &v) in matrix.i.iter().zip(&matrix.j).zip(&matrix.v) {
+            let (joint, point) = (&joints[point_of[j]], &contacts.points[point_of[j]]);
+            let side = usize::from(!joint.blocks[0].contains(&i));
+            let rows = &joint.blocks[side];
+            operator[joint.first[side] + (j - point.column) * rows.len() + i - rows.start] += v;
         }
         let (mut starts, mut entries) = (vec![0], Vec::new());
-        for (block, list) in neighbours.iter().enumerate() {
-            for k in 0..d {
-                entries.extend(block * d + k..(block + 1) * d);
-                entries.extend(list.iter().flat_map(|b| b * d..(b + 1) * d));
+        for (free, list) in statics.free.iter().zip(&neighbours) {
+            for row in free.rows.clone() {
+                entries.extend(row..free.rows.end);
+                entries.extend(list.iter().flat_map(|(b, _)| statics.free[*b].rows.clone()));
                 starts.push(entries.len());
             }
         }
-        Some(Self { dimension: d, rows, joints, operator, starts, entries })
+        Some(Self { joints, operator, starts, entries })
     }
 
     /// The lower triangle of `∂g/∂q`: where each column starts, and the rows of its entries.
@@ -113,19 +133,17 @@ impl Response {
     /// Forces per column and `g` per row at the rates `q`.
     pub fn forces(&self, contacts: &Contacts, epsilon: f64, hold: Hold, held: &[f64], q: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let mut forces = vec![0.0; contacts.compliance.len()];
-        let mut gradient: Vec<f64> = q.iter().zip(&contacts.statics.dead).map(|(q, w)| epsilon * q - w).collect();
-        let d = self.dimension;
+        let mut gradient: Vec<f64> =
+            q.iter().zip(&contacts.row_images).zip(&contacts.statics.dead).map(|((q, n), w)| epsilon * q / n - w).collect();
         for (joint, point) in self.joints.iter().zip(&contacts.points) {
             let (n, c) = (point.columns, contacts.compliance[point.column]);
-            let wanted = self.wanted(joint, point, c, q);
+            let wanted = self.wanted(joint, n, c * contacts.column_images[point.column], q);
             let own = &held[joint.disc..joint.disc + point.discs.len()];
             let f = answer(point, c, hold, own, &wanted, None);
             forces[point.column..point.column + n].copy_from_slice(&f[..n]);
-            for side in 0..joint.count {
-                let row = joint.blocks[side] * d;
+            for (side, rows) in joint.blocks.iter().enumerate() {
                 for (k, f) in f.iter().enumerate().take(n).filter(|(_, f)| **f != 0.0) {
-                    let from = joint.first + (side * n + k) * d;
-                    for (g, a) in gradient[row..row + d].iter_mut().zip(&self.operator[from..from + d]) {
+                    for (g, a) in gradient[rows.clone()].iter_mut().zip(self.part(joint, side, k)) {
                         *g -= a * f;
                     }
                 }
@@ -137,37 +155,34 @@ impl Response {
     /// `∂g/∂q` at the rates `q`, its lower triangle in the order of [`Self::pattern`].
     pub fn derivative(&self, contacts: &Contacts, epsilon: f64, hold: Hold, held: &[f64], q: &[f64]) -> Vec<f64> {
         let mut values = vec![0.0; self.entries.len()];
-        for k in 0..self.rows {
-            values[self.starts[k]] = epsilon;
+        for (start, n) in self.starts.iter().zip(&contacts.row_images) {
+            values[*start] = epsilon / n;
         }
-        let d = self.dimension;
         for (joint, point) in self.joints.iter().zip(&contacts.points) {
             let (n, c) = (point.columns, contacts.compliance[point.column]);
-            let wanted = self.wanted(joint, point, c, q);
+            let all = c * contacts.column_images[point.column];
+            let wanted = self.wanted(joint, n, all, q);
             let own = &held[joint.disc..joint.disc + point.discs.len()];
             let mut slope = [[0.0; MOST]; MOST];
             answer(point, c, hold, own, &wanted, Some(&mut slope));
-            let part = |side: usize, k: usize, i: usize| self.operator[joint.first + (side * n + k) * d + i];
-            for side in 0..joint.count {
-                // A D / c of one block, then its products with Aᵀ of this block and the one after it.
+            for (side, rows) in joint.blocks.iter().enumerate() {
+                // A D of one block, then its products with Aᵀ of this block and the one before it.
                 let mut left = [[0.0; MOST]; MOST];
                 for (j, left) in left.iter_mut().enumerate().take(n) {
                     for (k, s) in slope.iter().enumerate().take(n).filter(|(_, s)| s[j] != 0.0) {
-                        let s = s[j] / c;
-                        for (i, l) in left.iter_mut().enumerate().take(d) {
-                            *l += part(side, k, i) * s;
+                        for (l, a) in left.iter_mut().zip(self.part(joint, side, k)) {
+                            *l += a * s[j] / all;
                         }
                     }
                 }
-                for other in 0..=side {
-                    let column = joint.blocks[other] * d;
-                    for i in 0..d {
-                        let start = self.starts[column + i];
-                        let (start, from) = if other == side { (start, i) } else { (start + d - i + joint.neighbour * d, 0) };
+                for (other, columns) in joint.blocks.iter().enumerate().take(side + 1) {
+                    for (i, column) in columns.clone().enumerate() {
+                        let own = self.starts[column];
+                        let (start, from) = if other == side { (own, i) } else { (own + columns.len() - i + joint.after, 0) };
                         for (k, left) in left.iter().enumerate().take(n) {
-                            let a = part(other, k, i);
+                            let a = self.part(joint, other, k)[i];
                             if a != 0.0 {
-                                for (v, l) in values[start..start + d - from].iter_mut().zip(&left[from..d]) {
+                                for (v, l) in values[start..start + rows.len() - from].iter_mut().zip(&left[from..rows.len()]) {
                                     *v += l * a;
                                 }
                             }
@@ -179,15 +194,18 @@ impl Response {
         values
     }
 
-    /// `−u / c` of a point.
-    fn wanted(&self, joint: &Joint, point: &Point, c: f64, q: &[f64]) -> [f64; MOST] {
-        let d = self.dimension;
+    /// Column `k` of a point in the rows of one of its blocks.
+    fn part(&self, joint: &Joint, side: usize, k: usize) -> &[f64] {
+        let d = joint.blocks[side].len();
+        &self.operator[joint.first[side] + k * d..joint.first[side] + (k + 1) * d]
+    }
+
+    /// `−u / c` of a point of `n` columns, `c` the compliance of all its images.
+    fn wanted(&self, joint: &Joint, n: usize, c: f64, q: &[f64]) -> [f64; MOST] {
         let mut wanted = [0.0; MOST];
-        for side in 0..joint.count {
-            let q = &q[joint.blocks[side] * d..(joint.blocks[side] + 1) * d];
-            for (k, w) in wanted.iter_mut().enumerate().take(point.columns) {
-                let from = joint.first + (side * point.columns + k) * d;
-                *w -= self.operator[from..from + d].iter().zip(q).map(|(a, q)| a * q).sum::<f64>() / c;
+        for (side, rows) in joint.blocks.iter().enumerate() {
+            for (k, w) in wanted.iter_mut().enumerate().take(n) {
+                *w -= self.part(joint, side, k).iter().zip(&q[rows.clone()]).map(|(a, q)| a * q).sum::<f64>() / c;
             }
         }
         wanted

@@ -121,7 +121,7 @@ mod tests {
     use super::*;
     use crate::{
         analysis::prepare,
-        program::coulomb::Aim,
+        program::{Options, coulomb::Aim},
         scene::read_str,
         solve::{self, Settings},
     };
@@ -136,7 +136,7 @@ mod tests {
             {{ "id": "c", "at": [0.3, 0.1, 2.3], "density": 9000, "shape": {{ "box": {{ "size": [0.7, 1.1, 1] }} }} }} ] }}"#
         );
         let model = prepare(&read_str("stack", &text).unwrap().0).unwrap();
-        Contacts::new(&model.assembly, &model.interfaces, false, false)
+        Contacts::new(&model.assembly, &model.interfaces, Options { symmetry: true, ..Options::default() })
     }
 
     fn scenes() -> Vec<Contacts> {
