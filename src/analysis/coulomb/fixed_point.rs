@@ -48,7 +48,7 @@ pub(super) struct Means<'a> {
 /// Iterates from the limits or sliding rates `start`. `None` where the engine refuses the program or leaves no numbers.
 pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>, stop: Stop, means: Means) -> Option<FixedPoint> {
     let Means { mut newton, settings } = means;
-    let end = Duration::try_from_secs_f64(settings.seconds).ok().and_then(|s| Instant::now().checked_add(s));
+    let end = Duration::try_from_secs_f64(settings.seconds.max(0.0)).ok().and_then(|s| Instant::now().checked_add(s));
     let mut rates = newton.as_ref().map_or_else(Vec::new, |(_, rates)| rates.to_vec());
     let mut held = start;
     let mut engine: Option<Engine> = None;
