@@ -17,5 +17,22 @@ mod find;
 mod matching;
 mod orbits;
 
-pub(super) use find::{Symmetry, find};
-pub(super) use orbits::{BearingOrbit, BlockOrbit, Orbits};
+pub use orbits::{BearingOrbit, BlockOrbit, Orbits, Part};
+
+use super::{Bearing, Plane};
+use crate::{
+    assembly::{Assembly, Wrench},
+    interface::Interfaces,
+};
+
+/// The part that stands for a whole scene with its loads; `None` where there is no symmetry.
+pub(super) fn part(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    loads: &[&[Wrench]],
+    plane: Option<Plane>,
+    bearings: &[Bearing],
+) -> Option<Part> {
+    let symmetry = find::find(assembly, interfaces, loads, plane)?;
+    Part::new(&symmetry, assembly.free(), bearings, plane)
+}

@@ -1,15 +1,15 @@
 //! One block for all its images, one contact point for all its images.
 
-use super::Symmetry;
+use super::find::Symmetry;
 use crate::{
     assembly::Wrench,
     program::{Bearing, Plane},
 };
 use nalgebra::{DMatrix, DVector, Matrix3};
-use std::collections::HashMap;
+use std::collections::{HashMap, hash_map::Entry};
 
 /// A block that stands for its images.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct BlockOrbit {
     /// Each image once, with an element of the group that takes the block there.
     pub images: Vec<(usize, usize)>,
@@ -17,17 +17,37 @@ pub struct BlockOrbit {
     pub directions: Option<DMatrix<f64>>,
 }
 
+/// What an element of the group makes of a bearing.
+#[derive(Clone, Debug)]
+pub struct BearingImage {
+    /// The element.
+    pub element: usize,
+    /// The points there: interface and point.
+    pub points: [(usize, usize); 2],
+    /// −1 where the force on block `b` becomes one on block `a`.
+    pub sign: f64,
+}
+
 /// A contact point (or pair of points) that stands for its images.
 #[derive(Clone, Debug)]
 pub struct BearingOrbit {
-    /// What an element of the group makes of it: element, its points (interface, point), and −1 where the force on block `b` becomes one
-    /// on block `a`.
-    pub images: Vec<(usize, [(usize, usize); 2], f64)>,
+    /// What each element of the group makes of it.
+    pub images: Vec<BearingImage>,
     /// How many images there are; each is counted `images.len() / distinct` times.
     pub distinct: usize,
 }
 
 /// A scene reduced by its symmetry.
+pub struct Part {
+    /// The symmetries.
+    pub orbits: Orbits,
+    /// The blocks that are kept.
+    pub blocks: HashMap<usize, BlockOrbit>,
+    /// The bearings that are kept, their columns numbered anew.
+    pub bearings: Vec<Bearing>,
+}
+
+/// The symmetries of a scene, and the block that stands for each of its blocks.
 #[derive(Clone, Debug)]
 pub struct Orbits {
     /// In words.
@@ -38,66 +58,74 @@ pub struct Orbits {
     plane: Option<Plane>,
 }
 
-impl Orbits {
+impl Part {
     /// The reduction of the free blocks and bearings of a scene; `None` where a bearing has no image among the bearings.
-    pub fn new(
-        symmetry: &Symmetry,
-        free: impl Iterator<Item = usize>,
-        bearings: &[Bearing],
-        plane: Option<Plane>,
-    ) -> Option<(Self, HashMap<usize, BlockOrbit>, Vec<(usize, BearingOrbit)>)> {
-        let elements = symmetry.elements();
-        let mut this = Self { name: symmetry.name(), elements, home: HashMap::new(), plane };
+    pub fn new(symmetry: &Symmetry, free: impl Iterator<Item = usize>, bearings: &[Bearing], plane: Option<Plane>) -> Option<Self> {
+        let mut orbits = Orbits { name: symmetry.name(), elements: symmetry.elements(), home: HashMap::new(), plane };
         // A turn goes back by the rest of a whole one; whatever contains the mirror is its own inverse.
         let turns = symmetry.turn.as_ref().map_or(1, |t| t.0);
         let inverse = |g: usize| if g < turns { (turns - g) % turns } else { g };
         let mut blocks = HashMap::new();
         for i in free {
-            if this.home.contains_key(&i) {
+            if orbits.home.contains_key(&i) {
                 continue;
             }
             let all = symmetry.orbit(i, |images, i| images.blocks[i]);
             let mut images = Vec::new();
             for (g, &j) in all.iter().enumerate() {
-                if let std::collections::hash_map::Entry::Vacant(home) = this.home.entry(j) {
+                if let Entry::Vacant(home) = orbits.home.entry(j) {
                     home.insert((i, inverse(g)));
                     images.push((j, g));
                 }
             }
             let still: Vec<usize> = (0..all.len()).filter(|&g| all[g] == i).collect();
-            blocks.insert(i, BlockOrbit { images, directions: this.invariant(&still) });
+            blocks.insert(i, BlockOrbit { images, directions: orbits.invariant(&still) });
         }
         let place: HashMap<(usize, usize), usize> =
             bearings.iter().enumerate().flat_map(|(k, b)| b.points.map(|p| ((b.interface, p), k))).collect();
         let mut seen = vec![false; bearings.len()];
-        let mut list = Vec::new();
+        let (mut list, mut column) = (Vec::new(), 0);
         for (k, bearing) in bearings.iter().enumerate() {
             if seen[k] {
                 continue;
             }
-            let [first, second] = bearing.points.map(|p| {
-                symmetry.orbit((bearing.interface, p, false), |images, (f, p, swapped)| {
-                    let (f, p, again) = images.point(f, p);
-                    (f, p, swapped != again)
-                })
-            });
-            let mut distinct = 0;
-            let mut images = Vec::new();
-            for (g, (a, b)) in first.iter().zip(&second).enumerate() {
-                let j = *place.get(&(a.0, a.1))?;
-                if place.get(&(b.0, b.1)) != Some(&j) {
-                    return None;
-                }
-                if !std::mem::replace(&mut seen[j], true) {
-                    distinct += 1;
-                }
-                images.push((g, [(a.0, a.1), (b.0, b.1)], if a.2 { -1.0 } else { 1.0 }));
-            }
-            list.push((k, BearingOrbit { images, distinct }));
+            let orbit = bearing_orbit(symmetry, bearing, &place, &mut seen)?;
+            list.push(Bearing { column, orbit: Some(orbit), ..bearing.clone() });
+            column += bearing.basis.len();
         }
-        Some((this, blocks, list))
+        Some(Self { orbits, blocks, bearings: list })
     }
+}
 
+/// The images of a bearing, marked as seen; `place` tells the bearing of a point.
+fn bearing_orbit(
+    symmetry: &Symmetry,
+    bearing: &Bearing,
+    place: &HashMap<(usize, usize), usize>,
+    seen: &mut [bool],
+) -> Option<BearingOrbit> {
+    let [first, second] = bearing.points.map(|p| {
+        symmetry.orbit((bearing.interface, p, false), |images, (f, p, swapped)| {
+            let (f, p, again) = images.point(f, p);
+            (f, p, swapped != again)
+        })
+    });
+    let mut orbit = BearingOrbit { images: Vec::with_capacity(first.len()), distinct: 0 };
+    for (g, (a, b)) in first.iter().zip(&second).enumerate() {
+        let j = *place.get(&(a.0, a.1))?;
+        if place.get(&(b.0, b.1)) != Some(&j) {
+            return None;
+        }
+        if !std::mem::replace(&mut seen[j], true) {
+            orbit.distinct += 1;
+        }
+        let sign = if a.2 { -1.0 } else { 1.0 };
+        orbit.images.push(BearingImage { element: g, points: [(a.0, a.1), (b.0, b.1)], sign });
+    }
+    Some(orbit)
+}
+
+impl Orbits {
     /// The block that stands for block `j`, and the element that takes `j` there.
     pub fn home(&self, j: usize) -> Option<(usize, usize)> {
         self.home.get(&j).copied()
