@@ -20,6 +20,7 @@ mod granular;
 mod hostile;
 mod invariance;
 mod layering;
+mod mesh_files;
 mod meshes;
 mod page;
 mod pictures;
