@@ -1,9 +1,13 @@
 //! Solving a conic program. What comes back is a candidate, never an answer: every verdict is recomputed from the scene.
 
+mod cholesky;
 mod clarabel;
 mod watched;
 
-pub use self::watched::{Session, solve};
+pub use self::{
+    cholesky::{Cholesky, Pattern},
+    watched::{Session, solve},
+};
 
 use serde::{Deserialize, Serialize};
 

@@ -6,7 +6,10 @@
 //! *Proved:* a state that moves is a solution of the law (its natural map is recomputed from the forces). *Computed, not proved:*
 //! that a state at rest is the one the loads produce; rest under a pre-stress and motion are often both exact solutions.
 
-use super::fixed_point::{FixedPoint, Stop, iterate, within_strength};
+use super::{
+    fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
+    newton::Newton,
+};
 use crate::{
     analysis::attempt::Control,
     assembly::Assembly,
@@ -101,15 +104,19 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
     let still = vec![0.0; contacts.discs().count()];
     let once = Stop { solves: 1, ..STOP };
     let mut exact = f64::INFINITY;
+    let mut newton = Newton::new(&contacts);
+    let rest = vec![0.0; contacts.statics.matrix.rows];
     // The associative state is the first guess of the friction limits.
-    let mut last = iterate(&contacts, Aim::State(EPSILONS[0]), Hold::SlidingRates, still, once, &settings);
+    let first = Settings { seconds: control.seconds - begin.elapsed().as_secs_f64(), ..settings };
+    let means = Means { newton: newton.as_mut().map(|n| (n, &rest[..])), settings: &first };
+    let mut last = iterate(&contacts, Aim::State(EPSILONS[0]), Hold::SlidingRates, still, once, means);
     for epsilon in EPSILONS {
         let left = control.seconds - begin.elapsed().as_secs_f64();
         let Some(from) = last.take().filter(|_| left > 0.0) else { break };
         let start = Instant::now();
         let tolerance = (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE);
         let settings = Settings { seconds: left, tolerance, ..settings };
-        let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, &settings));
+        let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, newton.as_mut(), &settings));
         let Some(point) = point else { break };
         let forces = contacts.statics.forces(interfaces, &point.forces);
         let moved = law::motion(assembly, interfaces, &forces);
@@ -136,12 +143,17 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
 }
 
 /// The fixed point on the limits; where it does not settle, the twin on the sliding rates has a try.
-fn settled(contacts: &Contacts, aim: Aim, from: &FixedPoint, settings: &Settings) -> Option<FixedPoint> {
-    let by_limits = iterate(contacts, aim, Hold::Limits, contacts.limits(&from.forces), STOP, settings)?;
+fn settled(contacts: &Contacts, aim: Aim, from: &FixedPoint, mut newton: Option<&mut Newton>, settings: &Settings) -> Option<FixedPoint> {
+    let start = Instant::now();
+    let means = Means { newton: newton.as_deref_mut().map(|n| (n, &from.rates[..])), settings };
+    let by_limits = iterate(contacts, aim, Hold::Limits, contacts.limits(&from.forces), STOP, means)?;
     if by_limits.change <= tolerance::COULOMB_SETTLED {
         return Some(by_limits);
     }
-    let by_rates = iterate(contacts, aim, Hold::SlidingRates, contacts.sliding(&contacts.joint_rates(&by_limits.rates)), STOP, settings);
+    let sliding = contacts.sliding(&contacts.joint_rates(&by_limits.rates));
+    let settings = Settings { seconds: settings.seconds - start.elapsed().as_secs_f64(), ..*settings };
+    let means = Means { newton: newton.map(|n| (n, &by_limits.rates[..])), settings: &settings };
+    let by_rates = iterate(contacts, aim, Hold::SlidingRates, sliding, STOP, means);
     match by_rates {
         Some(twin) if twin.change <= STOP.change => Some(FixedPoint { solves: twin.solves + by_limits.solves, ..twin }),
         _ => Some(by_limits),
