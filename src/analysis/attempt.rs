@@ -6,7 +6,7 @@ use crate::{
     assembly::Assembly,
     interface::Interfaces,
     program::{ConicProgram, Layout, Statics, Unknowns},
-    solve::{self, Settings, Solution, Status},
+    solve::{self, Engine, Settings, Solution, Status},
     verdict::{Forces, Rate, certificate},
 };
 use schemars::JsonSchema;
@@ -90,7 +90,7 @@ pub(super) const fn rung(unknowns: Unknowns, unit: f64, local: bool, tolerance: 
         unit,
         local,
         even: false,
-        settings: Settings { tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY },
+        settings: Settings { engine: Engine::Clarabel, tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY },
     }
 }
 

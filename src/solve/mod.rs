@@ -1,6 +1,8 @@
 //! Solving a conic program. What comes back is a candidate, never an answer: every verdict is recomputed from the scene.
 
 mod clarabel;
+mod engine;
+mod interior;
 mod watched;
 
 pub use self::watched::{Session, solve};
@@ -27,9 +29,22 @@ pub enum Status {
     Refused,
 }
 
+/// What solves a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Engine {
+    /// Clarabel: any conic program.
+    #[default]
+    Clarabel,
+    /// The interior-point method of this crate, on the stiffness matrix of the blocks: programs in forces.
+    Interior,
+}
+
 /// Settings of one solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
+    /// What solves it.
+    pub engine: Engine,
     /// Tolerance on gap and feasibility, relative and absolute in the scaled program.
     pub tolerance: f64,
     /// Static regularisation of the KKT system.
@@ -44,7 +59,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: 1e-10, regularization: 1e-8, equilibrate: true, iterations: 200, seconds: f64::INFINITY }
+        Self { engine: Engine::Clarabel, tolerance: 1e-10, regularization: 1e-8, equilibrate: true, iterations: 200, seconds: f64::INFINITY }
     }
 }
 
