@@ -3,7 +3,7 @@
 
 use super::{
     Bracket,
-    attempt::{Attempt, Control, Law, Run, Rung, even, run, rung},
+    attempt::{Attempt, Control, Law, Run, Rung, even, interior, is_large, run, rung},
     coulomb::{Motion, State, state},
 };
 use crate::{
@@ -55,6 +55,9 @@ const LADDER: [Rung; 8] = [
     even(rung(Unknowns::Forces, 1.0, true, 1e-12, 1e-9, true)),
     even(rung(Unknowns::Rates, 1.0, true, 1e-12, 1e-9, true)),
 ];
+
+/// Tried first where the program is large.
+const LARGE: [Rung; 1] = [interior(1.0, 1e-10)];
 
 /// Decides whether an assembly stands under its dead load.
 pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> Assessment {
@@ -154,7 +157,8 @@ pub(super) fn least_unbalance(
     let mut balanced = unloaded.balanced;
     // Bounds on crushing that one rung found hold for all.
     let mut sections = statics.sections.clone();
-    for step in LADDER {
+    let large = if is_large(statics) { &LARGE[..] } else { &[] };
+    for step in large.iter().copied().chain(LADDER) {
         // With a free load factor only the force form yields its value; with strengths there is no other.
         if (live == LiveLoad::AnyMultiple || statics.in_forces_only()) && step.unknowns == Unknowns::Rates {
             continue;
@@ -189,6 +193,7 @@ pub(super) fn least_unbalance(
         answer.attempts.push(Attempt {
             program: format!("least unbalance in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
             force_unit: statics.unit / statics.free.iter().map(|f| f.weight).sum::<f64>(),
+            engine: settings.engine,
             tolerance: settings.tolerance,
             regularization: settings.regularization,
             engine_status: solution.status,

@@ -7,7 +7,7 @@
 use super::{
     Bracket,
     assess::least_unbalance,
-    attempt::{Attempt, Control, Run, Rung, even, run, rung},
+    attempt::{Attempt, Control, Run, Rung, even, interior, is_large, run, rung},
 };
 use crate::{
     assembly::Assembly,
@@ -68,6 +68,9 @@ const LADDER: [Rung; 8] = [
     even(rung(Unknowns::Forces, 1.0, true, 1e-12, 1e-9, true)),
 ];
 
+/// Tried first where the program is large; the second is reached by load factors far below the natural one, now that their size is known.
+const LARGE: [Rung; 2] = [interior(1.0, 1e-7), interior(1.0, 1e-8)];
+
 /// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is neither where both ends
 /// of the bracket are known).
 const BEFORE_DIAGNOSIS: usize = 2;
@@ -80,7 +83,8 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     let mut answer = unknown(assembly, interfaces, &statics);
     let mut scale = natural;
     let forces_only = statics.in_forces_only();
-    let ladder = LADDER.into_iter().filter(|step| !(forces_only && step.unknowns == Unknowns::Rates));
+    let large = if is_large(&statics) { &LARGE[..] } else { &[] };
+    let ladder = large.iter().copied().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates));
     for (index, step) in ladder.enumerate() {
         if index == BEFORE_DIAGNOSIS
             && !answer.bracket.width().is_finite()
@@ -158,6 +162,7 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step:
     answer.attempts.push(Attempt {
         program: format!("load factor in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
         force_unit: statics.unit / statics.free.iter().map(|f| f.weight).sum::<f64>(),
+        engine: settings.engine,
         tolerance: settings.tolerance,
         regularization: settings.regularization,
         engine_status: solution.status,

@@ -1,4 +1,4 @@
-//! A session with the engine that the settings name.
+//! A session with the engine that the settings name; clarabel takes what is not made like a program of contacts.
 
 use super::{Engine, Settings, Solution, clarabel, interior};
 use crate::program::ConicProgram;
@@ -14,7 +14,10 @@ impl Session {
     pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
         match settings.engine {
             Engine::Clarabel => clarabel::Session::new(program, settings).map(|s| Self::Clarabel(Box::new(s))),
-            Engine::Interior => interior::Session::new(program, settings).map(|s| Self::Interior(Box::new(s))),
+            Engine::Interior => match interior::Session::new(program, settings) {
+                Some(s) => Some(Self::Interior(Box::new(s))),
+                None => Self::new(program, &Settings { engine: Engine::Clarabel, ..*settings }),
+            },
         }
     }
 

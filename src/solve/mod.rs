@@ -40,6 +40,13 @@ pub enum Engine {
     Interior,
 }
 
+impl Engine {
+    /// Whether it is the usual one.
+    pub fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 /// Settings of one solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {

@@ -4,7 +4,7 @@ use super::anderson::Anderson;
 use crate::{
     interface::Interfaces,
     program::coulomb::{Aim, Contacts, Hold},
-    solve::{Session, Settings, Solution},
+    solve::{Engine, Session, Settings, Solution, Status},
     verdict::certificate,
 };
 
@@ -41,7 +41,12 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
     let mut anderson = Anderson::default();
     let mut best: Option<FixedPoint> = None;
     for k in 1..=stop.solves {
-        let solution = session.solve();
+        let mut solution = session.solve();
+        if solution.status == Status::Stalled && settings.engine == Engine::Interior {
+            // The other engine goes on from here.
+            session = Session::new(&program, &Settings { engine: Engine::Clarabel, ..*settings })?;
+            solution = session.solve();
+        }
         if !solution.is_finite() {
             break;
         }

@@ -11,7 +11,7 @@ use super::{
     state::{Motion, state},
 };
 use crate::{
-    analysis::{Control, LoadFactor, Outcome},
+    analysis::{attempt::engine, Control, LoadFactor, Outcome},
     assembly::Assembly,
     interface::Interfaces,
     program::{
@@ -104,7 +104,7 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
     }
     let start = Instant::now();
     let mut contacts = Contacts::new(assembly, interfaces, control.keep_all, true);
-    let settings = Settings { tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
+    let settings = Settings { tolerance: TOLERANCES[0], regularization: 1e-9, engine: engine(&contacts.statics), ..Settings::default() };
     let scale = check::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
     let first = Stop { change: 0.0, solves: 1 };

@@ -8,7 +8,7 @@
 
 use super::fixed_point::{FixedPoint, Stop, iterate, within_strength};
 use crate::{
-    analysis::attempt::Control,
+    analysis::attempt::{Control, engine},
     assembly::Assembly,
     interface::Interfaces,
     program::coulomb::{Aim, Contacts, Hold},
@@ -79,7 +79,7 @@ const STOP: Stop = Stop { change: 1e-5, solves: 25 };
 pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> State {
     let begin = Instant::now();
     let mut contacts = Contacts::new(assembly, interfaces, control.keep_all, false);
-    let settings = Settings { tolerance: 1e-10, regularization: 1e-8, ..Settings::default() };
+    let settings = Settings { tolerance: 1e-10, regularization: 1e-8, engine: engine(&contacts.statics), ..Settings::default() };
     let mut answer = State { motion: Motion::Undecided, steps: Vec::new(), forces: Vec::new() };
     let still = vec![0.0; contacts.discs().count()];
     let once = Stop { solves: 1, ..STOP };
@@ -90,7 +90,7 @@ pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
         let left = control.seconds - begin.elapsed().as_secs_f64();
         let Some(from) = last.take().filter(|_| left > 0.0) else { break };
         let start = Instant::now();
-        let tolerance = (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE);
+        let tolerance = (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE) * std::env::var("IPM_CT").map_or(1.0, |v| v.parse().unwrap());
         let settings = Settings { seconds: left, tolerance, ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, &settings));
         let Some(point) = point else { break };

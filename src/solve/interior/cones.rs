@@ -25,8 +25,6 @@ impl ConeAt {
 pub(super) struct Cones {
     /// In row order, without gaps.
     pub list: Vec<ConeAt>,
-    /// Number of rows.
-    pub rows: usize,
     /// `√(s / z)` of a ray; `w̄` of a second-order cone.
     scale: Vec<f64>,
     /// `η` at the first row of a second-order cone.
@@ -39,7 +37,7 @@ impl Cones {
     /// With the scaling that does nothing.
     pub fn new(list: Vec<ConeAt>) -> Self {
         let rows = list.last().map_or(0, |c| c.first + c.size);
-        let mut this = Self { list, rows, scale: vec![1.0; rows], eta: vec![1.0; rows], lambda: vec![0.0; rows] };
+        let mut this = Self { list, scale: vec![1.0; rows], eta: vec![1.0; rows], lambda: vec![0.0; rows] };
         this.reset();
         this
     }
@@ -165,6 +163,23 @@ impl Cones {
                 }
             } else {
                 d.iter_mut().zip(l).for_each(|(d, l)| *d /= l);
+            }
+        }
+    }
+
+    /// What brings products to between `low` and `high`, but no farther than `high`; into `v` (Gondzio 1996, by eigenvalues).
+    pub fn towards(&self, low: f64, high: f64, v: &mut [f64]) {
+        let lack = |v: f64| (v.clamp(low, high) - v).max(-high);
+        for cone in &self.list {
+            let v = &mut v[cone.rows()];
+            if cone.round {
+                let t = norm(&v[1..]);
+                let (more, less) = (lack(v[0] + t), lack(v[0] - t));
+                let by = if t > 0.0 { 0.5 * (more - less) / t } else { 0.0 };
+                v[0] = 0.5 * (more + less);
+                v[1..].iter_mut().for_each(|v| *v *= by);
+            } else {
+                v.iter_mut().for_each(|v| *v = lack(*v));
             }
         }
     }

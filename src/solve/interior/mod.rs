@@ -14,7 +14,7 @@ mod structure;
 
 use self::{
     cones::Cones,
-    newton::{Newton, Point},
+    newton::{EXACT, Newton, Point, ROUGH},
     reduced::Reduced,
     structure::Structure,
 };
@@ -24,6 +24,32 @@ use std::time::Instant;
 
 /// How far a step goes towards the boundary. Nearer: the next steps are short. Farther: more steps.
 const TO_THE_BOUNDARY: f64 = 0.995;
+
+/// Further correctors towards products of one size (Gondzio 1996). Fewer: more factorisations. More: time for little.
+const MOST_CORRECTORS: usize = 2;
+
+/// They aim this much farther than the step that is possible, and are kept when both steps multiplied grow by this share.
+const REACH: f64 = 0.3;
+const WORTH: f64 = 0.05;
+
+/// Products between these × the target are left as they are.
+const LOW: f64 = 0.1;
+const HIGH: f64 = 10.0;
+
+/// Steps this long need no further corrector.
+const FAR_ENOUGH: f64 = 0.9;
+
+/// Equilibrium is solved to this × the tolerance. Larger: the residual stays above the tolerance while the gap is closed.
+/// Smaller: corrections at the level of rounding.
+const BELOW: f64 = 0.05;
+
+fn env(name: &str, default: f64) -> f64 {
+    std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
+}
+
+/// The gap counts relative to the objective, or to this where that is smaller: an unbalance may be zero. Larger: load factors far below
+/// the natural one lose digits. Smaller: iterations at an objective of zero.
+const LEAST_OBJECTIVE: f64 = 1e-2;
 
 /// A step shorter than this leads nowhere.
 const LEAST_STEP: f64 = 1e-6;
@@ -41,6 +67,8 @@ pub struct Session {
     start: Instant,
     /// The clock of all solves together.
     begin: Instant,
+    /// A point well inside that the last solve passed, where the next may begin.
+    warm: Option<(Point, Vec<f64>)>,
 }
 
 impl Session {
@@ -49,7 +77,7 @@ impl Session {
         let start = Instant::now();
         let structure = Structure::new(program)?;
         let reduced = Reduced::new(&structure)?;
-        Some(Self { structure, reduced, rhs: program.rhs.clone(), objective: program.objective.clone(), settings: *settings, start, begin: start })
+        Some(Self { structure, reduced, rhs: program.rhs.clone(), objective: program.objective.clone(), settings: *settings, start, begin: start, warm: None })
     }
 
     /// Changes the right-hand side; false where it has another length.
@@ -81,7 +109,7 @@ impl Session {
             h: pick(&self.rhs, &s.cone_rows),
         };
         let clock = (self.start, self.begin);
-        let (found, status) = iterate(s, &mut self.reduced, &data, &self.settings, clock, &mut trace);
+        let (found, status) = iterate(s, &mut self.reduced, &data, &self.settings, clock, &mut self.warm, &mut trace);
         let (mut x, mut z) = (Vec::new(), Vec::new());
         if let Some(p) = found {
             (x, z) = (vec![0.0; self.objective.len()], vec![0.0; self.rhs.len()]);
@@ -144,14 +172,15 @@ fn begin(st: &Structure, reduced: &mut Reduced, cones: &mut Cones, data: &Data) 
     cones.reset();
     let zero = Point::zero(st);
     let mut newton = Newton::new(st, reduced, cones)?;
-    let primal = newton.solve(&Point { y: data.b.clone(), z: data.h.clone(), ..zero.clone() });
-    let dual = newton.solve(&Point { x: data.c.iter().map(|v| -v).collect(), t: data.c_border.iter().map(|v| -v).collect(), ..zero });
+    let primal = newton.solve(&Point { y: data.b.clone(), z: data.h.clone(), ..zero.clone() }, EXACT, 0.0);
+    let cost = Point { x: data.c.iter().map(|v| -v).collect(), t: data.c_border.iter().map(|v| -v).collect(), ..zero };
+    let dual = newton.solve(&cost, EXACT, 0.0);
     let inside = |mut v: Vec<f64>| {
         let t = cones.outside(&v);
         // A little inside already is not inside enough.
         let size = greatest(&v).max(f64::MIN_POSITIVE);
         if t > -1e-3 * size {
-            cones.add_unit(&mut v, t + if size > f64::MIN_POSITIVE { size.max(1.0) } else { 1.0 });
+            cones.add_unit(&mut v, t + if size > f64::MIN_POSITIVE { size } else { 1.0 });
         }
         v
     };
@@ -165,11 +194,12 @@ fn iterate(
     data: &Data,
     settings: &Settings,
     (start, clock): (Instant, Instant),
+    warm: &mut Option<(Point, Vec<f64>)>,
     trace: &mut Vec<Iteration>,
 ) -> (Option<Point>, Status) {
     let mut cones = Cones::new(st.cones.clone());
     let degree = cones.degree() as f64;
-    let Some((mut p, mut s)) = begin(st, reduced, &mut cones, data) else { return (None, Status::Stalled) };
+    let Some((mut p, mut s)) = warm.take().or_else(|| begin(st, reduced, &mut cones, data)) else { return (None, Status::Stalled) };
     let mut best: Option<(f64, Point)> = None;
     let mut since = 0;
     let give = |best: Option<(f64, Point)>, status| (best.map(|b| b.1), status);
@@ -183,12 +213,15 @@ fn iterate(
         let primal_residual = greatest(&r.y).max(greatest(&r.z)) / 1f64.max(greatest(&data.b)).max(greatest(&data.h));
         let dual_residual = greatest(&r.x).max(greatest(&r.t)) / 1f64.max(greatest(&data.c)).max(greatest(&data.c_border));
         trace.push(Iteration { seconds: start.elapsed().as_secs_f64(), primal, dual, primal_residual, dual_residual });
-        let merit = (gap / 1f64.max(primal.abs().min(dual.abs()))).max(primal_residual).max(dual_residual);
+        let merit = (gap / LEAST_OBJECTIVE.max(primal.abs().min(dual.abs()))).max(primal_residual).max(dual_residual);
         if std::env::var("IPM_TRACE").is_ok() {
             eprintln!("{:3} {:.3}s p {primal:.9} d {dual:.9} gap {gap:.2e} rp {primal_residual:.2e} rd {dual_residual:.2e}", trace.len(), start.elapsed().as_secs_f64());
         }
         if merit.is_nan() || merit.is_infinite() {
             return give(best, Status::Stalled);
+        }
+        if warm.is_none() && merit <= env("IPM_WARM", 0.0) {
+            *warm = Some((p.clone(), s.clone()));
         }
         if best.as_ref().is_none_or(|b| merit < b.0) {
             best = Some((merit, p.clone()));
@@ -210,10 +243,12 @@ fn iterate(
         }
         let mu = gap / degree;
         let Some(mut newton) = Newton::new(st, reduced, &cones) else { return give(best, Status::Stalled) };
+        // Residuals that are small already stay so.
+        let enough = BELOW * settings.tolerance;
         // Predictor: a_z = −r_z − W u with u = −λ, so that W u = −s.
         let mut a = minus(&r);
         add(&mut a.z, 1.0, &s);
-        let predictor = newton.solve(&a);
+        let predictor = newton.solve(&a, ROUGH, 0.0);
         let ds = slack(st, &predictor, &r);
         let (ap, ad) = steps(&cones, st, (&s, &ds), (&p.z, &predictor.z), 1.0);
         let after: f64 = s.iter().zip(&ds).zip(p.z.iter().zip(&predictor.z)).map(|((s, ds), (z, dz))| (s + ap * ds) * (z + ad * dz)).sum();
@@ -232,9 +267,47 @@ fn iterate(
         cones.times(&mut u);
         let mut a = minus(&r);
         add(&mut a.z, -1.0, &u);
-        let d = newton.solve(&a);
-        let ds = slack(st, &d, &r);
-        let (ap, ad) = steps(&cones, st, (&s, &ds), (&p.z, &d.z), TO_THE_BOUNDARY);
+        let mut d = newton.solve(&a, EXACT, enough);
+        let mut ds = slack(st, &d, &r);
+        let (mut ap, mut ad) = steps(&cones, st, (&s, &ds), (&p.z, &d.z), TO_THE_BOUNDARY);
+        for _ in 0..MOST_CORRECTORS {
+            if ap.min(ad) > FAR_ENOUGH {
+                break;
+            }
+            let (tp, td) = ((ap + REACH).min(1.0), (ad + REACH).min(1.0));
+            let (mut u, mut v) = (ds.clone(), d.z.clone());
+            cones.over(&mut u);
+            cones.times(&mut v);
+            u.iter_mut().zip(&cones.lambda).for_each(|(u, l)| *u = l + tp * *u);
+            v.iter_mut().zip(&cones.lambda).for_each(|(v, l)| *v = l + td * *v);
+            cones.product(&v, &mut u);
+            cones.towards(LOW * sigma * mu, HIGH * sigma * mu, &mut u);
+            cones.divide(&mut u);
+            cones.times(&mut u);
+            u.iter_mut().for_each(|u| *u = -*u);
+            let more = newton.solve(&Point { z: u, ..Point::zero(st) }, ROUGH, 0.0);
+            let zero = Point::zero(st);
+            let more_s = slack(st, &more, &zero);
+            // As much of it as brings us farthest.
+            let mut found: Option<(f64, f64, f64, f64, Vec<f64>, Vec<f64>)> = None;
+            for weight in [1.0, 0.7, 0.4, 0.2, 0.1] {
+                let mix = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + weight * b).collect::<Vec<f64>>();
+                let (s2, z2) = (mix(&ds, &more_s), mix(&d.z, &more.z));
+                let (bp, bd) = steps(&cones, st, (&s, &s2), (&p.z, &z2), TO_THE_BOUNDARY);
+                let score = bp * bd;
+                if found.as_ref().is_none_or(|(best, ..)| score > *best) {
+                    found = Some((score, weight, bp, bd, s2, z2));
+                }
+            }
+            let Some((score, weight, bp, bd, s2, z2)) = found else { break };
+            if score < ap * ad * (1.0 + WORTH) {
+                break;
+            }
+            add(&mut d.x, weight, &more.x);
+            add(&mut d.t, weight, &more.t);
+            add(&mut d.y, weight, &more.y);
+            (ds, d.z, ap, ad) = (s2, z2, bp, bd);
+        }
         if ap.max(ad) < LEAST_STEP || ap.is_nan() || ad.is_nan() {
             return give(best, Status::Stalled);
         }

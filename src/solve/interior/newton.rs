@@ -23,8 +23,12 @@ impl Point {
 /// Corrections of one solve. Fewer: late steps leave the equilibrium. More: time, once rounding is reached.
 const MOST_CORRECTIONS: usize = 4;
 
-/// A solve is exact when its equations hold to this × their right-hand side, and given up when a correction does not halve the error.
-const EXACT: f64 = 1e-13;
+/// A direction is exact when its equations hold to this × what they lacked at first. Larger: residuals outlive the gap. Smaller:
+/// corrections at the level of rounding.
+pub(super) const EXACT: f64 = 1e-11;
+
+/// The same for a direction that only tells how far one could go.
+pub(super) const ROUGH: f64 = 1e-3;
 
 /// The factored system of one scaling.
 pub(super) struct Newton<'a> {
@@ -103,8 +107,8 @@ impl<'a> Newton<'a> {
         v
     }
 
-    /// Solves for one right-hand side.
-    pub fn solve(&mut self, a: &Point) -> Point {
+    /// Solves for one right-hand side, to `exact` × what its equations lack at first, and to `enough` in any case if rounding allows.
+    pub fn solve(&mut self, a: &Point, exact: f64, enough: f64) -> Point {
         let s = self.structure;
         // Right-hand sides without the cone rows.
         let stiff = self.stiff(&a.z);
@@ -112,24 +116,23 @@ impl<'a> Newton<'a> {
         s.g.add_transposed(&stiff, &mut b);
         let mut bt = a.t.clone();
         s.g_border.add_transposed(&stiff, &mut bt);
-        let scale = greatest(&a.y).max(greatest(&bt)).max(f64::MIN_POSITIVE);
-
         let mut d = Point::zero(s);
         d.x.copy_from_slice(&b);
         self.reduced.flex(s, &mut d.x);
-        let (mut rest, mut rest_t) = self.rest(a, &b, &bt, &d);
+        let (mut rest, mut rest_t) = self.rest(a, &bt, &d);
+        let scale = greatest(&rest).max(greatest(&rest_t));
         let mut error = f64::INFINITY;
         for _ in 0..=MOST_CORRECTIONS {
             let mut better = d.clone();
             self.correct(&rest, &rest_t, &mut better);
-            let (r, rt) = self.rest(a, &b, &bt, &better);
+            let (r, rt) = self.rest(a, &bt, &better);
             let now = greatest(&r).max(greatest(&rt));
             if now.is_nan() || now >= error {
                 break;
             }
             let slow = now > 0.5 * error;
             (d, rest, rest_t, error) = (better, r, rt, now);
-            if slow || error <= EXACT * scale {
+            if slow || error <= (exact * scale).min(if enough > 0.0 { enough } else { f64::INFINITY }) {
                 break;
             }
         }
@@ -144,7 +147,7 @@ impl<'a> Newton<'a> {
     }
 
     /// What equalities and border rows still lack.
-    fn rest(&self, a: &Point, _b: &[f64], bt: &[f64], d: &Point) -> (Vec<f64>, Vec<f64>) {
+    fn rest(&self, a: &Point, bt: &[f64], d: &Point) -> (Vec<f64>, Vec<f64>) {
         let s = self.structure;
         let mut r = a.y.clone();
         let minus: Vec<f64> = d.x.iter().map(|v| -v).collect();

@@ -116,6 +116,7 @@ impl Reduced {
 
     /// Builds the system for a scaling and factors it; false where that fails.
     pub fn factor(&mut self, structure: &Structure, cones: &Cones) -> bool {
+        let mut scratch = Vec::new();
         for (index, block) in structure.blocks.iter().enumerate() {
             let root = &mut self.roots[self.root_start[index]..self.root_start[index + 1]];
             let n = block.variables.len();
@@ -124,7 +125,7 @@ impl Reduced {
                 for k in 0..n {
                     cones.column(cone, k, false, &mut root[k * n..(k + 1) * n]);
                 }
-            } else if !root_of(structure, cones, index, root) {
+            } else if !root_of(structure, cones, index, &mut scratch, root) {
                 return false;
             }
         }
@@ -234,11 +235,12 @@ impl Reduced {
 
 /// `R⁻¹` of the QR decomposition of `(W⁻¹ G; √P)`: with `K` itself, half of the digits would be lost near the boundary of a cone.
 /// False where some variable is held by nothing.
-fn root_of(structure: &Structure, cones: &Cones, index: usize, root: &mut [f64]) -> bool {
+fn root_of(structure: &Structure, cones: &Cones, index: usize, q: &mut Vec<f64>, root: &mut [f64]) -> bool {
     let block = &structure.blocks[index];
     let (first, n) = (block.variables.start, block.variables.len());
     let rows: usize = block.cones.iter().map(|&c| cones.list[c].size).sum::<usize>() + n;
-    let mut q = vec![0.0; rows * n];
+    q.clear();
+    q.resize(rows * n, 0.0);
     let mut at = 0;
     let mut scaled = [0.0; MOST_ROWS];
     for &cone in &block.cones {
