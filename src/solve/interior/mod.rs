@@ -43,9 +43,9 @@ const FAR_ENOUGH: f64 = 0.9;
 /// Smaller: corrections at the level of rounding.
 const BELOW: f64 = 0.05;
 
-fn env(name: &str, default: f64) -> f64 {
-    std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
-}
+/// Where the next solve of a session begins: at the first point of the last one with no more than this of its error left. Larger: nearly
+/// from the start. Smaller: so near the boundary that changed limits leave no room.
+const WARM: f64 = 1e-5;
 
 /// The gap counts relative to the objective, or to this where that is smaller: an unbalance may be zero. Larger: load factors far below
 /// the natural one lose digits. Smaller: iterations at an objective of zero.
@@ -76,6 +76,9 @@ impl Session {
     pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
         let start = Instant::now();
         let structure = Structure::new(program)?;
+        if structure.equalities.is_empty() {
+            return None;
+        }
         let reduced = Reduced::new(&structure)?;
         Some(Self { structure, reduced, rhs: program.rhs.clone(), objective: program.objective.clone(), settings: *settings, start, begin: start, warm: None })
     }
@@ -214,13 +217,10 @@ fn iterate(
         let dual_residual = greatest(&r.x).max(greatest(&r.t)) / 1f64.max(greatest(&data.c)).max(greatest(&data.c_border));
         trace.push(Iteration { seconds: start.elapsed().as_secs_f64(), primal, dual, primal_residual, dual_residual });
         let merit = (gap / LEAST_OBJECTIVE.max(primal.abs().min(dual.abs()))).max(primal_residual).max(dual_residual);
-        if std::env::var("IPM_TRACE").is_ok() {
-            eprintln!("{:3} {:.3}s p {primal:.9} d {dual:.9} gap {gap:.2e} rp {primal_residual:.2e} rd {dual_residual:.2e}", trace.len(), start.elapsed().as_secs_f64());
-        }
         if merit.is_nan() || merit.is_infinite() {
             return give(best, Status::Stalled);
         }
-        if warm.is_none() && merit <= env("IPM_WARM", 0.0) {
+        if warm.is_none() && merit <= WARM {
             *warm = Some((p.clone(), s.clone()));
         }
         if best.as_ref().is_none_or(|b| merit < b.0) {
@@ -289,24 +289,24 @@ fn iterate(
             let zero = Point::zero(st);
             let more_s = slack(st, &more, &zero);
             // As much of it as brings us farthest.
-            let mut found: Option<(f64, f64, f64, f64, Vec<f64>, Vec<f64>)> = None;
+            let mut found: Option<(f64, f64, [f64; 2], [Vec<f64>; 2])> = None;
             for weight in [1.0, 0.7, 0.4, 0.2, 0.1] {
                 let mix = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + weight * b).collect::<Vec<f64>>();
                 let (s2, z2) = (mix(&ds, &more_s), mix(&d.z, &more.z));
                 let (bp, bd) = steps(&cones, st, (&s, &s2), (&p.z, &z2), TO_THE_BOUNDARY);
                 let score = bp * bd;
                 if found.as_ref().is_none_or(|(best, ..)| score > *best) {
-                    found = Some((score, weight, bp, bd, s2, z2));
+                    found = Some((score, weight, [bp, bd], [s2, z2]));
                 }
             }
-            let Some((score, weight, bp, bd, s2, z2)) = found else { break };
+            let Some((score, weight, step, [s2, z2])) = found else { break };
             if score < ap * ad * (1.0 + WORTH) {
                 break;
             }
             add(&mut d.x, weight, &more.x);
             add(&mut d.t, weight, &more.t);
             add(&mut d.y, weight, &more.y);
-            (ds, d.z, ap, ad) = (s2, z2, bp, bd);
+            (ds, d.z, [ap, ad]) = (s2, z2, step);
         }
         if ap.max(ad) < LEAST_STEP || ap.is_nan() || ad.is_nan() {
             return give(best, Status::Stalled);
@@ -334,3 +334,6 @@ fn steps(cones: &Cones, st: &Structure, (s, ds): (&[f64], &[f64]), (z, dz): (&[f
     let (ap, ad) = ((share * cones.step(s, ds)).min(1.0), (share * cones.step(z, dz)).min(1.0));
     if st.quadratic.is_empty() { (ap, ad) } else { (ap.min(ad), ap.min(ad)) }
 }
+
+#[cfg(test)]
+mod tests;
