@@ -35,6 +35,11 @@ pub const NEAR_MISS_FACTOR: f64 = 100.0;
 /// (coordinates rounded at 1e-12 of the scene) are solved in space, ten times slower.
 pub const MIRROR: f64 = 1e-9;
 
+/// A scene is its own image under a turn or a mirror when points, centres, masses and loads agree within this × their size.
+/// Larger: the forces of one part leave the others out of balance by as much as arches near their limit do. Smaller: symmetric scenes
+/// whose coordinates were rounded at 1e-15 of their extent, a thousand blocks wide, are solved whole.
+pub const SYMMETRY: f64 = 1e-11;
+
 /// A block or joint moves in a mechanism if its rate exceeds this × the greatest.
 /// Larger: slow parts of a mechanism are left unnamed. Smaller: rounding of the solver names joints that rest.
 pub const MECHANISM_REST: f64 = 1e-5;

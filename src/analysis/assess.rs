@@ -3,7 +3,7 @@
 
 use super::{
     Bracket,
-    attempt::{Attempt, Control, Law, Run, Rung, even, interior, is_large, run, rung},
+    attempt::{Attempt, Control, Law, Run, Rung, WHOLE_FROM, even, interior, is_large, run, rung},
     coulomb::{Motion, State, state},
 };
 use crate::{
@@ -65,8 +65,7 @@ pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -
     if let Some(answer) = falls_freely(assembly, interfaces, &floating) {
         return answer;
     }
-    let statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: false, ..Options::default() });
-    let mut answer = least_unbalance(assembly, interfaces, &statics, LiveLoad::Absent, control);
+    let mut answer = least_unbalance(assembly, interfaces, LiveLoad::Absent, control);
     answer.floating = floating;
     if answer.verdict == Verdict::Stable && control.law == Law::Coulomb {
         settle(assembly, interfaces, control, &mut answer);
@@ -129,14 +128,10 @@ fn falls_freely(assembly: &Assembly, interfaces: &Interfaces, floating: &[Vec<us
 }
 
 /// Program V down the ladder until its bracket decides.
-pub(super) fn least_unbalance(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    statics: &Statics,
-    live: LiveLoad,
-    control: &Control,
-) -> Assessment {
+pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live: LiveLoad, control: &Control) -> Assessment {
     let start = Instant::now();
+    let options = Options { keep_all: control.keep_all, live: live != LiveLoad::Absent, symmetry: true, ..Options::default() };
+    let mut whole = Statics::new(assembly, interfaces, options);
     let zero = no_forces(interfaces);
     let unloaded = certificate::statics(assembly, interfaces, &zero, 0.0);
     let mut answer = Assessment {
@@ -150,24 +145,28 @@ pub(super) fn least_unbalance(
         state: None,
         floating: Vec::new(),
         attempts: Vec::new(),
-        left_out: statics.left_out.clone(),
+        left_out: whole.left_out.clone(),
     };
     // What a mechanism proves is no matter of the rounding of large forces.
     let falls = tolerance::UNBALANCE.max(unloaded.resolution);
     let mut balanced = unloaded.balanced;
     // Bounds on crushing that one rung found hold for all.
-    let mut sections = statics.sections.clone();
-    let large = if is_large(statics) { &LARGE[..] } else { &[] };
-    for step in large.iter().copied().chain(LADDER) {
+    let mut sections = whole.sections.clone();
+    let large = if is_large(&whole) { &LARGE[..] } else { &[] };
+    for (index, step) in large.iter().copied().chain(LADDER).enumerate() {
         // With a free load factor only the force form yields its value; with strengths there is no other.
-        if (live == LiveLoad::AnyMultiple || statics.in_forces_only()) && step.unknowns == Unknowns::Rates {
+        if (live == LiveLoad::AnyMultiple || whole.in_forces_only()) && step.unknowns == Unknowns::Rates {
             continue;
         }
         let left = control.seconds - start.elapsed().as_secs_f64();
         if left <= 0.0 {
             break;
         }
-        let mut statics = step.scaled(statics);
+        if index == WHOLE_FROM && whole.is_part() {
+            whole = Statics::new(assembly, interfaces, Options { symmetry: false, ..options });
+            answer.left_out.clone_from(&whole.left_out);
+        }
+        let mut statics = step.scaled(&whole);
         statics.sections = std::mem::take(&mut sections);
         let settings = crate::solve::Settings { seconds: left, ..step.settings };
         let build = |statics: &Statics| program::unbalance(statics, live, step.unknowns);
@@ -192,7 +191,7 @@ pub(super) fn least_unbalance(
         }
         answer.attempts.push(Attempt {
             program: format!("least unbalance in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
-            force_unit: statics.unit / statics.free.iter().map(|f| f.weight).sum::<f64>(),
+            force_unit: statics.unit / statics.total_load(),
             engine: settings.engine,
             tolerance: settings.tolerance,
             regularization: settings.regularization,

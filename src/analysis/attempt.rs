@@ -74,6 +74,10 @@ pub struct Attempt {
     pub upper: f64,
 }
 
+/// From this step on a symmetric scene is solved whole: what its parts leave off balance for not being quite alike would decide.
+/// Fewer: symmetric scenes near their limit cost twice. More: time lost on those that are symmetric in eleven digits only.
+pub(super) const WHOLE_FROM: usize = 2;
+
 /// One step of a ladder.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rung {
@@ -99,14 +103,8 @@ pub(super) const fn rung(unknowns: Unknowns, unit: f64, local: bool, tolerance: 
 
 /// A rung for large programs, in forces on the stiffness matrix of the blocks.
 pub(super) const fn interior(unit: f64, tolerance: f64) -> Rung {
-    let settings = Settings {
-        engine: Engine::Interior,
-        tolerance,
-        regularization: 0.0,
-        equilibrate: false,
-        iterations: 200,
-        seconds: f64::INFINITY,
-    };
+    let settings =
+        Settings { engine: Engine::Interior, tolerance, regularization: 0.0, equilibrate: false, iterations: 200, seconds: f64::INFINITY };
     Rung { unknowns: Unknowns::Forces, unit, local: true, even: false, settings }
 }
 

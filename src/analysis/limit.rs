@@ -7,7 +7,7 @@
 use super::{
     Bracket,
     assess::least_unbalance,
-    attempt::{Attempt, Control, Run, Rung, even, interior, is_large, run, rung},
+    attempt::{Attempt, Control, Run, Rung, WHOLE_FROM, even, interior, is_large, run, rung},
 };
 use crate::{
     assembly::Assembly,
@@ -78,7 +78,8 @@ const BEFORE_DIAGNOSIS: usize = 2;
 /// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
 pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
     let start = Instant::now();
-    let mut statics = Statics::new(assembly, interfaces, Options { keep_all: control.keep_all, live: true, ..Options::default() });
+    let options = Options { keep_all: control.keep_all, live: true, symmetry: true, ..Options::default() };
+    let mut statics = Statics::new(assembly, interfaces, options);
     let natural = check::natural_factor(assembly);
     let mut answer = unknown(assembly, interfaces, &statics);
     let mut scale = natural;
@@ -86,11 +87,12 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     let large = if is_large(&statics) { &LARGE[..] } else { &[] };
     let ladder = large.iter().copied().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates));
     for (index, step) in ladder.enumerate() {
-        if index == BEFORE_DIAGNOSIS
-            && !answer.bracket.width().is_finite()
-            && diagnose(assembly, interfaces, &statics, control, &mut answer)
-        {
+        if index == BEFORE_DIAGNOSIS && !answer.bracket.width().is_finite() && diagnose(assembly, interfaces, control, &mut answer) {
             return answer;
+        }
+        if index == WHOLE_FROM && statics.is_part() {
+            statics = Statics::new(assembly, interfaces, Options { symmetry: false, ..options });
+            answer.left_out.clone_from(&statics.left_out);
         }
         let left = control.seconds - start.elapsed().as_secs_f64();
         if left <= 0.0 {
@@ -161,7 +163,7 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step:
     }
     answer.attempts.push(Attempt {
         program: format!("load factor in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
-        force_unit: statics.unit / statics.free.iter().map(|f| f.weight).sum::<f64>(),
+        force_unit: statics.unit / statics.total_load(),
         engine: settings.engine,
         tolerance: settings.tolerance,
         regularization: settings.regularization,
@@ -227,8 +229,8 @@ impl Way {
 }
 
 /// Is there no load factor at all, or no limit to it? Returns true where that is the answer.
-fn diagnose(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, control: &Control, answer: &mut LoadFactor) -> bool {
-    let any = least_unbalance(assembly, interfaces, statics, LiveLoad::AnyMultiple, control);
+fn diagnose(assembly: &Assembly, interfaces: &Interfaces, control: &Control, answer: &mut LoadFactor) -> bool {
+    let any = least_unbalance(assembly, interfaces, LiveLoad::AnyMultiple, control);
     answer.attempts.extend(any.attempts.iter().cloned());
     if any.verdict == Verdict::Unstable {
         answer.outcome = Outcome::Impossible;
@@ -240,8 +242,7 @@ fn diagnose(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics, con
     // The live load in the size of the dead load, so that the same threshold applies.
     let (alone, natural) = check::live_alone(assembly);
     let (unlimited, kept) = interfaces.unlimited();
-    let wedge_statics = Statics::new(&alone, &unlimited, Options { keep_all: control.keep_all, live: false, ..Options::default() });
-    let wedge = least_unbalance(&alone, &unlimited, &wedge_statics, LiveLoad::Absent, control);
+    let wedge = least_unbalance(&alone, &unlimited, LiveLoad::Absent, control);
     answer.attempts.extend(wedge.attempts.iter().cloned());
     if wedge.verdict == Verdict::Stable && any.verdict == Verdict::Stable {
         answer.outcome = Outcome::Unbounded;

@@ -1,6 +1,6 @@
 //! Contact points of the program: what each may carry, as columns and a cone.
 
-use super::{Cone, ConicProgram, Options, Pyramid, planar, planar::Plane};
+use super::{Cone, ConicProgram, Options, Pyramid, planar, planar::Plane, symmetry::BearingOrbit};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interface, Interfaces},
@@ -54,9 +54,16 @@ pub struct Bearing {
     pub unit: f64,
     /// Load that presumably passes here, N ([`carried`](super::carried)).
     pub(super) presumed: f64,
+    /// Its images, where a symmetry makes it stand for them.
+    pub(super) orbit: Option<BearingOrbit>,
 }
 
 impl Bearing {
+    /// How many bearings of the whole scene it stands for.
+    pub fn image_count(&self) -> usize {
+        self.orbit.as_ref().map_or(1, |o| o.distinct)
+    }
+
     /// How many points of the interface it stands for.
     pub fn point_count(&self) -> usize {
         if self.points[0] == self.points[1] { 1 } else { 2 }
@@ -218,7 +225,8 @@ pub(super) fn bearings(assembly: &Assembly, interfaces: &Interfaces, plane: Opti
             }
         };
         for points in points {
-            let mut bearing = Bearing { interface: index, points, column, basis: basis.clone(), cone, unit: 1.0, presumed: 0.0 };
+            let mut bearing =
+                Bearing { interface: index, points, column, basis: basis.clone(), cone, unit: 1.0, presumed: 0.0, orbit: None };
             if let BearingCone::Limited(limits) = &mut bearing.cone {
                 if shares.is_empty() {
                     list.push(bearing);

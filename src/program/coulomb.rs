@@ -21,7 +21,7 @@
 //! Sources: Haslinger 1983 (fixed point on the Tresca limit), Acary, Brémond & Huber 2018 (natural map), Gilbert, Casapulla &
 //! Ahmed 2006 (sequence of convex programs for non-associative limit analysis).
 
-use super::{BearingCone, Cone, ConicProgram, Disc, Options, Statics, bearing::ends_are_all, unbalance::copy};
+use super::{BearingCone, Cone, ConicProgram, Disc, Options, Statics, unbalance::copy};
 use crate::{assembly::Assembly, interface::Interfaces, scene::Friction};
 
 /// A contact point of programs C and D.
@@ -46,6 +46,9 @@ pub struct Contacts {
     pub points: Vec<Point>,
     /// Compliance of each column.
     pub compliance: Vec<f64>,
+    /// How many blocks each row, and how many bearings each column stands for: what is summed over the scene counts them.
+    row_images: Vec<f64>,
+    column_images: Vec<f64>,
 }
 
 /// How friction is held fixed in one convex program.
@@ -71,21 +74,18 @@ impl Contacts {
     ///
     /// A plane scene is solved as plane only where every interface is wholly represented by its two ends: the compliance of
     /// inner points would be lost.
-    pub fn new(assembly: &Assembly, interfaces: &Interfaces, keep_all: bool, live: bool) -> Self {
-        let options = Options { keep_all, live, split: true, ..Options::default() };
-        let mut statics = Statics::new(assembly, interfaces, options);
-        if statics.plane.is_some() && !ends_are_all(&statics.bearings, interfaces) {
-            statics = Statics::new(assembly, interfaces, Options { keep_all: true, ..options });
-        }
-        let mean = statics.free.iter().map(|f| f.weight).sum::<f64>() / statics.free.len().max(1) as f64;
+    pub fn new(assembly: &Assembly, interfaces: &Interfaces, options: Options) -> Self {
+        let mut statics = Statics::new(assembly, interfaces, Options { split: true, ..options });
+        let mean = statics.total_load() / statics.free_count().max(1) as f64;
         statics.rescale(mean / statics.unit, false);
         let share = |b: &super::Bearing| {
             let face = &interfaces.list[b.interface];
             face.area * b.point_count() as f64 / face.points.len() as f64
         };
         let areas: Vec<f64> = statics.bearings.iter().map(share).collect();
-        let with_area: Vec<f64> = areas.iter().copied().filter(|&a| a > 0.0).collect();
-        let mean_area = with_area.iter().sum::<f64>() / with_area.len().max(1) as f64;
+        let column_images = statics.column_images();
+        let with_area = || statics.bearings.iter().zip(&areas).filter(|(_, a)| **a > 0.0).map(|(b, a)| (column_images[b.column], a));
+        let mean_area = with_area().map(|(n, a)| n * a).sum::<f64>() / with_area().map(|(n, _)| n).sum::<f64>().max(1.0);
         let mut compliance = Vec::with_capacity(statics.matrix.columns);
         let points = statics
             .bearings
@@ -106,7 +106,8 @@ impl Contacts {
                 Point { column: b.column, columns: b.basis.len(), tension, discs: limits }
             })
             .collect();
-        Self { statics, points, compliance }
+        let row_images = statics.row_images();
+        Self { statics, points, compliance, row_images, column_images }
     }
 
     /// One convex program of the sequence; `held` are the limits or the sliding rates per point.
@@ -118,12 +119,12 @@ impl Contacts {
         };
         let mut p = ConicProgram::new(forces + extra);
         let weight = if let Aim::LoadFactor(delta, _) = aim { delta } else { 1.0 };
-        p.quadratic = self.compliance.iter().map(|c| c * weight).collect();
+        p.quadratic = self.compliance.iter().zip(&self.column_images).map(|(c, n)| c * weight * n).collect();
         p.cone(Cone::Zero(rows));
         copy(&mut p, &self.statics, 0, 0);
         match aim {
             Aim::State(epsilon) => {
-                p.quadratic.resize(forces + rows, 1.0 / epsilon);
+                p.quadratic.extend(self.row_images.iter().map(|n| n / epsilon));
                 for row in 0..rows {
                     p.matrix.push(row, forces + row, 1.0);
                 }
@@ -171,7 +172,7 @@ impl Contacts {
                     p.objective[point.column] = 0.0;
                 }
                 for (disc, &rate) in self.discs().zip(held) {
-                    p.objective[disc.normal] += rate;
+                    p.objective[disc.normal] += rate * self.column_images[disc.normal];
                 }
             }
         }
@@ -223,13 +224,25 @@ impl Contacts {
         r
     }
 
-    /// Rates of the joints, `Aᵀ q` per column.
+    /// Multipliers of the rows in the state that leaves this residual: its accelerations over ε.
+    pub fn multipliers(&self, residual: &[f64], epsilon: f64) -> Vec<f64> {
+        residual.iter().zip(&self.row_images).map(|(r, n)| n * (r / epsilon)).collect()
+    }
+
+    /// The load factor at which these forces, off balance by `residual`, balance best.
+    pub fn best_factor(&self, lambda: f64, residual: &[f64]) -> f64 {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).zip(&self.row_images).map(|((a, b), n)| a * b * n).sum::<f64>();
+        lambda - dot(residual, &self.statics.live) / dot(&self.statics.live, &self.statics.live)
+    }
+
+    /// Rates of the joints, `Aᵀ q` per column, from the multipliers of the rows.
     pub fn joint_rates(&self, q: &[f64]) -> Vec<f64> {
         let mut u = vec![0.0; self.statics.matrix.columns];
         let m = &self.statics.matrix;
         for ((&i, &j), &v) in m.i.iter().zip(&m.j).zip(&m.v) {
             u[j] += v * q[i];
         }
+        u.iter_mut().zip(&self.column_images).for_each(|(u, n)| *u /= n);
         u
     }
 

@@ -10,6 +10,7 @@
 //! `v = Aᵀ q` is the rate of separation and sliding of the contacts, opening positive.
 
 mod bearing;
+mod build;
 mod carried;
 mod conic;
 pub mod coulomb;
@@ -18,8 +19,10 @@ mod planar;
 mod reach;
 mod section;
 mod statics;
+mod symmetry;
 mod thrust;
 mod unbalance;
+mod unfold;
 
 pub use bearing::{Bearing, BearingCone, Disc, Limits};
 pub use conic::{Cone, ConicProgram, Sparse};

@@ -64,7 +64,7 @@ impl Statics {
 
     /// The rows of crushing in a program in forces, which start at variable `column`.
     pub(super) fn section_rows(&self, p: &mut ConicProgram, column: usize) {
-        let total: f64 = self.free.iter().map(|f| f.weight).sum();
+        let total = self.total_load();
         for section in &self.sections {
             let bearings = &self.bearings[section.bearings.clone()];
             let tension = |b: &Bearing| b.limits().map_or(0.0, |l| l.tension);

@@ -41,7 +41,7 @@ pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Layout) {
 /// Can the thrust grow without end? Forces that balance by themselves with `objective · x = −1`, or what they leave:
 /// `min t`, `‖(A x)_i‖ ≤ t` per block.
 pub fn endless_thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Layout) {
-    let (d, rows, forces) = (statics.dimension(), statics.matrix.rows, statics.matrix.columns);
+    let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
     let t = forces + rows;
     let mut p = ConicProgram::new(t + 1);
     p.objective[t] = 1.0;
@@ -56,11 +56,11 @@ pub fn endless_thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, La
     }
     p.rhs[grows] = -1.0;
     force_cones(&mut p, statics, 0);
-    for block in 0..statics.free.len() {
-        let first = p.cone(Cone::SecondOrder(d + 1));
+    for block in &statics.free {
+        let first = p.cone(Cone::SecondOrder(block.rows.len() + 1));
         p.matrix.push(first, t, -1.0);
-        for k in 0..d {
-            p.matrix.push(first + 1 + k, forces + block * d + k, -1.0);
+        for (k, row) in block.rows.clone().enumerate() {
+            p.matrix.push(first + 1 + k, forces + row, -1.0);
         }
     }
     (p, Layout { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })

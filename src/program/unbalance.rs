@@ -30,8 +30,7 @@ fn loads(statics: &Statics, live: LiveLoad) -> &[f64] {
 }
 
 fn in_forces(statics: &Statics, live: LiveLoad) -> (ConicProgram, Layout) {
-    let (d, blocks, forces) = (statics.dimension(), statics.free.len(), statics.matrix.columns);
-    let rows = d * blocks;
+    let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
     // Variables: forces, residuals r, t [, λ].
     let lambda = usize::from(live == LiveLoad::AnyMultiple);
     let mut p = ConicProgram::new(forces + rows + 1 + lambda);
@@ -47,19 +46,18 @@ fn in_forces(statics: &Statics, live: LiveLoad) -> (ConicProgram, Layout) {
         }
     }
     force_cones(&mut p, statics, 0);
-    for block in 0..blocks {
-        let first = p.cone(Cone::SecondOrder(d + 1));
+    for block in &statics.free {
+        let first = p.cone(Cone::SecondOrder(block.rows.len() + 1));
         p.matrix.push(first, t, -1.0);
-        for k in 0..d {
-            p.matrix.push(first + 1 + k, forces + block * d + k, -1.0);
+        for (k, row) in block.rows.clone().enumerate() {
+            p.matrix.push(first + 1 + k, forces + row, -1.0);
         }
     }
     (p, Layout { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
 }
 
 fn in_rates(statics: &Statics, live: LiveLoad) -> (ConicProgram, Layout) {
-    let (d, blocks) = (statics.dimension(), statics.free.len());
-    let rows = d * blocks;
+    let (rows, blocks) = (statics.matrix.rows, statics.free.len());
     // Variables: rates q, bounds τ_i ≥ ‖q_i‖.
     let mut p = ConicProgram::new(rows + blocks);
     for (row, w) in loads(statics, live).iter().enumerate() {
@@ -72,11 +70,11 @@ fn in_rates(statics: &Statics, live: LiveLoad) -> (ConicProgram, Layout) {
         }
     }
     let forces = rate_cones(&mut p, statics);
-    for block in 0..blocks {
-        let first = p.cone(Cone::SecondOrder(d + 1));
+    for (block, free) in statics.free.iter().enumerate() {
+        let first = p.cone(Cone::SecondOrder(free.rows.len() + 1));
         p.matrix.push(first, rows + block, -1.0);
-        for k in 0..d {
-            p.matrix.push(first + 1 + k, block * d + k, -1.0);
+        for (k, row) in free.rows.clone().enumerate() {
+            p.matrix.push(first + 1 + k, row, -1.0);
         }
     }
     let sum = p.cone(Cone::NonNegative(1));

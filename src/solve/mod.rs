@@ -66,7 +66,14 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { engine: Engine::Clarabel, tolerance: 1e-10, regularization: 1e-8, equilibrate: true, iterations: 200, seconds: f64::INFINITY }
+        Self {
+            engine: Engine::Clarabel,
+            tolerance: 1e-10,
+            regularization: 1e-8,
+            equilibrate: true,
+            iterations: 200,
+            seconds: f64::INFINITY,
+        }
     }
 }
 

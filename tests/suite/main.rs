@@ -31,4 +31,5 @@ mod same;
 mod scenes;
 mod strength;
 mod sweep;
+mod symmetry;
 mod thrust;

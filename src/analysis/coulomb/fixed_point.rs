@@ -13,7 +13,7 @@ use crate::{
 pub(super) struct FixedPoint {
     /// Forces per column in mean block loads, cut back into the friction cones.
     pub forces: Vec<f64>,
-    /// Rates of the blocks per row.
+    /// Rates of the blocks: multipliers of the rows.
     pub rates: Vec<f64>,
     /// The load factor (0 for a state).
     pub lambda: f64,
@@ -103,7 +103,7 @@ const MOST_ROUNDS: usize = 20;
 fn read(contacts: &Contacts, aim: Aim, solution: &Solution) -> (Vec<f64>, Vec<f64>, f64) {
     let forces = solution.x[..contacts.statics.matrix.columns].to_vec();
     let (rates, lambda) = match aim {
-        Aim::State(epsilon) => (contacts.residual(&forces, 0.0).iter().map(|r| r / epsilon).collect(), 0.0),
+        Aim::State(epsilon) => (contacts.multipliers(&contacts.residual(&forces, 0.0), epsilon), 0.0),
         Aim::LoadFactor(_, scale) => {
             (solution.z[..contacts.statics.matrix.rows].to_vec(), scale * solution.x[contacts.statics.matrix.columns])
         }

@@ -11,10 +11,11 @@ use super::{
     state::{Motion, state},
 };
 use crate::{
-    analysis::{attempt::engine, Control, LoadFactor, Outcome},
+    analysis::{Control, LoadFactor, Outcome, attempt::engine},
     assembly::Assembly,
     interface::Interfaces,
     program::{
+        Options,
         coulomb::{Aim, Contacts, Hold},
         is_forest,
     },
@@ -103,15 +104,34 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
         return answer;
     }
     let start = Instant::now();
-    let mut contacts = Contacts::new(assembly, interfaces, control.keep_all, true);
+    let options = Options { keep_all: control.keep_all, live: true, symmetry: true, ..Options::default() };
+    let contacts = Contacts::new(assembly, interfaces, options);
+    let is_part = contacts.statics.is_part();
+    lowered(assembly, interfaces, contacts, control, start, &mut answer);
+    if answer.found == Found::Undecided && is_part {
+        let whole = Contacts::new(assembly, interfaces, Options { symmetry: false, ..options });
+        lowered(assembly, interfaces, whole, control, start, &mut answer);
+    }
+    answer
+}
+
+/// Lowers δ until the law is obeyed.
+fn lowered(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    mut contacts: Contacts,
+    control: &Control,
+    start: Instant,
+    answer: &mut DryLoadFactor,
+) {
     let settings = Settings { tolerance: TOLERANCES[0], regularization: 1e-9, engine: engine(&contacts.statics), ..Settings::default() };
     let scale = check::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
     let first = Stop { change: 0.0, solves: 1 };
     let Some(mut from) = iterate(&contacts, Aim::LoadFactor(STAGES[0].0, scale), Hold::SlidingRates, still, first, &settings) else {
-        return answer;
+        return;
     };
-    answer.solves = from.solves;
+    answer.solves += from.solves;
     for (stage, (delta, stop)) in STAGES.into_iter().enumerate() {
         let left = control.seconds - start.elapsed().as_secs_f64();
         if left <= 0.0 {
@@ -123,7 +143,7 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
         });
         let Some(point) = point else { break };
         answer.solves += point.solves;
-        if stage + 1 >= LEAST_STAGES && accept(assembly, interfaces, &contacts, &point, &mut answer) {
+        if stage + 1 >= LEAST_STAGES && accept(assembly, interfaces, &contacts, &point, answer) {
             break;
         }
         // What wanders at a large δ does not settle at a smaller one; at the smallest it may be the engine's noise.
@@ -135,7 +155,6 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
             from = point;
         }
     }
-    answer
 }
 
 /// Takes a fixed point as the answer if it is more exact than the one before; says whether it is a value.
@@ -146,9 +165,7 @@ fn accept(assembly: &Assembly, interfaces: &Interfaces, contacts: &Contacts, poi
     let natural_map = law::natural_map(assembly, interfaces, &forces, &rates).unwrap_or(f64::INFINITY);
     let natural_map_in_loads = check::dry_map(assembly, interfaces, &forces, &rates);
     // The forces as they are, cut to their limits, balance best at this load factor.
-    let (residual, live) = (contacts.residual(&point.forces, point.lambda), &contacts.statics.live);
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let lambda = point.lambda - dot(&residual, live) / dot(live, live);
+    let lambda = contacts.best_factor(point.lambda, &contacts.residual(&point.forces, point.lambda));
     let s = certificate::statics(assembly, interfaces, &forces, lambda);
     let obeys = natural_map <= tolerance::DRY_LAW && natural_map_in_loads <= tolerance::NATURAL_MAP;
     let found = obeys && s.is_within_strength() && s.unbalance <= tolerance::DRY_BALANCE.max(s.resolution);

@@ -11,7 +11,10 @@ use crate::{
     analysis::attempt::{Control, engine},
     assembly::Assembly,
     interface::Interfaces,
-    program::coulomb::{Aim, Contacts, Hold},
+    program::{
+        Options,
+        coulomb::{Aim, Contacts, Hold},
+    },
     solve::{Engine, Settings},
     tolerance,
     verdict::{Forces, law},
@@ -79,10 +82,24 @@ const FINER: f64 = 1e-2;
 /// When a fixed point has settled.
 const STOP: Stop = Stop { change: 1e-5, solves: 25 };
 
-/// Computes the state.
+/// Computes the state; of a symmetric scene from one part of it, and where that leaves it open from the whole.
 pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> State {
     let begin = Instant::now();
-    let mut contacts = Contacts::new(assembly, interfaces, control.keep_all, false);
+    let options = Options { keep_all: control.keep_all, symmetry: true, ..Options::default() };
+    let contacts = Contacts::new(assembly, interfaces, options);
+    let is_part = contacts.statics.is_part();
+    let part = continued(assembly, interfaces, contacts, control, begin);
+    if part.motion != Motion::Undecided || !is_part {
+        return part;
+    }
+    let whole = Contacts::new(assembly, interfaces, Options { symmetry: false, ..options });
+    let mut answer = continued(assembly, interfaces, whole, control, begin);
+    answer.steps.splice(0..0, part.steps);
+    answer
+}
+
+/// The continuation in ε.
+fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contacts, control: &Control, begin: Instant) -> State {
     let settings = Settings { tolerance: 1e-10, regularization: 1e-8, engine: engine(&contacts.statics), ..Settings::default() };
     let mut answer = State { motion: Motion::Undecided, steps: Vec::new(), forces: Vec::new() };
     let still = vec![0.0; contacts.discs().count()];

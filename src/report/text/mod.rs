@@ -20,7 +20,7 @@ use super::{
     result::{Question, ResultFile},
     work::Work,
 };
-use crate::{analysis::Attempt, verdict::Verdict};
+use crate::{analysis::Attempt, solve::Engine, verdict::Verdict};
 use number::{count, seconds};
 
 /// How much is said.

@@ -96,12 +96,12 @@ impl Cones {
 
     /// `W v` in place.
     pub fn times(&self, v: &mut [f64]) {
-        self.each(v, |w, eta, from, to| apply(w, eta, from, to), |w| w);
+        self.each(v, apply, |w| w);
     }
 
     /// `W⁻¹ v` in place.
     pub fn over(&self, v: &mut [f64]) {
-        self.each(v, |w, eta, from, to| undo(w, eta, from, to), |w| 1.0 / w);
+        self.each(v, undo, |w| 1.0 / w);
     }
 
     fn each(&self, v: &mut [f64], round: impl Fn(&[f64], f64, &[f64], &mut [f64]), ray: impl Fn(f64) -> f64) {

@@ -16,7 +16,12 @@ pub(super) struct Point {
 
 impl Point {
     pub fn zero(s: &Structure) -> Self {
-        Self { x: vec![0.0; s.variables.len()], t: vec![0.0; s.border.len()], y: vec![0.0; s.equalities.len()], z: vec![0.0; s.cone_rows.len()] }
+        Self {
+            x: vec![0.0; s.variables.len()],
+            t: vec![0.0; s.border.len()],
+            y: vec![0.0; s.equalities.len()],
+            z: vec![0.0; s.cone_rows.len()],
+        }
     }
 }
 
@@ -64,8 +69,18 @@ impl<'a> Newton<'a> {
             return None;
         }
         let count = structure.border.len();
-        let mut this =
-            Self { structure, reduced, cones, m: vec![], n: vec![], s_n: vec![], g_border: vec![], e_border: vec![], k_border: vec![], schur: vec![] };
+        let mut this = Self {
+            structure,
+            reduced,
+            cones,
+            m: vec![],
+            n: vec![],
+            s_n: vec![],
+            g_border: vec![],
+            e_border: vec![],
+            k_border: vec![],
+            schur: vec![],
+        };
         for k in 0..count {
             let mut g = vec![0.0; structure.cone_rows.len()];
             structure.g_border.of(k).for_each(|(i, v)| g[i] += v);
@@ -153,9 +168,8 @@ impl<'a> Newton<'a> {
         let minus: Vec<f64> = d.x.iter().map(|v| -v).collect();
         s.e.add(&minus, &mut r);
         s.e_border.add(&d.t.iter().map(|v| -v).collect::<Vec<_>>(), &mut r);
-        let rt = (0..bt.len())
-            .map(|k| bt[k] - dot(&self.m[k], &d.x) - dot(&self.k_border[k], &d.t) - dot(&self.e_border[k], &d.y))
-            .collect();
+        let rt =
+            (0..bt.len()).map(|k| bt[k] - dot(&self.m[k], &d.x) - dot(&self.k_border[k], &d.t) - dot(&self.e_border[k], &d.y)).collect();
         (r, rt)
     }
 
@@ -186,11 +200,10 @@ impl<'a> Newton<'a> {
 fn small(matrix: &[Vec<f64>], rhs: &[f64]) -> Vec<f64> {
     let (mut a, mut b, n) = (matrix.to_vec(), rhs.to_vec(), rhs.len());
     for k in 0..n {
+        let pivot = a[k].clone();
         for i in k + 1..n {
-            let f = if a[k][k] == 0.0 { 0.0 } else { a[i][k] / a[k][k] };
-            for j in k..n {
-                a[i][j] -= f * a[k][j];
-            }
+            let f = if pivot[k] == 0.0 { 0.0 } else { a[i][k] / pivot[k] };
+            a[i].iter_mut().zip(&pivot).for_each(|(a, p)| *a -= f * p);
             b[i] -= f * b[k];
         }
     }

@@ -14,7 +14,7 @@ use faer::{
     dyn_stack::{MemBuffer, MemStack},
     linalg::cholesky::llt::factor::LltRegularization,
     sparse::{
-        SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef,
+        SparseColMatRef, SymbolicSparseColMat,
         linalg::{
             SupernodalThreshold,
             cholesky::{CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky},
@@ -95,12 +95,16 @@ impl Reduced {
             root_start.push(root_start[root_start.len() - 1] + block.variables.len().pow(2));
         }
         let pattern = SymbolicSparseColMat::new_checked(rows, rows, start, None, row);
-        let params = CholeskySymbolicParams { supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL, ..Default::default() };
+        let params =
+            CholeskySymbolicParams { supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL, ..Default::default() };
         let symbolic = factorize_symbolic_cholesky(pattern.as_ref(), Side::Upper, SymmetricOrdering::Amd, params).ok()?;
         let (factoring, solving) = (
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
             symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
         );
+        let mut factor = Vec::new();
+        factor.try_reserve_exact(symbolic.len_val()).ok()?;
+        factor.resize(symbolic.len_val(), 0.0);
         Some(Self {
             groups,
             roots: vec![0.0; root_start[root_start.len() - 1]],
@@ -108,7 +112,7 @@ impl Reduced {
             values: vec![0.0; pattern.row_idx().len()],
             pattern,
             jacobi: vec![0.0; rows],
-            factor: vec![0.0; symbolic.len_val()],
+            factor,
             symbolic,
             memory: MemBuffer::try_new(factoring.or(solving)).ok()?,
         })
@@ -178,12 +182,13 @@ impl Reduced {
             *scale = if d > 0.0 { 1.0 / d.sqrt() } else { 1.0 };
         }
         for j in 0..self.jacobi.len() {
-            for p in start[j]..start[j + 1] {
-                self.values[p] *= self.jacobi[row[p]] * self.jacobi[j];
+            let column = start[j]..start[j + 1];
+            for (value, &i) in self.values[column.clone()].iter_mut().zip(&row[column]) {
+                *value *= self.jacobi[i] * self.jacobi[j];
             }
             self.values[start[j + 1] - 1] += DIAGONAL;
         }
-        let matrix = SparseColMatRef::new(SymbolicSparseColMatRef::from(self.pattern.as_ref()), &self.values);
+        let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
         let regularization = LltRegularization { dynamic_regularization_delta: 1.0, dynamic_regularization_epsilon: LEAST_PIVOT };
         self.symbolic
             .factorize_numeric_llt(

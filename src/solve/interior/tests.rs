@@ -10,7 +10,7 @@ use crate::{
         load_factor, unbalance,
     },
     scene::read_str,
-    solve::{Engine, solve},
+    solve::{Engine, Status, solve},
 };
 
 /// A running-bond wall of blocks 1 × 0.5 × 0.4 m on a fixed course.
@@ -87,7 +87,7 @@ fn both_engines_find_the_same_least_unbalance() {
 #[test]
 fn both_engines_find_the_same_state_again_and_again() {
     let (assembly, interfaces) = wall(6, 6, [1.0, 0.0, 0.0]);
-    let contacts = Contacts::new(&assembly, &interfaces, true, false);
+    let contacts = Contacts::new(&assembly, &interfaces, Options { keep_all: true, ..Options::default() });
     let limit = vec![0.7; contacts.discs().count()];
     let mut program = contacts.program(Aim::State(1e-2), Hold::Limits, &limit);
     let mut session = Session::new(&program, &settings(Engine::Interior)).unwrap();

@@ -1,0 +1,173 @@
+//! Scenes that are images of themselves: one part gives the answer of the whole, with a certificate of the whole; what is not
+//! quite symmetric is solved whole.
+
+use crate::ask::{self, close, cuboid, dry, fixed, ground, model, push, scene, sphere, template};
+use serde_json::{Value, json};
+use voussoir::{
+    analysis::{Control, Law, Outcome, assess, coulomb, limit},
+    scene::Scene,
+    verdict::Verdict,
+};
+
+fn keep_all() -> Control {
+    Control { keep_all: true, ..Control::default() }
+}
+
+fn dome(thickness: f64, more: Value) -> Scene {
+    template(0.7, json!({ "dome": { "radius": 2.0, "thickness": thickness, "rings": 4, "segments": 12 } }), more)
+}
+
+fn arch(thickness: f64, voussoirs: usize) -> Scene {
+    template(0.8, json!({ "arch": { "radius": 1.0, "thickness": thickness, "depth": 1.0, "voussoirs": voussoirs } }), json!({}))
+}
+
+fn wall_pushed(direction: [f64; 3]) -> Scene {
+    template(
+        0.6,
+        json!({ "wall": { "size": [1, 0.5, 0.4], "courses": 4, "blocks": 4, "first": "half", "base": "course" } }),
+        push(direction),
+    )
+}
+
+/// `n` cubes around the vertical, each turned by the same angle against its radius, so that there is no mirror; each is pushed along its
+/// own face.
+fn pinwheel(n: usize, mu: f64) -> Scene {
+    let mut blocks = vec![ground()];
+    let mut loads = Vec::new();
+    for k in 0..n {
+        let turn = std::f64::consts::TAU * k as f64 / n as f64;
+        let mut block = cuboid(&format!("b{k}"), [1.0, 0.7, 0.5], [2.0 * turn.cos(), 2.0 * turn.sin(), 0.0]);
+        block["rotation_deg"] = json!({ "axis": [0, 0, 1], "angle": turn.to_degrees() + 20.0 });
+        blocks.push(block);
+        let along = turn + 20f64.to_radians();
+        loads.push(json!({ "block": format!("b{k}"), "force": [along.cos(), along.sin(), 0.0] }));
+    }
+    scene(mu, json!(blocks), json!({ "loads": { "live": loads } }))
+}
+
+fn pile(more: Value) -> Scene {
+    let r = 2.0 / 3f64.sqrt();
+    let at = |k: usize| [r * (std::f64::consts::TAU * k as f64 / 3.0).cos(), r * (std::f64::consts::TAU * k as f64 / 3.0).sin(), 1.0];
+    let top = sphere("top", 1.0, [0.0, 0.0, 1.0 + (4.0 - r * r).sqrt()]);
+    scene(0.4, json!([ground(), sphere("a", 1.0, at(0)), sphere("b", 1.0, at(1)), sphere("c", 1.0, at(2)), top]), more)
+}
+
+/// A block between two posts, held by nothing but a squeeze.
+fn squeezed() -> Scene {
+    let bar = cuboid("bar", [1.0, 1.0, 1.0], [0.0, 0.0, 0.5]);
+    let post = |id: &str, x: f64| fixed(cuboid(id, [1.0, 1.0, 2.0], [x, 0.0, 0.0]));
+    scene(0.7, json!([post("left", -1.0), post("right", 1.0), bar]), json!({}))
+}
+
+fn line(left_out: &[String]) -> Option<&str> {
+    left_out.iter().find(|l| l.starts_with("symmetry")).map(String::as_str)
+}
+
+#[test]
+fn verdicts_of_the_part_are_those_of_the_whole() {
+    let critical = 0.10707620314306167;
+    let cases = [
+        ("thick dome", dome(0.3, json!({})), Verdict::Stable, "12 equal parts around the vertical, each its own mirror image): 5 of 49"),
+        ("thin dome", dome(0.02, json!({})), Verdict::Unstable, "12 equal parts around the vertical, each its own mirror image): 5 of 49"),
+        ("arch with a keystone", arch(0.12, 27), Verdict::Stable, "mirror images of each other): 14 of 27"),
+        ("arch above its limit", arch(critical * (1.0 + 1e-6), 16), Verdict::Stable, "mirror images of each other): 8 of 16"),
+        ("arch below its limit", arch(critical * (1.0 - 1e-6), 16), Verdict::Unstable, "mirror images of each other): 8 of 16"),
+        ("wall", wall_pushed([0.0, 1.0, 0.0]), Verdict::Stable, "mirror images of each other): 10 of 18"),
+        ("spheres", pile(json!({})), Verdict::Stable, "3 equal parts around the vertical, each its own mirror image): 2 of 4"),
+        ("squeezed block", squeezed(), Verdict::Conditional, "mirror images of each other): 1 of 1"),
+        ("pinwheel", pinwheel(5, 0.3), Verdict::Stable, "5 equal parts around the vertical): 1 of 5"),
+    ];
+    for (name, s, want, words) in cases {
+        assert_eq!(ask::verdict(&s, Law::Coulomb), want, "{name}");
+        let m = model(&s);
+        let part = assess(&m.assembly, &m.interfaces, &Control::default());
+        let whole = assess(&m.assembly, &m.interfaces, &keep_all());
+        let line = line(&part.left_out).unwrap_or_else(|| panic!("{name}: {:?}", part.left_out));
+        assert!(line.contains(words), "{name}: {line}");
+        assert_eq!(part.verdict, whole.verdict, "{name}");
+        assert!((part.unbalance.lower - whole.unbalance.lower).abs() <= 1e-8, "{name}: {:?} {:?}", part.unbalance, whole.unbalance);
+        assert!(part.attempts[0].size[0] < whole.attempts[0].size[0], "{name}");
+        let acceleration = |a: &voussoir::analysis::Assessment| a.state.as_ref().and_then(|s| s.steps.last()).map(|s| s.acceleration);
+        if want == Verdict::Conditional {
+            close(name, acceleration(&part).expect("a state"), acceleration(&whole).expect("a state"), 1e-3);
+        }
+    }
+}
+
+#[test]
+fn load_factors_of_the_part_are_those_of_the_whole() {
+    let spread: Vec<Value> = (0..12)
+        .map(|k| {
+            let a = std::f64::consts::TAU * (k as f64 + 0.5) / 12.0;
+            json!({ "block": format!("r03_{k:02}"), "force": [a.cos(), a.sin(), 0.0] })
+        })
+        .collect();
+    let cases = [
+        ("dome spread at its top ring", dome(0.3, json!({ "loads": { "live": spread } }))),
+        ("wall pushed out of its plane", wall_pushed([0.0, 1.0, 0.0])),
+        ("wall pulled down and out", wall_pushed([0.0, 1.0, -0.3])),
+        ("spheres lifted", pile(push([0.0, 0.0, 1.0]))),
+        ("pinwheel", pinwheel(5, 0.3)),
+        ("arch lifted", {
+            let mut s = arch(0.15, 9);
+            s.loads.live = serde_json::from_value(json!([{ "block": "v04", "force": [0, 0, -1] }])).expect("a load");
+            s
+        }),
+    ];
+    for (name, s) in cases {
+        let m = model(&s);
+        let part = limit(&m.assembly, &m.interfaces, &Control::default());
+        let whole = limit(&m.assembly, &m.interfaces, &keep_all());
+        assert!(line(&part.left_out).is_some(), "{name}: {:?}", part.left_out);
+        assert_eq!((part.outcome, whole.outcome), (whole.outcome, part.outcome), "{name}");
+        if part.outcome == Outcome::Found {
+            close(name, part.value, whole.value, 1e-7);
+            assert_eq!(ask::load_factor(&s), part.value, "{name}");
+        }
+    }
+    // Each block slides along its own face: λ = μ × weight / force.
+    close("pinwheel", ask::load_factor(&pinwheel(7, 0.3)), 0.3 * 0.35, 1e-8);
+}
+
+#[test]
+fn dry_load_factors_of_the_part_are_those_of_the_whole() {
+    let s = pinwheel(3, 0.3);
+    close("pinwheel", dry(&s).0, 0.3 * 0.35, 1e-6);
+    for (name, s) in [("pinwheel", s), ("wall pulled down and out", wall_pushed([0.0, 1.0, -0.3]))] {
+        let m = model(&s);
+        let value = |control: &Control| {
+            let bound = limit(&m.assembly, &m.interfaces, control);
+            coulomb::load_factor(&m.assembly, &m.interfaces, &bound, control)
+        };
+        let (part, whole) = (value(&Control::default()), value(&keep_all()));
+        assert_eq!(part.found, whole.found, "{name}");
+        close(name, part.value, whole.value, 1e-5);
+    }
+}
+
+#[test]
+fn scenes_that_are_not_quite_symmetric_are_solved_whole() {
+    let whole = |name: &str, s: &Scene| {
+        let m = model(s);
+        let a = assess(&m.assembly, &m.interfaces, &Control { law: Law::Associative, ..Control::default() });
+        assert_eq!(line(&a.left_out), None, "{name}");
+    };
+    let mut heavier = pinwheel(4, 0.3);
+    heavier.blocks[2].density = Some(1.0 + 1e-6);
+    heavier.blocks[2].material = None;
+    whole("one block heavier by a millionth", &heavier);
+    let mut moved = pinwheel(4, 0.3);
+    moved.blocks[2].at[0] += 1e-6;
+    whole("one block moved by a millionth", &moved);
+    let mut rough = squeezed();
+    rough.joints.overrides =
+        serde_json::from_value(json!([{ "blocks": ["left", "bar"], "friction": 0.71 }])).unwrap_or_else(|e| panic!("{e}"));
+    whole("one joint rougher", &rough);
+    let mut crushing = arch(0.2, 9);
+    crushing.joints.default.compression = Some(1e6);
+    whole("joints that crush", &crushing);
+    // A load across breaks the symmetry in `limit`, not in `assess`.
+    let m = model(&wall_pushed([1.0, 0.0, 0.0]));
+    assert_eq!(line(&limit(&m.assembly, &m.interfaces, &Control::default()).left_out), None);
+    assert!(line(&assess(&m.assembly, &m.interfaces, &Control::default()).left_out).is_some());
+}
