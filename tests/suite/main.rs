@@ -19,6 +19,7 @@ mod grains;
 mod granular;
 mod hostile;
 mod invariance;
+mod large;
 mod layering;
 mod meshes;
 mod page;

@@ -122,8 +122,60 @@ impl<'a> Newton<'a> {
         v
     }
 
-    /// Solves for one right-hand side, to `exact` × what its equations lack at first, and to `enough` in any case if rounding allows.
+    /// Solves for one right-hand side, to `exact` × what its equations lack at first; where `enough` is given, all equations hold to
+    /// that if rounding allows.
     pub fn solve(&mut self, a: &Point, exact: f64, enough: f64) -> Point {
+        let mut d = self.once(a, exact, enough);
+        if enough == 0.0 {
+            return d;
+        }
+        let lack = |r: &Point| greatest(&r.x).max(greatest(&r.t));
+        let mut rest = self.lacking(a, &d);
+        for _ in 0..MOST_CORRECTIONS {
+            let before = lack(&rest);
+            if before.is_nan() || before <= enough {
+                break;
+            }
+            let more = self.once(&rest, exact, enough);
+            let mut better = d.clone();
+            for (to, by) in [(&mut better.x, &more.x), (&mut better.t, &more.t), (&mut better.y, &more.y), (&mut better.z, &more.z)] {
+                to.iter_mut().zip(by).for_each(|(t, b)| *t += b);
+            }
+            let now = self.lacking(a, &better);
+            if lack(&now).is_nan() || lack(&now) > 0.5 * before {
+                break;
+            }
+            (d, rest) = (better, now);
+        }
+        d
+    }
+
+    /// What a direction lacks of each equation.
+    fn lacking(&self, a: &Point, d: &Point) -> Point {
+        let s = self.structure;
+        let minus = |v: &[f64]| v.iter().map(|v| -v).collect::<Vec<f64>>();
+        let (x, t, y, z) = (minus(&d.x), minus(&d.t), minus(&d.y), minus(&d.z));
+        let mut r = a.clone();
+        for ((r, x), q) in r.x.iter_mut().zip(&x).zip(&s.quadratic) {
+            *r += q * x;
+        }
+        s.e.add_transposed(&y, &mut r.x);
+        s.g.add_transposed(&z, &mut r.x);
+        s.e_border.add_transposed(&y, &mut r.t);
+        s.g_border.add_transposed(&z, &mut r.t);
+        s.e.add(&x, &mut r.y);
+        s.e_border.add(&t, &mut r.y);
+        s.g.add(&x, &mut r.z);
+        s.g_border.add(&t, &mut r.z);
+        let mut w = d.z.clone();
+        self.cones.times(&mut w);
+        self.cones.times(&mut w);
+        r.z.iter_mut().zip(&w).for_each(|(r, w)| *r += w);
+        r
+    }
+
+    /// By the reduced system, corrected until equalities and border hold: rounding of `W⁻²` may be left in the others.
+    fn once(&mut self, a: &Point, exact: f64, enough: f64) -> Point {
         let s = self.structure;
         // Right-hand sides without the cone rows.
         let stiff = self.stiff(&a.z);

@@ -76,7 +76,7 @@ fn both_engines_find_the_same_least_unbalance() {
         let statics = Statics::new(&assembly, &interfaces, Options::default());
         let (program, layout) = unbalance(&statics, LiveLoad::Absent, Unknowns::Forces);
         let [a, b] = [own(&program, &settings(Engine::Interior)), solve(&program, &settings(Engine::Clarabel))];
-        assert_eq!(a.status, Status::Solved);
+        assert_eq!(a.status, Status::Solved, "{:?}", a.trace.last());
         let value = |s: &Solution| program.objective.iter().zip(&s.x).map(|(c, x)| c * x).sum::<f64>();
         assert!((value(&a) - value(&b)).abs() < 1e-7, "{} {}", value(&a), value(&b));
         assert_eq!(value(&a) < 1e-9, stands, "{}", value(&a));
