@@ -35,7 +35,8 @@ fn load_factors_are_proved_and_agree_with_the_other_engine() {
 
 #[test]
 fn verdicts_are_proved() {
-    let model = wall(20, 20, [1.0, 0.0, 0.0]);
+    // Large even as one half of itself.
+    let model = wall(30, 30, [1.0, 0.0, 0.0]);
     let answer = analysis::assess(&model.assembly, &model.interfaces, &Control { law: Law::Associative, ..Control::default() });
     assert_eq!(answer.verdict, Verdict::Stable);
     assert_eq!(answer.attempts.len(), 1, "{:?}", answer.attempts);
