@@ -117,11 +117,6 @@ pub(super) fn is_large(statics: &Statics) -> bool {
     statics.matrix.columns >= LARGE
 }
 
-/// The engine for a sequence of programs in forces of this size.
-pub(super) fn engine(statics: &Statics) -> Engine {
-    if is_large(statics) { Engine::Interior } else { Engine::Clarabel }
-}
-
 /// The same for scenes of very unequal masses.
 pub(super) const fn even(rung: Rung) -> Rung {
     Rung { even: true, ..rung }

@@ -71,6 +71,7 @@ impl Common {
         let law = matches!(self.law, Law::Associative).then(|| "--law associative".into());
         let keep_all = self.keep_all.then(|| "--keep-all".into());
         let time_limit = self.time_limit.map(|s| format!("--time-limit {s}"));
-        [law, keep_all, time_limit].into_iter().flatten().collect()
+        let outside = self.outside.allow_outside.then(|| "--allow-outside".into());
+        [law, keep_all, time_limit, outside].into_iter().flatten().collect()
     }
 }

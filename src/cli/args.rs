@@ -10,7 +10,11 @@ pub use sweep::{Merge, Slurm, Summary, Sweep, SweepStatus, SweepVerb, Task};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use parse::{assignment, bytes, direction, finite, friction, not_negative, positive, share, up};
 use std::path::PathBuf;
-use voussoir::{import::Up, scene::Friction, sweep::Range};
+use voussoir::{
+    import::{Reach, Up},
+    scene::Friction,
+    sweep::Range,
+};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -256,6 +260,9 @@ pub struct Study {
     /// Which random scenes (--soak).
     #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
     pub seed: u64,
+    /// Keep every scene in this file as soon as it is asked; the same command takes it up again after a kill at any point (--soak).
+    #[arg(long, value_name = "FILE", requires = "soak", conflicts_with = "only")]
+    pub keep: Option<PathBuf>,
     /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak).
     #[arg(long, value_name = "NUMBER", requires = "soak", conflicts_with_all = ["csv", "json"])]
     pub only: Option<u32>,
@@ -435,12 +442,28 @@ pub struct Common {
     /// Stop trying after this many seconds, counted from the start, and answer with the best bracket so far. Exit code 3 if that decides nothing.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     pub time_limit: Option<f64>,
+    #[command(flatten)]
+    pub outside: Outside,
     /// Lists in full, and every attempt at the program.
     #[arg(short, long)]
     pub verbose: bool,
     /// The first line only.
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
+}
+
+/// What a scene may read beside itself.
+#[derive(Debug, Args)]
+pub struct Outside {
+    /// Follow paths of meshes in the scene that leave its folder.
+    #[arg(long)]
+    pub allow_outside: bool,
+}
+
+impl Outside {
+    pub fn reach(&self) -> Reach {
+        if self.allow_outside { Reach::Anywhere } else { Reach::Folder }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -515,6 +538,8 @@ pub struct Check {
     /// Verify the result against this scene, not the one inside it.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub outside: Outside,
     #[command(flatten)]
     pub pictures: Pictures,
     #[command(flatten)]

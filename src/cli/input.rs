@@ -2,7 +2,8 @@
 
 use std::path::Path;
 use voussoir::{
-    error::{InputError, JsonPath},
+    error::{Finding, InputError, JsonPath},
+    import::{Reach, read_meshes},
     limits,
     scene::{self, Scene, Source},
 };
@@ -23,8 +24,15 @@ pub fn bytes(path: &Path) -> Result<(String, Vec<u8>), InputError> {
     }
 }
 
-/// A scene from a file or from standard input.
-pub fn scene(path: &Path) -> Result<(Scene, Source), InputError> {
+/// A scene from a file or from standard input, with the meshes it names.
+pub fn scene(path: &Path, reach: Reach) -> Result<(Scene, Source, Vec<Finding>), InputError> {
     let (name, bytes) = bytes(path)?;
-    scene::read_bytes(name, bytes)
+    scene_of(path, name, bytes, reach)
+}
+
+/// As [`scene`], of a file that is already in memory. Paths are relative to its folder; to the current one for standard input.
+pub fn scene_of(path: &Path, name: String, bytes: Vec<u8>, reach: Reach) -> Result<(Scene, Source, Vec<Finding>), InputError> {
+    let (mut scene, source) = scene::read_bytes(name, bytes)?;
+    let findings = read_meshes(&mut scene, path.parent().unwrap_or(Path::new("")), reach).map_err(|e| e.located(&source))?;
+    Ok((scene, source, findings))
 }

@@ -44,6 +44,8 @@ pub struct Question<'a> {
     report: Option<Sink>,
     pictures: Pictures,
     source: Source,
+    /// What was said when its meshes were read.
+    said: Vec<Finding>,
     /// When the work began, for the time limit.
     begin: Instant,
     /// When the scene was ready.
@@ -77,14 +79,15 @@ impl<'a> Question<'a> {
         let report = common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let start = Instant::now();
         common.time_limit.into_iter().for_each(deadline::watch);
-        let (scene, source) = input::scene(&common.scene)?;
+        let (scene, source, said) = input::scene(&common.scene, common.outside.reach())?;
         let scene = change(scene);
         let read = start.elapsed().as_secs_f64();
         let mut model = prepare(&scene).map_err(|e| e.located(&source))?;
         model.timings.read = read;
+        model.assembly.findings.splice(0..0, said.iter().cloned());
         let points = model.contact_points() as u64;
         limits::afford(&format!("solving for {points} contact points"), points, limits::PER_CONTACT_POINT)?;
-        Ok(Self { common, save, report, pictures: Pictures::default(), source, begin: start, start: Instant::now(), scene, model })
+        Ok(Self { common, save, report, pictures: Pictures::default(), source, said, begin: start, start: Instant::now(), scene, model })
     }
 
     /// Opens the pictures that are wanted, and the tables.
@@ -127,7 +130,7 @@ impl<'a> Question<'a> {
         let mut model = prepare(&worst.scene).map_err(refuse)?;
         model.timings.read = read;
         let notes = worst.argument.into_iter().map(|text| Finding::new(FindingCode::WorstCase, format!("worst case: {text}")));
-        model.assembly.findings.splice(0..0, notes);
+        model.assembly.findings.splice(0..0, notes.chain(self.said.iter().cloned()));
         (self.scene, self.model) = (worst.scene, model);
         Ok(())
     }

@@ -50,8 +50,13 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         return Ok(Exit::Yes);
     }
     if let Some(count) = args.soak {
-        bar.set_length(count.into());
-        let list = soak::run(args.seed, count as usize, |_| bar.inc(1)).context("no threads")?;
+        let kept = args.keep.as_deref().map(|path| soak::Kept::open(path, args.seed)).transpose()?;
+        let there = kept.as_ref().map_or(0, |k| k.there.range(..count as usize).count());
+        if let (Some(path), true) = (&args.keep, there > 0 && !args.quiet) {
+            terminal::say(&format!("note: {} holds {there} of {count} scenes already", path.display()));
+        }
+        bar.set_length(u64::from(count) - there as u64);
+        let list = soak::run(args.seed, count as usize, kept.as_ref(), |_| bar.inc(1))?;
         bar.finish_and_clear();
         if let Some(csv) = csv {
             csv.write(&report::soak_csv(&list)?)?;

@@ -32,7 +32,8 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     let plan = args.plan.as_deref().context("no plan is given")?;
     let (name, bytes) = input::bytes(plan)?;
     let folder = if plan.as_os_str() == "-" { Path::new("") } else { plan.parent().unwrap_or(Path::new("")) };
-    let sweep = sweep::open_bytes(name, bytes, folder)?;
+    let sweep = sweep::open_bytes(name, bytes, folder, args.outside.reach())?;
+    terminal::notes(&sweep.findings);
     args.summary.chart.map_or(Ok(()), |kind| report::Kind::from(kind).fits(&sweep.plan))?;
     let output = rows_file(args, plan)?;
     let sinks = Sinks::open(&args.summary)?;

@@ -103,7 +103,7 @@ fn is_finite(block: &BlockSpec) -> bool {
     all(&block.at)
         && match &block.shape {
             Shape::Cuboid { size } => all(size),
-            Shape::Polyhedron { vertices, .. } => vertices.iter().all(|v| all(v)),
+            Shape::Polyhedron { vertices, .. } | Shape::Mesh { vertices, .. } => vertices.iter().all(|v| all(v)),
             Shape::Prism { polygon, depth } => depth.is_finite() && polygon.iter().all(|p| all(p)),
             Shape::Sphere { radius } => radius.is_finite(),
             Shape::Clump { spheres } => spheres.iter().all(|b| all(&b.at) && b.radius.is_finite()),

@@ -11,11 +11,14 @@
 //! proper solid is judged later, by [`crate::assembly::resolve`], for scenes of every origin alike. What a scene needs and the file does
 //! not have (supports, friction) is taken from [`Options`]; what is still missing then is a [`Finding`], not an error.
 //!
+//! Single meshes are read as well: those that the blocks of a scene name ([`read_meshes`]).
+//!
 //! Coordinates of the scene = rotation that brings [`Options::up`] to z × [`Options::scale`] × coordinates of the file.
 
 mod compas;
 mod finish;
 mod format;
+mod mesh;
 mod obj;
 mod options;
 mod ply;
@@ -27,6 +30,7 @@ mod text;
 mod tests;
 
 pub use format::Format;
+pub use mesh::{Reach, read_meshes};
 pub use options::{Options, Up};
 
 use crate::{

@@ -47,8 +47,8 @@ pub struct Contacts {
     /// Compliance of each column.
     pub compliance: Vec<f64>,
     /// How many blocks each row, and how many bearings each column stands for: what is summed over the scene counts them.
-    row_images: Vec<f64>,
-    column_images: Vec<f64>,
+    pub(super) row_images: Vec<f64>,
+    pub(super) column_images: Vec<f64>,
 }
 
 /// How friction is held fixed in one convex program.

@@ -17,6 +17,7 @@ pub mod coulomb;
 mod load_factor;
 mod planar;
 mod reach;
+pub mod response;
 mod section;
 mod statics;
 mod symmetry;

@@ -61,6 +61,20 @@ pub enum Shape {
         /// Faces as loops of vertex indices, counter-clockwise seen from outside.
         faces: Vec<Vec<usize>>,
     },
+    /// A closed polyhedron, convex or not, in a file of its own: OBJ, PLY or STL with one mesh.
+    Mesh {
+        /// The file, by its path from the folder of the scene, which it may not leave.
+        path: String,
+        /// Multiplies the coordinates of the file: 0.001 for a file in millimetres.
+        #[serde(default = "one", skip_serializing_if = "is_one")]
+        scale: f64,
+        /// Corners as the file has them. Results hold what was read, and so need no file; where it is given, no file is read.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        vertices: Vec<[f64; 3]>,
+        /// Faces as the file has them, which go with `vertices`.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        faces: Vec<Vec<usize>>,
+    },
     /// A polygon in the x–z plane, extruded along y and centred on y = 0.
     Prism {
         /// Corners (x, z) in order, either way round; need not be convex.
@@ -105,6 +119,14 @@ impl BlockSpec {
             centroid: None,
         }
     }
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn is_one(scale: &f64) -> bool {
+    *scale == 1.0
 }
 
 fn is_origin(at: &[f64; 3]) -> bool {

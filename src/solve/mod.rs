@@ -1,11 +1,15 @@
 //! Solving a conic program. What comes back is a candidate, never an answer: every verdict is recomputed from the scene.
 
+mod cholesky;
 mod clarabel;
 mod engine;
 mod interior;
 mod watched;
 
-pub use self::watched::{Session, solve};
+pub use self::{
+    cholesky::{Cholesky, Pattern},
+    watched::{Session, solve},
+};
 
 use serde::{Deserialize, Serialize};
 

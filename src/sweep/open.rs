@@ -9,9 +9,10 @@ use super::{
 use crate::{
     analysis::reuse::Keys,
     assembly::{self, Wrench},
-    error::{InputError, JsonPath},
+    error::{Finding, InputError, JsonPath},
+    import::{Reach, read_meshes},
     limits,
-    scene::{self, Kind, Scene, Source},
+    scene::{self, Kind, Scene, Shape, Source},
 };
 use serde_json::Value;
 use std::path::Path;
@@ -26,8 +27,10 @@ const PLAN: Kind = Kind { noun: "plan", format: "voussoir-sweep/1", otherwise: "
 pub struct Sweep {
     /// The plan as read.
     pub plan: Plan,
-    /// The scene as the file says it; every row changes a few numbers of it.
+    /// The scene as the file says it, with the meshes it names; every row changes a few numbers of it.
     pub scene: Value,
+    /// What was said when the meshes of the scene were read.
+    pub findings: Vec<Finding>,
     pointers: Vec<Pointer>,
     touches: Vec<Touches>,
     sampler: Sampler,
@@ -39,7 +42,7 @@ pub struct Sweep {
 /// The plan or its scene cannot be read, or the plan asks for something that has no meaning.
 pub fn open(path: &Path) -> Result<Sweep, InputError> {
     let bytes = limits::read_file(path, limits::PER_BYTE)?;
-    open_bytes(path.display().to_string(), bytes, path.parent().unwrap_or(Path::new("")))
+    open_bytes(path.display().to_string(), bytes, path.parent().unwrap_or(Path::new("")), Reach::Folder)
 }
 
 /// Reads a plan from the bytes of a file, without the scene it names.
@@ -50,11 +53,12 @@ pub fn read_plan(name: impl Into<String>, bytes: Vec<u8>) -> Result<(Plan, Sourc
     scene::read_as(&PLAN, scene::text(name, bytes)?)
 }
 
-/// Reads a plan from the bytes of a file; its scene is looked for in `folder`.
+/// Reads a plan from the bytes of a file; its scene is looked for in `folder`. The meshes that the scene names become part of it, so that
+/// rows need no file.
 ///
 /// # Errors
 /// As [`open`].
-pub fn open_bytes(name: impl Into<String>, bytes: Vec<u8>, folder: &Path) -> Result<Sweep, InputError> {
+pub fn open_bytes(name: impl Into<String>, bytes: Vec<u8>, folder: &Path, reach: Reach) -> Result<Sweep, InputError> {
     let (plan, source) = read_plan(name, bytes)?;
     let refuse = |e: InputError| e.located(&source);
     let key = JsonPath::root().key("scene");
@@ -63,10 +67,17 @@ pub fn open_bytes(name: impl Into<String>, bytes: Vec<u8>, folder: &Path) -> Res
         let error = InputError::at(key, format!("the scene {}: {}", path.display(), e.message));
         refuse(error.hint("the path is relative to the folder of the plan"))
     })?;
-    let (_, scene_source) = scene::read_bytes(path.display().to_string(), bytes)?;
-    let value: Value = serde_json::from_str(&scene_source.text)
+    let (mut scene, scene_source) = scene::read_bytes(path.display().to_string(), bytes)?;
+    let mut value: Value = serde_json::from_str(&scene_source.text)
         .map_err(|e| InputError { file: Some(scene_source.name.clone()), ..InputError::at(JsonPath::root(), e.to_string()) })?;
-    Sweep::new(plan, value).map_err(refuse)
+    let findings = read_meshes(&mut scene, path.parent().unwrap_or(Path::new("")), reach).map_err(|e| e.located(&scene_source))?;
+    for (block, written) in scene.blocks.iter().zip(value.get_mut("blocks").and_then(Value::as_array_mut).into_iter().flatten()) {
+        if let (Shape::Mesh { .. }, Some(written)) = (&block.shape, written.as_object_mut()) {
+            let shape = serde_json::to_value(&block.shape).map_err(|e| InputError::at(JsonPath::root(), e.to_string()))?;
+            written.insert("shape".into(), shape);
+        }
+    }
+    Ok(Sweep { findings, ..Sweep::new(plan, value).map_err(refuse)? })
 }
 
 impl Sweep {
@@ -99,7 +110,7 @@ impl Sweep {
         let rows = rows(&plan, &axes)?;
         let touches = pointers.iter().map(|p| p.touches(&scene)).collect();
         let sampler = Sampler::new(axes, &plan.sampling, plan.seed, rows);
-        let sweep = Self { plan, scene, pointers, touches, sampler };
+        let sweep = Self { plan, scene, findings: Vec::new(), pointers, touches, sampler };
         sweep.asks_about_something()?;
         Ok(sweep)
     }

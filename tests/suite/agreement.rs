@@ -8,7 +8,7 @@ use voussoir::{
     analysis::{Agreement, Control, agreement, assess},
     dynamics::{Settings, simulate},
     import,
-    scene::{Scene, read_file},
+    scene::Scene,
     verdict::Verdict,
 };
 
@@ -75,7 +75,7 @@ fn simulations_of_the_structures_agree_with_their_verdicts() {
     let (mut agreed, mut counted) = (0, 0);
     let mut wrong = Vec::new();
     for name in names.iter().filter(|n| !listed(&NEAR, n) && !listed(&SLOW, n)) {
-        let (scene, _) = read_file(&folder.join(format!("{name}.json"))).unwrap_or_else(|e| panic!("{e}"));
+        let scene = crate::ask::open(&folder.join(format!("{name}.json")));
         if has_strengths(&scene) {
             println!("{name}: its joints have strengths");
             continue;
@@ -122,7 +122,7 @@ fn simulations_either_side_of_a_limit_agree_with_their_verdicts() {
         if listed(&NEAR, name) || listed(&SLOW, name) || listed(&DISAGREE, name) {
             continue;
         }
-        let (scene, _) = read_file(&folder.join(file)).unwrap_or_else(|e| panic!("{e}"));
+        let scene = crate::ask::open(&folder.join(file));
         if has_strengths(&scene) {
             continue;
         }

@@ -4,8 +4,9 @@
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Law, LoadFactor, Model, Outcome, assess, coulomb, limit, prepare, tilt},
+    import::{Reach, read_meshes},
     report::{self, Leaning, ResultFile},
-    scene::{Scene, read_str},
+    scene::{Scene, read_file, read_str},
     verdict::Verdict,
 };
 
@@ -24,6 +25,13 @@ pub fn scene(friction: f64, blocks: Value, more: Value) -> Scene {
         }
     }
     read(value)
+}
+
+/// A scene from a file, with the meshes it names.
+pub fn open(path: &std::path::Path) -> Scene {
+    let (mut scene, _) = read_file(path).unwrap_or_else(|e| panic!("{e}"));
+    read_meshes(&mut scene, path.parent().expect("a folder"), Reach::Folder).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    scene
 }
 
 /// A scene from one template in units of its own.

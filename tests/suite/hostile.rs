@@ -119,16 +119,16 @@ fn errors_quote_a_file_without_its_control_characters() {
 }
 
 #[test]
-fn a_scene_names_no_files() {
-    // Shapes are given in full; a path in a scene is refused and never opened.
+fn paths_in_a_file_lead_nowhere_else() {
+    // The path of a mesh stays in the folder of the scene (see `mesh_files`), and what it names is quoted only where it is meant for a mesh.
     let folder = tempfile::tempdir().unwrap();
     let mut with_path = scene();
     with_path["blocks"][1]["shape"] = json!({ "mesh": { "path": "/etc/passwd" } });
     fs::write(folder.path().join("scene.json"), with_path.to_string()).unwrap();
     let (code, _, err) = run(folder.path(), &["assess", "scene.json"]);
     assert_eq!(code, Some(2));
-    assert!(err.contains("unknown kind \"mesh\"") && !err.contains("root:"), "{err}");
-    // The one path there is, a plan's scene, is read as a scene and quoted no further than its place.
+    assert!(err.contains("leaves the folder of the scene") && !err.contains("root:"), "{err}");
+    // The path of a plan's scene is read as a scene and quoted no further than its place.
     let plan = json!({ "format": "voussoir-sweep/1", "scene": "secret.txt", "question": { "assess": {} }, "seed": 1,
         "vary": [{ "pointer": "/joints/default/friction", "values": [0.4] }], "sampling": { "grid": {} } });
     fs::write(folder.path().join("plan.json"), plan.to_string()).unwrap();

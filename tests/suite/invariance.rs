@@ -110,6 +110,7 @@ fn faces(b: &BlockSpec) -> Option<(Vec<V>, Vec<Vec<usize>>)> {
             )
         }
         Shape::Polyhedron { vertices, faces } => (vertices.iter().map(|&v| v.into()).collect(), faces.clone()),
+        Shape::Mesh { scale, vertices, faces, .. } => (vertices.iter().map(|&v| V::from(v) * *scale).collect(), faces.clone()),
     };
     let turn =
         b.rotation_deg.as_ref().map_or(Rotation3::identity(), |r| Rotation3::new(V::from(r.axis).normalize() * r.angle.to_radians()));

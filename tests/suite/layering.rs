@@ -115,9 +115,13 @@ fn dynamics_never_sees_program_solver_or_verdict() {
 fn one_engine_one_adapter() {
     for (path, text) in sources("src") {
         let name = path.to_string_lossy().replace('\\', "/");
-        for (engine, home) in
-            [("clarabel", "src/solve/"), ("parry3d", "src/interface/detect"), ("rapier3d", "src/dynamics/rapier.rs"), ("clap", "src/cli/")]
-        {
+        for (engine, home) in [
+            ("clarabel", "src/solve/"),
+            ("faer", "src/solve/cholesky.rs"),
+            ("parry3d", "src/interface/detect"),
+            ("rapier3d", "src/dynamics/rapier.rs"),
+            ("clap", "src/cli/"),
+        ] {
             // Hulls of random points are made by the same library that finds candidates.
             let home = if engine == "parry3d" && name == "src/generate/hull.rs" { "src/generate/hull.rs" } else { home };
             let named = text.contains(&format!("{engine}::")) || text.contains(&format!("use {engine}"));

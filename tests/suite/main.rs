@@ -21,6 +21,7 @@ mod hostile;
 mod invariance;
 mod large;
 mod layering;
+mod mesh_files;
 mod meshes;
 mod page;
 mod pictures;

@@ -1,7 +1,14 @@
 //! The same answer everywhere: whatever the threads, and however often, the same bytes but for times.
 
 use serde_json::Value;
-use std::{path::Path, process::Command};
+use std::{
+    path::Path,
+    process::Command,
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
+};
 
 /// A result without what time and place have to do with.
 fn timeless(mut value: Value) -> String {
@@ -106,4 +113,64 @@ fn rows_of_a_sweep_are_the_same_whatever_the_threads() {
     let one = rows("1");
     assert!(one.len() > 5);
     assert_eq!(rows("4"), one);
+}
+
+/// The questions that are asked of every structure. The largest are asked for associative sliding alone, which takes seconds where dry friction
+/// takes minutes without optimisation.
+fn questions() -> Vec<Vec<String>> {
+    let mut names: Vec<String> = std::fs::read_dir(STRUCTURES)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
+        .filter(|name| name.ends_with(".json") && name != "expected.json")
+        .collect();
+    names.sort();
+    let mut all = Vec::new();
+    for name in names {
+        let large = name.contains("1000") || name.contains("-40.");
+        let law = if large { "--law=associative" } else { "--law=coulomb" };
+        let loaded = std::fs::read_to_string(Path::new(STRUCTURES).join(&name)).unwrap().contains("\"live\"");
+        let mut asked = vec![vec!["assess", law], vec!["check"]];
+        if loaded {
+            asked.push(vec!["limit", law]);
+        }
+        if !large {
+            asked.extend([vec!["tilt", "--all=2", law], vec!["thrust"], vec!["simulate", "--fast", "--skip-verdict", "--seconds=0.3"]]);
+        }
+        all.extend(asked.into_iter().map(|q| [&[q[0], name.as_str(), "--json"], &q[1..]].concat().into_iter().map(String::from).collect()));
+    }
+    all
+}
+
+#[test]
+#[ignore = "builds the program once more, with or without optimisation: minutes"]
+fn debug_and_release_give_the_same_bytes() {
+    let other = if cfg!(debug_assertions) { "release" } else { "debug" };
+    let mut build = Command::new(env!("CARGO"));
+    build.current_dir(env!("CARGO_MANIFEST_DIR")).args(["build", "--quiet"]).args((other == "release").then_some("--release"));
+    assert!(build.status().unwrap().success());
+    let this = Path::new(env!("CARGO_BIN_EXE_voussoir"));
+    let that = this.parent().unwrap().parent().unwrap().join(other).join(this.file_name().unwrap());
+    let ask = |program: &Path, question: &[String]| {
+        let output = Command::new(program).current_dir(STRUCTURES).args(question).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), said, serde_json::from_slice(&output.stdout).map_or_else(|_| String::new(), timeless))
+    };
+    let questions = questions();
+    let (answered, differ) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    voussoir::parallel::for_each(0, &questions, |question| {
+        let answer = ask(this, question);
+        answered.fetch_add(usize::from(!answer.2.is_empty()), Ordering::Relaxed);
+        if answer != ask(&that, question) {
+            differ.lock().unwrap().push(question.join(" "));
+        }
+        Ok::<(), ()>(())
+    })
+    .unwrap()
+    .unwrap();
+    let mut differ = differ.into_inner().unwrap();
+    differ.sort();
+    let answered = answered.into_inner();
+    println!("{} questions, {answered} answers, {} differ", questions.len(), differ.len());
+    // Some scenes have no thrust.
+    assert!(differ.is_empty() && answered > questions.len() * 9 / 10, "{differ:#?}");
 }

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::{collections::BTreeSet, path::PathBuf};
 use voussoir::{
     analysis::{Law, Outcome},
-    scene::{Scene, read_file},
+    scene::Scene,
 };
 
 fn folder() -> PathBuf {
@@ -20,7 +20,7 @@ fn expected() -> Vec<Value> {
 
 fn open(entry: &Value) -> (String, Scene) {
     let file = entry["file"].as_str().expect("a file").to_owned();
-    let (scene, _) = read_file(&folder().join(&file)).unwrap_or_else(|e| panic!("{e}"));
+    let scene = ask::open(&folder().join(&file));
     (file, scene)
 }
 

@@ -1,12 +1,16 @@
 //! The fixed point of one program: friction held, solved, held anew.
 
-use super::anderson::Anderson;
+use super::{anderson::Anderson, newton::Newton};
 use crate::{
     interface::Interfaces,
-    program::coulomb::{Aim, Contacts, Hold},
-    solve::{Engine, Session, Settings, Solution, Status},
+    program::{
+        ConicProgram,
+        coulomb::{Aim, Contacts, Hold},
+    },
+    solve::{Session, Settings, Solution},
     verdict::certificate,
 };
+use std::time::{Duration, Instant};
 
 /// Where an iteration ended.
 #[derive(Clone, Debug)]
@@ -33,24 +37,47 @@ pub(super) struct Stop {
     pub solves: usize,
 }
 
+/// What solves the programs of one fixed point.
+pub(super) struct Means<'a> {
+    /// Newton's method, where the program can be written in the rates, and the rates it starts from.
+    pub newton: Option<(&'a mut Newton, &'a [f64])>,
+    /// Settings of the engine, which solves what Newton's method does not.
+    pub settings: &'a Settings,
+}
+
 /// Iterates from the limits or sliding rates `start`. `None` where the engine refuses the program or leaves no numbers.
-pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>, stop: Stop, settings: &Settings) -> Option<FixedPoint> {
+pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>, stop: Stop, means: Means) -> Option<FixedPoint> {
+    let Means { mut newton, settings } = means;
+    let end = Duration::try_from_secs_f64(settings.seconds.max(0.0)).ok().and_then(|s| Instant::now().checked_add(s));
+    let mut rates = newton.as_ref().map_or_else(Vec::new, |(_, rates)| rates.to_vec());
     let mut held = start;
-    let mut program = contacts.program(aim, hold, &held);
-    let mut session = Session::new(&program, settings)?;
+    let mut engine: Option<Engine> = None;
     let mut anderson = Anderson::default();
     let mut best: Option<FixedPoint> = None;
     for k in 1..=stop.solves {
-        let mut solution = session.solve();
-        if solution.status == Status::Stalled && settings.engine == Engine::Interior {
-            // The other engine goes on from here.
-            session = Session::new(&program, &Settings { engine: Engine::Clarabel, ..*settings })?;
-            solution = session.solve();
+        let solved = match (&mut newton, aim) {
+            (Some((newton, _)), Aim::State(epsilon)) => newton.solve(contacts, (epsilon, hold, &held), &rates, end),
+            _ => None,
+        };
+        let (forces, lambda);
+        if let Some(solved) = solved {
+            rates = solved.rates;
+            (forces, lambda) = (solved.forces, 0.0);
+        } else {
+            // Once is enough to know that Newton's method does not get there.
+            newton = None;
+            let left = end.map_or(f64::INFINITY, |end| end.saturating_duration_since(Instant::now()).as_secs_f64());
+            let solution = match &mut engine {
+                Some(engine) => engine.again(contacts, hold, &held),
+                None => engine
+                    .insert(Engine::new(contacts, (aim, hold, &held), &Settings { seconds: left, ..*settings })?)
+                    .session
+                    .solve()
+                    .into(),
+            };
+            let Some(solution) = solution.filter(Solution::is_finite) else { break };
+            (forces, rates, lambda) = read(contacts, aim, &solution);
         }
-        if !solution.is_finite() {
-            break;
-        }
-        let (forces, rates, lambda) = read(contacts, aim, &solution);
         let next = match hold {
             Hold::Limits => contacts.limits(&forces),
             Hold::SlidingRates => contacts.sliding(&joint_rates(contacts, aim, &forces, &rates)),
@@ -58,7 +85,7 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
         let change = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         // The last iterate is kept unless an earlier one was much better: near the end the change is the engine's noise.
         if best.as_ref().is_none_or(|b| change < 10.0 * b.change) {
-            best = Some(FixedPoint { forces: contacts.cut(&forces), rates, lambda, change, solves: k });
+            best = Some(FixedPoint { forces: contacts.cut(&forces), rates: rates.clone(), lambda, change, solves: k });
         } else if let Some(best) = &mut best {
             best.solves = k;
         }
@@ -66,23 +93,39 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
             break;
         }
         held = anderson.next(&held, &next);
-        contacts.hold(&mut program, hold, &held);
-        let accepted = match hold {
-            Hold::Limits => session.set_rhs(&program.rhs),
-            Hold::SlidingRates => session.set_objective(&program.objective),
-        };
-        if !accepted {
-            break;
-        }
     }
     best
+}
+
+/// The engine with the program of one fixed point.
+struct Engine {
+    program: ConicProgram,
+    session: Session,
+}
+
+impl Engine {
+    fn new(contacts: &Contacts, (aim, hold, held): (Aim, Hold, &[f64]), settings: &Settings) -> Option<Self> {
+        let program = contacts.program(aim, hold, held);
+        let session = Session::new(&program, settings)?;
+        Some(Self { program, session })
+    }
+
+    /// Solves with something else held.
+    fn again(&mut self, contacts: &Contacts, hold: Hold, held: &[f64]) -> Option<Solution> {
+        contacts.hold(&mut self.program, hold, held);
+        let accepted = match hold {
+            Hold::Limits => self.session.set_rhs(&self.program.rhs),
+            Hold::SlidingRates => self.session.set_objective(&self.program.objective),
+        };
+        accepted.then(|| self.session.solve())
+    }
 }
 
 /// Fixed points again and again, with the bounds on crushing that the last one broke added to the contacts.
 pub(super) fn within_strength(
     contacts: &mut Contacts,
     interfaces: &Interfaces,
-    solve: impl Fn(&Contacts) -> Option<FixedPoint>,
+    mut solve: impl FnMut(&Contacts) -> Option<FixedPoint>,
 ) -> Option<FixedPoint> {
     let mut solves = 0;
     for _ in 0..MOST_ROUNDS {

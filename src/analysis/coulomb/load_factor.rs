@@ -7,11 +7,11 @@
 //! them all from above. A run that does not settle is undecided and gives no number.
 
 use super::{
-    fixed_point::{FixedPoint, Stop, iterate, within_strength},
+    fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
     state::{Motion, state},
 };
 use crate::{
-    analysis::{Control, LoadFactor, Outcome, attempt::engine},
+    analysis::{Control, LoadFactor, Outcome},
     assembly::Assembly,
     interface::Interfaces,
     program::{
@@ -124,11 +124,12 @@ fn lowered(
     start: Instant,
     answer: &mut DryLoadFactor,
 ) {
-    let settings = Settings { tolerance: TOLERANCES[0], regularization: 1e-9, engine: engine(&contacts.statics), ..Settings::default() };
+    let settings = Settings { tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
     let scale = check::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
     let first = Stop { change: 0.0, solves: 1 };
-    let Some(mut from) = iterate(&contacts, Aim::LoadFactor(STAGES[0].0, scale), Hold::SlidingRates, still, first, &settings) else {
+    let Some(mut from) = iterate(&contacts, Aim::LoadFactor(STAGES[0].0, scale), Hold::SlidingRates, still, first, engine(&settings))
+    else {
         return;
     };
     answer.solves += from.solves;
@@ -139,7 +140,7 @@ fn lowered(
         }
         let settings = Settings { seconds: left, tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| {
-            iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, &settings)
+            iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, engine(&settings))
         });
         let Some(point) = point else { break };
         answer.solves += point.solves;
@@ -155,6 +156,11 @@ fn lowered(
             from = point;
         }
     }
+}
+
+/// The engine alone.
+fn engine(settings: &Settings) -> Means<'_> {
+    Means { newton: None, settings }
 }
 
 /// Takes a fixed point as the answer if it is more exact than the one before; says whether it is a value.

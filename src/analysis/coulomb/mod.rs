@@ -3,6 +3,7 @@
 mod anderson;
 mod fixed_point;
 mod load_factor;
+mod newton;
 mod state;
 
 pub use load_factor::{DryLoadFactor, Found, load_factor};

@@ -6,16 +6,19 @@
 //! *Proved:* a state that moves is a solution of the law (its natural map is recomputed from the forces). *Computed, not proved:*
 //! that a state at rest is the one the loads produce; rest under a pre-stress and motion are often both exact solutions.
 
-use super::fixed_point::{FixedPoint, Stop, iterate, within_strength};
+use super::{
+    fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
+    newton::Newton,
+};
 use crate::{
-    analysis::attempt::{Control, engine},
+    analysis::attempt::Control,
     assembly::Assembly,
     interface::Interfaces,
     program::{
         Options,
         coulomb::{Aim, Contacts, Hold},
     },
-    solve::{Engine, Settings},
+    solve::Settings,
     tolerance,
     verdict::{Forces, law},
 };
@@ -75,10 +78,6 @@ const TOLERANCE_PER_EPSILON: f64 = 1e-5;
 /// The engine's tolerance at large ε. Larger: the friction limits settle no better than that.
 const COARSEST_TOLERANCE: f64 = 1e-9;
 
-/// The same for the engine of large programs, whose gap is that of more forces, over this. Larger: on a wall of 20,000 blocks the limits
-/// wander until the solves are used up. Smaller: an iteration more per solve.
-const FINER: f64 = 1e-2;
-
 /// When a fixed point has settled.
 const STOP: Stop = Stop { change: 1e-5, solves: 25 };
 
@@ -100,23 +99,24 @@ pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
 
 /// The continuation in ε.
 fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contacts, control: &Control, begin: Instant) -> State {
-    let settings = Settings { tolerance: 1e-10, regularization: 1e-8, engine: engine(&contacts.statics), ..Settings::default() };
+    let settings = Settings { tolerance: 1e-10, regularization: 1e-8, ..Settings::default() };
     let mut answer = State { motion: Motion::Undecided, steps: Vec::new(), forces: Vec::new() };
     let still = vec![0.0; contacts.discs().count()];
     let once = Stop { solves: 1, ..STOP };
     let mut exact = f64::INFINITY;
+    let mut newton = Newton::new(&contacts);
+    let rest = vec![0.0; contacts.statics.matrix.rows];
     // The associative state is the first guess of the friction limits.
-    let mut last = iterate(&contacts, Aim::State(EPSILONS[0]), Hold::SlidingRates, still, once, &settings);
+    let first = Settings { seconds: control.seconds - begin.elapsed().as_secs_f64(), ..settings };
+    let means = Means { newton: newton.as_mut().map(|n| (n, &rest[..])), settings: &first };
+    let mut last = iterate(&contacts, Aim::State(EPSILONS[0]), Hold::SlidingRates, still, once, means);
     for epsilon in EPSILONS {
         let left = control.seconds - begin.elapsed().as_secs_f64();
         let Some(from) = last.take().filter(|_| left > 0.0) else { break };
         let start = Instant::now();
-        let mut tolerance = (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE);
-        if settings.engine == Engine::Interior {
-            tolerance *= FINER;
-        }
+        let tolerance = (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE);
         let settings = Settings { seconds: left, tolerance, ..settings };
-        let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, &settings));
+        let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, newton.as_mut(), &settings));
         let Some(point) = point else { break };
         let forces = contacts.statics.forces(interfaces, &point.forces);
         let moved = law::motion(assembly, interfaces, &forces);
@@ -143,12 +143,17 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
 }
 
 /// The fixed point on the limits; where it does not settle, the twin on the sliding rates has a try.
-fn settled(contacts: &Contacts, aim: Aim, from: &FixedPoint, settings: &Settings) -> Option<FixedPoint> {
-    let by_limits = iterate(contacts, aim, Hold::Limits, contacts.limits(&from.forces), STOP, settings)?;
+fn settled(contacts: &Contacts, aim: Aim, from: &FixedPoint, mut newton: Option<&mut Newton>, settings: &Settings) -> Option<FixedPoint> {
+    let start = Instant::now();
+    let means = Means { newton: newton.as_deref_mut().map(|n| (n, &from.rates[..])), settings };
+    let by_limits = iterate(contacts, aim, Hold::Limits, contacts.limits(&from.forces), STOP, means)?;
     if by_limits.change <= tolerance::COULOMB_SETTLED {
         return Some(by_limits);
     }
-    let by_rates = iterate(contacts, aim, Hold::SlidingRates, contacts.sliding(&contacts.joint_rates(&by_limits.rates)), STOP, settings);
+    let sliding = contacts.sliding(&contacts.joint_rates(&by_limits.rates));
+    let settings = Settings { seconds: settings.seconds - start.elapsed().as_secs_f64(), ..*settings };
+    let means = Means { newton: newton.map(|n| (n, &by_limits.rates[..])), settings: &settings };
+    let by_rates = iterate(contacts, aim, Hold::SlidingRates, sliding, STOP, means);
     match by_rates {
         Some(twin) if twin.change <= STOP.change => Some(FixedPoint { solves: twin.solves + by_limits.solves, ..twin }),
         _ => Some(by_limits),

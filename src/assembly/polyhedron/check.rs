@@ -58,6 +58,12 @@ pub(super) fn refuse_folded(surface: &Surface) -> Result<(), ShapeError> {
 }
 
 fn check_face(surface: &Surface, face: &Face) -> Result<(), ShapeError> {
+    // There and back is a bridge to a hole; twice the same way is once around too often.
+    let mut edges: Vec<_> = face.edges().collect();
+    edges.sort_unstable();
+    if let Some(twice) = edges.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(ShapeError::CrossedFace { face: face.source, at: surface.place(twice[0].0) });
+    }
     let reach = tolerance::COPLANAR * surface.size;
     let points = || -> Vec<Vector3<f64>> { face.corners.iter().map(|&c| surface.point(c)).collect() };
     let vector = surface.area_vector(face);

@@ -7,7 +7,7 @@
 //! * B. Mirtich, *Fast and accurate computation of polyhedral mass properties*, J. Graphics Tools 1(2), 1996.
 //! * J. Blow, A. Binstock, *How to find the inertia tensor (or other mass properties) of a 3D solid body represented by a triangle mesh*, 2004.
 
-use super::{ShapeError, surface::Surface};
+use super::{Polyhedron, ShapeError, surface::Surface};
 use nalgebra::{Matrix3, Vector3};
 
 /// Volume, centroid and inertia for unit density.
@@ -52,16 +52,22 @@ const SLACK: f64 = 1e-6;
 
 /// Refuses what no body can have: more volume than its box, its centroid outside of the box, a negative second moment. Such a surface winds
 /// around some places more than once and around others backwards, which warped faces hide from the tests that see them as plane.
-pub(super) fn refuse_impossible(surface: &Surface, mass: &MassProperties) -> Result<(), ShapeError> {
-    let corners = || surface.faces.iter().flat_map(|f| &f.corners).map(|&c| surface.point(c));
-    let (low, high) =
-        corners().fold((Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY)), |(l, h), p| (l.inf(&p), h.sup(&p)));
-    let (slack, centroid) = (SLACK * surface.size, mass.centroid - surface.center);
-    let inside = (0..3).all(|k| (low[k] - slack..=high[k] + slack).contains(&centroid[k]));
+/// `solid` has the corners of the facets that are left, which spikes of no width do not reach.
+pub(super) fn refuse_impossible(surface: &Surface, solid: &Polyhedron) -> Result<(), ShapeError> {
+    let mass = &solid.mass;
+    let (low, high) = bounds(surface.faces.iter().flat_map(|f| &f.corners).map(|&c| surface.point(c)));
+    let (least, most) = bounds(solid.vertices.iter().copied());
+    let slack = SLACK * surface.size;
+    let inside = (0..3).all(|k| (least[k] - slack..=most[k] + slack).contains(&mass.centroid[k]));
     // Per volume and size², so that nothing leaves the range of numbers.
     let scale = mass.volume * surface.size * surface.size;
     let inertia = mass.inertia / scale;
     let moments = (Matrix3::identity() * (0.5 * inertia.trace()) - inertia).symmetric_eigenvalues();
     let possible = mass.volume <= (high - low).product() * (1.0 + SLACK) && moments.min() >= -SLACK * moments.max().max(0.0);
     if inside && possible { Ok(()) } else { Err(ShapeError::Tangled) }
+}
+
+/// The bounding box of some points.
+fn bounds(points: impl Iterator<Item = Vector3<f64>>) -> (Vector3<f64>, Vector3<f64>) {
+    points.fold((Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY)), |(l, h), p| (l.inf(&p), h.sup(&p)))
 }

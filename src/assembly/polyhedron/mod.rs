@@ -76,9 +76,10 @@ impl Polyhedron {
         if !convex {
             overlap::refuse_overlap(&surface, &regions)?;
         }
+        let solid = facets::assemble(&surface, vertices, regions, convex, mass);
         // Last, for it names no place.
-        mass::refuse_impossible(&surface, &mass)?;
-        Ok((facets::assemble(&surface, vertices, regions, convex, mass), mends))
+        mass::refuse_impossible(&surface, &solid)?;
+        Ok((solid, mends))
     }
 
     /// Whether a plane along one of this body's facets keeps another further than `distance` (m) away: then all of it is. Leaning slabs, whose

@@ -380,6 +380,24 @@ fn a_tangle_with_negative_moments_is_refused() {
 }
 
 #[test]
+fn faces_that_go_around_twice_are_refused() {
+    // Found by the fuzzer: three times around one triangle and spikes to elsewhere; the centroid lay outside of what was left.
+    let (o, far) = ([0.0; 3], [-3.0; 3]);
+    let points = [[1.0, 0.1, -1.0], [-1.0; 3], [2.0; 3], o, [1.0, 0.0, 0.0], [-4.0; 3], far];
+    let points: Points = points.iter().map(|&p| p.into()).collect();
+    let faces = vec![
+        vec![5, 2, 3, 6, 0, 1, 3, 6, 0, 1, 3, 5, 2, 4, 3, 6, 0, 1],
+        vec![3, 6, 0, 1, 3, 5, 2, 4, 3, 6, 0, 1, 6, 0, 1, 6, 0, 1],
+        vec![6, 0, 1],
+    ];
+    assert!(matches!(refused(&(points, faces)), ShapeError::CrossedFace { .. }));
+    // A square that goes around twice, in a box; once around and a bridge is no such thing.
+    let (points, mut faces) = cuboid(1.0, 1.0, 1.0);
+    faces[0] = [faces[0].clone(), faces[0].clone()].concat();
+    assert!(matches!(refused(&(points, faces)), ShapeError::CrossedFace { face: 0, .. }));
+}
+
+#[test]
 fn two_bodies_are_said() {
     let (p, mends) = build(&with(cuboid(1.0, 1.0, 1.0), inverted(cuboid_at([2.0, 0.0, 0.0], [1.0; 3])))).unwrap();
     assert_eq!(mends, [Mend::Bodies { bodies: 2 }, Mend::Turned { faces: 6, first: 6, of: 12 }]);

@@ -86,6 +86,7 @@ pub(super) fn body(spec: &BlockSpec, frame: &Frame, place: &Place) -> Result<Bod
             Ok(Body { solid: Solid::Clump { balls, volume: properties.volume }, properties, size, mended: Vec::new() })
         }
         shape => {
+            let mut file = None;
             let (kind, vertices, faces) = match shape {
                 Shape::Cuboid { size } => {
                     let path = path.key("box").key("size");
@@ -108,12 +109,21 @@ pub(super) fn body(spec: &BlockSpec, frame: &Frame, place: &Place) -> Result<Bod
                     ("prism", vertices, faces)
                 }
                 Shape::Polyhedron { vertices, faces } => {
-                    let path = path.key("polyhedron");
-                    for (k, x) in vertices.iter().enumerate().filter(|(_, x)| x.iter().any(|c| !c.is_finite())) {
-                        place.check(check::vector(*x, &path.key("vertices").index(k)))?;
-                    }
-                    place.check(indices(vertices.len(), faces, &path.key("faces")))?;
+                    place.check(surface(vertices, faces, &path.key("polyhedron")))?;
                     ("polyhedron", vertices.iter().map(|&v| v.into()).collect(), faces.clone())
+                }
+                Shape::Mesh { path: name, scale, vertices, faces } => {
+                    let path = path.key("mesh");
+                    let scale = place.check(check::positive(*scale, &path.key("scale"), "0.001 for a file in millimetres"))?;
+                    if vertices.is_empty() && faces.is_empty() {
+                        let error = InputError::at(path.key("path"), format!("the file {name:?} was not read"));
+                        return place.check(Err(
+                            error.hint("read the files of a scene with import::read_meshes, or give \"vertices\" and \"faces\"")
+                        ));
+                    }
+                    place.check(surface(vertices, faces, &path))?;
+                    file = Some(name);
+                    ("mesh", vertices.iter().map(|&v| Vector3::from(v) * scale).collect(), faces.clone())
                 }
                 Shape::Sphere { .. } | Shape::Clump { .. } => unreachable!("spheres are handled above"),
             };
@@ -122,8 +132,10 @@ pub(super) fn body(spec: &BlockSpec, frame: &Frame, place: &Place) -> Result<Bod
             if vertices.iter().any(|v| v.iter().any(|x| !x.is_finite())) {
                 return place.check(Err(InputError::at(path, "the coordinates are too large to compute with").hint("lengths are in m")));
             }
-            let (polyhedron, mended) =
-                place.check(Polyhedron::from_faces(vertices, &faces).map_err(|e| InputError::at(path, e.to_string()).hint(e.hint())))?;
+            let (polyhedron, mended) = place.check(Polyhedron::from_faces(vertices, &faces).map_err(|e| {
+                let told = file.map_or_else(|| e.to_string(), |file| format!("{file}: {e}"));
+                InputError::at(path, told).hint(e.hint())
+            }))?;
             let size = diagonal(&polyhedron.vertices);
             let properties = polyhedron.mass_properties();
             Ok(Body { solid: Solid::Polyhedron(polyhedron), properties, size, mended })
@@ -144,6 +156,14 @@ fn cuboid(size: [f64; 3]) -> prism::Surface {
     let vertices = (0..8).map(|i| Vector3::from_fn(|k, _| side(i, k) * size[k])).collect();
     let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     (vertices, faces.iter().map(|f| f.to_vec()).collect())
+}
+
+/// Refuses coordinates that are not finite, and faces as [`indices`].
+fn surface(vertices: &[[f64; 3]], faces: &[Vec<usize>], path: &JsonPath) -> Result<(), InputError> {
+    for (k, x) in vertices.iter().enumerate().filter(|(_, x)| x.iter().any(|c| !c.is_finite())) {
+        check::vector(*x, &path.key("vertices").index(k))?;
+    }
+    indices(vertices.len(), faces, &path.key("faces"))
 }
 
 /// Refuses faces that are no polygons over the vertices there are.

@@ -1,5 +1,6 @@
 //! Arguments of sweeps.
 
+use super::Outside;
 use super::parse::{one_line, word};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -26,6 +27,8 @@ pub struct Sweep {
     /// Begin again where the file holds rows already.
     #[arg(long)]
     pub restart: bool,
+    #[command(flatten)]
+    pub outside: Outside,
     #[command(flatten)]
     pub slurm: Slurm,
     #[command(flatten)]

@@ -8,7 +8,6 @@ use anyhow::bail;
 use voussoir::{
     error::{InputError, JsonPath},
     report::read,
-    scene::read_bytes,
 };
 
 pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -24,8 +23,8 @@ pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
             Err(InputError { file: Some(name), ..error.hint("save one with --save, or leave --scene out") }.into())
         }
         None => {
-            let (scene, source) = read_bytes(name, bytes)?;
-            scene::run(&scene, &source, args, &pictures, terminal)
+            let (scene, source, said) = input::scene_of(&args.file, name, bytes, args.outside.reach())?;
+            scene::run(&scene, &source, said, args, &pictures, terminal)
         }
     }
 }

@@ -13,10 +13,11 @@ use voussoir::{
 };
 
 pub fn run(file: &ResultFile, args: &Check, pictures: &Pictures, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let other = args.scene.as_deref().map(input::scene).transpose()?;
-    let scene = other.as_ref().map_or(&file.scene.input, |(scene, _)| scene);
+    let other = args.scene.as_deref().map(|path| input::scene(path, args.outside.reach())).transpose()?;
+    terminal::notes(other.iter().flat_map(|(.., said)| said));
+    let scene = other.as_ref().map_or(&file.scene.input, |(scene, ..)| scene);
     let located = |e: voussoir::error::InputError| match &other {
-        Some((_, source)) => e.located(source),
+        Some((_, source, _)) => e.located(source),
         None => e,
     };
     let verification = verify(file, scene).map_err(located)?;

@@ -13,8 +13,16 @@ use voussoir::{
     scene::{Scene, Source},
 };
 
-pub fn run(scene: &Scene, source: &Source, args: &Check, pictures: &Pictures, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let model = prepare(scene).map_err(|e| e.located(source))?;
+pub fn run(
+    scene: &Scene,
+    source: &Source,
+    said: Vec<Finding>,
+    args: &Check,
+    pictures: &Pictures,
+    terminal: &Terminal,
+) -> anyhow::Result<Exit> {
+    let mut model = prepare(scene).map_err(|e| e.located(source))?;
+    model.assembly.findings.splice(0..0, said);
     let (slips, notes): (Vec<Finding>, Vec<Finding>) = model.findings().cloned().partition(is_slip);
     pictures.write(&View::bare(&model))?;
     if args.json {

@@ -5,7 +5,7 @@ use crate::cli::{args, exit::Exit, output::Sink, question::quoted, sweep::Sinks,
 use anyhow::{Context, bail};
 use std::path::Path;
 use voussoir::sweep::{
-    Folder, Opened, RowsFile, Shard, Sweep, measure,
+    Folder, Row, RowsFile, Shard, Sweep, measure,
     slurm::{self, Job, Script},
 };
 
@@ -17,7 +17,6 @@ const MOST_TASKS: usize = 1000;
 const SCRIPT: &str = "job.sh";
 
 pub fn run(args: &args::Sweep, sweep: &Sweep, output: &Path, sinks: &Sinks, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let quiet = args.summary.quiet;
     if args.slurm.dry_run {
         return dry_run(&args.slurm, sweep);
     }
@@ -36,11 +35,34 @@ pub fn run(args: &args::Sweep, sweep: &Sweep, output: &Path, sinks: &Sinks, term
         return watch::run(&Folder::create(&path, &sweep.header(Shard::ALL))?, output, &args.summary, sinks, terminal);
     }
     // Held until all is submitted, so that nobody else does the same; and it says whether these are rows of this plan.
-    let Opened { file: held, rows: earlier, .. } = RowsFile::open(output, &sweep.header(Shard::ALL), args.restart)?;
+    let held = RowsFile::open(output, &sweep.header(Shard::ALL), args.restart)?;
+    let folder = match submitted(args, sweep, &path, &held.rows, &partition, output) {
+        Ok(folder) => folder,
+        Err(e) => {
+            // Nothing runs, and a header alone would look like a sweep that was begun.
+            if held.rows.is_empty() {
+                let _ = std::fs::remove_file(output);
+            }
+            return Err(e);
+        }
+    };
+    drop(held);
+    watch::run(&folder, output, &args.summary, sinks, terminal)
+}
+
+/// Submits what is missing; rows that are there `earlier` count.
+fn submitted(
+    args: &args::Sweep,
+    sweep: &Sweep,
+    path: &Path,
+    earlier: &[Row],
+    partition: &slurm::Partition,
+    output: &Path,
+) -> anyhow::Result<Folder> {
     if args.restart {
-        Folder::remove(&path)?;
+        Folder::remove(path)?;
     }
-    let folder = Folder::create(&path, &sweep.header(Shard::ALL))?;
+    let folder = Folder::create(path, &sweep.header(Shard::ALL))?;
     let there = folder.read()?;
     let mut new = earlier.iter().filter(|row| !there.rows.contains_key(&row.row)).peekable();
     if new.peek().is_some() {
@@ -61,11 +83,11 @@ pub fn run(args: &args::Sweep, sweep: &Sweep, output: &Path, sinks: &Sinks, term
     if !missing.is_empty() {
         let script = script(&args.slurm, sweep, tasks, &missing)?;
         Sink::open(Some(&path.join(SCRIPT)))?.write(&script.to_string())?;
-        let number = slurm::submit(&path, SCRIPT)?;
-        let mut job = Job::read(&path)?.unwrap_or_default();
+        let number = slurm::submit(path, SCRIPT)?;
+        let mut job = Job::read(path)?.unwrap_or_default();
         (job.tasks, job.jobs) = (tasks, [job.jobs, vec![number]].concat());
-        job.write(&path)?;
-        if !quiet {
+        job.write(path)?;
+        if !args.summary.quiet {
             let (many, rows, partition) = (script.array.len(), missing.len(), &partition.name);
             terminal::say(&format!(
                 "job {number}: {rows} rows in {many} tasks on partition {partition}, written to {}\nnote: this program may be ended: `voussoir sweep --attach {}` takes over, `scancel {number}` stops the job",
@@ -74,8 +96,7 @@ pub fn run(args: &args::Sweep, sweep: &Sweep, output: &Path, sinks: &Sinks, term
             ));
         }
     }
-    drop(held);
-    watch::run(&folder, output, &args.summary, sinks, terminal)
+    Ok(folder)
 }
 
 /// The script as it would be submitted. The rows that are measured are not kept.

@@ -20,8 +20,10 @@ use voussoir::sweep::{
     slurm::{self, Job, State, Task},
 };
 
-/// Between two looks at the rows, and between two questions to Slurm, which many ask.
-const ROWS: Duration = Duration::from_millis(500);
+/// Between two looks at the rows at least, so that the end is seen soon; and so many times as long as a look takes, where folders are slow.
+const ROWS: Duration = Duration::from_millis(100);
+const PER_LOOK: u32 = 10;
+/// Between two questions to Slurm, which many ask.
 const QUEUE: Duration = Duration::from_secs(5);
 /// So long Slurm may give no answer, as when its controller starts anew.
 const PATIENCE: Duration = Duration::from_secs(300);
@@ -68,7 +70,9 @@ fn rows(folder: &Folder, job: &Job, quiet: bool) -> anyhow::Result<Gathered> {
     let (mut asked, mut answered) = (None::<Instant>, Instant::now());
     let (mut told, mut left_since) = (BTreeMap::new(), None::<Instant>);
     loop {
+        let look = Instant::now();
         let count = tally.count(folder)?;
+        let look = look.elapsed();
         bar.set_position(count.min(all) as u64);
         if counted != Some(count) {
             counted = Some(count);
@@ -104,7 +108,7 @@ fn rows(folder: &Folder, job: &Job, quiet: bool) -> anyhow::Result<Gathered> {
                 Err(_) => {}
             }
         }
-        sleep(ROWS);
+        sleep(ROWS.max(look * PER_LOOK));
     }
 }
 

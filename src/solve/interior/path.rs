@@ -13,6 +13,10 @@ use std::time::Instant;
 /// How far a step goes towards the boundary. Nearer: the next steps are short. Farther: more steps.
 pub(super) const TO_THE_BOUNDARY: f64 = 0.995;
 
+/// A point within this × the tolerance is almost a solution: rounding may allow no more. Larger: poor points pass where no later attempt
+/// would be better. Smaller: sequences of programs leave the engine for digits that do not matter.
+const ALMOST: f64 = 1e2;
+
 /// Equilibrium is solved to this × the tolerance. Larger: the residual stays above the tolerance while the gap is closed.
 /// Smaller: corrections at the level of rounding.
 const BELOW: f64 = 0.05;
@@ -117,7 +121,11 @@ pub(super) fn follow(
     let Some((mut p, mut s)) = warm.take().or_else(|| begin(st, reduced, &mut cones, data)) else { return (None, Status::Stalled) };
     let mut best: Option<(f64, Point)> = None;
     let mut since = 0;
-    let give = |best: Option<(f64, Point)>, status| (best.map(|b| b.1), status);
+    let almost = |best: &Option<(f64, Point)>| best.as_ref().is_some_and(|b| b.0 <= ALMOST * settings.tolerance);
+    let give = |best: Option<(f64, Point)>, status| {
+        let status = if status == Status::Stalled && almost(&best) { Status::AlmostSolved } else { status };
+        (best.map(|b| b.1), status)
+    };
     for _ in 0..=settings.iterations {
         let r = residual(st, data, &p, &s);
         let quadratic: f64 = p.x.iter().zip(&st.quadratic).map(|(x, q)| q * x * x).sum();
@@ -144,7 +152,7 @@ pub(super) fn follow(
         if merit <= settings.tolerance {
             return give(best, Status::Solved);
         }
-        if since > PATIENCE {
+        if since > if almost(&best) { 1 } else { PATIENCE } {
             return give(best, Status::Stalled);
         }
         if clock.elapsed().as_secs_f64() >= settings.seconds {

@@ -2,25 +2,14 @@
 //!
 //! Eliminating the cone rows and then the local variables from the Newton system of an interior-point method leaves
 //! `S = E K⁻¹ Eᵀ` with `K = P + Gᵀ W⁻² G`, block-diagonal: the stiffness matrix of the blocks where every contact is a spring of stiffness
-//! `K⁻¹`. It has the sparsity of the contact graph; a supernodal Cholesky factorisation with a fill-reducing ordering (faer) is all that
+//! `K⁻¹`. It has the sparsity of the contact graph; a supernodal Cholesky factorisation with a fill-reducing ordering is all that
 //! an iteration costs.
 
 use super::{
     cones::{Cones, MOST_ROWS},
     structure::Structure,
 };
-use faer::{
-    Conj, MatMut, Par, Side,
-    dyn_stack::{MemBuffer, MemStack},
-    linalg::cholesky::llt::factor::LltRegularization,
-    sparse::{
-        SparseColMatRef, SymbolicSparseColMat,
-        linalg::{
-            SupernodalThreshold,
-            cholesky::{CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky},
-        },
-    },
-};
+use crate::solve::cholesky::{Cholesky, Pattern};
 
 /// Blocks on the same equality rows, whose springs are added before they are put in their place.
 #[derive(Clone, Debug)]
@@ -29,7 +18,7 @@ struct Group {
     blocks: std::ops::Range<usize>,
     /// Their equality rows.
     rows: Vec<usize>,
-    /// Where the upper triangle of their sum goes, column by column.
+    /// Where the lower triangle of their sum goes, row by row.
     places: Vec<usize>,
 }
 
@@ -46,13 +35,13 @@ pub(super) struct Reduced {
     /// `F` with `K⁻¹ = F Fᵀ` of each block, column by column.
     roots: Vec<f64>,
     root_start: Vec<usize>,
-    pattern: SymbolicSparseColMat<usize>,
+    /// The lower triangle.
+    starts: Vec<usize>,
+    rows: Vec<usize>,
     values: Vec<f64>,
     /// Square roots of the diagonal, inverted.
     jacobi: Vec<f64>,
-    symbolic: SymbolicCholesky<usize>,
-    factor: Vec<f64>,
-    memory: MemBuffer,
+    cholesky: Cholesky,
 }
 
 impl Reduced {
@@ -73,48 +62,36 @@ impl Reduced {
         let mut columns: Vec<Vec<usize>> = (0..rows).map(|i| vec![i]).collect();
         for group in &groups {
             for (k, &j) in group.rows.iter().enumerate() {
-                columns[j].extend_from_slice(&group.rows[..k]);
+                columns[j].extend_from_slice(&group.rows[k + 1..]);
             }
         }
-        let mut start = vec![0];
+        let mut starts = vec![0];
         let mut row = Vec::new();
         for column in &mut columns {
             column.sort_unstable();
             column.dedup();
             row.append(column);
-            start.push(row.len());
+            starts.push(row.len());
         }
         for group in &mut groups {
-            for (k, &j) in group.rows.iter().enumerate() {
-                let column = &row[start[j]..start[j + 1]];
-                group.places.extend(group.rows[..=k].iter().map(|i| start[j] + column.partition_point(|r| r < i)));
+            for (k, i) in group.rows.iter().enumerate() {
+                let place = |&j: &usize| starts[j] + row[starts[j]..starts[j + 1]].partition_point(|r| r < i);
+                group.places.extend(group.rows[..=k].iter().map(place));
             }
         }
         let mut root_start = vec![0];
         for block in &structure.blocks {
             root_start.push(root_start[root_start.len() - 1] + block.variables.len().pow(2));
         }
-        let pattern = SymbolicSparseColMat::new_checked(rows, rows, start, None, row);
-        let params =
-            CholeskySymbolicParams { supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL, ..Default::default() };
-        let symbolic = factorize_symbolic_cholesky(pattern.as_ref(), Side::Upper, SymmetricOrdering::Amd, params).ok()?;
-        let (factoring, solving) = (
-            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
-            symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-        );
-        let mut factor = Vec::new();
-        factor.try_reserve_exact(symbolic.len_val()).ok()?;
-        factor.resize(symbolic.len_val(), 0.0);
         Some(Self {
             groups,
             roots: vec![0.0; root_start[root_start.len() - 1]],
             root_start,
-            values: vec![0.0; pattern.row_idx().len()],
-            pattern,
+            values: vec![0.0; row.len()],
             jacobi: vec![0.0; rows],
-            factor,
-            symbolic,
-            memory: MemBuffer::try_new(factoring.or(solving)).ok()?,
+            cholesky: Cholesky::new(Pattern { starts: starts.clone(), rows: row.clone() })?,
+            starts,
+            rows: row,
         })
     }
 
@@ -172,47 +149,28 @@ impl Reduced {
     }
 
     fn decompose(&mut self) -> bool {
-        let (start, row) = (self.pattern.col_ptr(), self.pattern.row_idx());
-        for (j, scale) in self.jacobi.iter_mut().enumerate() {
-            // The diagonal is the last of its column.
-            let d = self.values[start[j + 1] - 1];
+        for (scale, &first) in self.jacobi.iter_mut().zip(&self.starts) {
+            // The diagonal is the first of its column.
+            let d = self.values[first];
             if !d.is_finite() {
                 return false;
             }
             *scale = if d > 0.0 { 1.0 / d.sqrt() } else { 1.0 };
         }
-        for j in 0..self.jacobi.len() {
-            let column = start[j]..start[j + 1];
-            for (value, &i) in self.values[column.clone()].iter_mut().zip(&row[column]) {
-                *value *= self.jacobi[i] * self.jacobi[j];
+        for (j, own) in self.jacobi.iter().enumerate() {
+            let column = self.starts[j]..self.starts[j + 1];
+            for (value, &i) in self.values[column.clone()].iter_mut().zip(&self.rows[column]) {
+                *value *= self.jacobi[i] * own;
             }
-            self.values[start[j + 1] - 1] += DIAGONAL;
+            self.values[self.starts[j]] += DIAGONAL;
         }
-        let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
-        let regularization = LltRegularization { dynamic_regularization_delta: 1.0, dynamic_regularization_epsilon: LEAST_PIVOT };
-        self.symbolic
-            .factorize_numeric_llt(
-                &mut self.factor,
-                matrix,
-                Side::Upper,
-                regularization,
-                Par::Seq,
-                MemStack::new(&mut self.memory),
-                Default::default(),
-            )
-            .is_ok()
+        self.cholesky.factorize_above(&self.values, LEAST_PIVOT)
     }
 
     /// `S⁻¹ v` in place, up to rounding.
     pub fn solve(&mut self, v: &mut [f64]) {
         v.iter_mut().zip(&self.jacobi).for_each(|(v, j)| *v *= j);
-        let n = v.len();
-        LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(v, n, 1),
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-        );
+        self.cholesky.solve(v);
         v.iter_mut().zip(&self.jacobi).for_each(|(v, j)| *v *= j);
     }
 

@@ -4,14 +4,16 @@
 //! balance and a motion that nothing stops exclude each other. So each claim is verified from the scene alone, the same scene is solved
 //! once more with everything kept ([`EVERY_KEPT`]), and a sample is run in time ([`EVERY_SIMULATED`]), near limits by fine steps.
 
+mod keep;
 mod scenes;
 
+pub use keep::Kept;
 pub use scenes::{FAMILIES, scene};
 
 use crate::{
     analysis::{Assessment, Control, Law, agreement, assess, prepare},
     dynamics::{self, Fate},
-    error::FindingCode,
+    error::{FindingCode, RowsError},
     parallel,
     verdict::Verdict,
 };
@@ -19,6 +21,7 @@ use serde::{Deserialize, Serialize};
 use std::{
     ops::ControlFlow,
     panic::{AssertUnwindSafe, catch_unwind},
+    sync::{Mutex, PoisonError},
     time::Instant,
 };
 
@@ -103,17 +106,27 @@ impl Soaked {
 /// How the error of a scene begins on which the program itself failed.
 pub const FAILED: &str = "the program failed";
 
-/// Asks scenes number 0 to `count`, on all threads; `each` hears of every one.
+/// Asks scenes number 0 to `count`, on all threads, but for those that are kept already; each is kept as it ends, where there is a file, and
+/// `each` hears of it.
 ///
 /// # Errors
-/// Threads cannot be started.
-pub fn run(seed: u64, count: usize, each: impl Fn(&Soaked) + Sync) -> std::io::Result<Vec<Soaked>> {
-    let numbers: Vec<usize> = (0..count).collect();
-    parallel::map(0, &numbers, |&index| {
+/// Threads cannot be started, or the file cannot be written.
+pub fn run(seed: u64, count: usize, kept: Option<&Kept>, each: impl Fn(&Soaked) + Sync) -> Result<Vec<Soaked>, RowsError> {
+    let there = |index: &usize| kept.and_then(|k| k.there.get(index));
+    let numbers: Vec<usize> = (0..count).filter(|index| there(index).is_none()).collect();
+    let fresh = Mutex::new(Vec::new());
+    parallel::for_each(0, &numbers, |&index| {
         let soaked = one(seed, index);
+        kept.map_or(Ok(()), |kept| kept.append(&soaked))?;
         each(&soaked);
-        soaked
+        fresh.lock().unwrap_or_else(PoisonError::into_inner).push(soaked);
+        Ok(())
     })
+    .map_err(|e| RowsError::Threads { threads: 0, cause: e.to_string() })??;
+    let mut all = fresh.into_inner().unwrap_or_else(PoisonError::into_inner);
+    all.extend((0..count).filter_map(|index| there(&index).cloned()));
+    all.sort_by_key(|s| s.index);
+    Ok(all)
 }
 
 /// Asks one scene.
@@ -257,7 +270,7 @@ mod tests {
 
     #[test]
     fn a_short_soak_has_nothing_wrong() {
-        let list = run(1, 70, |_| {}).unwrap();
+        let list = run(1, 70, None, |_| {}).unwrap();
         let all = count(&list, |_| true);
         assert_eq!((all.scenes, all.wrong), (70, 0), "{:?}", list.iter().filter(|s| s.is_wrong()).collect::<Vec<_>>());
         assert!(all.stable > 5 && all.unstable > 5, "{all:?}");

@@ -230,6 +230,7 @@ fn grow(shape: &mut Shape, by: f64) {
             polygon.iter_mut().flatten().for_each(|x| *x *= by);
             *depth *= by;
         }
+        Shape::Mesh { scale, .. } => *scale *= by,
         Shape::Sphere { radius } => *radius *= by,
         Shape::Clump { spheres } => {
             for ball in spheres {

@@ -40,7 +40,7 @@ fn every_scene_is_drawn_whole_from_all_sides() {
         if path.extension().is_none_or(|e| e != "json") || path.ends_with("expected.json") {
             continue;
         }
-        let (scene, _) = voussoir::scene::read_file(&path).unwrap();
+        let scene = crate::ask::open(&path);
         let view = View::bare(&model(&scene));
         // Tall towers take a while from some sides.
         let aspects = if view.bodies.len() < 100 { &ASPECTS[..] } else { &ASPECTS[..1] };

@@ -63,8 +63,43 @@ fn the_worst_densities_are_opposite_ends_where_one_weight_holds_the_other() {
     }
 }
 
+/// A plank that reaches out over the edge of the ground by half, a stone on its other end, a load at its tip.
+fn lever(load: f64, density: f64) -> Value {
+    json!({
+        "format": "voussoir-scene/1",
+        "materials": { "plank": { "density": 1000 }, "stone": { "density": density } },
+        "joints": { "default": { "friction": 0.7 } },
+        "blocks": [
+            { "id": "ground", "shape": { "box": { "size": [1, 1, 1] } }, "at": [0, 0, -0.5], "support": true },
+            { "id": "plank", "shape": { "box": { "size": [2, 1, 0.2] } }, "at": [0.5, 0, 0.1], "material": "plank" },
+            { "id": "stone", "shape": { "box": { "size": [0.4, 1, 1] } }, "at": [-0.3, 0, 0.7], "material": "stone" }
+        ],
+        "loads": { "dead": [{ "block": "plank", "force": [0, 0, -1000.0 * load], "at": [1.5, 0, 0.2] }] }
+    })
+}
+
 #[test]
 fn one_corner_that_falls_is_the_verdict() {
+    // About the edge at x = 0.5 the plank has no moment, the load P one of 1 m × P, the stone 0.8 m × 0.4 m³ ρ g: 6278 N m at 2000 kg/m³,
+    // 7534 N m at 2400. Of the corners only the greater load with the lesser density falls.
+    let verdict = |scene: &Scene| {
+        let model = prepare(scene).unwrap();
+        assess(&model.assembly, &model.interfaces, &Control::default()).verdict
+    };
+    for (load, density) in [(5.0, 2000.0), (5.0, 2400.0), (7.0, 2000.0), (7.0, 2400.0)] {
+        let falls = load * 1000.0 > 0.8 * 0.4 * density * 9.81;
+        assert_eq!(falls, (load, density) == (7.0, 2000.0));
+        let want = if falls { Verdict::Unstable } else { Verdict::Stable };
+        assert_eq!(verdict(&scene(&lever(load, density))), want, "{load} {density}");
+    }
+    let w = ask(&lever(1.0, 2200.0), &["load=5..7", "density:stone=2000..2400"], WorstOf::Assess).unwrap();
+    assert_eq!((w.corners, verdict(&w.scene)), (4, Verdict::Unstable));
+    assert_eq!((w.scene.loads.dead[0].force, w.scene.materials["stone"].density), (Some([0.0, 0.0, -7000.0]), 2000.0));
+    assert_eq!(w.scene.materials["plank"].density, 1000.0);
+}
+
+#[test]
+fn of_corners_that_all_fall_the_fastest_is_named() {
     let mut value = counterweight();
     value["loads"] = json!({ "dead": [{ "block": "outer", "force": [0, 0, -1000], "at": [1.9, 0, 2] }] });
     // Outer turns about the edge of inner, whatever inner weighs: every load falls, the greatest fastest. Together the two turn about

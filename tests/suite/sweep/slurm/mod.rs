@@ -204,6 +204,7 @@ fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
     }
     // Slurm's own refusals in its own words; a job that is alive is not submitted again.
     fake.refused(&slurm(&[]), &[("FAKE_REFUSAL", "Invalid account")], "sbatch refuses: Invalid account");
+    assert!(!fake.at().join("out.jsonl").exists(), "a submission that is refused leaves a header behind");
     fake.expect(0, &slurm(&["-q"]), &[]);
     fs::remove_file(fake.at().join("submitted")).unwrap();
     fake.refused(&slurm(&["--restart"]), &[("FAKE_STATE", "1|RUNNING|None")], "job 17 is still working");

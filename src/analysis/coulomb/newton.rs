@@ -1,0 +1,216 @@
+//! Newton's method for one program of a fixed point on the state: the rates of the blocks are the unknowns, the forces follow from them
+//! ([`Response`]), and each step is one sparse factorisation with as many rows as the blocks have rates. Started from the solution before,
+//! which differs by a little friction, it takes two to five steps, where the interior-point engine starts from scratch each time.
+
+use crate::{
+    program::{
+        coulomb::{Contacts, Hold},
+        response::Response,
+    },
+    solve::{Cholesky, Pattern},
+};
+use std::time::Instant;
+
+/// Most steps. Fewer: scenes of which many contacts open and close at the first ε go back to the engine. More: the engine, whose twelve to
+/// twenty iterations cost two to four steps each, would have been there before.
+const STEPS: usize = 60;
+
+/// A full step is taken that leaves less than this of the imbalance. Larger: steps that lead nowhere. Smaller: many searches along the line.
+const FALL: f64 = 0.5;
+
+/// A search along the line ends where the slope is this × the one at its start. Larger: short steps. Smaller: many looks at the forces.
+const SLOPE: f64 = 0.1;
+
+/// Most looks along a line.
+const LOOKS: usize = 40;
+
+/// The imbalance aimed at, over ε: that of the rates. Larger: the friction limits settle no better. Smaller: one more step for nothing.
+const EXACT: f64 = 1e-8;
+
+/// The imbalance, in block loads, that is good enough where rounding allows no better. Larger: noise in the rates at small ε, and the
+/// engine would have done better. Smaller: scenes of large forces, which it does no better either, go back to it.
+const ENOUGH: f64 = 1e-10;
+
+/// A solver of the programs of one scene.
+pub(super) struct Newton {
+    response: Response,
+    cholesky: Cholesky,
+}
+
+/// One solution.
+pub(super) struct Solved {
+    /// Forces per column.
+    pub forces: Vec<f64>,
+    /// Rates per row.
+    pub rates: Vec<f64>,
+}
+
+impl Newton {
+    /// `None` where the forces do not follow from the rates, or the factor does not fit into memory.
+    pub fn new(contacts: &Contacts) -> Option<Self> {
+        let response = Response::new(contacts)?;
+        let (starts, rows) = response.pattern();
+        let cholesky = Cholesky::new(Pattern { starts: starts.to_vec(), rows: rows.to_vec() })?;
+        Some(Self { response, cholesky })
+    }
+
+    /// Solves one program from the rates `start`; `None` where it does not get there, or not before `end`.
+    pub fn solve(
+        &mut self,
+        contacts: &Contacts,
+        (epsilon, hold, held): (f64, Hold, &[f64]),
+        start: &[f64],
+        end: Option<Instant>,
+    ) -> Option<Solved> {
+        if !Response::is_explicit(contacts, hold) {
+            return None;
+        }
+        let look = |q: &[f64]| self.response.forces(contacts, epsilon, hold, held, q);
+        let mut rates = start.to_vec();
+        let (mut forces, mut gradient) = look(&rates);
+        for _ in 0..STEPS {
+            let size = norm(&gradient);
+            if size <= EXACT * epsilon {
+                return Some(Solved { forces, rates });
+            }
+            if !size.is_finite() || end.is_some_and(|end| Instant::now() >= end) {
+                return None;
+            }
+            if !self.cholesky.factorize(&self.response.derivative(contacts, epsilon, hold, held, &rates)) {
+                return None;
+            }
+            let mut step: Vec<f64> = gradient.iter().map(|g| -g).collect();
+            self.cholesky.solve(&mut step);
+            let at = |share: f64| rates.iter().zip(&step).map(|(q, s)| q + share * s).collect::<Vec<f64>>();
+            let mut best = at(1.0);
+            let (mut f, mut g) = look(&best);
+            if norm(&g) > FALL * size {
+                // No better for rounding.
+                if size <= ENOUGH {
+                    return Some(Solved { forces, rates });
+                }
+                let (first, mut last) = (dot(&gradient, &step), dot(&g, &step));
+                let (mut low, mut high) = ((0.0, first), (1.0, last));
+                for _ in 0..LOOKS {
+                    // Downhill all the way, or near enough to the bottom.
+                    if high.1 <= 0.0 || last.abs() <= SLOPE * first.abs() {
+                        break;
+                    }
+                    let share = low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1)).clamp(0.1, 0.9);
+                    best = at(share);
+                    (f, g) = look(&best);
+                    last = dot(&g, &step);
+                    if last > 0.0 { high = (share, last) } else { low = (share, last) }
+                }
+            }
+            (rates, forces, gradient) = (best, f, g);
+        }
+        None
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        analysis::prepare,
+        program::{Options, coulomb::Aim},
+        scene::read_str,
+        solve::{self, Settings},
+    };
+
+    /// A leaning stack of three, pushed by its load, on a support; all parts in three dimensions.
+    fn contacts(joints: &str, loads: &str) -> Contacts {
+        let text = format!(
+            r#"{{ "format": "voussoir-scene/1", "joints": {{ "default": {joints} }}, "loads": {{ "dead": [{loads}] }}, "blocks": [
+            {{ "id": "base", "support": true, "at": [0, 0, -0.5], "shape": {{ "box": {{ "size": [3, 3, 1] }} }} }},
+            {{ "id": "a", "at": [0, 0, 0.5], "shape": {{ "box": {{ "size": [1, 0.8, 1] }} }} }},
+            {{ "id": "b", "at": [0.1, 0.05, 1.4], "shape": {{ "box": {{ "size": [1, 0.8, 0.8] }} }} }},
+            {{ "id": "c", "at": [0.3, 0.1, 2.3], "density": 9000, "shape": {{ "box": {{ "size": [0.7, 1.1, 1] }} }} }} ] }}"#
+        );
+        let model = prepare(&read_str("stack", &text).unwrap().0).unwrap();
+        Contacts::new(&model.assembly, &model.interfaces, Options { symmetry: true, ..Options::default() })
+    }
+
+    fn scenes() -> Vec<Contacts> {
+        let push = r#"{ "block": "c", "force": [4000, 1500, 0] }"#;
+        let strength = r#"{ "friction": 0.5, "cohesion": 3000, "tension": 1000 }"#;
+        vec![
+            contacts(r#"{ "friction": 0.5 }"#, push),
+            contacts(r#"{ "friction": 0.5 }"#, r#"{ "block": "c", "force": [4000, 0, 0] }"#),
+            contacts(r#"{ "friction": "infinite" }"#, push),
+            contacts(r#"{ "friction": 0 }"#, push),
+            contacts(strength, push),
+        ]
+    }
+
+    /// A direction and a point without any symmetry.
+    fn numbers(n: usize, seed: f64, size: f64) -> Vec<f64> {
+        (0..n).map(|k| size * (seed + 1.7 * k as f64 + 0.1 * (k * k) as f64).sin()).collect()
+    }
+
+    #[test]
+    fn the_derivative_is_that_of_the_imbalance() {
+        for (which, contacts) in scenes().iter().enumerate() {
+            let response = Response::new(contacts).unwrap();
+            let n = contacts.statics.matrix.rows;
+            let (starts, rows) = response.pattern();
+            for (hold, size) in [(Hold::Limits, 0.5), (Hold::Limits, 3.0), (Hold::SlidingRates, 0.5), (Hold::SlidingRates, 3.0)] {
+                let held: Vec<f64> = numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
+                let (q, step) = (numbers(n, 1.0, size), numbers(n, 2.0, 1e-7));
+                let imbalance = |sign: f64| {
+                    let q: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + sign * s).collect();
+                    response.forces(contacts, 1e-3, hold, &held, &q).1
+                };
+                let values = response.derivative(contacts, 1e-3, hold, &held, &q);
+                let mut predicted = vec![0.0; n];
+                for column in 0..n {
+                    for at in starts[column]..starts[column + 1] {
+                        predicted[rows[at]] += values[at] * step[column];
+                        if rows[at] != column {
+                            predicted[column] += values[at] * step[rows[at]];
+                        }
+                    }
+                }
+                let seen: Vec<f64> = imbalance(1.0).iter().zip(imbalance(-1.0)).map(|(a, b)| 0.5 * (a - b)).collect();
+                let apart: Vec<f64> = seen.iter().zip(&predicted).map(|(a, b)| a - b).collect();
+                assert!(norm(&apart) < 1e-5 * norm(&seen), "scene {which} {hold:?} {size}: {} of {}", norm(&apart), norm(&seen));
+            }
+        }
+    }
+
+    #[test]
+    fn newton_and_the_interior_point_engine_find_the_same_forces() {
+        for (which, contacts) in scenes().iter().enumerate() {
+            let mut newton = Newton::new(contacts).unwrap();
+            let start = vec![0.0; contacts.statics.matrix.rows];
+            for (hold, epsilon) in [(Hold::Limits, 1e-3), (Hold::Limits, 1e-6), (Hold::SlidingRates, 1e-3)] {
+                let held: Vec<f64> = numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
+                let found = newton.solve(contacts, (epsilon, hold, &held), &start, None).unwrap();
+                let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+                let engine = solve::solve(&contacts.program(Aim::State(epsilon), hold, &held), &settings);
+                let size = norm(&found.forces);
+                for (a, b) in found.forces.iter().zip(&engine.x) {
+                    assert!((a - b).abs() < 1e-5 * size, "scene {which} {hold:?} {epsilon}: {a} and {b} of {size}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn out_of_time_there_is_no_solution() {
+        let contacts = contacts(r#"{ "friction": 0.5 }"#, "");
+        let start = vec![0.0; contacts.statics.matrix.rows];
+        let held = vec![0.1; contacts.discs().count()];
+        let solved = Newton::new(&contacts).unwrap().solve(&contacts, (1e-3, Hold::Limits, &held), &start, Some(Instant::now()));
+        assert!(solved.is_none());
+    }
+}

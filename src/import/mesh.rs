@@ -1,0 +1,139 @@
+//! The files that blocks of a scene name: `{ "mesh": { "path": "stone.obj" } }`.
+//!
+//! A scene may come from anybody, and its paths with it. So a path stays within the folder of the scene, links resolved, unless the user
+//! says otherwise ([`Reach`]); and only regular files are opened, for a pipe would never end and a device may do anything. What is read
+//! is put into the scene, as the file has it: from there on the scene needs no file, and neither does a result that holds it.
+
+use super::{Format, raw::list, read};
+use crate::{
+    error::{Finding, InputError, JsonPath},
+    limits,
+    scene::{Scene, Shape},
+};
+use std::{
+    collections::HashMap,
+    fs, io,
+    path::{Component, Path, PathBuf},
+};
+
+/// Which files a scene may name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reach {
+    /// Those in its own folder and in the folders below.
+    #[default]
+    Folder,
+    /// Any.
+    Anywhere,
+}
+
+/// One file, as it was read.
+struct Mesh {
+    vertices: Vec<[f64; 3]>,
+    faces: Vec<Vec<usize>>,
+    /// Bytes of the file.
+    length: u64,
+}
+
+/// Reads the files that the blocks of a scene name, into the scene; `folder` is where the scene lies. Blocks whose mesh is there already
+/// are left alone. Each file is read once; returned is what is worth knowing about the reading.
+///
+/// # Errors
+/// A path leaves the folder, names no regular file, or the file is no single mesh; paths are those of the blocks.
+pub fn read_meshes(scene: &mut Scene, folder: &Path, reach: Reach) -> Result<Vec<Finding>, InputError> {
+    let mut known: HashMap<PathBuf, Mesh> = HashMap::new();
+    let mut findings = Vec::new();
+    let mut total = 0_u64;
+    for (k, block) in scene.blocks.iter_mut().enumerate() {
+        let Shape::Mesh { path: name, vertices, faces, .. } = &mut block.shape else { continue };
+        if !(vertices.is_empty() && faces.is_empty()) {
+            continue;
+        }
+        let place = JsonPath::root().key("blocks").index(k).key("shape").key("mesh").key("path");
+        let refuse = |e: InputError| {
+            // The reader's line is one of the mesh, not of the scene.
+            let line = e.position.map_or(String::new(), |(line, _)| format!("line {line}: "));
+            InputError { hint: e.hint, ..InputError::at(place.clone(), format!("block {:?}: {name}: {line}{}", block.id, e.message)) }
+        };
+        let file = find(folder, Path::new(name.as_str()), reach).map_err(refuse)?;
+        if !known.contains_key(&file) {
+            let (mesh, said) = load(&file, name).map_err(refuse)?;
+            findings.extend(said.into_iter().map(|f| Finding { text: format!("{name}: {}", f.text), ..f }));
+            known.insert(file.clone(), mesh);
+        }
+        let Some(mesh) = known.get(&file) else { continue };
+        // A thousand blocks may name one file: each has its own copy.
+        total = total.saturating_add(mesh.length);
+        limits::afford("the meshes up to this one", total, limits::PER_FOREIGN_BYTE).map_err(refuse)?;
+        (*vertices, *faces) = (mesh.vertices.clone(), mesh.faces.clone());
+    }
+    Ok(findings)
+}
+
+/// The file that is meant, without links on the way.
+fn find(folder: &Path, path: &Path, reach: Reach) -> Result<PathBuf, InputError> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    // First by the letters alone, so that files elsewhere are not even asked for.
+    if reach == Reach::Folder && leaves(path) {
+        return Err(outside("the path leaves the folder of the scene"));
+    }
+    let file = folder.join(path).canonicalize().map_err(missing)?;
+    if reach == Reach::Folder {
+        let folder = folder.canonicalize().map_err(missing)?;
+        if !file.starts_with(folder) {
+            return Err(outside("a link leads out of the folder of the scene"));
+        }
+    }
+    // Before it is opened: opening a pipe waits for somebody to write.
+    let kind = fs::metadata(&file).map_err(missing)?.file_type();
+    if !kind.is_file() {
+        let what = if kind.is_dir() { "this is a folder" } else { "this is no regular file but a pipe, a device or the like" };
+        return Err(InputError::at(JsonPath::root(), what).hint("name an OBJ, PLY or STL file"));
+    }
+    Ok(file)
+}
+
+/// Whether a path is absolute or has more steps up than down before them.
+fn leaves(path: &Path) -> bool {
+    let mut depth = 0_usize;
+    path.components().any(|step| match step {
+        Component::Prefix(_) | Component::RootDir => true,
+        Component::CurDir => false,
+        Component::Normal(_) => {
+            depth += 1;
+            false
+        }
+        Component::ParentDir => match depth.checked_sub(1) {
+            Some(less) => {
+                depth = less;
+                false
+            }
+            None => true,
+        },
+    })
+}
+
+fn outside(what: &str) -> InputError {
+    InputError::at(JsonPath::root(), format!("{what}, and is not followed"))
+        .hint("put the file beside the scene, or give --allow-outside if you trust the scene")
+}
+
+fn missing(e: io::Error) -> InputError {
+    InputError::at(JsonPath::root(), format!("cannot be read: {e}")).hint("the path is relative to the folder of the scene")
+}
+
+/// The one mesh of a file.
+fn load(file: &Path, name: &str) -> Result<(Mesh, Vec<Finding>), InputError> {
+    let bytes = limits::read_file(file, limits::PER_FOREIGN_BYTE)?;
+    let error = |text: String, hint: &str| Err(InputError::at(JsonPath::root(), text).hint(hint));
+    if Format::of(Path::new(name), &bytes, None)? == Format::Compas {
+        return error("this is JSON, not a mesh".into(), "name an OBJ, PLY or STL file; `voussoir import` reads COMPAS JSON");
+    }
+    let raw = read(name, &bytes, false, &Default::default())?;
+    let names: Vec<String> = raw.blocks.iter().map(|b| format!("{:?}", b.id)).collect();
+    let mut blocks = raw.blocks.into_iter();
+    let (Some(solid), None) = (blocks.next(), blocks.next()) else {
+        let text = format!("the file holds {} meshes ({}), a block is one", names.len(), list(&names));
+        return error(text, "split the file, or make a scene of all of them with `voussoir import`");
+    };
+    Ok((Mesh { vertices: solid.vertices, faces: solid.faces, length: bytes.len() as u64 }, raw.findings))
+}
