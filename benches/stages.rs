@@ -2,10 +2,10 @@
 //!
 //! `cargo bench` prints them; one thread throughout. Nothing here asserts a time.
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use std::{hint::black_box, ops::ControlFlow, process::Command, time::Duration};
 use voussoir::{
-    analysis::{self, Control},
+    analysis::{self, Control, Law},
     assembly,
     dynamics::{Fidelity, Settings, simulate},
     interface,
@@ -119,5 +119,30 @@ fn steps(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, stages, figures, steps);
+/// Load factor and verdict of walls pushed in and out of their plane, by the engine of large programs; the largest take minutes, and
+/// run only where `VOUSSOIR_LARGE_WALLS` is set.
+fn walls(c: &mut Criterion) {
+    let mut group = c.benchmark_group("walls");
+    group.sample_size(10).sampling_mode(SamplingMode::Flat).warm_up_time(Duration::from_millis(1)).measurement_time(Duration::from_secs(2));
+    let (inward, outward) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let mut list = vec![(40, 40, inward), (30, 60, outward)];
+    if std::env::var_os("VOUSSOIR_LARGE_WALLS").is_some() {
+        list.extend([(100, 100, inward), (100, 200, outward), (200, 200, inward)]);
+    }
+    for (courses, length, push) in list {
+        let model = analysis::prepare(&wall(courses, length, push)).expect("the bench scene resolves");
+        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let name = format!("{courses} x {length} {} plane", if push == inward { "in" } else { "out of" });
+        group.bench_function(BenchmarkId::new("limit", &name), |b| b.iter(|| analysis::limit(assembly, interfaces, &Control::default())));
+        for law in [Law::Associative, Law::Coulomb] {
+            let control = Control { law, ..Control::default() };
+            group.bench_function(BenchmarkId::new(format!("assess, {law:?}"), &name), |b| {
+                b.iter(|| analysis::assess(assembly, interfaces, &control))
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, stages, figures, walls, steps);
 criterion_main!(benches);
