@@ -2,16 +2,16 @@
 //!
 //! `cargo bench` prints them; one thread throughout. Nothing here asserts a time.
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use std::{hint::black_box, ops::ControlFlow, process::Command, time::Duration};
 use voussoir::{
-    analysis::{self, Control},
+    analysis::{self, Control, Law},
     assembly,
     dynamics::{Fidelity, Settings, simulate},
-    interface,
+    import, interface,
     program::{self, Options, Statics, Unknowns},
     report::ResultFile,
-    scene::{Scene, read_str},
+    scene::{Friction, Load, Scene, read_str},
     sweep,
     verdict::check,
 };
@@ -92,6 +92,43 @@ fn figures(c: &mut Criterion) {
     group.finish();
 }
 
+/// A real vault under dry friction, where its file is at hand, and a long chain.
+fn large(c: &mut Criterion) {
+    let mut group = c.benchmark_group("large");
+    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(5));
+    let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/compas/cra-armadillo.json"));
+    if path.exists() {
+        let options = import::Options {
+            supports: (0..8).chain(79..89).chain(217..228).chain(328..332).map(|k| k.to_string()).collect(),
+            friction: Some(Friction::Coefficient(0.84)),
+            density: Some(1.0),
+            ..import::Options::default()
+        };
+        let mut scene = import::import_file(path, &options).expect("the vault is read").scene;
+        scene.loads.live = vec![Load { weight: Some([1.0, 0.0, 0.0]), ..Load::default() }];
+        let model = analysis::prepare(&scene).expect("the vault resolves");
+        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let bound = Control { law: Law::Associative, ..Control::default() };
+        group.bench_function("vault of 399 voussoirs: verdict", |b| b.iter(|| analysis::assess(assembly, interfaces, &bound)));
+        group.bench_function("vault of 399 voussoirs: verdict and state", |b| {
+            b.iter(|| analysis::assess(assembly, interfaces, &Control::default()))
+        });
+        group.bench_function("vault of 399 voussoirs: load factor", |b| b.iter(|| analysis::limit(assembly, interfaces, &bound)));
+    } else {
+        println!("large: no ../shared/data/compas, the vault of 399 voussoirs is left out");
+    }
+    let text = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.6 } },
+        "templates": [ { "column": { "blocks": 100000, "size": [1, 1, 1] } } ] }"#;
+    let scene = read_str("bench", text).expect("the bench scene is well formed").0;
+    group.bench_function("column of 100,000 blocks: interfaces and verdict", |b| {
+        b.iter(|| {
+            let model = analysis::prepare(black_box(&scene)).expect("the bench scene resolves");
+            analysis::assess(&model.assembly, &model.interfaces, &Control::default())
+        })
+    });
+    group.finish();
+}
+
 /// Steps of the dynamics: a step with fast settings stands for √(L/g) / 100 of time, 3.5 ms here.
 fn steps(c: &mut Criterion) {
     const STEPS: usize = 100;
@@ -119,5 +156,30 @@ fn steps(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, stages, figures, steps);
+/// Load factor and verdict of walls pushed in and out of their plane, by the engine of large programs; the largest take minutes, and
+/// run only where `VOUSSOIR_LARGE_WALLS` is set.
+fn walls(c: &mut Criterion) {
+    let mut group = c.benchmark_group("walls");
+    group.sample_size(10).sampling_mode(SamplingMode::Flat).warm_up_time(Duration::from_millis(1)).measurement_time(Duration::from_secs(2));
+    let (inward, outward) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let mut list = vec![(40, 40, inward), (30, 60, outward)];
+    if std::env::var_os("VOUSSOIR_LARGE_WALLS").is_some() {
+        list.extend([(100, 100, inward), (100, 200, outward), (200, 200, inward)]);
+    }
+    for (courses, length, push) in list {
+        let model = analysis::prepare(&wall(courses, length, push)).expect("the bench scene resolves");
+        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let name = format!("{courses} x {length} {} plane", if push == inward { "in" } else { "out of" });
+        group.bench_function(BenchmarkId::new("limit", &name), |b| b.iter(|| analysis::limit(assembly, interfaces, &Control::default())));
+        for law in [Law::Associative, Law::Coulomb] {
+            let control = Control { law, ..Control::default() };
+            group.bench_function(BenchmarkId::new(format!("assess, {law:?}"), &name), |b| {
+                b.iter(|| analysis::assess(assembly, interfaces, &control))
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, stages, figures, walls, large, steps);
 criterion_main!(benches);

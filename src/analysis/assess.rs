@@ -3,7 +3,7 @@
 
 use super::{
     Bracket,
-    attempt::{Attempt, Control, Law, Run, Rung, WHOLE_FROM, even, run, rung},
+    attempt::{Attempt, Control, Law, Run, Rung, WHOLE_FROM, even, interior, is_large, run, rung},
     coulomb::{Motion, State, state},
 };
 use crate::{
@@ -55,6 +55,9 @@ const LADDER: [Rung; 8] = [
     even(rung(Unknowns::Forces, 1.0, true, 1e-12, 1e-9, true)),
     even(rung(Unknowns::Rates, 1.0, true, 1e-12, 1e-9, true)),
 ];
+
+/// Tried first where the program is large.
+const LARGE: [Rung; 1] = [interior(1.0, 1e-10)];
 
 /// Decides whether an assembly stands under its dead load.
 pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> Assessment {
@@ -149,7 +152,8 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
     let mut balanced = unloaded.balanced;
     // Bounds on crushing that one rung found hold for all.
     let mut sections = whole.sections.clone();
-    for (index, step) in LADDER.into_iter().enumerate() {
+    let large = if is_large(&whole) { &LARGE[..] } else { &[] };
+    for (index, step) in large.iter().copied().chain(LADDER).enumerate() {
         // With a free load factor only the force form yields its value; with strengths there is no other.
         if (live == LiveLoad::AnyMultiple || whole.in_forces_only()) && step.unknowns == Unknowns::Rates {
             continue;
@@ -188,6 +192,7 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
         answer.attempts.push(Attempt {
             program: format!("least unbalance in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
             force_unit: statics.unit / statics.total_load(),
+            engine: settings.engine,
             tolerance: settings.tolerance,
             regularization: settings.regularization,
             engine_status: solution.status,

@@ -6,7 +6,7 @@ use crate::{
     assembly::Assembly,
     interface::Interfaces,
     program::{ConicProgram, Layout, Statics, Unknowns},
-    solve::{self, Settings, Solution, Status},
+    solve::{self, Engine, Settings, Solution, Status},
     verdict::{Forces, Rate, certificate},
 };
 use schemars::JsonSchema;
@@ -48,6 +48,9 @@ pub struct Attempt {
     pub program: String,
     /// Force unit over the total load of the free blocks.
     pub force_unit: f64,
+    /// What solved it.
+    #[serde(default, skip_serializing_if = "Engine::is_usual")]
+    pub engine: Engine,
     /// The engine's tolerance.
     pub tolerance: f64,
     /// The engine's regularisation.
@@ -94,8 +97,24 @@ pub(super) const fn rung(unknowns: Unknowns, unit: f64, local: bool, tolerance: 
         unit,
         local,
         even: false,
-        settings: Settings { tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY },
+        settings: Settings { engine: Engine::Clarabel, tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY },
     }
+}
+
+/// A rung for large programs, in forces on the stiffness matrix of the blocks.
+pub(super) const fn interior(unit: f64, tolerance: f64) -> Rung {
+    let settings =
+        Settings { engine: Engine::Interior, tolerance, regularization: 0.0, equilibrate: false, iterations: 200, seconds: f64::INFINITY };
+    Rung { unknowns: Unknowns::Forces, unit, local: true, even: false, settings }
+}
+
+/// Force columns from which a program is large. More: walls of a thousand blocks take several times as long. Fewer: nothing is
+/// gained, and the ladders, measured on small scenes, begin elsewhere.
+const LARGE: usize = 4000;
+
+/// Whether a program is large.
+pub(super) fn is_large(statics: &Statics) -> bool {
+    statics.matrix.columns >= LARGE
 }
 
 /// The same for scenes of very unequal masses.

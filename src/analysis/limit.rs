@@ -7,7 +7,7 @@
 use super::{
     Bracket,
     assess::least_unbalance,
-    attempt::{Attempt, Control, Run, Rung, WHOLE_FROM, even, run, rung},
+    attempt::{Attempt, Control, Run, Rung, WHOLE_FROM, even, interior, is_large, run, rung},
 };
 use crate::{
     assembly::Assembly,
@@ -68,6 +68,9 @@ const LADDER: [Rung; 8] = [
     even(rung(Unknowns::Forces, 1.0, true, 1e-12, 1e-9, true)),
 ];
 
+/// Tried first where the program is large; the second is reached by load factors far below the natural one, now that their size is known.
+const LARGE: [Rung; 2] = [interior(1.0, 1e-7), interior(1.0, 1e-8)];
+
 /// First where all blocks touch in points, as spheres do: on random packings of 5,000 (three to seven contacts a grain) three other rungs
 /// leave brackets of 1e-3 to 1e-5 of the value, one after the other.
 const POINTS: Rung = rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true);
@@ -86,7 +89,12 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     let mut scale = natural;
     let forces_only = statics.in_forces_only();
     let points = !interfaces.list.is_empty() && interfaces.list.iter().all(|f| f.points.len() == 1);
-    let ladder = points.then_some(POINTS).into_iter().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates));
+    let first = match (points, is_large(&statics)) {
+        (true, _) => &[POINTS][..],
+        (false, true) => &LARGE[..],
+        (false, false) => &[],
+    };
+    let ladder = first.iter().copied().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates));
     for (index, step) in ladder.enumerate() {
         if index == BEFORE_DIAGNOSIS && !answer.bracket.width().is_finite() && diagnose(assembly, interfaces, control, &mut answer) {
             return answer;
@@ -165,6 +173,7 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step:
     answer.attempts.push(Attempt {
         program: format!("load factor in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
         force_unit: statics.unit / statics.total_load(),
+        engine: settings.engine,
         tolerance: settings.tolerance,
         regularization: settings.regularization,
         engine_status: solution.status,

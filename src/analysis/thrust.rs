@@ -154,6 +154,7 @@ impl Problem<'_> {
         Attempt {
             program: name.into(),
             force_unit: statics.unit / self.total,
+            engine: step.settings.engine,
             tolerance: step.settings.tolerance,
             regularization: step.settings.regularization,
             engine_status: run.solution.status,

@@ -66,6 +66,15 @@ impl Cholesky {
 
     /// Factors the matrix with these values of the pattern; false where it is not positive definite to working precision.
     pub fn factorize(&mut self, values: &[f64]) -> bool {
+        self.factorize_from(values, LltRegularization::default())
+    }
+
+    /// The same where pivots of at most `least` are rounding: they are replaced by 1.
+    pub fn factorize_above(&mut self, values: &[f64], least: f64) -> bool {
+        self.factorize_from(values, LltRegularization { dynamic_regularization_delta: 1.0, dynamic_regularization_epsilon: least })
+    }
+
+    fn factorize_from(&mut self, values: &[f64], regularization: LltRegularization<f64>) -> bool {
         let n = self.pattern.size();
         if values.len() != self.pattern.rows.len() {
             return false;
@@ -73,9 +82,7 @@ impl Cholesky {
         let entries = SymbolicSparseColMatRef::new_checked(n, n, &self.pattern.starts, None, &self.pattern.rows);
         let matrix = SparseColMatRef::new(entries, values);
         let (factor, stack) = (&mut self.factor, MemStack::new(&mut self.work));
-        self.symbolic
-            .factorize_numeric_llt(factor, matrix, Side::Lower, LltRegularization::default(), Par::Seq, stack, Default::default())
-            .is_ok()
+        self.symbolic.factorize_numeric_llt(factor, matrix, Side::Lower, regularization, Par::Seq, stack, Default::default()).is_ok()
     }
 
     /// Solves with the last factors, in place.
@@ -107,6 +114,16 @@ mod tests {
         for (x, want) in x.iter().zip([1.0, -2.0, 3.0]) {
             assert!((x - want).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn a_pivot_that_is_rounding_is_replaced() {
+        let pattern = Pattern { starts: vec![0, 2, 3], rows: vec![0, 1, 1] };
+        let mut cholesky = Cholesky::new(pattern).unwrap();
+        assert!(cholesky.factorize_above(&[1.0, 1.0, 1.0], 1e-15));
+        let mut x = [1.0, 1.0];
+        cholesky.solve(&mut x);
+        assert!((x[0] - 1.0).abs() < 1e-14 && x[1].abs() < 1e-14, "{x:?}");
     }
 
     #[test]

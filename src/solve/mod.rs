@@ -2,6 +2,8 @@
 
 mod cholesky;
 mod clarabel;
+mod engine;
+mod interior;
 mod watched;
 
 pub use self::{
@@ -31,9 +33,29 @@ pub enum Status {
     Refused,
 }
 
+/// What solves a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Engine {
+    /// Clarabel: any conic program.
+    #[default]
+    Clarabel,
+    /// The interior-point method of this crate, on the stiffness matrix of the blocks: programs in forces.
+    Interior,
+}
+
+impl Engine {
+    /// Whether it is the usual one.
+    pub fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 /// Settings of one solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
+    /// What solves it.
+    pub engine: Engine,
     /// Tolerance on gap and feasibility, relative and absolute in the scaled program.
     pub tolerance: f64,
     /// Static regularisation of the KKT system.
@@ -48,7 +70,14 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: 1e-10, regularization: 1e-8, equilibrate: true, iterations: 200, seconds: f64::INFINITY }
+        Self {
+            engine: Engine::Clarabel,
+            tolerance: 1e-10,
+            regularization: 1e-8,
+            equilibrate: true,
+            iterations: 200,
+            seconds: f64::INFINITY,
+        }
     }
 }
 

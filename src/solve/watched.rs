@@ -2,7 +2,7 @@
 //! can take minutes. Under a time limit it runs on a thread of its own, which is left to itself when it does not answer in time;
 //! what was found before is not lost then.
 
-use super::{Settings, Solution, Status, clarabel};
+use super::{Settings, Solution, Status, engine};
 use crate::program::ConicProgram;
 use std::{
     sync::mpsc::{Receiver, Sender, channel},
@@ -24,7 +24,7 @@ pub fn solve(program: &ConicProgram, settings: &Settings) -> Solution {
 pub struct Session(Way);
 
 enum Way {
-    Here(Box<clarabel::Session>),
+    Here(Box<engine::Session>),
     Apart { orders: Sender<Order>, answers: Receiver<Answer>, end: Option<Instant> },
 }
 
@@ -42,7 +42,7 @@ enum Answer {
 impl Session {
     /// Sets a program up; `None` where the engine refuses it.
     pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
-        let own = || clarabel::Session::new(program, settings).map(|s| Self(Way::Here(Box::new(s))));
+        let own = || engine::Session::new(program, settings).map(|s| Self(Way::Here(Box::new(s))));
         let seconds = settings.seconds.max(0.0);
         let Ok(patience) = Duration::try_from_secs_f64(seconds * (1.0 + PATIENCE) + LEAST_PATIENCE) else { return own() };
         let end = Instant::now().checked_add(patience);
@@ -96,7 +96,7 @@ impl Session {
 
 /// The engine's side; it ends with the session, or after the order under way.
 fn serve(program: &ConicProgram, settings: &Settings, inbox: &Receiver<Order>, outbox: &Sender<Answer>) {
-    let mut session = clarabel::Session::new(program, settings);
+    let mut session = engine::Session::new(program, settings);
     while let Ok(order) = inbox.recv() {
         let answer = match (order, &mut session) {
             (Order::Solve, Some(session)) => Answer::Solved(session.solve()),

@@ -19,6 +19,7 @@ mod grains;
 mod granular;
 mod hostile;
 mod invariance;
+mod large;
 mod layering;
 mod mesh_files;
 mod meshes;

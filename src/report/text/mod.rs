@@ -20,7 +20,7 @@ use super::{
     result::{Question, ResultFile},
     work::Work,
 };
-use crate::{analysis::Attempt, verdict::Verdict};
+use crate::{analysis::Attempt, solve::Engine, verdict::Verdict};
 use number::{count, seconds};
 
 /// How much is said.
@@ -126,13 +126,16 @@ fn work(w: &Work) -> String {
 
 fn attempt(a: &Attempt) -> String {
     let status = format!("{:?}", a.engine_status);
+    let how = match a.engine {
+        Engine::Clarabel => format!("regularisation {:.0e}", a.regularization),
+        Engine::Interior => "on the stiffness matrix of the blocks".to_string(),
+    };
     format!(
-        "{}: {} unknowns, {} rows, tolerance {:.0e}, regularisation {:.0e}: {} iterations, {}, {status}, bracket {:.9e} to {:.9e}",
+        "{}: {} unknowns, {} rows, tolerance {:.0e}, {how}: {} iterations, {}, {status}, bracket {:.9e} to {:.9e}",
         a.program,
         a.size[0],
         a.size[1],
         a.tolerance,
-        a.regularization,
         a.iterations,
         seconds(a.seconds),
         a.lower,

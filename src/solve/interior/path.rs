@@ -1,0 +1,219 @@
+//! Following the central path: predictor, corrector, step.
+
+use super::{
+    cones::Cones,
+    correctors::further,
+    newton::{EXACT, Newton, Point, ROUGH},
+    reduced::Reduced,
+    structure::Structure,
+};
+use crate::solve::{Iteration, Settings, Status};
+use std::time::Instant;
+
+/// How far a step goes towards the boundary. Nearer: the next steps are short. Farther: more steps.
+pub(super) const TO_THE_BOUNDARY: f64 = 0.995;
+
+/// A point within this × the tolerance is almost a solution: rounding may allow no more. Larger: poor points pass where no later attempt
+/// would be better. Smaller: sequences of programs leave the engine for digits that do not matter.
+const ALMOST: f64 = 1e2;
+
+/// Equilibrium is solved to this × the tolerance. Larger: the residual stays above the tolerance while the gap is closed.
+/// Smaller: corrections at the level of rounding.
+const BELOW: f64 = 0.05;
+
+/// Where the next solve of a session begins: at the first point of the last one with no more than this of its error left. Larger: nearly
+/// from the start. Smaller: so near the boundary that changed limits leave no room.
+const WARM: f64 = 1e-5;
+
+/// The gap counts relative to the objective, or to this where that is smaller: an unbalance may be zero. Larger: load factors far below
+/// the natural one lose digits. Smaller: iterations at an objective of zero.
+const LEAST_OBJECTIVE: f64 = 1e-2;
+
+/// A step shorter than this leads nowhere.
+const LEAST_STEP: f64 = 1e-6;
+
+/// Iterations without a better point after which the method stops. Fewer: slow starts are given up. More: time at the noise level.
+const PATIENCE: usize = 8;
+
+/// Objective and right-hand sides.
+pub(super) struct Data {
+    /// Objective of the local variables and of the border.
+    pub c: Vec<f64>,
+    pub c_border: Vec<f64>,
+    /// Right-hand sides of equalities and cone rows.
+    pub b: Vec<f64>,
+    pub h: Vec<f64>,
+}
+
+fn greatest(v: &[f64]) -> f64 {
+    // A NaN is as great as can be.
+    v.iter().fold(0.0, |m, v| if v.is_nan() { f64::INFINITY } else { f64::max(m, v.abs()) })
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// `P x + c + Eᵀ y + Gᵀ z`, `E x − b`, `G x + s − h`.
+fn residual(st: &Structure, data: &Data, p: &Point, s: &[f64]) -> Point {
+    let mut r = Point {
+        x: data.c.clone(),
+        t: data.c_border.clone(),
+        y: data.b.iter().map(|v| -v).collect(),
+        z: s.iter().zip(&data.h).map(|(s, h)| s - h).collect(),
+    };
+    for ((r, x), q) in r.x.iter_mut().zip(&p.x).zip(&st.quadratic) {
+        *r += q * x;
+    }
+    st.e.add_transposed(&p.y, &mut r.x);
+    st.g.add_transposed(&p.z, &mut r.x);
+    st.e_border.add_transposed(&p.y, &mut r.t);
+    st.g_border.add_transposed(&p.z, &mut r.t);
+    st.e.add(&p.x, &mut r.y);
+    st.e_border.add(&p.t, &mut r.y);
+    st.g.add(&p.x, &mut r.z);
+    st.g_border.add(&p.t, &mut r.z);
+    r
+}
+
+fn minus(p: &Point) -> Point {
+    let minus = |v: &[f64]| v.iter().map(|v| -v).collect();
+    Point { x: minus(&p.x), t: minus(&p.t), y: minus(&p.y), z: minus(&p.z) }
+}
+
+pub(super) fn add(to: &mut [f64], by: f64, d: &[f64]) {
+    to.iter_mut().zip(d).for_each(|(t, d)| *t += by * d);
+}
+
+/// The point that balances at least cost and the one that is admissible at least cost, brought inside their cones.
+fn begin(st: &Structure, reduced: &mut Reduced, cones: &mut Cones, data: &Data) -> Option<(Point, Vec<f64>)> {
+    cones.reset();
+    let zero = Point::zero(st);
+    let mut newton = Newton::new(st, reduced, cones)?;
+    let primal = newton.solve(&Point { y: data.b.clone(), z: data.h.clone(), ..zero.clone() }, EXACT, 0.0);
+    let cost = Point { x: data.c.iter().map(|v| -v).collect(), t: data.c_border.iter().map(|v| -v).collect(), ..zero };
+    let dual = newton.solve(&cost, EXACT, 0.0);
+    let inside = |mut v: Vec<f64>| {
+        let t = cones.outside(&v);
+        // A little inside already is not inside enough.
+        let size = greatest(&v).max(f64::MIN_POSITIVE);
+        if t > -1e-3 * size {
+            cones.add_unit(&mut v, t + if size > f64::MIN_POSITIVE { size } else { 1.0 });
+        }
+        v
+    };
+    let s = inside(primal.z.iter().map(|v| -v).collect());
+    Some((Point { x: primal.x, t: primal.t, y: dual.y, z: inside(dual.z) }, s))
+}
+
+/// Solves the program from the warm point, if there is one. The clocks are those of this solve and of all solves of the session.
+pub(super) fn follow(
+    st: &Structure,
+    reduced: &mut Reduced,
+    data: &Data,
+    settings: &Settings,
+    (start, clock): (Instant, Instant),
+    warm: &mut Option<(Point, Vec<f64>)>,
+    trace: &mut Vec<Iteration>,
+) -> (Option<Point>, Status) {
+    let mut cones = Cones::new(st.cones.clone());
+    let degree = cones.degree() as f64;
+    let Some((mut p, mut s)) = warm.take().or_else(|| begin(st, reduced, &mut cones, data)) else { return (None, Status::Stalled) };
+    let mut best: Option<(f64, Point)> = None;
+    let mut since = 0;
+    let almost = |best: &Option<(f64, Point)>| best.as_ref().is_some_and(|b| b.0 <= ALMOST * settings.tolerance);
+    let give = |best: Option<(f64, Point)>, status| {
+        let status = if status == Status::Stalled && almost(&best) { Status::AlmostSolved } else { status };
+        (best.map(|b| b.1), status)
+    };
+    for _ in 0..=settings.iterations {
+        let r = residual(st, data, &p, &s);
+        let quadratic: f64 = p.x.iter().zip(&st.quadratic).map(|(x, q)| q * x * x).sum();
+        let linear = dot(&data.c, &p.x) + dot(&data.c_border, &p.t);
+        let primal = 0.5 * quadratic + linear;
+        let dual = -0.5 * quadratic - dot(&data.b, &p.y) - dot(&data.h, &p.z);
+        let gap = dot(&s, &p.z);
+        let primal_residual = greatest(&r.y).max(greatest(&r.z)) / 1f64.max(greatest(&data.b)).max(greatest(&data.h));
+        let dual_residual = greatest(&r.x).max(greatest(&r.t)) / 1f64.max(greatest(&data.c)).max(greatest(&data.c_border));
+        trace.push(Iteration { seconds: start.elapsed().as_secs_f64(), primal, dual, primal_residual, dual_residual });
+        let merit = (gap / LEAST_OBJECTIVE.max(primal.abs().min(dual.abs()))).max(primal_residual).max(dual_residual);
+        if merit.is_nan() || merit.is_infinite() {
+            return give(best, Status::Stalled);
+        }
+        if warm.is_none() && merit <= WARM {
+            *warm = Some((p.clone(), s.clone()));
+        }
+        if best.as_ref().is_none_or(|b| merit < b.0) {
+            best = Some((merit, p.clone()));
+            since = 0;
+        } else {
+            since += 1;
+        }
+        if merit <= settings.tolerance {
+            return give(best, Status::Solved);
+        }
+        if since > if almost(&best) { 1 } else { PATIENCE } {
+            return give(best, Status::Stalled);
+        }
+        if clock.elapsed().as_secs_f64() >= settings.seconds {
+            return give(best, Status::Limit);
+        }
+        if !cones.scale(&s, &p.z) {
+            return give(best, Status::Stalled);
+        }
+        let mu = gap / degree;
+        let Some(mut newton) = Newton::new(st, reduced, &cones) else { return give(best, Status::Stalled) };
+        // Residuals that are small already stay so.
+        let enough = BELOW * settings.tolerance;
+        // Predictor: a_z = −r_z − W u with u = −λ, so that W u = −s.
+        let mut a = minus(&r);
+        add(&mut a.z, 1.0, &s);
+        let predictor = newton.solve(&a, ROUGH, 0.0);
+        let ds = slack(st, &predictor, &r);
+        let (ap, ad) = steps(&cones, st, (&s, &ds), (&p.z, &predictor.z), 1.0);
+        let after: f64 = s.iter().zip(&ds).zip(p.z.iter().zip(&predictor.z)).map(|((s, ds), (z, dz))| (s + ap * ds) * (z + ad * dz)).sum();
+        let sigma = (after / gap).clamp(0.0, 1.0).powi(3);
+        // Corrector: λ ∘ u = −λ∘λ − (W⁻¹ ds) ∘ (W dz) + σ μ e.
+        let mut u = ds;
+        cones.over(&mut u);
+        let mut w_dz = predictor.z;
+        cones.times(&mut w_dz);
+        cones.product(&w_dz, &mut u);
+        let mut square = cones.lambda.clone();
+        cones.product(&cones.lambda, &mut square);
+        u.iter_mut().zip(&square).for_each(|(u, l)| *u = -*u - l);
+        cones.add_unit(&mut u, sigma * mu);
+        cones.divide(&mut u);
+        cones.times(&mut u);
+        let mut a = minus(&r);
+        add(&mut a.z, -1.0, &u);
+        let mut d = newton.solve(&a, EXACT, enough);
+        let mut ds = slack(st, &d, &r);
+        let (mut ap, mut ad) = steps(&cones, st, (&s, &ds), (&p.z, &d.z), TO_THE_BOUNDARY);
+        further(&mut newton, (&s, &p.z), sigma * mu, (&mut d, &mut ds), (&mut ap, &mut ad));
+        if ap.max(ad) < LEAST_STEP || ap.is_nan() || ad.is_nan() {
+            return give(best, Status::Stalled);
+        }
+        add(&mut p.x, ap, &d.x);
+        add(&mut p.t, ap, &d.t);
+        add(&mut s, ap, &ds);
+        add(&mut p.y, ad, &d.y);
+        add(&mut p.z, ad, &d.z);
+    }
+    give(best, Status::Limit)
+}
+
+/// `ds = −r_z − G dx`.
+pub(super) fn slack(st: &Structure, d: &Point, r: &Point) -> Vec<f64> {
+    let mut ds: Vec<f64> = r.z.clone();
+    st.g.add(&d.x, &mut ds);
+    st.g_border.add(&d.t, &mut ds);
+    ds.iter_mut().for_each(|v| *v = -*v);
+    ds
+}
+
+/// How far both sides may go; equally far where a quadratic part ties them together.
+pub(super) fn steps(cones: &Cones, st: &Structure, (s, ds): (&[f64], &[f64]), (z, dz): (&[f64], &[f64]), share: f64) -> (f64, f64) {
+    let (ap, ad) = ((share * cones.step(s, ds)).min(1.0), (share * cones.step(z, dz)).min(1.0));
+    if st.quadratic.is_empty() { (ap, ad) } else { (ap.min(ad), ap.min(ad)) }
+}

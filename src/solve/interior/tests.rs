@@ -1,0 +1,145 @@
+//! The method against known answers and against the other engine.
+
+use super::*;
+use crate::{
+    assembly::{self, Assembly},
+    interface::{self, Interfaces},
+    program::{
+        LiveLoad, Options, Statics, Unknowns,
+        coulomb::{Aim, Contacts, Hold},
+        load_factor, unbalance,
+    },
+    scene::read_str,
+    solve::{Engine, Status, solve},
+};
+
+/// A running-bond wall of blocks 1 × 0.5 × 0.4 m on a fixed course.
+fn wall(courses: usize, length: usize, push: [f64; 3]) -> (Assembly, Interfaces) {
+    let text = format!(
+        r#"{{ "format": "voussoir-scene/1", "joints": {{ "default": {{ "friction": 0.6 }} }},
+        "templates": [ {{ "wall": {{ "size": [1, 0.5, 0.4], "courses": {courses}, "blocks": {length}, "first": "half", "base": "course" }} }} ],
+        "loads": {{ "live": [ {{ "weight": {push:?} }} ] }} }}"#
+    );
+    let assembly = assembly::resolve(&read_str("wall", text).unwrap().0).unwrap();
+    let interfaces = interface::detect(&assembly).unwrap();
+    (assembly, interfaces)
+}
+
+fn settings(engine: Engine) -> Settings {
+    Settings { engine, tolerance: 1e-9, ..Settings::default() }
+}
+
+/// By this method itself: no other engine steps in.
+fn own(program: &ConicProgram, settings: &Settings) -> Solution {
+    Session::new(program, settings).expect("a program of contacts").solve()
+}
+
+fn pushed(courses: usize, length: usize, push: [f64; 3]) -> ConicProgram {
+    let (assembly, interfaces) = wall(courses, length, push);
+    let statics = Statics::new(&assembly, &interfaces, Options { live: true, ..Options::default() });
+    load_factor(&statics, 1.0, Unknowns::Forces).0
+}
+
+#[test]
+fn a_wall_pushed_over_turns_about_its_foot() {
+    // Thickness over height: every course turns with the others about the lowest edge.
+    let program = pushed(8, 6, [0.0, 1.0, 0.0]);
+    let solution = own(&program, &settings(Engine::Interior));
+    assert_eq!(solution.status, Status::Solved);
+    let lambda = *solution.x.last().unwrap();
+    assert!((lambda - 0.5 / (8.0 * 0.4)).abs() < 1e-8, "{lambda}");
+    // Strong duality: the multipliers say the same.
+    let dual: f64 = program.rhs.iter().zip(&solution.z).map(|(b, z)| b * z).sum();
+    assert!((dual - lambda).abs() < 1e-8, "{dual}");
+}
+
+#[test]
+fn both_engines_find_the_same_load_factor() {
+    for (program, columns) in [(pushed(10, 10, [1.0, 0.0, 0.0]), 1), (pushed(5, 7, [0.6, 0.8, 0.0]), 1)] {
+        let [a, b] = [own(&program, &settings(Engine::Interior)), solve(&program, &settings(Engine::Clarabel))];
+        assert_eq!(a.status, Status::Solved);
+        let last = program.matrix.columns - columns;
+        assert!((a.x[last] - b.x[last]).abs() < 1e-7, "{} {}", a.x[last], b.x[last]);
+    }
+}
+
+#[test]
+fn both_engines_find_the_same_least_unbalance() {
+    // A wall on its side: gravity along its face slides the courses off each other.
+    for (down, stands) in [("[0, 0, -9.81]", true), ("[0, -9.0, -4.0]", false)] {
+        let text = format!(
+            r#"{{ "format": "voussoir-scene/1", "gravity": {down}, "joints": {{ "default": {{ "friction": 0.6 }} }},
+            "templates": [ {{ "wall": {{ "size": [1, 0.5, 0.4], "courses": 6, "blocks": 6, "base": "course" }} }} ] }}"#
+        );
+        let assembly = assembly::resolve(&read_str("wall", text).unwrap().0).unwrap();
+        let interfaces = interface::detect(&assembly).unwrap();
+        let statics = Statics::new(&assembly, &interfaces, Options::default());
+        let (program, layout) = unbalance(&statics, LiveLoad::Absent, Unknowns::Forces);
+        let [a, b] = [own(&program, &settings(Engine::Interior)), solve(&program, &settings(Engine::Clarabel))];
+        assert_eq!(a.status, Status::Solved, "{:?}", a.trace.last());
+        let value = |s: &Solution| program.objective.iter().zip(&s.x).map(|(c, x)| c * x).sum::<f64>();
+        assert!((value(&a) - value(&b)).abs() < 1e-7, "{} {}", value(&a), value(&b));
+        assert_eq!(value(&a) < 1e-9, stands, "{}", value(&a));
+        assert_eq!(layout.forces(&a.x, &a.z).len(), statics.matrix.columns);
+    }
+}
+
+#[test]
+fn both_engines_find_the_same_state_again_and_again() {
+    let (assembly, interfaces) = wall(6, 6, [1.0, 0.0, 0.0]);
+    let contacts = Contacts::new(&assembly, &interfaces, Options { keep_all: true, ..Options::default() });
+    let limit = vec![0.7; contacts.discs().count()];
+    let mut program = contacts.program(Aim::State(1e-2), Hold::Limits, &limit);
+    let mut session = Session::new(&program, &settings(Engine::Interior)).unwrap();
+    // The second solve begins where the first passed, the third changes nothing.
+    for limit in [0.7, 0.3, 0.3] {
+        contacts.hold(&mut program, Hold::Limits, &vec![limit; contacts.discs().count()]);
+        assert!(session.set_rhs(&program.rhs));
+        let [a, b] = [session.solve(), solve(&program, &settings(Engine::Clarabel))];
+        assert_eq!(a.status, Status::Solved);
+        let forces = contacts.statics.matrix.columns;
+        for (a, b) in a.x[..forces].iter().zip(&b.x) {
+            assert!((a - b).abs() < 1e-4, "{a} {b}");
+        }
+    }
+    assert!(!session.set_rhs(&[1.0]) && !session.set_objective(&[]));
+}
+
+#[test]
+fn the_same_program_gives_the_same_bits() {
+    let program = pushed(6, 6, [1.0, 0.0, 0.0]);
+    let bits = || own(&program, &settings(Engine::Interior)).x.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(), bits());
+}
+
+#[test]
+fn what_has_no_answer_ends_without_one() {
+    // Nothing holds the live load: its multiple may grow for ever.
+    let mut program = pushed(6, 6, [1.0, 0.0, 0.0]);
+    let lambda = program.matrix.columns - 1;
+    program.matrix.j.iter().zip(&mut program.matrix.v).filter(|(j, _)| **j == lambda).for_each(|(_, v)| *v = 1e-300);
+    let solution = own(&program, &settings(Engine::Interior));
+    assert_ne!(solution.status, Status::Solved);
+    // No time.
+    let program = pushed(6, 6, [1.0, 0.0, 0.0]);
+    assert_eq!(own(&program, &Settings { seconds: 0.0, ..settings(Engine::Interior) }).status, Status::Limit);
+    // Numbers that are none.
+    let mut program = program;
+    program.rhs[0] = f64::NAN;
+    assert_ne!(own(&program, &settings(Engine::Interior)).status, Status::Solved);
+}
+
+#[test]
+fn other_programs_are_left_to_the_other_engine() {
+    let mut program = pushed(6, 6, [1.0, 0.0, 0.0]);
+    // In rates every block is tied to its neighbours by their contacts.
+    let (assembly, interfaces) = wall(6, 6, [1.0, 0.0, 0.0]);
+    let statics = Statics::new(&assembly, &interfaces, Options { live: true, ..Options::default() });
+    let (rates, _) = load_factor(&statics, 1.0, Unknowns::Rates);
+    assert!(Session::new(&rates, &settings(Engine::Interior)).is_none());
+    assert_eq!(solve(&rates, &settings(Engine::Interior)).status, Status::Solved);
+    // A variable that nothing holds has no stiffness.
+    program.objective.push(0.0);
+    program.matrix.columns += 1;
+    assert!(own(&program, &settings(Engine::Interior)).x.is_empty());
+}
