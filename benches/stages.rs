@@ -8,10 +8,10 @@ use voussoir::{
     analysis::{self, Control, Law},
     assembly,
     dynamics::{Fidelity, Settings, simulate},
-    interface,
+    import, interface,
     program::{self, Options, Statics, Unknowns},
     report::ResultFile,
-    scene::{Scene, read_str},
+    scene::{Friction, Load, Scene, read_str},
     sweep,
     verdict::check,
 };
@@ -92,6 +92,43 @@ fn figures(c: &mut Criterion) {
     group.finish();
 }
 
+/// A real vault under dry friction, where its file is at hand, and a long chain.
+fn large(c: &mut Criterion) {
+    let mut group = c.benchmark_group("large");
+    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(5));
+    let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/compas/cra-armadillo.json"));
+    if path.exists() {
+        let options = import::Options {
+            supports: (0..8).chain(79..89).chain(217..228).chain(328..332).map(|k| k.to_string()).collect(),
+            friction: Some(Friction::Coefficient(0.84)),
+            density: Some(1.0),
+            ..import::Options::default()
+        };
+        let mut scene = import::import_file(path, &options).expect("the vault is read").scene;
+        scene.loads.live = vec![Load { weight: Some([1.0, 0.0, 0.0]), ..Load::default() }];
+        let model = analysis::prepare(&scene).expect("the vault resolves");
+        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let bound = Control { law: Law::Associative, ..Control::default() };
+        group.bench_function("vault of 399 voussoirs: verdict", |b| b.iter(|| analysis::assess(assembly, interfaces, &bound)));
+        group.bench_function("vault of 399 voussoirs: verdict and state", |b| {
+            b.iter(|| analysis::assess(assembly, interfaces, &Control::default()))
+        });
+        group.bench_function("vault of 399 voussoirs: load factor", |b| b.iter(|| analysis::limit(assembly, interfaces, &bound)));
+    } else {
+        println!("large: no ../shared/data/compas, the vault of 399 voussoirs is left out");
+    }
+    let text = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.6 } },
+        "templates": [ { "column": { "blocks": 100000, "size": [1, 1, 1] } } ] }"#;
+    let scene = read_str("bench", text).expect("the bench scene is well formed").0;
+    group.bench_function("column of 100,000 blocks: interfaces and verdict", |b| {
+        b.iter(|| {
+            let model = analysis::prepare(black_box(&scene)).expect("the bench scene resolves");
+            analysis::assess(&model.assembly, &model.interfaces, &Control::default())
+        })
+    });
+    group.finish();
+}
+
 /// Steps of the dynamics: a step with fast settings stands for √(L/g) / 100 of time, 3.5 ms here.
 fn steps(c: &mut Criterion) {
     const STEPS: usize = 100;
@@ -144,5 +181,5 @@ fn walls(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, stages, figures, walls, steps);
+criterion_group!(benches, stages, figures, walls, large, steps);
 criterion_main!(benches);
