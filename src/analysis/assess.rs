@@ -3,7 +3,7 @@
 
 use super::{
     Bracket,
-    attempt::{Attempt, Control, Law, Run, Rung, WHOLE_FROM, even, interior, is_large, run, rung},
+    attempt::{Attempt, Control, Law, Run, Rung, even, interior, is_large, run, rung, steps},
     coulomb::{Motion, State, state},
 };
 use crate::{
@@ -131,7 +131,7 @@ fn falls_freely(assembly: &Assembly, interfaces: &Interfaces, floating: &[Vec<us
 pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live: LiveLoad, control: &Control) -> Assessment {
     let start = Instant::now();
     let options = Options { keep_all: control.keep_all, live: live != LiveLoad::Absent, symmetry: true, ..Options::default() };
-    let mut whole = Statics::new(assembly, interfaces, options);
+    let mut base = Statics::new(assembly, interfaces, options);
     let zero = no_forces(interfaces);
     let unloaded = certificate::statics(assembly, interfaces, &zero, 0.0);
     let mut answer = Assessment {
@@ -145,28 +145,27 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
         state: None,
         floating: Vec::new(),
         attempts: Vec::new(),
-        left_out: whole.left_out.clone(),
+        left_out: base.left_out.clone(),
     };
     // What a mechanism proves is no matter of the rounding of large forces.
     let falls = tolerance::UNBALANCE.max(unloaded.resolution);
     let mut balanced = unloaded.balanced;
     // Bounds on crushing that one rung found hold for all.
-    let mut sections = whole.sections.clone();
-    let large = if is_large(&whole) { &LARGE[..] } else { &[] };
-    for (index, step) in large.iter().copied().chain(LADDER).enumerate() {
-        // With a free load factor only the force form yields its value; with strengths there is no other.
-        if (live == LiveLoad::AnyMultiple || whole.in_forces_only()) && step.unknowns == Unknowns::Rates {
-            continue;
-        }
+    let mut sections = base.sections.clone();
+    let large = if is_large(&base) { &LARGE[..] } else { &[] };
+    // With a free load factor only the force form yields its value; with strengths there is no other.
+    let forces_only = live == LiveLoad::AnyMultiple || base.in_forces_only();
+    let ladder: Vec<Rung> = large.iter().copied().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates)).collect();
+    for (whole, step) in steps(&ladder, base.is_part()) {
         let left = control.seconds - start.elapsed().as_secs_f64();
         if left <= 0.0 {
             break;
         }
-        if index == WHOLE_FROM && whole.is_part() {
-            whole = Statics::new(assembly, interfaces, Options { symmetry: false, ..options });
-            answer.left_out.clone_from(&whole.left_out);
+        if whole && base.is_part() {
+            base = Statics::new(assembly, interfaces, Options { symmetry: false, ..options });
+            answer.left_out.clone_from(&base.left_out);
         }
-        let mut statics = step.scaled(&whole);
+        let mut statics = step.scaled(&base);
         statics.sections = std::mem::take(&mut sections);
         let settings = crate::solve::Settings { seconds: left, ..step.settings };
         let build = |statics: &Statics| program::unbalance(statics, live, step.unknowns);

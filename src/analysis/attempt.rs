@@ -74,9 +74,16 @@ pub struct Attempt {
     pub upper: f64,
 }
 
-/// From this step on a symmetric scene is solved whole: what its parts leave off balance for not being quite alike would decide.
-/// Fewer: symmetric scenes near their limit cost twice. More: time lost on those that are symmetric in eleven digits only.
-pub(super) const WHOLE_FROM: usize = 2;
+/// Steps that the part of a symmetric scene is tried with; then the whole is, from the first step on, for what the parts leave off balance
+/// for not being quite alike would decide. Fewer: symmetric scenes near their limit cost twice. More: time lost on those that are
+/// symmetric in eleven digits only.
+const ON_THE_PART: usize = 2;
+
+/// The steps of a ladder in order, each with whether it takes the scene as [`Statics`] first gave it (a part, where there is symmetry) or whole.
+pub(super) fn steps(ladder: &[Rung], is_part: bool) -> impl Iterator<Item = (bool, Rung)> {
+    let part = if is_part { &ladder[..ladder.len().min(ON_THE_PART)] } else { &[] };
+    part.iter().map(|step| (false, *step)).chain(ladder.iter().map(move |step| (is_part, *step)))
+}
 
 /// One step of a ladder.
 #[derive(Clone, Copy, Debug)]

@@ -7,7 +7,7 @@
 use super::{
     Bracket,
     assess::least_unbalance,
-    attempt::{Attempt, Control, Run, Rung, WHOLE_FROM, even, interior, is_large, run, rung},
+    attempt::{Attempt, Control, Run, Rung, even, interior, is_large, run, rung, steps},
 };
 use crate::{
     assembly::Assembly,
@@ -94,12 +94,12 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
         (false, true) => &LARGE[..],
         (false, false) => &[],
     };
-    let ladder = first.iter().copied().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates));
-    for (index, step) in ladder.enumerate() {
+    let ladder: Vec<Rung> = first.iter().copied().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates)).collect();
+    for (index, (whole, step)) in steps(&ladder, statics.is_part()).enumerate() {
         if index == BEFORE_DIAGNOSIS && !answer.bracket.width().is_finite() && diagnose(assembly, interfaces, control, &mut answer) {
             return answer;
         }
-        if index == WHOLE_FROM && statics.is_part() {
+        if whole && statics.is_part() {
             statics = Statics::new(assembly, interfaces, Options { symmetry: false, ..options });
             answer.left_out.clone_from(&statics.left_out);
         }
