@@ -32,6 +32,25 @@ pub struct Opened {
     pub mended: usize,
 }
 
+/// Opens a file, made where there is none, that no other run has open for writing, and reads all of it.
+///
+/// # Errors
+/// It cannot be written or read, or another run writes it.
+pub(crate) fn open_alone(path: &Path) -> Result<(File, Vec<u8>), RowsError> {
+    let name = path.display().to_string();
+    let problem = |what, cause| RowsError::File { file: name.clone(), what, cause };
+    let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
+    let mut file = opened.map_err(|e| problem("written", e))?;
+    match file.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => return Err(RowsError::Busy { file: name }),
+        Err(TryLockError::Error(e)) => return Err(problem("locked", e)),
+    }
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(|e| problem("read", e))?;
+    Ok((file, bytes))
+}
+
 impl RowsFile {
     /// Begins a file, or takes up one with the same header.
     ///
@@ -40,15 +59,7 @@ impl RowsFile {
     pub fn open(path: &Path, header: &Header, restart: bool) -> Result<Opened, RowsError> {
         let name = path.display().to_string();
         let problem = |what, cause| RowsError::File { file: name.clone(), what, cause };
-        let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
-        let mut file = opened.map_err(|e| problem("written", e))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(RowsError::Busy { file: name }),
-            Err(TryLockError::Error(e)) => return Err(problem("locked", e)),
-        }
-        let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).map_err(|e| problem("read", e))?;
+        let (mut file, bytes) = open_alone(path)?;
         let first = line(header).map_err(|e| problem("written", e))?;
         // What is there of a header may be the beginning of this one; anything else is somebody's file.
         let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);

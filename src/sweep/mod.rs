@@ -36,6 +36,7 @@ mod summary;
 mod worst;
 
 pub use ask::ask;
+pub(crate) use file::open_alone;
 pub use file::{Opened, RowsFile, parse_rows, read_rows};
 pub use folder::{Folder, Gathered, Tally};
 pub use fragility::{Fragility, Proportion, wilson};

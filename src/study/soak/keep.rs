@@ -2,12 +2,12 @@
 //! that were being asked and no other. The same command goes on from there.
 
 use super::Soaked;
-use crate::error::RowsError;
+use crate::{error::RowsError, sweep::open_alone};
 use serde::{Deserialize, Serialize};
 use std::{
     collections::BTreeMap,
-    fs::{File, OpenOptions, TryLockError},
-    io::{self, Read, Seek, SeekFrom, Write},
+    fs::File,
+    io::{self, Seek, SeekFrom, Write},
     path::Path,
     sync::{Mutex, PoisonError},
 };
@@ -45,15 +45,7 @@ impl Kept {
     pub fn open(path: &Path, seed: u64) -> Result<Self, RowsError> {
         let name = path.display().to_string();
         let problem = |what, cause| RowsError::File { file: name.clone(), what, cause };
-        let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
-        let mut file = opened.map_err(|e| problem("written", e))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(RowsError::Busy { file: name }),
-            Err(TryLockError::Error(e)) => return Err(problem("locked", e)),
-        }
-        let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).map_err(|e| problem("read", e))?;
+        let (mut file, bytes) = open_alone(path)?;
         let first = line(&Header::new(seed)).map_err(|e| problem("written", e))?;
         let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
         // What is there of a header may be the beginning of this one; anything else is somebody's file.
