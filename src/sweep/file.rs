@@ -1,12 +1,10 @@
 //! The file of rows on the disk: begun, taken up again, appended to. A row is written by one call as one line, so that a killed
 //! run leaves at most one piece of a line, which is cut off when the file is taken up.
 
-use super::{Header, Row};
+use super::{Alone, Header, Row};
 use crate::error::RowsError;
 use std::{
     collections::BTreeMap,
-    fs::{File, OpenOptions, TryLockError},
-    io::{Read, Seek, SeekFrom, Write},
     path::Path,
     sync::{Mutex, PoisonError},
 };
@@ -18,7 +16,7 @@ pub(super) const ENDING: &str = "jsonl";
 #[derive(Debug)]
 pub struct RowsFile {
     name: String,
-    file: Mutex<File>,
+    file: Mutex<Alone>,
 }
 
 /// What was found in a file of rows.
@@ -32,25 +30,6 @@ pub struct Opened {
     pub mended: usize,
 }
 
-/// Opens a file, made where there is none, that no other run has open for writing, and reads all of it.
-///
-/// # Errors
-/// It cannot be written or read, or another run writes it.
-pub(crate) fn open_alone(path: &Path) -> Result<(File, Vec<u8>), RowsError> {
-    let name = path.display().to_string();
-    let problem = |what, cause| RowsError::File { file: name.clone(), what, cause };
-    let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
-    let mut file = opened.map_err(|e| problem("written", e))?;
-    match file.try_lock() {
-        Ok(()) => {}
-        Err(TryLockError::WouldBlock) => return Err(RowsError::Busy { file: name }),
-        Err(TryLockError::Error(e)) => return Err(problem("locked", e)),
-    }
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes).map_err(|e| problem("read", e))?;
-    Ok((file, bytes))
-}
-
 impl RowsFile {
     /// Begins a file, or takes up one with the same header.
     ///
@@ -59,23 +38,21 @@ impl RowsFile {
     pub fn open(path: &Path, header: &Header, restart: bool) -> Result<Opened, RowsError> {
         let name = path.display().to_string();
         let problem = |what, cause| RowsError::File { file: name.clone(), what, cause };
-        let (mut file, bytes) = open_alone(path)?;
+        let (mut file, bytes) = Alone::open(path)?;
         let first = line(header).map_err(|e| problem("written", e))?;
         // What is there of a header may be the beginning of this one; anything else is somebody's file.
         let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
         let nothing = restart && looks_like_rows(&bytes) || whole == 0 && first.as_bytes().starts_with(&bytes);
         let (kept, rows) = if nothing { (0, Vec::new()) } else { taken_up(&name, &bytes, whole, header)? };
         let mended = if nothing { 0 } else { bytes.len() - kept };
-        file.set_len(kept as u64).and_then(|()| file.seek(SeekFrom::Start(kept as u64))).map_err(|e| problem("written", e))?;
+        file.cut(kept).map_err(|e| problem("written", e))?;
         if kept == 0 {
-            file.write_all(first.as_bytes()).map_err(|e| problem("written", e))?;
+            file.write(&first).map_err(|e| problem("written", e))?;
         }
         Ok(Opened { file: Self { name, file: Mutex::new(file) }, rows, mended })
     }
 
     /// Begins a file that nobody else has or will have: `name` in `folder`, or `name-2`, `name-3`, …, the first that is not there.
-    ///
-    /// It needs no lock, which not every shared file system gives.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -85,9 +62,9 @@ impl RowsFile {
             let own = if number == 1 { format!("{name}.{ENDING}") } else { format!("{name}-{number}.{ENDING}") };
             let path = folder.join(own);
             let problem = |cause| RowsError::File { file: path.display().to_string(), what: "written", cause };
-            match OpenOptions::new().append(true).create_new(true).open(&path) {
+            match Alone::fresh(&path) {
                 Ok(mut file) => {
-                    file.write_all(line(header).map_err(problem)?.as_bytes()).map_err(problem)?;
+                    file.write(&line(header).map_err(problem)?).map_err(problem)?;
                     return Ok(Self { name: path.display().to_string(), file: Mutex::new(file) });
                 }
                 Err(e) if e.kind() == std::io::ErrorKind::AlreadyExists => number += 1,
@@ -103,8 +80,7 @@ impl RowsFile {
     pub fn append(&self, row: &Row) -> Result<(), RowsError> {
         let problem = |cause| RowsError::File { file: self.name.clone(), what: "written", cause };
         let line = line(row).map_err(problem)?;
-        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        file.write_all(line.as_bytes()).map_err(problem)
+        self.file.lock().unwrap_or_else(PoisonError::into_inner).write(&line).map_err(problem)
     }
 }
 

@@ -17,6 +17,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod alone;
 mod ask;
 mod distribution;
 mod file;
@@ -35,8 +36,8 @@ pub mod slurm;
 mod summary;
 mod worst;
 
+pub(crate) use alone::Alone;
 pub use ask::ask;
-pub(crate) use file::open_alone;
 pub use file::{Opened, RowsFile, parse_rows, read_rows};
 pub use folder::{Folder, Gathered, Tally};
 pub use fragility::{Fragility, Proportion, wilson};

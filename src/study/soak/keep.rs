@@ -2,12 +2,11 @@
 //! that were being asked and no other. The same command goes on from there.
 
 use super::Soaked;
-use crate::{error::RowsError, sweep::open_alone};
+use crate::{error::RowsError, sweep::Alone};
 use serde::{Deserialize, Serialize};
 use std::{
     collections::BTreeMap,
-    fs::File,
-    io::{self, Seek, SeekFrom, Write},
+    io,
     path::Path,
     sync::{Mutex, PoisonError},
 };
@@ -32,7 +31,7 @@ impl Header {
 #[derive(Debug)]
 pub struct Kept {
     name: String,
-    file: Mutex<File>,
+    file: Mutex<Alone>,
     /// The scenes that were there already, by number.
     pub there: BTreeMap<usize, Soaked>,
 }
@@ -45,15 +44,15 @@ impl Kept {
     pub fn open(path: &Path, seed: u64) -> Result<Self, RowsError> {
         let name = path.display().to_string();
         let problem = |what, cause| RowsError::File { file: name.clone(), what, cause };
-        let (mut file, bytes) = open_alone(path)?;
+        let (mut file, bytes) = Alone::open(path)?;
         let first = line(&Header::new(seed)).map_err(|e| problem("written", e))?;
         let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
         // What is there of a header may be the beginning of this one; anything else is somebody's file.
         let begins = whole == 0 && first.as_bytes().starts_with(&bytes);
         let there = if begins { BTreeMap::new() } else { read(&name, bytes.get(..whole).unwrap_or_default(), seed)? };
-        file.set_len(whole as u64).and_then(|()| file.seek(SeekFrom::Start(whole as u64))).map_err(|e| problem("written", e))?;
+        file.cut(whole).map_err(|e| problem("written", e))?;
         if begins {
-            file.write_all(first.as_bytes()).map_err(|e| problem("written", e))?;
+            file.write(&first).map_err(|e| problem("written", e))?;
         }
         Ok(Self { name, file: Mutex::new(file), there })
     }
@@ -65,7 +64,7 @@ impl Kept {
     pub fn append(&self, soaked: &Soaked) -> Result<(), RowsError> {
         let problem = |cause| RowsError::File { file: self.name.clone(), what: "written", cause };
         let line = line(soaked).map_err(problem)?;
-        self.file.lock().unwrap_or_else(PoisonError::into_inner).write_all(line.as_bytes()).map_err(problem)
+        self.file.lock().unwrap_or_else(PoisonError::into_inner).write(&line).map_err(problem)
     }
 }
 
