@@ -8,6 +8,7 @@
 
 use super::{
     fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
+    law::Law,
     state::{Motion, state},
 };
 use crate::{
@@ -133,6 +134,7 @@ fn lowered(
         return;
     };
     answer.solves += from.solves;
+    let mut law = Law::new(&contacts, scale);
     for (stage, (delta, stop)) in STAGES.into_iter().enumerate() {
         let left = control.seconds - start.elapsed().as_secs_f64();
         if left <= 0.0 {
@@ -140,7 +142,8 @@ fn lowered(
         }
         let settings = Settings { seconds: left, tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| {
-            iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, engine(&settings))
+            let means = Means { law: law.as_mut(), ..engine(&settings) };
+            iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, means)
         });
         let Some(point) = point else { break };
         answer.solves += point.solves;
@@ -160,7 +163,7 @@ fn lowered(
 
 /// The engine alone.
 fn engine(settings: &Settings) -> Means<'_> {
-    Means { newton: None, settings }
+    Means { newton: None, law: None, settings }
 }
 
 /// Takes a fixed point as the answer if it is more exact than the one before; says whether it is a value.
@@ -175,6 +178,9 @@ fn accept(assembly: &Assembly, interfaces: &Interfaces, contacts: &Contacts, poi
     let s = certificate::statics(assembly, interfaces, &forces, lambda);
     let obeys = natural_map <= tolerance::DRY_LAW && natural_map_in_loads <= tolerance::NATURAL_MAP;
     let found = obeys && s.is_within_strength() && s.unbalance <= tolerance::DRY_BALANCE.max(s.resolution);
+    if std::env::var("PACC").is_ok() {
+        eprintln!("accept lambda {lambda} map {natural_map:e} loads {natural_map_in_loads:e} unbalance {:e} res {:e} change {:e} solves {}", s.unbalance, s.resolution, point.change, point.solves);
+    }
     if found {
         (answer.found, answer.value) = (Found::FixedPoint, lambda);
     }

@@ -5,7 +5,7 @@
 use crate::{
     program::{
         coulomb::{Contacts, Hold},
-        response::Response,
+        response::{Friction, Response},
     },
     solve::{Cholesky, Pattern},
 };
@@ -65,7 +65,8 @@ impl Newton {
         if !Response::is_explicit(contacts, hold) {
             return None;
         }
-        let look = |q: &[f64]| self.response.forces(contacts, epsilon, hold, held, q);
+        let friction = Friction::Held(hold, held);
+        let look = |q: &[f64]| self.response.forces(contacts, epsilon, friction, q);
         let mut rates = start.to_vec();
         let (mut forces, mut gradient) = look(&rates);
         for _ in 0..STEPS {
@@ -76,7 +77,7 @@ impl Newton {
             if !size.is_finite() || end.is_some_and(|end| Instant::now() >= end) {
                 return None;
             }
-            if !self.cholesky.factorize(&self.response.derivative(contacts, epsilon, hold, held, &rates)) {
+            if !self.cholesky.factorize(&self.response.derivative(contacts, epsilon, friction, &rates, false)) {
                 return None;
             }
             let mut step: Vec<f64> = gradient.iter().map(|g| -g).collect();
