@@ -90,6 +90,10 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
                 return Some(FixedPoint { lambda: scale * point.lambda, solves: k, ..point });
             }
         }
+        // Under these limits there is no load factor: those that came before wander.
+        if best.is_some() && contacts.residual(&forces, lambda).iter().any(|r| r.abs() > UNBALANCED) && matches!(aim, Aim::LoadFactor(..)) {
+            break;
+        }
         let next = match hold {
             Hold::Limits => contacts.limits(&forces),
             Hold::SlidingRates => contacts.sliding(&joint_rates(contacts, aim, &forces, &rates)),
@@ -108,6 +112,10 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
     }
     best
 }
+
+/// Forces of a load factor that leave more of a block's load than this are no solution: the program has none. Larger: such forces are taken
+/// for one. Smaller: the engine's noise ends iterations.
+const UNBALANCED: f64 = 1e-2;
 
 /// The engine with the program of one fixed point.
 struct Engine {

@@ -18,19 +18,20 @@ use crate::{
 use std::time::Instant;
 
 /// Most steps to one way. Fewer: walls go back to the limits. More: time lost from afar.
-const STEPS: usize = 15;
+const STEPS: usize = 12;
 /// Shares of a step that are looked at, each half of the one before. Fewer: too much spring. More: steps that hardly move.
 const SHARES: usize = 6;
-/// Springs held against: least, first after a step that leads nowhere, and greatest, in mean block loads per displacement. A smaller least:
-/// blocks that nothing holds are thrown. A larger greatest: steps that hardly move.
-const SPRINGS: [f64; 3] = [1e-8, 1e-5, 1.0];
-/// The imbalance aimed at, in block loads, in multiples of that of rounding at a way of one. Larger: digits of the load factor. Smaller:
-/// rounding keeps from it.
-const EXACT: f64 = 1e-9;
-/// The least growth of a way that is tried in one go. Smaller: hundreds of factorisations.
-const LEAST_GROWTH: f64 = 1.15;
+/// Springs held against: least, first after a step that leads nowhere, and greatest, in mean block loads per displacement. A larger least:
+/// it resists the mechanism itself on long ways. Smaller: rounding. A larger greatest: steps that hardly move.
+const SPRINGS: [f64; 3] = [1e-12, 1e-5, 1.0];
+/// The imbalance aimed at, in block loads, and that of rounding, for each displacement. Larger: digits of the load factor. Smaller: rounding
+/// keeps from it.
+const EXACT: f64 = 1e-8;
+const ROUNDING: f64 = 1e-14;
+/// The least growth of a way that is tried in one go. Larger: walls go back to the limits. Smaller: time lost where the way turns back.
+const LEAST_GROWTH: f64 = 1.01;
 /// Most pushes on the way to one δ. Fewer: walls go back to the limits. More: time lost.
-const PUSHES: usize = 24;
+const PUSHES: usize = 200;
 
 /// Coulomb's law for one set of contacts, and where it was last obeyed.
 pub(super) struct Law {
@@ -66,10 +67,13 @@ impl Law {
         self.to(contacts, start, way, end)
     }
 
-    /// The fixed point at a smaller δ than the last.
+    /// The fixed point at a smaller δ than the last, pushed there from it.
     pub fn on(&mut self, contacts: &Contacts, delta: f64, end: Option<Instant>) -> Option<FixedPoint> {
         let goal = 1.0 / delta;
         let mut growth = goal / self.last.as_ref()?.way;
+        if growth <= 1.0 {
+            return None;
+        }
         for _ in 0..PUSHES {
             let last = self.last.clone()?;
             let way = if last.way * growth > 0.99 * goal { goal } else { last.way * growth };
@@ -92,8 +96,7 @@ impl Law {
         // The first step goes all the way, whatever it leaves.
         let mut size = f64::INFINITY;
         let mut spring = SPRINGS[0];
-        let debug = std::env::var("PDEBUG").is_ok();
-        for k in 0..STEPS {
+        for _ in 0..STEPS {
             if end.is_some_and(|end| Instant::now() >= end) {
                 return None;
             }
@@ -113,18 +116,15 @@ impl Law {
                     share *= 0.5;
                 }
             }
-            if debug {
-                eprintln!("    step {k} share {share} left {:?} lambda {:?} spring {spring:.0e}", best.as_ref().map(|b| b.4), best.as_ref().map(|b| b.1));
-            }
             match best {
                 Some((q, l, f, g, left)) => {
                     (z, lambda, forces, imbalance, size) = (q, l, f, g, left);
-                    spring = if share == 1.0 { (0.1 * spring).max(SPRINGS[0]) } else { 10.0 * spring };
+                    spring = if share == 1.0 { (0.01 * spring).max(SPRINGS[0]) } else { 10.0 * spring };
                 }
                 None if spring < SPRINGS[2] => spring = (100.0 * spring).max(SPRINGS[1]),
                 None => return None,
             }
-            if size <= EXACT * (1.0 + 1e-8 * way) * 10.0 {
+            if size <= EXACT + ROUNDING * norm(&z) {
                 let rates = z.iter().map(|z| z / way).collect();
                 self.last = Some(Place { z, lambda, way });
                 return Some(FixedPoint { forces, rates, lambda, change: 0.0, solves: 0 });

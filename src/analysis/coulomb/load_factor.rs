@@ -69,6 +69,8 @@ const STAGES: [(f64, Stop); 4] = [
     (6e-8, Stop { change: 3e-5, solves: 20 }),
     (5e-7, Stop { change: 1e-7, solves: 10 }),
 ];
+/// What δ is multiplied by for fixed points of Coulomb's law that are not exact enough for it. Smaller: rounding.
+const FURTHER: [f64; 3] = [0.1, 1e-2, 1e-3];
 /// Stages after which a value is looked for.
 const LEAST_STAGES: usize = 3;
 /// A stage that ends with a change of this × the wanted one is lost. Larger: minutes on walls of 1,000 blocks that stay undecided.
@@ -150,6 +152,13 @@ fn lowered(
         if stage + 1 >= LEAST_STAGES && accept(assembly, interfaces, &contacts, &point, answer) {
             break;
         }
+        let settled = point.change == 0.0 && stage + 1 >= LEAST_STAGES;
+        if let Some(law) = law.as_mut().filter(|_| settled) {
+            let further = |by: &f64| law.on(&contacts, by * delta, None).map(|p| FixedPoint { lambda: scale * p.lambda, ..p });
+            if FURTHER.iter().map_while(further).any(|p| accept(assembly, interfaces, &contacts, &p, answer)) {
+                break;
+            }
+        }
         // What wanders at a large δ does not settle at a smaller one; at the smallest it may be the engine's noise.
         let lost = point.change > LOST * stop.change;
         if lost && stage + 1 < LEAST_STAGES {
@@ -178,9 +187,6 @@ fn accept(assembly: &Assembly, interfaces: &Interfaces, contacts: &Contacts, poi
     let s = certificate::statics(assembly, interfaces, &forces, lambda);
     let obeys = natural_map <= tolerance::DRY_LAW && natural_map_in_loads <= tolerance::NATURAL_MAP;
     let found = obeys && s.is_within_strength() && s.unbalance <= tolerance::DRY_BALANCE.max(s.resolution);
-    if std::env::var("PACC").is_ok() {
-        eprintln!("accept lambda {lambda} map {natural_map:e} loads {natural_map_in_loads:e} unbalance {:e} res {:e} change {:e} solves {}", s.unbalance, s.resolution, point.change, point.solves);
-    }
     if found {
         (answer.found, answer.value) = (Found::FixedPoint, lambda);
     }
