@@ -260,8 +260,8 @@ pub struct Study {
     /// Which random scenes (--soak).
     #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
     pub seed: u64,
-    /// Keep every scene in this file as soon as it is asked; the same command takes it up again after a kill at any point (--soak).
-    #[arg(long, value_name = "FILE", requires = "soak", conflicts_with = "only")]
+    /// Keep every scene in this file as soon as it is asked; the same command takes it up again after a kill at any point (--soak, --extreme).
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "omissions"])]
     pub keep: Option<PathBuf>,
     /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak).
     #[arg(long, value_name = "NUMBER", requires = "soak", conflicts_with_all = ["csv", "json"])]
@@ -363,6 +363,10 @@ pub struct Repose {
     /// Do not ask for the static margin of the heaps (--question repose).
     #[arg(long)]
     pub skip_margin: bool,
+    /// Keep every heap and its margin in this file as soon as it is there; the same command takes it up again after a kill at any point,
+    /// with more seeds too (--question repose).
+    #[arg(long, value_name = "FILE")]
+    pub keep: Option<PathBuf>,
     /// Write every heap at rest as a scene, FILE with the seed before its ending (--question repose).
     #[arg(long, value_name = "FILE")]
     pub heaps: Option<PathBuf>,
