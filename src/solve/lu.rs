@@ -1,4 +1,4 @@
-//! Sparse LU factorisation of square matrices of a symmetric pattern and unsymmetric values, by faer.
+//! Sparse LU factorisation of square matrices of a symmetric pattern and unsymmetric values; with `cholesky.rs` the adapter to faer.
 
 use super::Pattern;
 use faer::{
@@ -29,6 +29,7 @@ impl Lu {
             return None;
         }
         let mut columns = vec![Vec::new(); n];
+        // One sweep by ascending column leaves the rows of every column in order.
         for j in 0..n {
             for (k, &i) in lower.rows.iter().enumerate().take(lower.starts[j + 1]).skip(lower.starts[j]) {
                 columns.get(i)?;
@@ -65,11 +66,11 @@ impl Lu {
         Some(Self { pattern, places, symbolic, numeric: NumericLu::new(), values, work })
     }
 
-    /// Solves with the matrix of these values of the lower triangle and, entry by entry, of its mirror image, in place; `x` are right-hand
-    /// sides one after the other. False where the matrix is singular or something does not fit.
+    /// Solves with the matrix of these values of the lower triangle and, entry by entry, of its mirror image, in place; `x` are one or two
+    /// right-hand sides, one after the other. False where the matrix is singular or something does not fit.
     pub fn solve(&mut self, lower: &[f64], upper: &[f64], x: &mut [f64]) -> bool {
         let n = self.pattern.size();
-        if lower.len() != self.places.len() || upper.len() != self.places.len() || !x.len().is_multiple_of(n) {
+        if lower.len() != self.places.len() || upper.len() != self.places.len() || (x.len() != n && x.len() != 2 * n) {
             return false;
         }
         for ((place, l), u) in self.places.iter().zip(lower).zip(upper) {
@@ -85,5 +86,39 @@ impl Lu {
         let columns = x.len() / n;
         factors.solve_in_place_with_conj(Conj::No, MatMut::from_column_major_slice_mut(x, n, columns), Par::Seq, stack);
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `[[4, 2, 0], [1, 3, −1], [0, 1, 2]]`.
+    fn three() -> (Pattern, [f64; 5], [f64; 5]) {
+        (Pattern { starts: vec![0, 2, 4, 5], rows: vec![0, 1, 1, 2, 2] }, [4.0, 1.0, 3.0, 1.0, 2.0], [4.0, 2.0, 3.0, -1.0, 2.0])
+    }
+
+    #[test]
+    fn what_was_multiplied_comes_back() {
+        let (pattern, lower, upper) = three();
+        let mut lu = Lu::new(&pattern).unwrap();
+        // The matrix times (1, −2, 3) and times (0, 1, 1).
+        let mut x = [0.0, -8.0, 4.0, 2.0, 2.0, 3.0];
+        assert!(lu.solve(&lower, &upper, &mut x));
+        for (x, want) in x.iter().zip([1.0, -2.0, 3.0, 0.0, 1.0, 1.0]) {
+            assert!((x - want).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let (pattern, lower, upper) = three();
+        let mut lu = Lu::new(&pattern).unwrap();
+        assert!(!lu.solve(&lower[..4], &upper, &mut [0.0; 3]));
+        assert!(!lu.solve(&lower, &upper, &mut [0.0; 4]));
+        assert!(!lu.solve(&lower, &upper, &mut [0.0; 9]));
+        assert!(Lu::new(&Pattern { rows: vec![1, 0, 1, 2, 2], ..pattern.clone() }).is_none());
+        assert!(Lu::new(&Pattern { rows: vec![0, 9, 1, 2, 2], ..pattern.clone() }).is_none());
+        assert!(Lu::new(&Pattern { starts: vec![0, 2, 4, 7], ..pattern }).is_none());
     }
 }

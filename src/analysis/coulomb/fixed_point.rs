@@ -56,10 +56,10 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
     let mut engine: Option<Engine> = None;
     let mut anderson = Anderson::default();
     let mut best: Option<FixedPoint> = None;
-    if let (Some(law), Aim::LoadFactor(delta, scale)) = (&mut law, aim) {
-        if let Some(point) = law.on(contacts, delta, end) {
-            return Some(FixedPoint { lambda: scale * point.lambda, ..point });
-        }
+    if let (Some(law), Aim::LoadFactor(delta, scale)) = (&mut law, aim)
+        && let Some(point) = law.on(contacts, delta, end)
+    {
+        return Some(FixedPoint { lambda: scale * point.lambda, ..point });
     }
     for k in 1..=stop.solves {
         let solved = match (&mut newton, aim) {
@@ -85,10 +85,10 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
             let Some(solution) = solution.filter(Solution::is_finite) else { break };
             (forces, rates, lambda) = read(contacts, aim, &solution);
         }
-        if let (Some(law), Aim::LoadFactor(delta, scale)) = (&mut law, aim) {
-            if let Some(point) = law.near(contacts, delta, &rates, lambda / scale, end) {
-                return Some(FixedPoint { lambda: scale * point.lambda, solves: k, ..point });
-            }
+        if let (Some(law), Aim::LoadFactor(delta, scale)) = (&mut law, aim)
+            && let Some(point) = law.near(contacts, delta, &rates, lambda / scale, end)
+        {
+            return Some(FixedPoint { lambda: scale * point.lambda, solves: k, ..point });
         }
         // Under these limits there is no load factor: those that came before wander.
         if best.is_some() && contacts.residual(&forces, lambda).iter().any(|r| r.abs() > UNBALANCED) && matches!(aim, Aim::LoadFactor(..)) {

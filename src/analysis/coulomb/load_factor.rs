@@ -25,7 +25,7 @@ use crate::{
     verdict::{Forces, Rate, certificate, check, law},
 };
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// How a load factor with dry friction was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -154,7 +154,9 @@ fn lowered(
         }
         let settled = point.change == 0.0 && stage + 1 >= LEAST_STAGES;
         if let Some(law) = law.as_mut().filter(|_| settled) {
-            let further = |by: &f64| law.on(&contacts, by * delta, None).map(|p| FixedPoint { lambda: scale * p.lambda, ..p });
+            let left = (control.seconds - start.elapsed().as_secs_f64()).max(0.0);
+            let end = Duration::try_from_secs_f64(left).ok().and_then(|s| Instant::now().checked_add(s));
+            let further = |by: &f64| law.on(&contacts, by * delta, end).map(|p| FixedPoint { lambda: scale * p.lambda, ..p });
             if FURTHER.iter().map_while(further).any(|p| accept(assembly, interfaces, &contacts, &p, answer)) {
                 break;
             }
