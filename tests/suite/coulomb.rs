@@ -230,28 +230,3 @@ proptest! {
         prop_assert!(d.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.bracket.upper.abs(), "{} above {}", d.value, l.bracket.upper);
     }
 }
-
-/// Two posts and a lintel pushed askew: the iteration on the friction limits goes round in circles, Coulomb's law itself has a solution
-/// beside the associative one.
-#[test]
-fn posts_and_a_lintel_pushed_askew_have_a_load_factor_with_dry_friction() {
-    let mut base = cuboid("base", [6.0, 6.0, 1.0], [0.0, 0.0, -0.5]);
-    base["support"] = json!(true);
-    let blocks = json!([
-        base,
-        cuboid("left", [0.543, 0.793, 1.154], [-1.0, 0.0, 0.577]),
-        cuboid("right", [0.405, 0.978, 1.154], [1.0, 0.0, 0.577]),
-        cuboid("lintel", [2.4, 0.6, 0.4], [0.0, -0.022, 1.354])
-    ]);
-    let mut text = json!({ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.335 } }, "blocks": blocks });
-    text["loads"] = json!({ "live": [{ "weight": [-0.961, -0.275, 0.0] }] });
-    let model = prepare(&read_str("test", text.to_string()).unwrap().0).unwrap();
-    let (a, i) = (&model.assembly, &model.interfaces);
-    let control = Control::default();
-    let bound = limit(a, i, &control);
-    let dry = coulomb::load_factor(a, i, &bound, &control);
-    assert_eq!(dry.found, coulomb::Found::FixedPoint);
-    assert!((dry.value / bound.value - 1.0).abs() < 1e-6, "{} and {}", dry.value, bound.value);
-    assert!(verify(a, i, &Claim::DryLoadFactor { value: dry.value }, &dry.forces, None, &dry.rates).proved());
-    assert!(!verify(a, i, &Claim::DryLoadFactor { value: 1.01 * dry.value }, &dry.forces, None, &dry.rates).proved());
-}

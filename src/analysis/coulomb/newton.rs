@@ -173,7 +173,6 @@ mod tests {
                     response.forces(contacts, 1e-3, friction, &q).1
                 };
                 let [lower, upper] = [false, true].map(|mirrored| response.derivative(contacts, 1e-3, friction, &q, mirrored));
-                assert!(lower == upper || matches!(friction, Friction::Law));
                 let mut predicted = vec![0.0; n];
                 for column in 0..n {
                     for at in starts[column]..starts[column + 1] {
