@@ -65,14 +65,14 @@ fn residual(st: &Structure, data: &Data, p: &Point, s: &[f64]) -> Point {
     for ((r, x), q) in r.x.iter_mut().zip(&p.x).zip(&st.quadratic) {
         *r += q * x;
     }
-    st.e.add_transposed(&p.y, &mut r.x);
-    st.g.add_transposed(&p.z, &mut r.x);
-    st.e_border.add_transposed(&p.y, &mut r.t);
-    st.g_border.add_transposed(&p.z, &mut r.t);
-    st.e.add(&p.x, &mut r.y);
-    st.e_border.add(&p.t, &mut r.y);
-    st.g.add(&p.x, &mut r.z);
-    st.g_border.add(&p.t, &mut r.z);
+    st.e.add_transposed(1.0, &p.y, &mut r.x);
+    st.g.add_transposed(1.0, &p.z, &mut r.x);
+    st.e_border.add_transposed(1.0, &p.y, &mut r.t);
+    st.g_border.add_transposed(1.0, &p.z, &mut r.t);
+    st.e.add(1.0, &p.x, &mut r.y);
+    st.e_border.add(1.0, &p.t, &mut r.y);
+    st.g.add(1.0, &p.x, &mut r.z);
+    st.g_border.add(1.0, &p.t, &mut r.z);
     r
 }
 
@@ -116,7 +116,7 @@ pub(super) fn follow(
     warm: &mut Option<(Point, Vec<f64>)>,
     trace: &mut Vec<Iteration>,
 ) -> (Option<Point>, Status) {
-    let mut cones = Cones::new(st.cones.clone());
+    let mut cones = Cones::new(&st.cones);
     let degree = cones.degree() as f64;
     let Some((mut p, mut s)) = warm.take().or_else(|| begin(st, reduced, &mut cones, data)) else { return (None, Status::Stalled) };
     let mut best: Option<(f64, Point)> = None;
@@ -205,10 +205,9 @@ pub(super) fn follow(
 
 /// `ds = −r_z − G dx`.
 pub(super) fn slack(st: &Structure, d: &Point, r: &Point) -> Vec<f64> {
-    let mut ds: Vec<f64> = r.z.clone();
-    st.g.add(&d.x, &mut ds);
-    st.g_border.add(&d.t, &mut ds);
-    ds.iter_mut().for_each(|v| *v = -*v);
+    let mut ds: Vec<f64> = r.z.iter().map(|v| -v).collect();
+    st.g.add(-1.0, &d.x, &mut ds);
+    st.g_border.add(-1.0, &d.t, &mut ds);
     ds
 }
 
