@@ -190,7 +190,7 @@ pub enum RowsError {
         cause: std::io::Error,
     },
     /// Another run writes it.
-    #[error("{file}: another run is writing it; wait for its end, or give another --output")]
+    #[error("{file}: another run is writing it; wait for its end, or give another name")]
     Busy {
         /// The file.
         file: String,

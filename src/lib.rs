@@ -75,6 +75,8 @@ pub mod limits;
 
 pub mod parallel;
 
+pub mod keep;
+
 pub mod scene;
 
 pub mod generate;

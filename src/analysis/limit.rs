@@ -193,10 +193,19 @@ fn pair(assembly: &Assembly, interfaces: &Interfaces, answer: &mut LoadFactor) {
         return;
     }
     let k = certificate::kinematics(assembly, interfaces, &answer.rates, &answer.forces);
-    let s = certificate::statics(assembly, interfaces, &answer.forces, answer.value);
-    let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &answer.rates[i]).abs()).sum();
-    let (lower, upper) = (answer.value - hidden / k.live_power, k.upper());
-    answer.bracket = Bracket { lower, upper };
+    let lower = |value: f64| {
+        let s = certificate::statics(assembly, interfaces, &answer.forces, value);
+        let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &answer.rates[i]).abs()).sum();
+        value - hidden / k.live_power
+    };
+    let mut bracket = Bracket { lower: lower(answer.value), upper: k.upper() };
+    // The engine's load factor may pass what the mechanism proves by a last digit; its forces are then those of the end itself. Ends
+    // that cross are left as they are: they prove nothing.
+    if bracket.lower <= bracket.upper && bracket.upper < answer.value {
+        bracket.lower = lower(bracket.upper);
+        answer.value = bracket.upper;
+    }
+    answer.bracket = bracket;
 }
 
 /// One attempt at program L with a way of one's own, for studies: nothing is tried again.

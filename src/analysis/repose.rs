@@ -19,6 +19,7 @@ use crate::{
     tolerance::GRAIN_GAP,
 };
 use nalgebra::{Unit, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, f64::consts::TAU, ops::ControlFlow, time::Instant};
 
 /// Width of a cell, d.
@@ -37,7 +38,7 @@ const UNBALANCED: usize = 4;
 const TOE: f64 = 1.0;
 
 /// A straight line through the free surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Slope {
     /// Degrees; positive where the surface falls towards the edge.
     pub angle_deg: f64,
@@ -48,7 +49,7 @@ pub struct Slope {
 }
 
 /// A heap and its slope.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Heap {
     /// Its seed.
     pub seed: u64,

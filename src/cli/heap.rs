@@ -1,25 +1,37 @@
 //! `voussoir repose --question repose`: heaps that flow and come to rest.
 
-use super::{args::Repose, exit::Exit, output::Sink, pictures::Pictures, report, simulate::threads, terminal, terminal::Terminal};
+use super::{args::Repose, exit::Exit, output::Sink, pictures::Pictures, report, terminal, terminal::Terminal};
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use rayon::prelude::*;
-use serde_json::Value;
-use std::ops::ControlFlow;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+use std::{borrow::Cow, ops::ControlFlow};
 use voussoir::{
     analysis::{
         Control, Law, prepare,
         repose::{Heap, Margin, heap, margin},
     },
+    keep::Kept,
+    parallel,
     report::{
         Leaning, ResultFile,
-        heaps::{HeapResult, ReposeFile},
+        heaps::{HeapResult, MarginResult, ReposeFile},
         json, page,
         text::{self, Options},
         view::View,
     },
     scene::Protocol,
 };
+
+/// What `--keep` keeps.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Piece {
+    /// A heap at rest.
+    Heap(Box<Heap>),
+    /// The static margin of the heap of a seed, solved in full or not.
+    Margin { seed: u64, keep_all: bool, margin: MarginResult },
+}
 
 pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let protocol = protocol(args)?;
@@ -37,6 +49,9 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
             args.heaps.as_ref().map(|p| Sink::open(Some(&path(p)))).transpose()
         })
         .collect::<anyhow::Result<_>>()?;
+    let kept = args.keep.as_deref().map(|path| kept(path, &protocol, args)).transpose()?;
+    let there = || kept.iter().flat_map(|k| &k.there);
+    let keep = |piece: &Piece| kept.as_ref().map_or(Ok(()), |k| k.append(piece));
     let target = if args.common.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let bar = ProgressBar::with_draw_target(None, target);
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
@@ -44,25 +59,54 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let start = std::time::Instant::now();
     let left = || args.common.time_limit.map_or(f64::INFINITY, |limit| limit - start.elapsed().as_secs_f64());
-    let one = |(k, output): (usize, &Option<Sink>)| -> anyhow::Result<(HeapResult, Option<View>)> {
-        let seed = args.seed + k as u64;
-        let heap = heap(&protocol, seed, &mut |flow| {
-            bar.set_message(format!("seed {seed}, stage {}: {:.0} √(d/g), {:.1e} m g d a grain", flow.stage + 1, flow.time, flow.energy));
-            bar.tick();
-            if left() > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        })?;
-        // Kept at once: what follows may take long.
+    // Cut off by the time limit, a heap or a margin is an answer, but not the one that the next run wants.
+    let in_time = || left() > 0.0;
+    let one = |(k, output): &(usize, Option<Sink>)| -> anyhow::Result<(HeapResult, Option<View>)> {
+        let seed = args.seed + *k as u64;
+        let old = there().find_map(|p| match p {
+            Piece::Heap(heap) if heap.seed == seed => Some(&**heap),
+            _ => None,
+        });
+        let heap = if let Some(heap) = old {
+            Cow::Borrowed(heap)
+        } else {
+            let heap = heap(&protocol, seed, &mut |flow| {
+                bar.set_message(format!(
+                    "seed {seed}, stage {}: {:.0} √(d/g), {:.1e} m g d a grain",
+                    flow.stage + 1,
+                    flow.time,
+                    flow.energy
+                ));
+                bar.tick();
+                if in_time() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            })?;
+            if kept.is_some() && in_time() {
+                keep(&Piece::Heap(Box::new(heap.clone())))?;
+            }
+            Cow::Owned(heap)
+        };
+        // Written at once: what follows may take long.
         if let Some(output) = output {
             output.write(&json::pretty(&heap.scene)?)?;
         }
-        let control = Control { law: Law::Associative, keep_all: args.common.keep_all, seconds: left().max(0.0) };
-        let margin = (heap.rested && !args.skip_margin).then(|| margin(&heap, &control)).transpose()?;
         // Page and pictures show the first heap.
-        let view = (k == 0 && (report.is_some() || pictures.wanted())).then(|| picture(&heap, margin.as_ref())).transpose()?;
-        Ok((HeapResult::new(&heap, margin.as_ref()), view))
+        let shown = *k == 0 && (report.is_some() || pictures.wanted());
+        let wanted = heap.rested && !args.skip_margin;
+        let known = there().find_map(|p| match p {
+            Piece::Margin { seed: of, keep_all, margin } if (*of, *keep_all) == (seed, args.common.keep_all) => Some(margin),
+            _ => None,
+        });
+        let control = Control { law: Law::Associative, keep_all: args.common.keep_all, seconds: left().max(0.0) };
+        let fresh = (wanted && (shown || known.is_none())).then(|| margin(&heap, &control)).transpose()?;
+        let result = known.filter(|_| wanted).cloned().or_else(|| fresh.as_ref().map(MarginResult::from));
+        if let (Some(margin), None, true) = (&result, known, in_time()) {
+            keep(&Piece::Margin { seed, keep_all: args.common.keep_all, margin: margin.clone() })?;
+        }
+        let view = shown.then(|| picture(&heap, fresh.as_ref())).transpose()?;
+        Ok((HeapResult::new(&heap, result), view))
     };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads(args.threads)).build().context("no threads")?;
-    let heaps: Vec<(HeapResult, Option<View>)> = pool.install(|| outputs.par_iter().enumerate().map(one).collect::<anyhow::Result<_>>())?;
+    let outputs: Vec<(usize, Option<Sink>)> = outputs.into_iter().enumerate().collect();
+    let heaps = parallel::map(args.threads.into(), &outputs, one).context("no threads")?.into_iter().collect::<anyhow::Result<Vec<_>>>()?;
     bar.finish_and_clear();
     let (heaps, views): (Vec<_>, Vec<_>) = heaps.into_iter().unzip();
     let file = ReposeFile::new(&protocol, heaps);
@@ -85,6 +129,17 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         terminal.page(&text::heaps(&file, options, layout))?;
     }
     Ok(if file.at_rest == file.heaps.len() { Exit::Yes } else { Exit::Undecided })
+}
+
+/// The file of `--keep`, and a word about what is in it.
+fn kept(path: &std::path::Path, protocol: &Protocol, args: &Repose) -> anyhow::Result<Kept<Piece>> {
+    let kept = Kept::open(path, "voussoir-heaps/1", json!({ "protocol": protocol }))?;
+    let seeds = args.seed..args.seed + u64::from(args.seeds);
+    let count = kept.there.iter().filter(|p| matches!(p, Piece::Heap(h) if seeds.contains(&h.seed))).count();
+    if count > 0 && !args.common.quiet {
+        terminal::say(&format!("note: {} holds {count} of {} heaps already", path.display(), args.seeds));
+    }
+    Ok(kept)
 }
 
 /// A heap at rest, with the forces and the mechanism of its static margin where that was asked for.

@@ -30,6 +30,9 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if let Some((key, _)) = args.set.first() {
         bail!("{key}=…: only the protocols of --question repose take values");
     }
+    if args.keep.is_some() || args.heaps.is_some() || args.skip_margin {
+        bail!("--keep, --heaps and --skip-margin are about heaps in time: they go with --question repose");
+    }
     let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let question = Question::open(&args.common)?.drawn(&args.pictures, None)?;
     let name = question.scene.name.clone();

@@ -27,10 +27,16 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let layout = terminal.layout(Path::new("study"));
     let wide = pages::layout(layout);
+    if args.keep.is_some() && args.soak.is_none() && !args.extreme {
+        bail!("--keep goes with --soak and --extreme: the other studies compare times, which belong to one run");
+    }
     if args.extreme {
         let cells = extreme::grid();
-        bar.set_length(cells.len() as u64);
-        let found = extreme::run(&cells, |_| bar.inc(1));
+        let kept = args.keep.as_deref().map(|path| extreme::keep(path, &cells)).transpose()?;
+        let there = kept.as_ref().map_or(0, |k| k.there.len());
+        taken_up(args, there, cells.len());
+        bar.set_length((cells.len() - there.min(cells.len())) as u64);
+        let found = extreme::run(&cells, kept.as_ref(), |_| bar.inc(1))?;
         bar.finish_and_clear();
         if let Some(csv) = csv {
             csv.write(&report::extreme_csv(&found)?)?;
@@ -50,11 +56,9 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         return Ok(Exit::Yes);
     }
     if let Some(count) = args.soak {
-        let kept = args.keep.as_deref().map(|path| soak::Kept::open(path, args.seed)).transpose()?;
-        let there = kept.as_ref().map_or(0, |k| k.there.range(..count as usize).count());
-        if let (Some(path), true) = (&args.keep, there > 0 && !args.quiet) {
-            terminal::say(&format!("note: {} holds {there} of {count} scenes already", path.display()));
-        }
+        let kept = args.keep.as_deref().map(|path| soak::keep(path, args.seed)).transpose()?;
+        let there = kept.as_ref().map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
+        taken_up(args, there, count as usize);
         bar.set_length(u64::from(count) - there as u64);
         let list = soak::run(args.seed, count as usize, kept.as_ref(), |_| bar.inc(1))?;
         bar.finish_and_clear();
@@ -105,6 +109,13 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         terminal.page(&report::text(&points, layout))?;
     }
     Ok(Exit::Yes)
+}
+
+/// Says how much of the work the file of `--keep` holds already.
+fn taken_up(args: &Study, there: usize, count: usize) {
+    if let (Some(path), true) = (&args.keep, there > 0 && !args.quiet) {
+        terminal::say(&format!("note: {} holds {there} of {count} scenes already", path.display()));
+    }
 }
 
 /// The scenes by name; all of them where none is named.

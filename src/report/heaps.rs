@@ -103,9 +103,22 @@ pub struct MarginResult {
     pub seconds: [f64; 2],
 }
 
+impl From<&Margin> for MarginResult {
+    fn from(m: &Margin) -> Self {
+        Self {
+            status: m.tilt.load_factor.outcome,
+            margin_deg: m.degrees(),
+            contacts: m.model.interfaces.list.len(),
+            loose: m.loose,
+            unbalanced: m.unbalanced,
+            seconds: m.seconds,
+        }
+    }
+}
+
 impl HeapResult {
     /// Packs a heap.
-    pub fn new(heap: &Heap, margin: Option<&Margin>) -> Self {
+    pub fn new(heap: &Heap, margin: Option<MarginResult>) -> Self {
         let slope = heap.slope.as_ref();
         Self {
             seed: heap.seed,
@@ -119,14 +132,7 @@ impl HeapResult {
             cells: slope.map_or(0, |s| s.cells),
             parts_deg: heap.parts.iter().map(|s: &Slope| s.angle_deg).collect(),
             avalanche_deg: heap.avalanche_deg,
-            margin: margin.map(|m| MarginResult {
-                status: m.tilt.load_factor.outcome,
-                margin_deg: m.degrees(),
-                contacts: m.model.interfaces.list.len(),
-                loose: m.loose,
-                unbalanced: m.unbalanced,
-                seconds: m.seconds,
-            }),
+            margin,
             seconds: heap.seconds,
             warnings: heap.findings.clone(),
         }

@@ -7,6 +7,9 @@
 
 use crate::{
     analysis::{Control, Law, Outcome, assess, limit, prepare},
+    error::RowsError,
+    keep::Kept,
+    parallel,
     scene::{Scene, read_str},
     tolerance,
     verdict::{
@@ -14,9 +17,9 @@ use crate::{
         check::{Claim, verify},
     },
 };
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use std::{collections::BTreeMap, path::Path};
 
 /// One scene of the grid.
 #[derive(Clone, Debug)]
@@ -225,16 +228,31 @@ fn arch(cells: &mut Vec<Cell>, voussoirs: usize, critical: f64, friction: f64, d
     }
 }
 
-/// Asks every cell, on all threads; `each` hears of every answer.
-pub fn run(cells: &[Cell], each: impl Fn(&Found) + Sync) -> Vec<Found> {
-    cells
-        .par_iter()
-        .map(|cell| {
-            let found = cell.ask();
-            each(&found);
-            found
-        })
-        .collect()
+/// The file in which the answers of a grid are kept, with the number of each cell.
+///
+/// # Errors
+/// As [`Kept::open`].
+pub fn keep(path: &Path, cells: &[Cell]) -> Result<Kept<(usize, Found)>, RowsError> {
+    Kept::open(path, "voussoir-extreme/1", json!({ "cells": cells.len() }))
+}
+
+/// Asks every cell, on all threads, but for those that are kept already; each is kept as it ends, where there is a file, and `each` hears of it.
+///
+/// # Errors
+/// Threads cannot be started, or the file cannot be written.
+pub fn run(cells: &[Cell], kept: Option<&Kept<(usize, Found)>>, each: impl Fn(&Found) + Sync) -> Result<Vec<Found>, RowsError> {
+    let there: BTreeMap<usize, &Found> = kept.iter().flat_map(|k| &k.there).map(|(index, found)| (*index, found)).collect();
+    let numbered: Vec<(usize, &Cell)> = cells.iter().enumerate().collect();
+    let found = parallel::map(0, &numbered, |(index, cell)| {
+        if let Some(&found) = there.get(index) {
+            return Ok(found.clone());
+        }
+        let found = (*index, cell.ask());
+        kept.map_or(Ok(()), |kept| kept.append(&found))?;
+        each(&found.1);
+        Ok(found.1)
+    });
+    found.map_err(|e| RowsError::Threads { threads: 0, cause: e.to_string() })?.into_iter().collect()
 }
 
 impl Cell {

@@ -1,8 +1,11 @@
 //! The file of rows on the disk: begun, taken up again, appended to. A row is written by one call as one line, so that a killed
 //! run leaves at most one piece of a line, which is cut off when the file is taken up.
 
-use super::{Alone, Header, Row};
-use crate::error::RowsError;
+use super::{Header, Row};
+use crate::{
+    error::RowsError,
+    keep::{Alone, line},
+};
 use std::{
     collections::BTreeMap,
     path::Path,
@@ -192,11 +195,4 @@ pub(super) fn add(rows: &mut BTreeMap<usize, Row>, row: Row) -> Result<(), usize
             Ok(())
         }
     }
-}
-
-/// A value as one line.
-pub(super) fn line(value: &impl serde::Serialize) -> Result<String, std::io::Error> {
-    let mut text = serde_json::to_string(value)?;
-    text.push('\n');
-    Ok(text)
 }

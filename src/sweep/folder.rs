@@ -5,9 +5,12 @@
 
 use super::{
     Header, Row, Shard,
-    file::{self, ENDING, RowsFile, line},
+    file::{self, ENDING, RowsFile},
 };
-use crate::error::{InputError, RowsError};
+use crate::{
+    error::{InputError, RowsError},
+    keep::line,
+};
 use std::{
     collections::BTreeMap,
     fs,

@@ -2,9 +2,9 @@
 
 use super::{
     Folder, Header, Row, Shard,
-    file::{add, line, read_rows},
+    file::{add, read_rows},
 };
-use crate::error::RowsError;
+use crate::{error::RowsError, keep::line};
 use std::{collections::BTreeMap, path::Path};
 
 /// Rows of several files.

@@ -17,7 +17,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod alone;
 mod ask;
 mod distribution;
 mod file;
@@ -36,7 +35,6 @@ pub mod slurm;
 mod summary;
 mod worst;
 
-pub(crate) use alone::Alone;
 pub use ask::ask;
 pub use file::{Opened, RowsFile, parse_rows, read_rows};
 pub use folder::{Folder, Gathered, Tally};

@@ -13,7 +13,7 @@ use voussoir::{
 fn the_extreme_grid() {
     let cells = grid();
     assert!(cells.len() >= 500, "{} cells", cells.len());
-    let found = run(&cells, |_| {});
+    let found = run(&cells, None, |_| {}).unwrap();
     for f in found.iter().filter(|f| f.grade != Grade::Right) {
         println!("{:?}: {} {}: {:?}, value {:?}, bracket {:?}", f.grade, f.family, f.what, f.ask, f.value, f.bracket);
     }

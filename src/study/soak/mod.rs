@@ -4,23 +4,25 @@
 //! balance and a motion that nothing stops exclude each other. So each claim is verified from the scene alone, the same scene is solved
 //! once more with everything kept ([`EVERY_KEPT`]), and a sample is run in time ([`EVERY_SIMULATED`]), near limits by fine steps.
 
-mod keep;
 mod scenes;
 
-pub use keep::Kept;
 pub use scenes::{FAMILIES, scene};
 
 use crate::{
     analysis::{Assessment, Control, Law, agreement, assess, prepare},
     dynamics::{self, Fate},
     error::{FindingCode, RowsError},
+    keep::Kept,
     parallel,
     verdict::Verdict,
 };
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 use std::{
+    collections::BTreeMap,
     ops::ControlFlow,
     panic::{AssertUnwindSafe, catch_unwind},
+    path::Path,
     sync::{Mutex, PoisonError},
     time::Instant,
 };
@@ -106,14 +108,23 @@ impl Soaked {
 /// How the error of a scene begins on which the program itself failed.
 pub const FAILED: &str = "the program failed";
 
+/// The file in which the scenes of a seed are kept.
+///
+/// # Errors
+/// As [`Kept::open`].
+pub fn keep(path: &Path, seed: u64) -> Result<Kept<Soaked>, RowsError> {
+    Kept::open(path, "voussoir-soak/1", json!({ "seed": seed }))
+}
+
 /// Asks scenes number 0 to `count`, on all threads, but for those that are kept already; each is kept as it ends, where there is a file, and
 /// `each` hears of it.
 ///
 /// # Errors
 /// Threads cannot be started, or the file cannot be written.
-pub fn run(seed: u64, count: usize, kept: Option<&Kept>, each: impl Fn(&Soaked) + Sync) -> Result<Vec<Soaked>, RowsError> {
-    let there = |index: &usize| kept.and_then(|k| k.there.get(index));
-    let numbers: Vec<usize> = (0..count).filter(|index| there(index).is_none()).collect();
+pub fn run(seed: u64, count: usize, kept: Option<&Kept<Soaked>>, each: impl Fn(&Soaked) + Sync) -> Result<Vec<Soaked>, RowsError> {
+    let there: BTreeMap<usize, &Soaked> =
+        kept.iter().flat_map(|k| &k.there).map(|s| (s.index, s)).filter(|(index, _)| *index < count).collect();
+    let numbers: Vec<usize> = (0..count).filter(|index| !there.contains_key(index)).collect();
     let fresh = Mutex::new(Vec::new());
     parallel::for_each(0, &numbers, |&index| {
         let soaked = one(seed, index);
@@ -124,7 +135,7 @@ pub fn run(seed: u64, count: usize, kept: Option<&Kept>, each: impl Fn(&Soaked) 
     })
     .map_err(|e| RowsError::Threads { threads: 0, cause: e.to_string() })??;
     let mut all = fresh.into_inner().unwrap_or_else(PoisonError::into_inner);
-    all.extend((0..count).filter_map(|index| there(&index).cloned()));
+    all.extend(there.into_values().cloned());
     all.sort_by_key(|s| s.index);
     Ok(all)
 }
@@ -267,6 +278,41 @@ pub fn count(list: &[Soaked], of: impl Fn(&Soaked) -> bool) -> Count {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::{
+        fs,
+        sync::atomic::{AtomicUsize, Ordering},
+    };
+
+    fn asked(path: &Path, count: usize) -> (usize, Vec<Soaked>) {
+        let kept = keep(path, 1).unwrap();
+        let fresh = AtomicUsize::new(0);
+        let count_it = |_: &Soaked| {
+            fresh.fetch_add(1, Ordering::Relaxed);
+        };
+        let list = run(1, count, Some(&kept), count_it).unwrap();
+        (fresh.into_inner(), list)
+    }
+
+    #[test]
+    fn a_soak_goes_on_where_it_was_stopped() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("soak.jsonl");
+        let (fresh, whole) = asked(&path, 14);
+        assert_eq!((fresh, whole.len()), (14, 14));
+        let text = fs::read(&path).unwrap();
+        // What is whole is kept to the bit, seconds included, and the rest is asked.
+        fs::write(&path, &text[..text.len() / 2]).unwrap();
+        let lines = text[..text.len() / 2].iter().filter(|b| **b == b'\n').count() - 1;
+        let (fresh, list) = asked(&path, 14);
+        assert_eq!((fresh, list.len()), (14 - lines, 14));
+        assert!(list.iter().zip(&whole).filter(|(a, b)| a == b).count() >= lines);
+        for (a, b) in list.iter().zip(&whole) {
+            assert_eq!(Soaked { seconds: 0.0, ..a.clone() }, Soaked { seconds: 0.0, ..b.clone() });
+        }
+        // More scenes go on from fewer, and fewer need nothing.
+        assert_eq!(asked(&path, 16).0, 2);
+        assert_eq!((asked(&path, 3).0, asked(&path, 3).1.len()), (0, 3));
+    }
 
     #[test]
     fn a_short_soak_has_nothing_wrong() {

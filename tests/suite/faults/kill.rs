@@ -145,6 +145,59 @@ fn a_soak_killed_again_and_again_is_the_soak_in_one_go() {
     assert_eq!(files(folder.path()), ["direct", "kept"]);
 }
 
+/// Starts a command that keeps what it does in `kept`, and kills it as soon as that file has grown by a line; whether it was still at work.
+fn killed_after_a_line(folder: &std::path::Path, args: &[&str]) -> bool {
+    let lines = || fs::read_to_string(folder.join("kept")).map_or(0, |t| t.matches('\n').count());
+    let (before, begun) = (lines().max(1), Instant::now());
+    let mut child = command(folder).args(args).stdout(Stdio::null()).spawn().unwrap();
+    while lines() <= before && begun.elapsed().as_secs() < 60 && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(lines() >= before, "lines were lost");
+    signal(&mut child, libc::SIGKILL).code().is_none()
+}
+
+#[test]
+fn heaps_killed_again_and_again_are_the_heaps_in_one_go() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = ["repose", "drain", "grains=60", "size=[6,4]", "--question", "repose", "--quiet", "--json", "--keep"];
+    let timeless = |output: &std::process::Output| {
+        let mut file: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        for heap in file["heaps"].as_array_mut().unwrap() {
+            heap["seconds"] = 0.into();
+            heap["margin"]["seconds"] = 0.into();
+        }
+        file
+    };
+    let direct = run(folder.path(), &[&args[..], &["direct", "--seeds", "3"]].concat());
+    let again = [&args[..], &["kept", "--seeds", "3"]].concat();
+    let cut = (0..3).filter(|_| killed_after_a_line(folder.path(), &again)).count();
+    assert!(cut > 0, "it was never killed");
+    let resumed = run(folder.path(), &again);
+    assert_eq!(timeless(&resumed), timeless(&direct));
+    // All is there: nothing is done again, seconds are those of the first time, and pictures are drawn all the same.
+    let third = run(folder.path(), &[&again[..], &["--svg", "heap.svg"]].concat());
+    assert_eq!(third.stdout, resumed.stdout);
+    assert_eq!(files(folder.path()), ["direct", "heap.svg", "kept"]);
+    let other = run(folder.path(), &["repose", "drain", "grains=61", "size=[6,4]", "--question", "repose", "--keep", "kept"]);
+    let error = String::from_utf8_lossy(&other.stderr).into_owned();
+    assert!(other.status.code() == Some(2) && error.contains("give --keep another name"), "{error}");
+}
+
+#[test]
+fn the_extreme_grid_is_taken_up_where_it_was_killed() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = ["study", "--extreme", "--quiet", "--keep", "kept"];
+    assert!((0..2).all(|_| killed_after_a_line(folder.path(), &args)));
+    let text = fs::read_to_string(folder.path().join("kept")).unwrap();
+    let numbers: Vec<u64> =
+        text.lines().skip(1).filter_map(|l| serde_json::from_str::<serde_json::Value>(l).ok()).map(|l| l[0].as_u64().unwrap()).collect();
+    let distinct: std::collections::BTreeSet<_> = numbers.iter().collect();
+    assert!(numbers.len() > 1 && distinct.len() == numbers.len(), "{numbers:?}");
+    let other = run(folder.path(), &["study", "--quick", "--keep", "kept"]);
+    assert_eq!(other.status.code(), Some(2));
+}
+
 #[test]
 fn a_study_that_is_interrupted_leaves_no_half_table() {
     use std::os::unix::process::ExitStatusExt;

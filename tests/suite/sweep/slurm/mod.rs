@@ -8,46 +8,25 @@ use serde_json::Value;
 use std::{
     ffi::OsString,
     fs,
-    os::unix::fs::PermissionsExt,
     path::Path,
     process::{Command, Output, Stdio},
 };
 use tempfile::TempDir;
 
-/// Commands that answer as Slurm does. `sbatch` runs the tasks one after the other, but for task number `FAKE_SKIP`.
-const FAKES: [(&str, &str); 3] = [
-    (
-        "sinfo",
-        r#"case "$*" in *--Node*) echo "${FAKE_HOST:-$(cat /proc/sys/kernel/hostname)}";; *) printf 'main*|up|0/4/0/4\nold|down|0/0/8/8\n';; esac"#,
-    ),
-    ("squeue", r#"echo "$FAKE_STATE""#),
-    (
-        "sbatch",
-        r#"[ -z "$FAKE_REFUSAL" ] || { echo "$FAKE_REFUSAL" >&2; exit 1; }
-array=$(sed -n 's/^#SBATCH --array=//p' job.sh); echo "$array" >> ../submitted
-for part in ${array//,/ }; do for k in $(seq ${part%-*} ${part#*-}); do
-  [ "$k" = "$FAKE_SKIP" ] || SLURM_ARRAY_TASK_ID=$k bash job.sh > log/task-$k.txt 2>&1
-done; done; echo 17"#,
-    ),
-];
+/// Commands that answer as Slurm does. They are files of the repository: one that a test has just written cannot always be run, for a
+/// process that another test is starting may still have it open.
+const FAKES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/sweep/slurm/fakes");
 
-/// A folder with a plan, and one with the commands.
+/// A folder with a plan, and a path to the commands.
 struct Fake {
     desk: TempDir,
     path: OsString,
-    _bin: TempDir,
 }
 
 impl Fake {
     fn new(samples: usize) -> Self {
-        let bin = tempfile::tempdir().unwrap();
-        for (name, text) in FAKES {
-            let file = bin.path().join(name);
-            fs::write(&file, format!("#!/bin/bash\n{text}\n")).unwrap();
-            fs::set_permissions(&file, fs::Permissions::from_mode(0o755)).unwrap();
-        }
-        let path = std::env::join_paths([bin.path(), Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
-        Self { desk: desk(samples), path, _bin: bin }
+        let path = std::env::join_paths([Path::new(FAKES), Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
+        Self { desk: desk(samples), path }
     }
 
     fn at(&self) -> &Path {

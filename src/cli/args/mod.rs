@@ -1,20 +1,24 @@
 //! Every argument of every verb, and nothing else.
 
+mod files;
 mod parse;
 mod pictures;
+mod repose;
+mod simulate;
+mod study;
 mod sweep;
 
+pub use files::{Check, Completions, Format, Generate, Import, Man, Schema};
 pub use pictures::{Pictures, Tables};
+pub use repose::{Asked, Repose};
+pub use simulate::Simulate;
+pub use study::Study;
 pub use sweep::{Merge, Slurm, Summary, Sweep, SweepStatus, SweepVerb, Task};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use parse::{assignment, bytes, direction, finite, friction, not_negative, positive, share, up};
+use parse::{bytes, direction, finite, positive};
 use std::path::PathBuf;
-use voussoir::{
-    import::{Reach, Up},
-    scene::Friction,
-    sweep::Range,
-};
+use voussoir::{import::Reach, sweep::Range};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -149,36 +153,6 @@ pub enum Verb {
 }
 
 #[derive(Debug, Args)]
-pub struct Schema {
-    /// Of what: `scene` or `plan`.
-    #[arg(value_enum, default_value_t = Format::Scene, hide_possible_values = true)]
-    pub of: Format,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    Scene,
-    Plan,
-}
-
-#[derive(Debug, Args)]
-pub struct Completions {
-    /// bash, elvish, fish, powershell or zsh.
-    #[arg(value_enum, hide_possible_values = true)]
-    pub shell: clap_complete::Shell,
-}
-
-#[derive(Debug, Args)]
-pub struct Man {
-    /// The verb that the page is about; the program as a whole where none is named.
-    #[arg(conflicts_with = "folder")]
-    pub verb: Option<String>,
-    /// Write the pages of the program and of all verbs into this folder.
-    #[arg(long, value_name = "FOLDER")]
-    pub folder: Option<PathBuf>,
-}
-
-#[derive(Debug, Args)]
 pub struct Assess {
     #[command(flatten)]
     pub common: Common,
@@ -199,91 +173,6 @@ pub struct Assess {
     /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend on them.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     pub threads: u16,
-}
-
-#[derive(Debug, Args)]
-pub struct Simulate {
-    #[command(flatten)]
-    pub common: Common,
-    #[command(flatten)]
-    pub pictures: Pictures,
-    /// Fast steps only: to be trusted 3 % away from a limit.
-    #[arg(long, conflicts_with = "fine")]
-    pub fast: bool,
-    /// Fine steps only: to be trusted 1 % away from a limit, at four times the cost. By default fine steps follow unless fast ones show that it stands.
-    #[arg(long)]
-    pub fine: bool,
-    /// Time to simulate at most, in seconds of the scene; by default ten times √(height / gravity).
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
-    pub seconds: Option<f64>,
-    /// Go on to the end although the outcome is clear.
-    #[arg(long)]
-    pub to_the_end: bool,
-    /// Add this factor × the live loads.
-    #[arg(long, value_name = "LAMBDA", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
-    pub load_factor: f64,
-    /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend on them.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
-    pub threads: u16,
-    /// Write where every block is, time by time, to this file as it happens.
-    #[arg(long, value_name = "FILE")]
-    pub csv: Option<PathBuf>,
-    /// So many times are kept in --csv, and in the result of --json and --save if given.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    pub frames: Option<u32>,
-    /// Do not ask for the verdict to compare with.
-    #[arg(long)]
-    pub skip_verdict: bool,
-}
-
-#[derive(Debug, Args)]
-pub struct Study {
-    /// Scenes to study, by name: arch, wall, openings, corner, groove, column, courses, tiny. All of them by default.
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "extreme")]
-    pub scenes: Vec<String>,
-    /// Every other setting of each knob, no simulations, no repetition: under a minute.
-    #[arg(long, conflicts_with = "extreme")]
-    pub quick: bool,
-    /// Runs per setting, of which the median counts; 3 by default, 1 with --quick.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), conflicts_with = "extreme")]
-    pub repeat: Option<u16>,
-    /// What leaving things out saves instead: load factors with and without omissions.
-    #[arg(long, conflicts_with_all = ["extreme", "quick", "csv", "svg"])]
-    pub omissions: bool,
-    /// The stiff and extreme grid instead.
-    #[arg(long)]
-    pub extreme: bool,
-    /// So many random scenes instead: verdicts held against their certificates, against omissions and, of a sample, against simulations.
-    /// Exit code 1 if any two exclude each other.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
-    pub soak: Option<u32>,
-    /// Which random scenes (--soak).
-    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
-    pub seed: u64,
-    /// Keep every scene in this file as soon as it is asked; the same command takes it up again after a kill at any point (--soak).
-    #[arg(long, value_name = "FILE", requires = "soak", conflicts_with = "only")]
-    pub keep: Option<PathBuf>,
-    /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak).
-    #[arg(long, value_name = "NUMBER", requires = "soak", conflicts_with_all = ["csv", "json"])]
-    pub only: Option<u32>,
-    /// Write every run to this file, comma-separated.
-    #[arg(long, value_name = "FILE")]
-    pub csv: Option<PathBuf>,
-    /// Draw the charts into this folder: one per scene, and profile.svg over all.
-    #[arg(long, value_name = "FOLDER", conflicts_with = "extreme")]
-    pub svg: Option<PathBuf>,
-    /// Write charts with values where one points, and a table to sort, as a page for a browser to this file.
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
-    /// Print every run as JSON.
-    #[arg(long)]
-    pub json: bool,
-    /// Lists in full.
-    #[arg(short, long)]
-    pub verbose: bool,
-    /// No progress.
-    #[arg(short, long)]
-    pub quiet: bool,
 }
 
 #[derive(Debug, Args)]
@@ -328,59 +217,6 @@ pub struct Tilt {
     /// Do not ask as well whether it stands when level.
     #[arg(long)]
     pub skip_dead: bool,
-}
-
-/// The two questions about a packing, which must not be mixed up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Asked {
-    Stability,
-    Repose,
-}
-
-#[derive(Debug, Args)]
-pub struct Repose {
-    #[command(flatten)]
-    pub common: Common,
-    #[command(flatten)]
-    pub pictures: Pictures,
-    /// Values of the protocol that differ from the defaults (--question repose): grain=sphere (or clump, hull) elongation=1.5 (of clumps and
-    /// hulls) corners=16 (of hulls) grains=2000 diameter=0.01 (of spheres of the same volume) sizes=0.2 friction=0.5 wall_friction=0 rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
-    #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
-    pub set: Vec<(String, String)>,
-    /// `stability`: the greatest tilt of the packing SCENE as it lies; `repose`: the slope that a heap leaves behind which flowed, SCENE then
-    /// being the protocol: drain, funnel, cylinder or tilt.
-    #[arg(long, value_enum, value_name = "QUESTION", default_value_t = Asked::Stability, hide_possible_values = true)]
-    pub question: Asked,
-    /// So many heaps, each from a seed of its own (--question repose).
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
-    pub seeds: u16,
-    /// The first seed (--question repose).
-    #[arg(long, value_name = "SEED", default_value_t = 1, value_parser = clap::value_parser!(u64).range(..=u64::MAX / 2))]
-    pub seed: u64,
-    /// Heaps made at the same time; 0 for as many as there are processors. The answer does not depend on it (--question repose).
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub threads: u16,
-    /// Do not ask for the static margin of the heaps (--question repose).
-    #[arg(long)]
-    pub skip_margin: bool,
-    /// Write every heap at rest as a scene, FILE with the seed before its ending (--question repose).
-    #[arg(long, value_name = "FILE")]
-    pub heaps: Option<PathBuf>,
-    /// Tip towards this direction (its part across gravity); may be given several times.
-    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
-    pub toward: Vec<[f64; 3]>,
-    /// Tip towards this many directions, evenly spread, the first along x.
-    #[arg(long, value_name = "N", default_value_t = DIRECTIONS, conflicts_with = "toward", value_parser = clap::value_parser!(u16).range(1..=3600))]
-    pub all: u16,
-    /// Share of the mass of the free grains that has to move, such as 0.01.
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0, allow_negative_numbers = true, value_parser = share)]
-    pub moving_mass: f64,
-    /// Show as well how the packing carries its load when level: coordination, fabric, forces, stress, mobilised friction.
-    #[arg(long)]
-    pub fabric: bool,
-    /// Write the contact forces of the packing when level to this file (not with --question repose).
-    #[arg(long, value_name = "FILE")]
-    pub csv: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -464,88 +300,4 @@ impl Outside {
     pub fn reach(&self) -> Reach {
         if self.allow_outside { Reach::Anywhere } else { Reach::Folder }
     }
-}
-
-#[derive(Debug, Args)]
-pub struct Generate {
-    /// The template; --list shows them.
-    #[arg(required_unless_present = "list")]
-    pub template: Option<String>,
-    /// What differs from the template's own values.
-    #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
-    pub set: Vec<(String, String)>,
-    /// List the templates with their values.
-    #[arg(long, conflicts_with_all = ["template", "set", "output"])]
-    pub list: bool,
-    /// Coefficient of friction of every joint, or `infinite`.
-    #[arg(long, value_name = "MU", default_value = "0.7", allow_negative_numbers = true, value_parser = friction)]
-    pub friction: Friction,
-    /// Density of every block, kg/m³.
-    #[arg(long, value_name = "DENSITY", allow_negative_numbers = true, value_parser = positive)]
-    pub density: Option<f64>,
-    /// Name of the scene.
-    #[arg(long)]
-    pub name: Option<String>,
-    /// Write the blocks themselves in place of the template.
-    #[arg(long)]
-    pub expand: bool,
-    /// Write the scene to this file; standard output by default.
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-}
-
-#[derive(Debug, Args)]
-pub struct Import {
-    /// The files; PLY and STL hold one block each.
-    #[arg(required = true)]
-    pub files: Vec<PathBuf>,
-    /// Write the scene to this file; standard output by default.
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// A block that is held in place; may be given several times.
-    #[arg(long, value_name = "ID")]
-    pub support: Vec<String>,
-    /// Hold blocks whose lowest corner lies below this height, in m of the scene.
-    #[arg(long, value_name = "Z", allow_negative_numbers = true, value_parser = finite)]
-    pub support_below: Option<f64>,
-    /// A file whose blocks are all held in place; may be given several times.
-    #[arg(long, value_name = "FILE")]
-    pub supports_file: Vec<PathBuf>,
-    /// Coefficient of friction of every joint, or `infinite`.
-    #[arg(long, value_name = "MU", allow_negative_numbers = true, value_parser = friction)]
-    pub friction: Option<Friction>,
-    /// Density of every block, kg/m³, in place of what the file says.
-    #[arg(long, value_name = "DENSITY", allow_negative_numbers = true, value_parser = positive)]
-    pub density: Option<f64>,
-    /// Multiply coordinates: 0.001 for a file in millimetres.
-    #[arg(long, value_name = "S", default_value_t = 1.0, allow_negative_numbers = true, value_parser = positive)]
-    pub scale: f64,
-    /// The axis of the file that points up: x, y, z, -x, -y or -z.
-    #[arg(long, value_name = "AXIS", default_value = "z", allow_hyphen_values = true, value_parser = up)]
-    pub up: Up,
-    /// How far apart faces may be and still touch, relative to the smaller block's size.
-    #[arg(long, value_name = "GAP", allow_negative_numbers = true, value_parser = not_negative)]
-    pub gap: Option<f64>,
-    /// Leave out the interfaces stored in the file: all contacts are detected.
-    #[arg(long)]
-    pub no_stored_interfaces: bool,
-}
-
-#[derive(Debug, Args)]
-pub struct Check {
-    /// A result or a scene (JSON), `-` for standard input.
-    pub file: PathBuf,
-    /// Verify the result against this scene, not the one inside it.
-    #[arg(long, value_name = "FILE")]
-    pub scene: Option<PathBuf>,
-    #[command(flatten)]
-    pub outside: Outside,
-    #[command(flatten)]
-    pub pictures: Pictures,
-    #[command(flatten)]
-    pub tables: Tables,
-    /// Print one JSON object and nothing else: of a result, what holds and what fails; of a scene, its blocks with their masses and loads, its
-    /// interfaces with contact points and frames, and the findings.
-    #[arg(long)]
-    pub json: bool,
 }

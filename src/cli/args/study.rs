@@ -1,0 +1,54 @@
+//! Arguments of studies.
+
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct Study {
+    /// Scenes to study, by name: arch, wall, openings, corner, groove, column, courses, tiny. All of them by default.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "extreme")]
+    pub scenes: Vec<String>,
+    /// Every other setting of each knob, no simulations, no repetition: under a minute.
+    #[arg(long, conflicts_with = "extreme")]
+    pub quick: bool,
+    /// Runs per setting, of which the median counts; 3 by default, 1 with --quick.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), conflicts_with = "extreme")]
+    pub repeat: Option<u16>,
+    /// What leaving things out saves instead: load factors with and without omissions.
+    #[arg(long, conflicts_with_all = ["extreme", "quick", "csv", "svg"])]
+    pub omissions: bool,
+    /// The stiff and extreme grid instead.
+    #[arg(long)]
+    pub extreme: bool,
+    /// So many random scenes instead: verdicts held against their certificates, against omissions and, of a sample, against simulations.
+    /// Exit code 1 if any two exclude each other.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
+    pub soak: Option<u32>,
+    /// Which random scenes (--soak).
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
+    pub seed: u64,
+    /// Keep every scene in this file as soon as it is asked; the same command takes it up again after a kill at any point (--soak, --extreme).
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "omissions"])]
+    pub keep: Option<PathBuf>,
+    /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak).
+    #[arg(long, value_name = "NUMBER", requires = "soak", conflicts_with_all = ["csv", "json"])]
+    pub only: Option<u32>,
+    /// Write every run to this file, comma-separated.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Draw the charts into this folder: one per scene, and profile.svg over all.
+    #[arg(long, value_name = "FOLDER", conflicts_with = "extreme")]
+    pub svg: Option<PathBuf>,
+    /// Write charts with values where one points, and a table to sort, as a page for a browser to this file.
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// Print every run as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// Lists in full.
+    #[arg(short, long)]
+    pub verbose: bool,
+    /// No progress.
+    #[arg(short, long)]
+    pub quiet: bool,
+}

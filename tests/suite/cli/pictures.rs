@@ -1,0 +1,89 @@
+//! Pictures and tables beside the answer.
+
+use super::*;
+
+/// Files of an answer beside its text: each is there, whole, and the text stays what it is.
+#[test]
+fn pictures_and_tables_are_written_beside_the_answer() {
+    let desk = Desk::new();
+    let [svg, vtp, csv] = ["a.svg", "a.vtp", "a.csv"].map(|n| desk.at(n));
+    let files = ["--svg", &svg, "--vtk", &vtp, "--csv", &csv];
+    for (wanted, question) in [
+        (NO, vec!["assess", "thin.json"]),
+        (YES, vec!["limit", "pushed.json", "--law", "associative"]),
+        (YES, vec!["tilt", "arch.json", "--toward", "1,0", "--law", "associative"]),
+        (YES, vec!["thrust", "arch.json", "--law", "associative"]),
+    ] {
+        let scene = desk.at(question[1]);
+        let asked = [&[question[0], &scene], &question[2..]].concat();
+        let plain = out(&expect(wanted, voussoir(&[&asked[..], &["-q"]].concat())));
+        let with = out(&expect(wanted, voussoir(&[&asked[..], &files, &["-q"]].concat())));
+        assert_eq!(plain, with);
+        let read = |name: &str| fs::read_to_string(desk.path(name)).unwrap();
+        assert!(read("a.svg").starts_with("<svg ") && read("a.svg").ends_with("</svg>\n"));
+        assert!(read("a.vtp").contains("type=\"PolyData\"") && read("a.vtp").ends_with("</VTKFile>\n"));
+        assert_eq!([read("a.csv").lines().count() > 14, read("a.blocks.csv").lines().count() == 18], [true; 2]);
+        ["a.svg", "a.vtp", "a.csv", "a.blocks.csv"].iter().for_each(|n| fs::remove_file(desk.path(n)).unwrap());
+    }
+    let packing = desk.at("pile.json");
+    expect(YES, voussoir(&["generate", "lattice", "layers=2", "--friction", "0.5", "-o", &packing]));
+    expect(YES, voussoir(&["repose", &packing, "--toward", "0,-1", "--law", "associative", "--svg", &svg, "--vtk", &vtp, "-q"]));
+    assert!(desk.files().contains(&"a.svg".into()) && desk.files().contains(&"a.vtp".into()));
+    // A picture on standard output stands alone.
+    let drawn = out(&expect(YES, voussoir(&["assess", &desk.at("arch.json"), "--law", "associative", "--svg", "-", "--view", "corner"])));
+    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n") && drawn.matches("<svg ").count() == 2);
+}
+
+#[test]
+fn saved_results_and_scenes_are_drawn_by_check() {
+    let desk = Desk::new();
+    let svg = desk.at("a.svg");
+    let mut result = desk.saved(NO, &["assess", &desk.at("thin.json"), "--law", "associative", "--svg", &svg]);
+    let asked = fs::read_to_string(&svg).unwrap();
+    expect(YES, voussoir(&["check", &desk.at("saved.json"), "--svg", &svg]));
+    assert_eq!(fs::read_to_string(&svg).unwrap(), asked);
+    assert!(asked.contains("class=\"moved\"") && asked.contains(">hinge<"));
+    fs::remove_file(&svg).unwrap();
+    // What is refuted is not drawn.
+    scale(&mut result["certificate"]["rates"][0]["velocity"], -1.0);
+    let file = desk.write("forged.json", &result);
+    expect(NO, voussoir(&["check", &file, "--svg", &svg]));
+    assert!(!desk.path("a.svg").exists());
+    expect(YES, voussoir(&["check", &desk.at("arch.json"), "--svg", &svg]));
+    let bare = fs::read_to_string(&svg).unwrap();
+    assert!(bare.contains("class=\"block\"") && !bare.contains("<path class=\"line"));
+}
+
+#[test]
+fn a_simulation_is_a_collection_of_moments() {
+    let desk = Desk::new();
+    let (pvd, svg) = (desk.at("fall.pvd"), desk.at("fall.svg"));
+    expect(NO, voussoir(&["simulate", &desk.at("thin.json"), "--fast", "--skip-verdict", "--vtk", &pvd, "--svg", &svg, "-q"]));
+    let text = fs::read_to_string(&pvd).unwrap();
+    let named: Vec<&str> = text.split("file=\"").skip(1).filter_map(|t| t.split('"').next()).collect();
+    assert!(named.len() > 2 && named.iter().all(|n| desk.path(n).is_file()), "{text}");
+    assert!(fs::read_to_string(&svg).unwrap().contains("after "));
+}
+
+#[test]
+fn pictures_that_cannot_be_made_are_refused_before_the_work() {
+    let desk = Desk::new();
+    let arch = desk.at("arch.json");
+    for (wrong, word) in [
+        (&["--vtk", "a.vtk"][..], "name it a.vtp"),
+        (&["--vtk", "-", "--svg", "-"], "standard output takes one of"),
+        (&["--svg", "-", "--json"], "standard output takes one of"),
+        (&["--csv", "-"], "--csv takes a file"),
+        (&["--svg", &arch], "would replace the scene"),
+        (&["--svg", "no/such/folder.svg"], "no such folder"),
+        (&["--view", "corner"], "--svg"),
+        (&["--svg", "a.svg", "--view", "inside"], "not auto, front"),
+    ] {
+        let answer = expect(USAGE, voussoir(&[&["assess", &arch], wrong].concat()));
+        assert!(err(&answer).contains(word), "{wrong:?}: {}", err(&answer));
+    }
+    let answer = expect(USAGE, voussoir(&["simulate", &arch, "--vtk", "a.vtp"]));
+    assert!(err(&answer).contains("name it a.pvd"), "{}", err(&answer));
+    let answer = expect(USAGE, voussoir(&["repose", "drain", "--question", "repose", "--csv", "a.csv"]));
+    assert!(err(&answer).contains("--heaps"), "{}", err(&answer));
+}
