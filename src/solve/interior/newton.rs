@@ -185,8 +185,14 @@ impl<'a> Newton<'a> {
         self.reduced.flex(s, &mut d.x);
         let (mut rest, mut rest_t) = self.rest(a, &bt, &d);
         let scale = greatest(&rest).max(greatest(&rest_t));
-        let mut error = f64::INFINITY;
-        for _ in 0..=MOST_CORRECTIONS {
+        let enough = (exact * scale).min(if enough > 0.0 { enough } else { f64::INFINITY });
+        self.correct(&rest, &rest_t, &mut d);
+        (rest, rest_t) = self.rest(a, &bt, &d);
+        let mut error = greatest(&rest).max(greatest(&rest_t));
+        for _ in 0..MOST_CORRECTIONS {
+            if error <= enough {
+                break;
+            }
             let mut better = d.clone();
             self.correct(&rest, &rest_t, &mut better);
             let (r, rt) = self.rest(a, &bt, &better);
@@ -196,7 +202,7 @@ impl<'a> Newton<'a> {
             }
             let slow = now > 0.5 * error;
             (d, rest, rest_t, error) = (better, r, rt, now);
-            if slow || error <= (exact * scale).min(if enough > 0.0 { enough } else { f64::INFINITY }) {
+            if slow {
                 break;
             }
         }
