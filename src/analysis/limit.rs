@@ -83,10 +83,14 @@ const BEFORE_DIAGNOSIS_LARGE: usize = 1;
 /// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
 pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
     let start = Instant::now();
+    // The last of many directions may find the time already over: nothing is built for it.
+    if control.seconds <= 0.0 {
+        return unknown(assembly, interfaces, Vec::new());
+    }
     let options = Options { keep_all: control.keep_all, live: true, symmetry: true, ..Options::default() };
     let mut statics = Statics::new(assembly, interfaces, options);
     let natural = check::natural_factor(assembly);
-    let mut answer = unknown(assembly, interfaces, &statics);
+    let mut answer = unknown(assembly, interfaces, statics.left_out.clone());
     let mut scale = natural;
     let forces_only = statics.in_forces_only();
     let points = !interfaces.list.is_empty() && interfaces.list.iter().all(|f| f.points.len() == 1);
@@ -128,7 +132,7 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
 }
 
 /// The answer before anything is known.
-fn unknown(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics) -> LoadFactor {
+fn unknown(assembly: &Assembly, interfaces: &Interfaces, left_out: Vec<String>) -> LoadFactor {
     LoadFactor {
         outcome: Outcome::Undecided,
         value: f64::NAN,
@@ -138,7 +142,7 @@ fn unknown(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics) -> L
         rates: vec![Rate::zero(); assembly.blocks.len()],
         mechanism: None,
         attempts: Vec::new(),
-        left_out: statics.left_out.clone(),
+        left_out,
     }
 }
 
@@ -211,7 +215,7 @@ fn pair(assembly: &Assembly, interfaces: &Interfaces, answer: &mut LoadFactor) {
 /// One attempt at program L with a way of one's own, for studies: nothing is tried again.
 pub fn attempt(assembly: &Assembly, interfaces: &Interfaces, way: &Way) -> LoadFactor {
     let mut statics = Statics::new(assembly, interfaces, Options { live: true, ..way.options });
-    let mut answer = unknown(assembly, interfaces, &statics);
+    let mut answer = unknown(assembly, interfaces, statics.left_out.clone());
     let scale = if way.options.unscaled { 1.0 } else { check::natural_factor(assembly) };
     let step = Rung { unknowns: way.unknowns, unit: way.unit, local: way.local, even: false, settings: way.settings };
     climb(assembly, interfaces, &mut statics, step, scale, way.settings.seconds, &mut answer);
