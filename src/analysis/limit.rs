@@ -71,13 +71,14 @@ const LADDER: [Rung; 8] = [
 /// Tried first where the program is large; the second is reached by load factors far below the natural one, now that their size is known.
 const LARGE: [Rung; 2] = [interior(1.0, 1e-7), interior(1.0, 1e-8)];
 
-/// First where all blocks touch in points, as spheres do: on random packings of 5,000 (three to seven contacts a grain) three other rungs
+/// First, after those for large programs, where all blocks touch in points, as spheres do: on random packings of 5,000 (three to seven contacts a grain) three other rungs
 /// leave brackets of 1e-3 to 1e-5 of the value, one after the other.
 const POINTS: Rung = rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true);
 
 /// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is neither where both ends
-/// of the bracket are known).
+/// of the bracket are known): two by clarabel; one where the program is large, for the same method again would say the same.
 const BEFORE_DIAGNOSIS: usize = 2;
+const BEFORE_DIAGNOSIS_LARGE: usize = 1;
 
 /// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
 pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
@@ -93,14 +94,12 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     let mut scale = natural;
     let forces_only = statics.in_forces_only();
     let points = !interfaces.list.is_empty() && interfaces.list.iter().all(|f| f.points.len() == 1);
-    let first = match (points, is_large(&statics)) {
-        (true, _) => &[POINTS][..],
-        (false, true) => &LARGE[..],
-        (false, false) => &[],
-    };
-    let ladder: Vec<Rung> = first.iter().copied().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates)).collect();
+    let large = is_large(&statics);
+    let first = LARGE.into_iter().filter(|_| large).chain(points.then_some(POINTS));
+    let ladder: Vec<Rung> = first.chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates)).collect();
+    let before_diagnosis = if large { BEFORE_DIAGNOSIS_LARGE } else { BEFORE_DIAGNOSIS };
     for (index, (whole, step)) in steps(&ladder, statics.is_part()).enumerate() {
-        if index == BEFORE_DIAGNOSIS && !answer.bracket.width().is_finite() && diagnose(assembly, interfaces, control, &mut answer) {
+        if index == before_diagnosis && !answer.bracket.width().is_finite() && diagnose(assembly, interfaces, control, &mut answer) {
             return answer;
         }
         if whole && statics.is_part() {
