@@ -71,32 +71,35 @@ const LADDER: [Rung; 8] = [
 /// Tried first where the program is large; the second is reached by load factors far below the natural one, now that their size is known.
 const LARGE: [Rung; 2] = [interior(1.0, 1e-7), interior(1.0, 1e-8)];
 
-/// First where all blocks touch in points, as spheres do: on random packings of 5,000 (three to seven contacts a grain) three other rungs
+/// First, after those for large programs, where all blocks touch in points, as spheres do: on random packings of 5,000 (three to seven contacts a grain) three other rungs
 /// leave brackets of 1e-3 to 1e-5 of the value, one after the other.
 const POINTS: Rung = rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true);
 
 /// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is neither where both ends
-/// of the bracket are known).
+/// of the bracket are known): two by clarabel; one where the program is large, for the same method again would say the same.
 const BEFORE_DIAGNOSIS: usize = 2;
+const BEFORE_DIAGNOSIS_LARGE: usize = 1;
 
 /// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
 pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
     let start = Instant::now();
+    // The last of many directions may find the time already over: nothing is built for it.
+    if control.seconds <= 0.0 {
+        return unknown(assembly, interfaces, Vec::new());
+    }
     let options = Options { keep_all: control.keep_all, live: true, symmetry: true, ..Options::default() };
     let mut statics = Statics::new(assembly, interfaces, options);
     let natural = check::natural_factor(assembly);
-    let mut answer = unknown(assembly, interfaces, &statics);
+    let mut answer = unknown(assembly, interfaces, statics.left_out.clone());
     let mut scale = natural;
     let forces_only = statics.in_forces_only();
     let points = !interfaces.list.is_empty() && interfaces.list.iter().all(|f| f.points.len() == 1);
-    let first = match (points, is_large(&statics)) {
-        (true, _) => &[POINTS][..],
-        (false, true) => &LARGE[..],
-        (false, false) => &[],
-    };
-    let ladder: Vec<Rung> = first.iter().copied().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates)).collect();
+    let large = is_large(&statics);
+    let first = LARGE.into_iter().filter(|_| large).chain(points.then_some(POINTS));
+    let ladder: Vec<Rung> = first.chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates)).collect();
+    let before_diagnosis = if large { BEFORE_DIAGNOSIS_LARGE } else { BEFORE_DIAGNOSIS };
     for (index, (whole, step)) in steps(&ladder, statics.is_part()).enumerate() {
-        if index == BEFORE_DIAGNOSIS && !answer.bracket.width().is_finite() && diagnose(assembly, interfaces, control, &mut answer) {
+        if index == before_diagnosis && !answer.bracket.width().is_finite() && diagnose(assembly, interfaces, control, &mut answer) {
             return answer;
         }
         if whole && statics.is_part() {
@@ -129,7 +132,7 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
 }
 
 /// The answer before anything is known.
-fn unknown(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics) -> LoadFactor {
+fn unknown(assembly: &Assembly, interfaces: &Interfaces, left_out: Vec<String>) -> LoadFactor {
     LoadFactor {
         outcome: Outcome::Undecided,
         value: f64::NAN,
@@ -139,7 +142,7 @@ fn unknown(assembly: &Assembly, interfaces: &Interfaces, statics: &Statics) -> L
         rates: vec![Rate::zero(); assembly.blocks.len()],
         mechanism: None,
         attempts: Vec::new(),
-        left_out: statics.left_out.clone(),
+        left_out,
     }
 }
 
@@ -212,7 +215,7 @@ fn pair(assembly: &Assembly, interfaces: &Interfaces, answer: &mut LoadFactor) {
 /// One attempt at program L with a way of one's own, for studies: nothing is tried again.
 pub fn attempt(assembly: &Assembly, interfaces: &Interfaces, way: &Way) -> LoadFactor {
     let mut statics = Statics::new(assembly, interfaces, Options { live: true, ..way.options });
-    let mut answer = unknown(assembly, interfaces, &statics);
+    let mut answer = unknown(assembly, interfaces, statics.left_out.clone());
     let scale = if way.options.unscaled { 1.0 } else { check::natural_factor(assembly) };
     let step = Rung { unknowns: way.unknowns, unit: way.unit, local: way.local, even: false, settings: way.settings };
     climb(assembly, interfaces, &mut statics, step, scale, way.settings.seconds, &mut answer);

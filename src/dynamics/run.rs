@@ -14,10 +14,15 @@ use crate::{
     tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE, SKIN},
 };
 use nalgebra::Vector3;
-use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
+use std::{
+    collections::BTreeMap,
+    ops::ControlFlow,
+    time::{Duration, Instant},
+};
 
-/// Steps between two reports to the caller.
+/// Steps between two reports to the caller, and the time after which one is due all the same: the caller may want to stop.
 const REPORT: usize = 50;
+const PATIENCE: Duration = Duration::from_millis(100);
 /// Loads grow from nothing over this many √(L/g), all in proportion. Shorter: chains of blocks fall a little before their contact forces
 /// have built up, which is 1 % of the thickness in an arch. Longer: time is lost.
 const ONSET: f64 = 1.0;
@@ -193,6 +198,7 @@ impl Stage<'_> {
             // Stopping is heard at the first step.
             let _ = watch(&Progress { fidelity, time, horizon, relative: 0.0, frame: frames.last(), moment: now.as_ref() });
         }
+        let mut heard = Instant::now();
         let stop = loop {
             if steps == total {
                 break Stop::Horizon;
@@ -218,7 +224,8 @@ impl Stage<'_> {
                 frames.push(self.frame(&world, fidelity, time, &state));
             }
             let now = moment(&world, time, &state);
-            if framed || now.is_some() || steps % REPORT == 0 {
+            if framed || now.is_some() || steps % REPORT == 0 || heard.elapsed() > PATIENCE {
+                heard = Instant::now();
                 let (frame, moment) = (frames.last().filter(|_| framed), now.as_ref());
                 let (time, horizon) = (time * self.units.time, horizon * self.units.time);
                 if watch(&Progress { fidelity, time, horizon, relative: state.farthest.1, frame, moment }).is_break() {

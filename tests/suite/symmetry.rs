@@ -5,6 +5,7 @@ use crate::ask::{self, close, cuboid, dry, fixed, ground, model, push, scene, sp
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Law, Outcome, assess, coulomb, limit},
+    program::{Options, Statics},
     scene::Scene,
     verdict::Verdict,
 };
@@ -92,6 +93,18 @@ fn verdicts_of_the_part_are_those_of_the_whole() {
             close(name, acceleration(&part).expect("a state"), acceleration(&whole).expect("a state"), 1e-3);
         }
     }
+}
+
+/// Thousands of equal blocks far from the origin: their masses and moments, added up one by one, once put the centre 1e-12 sizes off the
+/// mirror, and the scene was solved whole.
+#[test]
+fn many_blocks_far_away_are_halved() {
+    let at = |k: usize| [8192.0 + (k % 60) as f64, 4096.0 + (k / 60) as f64, 0.5];
+    let mut blocks = vec![fixed(cuboid("floor", [100.0, 100.0, 1.0], [8221.5, 4120.5, -0.5]))];
+    blocks.extend((0..3000).map(|k| cuboid(&format!("b{k}"), [0.5, 0.5, 1.0], at(k))));
+    let m = model(&scene(0.6, json!(blocks), push([1.0, 0.0, 0.0])));
+    let statics = Statics::new(&m.assembly, &m.interfaces, Options { live: true, symmetry: true, ..Options::default() });
+    assert!(statics.is_part(), "{:?}", statics.left_out);
 }
 
 #[test]

@@ -91,7 +91,7 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
         forces: associative.forces.clone(),
         rates: associative.rates.clone(),
     };
-    if associative.outcome == Outcome::Impossible {
+    if associative.outcome == Outcome::Impossible || control.seconds <= 0.0 {
         return answer;
     }
     if associative.outcome == Outcome::Found {

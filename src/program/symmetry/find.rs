@@ -7,7 +7,7 @@ use crate::{
     program::Plane,
 };
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use std::{collections::HashMap, f64::consts::TAU};
+use std::f64::consts::TAU;
 
 /// The group of the isometries that carry a scene into itself, by its generators.
 #[derive(Clone, Debug)]
@@ -68,7 +68,11 @@ const MOST_TRIED: usize = 720;
 pub fn find(assembly: &Assembly, interfaces: &Interfaces, loads: &[&[Wrench]], plane: Option<Plane>) -> Option<Symmetry> {
     let up = Unit::try_new(-assembly.gravity, 0.0)?;
     let mass: f64 = assembly.free().map(|i| assembly.blocks[i].mass).sum();
-    let center = assembly.free().map(|i| assembly.blocks[i].centroid * (assembly.blocks[i].mass / mass)).sum::<Vector3<f64>>();
+    let mean = |from: Vector3<f64>| {
+        from + assembly.free().map(|i| (assembly.blocks[i].centroid - from) * (assembly.blocks[i].mass / mass)).sum::<Vector3<f64>>()
+    };
+    // Sums over thousands of blocks err by as many roundings of what is summed: from the centre itself that is nothing.
+    let center = mean(mean(Vector3::zeros()));
     let matcher = Matcher::new(assembly, interfaces, loads, center);
     let reflection = |n: Vector3<f64>| Matrix3::identity() - n * n.transpose() * 2.0;
     let mut symmetry = Symmetry { up, turn: None, mirror: None };
@@ -116,22 +120,54 @@ fn angles_of_like(assembly: &Assembly, interfaces: &Interfaces, center: Vector3<
     let extent = assembly.free().map(|i| (assembly.blocks[i].centroid - center).norm() + assembly.blocks[i].size).fold(0.0, f64::max);
     let grid = COARSE * extent;
     let angles = |items: &mut dyn Iterator<Item = (f64, Vector3<f64>)>| {
-        let mut classes: HashMap<[i64; 3], Vec<f64>> = HashMap::new();
+        let mut all = Vec::new();
         for (mass, x) in items {
             let d = x - center;
             let (u, v) = (east.dot(&d), north.dot(&d));
             let r = u.hypot(v);
             if r > grid {
-                let key = [(mass.ln() / COARSE).round() as i64, (up.dot(&d) / grid).round() as i64, (r / grid).round() as i64];
-                classes.entry(key).or_default().push(v.atan2(u));
+                all.push(([mass.ln() * extent, up.dot(&d), r], all.len(), v.atan2(u)));
             }
         }
-        classes.into_iter().min_by_key(|(key, list)| (list.len(), *key)).map(|(_, list)| list)
+        let mut class = classes(all, grid).into_iter().min_by_key(Vec::len)?;
+        class.sort_unstable_by_key(|item| item.1);
+        Some(class.into_iter().map(|item| item.2).collect())
     };
     angles(&mut assembly.free().map(|i| (assembly.blocks[i].mass, assembly.blocks[i].centroid)))
         .or_else(|| angles(&mut interfaces.list.iter().flat_map(|f| f.points.iter().map(|p| (1.0, *p)))))
 }
 
-/// Blocks of the same class agree in this share of their mass and of the scene's extent. Classes that rounding tears apart cost a
-/// symmetry, nothing else.
+/// In a class of blocks each is as near as this to the next, in logarithms of masses and in extents of the scene. Larger: classes that are
+/// none, and images tried for nothing. Smaller: rounding tears classes apart, and symmetries are not found.
 const COARSE: f64 = 1e-6;
+
+/// Mass, height and radius in one unit, the place in the list and the angle.
+type Item = ([f64; 3], usize, f64);
+
+/// Items whose neighbours by mass, then by height, then by radius are no farther than `near`. Not those in one cell of a grid: of a pair
+/// at the boundary of two cells rounding would leave each by itself, the smallest class of all.
+fn classes(items: Vec<Item>, near: f64) -> Vec<Vec<Item>> {
+    (0..3).fold(vec![items], |classes, k| {
+        let split = |mut class: Vec<Item>| {
+            class.sort_by(|a, b| a.0[k].total_cmp(&b.0[k]));
+            class.chunk_by(|a, b| b.0[k] - a.0[k] <= near).map(<[Item]>::to_vec).collect::<Vec<_>>()
+        };
+        classes.into_iter().flat_map(split).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_tears_no_class_apart() {
+        // Half way between two cells of a grid of 1e-6, and one bit to either side; and one that is elsewhere.
+        let edge = 0.5e-6;
+        let items = [edge, 3.0, edge * (1.0 - 1e-15), edge * (1.0 + 1e-15)];
+        let items = items.iter().enumerate().map(|(k, r)| ([0.0, 1.0, *r], k, 0.0)).collect();
+        let mut sizes: Vec<usize> = classes(items, 1e-6).iter().map(Vec::len).collect();
+        sizes.sort_unstable();
+        assert_eq!(sizes, [1, 3]);
+    }
+}

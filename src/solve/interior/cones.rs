@@ -23,8 +23,8 @@ impl ConeAt {
 /// Cones with the scaling of one pair (s, z).
 #[derive(Clone, Debug)]
 pub(super) struct Cones {
-    /// In row order, without gaps.
-    pub list: Vec<ConeAt>,
+    /// In row order, without gaps; neighbouring rays together.
+    list: Vec<ConeAt>,
     /// `√(s / z)` of a ray; `w̄` of a second-order cone.
     scale: Vec<f64>,
     /// `η` at the first row of a second-order cone.
@@ -35,8 +35,15 @@ pub(super) struct Cones {
 
 impl Cones {
     /// With the scaling that does nothing.
-    pub fn new(list: Vec<ConeAt>) -> Self {
-        let rows = list.last().map_or(0, |c| c.first + c.size);
+    pub fn new(cones: &[ConeAt]) -> Self {
+        let rows = cones.last().map_or(0, |c| c.first + c.size);
+        let mut list: Vec<ConeAt> = Vec::new();
+        for cone in cones {
+            match list.last_mut() {
+                Some(last) if !(last.round || cone.round) => last.size += cone.size,
+                _ => list.push(*cone),
+            }
+        }
         let mut this = Self { list, scale: vec![1.0; rows], eta: vec![1.0; rows], lambda: vec![0.0; rows] };
         this.reset();
         this
@@ -82,12 +89,12 @@ impl Cones {
                 self.eta[cone.first] = eta;
                 apply(w, eta, z, lambda);
             } else {
-                for k in 0..cone.size {
-                    if !(s[k] > 0.0 && z[k] > 0.0) {
-                        return false;
-                    }
-                    w[k] = (s[k] / z[k]).sqrt();
-                    lambda[k] = (s[k] * z[k]).sqrt();
+                if !s.iter().chain(z).all(|v| *v > 0.0) {
+                    return false;
+                }
+                for ((w, l), (s, z)) in w.iter_mut().zip(lambda).zip(s.iter().zip(z)) {
+                    *w = (s / z).sqrt();
+                    *l = (s * z).sqrt();
                 }
             }
         }
@@ -209,15 +216,7 @@ impl Cones {
         let mut least = f64::INFINITY;
         for cone in &self.list {
             let (v, d) = (&v[cone.rows()], &d[cone.rows()]);
-            if cone.round {
-                least = least.min(step_round(v, d));
-            } else {
-                for (v, d) in v.iter().zip(d) {
-                    if *d < 0.0 {
-                        least = least.min(-v / d);
-                    }
-                }
-            }
+            least = least.min(if cone.round { step_round(v, d) } else { step_rays(v, d) });
         }
         least
     }
@@ -254,6 +253,24 @@ fn undo(w: &[f64], eta: f64, v: &[f64], to: &mut [f64]) {
     }
 }
 
+/// The least `−v / d` that is positive, by the greatest `−d / v`, so many at a time.
+fn step_rays(v: &[f64], d: &[f64]) -> f64 {
+    const AT_A_TIME: usize = 8;
+    let greater = |most: f64, v: f64, d: f64| {
+        let share = -d / v;
+        if share > most { share } else { most }
+    };
+    let ((v, last_v), (d, last_d)) = (v.as_chunks::<AT_A_TIME>(), d.as_chunks::<AT_A_TIME>());
+    let mut most = [0.0; AT_A_TIME];
+    for (v, d) in v.iter().zip(d) {
+        for (most, (v, d)) in most.iter_mut().zip(v.iter().zip(d)) {
+            *most = greater(*most, *v, *d);
+        }
+    }
+    let most = last_v.iter().zip(last_d).fold(most.into_iter().fold(0.0, f64::max), |most, (v, d)| greater(most, *v, *d));
+    1.0 / most
+}
+
 /// The first positive root of `det(v + α d)`.
 fn step_round(v: &[f64], d: &[f64]) -> f64 {
     let a = det(d);
@@ -275,7 +292,8 @@ mod tests {
     use super::*;
 
     fn cones() -> Cones {
-        Cones::new(vec![ConeAt { first: 0, size: 2, round: false }, ConeAt { first: 2, size: 3, round: true }])
+        let ray = |first| ConeAt { first, size: 1, round: false };
+        Cones::new(&[ray(0), ray(1), ConeAt { first: 2, size: 3, round: true }])
     }
 
     const S: [f64; 5] = [2.0, 3.0, 5.0, 3.0, -1.0];

@@ -29,12 +29,13 @@ pub(super) fn further(
     (ap, ad): (&mut f64, &mut f64),
 ) {
     let (st, cones) = (newton.structure, newton.cones);
+    let (mut s2, mut z2) = (vec![0.0; s.len()], vec![0.0; z.len()]);
     for _ in 0..MOST_CORRECTORS {
         if ap.min(*ad) > FAR_ENOUGH {
             break;
         }
         let (tp, td) = ((*ap + REACH).min(1.0), (*ad + REACH).min(1.0));
-        let (mut u, mut v) = (ds.clone(), d.z.clone());
+        let (mut u, mut v) = (ds.to_vec(), d.z.clone());
         cones.over(&mut u);
         cones.times(&mut v);
         u.iter_mut().zip(&cones.lambda).for_each(|(u, l)| *u = l + tp * *u);
@@ -48,24 +49,28 @@ pub(super) fn further(
         let zero = Point::zero(st);
         let more_s = slack(st, &more, &zero);
         // As much of it as brings us farthest.
+        let mix = |to: &mut [f64], a: &[f64], weight: f64, b: &[f64]| {
+            to.iter_mut().zip(a.iter().zip(b)).for_each(|(to, (a, b))| *to = a + weight * b);
+        };
         let mut found: Option<Mix> = None;
         for weight in [1.0, 0.7, 0.4, 0.2, 0.1] {
-            let mix = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + weight * b).collect::<Vec<f64>>();
-            let (s2, z2) = (mix(ds, &more_s), mix(&d.z, &more.z));
+            mix(&mut s2, ds, weight, &more_s);
+            mix(&mut z2, &d.z, weight, &more.z);
             let (bp, bd) = steps(cones, st, (s, &s2), (z, &z2), TO_THE_BOUNDARY);
             let score = bp * bd;
             if found.as_ref().is_none_or(|best| score > best.score) {
-                found = Some(Mix { score, weight, step: [bp, bd], direction: [s2, z2] });
+                found = Some(Mix { score, weight, step: [bp, bd] });
             }
         }
-        let Some(Mix { score, weight, step, direction: [s2, z2] }) = found else { break };
+        let Some(Mix { score, weight, step }) = found else { break };
         if score < *ap * *ad * (1.0 + WORTH) {
             break;
         }
-        add(&mut d.x, weight, &more.x);
-        add(&mut d.t, weight, &more.t);
-        add(&mut d.y, weight, &more.y);
-        (*ds, d.z, [*ap, *ad]) = (s2, z2, step);
+        let Point { x, t, y, z } = d;
+        for (to, by) in [(x, &more.x), (t, &more.t), (y, &more.y), (z, &more.z), (ds, &more_s)] {
+            add(to, weight, by);
+        }
+        [*ap, *ad] = step;
     }
 }
 
@@ -74,5 +79,4 @@ struct Mix {
     score: f64,
     weight: f64,
     step: [f64; 2],
-    direction: [Vec<f64>; 2],
 }

@@ -10,6 +10,7 @@
 mod cones;
 mod correctors;
 mod newton;
+mod panels;
 mod path;
 mod reduced;
 mod structure;

@@ -89,11 +89,10 @@ impl<'a> Newton<'a> {
             let mut m = vec![0.0; structure.variables.len()];
             let mut n = e.clone();
             if structure.g_border.start[k + 1] > structure.g_border.start[k] {
-                structure.g.add_transposed(&this.stiff(&g), &mut m);
+                structure.g.add_transposed(1.0, &this.stiff(&g), &mut m);
                 let mut flexed = m.clone();
                 this.reduced.flex(structure, &mut flexed);
-                flexed.iter_mut().for_each(|v| *v = -*v);
-                structure.e.add(&flexed, &mut n);
+                structure.e.add(-1.0, &flexed, &mut n);
             }
             let mut s_n = n.clone();
             this.reduced.solve(&mut s_n);
@@ -153,20 +152,18 @@ impl<'a> Newton<'a> {
     /// What a direction lacks of each equation.
     fn lacking(&self, a: &Point, d: &Point) -> Point {
         let s = self.structure;
-        let minus = |v: &[f64]| v.iter().map(|v| -v).collect::<Vec<f64>>();
-        let (x, t, y, z) = (minus(&d.x), minus(&d.t), minus(&d.y), minus(&d.z));
         let mut r = a.clone();
-        for ((r, x), q) in r.x.iter_mut().zip(&x).zip(&s.quadratic) {
-            *r += q * x;
+        for ((r, x), q) in r.x.iter_mut().zip(&d.x).zip(&s.quadratic) {
+            *r -= q * x;
         }
-        s.e.add_transposed(&y, &mut r.x);
-        s.g.add_transposed(&z, &mut r.x);
-        s.e_border.add_transposed(&y, &mut r.t);
-        s.g_border.add_transposed(&z, &mut r.t);
-        s.e.add(&x, &mut r.y);
-        s.e_border.add(&t, &mut r.y);
-        s.g.add(&x, &mut r.z);
-        s.g_border.add(&t, &mut r.z);
+        s.e.add_transposed(-1.0, &d.y, &mut r.x);
+        s.g.add_transposed(-1.0, &d.z, &mut r.x);
+        s.e_border.add_transposed(-1.0, &d.y, &mut r.t);
+        s.g_border.add_transposed(-1.0, &d.z, &mut r.t);
+        s.e.add(-1.0, &d.x, &mut r.y);
+        s.e_border.add(-1.0, &d.t, &mut r.y);
+        s.g.add(-1.0, &d.x, &mut r.z);
+        s.g_border.add(-1.0, &d.t, &mut r.z);
         let mut w = d.z.clone();
         self.cones.times(&mut w);
         self.cones.times(&mut w);
@@ -180,16 +177,22 @@ impl<'a> Newton<'a> {
         // Right-hand sides without the cone rows.
         let stiff = self.stiff(&a.z);
         let mut b = a.x.clone();
-        s.g.add_transposed(&stiff, &mut b);
+        s.g.add_transposed(1.0, &stiff, &mut b);
         let mut bt = a.t.clone();
-        s.g_border.add_transposed(&stiff, &mut bt);
+        s.g_border.add_transposed(1.0, &stiff, &mut bt);
         let mut d = Point::zero(s);
         d.x.copy_from_slice(&b);
         self.reduced.flex(s, &mut d.x);
         let (mut rest, mut rest_t) = self.rest(a, &bt, &d);
         let scale = greatest(&rest).max(greatest(&rest_t));
-        let mut error = f64::INFINITY;
-        for _ in 0..=MOST_CORRECTIONS {
+        let enough = (exact * scale).min(if enough > 0.0 { enough } else { f64::INFINITY });
+        self.correct(&rest, &rest_t, &mut d);
+        (rest, rest_t) = self.rest(a, &bt, &d);
+        let mut error = greatest(&rest).max(greatest(&rest_t));
+        for _ in 0..MOST_CORRECTIONS {
+            if error <= enough {
+                break;
+            }
             let mut better = d.clone();
             self.correct(&rest, &rest_t, &mut better);
             let (r, rt) = self.rest(a, &bt, &better);
@@ -199,7 +202,7 @@ impl<'a> Newton<'a> {
             }
             let slow = now > 0.5 * error;
             (d, rest, rest_t, error) = (better, r, rt, now);
-            if slow || error <= (exact * scale).min(if enough > 0.0 { enough } else { f64::INFINITY }) {
+            if slow {
                 break;
             }
         }
@@ -207,8 +210,8 @@ impl<'a> Newton<'a> {
         for (z, a) in d.z.iter_mut().zip(&a.z) {
             *z = -a;
         }
-        s.g.add(&d.x, &mut d.z);
-        s.g_border.add(&d.t, &mut d.z);
+        s.g.add(1.0, &d.x, &mut d.z);
+        s.g_border.add(1.0, &d.t, &mut d.z);
         d.z = self.stiff(&d.z);
         d
     }
@@ -217,9 +220,8 @@ impl<'a> Newton<'a> {
     fn rest(&self, a: &Point, bt: &[f64], d: &Point) -> (Vec<f64>, Vec<f64>) {
         let s = self.structure;
         let mut r = a.y.clone();
-        let minus: Vec<f64> = d.x.iter().map(|v| -v).collect();
-        s.e.add(&minus, &mut r);
-        s.e_border.add(&d.t.iter().map(|v| -v).collect::<Vec<_>>(), &mut r);
+        s.e.add(-1.0, &d.x, &mut r);
+        s.e_border.add(-1.0, &d.t, &mut r);
         let rt =
             (0..bt.len()).map(|k| bt[k] - dot(&self.m[k], &d.x) - dot(&self.k_border[k], &d.t) - dot(&self.e_border[k], &d.y)).collect();
         (r, rt)
@@ -237,7 +239,7 @@ impl<'a> Newton<'a> {
             dy.iter_mut().zip(s_n).for_each(|(y, n)| *y += n * dt);
         }
         let mut dx = vec![0.0; d.x.len()];
-        s.e.add_transposed(&dy, &mut dx);
+        s.e.add_transposed(1.0, &dy, &mut dx);
         for (dt, m) in dt.iter().zip(&self.m) {
             dx.iter_mut().zip(m).for_each(|(x, m)| *x += m * dt);
         }

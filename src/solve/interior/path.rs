@@ -65,14 +65,14 @@ fn residual(st: &Structure, data: &Data, p: &Point, s: &[f64]) -> Point {
     for ((r, x), q) in r.x.iter_mut().zip(&p.x).zip(&st.quadratic) {
         *r += q * x;
     }
-    st.e.add_transposed(&p.y, &mut r.x);
-    st.g.add_transposed(&p.z, &mut r.x);
-    st.e_border.add_transposed(&p.y, &mut r.t);
-    st.g_border.add_transposed(&p.z, &mut r.t);
-    st.e.add(&p.x, &mut r.y);
-    st.e_border.add(&p.t, &mut r.y);
-    st.g.add(&p.x, &mut r.z);
-    st.g_border.add(&p.t, &mut r.z);
+    st.e.add_transposed(1.0, &p.y, &mut r.x);
+    st.g.add_transposed(1.0, &p.z, &mut r.x);
+    st.e_border.add_transposed(1.0, &p.y, &mut r.t);
+    st.g_border.add_transposed(1.0, &p.z, &mut r.t);
+    st.e.add(1.0, &p.x, &mut r.y);
+    st.e_border.add(1.0, &p.t, &mut r.y);
+    st.g.add(1.0, &p.x, &mut r.z);
+    st.g_border.add(1.0, &p.t, &mut r.z);
     r
 }
 
@@ -116,7 +116,7 @@ pub(super) fn follow(
     warm: &mut Option<(Point, Vec<f64>)>,
     trace: &mut Vec<Iteration>,
 ) -> (Option<Point>, Status) {
-    let mut cones = Cones::new(st.cones.clone());
+    let mut cones = Cones::new(&st.cones);
     let degree = cones.degree() as f64;
     let Some((mut p, mut s)) = warm.take().or_else(|| begin(st, reduced, &mut cones, data)) else { return (None, Status::Stalled) };
     let mut best: Option<(f64, Point)> = None;
@@ -126,7 +126,7 @@ pub(super) fn follow(
         let status = if status == Status::Stalled && almost(&best) { Status::AlmostSolved } else { status };
         (best.map(|b| b.1), status)
     };
-    for _ in 0..=settings.iterations {
+    for step in 0..=settings.iterations {
         let r = residual(st, data, &p, &s);
         let quadratic: f64 = p.x.iter().zip(&st.quadratic).map(|(x, q)| q * x * x).sum();
         let linear = dot(&data.c, &p.x) + dot(&data.c_border, &p.t);
@@ -156,7 +156,8 @@ pub(super) fn follow(
             return give(best, Status::Stalled);
         }
         if clock.elapsed().as_secs_f64() >= settings.seconds {
-            return give(best, Status::Limit);
+            // The point to start from is no answer: its rates are far from admissible, and a bound corrected to first order would be untrue.
+            return give(best.filter(|_| step > 0), Status::Limit);
         }
         if !cones.scale(&s, &p.z) {
             return give(best, Status::Stalled);
@@ -205,10 +206,9 @@ pub(super) fn follow(
 
 /// `ds = −r_z − G dx`.
 pub(super) fn slack(st: &Structure, d: &Point, r: &Point) -> Vec<f64> {
-    let mut ds: Vec<f64> = r.z.clone();
-    st.g.add(&d.x, &mut ds);
-    st.g_border.add(&d.t, &mut ds);
-    ds.iter_mut().for_each(|v| *v = -*v);
+    let mut ds: Vec<f64> = r.z.iter().map(|v| -v).collect();
+    st.g.add(-1.0, &d.x, &mut ds);
+    st.g_border.add(-1.0, &d.t, &mut ds);
     ds
 }
 

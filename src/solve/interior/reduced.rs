@@ -7,20 +7,10 @@
 
 use super::{
     cones::{Cones, MOST_ROWS},
+    panels::by_rows,
     structure::Structure,
 };
 use crate::solve::cholesky::{Cholesky, Pattern};
-
-/// Blocks on the same equality rows, whose springs are added before they are put in their place.
-#[derive(Clone, Debug)]
-struct Group {
-    /// Blocks `first..last`.
-    blocks: std::ops::Range<usize>,
-    /// Their equality rows.
-    rows: Vec<usize>,
-    /// Where the lower triangle of their sum goes, row by row.
-    places: Vec<usize>,
-}
 
 /// A pivot below this × the diagonal it started from is rounding: it is replaced by 1. Larger: flexible structures are held where they
 /// should move. Smaller: rounding becomes motion.
@@ -31,7 +21,8 @@ const DIAGONAL: f64 = 1e-14;
 
 /// The reduced system of a program and its factors.
 pub(super) struct Reduced {
-    groups: Vec<Group>,
+    /// Where the lower triangle of each panel's springs goes, row by row, one panel after the other.
+    places: Vec<usize>,
     /// `F` with `K⁻¹ = F Fᵀ` of each block, column by column.
     roots: Vec<f64>,
     root_start: Vec<usize>,
@@ -48,21 +39,11 @@ impl Reduced {
     /// Finds the pattern and an ordering; `None` where there is not enough memory.
     pub fn new(structure: &Structure) -> Option<Self> {
         let rows = structure.equalities.len();
-        let mut groups: Vec<Group> = Vec::new();
-        for (index, block) in structure.blocks.iter().enumerate() {
-            let mut own: Vec<usize> = block.variables.clone().flat_map(|j| structure.e.of(j).map(|(i, _)| i)).collect();
-            own.sort_unstable();
-            own.dedup();
-            match groups.last_mut() {
-                Some(g) if own.iter().all(|i| g.rows.binary_search(i).is_ok()) => g.blocks.end = index + 1,
-                Some(g) if g.rows.iter().all(|i| own.binary_search(i).is_ok()) => (g.blocks.end, g.rows) = (index + 1, own),
-                _ => groups.push(Group { blocks: index..index + 1, rows: own, places: Vec::new() }),
-            }
-        }
+        let panels = || structure.e.list.iter().map(|panel| structure.e.rows(panel));
         let mut columns: Vec<Vec<usize>> = (0..rows).map(|i| vec![i]).collect();
-        for group in &groups {
-            for (k, &j) in group.rows.iter().enumerate() {
-                columns[j].extend_from_slice(&group.rows[k + 1..]);
+        for own in panels() {
+            for (k, &j) in own.iter().enumerate() {
+                columns[j].extend_from_slice(&own[k + 1..]);
             }
         }
         let mut starts = vec![0];
@@ -73,10 +54,11 @@ impl Reduced {
             row.append(column);
             starts.push(row.len());
         }
-        for group in &mut groups {
-            for (k, i) in group.rows.iter().enumerate() {
+        let mut places = Vec::new();
+        for own in panels() {
+            for (k, i) in own.iter().enumerate() {
                 let place = |&j: &usize| starts[j] + row[starts[j]..starts[j + 1]].partition_point(|r| r < i);
-                group.places.extend(group.rows[..=k].iter().map(place));
+                places.extend(own[..=k].iter().map(place));
             }
         }
         let mut root_start = vec![0];
@@ -84,7 +66,7 @@ impl Reduced {
             root_start.push(root_start[root_start.len() - 1] + block.variables.len().pow(2));
         }
         Some(Self {
-            groups,
+            places,
             roots: vec![0.0; root_start[root_start.len() - 1]],
             root_start,
             values: vec![0.0; row.len()],
@@ -102,7 +84,7 @@ impl Reduced {
             let root = &mut self.roots[self.root_start[index]..self.root_start[index + 1]];
             let n = block.variables.len();
             if block.plain {
-                let cone = &cones.list[block.cones[0]];
+                let cone = &structure.cones[block.cones[0]];
                 for k in 0..n {
                     cones.column(cone, k, false, &mut root[k * n..(k + 1) * n]);
                 }
@@ -111,36 +93,22 @@ impl Reduced {
             }
         }
         self.values.fill(0.0);
-        let (mut sum, mut local) = (Vec::new(), Vec::new());
-        for group in &self.groups {
-            let r = group.rows.len();
+        let (mut sum, mut spring) = (Vec::new(), Vec::new());
+        let mut places = self.places.iter();
+        for panel in &structure.e.list {
+            let (r, mut values) = (structure.e.rows(panel).len(), structure.e.values(panel));
             sum.clear();
             sum.resize(r * r, 0.0);
-            for index in group.blocks.clone() {
-                let variables = structure.blocks[index].variables.clone();
-                let n = variables.len();
+            spring.resize(r, 0.0);
+            for index in panel.blocks.clone() {
                 let root = &self.roots[self.root_start[index]..self.root_start[index + 1]];
-                // E F, row by row of E.
-                local.clear();
-                local.resize(r * n, 0.0);
-                for (k, j) in variables.enumerate() {
-                    for (i, v) in structure.e.of(j) {
-                        let at = group.rows.partition_point(|&g| g < i);
-                        for c in 0..n {
-                            local[at * n + c] += v * root[c * n + k];
-                        }
-                    }
-                }
-                for j in 0..r {
-                    let own = &local[j * n..(j + 1) * n];
-                    for i in 0..=j {
-                        sum[j * r + i] += local[i * n..(i + 1) * n].iter().zip(own).map(|(a, b)| a * b).sum::<f64>();
-                    }
-                }
+                let n = structure.blocks[index].variables.len();
+                let (own, others) = values.split_at(n * r);
+                values = others;
+                by_rows!(r, add_springs(own, root, &mut spring, &mut sum));
             }
-            let mut place = group.places.iter();
             for j in 0..r {
-                for (v, &p) in sum[j * r..=j * r + j].iter().zip(place.by_ref()) {
+                for (v, &p) in sum[j * r..=j * r + j].iter().zip(places.by_ref()) {
                     self.values[p] += v;
                 }
             }
@@ -176,6 +144,11 @@ impl Reduced {
 
     /// `K⁻¹ v` in place.
     pub fn flex(&self, structure: &Structure, v: &mut [f64]) {
+        if self.roots.len() == v.len() {
+            // One variable a block.
+            v.iter_mut().zip(&self.roots).for_each(|(v, root)| *v *= root * root);
+            return;
+        }
         let mut part = [0.0; MOST_ROWS];
         for (index, block) in structure.blocks.iter().enumerate() {
             let root = &self.roots[self.root_start[index]..self.root_start[index + 1]];
@@ -196,18 +169,35 @@ impl Reduced {
     }
 }
 
+/// Adds `E F (E F)ᵀ` of one block of variables, whose panel has `R` rows (0: as many as `spring`), to `sum`.
+fn add_springs<const R: usize>(own: &[f64], root: &[f64], spring: &mut [f64], sum: &mut [f64]) {
+    let r = if R == 0 { spring.len() } else { R };
+    let (n, spring) = (own.len() / r.max(1), &mut spring[..r]);
+    for c in 0..n {
+        spring.fill(0.0);
+        for k in 0..n {
+            let (column, f) = (&own[k * r..(k + 1) * r], root[c * n + k]);
+            spring.iter_mut().zip(column).for_each(|(s, v)| *s += v * f);
+        }
+        for j in 0..r {
+            let by = spring[j];
+            sum[j * r..(j + 1) * r].iter_mut().zip(spring.iter()).for_each(|(s, v)| *s += by * v);
+        }
+    }
+}
+
 /// `R⁻¹` of the QR decomposition of `(W⁻¹ G; √P)`: with `K` itself, half of the digits would be lost near the boundary of a cone.
 /// False where some variable is held by nothing.
 fn root_of(structure: &Structure, cones: &Cones, index: usize, q: &mut Vec<f64>, root: &mut [f64]) -> bool {
     let block = &structure.blocks[index];
     let (first, n) = (block.variables.start, block.variables.len());
-    let rows: usize = block.cones.iter().map(|&c| cones.list[c].size).sum::<usize>() + n;
+    let rows: usize = block.cones.iter().map(|&c| structure.cones[c].size).sum::<usize>() + n;
     q.clear();
     q.resize(rows * n, 0.0);
     let mut at = 0;
     let mut scaled = [0.0; MOST_ROWS];
     for &cone in &block.cones {
-        let cone = &cones.list[cone];
+        let cone = &structure.cones[cone];
         for k in 0..n {
             for (row, v) in structure.g.of(first + k) {
                 if row >= cone.first && row < cone.first + cone.size {

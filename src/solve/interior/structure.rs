@@ -1,7 +1,10 @@
 //! What makes a program of contacts cheap: cone rows concern one contact point (or one block) at a time, equality rows one
 //! block, and very few variables (the load factor, the least unbalance) concern all of them.
 
-use super::cones::{ConeAt, MOST_ROWS};
+use super::{
+    cones::{ConeAt, MOST_ROWS},
+    panels::Panels,
+};
 use crate::program::{Cone, ConicProgram};
 
 /// Compressed columns: rows and values of each.
@@ -10,13 +13,15 @@ pub(super) struct Columns {
     pub start: Vec<usize>,
     pub row: Vec<usize>,
     pub value: Vec<f64>,
+    /// Whether the entries are those of a square diagonal and no others.
+    diagonal: bool,
 }
 
 impl Columns {
     /// From (column, row, value), sorted; equal places add up.
     fn new(columns: usize, mut entries: Vec<(usize, usize, f64)>) -> Self {
         entries.sort_by_key(|e| (e.0, e.1));
-        let mut this = Self { start: vec![0; columns + 1], row: Vec::new(), value: Vec::new() };
+        let mut this = Self { start: vec![0; columns + 1], row: Vec::new(), value: Vec::new(), diagonal: false };
         let mut last = None;
         for (column, row, value) in entries {
             if last == Some((column, row)) {
@@ -33,6 +38,8 @@ impl Columns {
         for k in 0..columns {
             this.start[k + 1] += this.start[k];
         }
+        this.diagonal =
+            this.start[columns] == columns && this.start.windows(2).all(|w| w[1] - w[0] == 1) && this.row.iter().copied().eq(0..columns);
         this
     }
 
@@ -42,19 +49,31 @@ impl Columns {
         self.row[range.clone()].iter().copied().zip(self.value[range].iter().copied())
     }
 
-    /// `y += M x`.
-    pub fn add(&self, x: &[f64], y: &mut [f64]) {
+    /// `y += sign · M x`.
+    pub fn add(&self, sign: f64, x: &[f64], y: &mut [f64]) {
+        if self.diagonal {
+            return self.add_diagonal(sign, x, y);
+        }
         for (column, x) in x.iter().enumerate() {
             for (row, v) in self.of(column) {
-                y[row] += v * x;
+                y[row] += sign * v * x;
             }
         }
     }
 
-    /// `x += Mᵀ y`.
-    pub fn add_transposed(&self, y: &[f64], x: &mut [f64]) {
+    /// `x += sign · Mᵀ y`.
+    pub fn add_transposed(&self, sign: f64, y: &[f64], x: &mut [f64]) {
+        if self.diagonal {
+            return self.add_diagonal(sign, y, x);
+        }
         for (column, x) in x.iter_mut().enumerate() {
-            *x += self.of(column).map(|(row, v)| v * y[row]).sum::<f64>();
+            *x += sign * self.of(column).map(|(row, v)| v * y[row]).sum::<f64>();
+        }
+    }
+
+    fn add_diagonal(&self, sign: f64, from: &[f64], to: &mut [f64]) {
+        for ((to, from), v) in to.iter_mut().zip(from).zip(&self.value) {
+            *to += sign * v * from;
         }
     }
 }
@@ -86,7 +105,7 @@ pub(super) struct Structure {
     /// Program row of each equality.
     pub equalities: Vec<usize>,
     /// Equality rows of the local variables.
-    pub e: Columns,
+    pub e: Panels,
     /// Cone rows of the local variables.
     pub g: Columns,
     /// Equality rows of the border.
@@ -198,7 +217,7 @@ impl Structure {
         let quadratic = if program.quadratic.is_empty() { Vec::new() } else { variables.iter().map(|&j| program.quadratic[j]).collect() };
         let n = variables.len();
         let mut this = Self {
-            e: Columns::new(n, e),
+            e: Panels::new(&blocks, &Columns::new(n, e)),
             g: Columns::new(n, g),
             e_border: Columns::new(border.len(), e_border),
             g_border: Columns::new(border.len(), g_border),
