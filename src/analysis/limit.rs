@@ -160,7 +160,12 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step:
         let s = certificate::statics(assembly, interfaces, &c.forces, lambda);
         let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &c.rates[i]).abs()).sum();
         if k.live_power > 0.0 {
-            upper = k.upper();
+            // Rates that are no mechanism bound nothing.
+            let natural = check::natural_factor(assembly);
+            let allowed = tolerance::LOAD_FACTOR_BEHIND * lambda.abs() + tolerance::LOAD_FACTOR_WIDTH * natural;
+            if k.behind(&c.forces) <= allowed {
+                upper = k.upper();
+            }
             if s.unbalance <= tolerance::LOOSE_BALANCE.max(s.resolution) && s.is_within_strength() {
                 lower = lambda - hidden / k.live_power;
             }

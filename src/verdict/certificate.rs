@@ -238,6 +238,13 @@ impl Kinematics {
         (self.slack - self.gain()) / self.live_power
     }
 
+    /// What the inadmissibility of the mechanism could hide of the load factor if every contact carried the largest of the forces: where they
+    /// vanish, `slack` sees none.
+    pub fn behind(&self, forces: &Forces) -> f64 {
+        let largest = forces.iter().flatten().map(|v| v.force.norm()).fold(0.0, f64::max);
+        self.excess * largest / self.live_power
+    }
+
     /// Whether the mechanism is admissible up to rounding: small against its gain for contact forces of the size of the total
     /// load, and, where it is not small against the speeds of the very blocks that touch, for much larger ones. A block
     /// squeezed at low friction needs large forces; falling straight down closes none of its joints by much.

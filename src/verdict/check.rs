@@ -297,9 +297,7 @@ fn load_factor(
             s.unbalance, assembly.blocks[s.worst].id
         ),
     );
-    // Where the certified forces vanish, `slack` sees no inadmissibility: as if every contact carried the largest of them.
-    let largest = forces.iter().flatten().map(|v| v.force.norm()).fold(0.0, f64::max);
-    let behind = k.excess * largest / k.live_power;
+    let behind = k.behind(forces);
     let allowed = tolerance::LOAD_FACTOR_BEHIND * value.abs() + tolerance::LOAD_FACTOR_WIDTH * natural;
     f.require(
         behind <= allowed,
