@@ -26,6 +26,25 @@ struct Joint {
     disc: usize,
 }
 
+/// What limits the forces across a joint.
+#[derive(Clone, Copy, Debug)]
+pub enum Friction<'a> {
+    /// What is held, one number a disc.
+    Held(Hold, &'a [f64]),
+    /// Coulomb's law: the normal force of the same rates.
+    Law,
+}
+
+impl<'a> Friction<'a> {
+    /// The same for the discs of one point.
+    fn of(self, joint: &Joint, point: &Point) -> Self {
+        match self {
+            Self::Held(hold, held) => Self::Held(hold, &held[joint.disc..joint.disc + point.discs.len()]),
+            Self::Law => Self::Law,
+        }
+    }
+}
+
 /// Program C in the rates.
 #[derive(Clone, Debug)]
 pub struct Response {
@@ -131,15 +150,14 @@ impl Response {
     }
 
     /// Forces per column and `g` per row at the rates `q`.
-    pub fn forces(&self, contacts: &Contacts, epsilon: f64, hold: Hold, held: &[f64], q: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub fn forces(&self, contacts: &Contacts, epsilon: f64, friction: Friction, q: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let mut forces = vec![0.0; contacts.compliance.len()];
         let mut gradient: Vec<f64> =
             q.iter().zip(&contacts.row_images).zip(&contacts.statics.dead).map(|((q, n), w)| epsilon * q / n - w).collect();
         for (joint, point) in self.joints.iter().zip(&contacts.points) {
             let (n, c) = (point.columns, contacts.compliance[point.column]);
             let wanted = self.wanted(joint, n, c * contacts.column_images[point.column], q);
-            let own = &held[joint.disc..joint.disc + point.discs.len()];
-            let f = answer(point, c, hold, own, &wanted, None);
+            let f = answer(point, c, friction.of(joint, point), &wanted, None);
             forces[point.column..point.column + n].copy_from_slice(&f[..n]);
             for (side, rows) in joint.blocks.iter().enumerate() {
                 for (k, f) in f.iter().enumerate().take(n).filter(|(_, f)| **f != 0.0) {
@@ -152,8 +170,9 @@ impl Response {
         (forces, gradient)
     }
 
-    /// `∂g/∂q` at the rates `q`, its lower triangle in the order of [`Self::pattern`].
-    pub fn derivative(&self, contacts: &Contacts, epsilon: f64, hold: Hold, held: &[f64], q: &[f64]) -> Vec<f64> {
+    /// `∂g/∂q` at the rates `q`, its lower triangle in the order of [`Self::pattern`]; `mirrored`: its upper triangle, entry by entry the
+    /// mirror image, which differs under Coulomb's law.
+    pub fn derivative(&self, contacts: &Contacts, epsilon: f64, friction: Friction, q: &[f64], mirrored: bool) -> Vec<f64> {
         let mut values = vec![0.0; self.entries.len()];
         for (start, n) in self.starts.iter().zip(&contacts.row_images) {
             values[*start] = epsilon / n;
@@ -162,9 +181,16 @@ impl Response {
             let (n, c) = (point.columns, contacts.compliance[point.column]);
             let all = c * contacts.column_images[point.column];
             let wanted = self.wanted(joint, n, all, q);
-            let own = &held[joint.disc..joint.disc + point.discs.len()];
             let mut slope = [[0.0; MOST]; MOST];
-            answer(point, c, hold, own, &wanted, Some(&mut slope));
+            answer(point, c, friction.of(joint, point), &wanted, Some(&mut slope));
+            if mirrored {
+                let given = slope;
+                for (i, row) in slope.iter_mut().enumerate() {
+                    for (j, s) in row.iter_mut().enumerate() {
+                        *s = given[j][i];
+                    }
+                }
+            }
             for (side, rows) in joint.blocks.iter().enumerate() {
                 // A D of one block, then its products with Aᵀ of this block and the one before it.
                 let mut left = [[0.0; MOST]; MOST];
@@ -213,22 +239,14 @@ impl Response {
 }
 
 /// The forces of a point nearest to `wanted`, and with `slope` how they change with it (`slope[i][j]`: column `i` with `wanted` `j`).
-fn answer(
-    point: &Point,
-    c: f64,
-    hold: Hold,
-    held: &[f64],
-    wanted: &[f64; MOST],
-    mut slope: Option<&mut [[f64; MOST]; MOST]>,
-) -> [f64; MOST] {
+fn answer(point: &Point, c: f64, friction: Friction, wanted: &[f64; MOST], mut slope: Option<&mut [[f64; MOST]; MOST]>) -> [f64; MOST] {
     let mut f = *wanted;
     if let Some(slope) = slope.as_deref_mut() {
         for (k, row) in slope.iter_mut().enumerate().take(point.columns) {
             row[k] = 1.0;
         }
     }
-    let cone = point.discs.first().filter(|d| hold == Hold::SlidingRates && d.slope > 0.0);
-    if let (Some(disc), Some(&rate)) = (cone, held.first()) {
+    if let (Friction::Held(Hold::SlidingRates, &[rate, ..]), Some(disc)) = (friction, point.discs.first().filter(|d| d.slope > 0.0)) {
         // Tension beyond cohesion / μ does not count: the cone ends there.
         let tension = point.tension.min(disc.constant / disc.slope);
         f[0] -= rate / c;
@@ -242,19 +260,29 @@ fn answer(
             slope[0][0] = 0.0;
         }
     }
-    for (disc, &s) in point.discs.iter().zip(held) {
-        let s = if hold == Hold::Limits { s } else { disc.constant };
+    for (k, disc) in point.discs.iter().enumerate() {
+        let s = match friction {
+            Friction::Held(Hold::Limits, held) => held.get(k).copied().unwrap_or(0.0),
+            Friction::Held(Hold::SlidingRates, _) => disc.constant,
+            Friction::Law => disc.limit(f[0]),
+        };
         let at = disc.first - point.column..disc.first - point.column + disc.count;
-        onto_disc(&mut f, at, s, slope.as_deref_mut());
+        let cut = onto_disc(&mut f, at.clone(), s, slope.as_deref_mut());
+        if let (Friction::Law, true, Some(slope)) = (friction, cut && s > 0.0, slope.as_deref_mut()) {
+            let normal = slope[0][0];
+            for i in at {
+                slope[i][0] = disc.slope * normal * f[i] / s;
+            }
+        }
     }
     f
 }
 
-/// Cuts a part of `f` to the length `s`.
-fn onto_disc(f: &mut [f64; MOST], at: std::ops::Range<usize>, s: f64, slope: Option<&mut [[f64; MOST]; MOST]>) {
+/// Cuts a part of `f` to the length `s`; says whether it was longer.
+fn onto_disc(f: &mut [f64; MOST], at: std::ops::Range<usize>, s: f64, slope: Option<&mut [[f64; MOST]; MOST]>) -> bool {
     let size = f[at.clone()].iter().map(|v| v * v).sum::<f64>().sqrt();
     if size <= s {
-        return;
+        return false;
     }
     let by = s / size;
     if let Some(slope) = slope {
@@ -265,6 +293,7 @@ fn onto_disc(f: &mut [f64; MOST], at: std::ops::Range<usize>, s: f64, slope: Opt
         }
     }
     f[at].iter_mut().for_each(|v| *v *= by);
+    true
 }
 
 /// The nearest point with `‖f_t‖ ≤ μ f_n + cohesion`, `f_n ≥ −tension`; law: μ, cohesion, tension (at most cohesion / μ).

@@ -1,4 +1,4 @@
-//! Sparse Cholesky factorisation of symmetric positive definite matrices of one pattern; the adapter to faer, the only file that names it.
+//! Sparse Cholesky factorisation of symmetric positive definite matrices of one pattern; with `lu.rs` the adapter to faer.
 
 use faer::{
     Conj, MatMut, Par, Side,

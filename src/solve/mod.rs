@@ -4,10 +4,12 @@ mod cholesky;
 mod clarabel;
 mod engine;
 mod interior;
+mod lu;
 mod watched;
 
 pub use self::{
     cholesky::{Cholesky, Pattern},
+    lu::Lu,
     watched::{Session, solve},
 };
 

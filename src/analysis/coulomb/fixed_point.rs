@@ -1,6 +1,6 @@
 //! The fixed point of one program: friction held, solved, held anew.
 
-use super::{anderson::Anderson, newton::Newton};
+use super::{anderson::Anderson, law::Law, newton::Newton};
 use crate::{
     interface::Interfaces,
     program::{
@@ -41,19 +41,26 @@ pub(super) struct Stop {
 pub(super) struct Means<'a> {
     /// Newton's method, where the program can be written in the rates, and the rates it starts from.
     pub newton: Option<(&'a mut Newton, &'a [f64])>,
+    /// Coulomb's law itself, for load factors.
+    pub law: Option<&'a mut Law>,
     /// Settings of the engine, which solves what Newton's method does not.
     pub settings: &'a Settings,
 }
 
 /// Iterates from the limits or sliding rates `start`. `None` where the engine refuses the program or leaves no numbers.
 pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>, stop: Stop, means: Means) -> Option<FixedPoint> {
-    let Means { mut newton, settings } = means;
+    let Means { mut newton, mut law, settings } = means;
     let end = Duration::try_from_secs_f64(settings.seconds.max(0.0)).ok().and_then(|s| Instant::now().checked_add(s));
     let mut rates = newton.as_ref().map_or_else(Vec::new, |(_, rates)| rates.to_vec());
     let mut held = start;
     let mut engine: Option<Engine> = None;
     let mut anderson = Anderson::default();
     let mut best: Option<FixedPoint> = None;
+    if let (Some(law), Aim::LoadFactor(delta, scale)) = (&mut law, aim)
+        && let Some(point) = law.on(contacts, delta, end)
+    {
+        return Some(FixedPoint { lambda: scale * point.lambda, ..point });
+    }
     for k in 1..=stop.solves {
         let solved = match (&mut newton, aim) {
             (Some((newton, _)), Aim::State(epsilon)) => newton.solve(contacts, (epsilon, hold, &held), &rates, end),
@@ -78,6 +85,15 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
             let Some(solution) = solution.filter(Solution::is_finite) else { break };
             (forces, rates, lambda) = read(contacts, aim, &solution);
         }
+        if let (Some(law), Aim::LoadFactor(delta, scale)) = (&mut law, aim)
+            && let Some(point) = law.near(contacts, delta, &rates, lambda / scale, end)
+        {
+            return Some(FixedPoint { lambda: scale * point.lambda, solves: k, ..point });
+        }
+        // Under these limits there is no load factor: those that came before wander.
+        if best.is_some() && contacts.residual(&forces, lambda).iter().any(|r| r.abs() > UNBALANCED) && matches!(aim, Aim::LoadFactor(..)) {
+            break;
+        }
         let next = match hold {
             Hold::Limits => contacts.limits(&forces),
             Hold::SlidingRates => contacts.sliding(&joint_rates(contacts, aim, &forces, &rates)),
@@ -96,6 +112,10 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
     }
     best
 }
+
+/// Forces of a load factor that leave more of a block's load than this are no solution: the program has none. Larger: such forces are taken
+/// for one. Smaller: the engine's noise ends iterations.
+const UNBALANCED: f64 = 1e-2;
 
 /// The engine with the program of one fixed point.
 struct Engine {

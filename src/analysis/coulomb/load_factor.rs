@@ -8,6 +8,7 @@
 
 use super::{
     fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
+    law::Law,
     state::{Motion, state},
 };
 use crate::{
@@ -24,7 +25,7 @@ use crate::{
     verdict::{Forces, Rate, certificate, check, law},
 };
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// How a load factor with dry friction was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -68,6 +69,8 @@ const STAGES: [(f64, Stop); 4] = [
     (6e-8, Stop { change: 3e-5, solves: 20 }),
     (5e-7, Stop { change: 1e-7, solves: 10 }),
 ];
+/// What δ is multiplied by for fixed points of Coulomb's law that are not exact enough for it. Smaller: rounding.
+const FURTHER: [f64; 3] = [0.1, 1e-2, 1e-3];
 /// Stages after which a value is looked for.
 const LEAST_STAGES: usize = 3;
 /// A stage that ends with a change of this × the wanted one is lost. Larger: minutes on walls of 1,000 blocks that stay undecided.
@@ -133,6 +136,7 @@ fn lowered(
         return;
     };
     answer.solves += from.solves;
+    let mut law = Law::new(&contacts, scale);
     for (stage, (delta, stop)) in STAGES.into_iter().enumerate() {
         let left = control.seconds - start.elapsed().as_secs_f64();
         if left <= 0.0 {
@@ -140,12 +144,22 @@ fn lowered(
         }
         let settings = Settings { seconds: left, tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| {
-            iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, engine(&settings))
+            let means = Means { law: law.as_mut(), ..engine(&settings) };
+            iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, means)
         });
         let Some(point) = point else { break };
         answer.solves += point.solves;
         if stage + 1 >= LEAST_STAGES && accept(assembly, interfaces, &contacts, &point, answer) {
             break;
+        }
+        let settled = point.change == 0.0 && stage + 1 >= LEAST_STAGES;
+        if let Some(law) = law.as_mut().filter(|_| settled) {
+            let left = (control.seconds - start.elapsed().as_secs_f64()).max(0.0);
+            let end = Duration::try_from_secs_f64(left).ok().and_then(|s| Instant::now().checked_add(s));
+            let further = |by: &f64| law.on(&contacts, by * delta, end).map(|p| FixedPoint { lambda: scale * p.lambda, ..p });
+            if FURTHER.iter().map_while(further).any(|p| accept(assembly, interfaces, &contacts, &p, answer)) {
+                break;
+            }
         }
         // What wanders at a large δ does not settle at a smaller one; at the smallest it may be the engine's noise.
         let lost = point.change > LOST * stop.change;
@@ -160,7 +174,7 @@ fn lowered(
 
 /// The engine alone.
 fn engine(settings: &Settings) -> Means<'_> {
-    Means { newton: None, settings }
+    Means { newton: None, law: None, settings }
 }
 
 /// Takes a fixed point as the answer if it is more exact than the one before; says whether it is a value.

@@ -2,6 +2,7 @@
 
 mod anderson;
 mod fixed_point;
+mod law;
 mod load_factor;
 mod newton;
 mod state;

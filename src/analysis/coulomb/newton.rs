@@ -5,7 +5,7 @@
 use crate::{
     program::{
         coulomb::{Contacts, Hold},
-        response::Response,
+        response::{Friction, Response},
     },
     solve::{Cholesky, Pattern},
 };
@@ -65,7 +65,8 @@ impl Newton {
         if !Response::is_explicit(contacts, hold) {
             return None;
         }
-        let look = |q: &[f64]| self.response.forces(contacts, epsilon, hold, held, q);
+        let friction = Friction::Held(hold, held);
+        let look = |q: &[f64]| self.response.forces(contacts, epsilon, friction, q);
         let mut rates = start.to_vec();
         let (mut forces, mut gradient) = look(&rates);
         for _ in 0..STEPS {
@@ -76,7 +77,7 @@ impl Newton {
             if !size.is_finite() || end.is_some_and(|end| Instant::now() >= end) {
                 return None;
             }
-            if !self.cholesky.factorize(&self.response.derivative(contacts, epsilon, hold, held, &rates)) {
+            if !self.cholesky.factorize(&self.response.derivative(contacts, epsilon, friction, &rates, false)) {
                 return None;
             }
             let mut step: Vec<f64> = gradient.iter().map(|g| -g).collect();
@@ -163,26 +164,27 @@ mod tests {
             let response = Response::new(contacts).unwrap();
             let n = contacts.statics.matrix.rows;
             let (starts, rows) = response.pattern();
-            for (hold, size) in [(Hold::Limits, 0.5), (Hold::Limits, 3.0), (Hold::SlidingRates, 0.5), (Hold::SlidingRates, 3.0)] {
-                let held: Vec<f64> = numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
+            let held: Vec<f64> = numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
+            let (limits, sliding) = (Friction::Held(Hold::Limits, &held), Friction::Held(Hold::SlidingRates, &held));
+            for (friction, size) in [limits, sliding, Friction::Law].into_iter().flat_map(|f| [(f, 0.5), (f, 3.0)]) {
                 let (q, step) = (numbers(n, 1.0, size), numbers(n, 2.0, 1e-7));
                 let imbalance = |sign: f64| {
                     let q: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + sign * s).collect();
-                    response.forces(contacts, 1e-3, hold, &held, &q).1
+                    response.forces(contacts, 1e-3, friction, &q).1
                 };
-                let values = response.derivative(contacts, 1e-3, hold, &held, &q);
+                let [lower, upper] = [false, true].map(|mirrored| response.derivative(contacts, 1e-3, friction, &q, mirrored));
                 let mut predicted = vec![0.0; n];
                 for column in 0..n {
                     for at in starts[column]..starts[column + 1] {
-                        predicted[rows[at]] += values[at] * step[column];
+                        predicted[rows[at]] += lower[at] * step[column];
                         if rows[at] != column {
-                            predicted[column] += values[at] * step[rows[at]];
+                            predicted[column] += upper[at] * step[rows[at]];
                         }
                     }
                 }
                 let seen: Vec<f64> = imbalance(1.0).iter().zip(imbalance(-1.0)).map(|(a, b)| 0.5 * (a - b)).collect();
                 let apart: Vec<f64> = seen.iter().zip(&predicted).map(|(a, b)| a - b).collect();
-                assert!(norm(&apart) < 1e-5 * norm(&seen), "scene {which} {hold:?} {size}: {} of {}", norm(&apart), norm(&seen));
+                assert!(norm(&apart) < 1e-5 * norm(&seen), "scene {which} {friction:?} {size}: {} of {}", norm(&apart), norm(&seen));
             }
         }
     }

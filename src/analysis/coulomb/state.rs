@@ -109,7 +109,7 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
     let rest = vec![0.0; contacts.statics.matrix.rows];
     // The associative state is the first guess of the friction limits.
     let first = Settings { seconds: control.seconds - begin.elapsed().as_secs_f64(), ..settings };
-    let means = Means { newton: newton.as_mut().map(|n| (n, &rest[..])), settings: &first };
+    let means = Means { newton: newton.as_mut().map(|n| (n, &rest[..])), law: None, settings: &first };
     let mut last = iterate(&contacts, Aim::State(EPSILONS[0]), Hold::SlidingRates, still, once, means);
     for epsilon in EPSILONS {
         let left = control.seconds - begin.elapsed().as_secs_f64();
@@ -146,14 +146,14 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
 /// The fixed point on the limits; where it does not settle, the twin on the sliding rates has a try.
 fn settled(contacts: &Contacts, aim: Aim, from: &FixedPoint, mut newton: Option<&mut Newton>, settings: &Settings) -> Option<FixedPoint> {
     let start = Instant::now();
-    let means = Means { newton: newton.as_deref_mut().map(|n| (n, &from.rates[..])), settings };
+    let means = Means { newton: newton.as_deref_mut().map(|n| (n, &from.rates[..])), law: None, settings };
     let by_limits = iterate(contacts, aim, Hold::Limits, contacts.limits(&from.forces), STOP, means)?;
     if by_limits.change <= tolerance::COULOMB_SETTLED {
         return Some(by_limits);
     }
     let sliding = contacts.sliding(&contacts.joint_rates(&by_limits.rates));
     let settings = Settings { seconds: settings.seconds - start.elapsed().as_secs_f64(), ..*settings };
-    let means = Means { newton: newton.map(|n| (n, &by_limits.rates[..])), settings: &settings };
+    let means = Means { newton: newton.map(|n| (n, &by_limits.rates[..])), law: None, settings: &settings };
     let by_rates = iterate(contacts, aim, Hold::SlidingRates, sliding, STOP, means);
     match by_rates {
         Some(twin) if twin.change <= STOP.change => Some(FixedPoint { solves: twin.solves + by_limits.solves, ..twin }),
