@@ -8,6 +8,7 @@ use voussoir::{
     import::{self, Options, Up},
     report::ResultFile,
     scene::{Friction, Scene, read_str},
+    tolerance,
     verdict::{
         Verdict,
         check::{Claim, verify},
@@ -228,5 +229,55 @@ proptest! {
         prop_assert!(d.found != coulomb::Found::Undecided || d.value.is_nan());
         ask::prove(&scene, &ResultFile::load_factor(&scene, &model, &l).with_dry(&model, &d));
         prop_assert!(d.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.bracket.upper.abs(), "{} above {}", d.value, l.bracket.upper);
+    }
+}
+
+/// The load factor with dry friction and its associative bound, by forces and a mechanism that obey the law.
+fn dry_load_factor(scene: &Scene) -> (f64, f64) {
+    let model = prepare(scene).unwrap();
+    let control = Control::default();
+    let bound = limit(&model.assembly, &model.interfaces, &control);
+    assert_eq!(bound.outcome, Outcome::Found, "{}", scene.name);
+    let dry = coulomb::load_factor(&model.assembly, &model.interfaces, &bound, &control);
+    assert_eq!(dry.found, coulomb::Found::FixedPoint, "{}: natural map {:.1e}", scene.name, dry.natural_map);
+    assert!(dry.natural_map <= tolerance::DRY_LAW, "{}: {:.1e}", scene.name, dry.natural_map);
+    (dry.value, bound.bracket.upper)
+}
+
+/// Arches that slide at their springers as they overturn: held friction limits go round in circles there.
+#[test]
+fn arches_that_slide_have_a_dry_load_factor() {
+    let at = |mu: f64| {
+        let text = json!({ "format": "voussoir-scene/1", "name": format!("arch at {mu}"), "joints": { "default": { "friction": mu } },
+            "templates": [{ "arch": { "radius": 5.0, "thickness": 0.8, "depth": 1.0, "voussoirs": 100 } }], "loads": { "live": [{ "weight": [1, 0, 0] }] } });
+        dry_load_factor(&read_str("test", text.to_string()).unwrap().0)
+    };
+    let values = [0.5, 0.502, 0.504, 0.506, 0.508, 0.51].map(at);
+    for (dry, bound) in values {
+        assert!(dry <= bound * (1.0 + 1e-7), "{dry} {bound}");
+    }
+    assert!(values.windows(2).all(|v| v[0].0 < v[1].0), "more friction bears more: {values:?}");
+}
+
+/// Two posts under a lintel, pushed askew: slips turn a little with every iteration on held limits, and it never settled.
+#[test]
+fn posts_and_a_lintel_pushed_askew_have_a_dry_load_factor() {
+    let at = |mirror: f64, length: f64, density: f64| {
+        let size = |s: [f64; 3]| s.map(|v| v * length);
+        let mut blocks = [
+            fixed(cuboid("base", size([6.0, 6.0, 1.0]), size([0.0, 0.0, -1.0]))),
+            cuboid("left", size([0.33, 0.764, 0.814]), size([-1.0, 0.0, 0.0])),
+            cuboid("right", size([0.658, 0.737, 0.814]), size([1.0, 0.0, 0.0])),
+            cuboid("lintel", size([2.4, 0.6, 0.4]), size([0.0, mirror * 0.068, 0.814])),
+        ];
+        blocks.iter_mut().for_each(|b| b["density"] = json!(density));
+        let text = json!({ "format": "voussoir-scene/1", "name": format!("askew {mirror} {length} {density}"), "joints": { "default": { "friction": 0.746 } },
+            "blocks": blocks, "loads": { "live": [{ "weight": [0.541, mirror * 0.841, 0.3] }] } });
+        dry_load_factor(&read_str("test", text.to_string()).unwrap().0)
+    };
+    let (dry, bound) = at(1.0, 1.0, 2400.0);
+    assert!(dry < bound - 1e-6, "it slides, which dilatancy would have resisted: {dry} {bound}");
+    for (other, _) in [at(-1.0, 1.0, 2400.0), at(1.0, 1e3, 1.0), at(1.0, 1e-3, 2400.0)] {
+        assert!((other - dry).abs() < 1e-6, "{other} {dry}");
     }
 }
