@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{error::InputError, generate, program, scene::Scene};
 use nalgebra::Vector3;
-use std::collections::HashSet;
+use std::{collections::HashSet, time::Instant};
 
 /// One round: a packing and the tilt at which its first grains lose balance.
 #[derive(Clone, Debug)]
@@ -68,7 +68,10 @@ pub fn stability(scene: &Scene, model: &Model, toward: Vector3<f64>, moving_mass
     let all = mass(model);
     let (mut scene, mut model) = (scene.clone(), model.clone());
     let (mut rounds, mut level): (Vec<Round>, Vec<Model>) = Default::default();
+    let start = Instant::now();
     loop {
+        // All rounds share the time.
+        let control = &Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
         let tilt = tilt::tilt(&model.assembly, &model.interfaces, toward, control)?;
         let turned = tilted(&model, toward, tilt.load_factor.value)?;
         let moving: Vec<usize> = tilt.load_factor.mechanism.iter().flat_map(|m| m.moving.iter().copied()).collect();
