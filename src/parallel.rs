@@ -52,13 +52,26 @@ pub fn for_each<T: Sync, E: Send>(threads: usize, items: &[T], work: impl Fn(&T)
 /// # Errors
 /// Threads cannot be started.
 pub fn map<T: Sync, R: Send>(threads: usize, items: &[T], work: impl Fn(&T) -> R + Sync) -> io::Result<Vec<R>> {
-    let slots: Vec<(usize, Mutex<Option<R>>)> = (0..items.len()).map(|k| (k, Mutex::new(None))).collect();
-    for_each(threads, &slots, |(k, slot)| {
-        *slot.lock().unwrap_or_else(PoisonError::into_inner) = items.get(*k).map(&work);
-        Ok::<(), std::convert::Infallible>(())
-    })?
-    .unwrap_or_else(|e| match e {});
-    Ok(slots.into_iter().filter_map(|(_, slot)| slot.into_inner().unwrap_or_else(PoisonError::into_inner)).collect())
+    let sure = |item: &T| Ok::<R, std::convert::Infallible>(work(item));
+    try_map(threads, items, sure).map(|done| done.unwrap_or_else(|e| match e {}))
+}
+
+/// As [`map`], for work that may fail; the first error ends it.
+///
+/// # Errors
+/// The outer error says that threads cannot be started; the inner one is that of the work.
+pub fn try_map<T: Sync, R: Send, E: Send>(
+    threads: usize,
+    items: &[T],
+    work: impl Fn(&T) -> Result<R, E> + Sync,
+) -> io::Result<Result<Vec<R>, E>> {
+    let slots: Vec<(&T, Mutex<Option<R>>)> = items.iter().map(|item| (item, Mutex::new(None))).collect();
+    let done = for_each(threads, &slots, |(item, slot)| {
+        *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(work(item)?);
+        Ok(())
+    })?;
+    let results = || slots.into_iter().filter_map(|(_, slot)| slot.into_inner().unwrap_or_else(PoisonError::into_inner)).collect();
+    Ok(done.map(|()| results()))
 }
 
 #[cfg(test)]
@@ -76,6 +89,13 @@ mod tests {
         let result = for_each(2, &items, |&x| {
             done.fetch_add(1, Ordering::Relaxed);
             if x == 10 { Err(x) } else { Ok(()) }
+        });
+        assert_eq!(result.unwrap(), Err(10));
+        assert!(done.load(Ordering::Relaxed) < 1000);
+        done.store(0, Ordering::Relaxed);
+        let result = try_map(2, &items, |&x| {
+            done.fetch_add(1, Ordering::Relaxed);
+            if x == 10 { Err(x) } else { Ok(x) }
         });
         assert_eq!(result.unwrap(), Err(10));
         assert!(done.load(Ordering::Relaxed) < 1000);

@@ -106,7 +106,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         Ok((HeapResult::new(&heap, result), view))
     };
     let outputs: Vec<(usize, Option<Sink>)> = outputs.into_iter().enumerate().collect();
-    let heaps = parallel::map(args.threads.into(), &outputs, one).context("no threads")?.into_iter().collect::<anyhow::Result<Vec<_>>>()?;
+    let heaps = parallel::try_map(args.threads.into(), &outputs, one).context("no threads")??;
     bar.finish_and_clear();
     let (heaps, views): (Vec<_>, Vec<_>) = heaps.into_iter().unzip();
     let file = ReposeFile::new(&protocol, heaps);

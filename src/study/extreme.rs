@@ -243,7 +243,7 @@ pub fn keep(path: &Path, cells: &[Cell]) -> Result<Kept<(usize, Found)>, RowsErr
 pub fn run(cells: &[Cell], kept: Option<&Kept<(usize, Found)>>, each: impl Fn(&Found) + Sync) -> Result<Vec<Found>, RowsError> {
     let there: BTreeMap<usize, &Found> = kept.iter().flat_map(|k| &k.there).map(|(index, found)| (*index, found)).collect();
     let numbered: Vec<(usize, &Cell)> = cells.iter().enumerate().collect();
-    let found = parallel::map(0, &numbered, |(index, cell)| {
+    let found = parallel::try_map(0, &numbered, |(index, cell)| {
         if let Some(&found) = there.get(index) {
             return Ok(found.clone());
         }
@@ -252,7 +252,7 @@ pub fn run(cells: &[Cell], kept: Option<&Kept<(usize, Found)>>, each: impl Fn(&F
         each(&found.1);
         Ok(found.1)
     });
-    found.map_err(|e| RowsError::Threads { threads: 0, cause: e.to_string() })?.into_iter().collect()
+    found.map_err(|e| RowsError::Threads { threads: 0, cause: e.to_string() })?
 }
 
 impl Cell {
