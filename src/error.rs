@@ -185,9 +185,16 @@ pub enum RowsError {
         file: String,
         /// Read, written, …
         what: &'static str,
-        /// The system's word.
-        #[source]
+        /// The system's word, which is part of the message.
         cause: std::io::Error,
+    },
+    /// The system does not let it be read, or it is too long.
+    #[error("{file}: {why}")]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// Why, and the remedy.
+        why: String,
     },
     /// Another run writes it.
     #[error("{file}: another run is writing it; wait for its end, or give another name")]

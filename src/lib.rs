@@ -71,6 +71,10 @@
 pub mod error;
 pub mod tolerance;
 
+pub mod plain;
+
+pub mod files;
+
 pub mod limits;
 
 pub mod parallel;

@@ -4,7 +4,14 @@
 //! says how much it would take. The memory that counts is [`set_memory`]'s, else what the system says is free (Linux), else without
 //! bound. It is one number for the process, as memory itself is; no answer depends on it.
 
-use crate::error::{InputError, JsonPath};
+mod system;
+
+pub use system::group;
+
+use crate::{
+    error::{InputError, JsonPath},
+    files,
+};
 use std::{
     fs::File,
     io::{self, Read},
@@ -35,6 +42,8 @@ pub const CONTACT_POINTS: usize = 40_000_000;
 pub const PER_BYTE: u64 = 16;
 /// The same for files of other programs, which are first read as they are.
 pub const PER_FOREIGN_BYTE: u64 = 40;
+/// The same for rows and other pieces of long work, which are numbers for the most part.
+pub const PER_KEPT_BYTE: u64 = 4;
 /// Bytes per block of a template: spec, block, polyhedron, names.
 pub const PER_BLOCK: u64 = 6 << 10;
 /// Bytes per pair of blocks near enough to touch.
@@ -57,23 +66,9 @@ pub fn set_memory(bytes: Option<u64>) {
 pub fn memory() -> Option<u64> {
     static FREE: OnceLock<Option<u64>> = OnceLock::new();
     match MEMORY.load(Ordering::Relaxed) {
-        0 => *FREE.get_or_init(free),
+        0 => *FREE.get_or_init(system::free),
         bytes => Some(bytes),
     }
-}
-
-/// What the system has free: of the machine, or of the control group where that is less.
-fn free() -> Option<u64> {
-    let read = |path: &str| std::fs::read_to_string(path).ok();
-    let machine = read("/proc/meminfo").and_then(|text| {
-        let line = text.lines().find_map(|l| l.strip_prefix("MemAvailable:")?.trim().strip_suffix("kB").map(str::trim))?;
-        line.parse::<u64>().ok()?.checked_mul(1024)
-    });
-    let number = |path: &str| read(path)?.trim().parse::<u64>().ok();
-    let group = number("/sys/fs/cgroup/memory.max")
-        .map(|most| most.saturating_sub(number("/sys/fs/cgroup/memory.current").unwrap_or(0)))
-        .filter(|&left| left > 0);
-    machine.into_iter().chain(group).min()
 }
 
 /// Whether so many items of so many bytes each fit; `what` begins the sentence that says why not.
@@ -105,20 +100,26 @@ pub fn size(bytes: u64) -> String {
     format!("{value:.digits$} {}", UNITS[power as usize])
 }
 
-/// The bytes of a file, unless it is longer than can be read; `each` is what reading takes per byte.
+/// The bytes of a regular file, unless it is longer than can be read; `each` is what reading takes per byte.
+///
+/// # Errors
+/// It cannot be read, is a folder, a pipe, a device or the like, or is too long.
+pub fn read_file(path: &Path, each: u64) -> Result<Vec<u8>, InputError> {
+    let named = |e: InputError| InputError { file: Some(path.display().to_string()), ..e };
+    files::open(path).map_err(failed).and_then(|file| read_opened(&file, each)).map_err(named)
+}
+
+/// As [`read_file`], of a file that is open already.
 ///
 /// # Errors
 /// It cannot be read, or is too long.
-pub fn read_file(path: &Path, each: u64) -> Result<Vec<u8>, InputError> {
-    let named = |e: InputError| InputError { file: Some(path.display().to_string()), ..e };
-    let failed = |e: io::Error| {
-        let error = InputError::at(JsonPath::root(), format!("cannot be read: {e}"));
-        named(error.hint("check the path and the permissions"))
-    };
-    let file = File::open(path).map_err(failed)?;
-    let length = file.metadata().map_err(failed)?.len();
-    fits(length, each).map_err(named)?;
-    read(file, each).map_err(failed)?.map_err(named)
+pub fn read_opened(file: &File, each: u64) -> Result<Vec<u8>, InputError> {
+    fits(file.metadata().map_err(failed)?.len(), each)?;
+    read(file, each).map_err(failed)?
+}
+
+fn failed(e: io::Error) -> InputError {
+    InputError::at(JsonPath::root(), format!("cannot be read: {e}")).hint("check the path and the permissions")
 }
 
 /// The bytes of a stream, as [`read_file`].

@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         terminal::error(&error);
         return Exit::Usage.into();
     }
+    cli::memory::heed_group(arguments.max_memory);
     let result = match arguments.verb {
         Verb::Assess(a) => cli::assess::run(&a, &terminal),
         Verb::Limit(a) => cli::limit::run(&a, &terminal),

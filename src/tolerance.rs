@@ -153,7 +153,7 @@ pub const STORED_POLYGON_AREA: f64 = 1e-9;
 /// Larger: the first course of a tall structure is proposed with its base. Smaller: springers on ground that is not quite level are missed.
 pub const LOWEST_BAND: f64 = 0.01;
 
-/// A fixed point of Coulomb's law counts as settled when the friction limits change by less than this, in mean block loads.
+/// A fixed point of Coulomb's law counts as settled when the friction limits change by less than this, in the loads that pass there.
 /// Larger: states that still wander are read. Smaller: the engine's noise at small ε (1e-4) counts as wandering.
 pub const COULOMB_SETTLED: f64 = 1e-3;
 
@@ -169,6 +169,20 @@ pub const ACCELERATION_STAYS: f64 = 0.8;
 /// Smaller: motions computed at ε = 1e-5 are refused.
 pub const MOTION_LAW: f64 = 1e-3;
 
+/// A motion obeys Coulomb's law to less than this × its greatest acceleration, where accelerations in multiples of gravity count as much as
+/// each joint's own forces. Larger: forces that are not quite those of the law (friction limits off by 4e-5, a rock wedge 1e-4 below its
+/// limit) pass for a motion of 1e-4 g. Smaller: slow motions at the last ε stay undecided.
+pub const MOTION_BREACH: f64 = 1e-2;
+
+/// A block that is left with less than this of its load is at rest where its joints' friction has settled no better than to a tenth of it
+/// ([`UNBALANCE`] where it has). Larger: slow slides at the edge of friction pass for rest. Smaller: the last digits of the friction limits
+/// keep scenes of many blocks undecided.
+pub const AT_REST: f64 = 1e-6;
+
+/// A load factor with dry friction is one up to which the scene rests when the state rests this share of it below. Larger: a part that comes
+/// loose just below is overlooked. Smaller: states that near to their limit neither rest nor move.
+pub const REST_BELOW: f64 = 1e-3;
+
 /// A state without pre-stress moves when some block is left with at least this much of its load. Larger: slow slides at
 /// the edge of friction are refused (a rock wedge 1e-3 beyond its factor of safety is left with 5e-4). Smaller: what the
 /// regularisation leaves at rest on tall, soft structures could be taken for motion, if it obeyed the law.
@@ -179,17 +193,13 @@ pub const LEAST_MOTION: f64 = 1e-4;
 pub const ADMISSIBLE: f64 = 1e-7;
 
 /// As [`FORCE_CAP`], for the joints that close by more than rounding of the speeds of their own blocks. Larger: correct
-/// mechanisms with thousands of resting blocks are refused. Smaller: blocks squeezed at μ = 1e-3 could be "proved" to fall.
-pub const COARSE_FORCE_CAP: f64 = 1e3;
+/// mechanisms with thousands of resting blocks are refused. Smaller: blocks squeezed at μ = 1e-4 could be "proved" to fall.
+pub const COARSE_FORCE_CAP: f64 = 1e4;
 
-/// Rounding of coordinates and forces excuses at most this unbalance, in multiples of gravity. Larger: a forged force of
-/// 1e16 excuses anything. Smaller: mass ratios of 1e12 stay undecided.
-pub const RESOLUTION: f64 = 1e-3;
-
-/// Contact forces excuse an unbalance as rounding only up to this × the total load of the free blocks. Larger: a squeeze that
-/// nobody applies (1e12 weights) excuses a block that slides. Smaller: blocks held by friction coefficients of 1e-3 far from
-/// the origin stay undecided.
-pub const ROUNDING_FORCE: f64 = 1e3;
+/// Given forces may leave this much unbalanced on a block, in multiples of its load or of the greatest force on it, where others that balance exactly are proved to exist near
+/// them. Larger: forces that were tampered with still lead to a proof (of what is true). Smaller: correct forces of large walls are not
+/// taken for evidence.
+pub const NEAR_BALANCE: f64 = 1e-7;
 
 /// The inadmissibility of a mechanism may hide at most this share of a load factor if every contact carried the largest
 /// force. Larger: a forged mechanism that closes unloaded joints passes. Smaller: walls of 10,000 blocks are refused.
@@ -245,6 +255,11 @@ pub const CRUSHING: f64 = 1e-7;
 /// A critical value is found when it is known to this × its size. Larger: fewer digits than the least unbalance holds.
 /// Smaller: the engine's last digits (1e-11 g) decide.
 pub const CRITICAL_WIDTH: f64 = 1e-9;
+
+/// A critical value narrowed by its margin or by halving is claimed where the verdicts on both sides are proved within this × its size; otherwise
+/// only the bracket is. Larger: a value far from the flip passes for it. Smaller: flips with a flat margin, or next to values that stay
+/// undecided, are brackets only.
+pub const CRITICAL_BRACKET: f64 = 1e-4;
 
 /// As [`CRITICAL_WIDTH`], for flips between verdicts with dry friction, which have no margin and are found by halving. Larger: fewer
 /// digits. Smaller: states near the flip neither rest nor move, and stay undecided.

@@ -54,16 +54,20 @@ pub struct ForceAgreement {
     pub determinate: bool,
 }
 
+/// Whether a verdict and a simulation say the same; `left_out`: the simulated joints resist less, or more, than those of the verdict.
+pub fn agree(verdict: Verdict, fate: Fate, left_out: bool) -> Option<bool> {
+    match (verdict, fate) {
+        (Verdict::Undecided, _) | (_, Fate::Undecided) => None,
+        _ if left_out => None,
+        (Verdict::Stable, fate) => Some(fate == Fate::Stands),
+        (Verdict::Conditional | Verdict::Unstable, fate) => Some(fate == Fate::Falls),
+    }
+}
+
 /// Compares an assessment with a simulation of the same scene.
 pub fn agreement(assembly: &Assembly, interfaces: &Interfaces, assessment: &Assessment, outcome: &Outcome) -> Agreement {
     let (verdict, fate) = (assessment.verdict, outcome.fate);
-    let agrees = match (verdict, fate) {
-        (Verdict::Undecided, _) | (_, Fate::Undecided) => None,
-        // The simulated joints resist less, or more, than those of the verdict.
-        _ if outcome.findings.iter().any(|f| f.code == FindingCode::LeftOut) => None,
-        (Verdict::Stable, fate) => Some(fate == Fate::Stands),
-        (Verdict::Conditional | Verdict::Unstable, fate) => Some(fate == Fate::Falls),
-    };
+    let agrees = agree(verdict, fate, outcome.findings.iter().any(|f| f.code == FindingCode::LeftOut));
     let falls = matches!(verdict, Verdict::Unstable | Verdict::Conditional) && fate == Fate::Falls;
     let stands = verdict == Verdict::Stable && fate == Fate::Stands;
     let determinate = program::is_forest(assembly, interfaces);

@@ -2,16 +2,24 @@
 //! and contacts form closed chains that could hold a pre-stress, the state under dry friction (program C).
 
 use super::{
-    Bracket,
+    Bracket, Deciding,
     attempt::{Attempt, Control, Law, Run, Rung, even, interior, is_large, run, rung, steps},
     coulomb::{Motion, State, state},
+    mend, parts,
 };
 use crate::{
     assembly::Assembly,
     interface::Interfaces,
     program::{self, LiveLoad, Options, Statics, Unknowns},
     tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, law, mechanism, mechanism::Mechanism, no_forces},
+    verdict::{
+        Forces, Rate, Verdict, certificate,
+        check::{self, Claim},
+        exact::existence,
+        law, mechanism,
+        mechanism::Mechanism,
+        no_forces,
+    },
 };
 use nalgebra::Vector3;
 use std::time::Instant;
@@ -26,6 +34,8 @@ pub struct Assessment {
     /// The unbalance that separates stable from unstable: [`tolerance::UNBALANCE`], or the rounding of the scene's own
     /// coordinates where that is larger.
     pub threshold: f64,
+    /// The part that decides, where there are several.
+    pub part: Option<Deciding>,
     /// The forces that leave the upper end of the bracket.
     pub forces: Forces,
     /// The load factor of these forces: 0 except inside `limit`, where any multiple of the live load may help.
@@ -59,14 +69,18 @@ const LADDER: [Rung; 8] = [
 /// Tried first where the program is large.
 const LARGE: [Rung; 1] = [interior(1.0, 1e-10)];
 
-/// Decides whether an assembly stands under its dead load.
+/// Decides whether an assembly stands under its dead load, part by part.
 pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> Assessment {
-    let floating = program::floating(assembly, interfaces);
-    if let Some(answer) = falls_freely(assembly, interfaces, &floating) {
+    parts::assess::assess(assembly, interfaces, control)
+}
+
+/// The same for one part.
+pub(super) fn of_part(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> Assessment {
+    if let Some(answer) = falls_freely(assembly, interfaces) {
         return answer;
     }
     let mut answer = least_unbalance(assembly, interfaces, LiveLoad::Absent, control);
-    answer.floating = floating;
+    answer.floating = program::floating(assembly, interfaces);
     if answer.verdict == Verdict::Stable && control.law == Law::Coulomb {
         settle(assembly, interfaces, control, &mut answer);
     }
@@ -96,9 +110,10 @@ fn settle(assembly: &Assembly, interfaces: &Interfaces, control: &Control, answe
 }
 
 /// Blocks that touch nothing that is held fall with 1 g: no program is needed to see it.
-fn falls_freely(assembly: &Assembly, interfaces: &Interfaces, floating: &[Vec<usize>]) -> Option<Assessment> {
+pub(super) fn falls_freely(assembly: &Assembly, interfaces: &Interfaces) -> Option<Assessment> {
+    let floating = program::floating(assembly, interfaces);
     let mut rates = vec![Rate::zero(); assembly.blocks.len()];
-    for group in floating {
+    for group in &floating {
         let force: Vector3<f64> = group.iter().map(|&i| assembly.dead[i].force).sum();
         let weight: f64 = group.iter().map(|&i| certificate::load_scale(assembly, i)).sum();
         if force.norm() > 1e-6 * weight {
@@ -116,12 +131,13 @@ fn falls_freely(assembly: &Assembly, interfaces: &Interfaces, floating: &[Vec<us
         verdict: Verdict::Unstable,
         unbalance: Bracket { lower: kinematics.dead_power / kinematics.norm, upper: statics.unbalance },
         threshold: tolerance::UNBALANCE,
+        part: None,
         mechanism: Some(mechanism::read(assembly, interfaces, &rates)),
         forces,
         load_factor: 0.0,
         rates,
         state: None,
-        floating: floating.to_vec(),
+        floating,
         attempts: Vec::new(),
         left_out: vec![format!("the whole program: {count} free blocks have no contact path to a support")],
     })
@@ -138,6 +154,7 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
         verdict: Verdict::Undecided,
         unbalance: Bracket { lower: 0.0, upper: unloaded.unbalance },
         threshold: tolerance::UNBALANCE,
+        part: None,
         forces: zero,
         load_factor: 0.0,
         rates: vec![Rate::zero(); assembly.blocks.len()],
@@ -147,8 +164,6 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
         attempts: Vec::new(),
         left_out: base.left_out.clone(),
     };
-    // What a mechanism proves is no matter of the rounding of large forces.
-    let falls = tolerance::UNBALANCE.max(unloaded.resolution);
     let mut balanced = unloaded.balanced;
     // Bounds on crushing that one rung found hold for all.
     let mut sections = base.sections.clone();
@@ -171,17 +186,40 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
         let build = |statics: &Statics| program::unbalance(statics, live, step.unknowns);
         let Run { candidate, solution, size } = run(assembly, interfaces, &mut statics, build, &settings);
         let (mut lower, mut upper) = (0.0, f64::INFINITY);
-        if let Some(c) = candidate {
+        if let Some(mut c) = candidate {
+            mend::cut(interfaces, &mut c.forces);
             let lambda = if live == LiveLoad::AnyMultiple { c.solution.x.last().copied().unwrap_or(0.0) } else { 0.0 };
-            let s = certificate::statics(assembly, interfaces, &c.forces, lambda);
+            let mut s = certificate::statics(assembly, interfaces, &c.forces, lambda);
+            // The mechanism is weighed by the forces that came with it: others hide what its joints close by.
             let k = certificate::kinematics(assembly, interfaces, &c.rates, &c.forces);
+            // What the engine's last digits leave may be no more than that.
+            if !s.balanced
+                && let Some(mut better) = existence::improved(assembly, interfaces, &c.forces, lambda)
+            {
+                mend::cut(interfaces, &mut better);
+                let left = certificate::statics(assembly, interfaces, &better, lambda);
+                if left.unbalance < s.unbalance {
+                    (s, c.forces) = (left, better);
+                }
+            }
+            if !s.balanced {
+                s.balanced = existence::exists(assembly, interfaces, &c.forces, lambda).is_some();
+            }
             upper = if s.is_within_strength() { s.unbalance } else { f64::INFINITY };
+            let mut k = k;
+            if !k.is_admissible(assembly)
+                && live == LiveLoad::Absent
+                && !s.balanced
+                && let Some(mended) = mend::admissible(assembly, interfaces, &c.rates, 0.0, 0.5 * k.gain())
+            {
+                k = certificate::kinematics(assembly, interfaces, &mended, &c.forces);
+                c.rates = mended;
+            }
             if k.is_admissible(assembly) {
                 lower = ((k.gain() - k.slack - (lambda * k.live_power).abs()) / k.norm).max(0.0);
             }
             if upper < answer.unbalance.upper {
                 (answer.unbalance.upper, answer.forces, answer.load_factor) = (upper, c.forces, lambda);
-                answer.threshold = tolerance::UNBALANCE.max(s.resolution);
                 balanced = s.balanced;
             }
             if lower > answer.unbalance.lower {
@@ -204,9 +242,11 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
         });
         sections = statics.sections;
         let b = answer.unbalance;
-        answer.verdict = if balanced {
+        // Re-added without rounding, or the next attempt.
+        let holds = |f: &Forces| check::verify(assembly, interfaces, &Claim::Stable, f, None, &[]).proved();
+        answer.verdict = if balanced && (live != LiveLoad::Absent || holds(&answer.forces)) {
             Verdict::Stable
-        } else if b.lower > falls {
+        } else if b.lower > tolerance::UNBALANCE {
             Verdict::Unstable
         } else {
             Verdict::Undecided
@@ -216,6 +256,14 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
         }
     }
     if answer.verdict == Verdict::Unstable {
+        // Half of the power is left to prove it with.
+        let power = certificate::kinematics(assembly, interfaces, &answer.rates, &no_forces(interfaces));
+        let most = 0.5 * (power.gain() - tolerance::UNBALANCE * power.norm);
+        let with_live = live == LiveLoad::AnyMultiple;
+        if let Some(mended) = mend::admissible(assembly, interfaces, &answer.rates, 0.0, most).filter(|_| !with_live) {
+            let k = certificate::kinematics(assembly, interfaces, &mended, &no_forces(interfaces));
+            (answer.unbalance.lower, answer.rates) = (k.gain() / k.norm, mended);
+        }
         answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
     }
     answer

@@ -56,7 +56,7 @@ impl LoadFactor {
 impl DryLoadFactor {
     /// What it claims; nothing where there is no value.
     pub fn claim(&self) -> Option<Claim> {
-        (self.value.is_finite() && self.found != Found::Undecided).then_some(Claim::DryLoadFactor { value: self.value })
+        matches!(self.found, Found::NothingSlides | Found::FixedPoint).then_some(Claim::DryLoadFactor { value: self.value })
     }
 
     /// Whether what it claims is proved from the scene alone.

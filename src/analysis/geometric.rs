@@ -8,6 +8,7 @@
 use super::{
     Control, Law, Model, assess,
     flip::{Flip, Probe, refine},
+    parts,
 };
 use crate::{
     tolerance,
@@ -26,8 +27,27 @@ pub enum Geometric {
     Open(String),
 }
 
-/// The geometric safety factor of a scene that stands.
+/// The geometric safety factor of a scene that stands, the least of those of its parts.
 pub fn geometric_factor(model: &Model, control: &Control) -> Geometric {
+    parts::thrust::geometric_factor(model, control)
+}
+
+/// The flip that one part gave, with the verdicts on the whole scene; none of them has one where there is no flip.
+pub(super) fn on_scene(scene: &Model, flip: Option<Flip>, control: &Control) -> Geometric {
+    let control = Control { law: Law::Associative, ..*control };
+    let Some(flip) = flip else {
+        let least = shrunk(scene, tolerance::LEAST_SHRINK, &control);
+        return match least.assessment.verdict {
+            Verdict::Stable => Geometric::Beyond(Box::new(least)),
+            _ => Geometric::Open("the verdict on shrunk sections came out undecided".into()),
+        };
+    };
+    let [falls, stands] = [&flip.falls, &flip.stands].map(|probe| shrunk(scene, probe.value, &control));
+    Geometric::Found(Box::new(Flip { falls, stands, ..flip }))
+}
+
+/// The same for one part.
+pub(super) fn of_part(model: &Model, control: &Control) -> Geometric {
     if !model.interfaces.are_dry() {
         return Geometric::Open("joints have strengths or water, which shrinking sections would change".into());
     }

@@ -5,16 +5,17 @@
 //! of the rounding where the bracket is accepted.
 
 use super::{
-    Bracket,
+    Bracket, Deciding,
     assess::least_unbalance,
     attempt::{Attempt, Control, Run, Rung, even, interior, is_large, run, rung, steps},
+    mend, parts,
 };
 use crate::{
-    assembly::Assembly,
+    assembly::{Assembly, Wrench},
     interface::Interfaces,
     program::{self, LiveLoad, Options, Statics, Unknowns},
     tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, check, mechanism, mechanism::Mechanism, no_forces},
+    verdict::{Forces, Rate, Verdict, certificate, check, exact::existence, mechanism, mechanism::Mechanism, no_forces},
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -42,7 +43,9 @@ pub struct LoadFactor {
     pub value: f64,
     /// Its bracket; infinite ends where nothing is known.
     pub bracket: Bracket,
-    /// Found: forces at `value`. Unbounded: forces that balance the live load alone. Otherwise the best there is.
+    /// The part that decides, where there are several.
+    pub part: Option<Deciding>,
+    /// Found: forces at the lower end of the bracket. Unbounded: forces that balance the live load alone. Otherwise the best there is.
     pub forces: Forces,
     /// Unbounded: forces at the load factor `standing`, under which the scene stands.
     pub base: Option<(f64, Forces)>,
@@ -54,6 +57,8 @@ pub struct LoadFactor {
     pub attempts: Vec<Attempt>,
     /// What the scene did not need.
     pub left_out: Vec<String>,
+    /// The answers of the parts, in their order and their own units; `None` where no live load acts.
+    pub(super) parts: Vec<Option<LoadFactor>>,
 }
 
 /// Best first; measured on the reference cases and on walls pushed in and out of their plane.
@@ -80,8 +85,13 @@ const POINTS: Rung = rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true);
 const BEFORE_DIAGNOSIS: usize = 2;
 const BEFORE_DIAGNOSIS_LARGE: usize = 1;
 
-/// The greatest multiple of the live load under which admissible contact forces exist. The live load must not be zero.
+/// The greatest multiple of the live load under which admissible contact forces exist, part by part. The live load must not be zero.
 pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
+    parts::limit::limit(assembly, interfaces, control)
+}
+
+/// The same for one part.
+pub(super) fn of_part(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
     let start = Instant::now();
     // The last of many directions may find the time already over: nothing is built for it.
     if control.seconds <= 0.0 {
@@ -98,6 +108,7 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     let first = LARGE.into_iter().filter(|_| large).chain(points.then_some(POINTS));
     let ladder: Vec<Rung> = first.chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates)).collect();
     let before_diagnosis = if large { BEFORE_DIAGNOSIS_LARGE } else { BEFORE_DIAGNOSIS };
+    let mut inside = None;
     for (index, (whole, step)) in steps(&ladder, statics.is_part()).enumerate() {
         if index == before_diagnosis && !answer.bracket.width().is_finite() && diagnose(assembly, interfaces, control, &mut answer) {
             return answer;
@@ -113,8 +124,12 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
         climb(assembly, interfaces, &mut statics, step, scale, left, &mut answer);
         let value = answer.value.abs();
         if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural) {
-            answer.outcome = Outcome::Found;
-            break;
+            let mut proved = answer.clone();
+            if prove(assembly, interfaces, control, &mut proved, natural, &mut inside) {
+                answer = proved;
+                answer.outcome = Outcome::Found;
+                break;
+            }
         }
         // Once its size is known, scale the live load so that the factor is near one.
         if value.is_finite() && value > 1e-6 * natural {
@@ -131,18 +146,98 @@ pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
     answer
 }
 
+/// The share by which a load factor is lowered for forces that lie strictly inside their cones; the first that is enough. Larger: a wider
+/// bracket than [`tolerance::LOAD_FACTOR_WIDTH`]. Smaller: no room for what rounding leaves.
+const INWARDS: [f64; 3] = [0.0, 1e-8, 2e-7];
+
+/// Makes the evidence of a load factor as exact as it can be, and the bracket what it proves: a mechanism that closes no joint, and forces
+/// at the lower end near which others balance exactly. At the limit itself forces have no room; mixed with a little of those that hold the
+/// scene at another load factor they have (`inside`, sought once). False where the forces leave too much unbalanced for a proof.
+fn prove(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    control: &Control,
+    answer: &mut LoadFactor,
+    natural: f64,
+    inside: &mut Option<(f64, Forces)>,
+) -> bool {
+    let k = certificate::kinematics(assembly, interfaces, &answer.rates, &answer.forces);
+    let width = tolerance::LOAD_FACTOR_WIDTH * answer.value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
+    if let Some(mended) = mend::admissible(assembly, interfaces, &answer.rates, answer.value, 0.1 * width * k.live_power)
+        && check::upper_bound(assembly, interfaces, &answer.forces, &mended).is_finite()
+    {
+        answer.rates = mended;
+    }
+    answer.bracket.upper = check::upper_bound(assembly, interfaces, &answer.forces, &answer.rates);
+    let start = answer.value.min(answer.bracket.upper);
+    let mut best: Option<(f64, f64, Forces)> = None;
+    let mut proved = false;
+    for share in INWARDS {
+        let (mut lambda, mut forces) = (start, answer.forces.clone());
+        if share > 0.0 {
+            // Where no exact proof is tried, forces elsewhere are of no use.
+            if assembly.free().count() > existence::MOST_BLOCKS {
+                break;
+            }
+            let (other, held) = inside.get_or_insert_with(|| elsewhere(assembly, interfaces, control));
+            if held.is_empty() || *other > start {
+                break;
+            }
+            lambda = start - share * (start - *other);
+            let mix = |(a, b): (&Wrench, &Wrench)| {
+                let mut sum = *a * (1.0 - share);
+                sum += *b * share;
+                sum
+            };
+            forces = forces.iter().zip(&*held).map(|(a, b)| a.iter().zip(b).map(mix).collect()).collect();
+        }
+        mend::cut(interfaces, &mut forces);
+        let forces = existence::improved(assembly, interfaces, &forces, lambda).unwrap_or(forces);
+        let left = certificate::statics(assembly, interfaces, &forces, lambda).unbalance;
+        let exact = existence::exists(assembly, interfaces, &forces, lambda).is_some();
+        if exact || best.as_ref().is_none_or(|(least, ..)| left < *least) {
+            best = Some((left, lambda, forces));
+        }
+        if exact {
+            proved = true;
+            break;
+        }
+    }
+    if let Some((left, lambda, forces)) = best {
+        proved |= left <= tolerance::LOOSE_BALANCE;
+        (answer.bracket.lower, answer.forces) = (lambda, forces);
+        answer.bracket.upper = check::upper_bound(assembly, interfaces, &answer.forces, &answer.rates);
+    }
+    answer.value = answer.value.clamp(answer.bracket.lower, answer.bracket.upper.max(answer.bracket.lower));
+    proved
+}
+
+/// A load factor at which the scene stands with room, and forces that hold it there: without the live load where it stands without; no
+/// forces where none are found.
+fn elsewhere(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> (f64, Forces) {
+    for live in [LiveLoad::Absent, LiveLoad::AnyMultiple] {
+        let held = least_unbalance(assembly, interfaces, live, control);
+        if held.verdict == Verdict::Stable {
+            return (held.load_factor, held.forces);
+        }
+    }
+    (0.0, Vec::new())
+}
+
 /// The answer before anything is known.
 fn unknown(assembly: &Assembly, interfaces: &Interfaces, left_out: Vec<String>) -> LoadFactor {
     LoadFactor {
         outcome: Outcome::Undecided,
         value: f64::NAN,
         bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
+        part: None,
         forces: no_forces(interfaces),
         base: None,
         rates: vec![Rate::zero(); assembly.blocks.len()],
         mechanism: None,
         attempts: Vec::new(),
         left_out,
+        parts: Vec::new(),
     }
 }
 
@@ -166,7 +261,7 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step:
             if k.behind(&c.forces) <= allowed {
                 upper = k.upper();
             }
-            if s.unbalance <= tolerance::LOOSE_BALANCE.max(s.resolution) && s.is_within_strength() {
+            if s.unbalance <= tolerance::LOOSE_BALANCE && s.is_within_strength() {
                 lower = lambda - hidden / k.live_power;
             }
         }
@@ -261,8 +356,8 @@ fn diagnose(assembly: &Assembly, interfaces: &Interfaces, control: &Control, ans
     if any.verdict == Verdict::Unstable {
         answer.outcome = Outcome::Impossible;
         answer.bracket = Bracket { lower: f64::NEG_INFINITY, upper: f64::NEG_INFINITY };
-        answer.mechanism = any.mechanism;
-        (answer.forces, answer.rates) = (any.forces, any.rates);
+        (answer.forces, answer.rates) = (any.forces, mend::at_rest(assembly, interfaces, &any.rates));
+        answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
         return true;
     }
     // The live load in the size of the dead load, so that the same threshold applies.

@@ -113,7 +113,7 @@ fn finish(mut rounds: Vec<Round>, level: &[Model], reached: bool, control: &Cont
     let Round { tilt, model, .. } = &rounds[answer];
     let bounded = matches!(tilt.load_factor.outcome, Outcome::Found | Outcome::Unbounded);
     if bounded && control.law == Law::Coulomb {
-        let dry = dry(&model.assembly, &level[answer].interfaces, &tilt.load_factor, control);
+        let dry = dry(&model.assembly, &level[answer].interfaces, &tilt.load_factor, None, control);
         rounds[answer].dry = Some((tilted(&level[answer], tilt.toward, dry.value)?, dry));
     }
     Ok(Stability { rounds, answer, reached })

@@ -8,6 +8,7 @@ use super::{
     Assessment, Bracket, Control, Model, Outcome, assess,
     attempt::{Attempt, Candidate, Run, Rung, run, rung},
     geometric::{Geometric, geometric_factor},
+    parts,
 };
 use crate::{
     assembly::Assembly,
@@ -88,8 +89,13 @@ pub fn level(gravity: &Vector3<f64>, direction: Vector3<f64>, size: f64) -> Opti
     Some(unit.map(|c| if c.abs() < 1e-9 { 0.0 } else { c }).normalize())
 }
 
-/// The least or greatest thrust of a scene that stands; `standing` are forces that balance its loads.
+/// The least or greatest thrust of a scene that stands, summed over its parts; `standing` are forces that balance its loads.
 pub fn thrust(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> ThrustEnd {
+    parts::thrust::thrust(model, at, extreme, standing, control)
+}
+
+/// The same for one part.
+pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> ThrustEnd {
     let (assembly, interfaces) = (&model.assembly, &model.interfaces);
     let start = Instant::now();
     let direction = Vector3::from(at.direction);
@@ -181,7 +187,7 @@ impl Problem<'_> {
             let rates: Vec<Rate> =
                 rates.into_iter().map(|r| Rate { velocity: r.velocity * self.total, spin: r.spin * self.total }).collect();
             let p = self.at.bracket(assembly, interfaces, self.extreme, &forces, &rates);
-            let balanced = p.statics.unbalance <= tolerance::LOOSE_BALANCE.max(p.statics.resolution) && p.statics.is_within_strength();
+            let balanced = p.statics.unbalance <= tolerance::LOOSE_BALANCE && p.statics.is_within_strength();
             let (bound, reached) = if self.extreme == Extreme::Least { (0, 1) } else { (1, 0) };
             if p.is_admissible(self.total) {
                 ends[bound] = [p.lower, p.upper][bound];

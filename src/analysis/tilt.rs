@@ -11,15 +11,18 @@
 use super::{
     Bracket, Control, LoadFactor, Model, Outcome,
     coulomb::{self, DryLoadFactor, Found},
-    limit,
+    limit, parts,
+    parts::limit::Ways,
 };
 use crate::{
     assembly::{Assembly, Wrench},
     error::InputError,
-    interface::Interfaces,
+    interface::{Interfaces, Part},
     tolerance,
+    verdict::Verdict,
 };
 use nalgebra::Vector3;
+use std::{borrow::Cow, time::Instant};
 
 /// The tilt limit in one direction.
 #[derive(Clone, Debug)]
@@ -107,10 +110,25 @@ pub fn tilt(assembly: &Assembly, interfaces: &Interfaces, toward: Vector3<f64>, 
     if interfaces.are_dry() {
         return Ok(Tilt { toward, load_factor: limit(&turned, interfaces, control) });
     }
-    let at = |tilt: f64| limit(&turned, &stressed(interfaces, tilt), control);
-    let found = |l: &LoadFactor| (l.outcome == Outcome::Found).then_some(l.value);
-    let load_factor = match own_answer(0.0, at, found) {
-        Ok(answer) => answer,
+    let load_factor = parts::limit::limit_by(&turned, interfaces, control, &Ways { solve: tilted_part, joints: tilted_joints });
+    Ok(Tilt { toward, load_factor })
+}
+
+/// The joints of a part at a tilt.
+fn tilted_joints(part: &Part, tilt: f64) -> Cow<'_, Interfaces> {
+    Cow::Owned(stressed(&part.interfaces, tilt))
+}
+
+/// The tilt at which a part falls whose joints have strengths, as a load factor in its own units.
+fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
+    let at = |tilt: f64| limit::of_part(&part.assembly, &tilted_joints(part, tilt), control);
+    let found = |l: &LoadFactor| (l.outcome == Outcome::Found).then(|| part.units.load_factor(l.value));
+    match own_answer(0.0, at, found) {
+        // Joints at the tilt itself differ by what is left of the search from those that it was found with.
+        Ok(mut answer) => {
+            answer.bracket.upper += 2.0 * OWN_ANSWER * answer.value.abs();
+            answer
+        }
         // What has no limit at one tilt may have one at another, where the joints are weaker beside the weight.
         Err(answer) if answer.outcome == Outcome::Impossible => answer,
         Err(answer) => LoadFactor {
@@ -120,24 +138,49 @@ pub fn tilt(assembly: &Assembly, interfaces: &Interfaces, toward: Vector3<f64>, 
             mechanism: None,
             ..answer
         },
-    };
-    Ok(Tilt { toward, load_factor })
+    }
 }
 
-/// The same with dry friction; `turned` is the assembly that [`turned`] gave, `associative` the answer of [`tilt`] for it.
-pub fn dry(turned: &Assembly, interfaces: &Interfaces, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
+/// The same with dry friction; `turned` is the assembly that [`turned`] gave, `associative` the answer of [`tilt`] for it, `level` the verdict
+/// at level, where it is known.
+pub fn dry(
+    turned: &Assembly,
+    interfaces: &Interfaces,
+    associative: &LoadFactor,
+    level: Option<Verdict>,
+    control: &Control,
+) -> DryLoadFactor {
     if interfaces.are_dry() {
-        return coulomb::load_factor(turned, interfaces, associative, control);
+        return coulomb::load_factor_from(turned, interfaces, associative, level, control);
     }
-    let at = |tilt: f64| {
-        let stressed = stressed(interfaces, tilt);
-        coulomb::load_factor(turned, &stressed, &limit(turned, &stressed, control), control)
+    let dead = level.filter(|&v| v == Verdict::Stable);
+    let solve = |part: &Part, bound: Option<&LoadFactor>, control: &Control| {
+        let start = Instant::now();
+        let own = |tilt: f64| limit::of_part(&part.assembly, &tilted_joints(part, tilt), control);
+        let computed;
+        let bound = match bound {
+            Some(bound) => bound,
+            None => {
+                computed = own(associative.value);
+                &computed
+            }
+        };
+        let at = |tilt: f64| coulomb::complementary(&part.assembly, &tilted_joints(part, tilt), &own(tilt), control);
+        let value = |d: &DryLoadFactor| d.value.is_finite().then(|| part.units.load_factor(d.value));
+        let answer = match own_answer(part.units.load_factor(bound.value), at, value) {
+            Ok(answer) => answer,
+            Err(answer) => DryLoadFactor { found: Found::Undecided, value: f64::NAN, ..answer },
+        };
+        let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
+        let model =
+            |lambda: f64| (coulomb::loaded(&part.assembly, lambda), tilted_joints(part, part.units.load_factor(lambda)).into_owned());
+        coulomb::up_to_rest(answer, bound, dead, &model, &control)
     };
-    match own_answer(associative.value, at, |d| d.value.is_finite().then_some(d.value)) {
-        Ok(answer) => answer,
-        Err(answer) => DryLoadFactor { found: Found::Undecided, value: f64::NAN, ..answer },
-    }
+    parts::dry::load_factor_by(turned, interfaces, associative, control, (solve, tilted_joints))
 }
+
+/// A tilt is its own answer up to this × itself. Larger: a wider bracket. Smaller: the last digits of the engine.
+const OWN_ANSWER: f64 = 0.01 * tolerance::LOAD_FACTOR_WIDTH;
 
 /// A load factor that is the tangent of its own tilt. `Err` is the last answer where there is none.
 fn own_answer<T>(start: f64, at: impl Fn(f64) -> T, value: impl Fn(&T) -> Option<f64>) -> Result<T, T> {
@@ -147,7 +190,7 @@ fn own_answer<T>(start: f64, at: impl Fn(f64) -> T, value: impl Fn(&T) -> Option
     for _ in 0..MOST_TILTS {
         let Some(value) = value(&answer) else { return Err(answer) };
         let short = value - tilt;
-        if short.abs() <= 0.01 * tolerance::LOAD_FACTOR_WIDTH * value.abs() {
+        if short.abs() <= OWN_ANSWER * value.abs() {
             return Ok(answer);
         }
         // The secant where it goes on in the same direction, the answer itself otherwise.

@@ -29,6 +29,11 @@ impl Gyration {
         Self { root: with(radii), inverse: with(radii.map(f64::recip)), least: radii.min() }
     }
 
+    /// The same in units of `length`, m.
+    pub fn in_units(&self, length: f64) -> Self {
+        Self { root: self.root / length, inverse: self.inverse * length, least: self.least / length }
+    }
+
     /// Root mean square speed, as a vector, of a spin (rad/s): m/s.
     pub fn speed(&self, spin: &Vector3<f64>) -> Vector3<f64> {
         self.root * spin
@@ -37,6 +42,12 @@ impl Gyration {
     /// The force (N) that weighs as much as a moment (N·m).
     pub fn force(&self, moment: &Vector3<f64>) -> Vector3<f64> {
         self.inverse * moment
+    }
+
+    /// At least the force, component by component, that weighs as much as a moment whose components are at most these (N·m).
+    pub fn bound(&self, moment: &Vector3<f64>) -> Vector3<f64> {
+        // A component that is zero counts for nothing, whatever the size of the others.
+        Vector3::from_fn(|i, _| (0..3).filter(|&j| moment[j] != 0.0).map(|j| self.inverse[(i, j)].abs() * moment[j]).sum())
     }
 
     /// The spin (rad/s) of a speed: the inverse of [`Self::speed`].

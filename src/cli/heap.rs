@@ -1,6 +1,6 @@
 //! `voussoir repose --question repose`: heaps that flow and come to rest.
 
-use super::{args::Repose, exit::Exit, output::Sink, pictures::Pictures, report, terminal, terminal::Terminal};
+use super::{args::Repose, claim, exit::Exit, output::Sink, pictures::Pictures, report, terminal, terminal::Terminal};
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::{Deserialize, Serialize};
@@ -35,6 +35,7 @@ enum Piece {
 
 pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let protocol = protocol(args)?;
+    args.keep.as_deref().map_or(Ok(()), claim::written)?;
     let save = args.common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     if args.csv.is_some() {
         bail!(

@@ -1,12 +1,13 @@
 //! `voussoir import`
 
-use super::{args::Import, exit::Exit, output::Sink, terminal};
+use super::{args::Import, claim, exit::Exit, output::Sink, terminal};
 use voussoir::{
     import::{Options, import_files},
     report::json,
 };
 
 pub fn run(args: &Import) -> anyhow::Result<Exit> {
+    args.files.iter().chain(&args.supports_file).try_for_each(|file| claim::read(file))?;
     let sink = Sink::open(args.output.as_deref())?;
     let options = Options {
         supports: args.support.clone(),

@@ -1,15 +1,21 @@
 //! Reading files and standard input.
 
-use std::path::Path;
+use super::claim;
+use std::{collections::BTreeSet, path::Path};
 use voussoir::{
     error::{Finding, InputError, JsonPath},
     import::{Reach, read_meshes},
     limits,
-    scene::{self, Scene, Source},
+    scene::{self, Scene, Shape, Source},
 };
 
-/// The bytes of a file, or of standard input for `-`, with a name for messages.
-pub fn bytes(path: &Path) -> Result<(String, Vec<u8>), InputError> {
+/// The bytes of a file, or of standard input for `-`, with a name for messages. No output may go to the file.
+pub fn bytes(path: &Path) -> anyhow::Result<(String, Vec<u8>)> {
+    claim::read(path)?;
+    Ok(read(path)?)
+}
+
+fn read(path: &Path) -> Result<(String, Vec<u8>), InputError> {
     if path.as_os_str() != "-" {
         return Ok((path.display().to_string(), limits::read_file(path, limits::PER_BYTE)?));
     }
@@ -25,14 +31,20 @@ pub fn bytes(path: &Path) -> Result<(String, Vec<u8>), InputError> {
 }
 
 /// A scene from a file or from standard input, with the meshes it names.
-pub fn scene(path: &Path, reach: Reach) -> Result<(Scene, Source, Vec<Finding>), InputError> {
+pub fn scene(path: &Path, reach: Reach) -> anyhow::Result<(Scene, Source, Vec<Finding>)> {
     let (name, bytes) = bytes(path)?;
     scene_of(path, name, bytes, reach)
 }
 
 /// As [`scene`], of a file that is already in memory. Paths are relative to its folder; to the current one for standard input.
-pub fn scene_of(path: &Path, name: String, bytes: Vec<u8>, reach: Reach) -> Result<(Scene, Source, Vec<Finding>), InputError> {
+pub fn scene_of(path: &Path, name: String, bytes: Vec<u8>, reach: Reach) -> anyhow::Result<(Scene, Source, Vec<Finding>)> {
     let (mut scene, source) = scene::read_bytes(name, bytes)?;
-    let findings = read_meshes(&mut scene, path.parent().unwrap_or(Path::new("")), reach).map_err(|e| e.located(&source))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let findings = read_meshes(&mut scene, folder, reach).map_err(|e| e.located(&source))?;
+    let meshes = scene.blocks.iter().filter_map(|b| match &b.shape {
+        Shape::Mesh { path, .. } => Some(folder.join(path)),
+        _ => None,
+    });
+    meshes.collect::<BTreeSet<_>>().iter().try_for_each(|mesh| claim::read(mesh))?;
     Ok((scene, source, findings))
 }

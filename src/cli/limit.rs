@@ -25,7 +25,8 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     let settled = answer.outcome == Outcome::Impossible || (answer.outcome == Outcome::Found && answer.bracket.upper < 0.0);
     let dead = (!settled && !args.skip_dead).then(|| assess(assembly, interfaces, &question.control()));
     let ask_dry = question.control().law == Law::Coulomb && matches!(answer.outcome, Outcome::Found | Outcome::Unbounded);
-    let dry = ask_dry.then(|| coulomb::load_factor(assembly, interfaces, &answer, &question.control()));
+    let level = dead.as_ref().map(|d| d.verdict);
+    let dry = ask_dry.then(|| coulomb::load_factor_from(assembly, interfaces, &answer, level, &question.control()));
     let file = question.answer(terminal, &[skip_dead(args.skip_dead), worst(&args.worst)].concat(), || {
         let file = ResultFile::load_factor(&question.scene, &question.model, &answer);
         let file = match &dry {

@@ -1,11 +1,14 @@
-//! `--max-memory`: the process never takes more.
+//! `--max-memory`, and the limits of the system: the process never takes more, and says so when it would have to.
 //!
-//! Estimates refuse most of what is too large before it begins ([`voussoir::limits`]). What they miss meets this: every allocation is
-//! counted, and the one that would go beyond ends the program with an error. Files that were being written are absent then, as after a kill.
+//! Estimates refuse most of what is too large before it begins ([`voussoir::limits`]). What they miss meets this: where there is a limit, the
+//! option's or that of a control group, every allocation is counted, and the one that would go beyond ends the program with an error. So does
+//! one that the system refuses (`ulimit -v`, a machine without more), where the language would abort. Files that were being written are absent
+//! then, as after a kill.
 
 use super::exit::Exit;
 use std::{
     alloc::{GlobalAlloc, Layout, System},
+    fmt::Write as _,
     io::Write,
     sync::atomic::{AtomicBool, AtomicUsize, Ordering},
 };
@@ -18,6 +21,10 @@ const EACH: usize = 16;
 static COUNTED: AtomicBool = AtomicBool::new(false);
 static USED: AtomicUsize = AtomicUsize::new(0);
 static MOST: AtomicUsize = AtomicUsize::new(usize::MAX);
+/// Whether the limit is the control group's.
+static OF_GROUP: AtomicBool = AtomicBool::new(false);
+/// Whether a thread says already that the system gives no more.
+static FAILED: AtomicBool = AtomicBool::new(false);
 
 /// The system's allocator, counted once there is a limit.
 pub struct Counted;
@@ -46,6 +53,16 @@ pub fn limit(bytes: u64) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Begins to count where a control group sets a limit that is lower than the one given: beyond it the system kills without a word.
+pub fn heed_group(given: Option<u64>) {
+    let Some(left) = voussoir::limits::group().filter(|left| given.is_none_or(|g| *left < g)) else { return };
+    // Pages are not filled to the last byte, and others in the group need some as well.
+    let most = usize::try_from(left - left / 20).unwrap_or(usize::MAX);
+    OF_GROUP.store(true, Ordering::Relaxed);
+    MOST.store(most.saturating_sub(OWN).max(OWN), Ordering::Relaxed);
+    COUNTED.store(true, Ordering::Relaxed);
+}
+
 fn take(bytes: usize) {
     let used = USED.fetch_add(bytes + EACH, Ordering::Relaxed).wrapping_add(bytes + EACH);
     // What was taken before counting began may be freed now: below zero there is nothing to refuse.
@@ -68,28 +85,91 @@ fn refuse(bytes: usize) {
         }
     }
     let limit = voussoir::limits::size((most + OWN) as u64);
+    let (whose, remedy) = match OF_GROUP.load(Ordering::Relaxed) {
+        true => (format!("the control group of this process leaves it ({limit})"), "let it have more"),
+        false => (format!("--max-memory {limit} allows"), "raise it"),
+    };
     let text = format!(
-        "error: more memory would be needed than --max-memory {limit} allows (the last piece had {})\nhint: raise it, or ask about a smaller scene\n",
+        "error: more memory would be needed than {whose} (the last piece had {})\nhint: {remedy}, or ask about a smaller scene\n",
         voussoir::limits::size(bytes as u64)
     );
     let _ = std::io::stderr().write_all(text.as_bytes());
     std::process::exit(Exit::Usage as i32);
 }
 
-// SAFETY: every call is the system allocator's own, with the same arguments; counting touches atomics alone.
+/// Ends the program where the system gave nothing. Nothing here may ask for memory, unwind or wait for a lock that this thread holds.
+#[cold]
+fn failed(bytes: usize) -> ! {
+    if FAILED.swap(true, Ordering::Relaxed) {
+        // Another thread speaks, and ends all of them.
+        loop {
+            std::thread::sleep(std::time::Duration::from_secs(1));
+        }
+    }
+    let mut line = Line { text: [0; 256], length: 0 };
+    let _ = write!(
+        line,
+        "error: the system gives no more memory (the last piece had {bytes} bytes)\n\
+         hint: raise the limit of this process (`ulimit -v`), give --max-memory, or ask about a smaller scene\n"
+    );
+    end(line.text.get(..line.length).unwrap_or_default())
+}
+
+/// Says it and ends at once, without what is done at a proper end: some of that needs memory.
+#[cfg(unix)]
+fn end(text: &[u8]) -> ! {
+    // SAFETY: the bytes are there for the whole call, and the handle is a number; a failure is an answer that nobody can be told.
+    unsafe { libc::write(libc::STDERR_FILENO, text.as_ptr().cast(), text.len()) };
+    // SAFETY: ends the process; no code of it runs after that.
+    unsafe { libc::_exit(Exit::Usage as i32) }
+}
+
+#[cfg(not(unix))]
+fn end(text: &[u8]) -> ! {
+    let _ = std::io::stderr().write_all(text);
+    std::process::exit(Exit::Usage as i32)
+}
+
+/// A line without memory of its own. What does not fit is left out.
+struct Line {
+    text: [u8; 256],
+    length: usize,
+}
+
+impl std::fmt::Write for Line {
+    fn write_str(&mut self, more: &str) -> std::fmt::Result {
+        for byte in more.bytes() {
+            let Some(place) = self.text.get_mut(self.length) else { break };
+            *place = byte;
+            self.length += 1;
+        }
+        Ok(())
+    }
+}
+
+/// What the system gave; the end where it gave nothing.
+fn given(place: *mut u8, bytes: usize) -> *mut u8 {
+    if place.is_null() {
+        failed(bytes);
+    }
+    place
+}
+
+// SAFETY: every call is the system allocator's own, with the same arguments, and what it gives is handed on as it is; counting touches atomics
+// alone, and no path unwinds: where the system gives nothing the process ends inside the call.
 unsafe impl GlobalAlloc for Counted {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         if COUNTED.load(Ordering::Relaxed) {
             take(layout.size());
         }
-        unsafe { System.alloc(layout) }
+        given(unsafe { System.alloc(layout) }, layout.size())
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         if COUNTED.load(Ordering::Relaxed) {
             take(layout.size());
         }
-        unsafe { System.alloc_zeroed(layout) }
+        given(unsafe { System.alloc_zeroed(layout) }, layout.size())
     }
 
     unsafe fn dealloc(&self, place: *mut u8, layout: Layout) {
@@ -105,6 +185,6 @@ unsafe impl GlobalAlloc for Counted {
             take(size);
             give(layout.size());
         }
-        unsafe { System.realloc(place, layout, size) }
+        given(unsafe { System.realloc(place, layout, size) }, size)
     }
 }

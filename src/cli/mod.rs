@@ -4,6 +4,7 @@ pub mod again;
 pub mod args;
 pub mod assess;
 pub mod check;
+mod claim;
 pub mod completions;
 pub mod critical;
 pub mod deadline;

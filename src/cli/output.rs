@@ -1,12 +1,13 @@
 //! Files that are written whole or not at all.
 
-use super::terminal;
+use super::{claim, terminal};
 use anyhow::{Context, bail};
 use std::{
     fs::{self, OpenOptions},
     io::Write,
     path::{Path, PathBuf},
 };
+use voussoir::files;
 
 /// Where a result goes.
 #[derive(Debug)]
@@ -21,8 +22,14 @@ pub enum Sink {
 
 impl Sink {
     /// A sink for `path`; `None` and `-` are standard output. Writing is tried out now, so that a long answer is not lost later:
-    /// a file without a name is made in the target's folder.
+    /// a file without a name is made in the target's folder. Nothing else of this run is read from there or written to it.
     pub fn open(path: Option<&Path>) -> anyhow::Result<Self> {
+        path.map_or(Ok(()), claim::written)?;
+        Self::again(path)
+    }
+
+    /// As [`Self::open`], for a file that this run has claimed before.
+    pub fn again(path: Option<&Path>) -> anyhow::Result<Self> {
         let Some(path) = path.filter(|p| p.as_os_str() != "-") else { return Ok(Self::Stdout) };
         let context = || format!("{}: cannot be written", path.display());
         // Through a symbolic link to the file it names.
@@ -35,7 +42,7 @@ impl Sink {
             Err(_) if !folder(&target).is_dir() => bail!("{}: cannot be written: there is no such folder", path.display()),
             Err(_) => {}
         }
-        tempfile::tempfile_in(folder(&target)).with_context(context)?;
+        tempfile::tempfile_in(folder(&target)).map_err(files::unnamed).with_context(context)?;
         Ok(Self::File(target))
     }
 
@@ -70,7 +77,7 @@ fn replace(target: &Path, text: &str) -> std::io::Result<()> {
         // Less what the user's mask takes away, as for any new file.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    let mut file = builder.tempfile_in(folder(target))?;
+    let mut file = builder.tempfile_in(folder(target)).map_err(files::unnamed)?;
     fill(file.as_file_mut(), target, text)?;
     file.persist(target).map(drop).map_err(|e| e.error)
 }

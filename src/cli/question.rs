@@ -2,7 +2,7 @@
 
 use super::{
     args::{self, Common},
-    deadline,
+    claim, deadline,
     exit::Exit,
     input,
     output::Sink,
@@ -75,6 +75,7 @@ impl<'a> Question<'a> {
                 bail!("{option} {} would replace the scene by its result", path.display());
             }
         }
+        claim::read(&common.scene)?;
         let save = common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let report = common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let start = Instant::now();
@@ -266,13 +267,18 @@ pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f6
         (Outcome::Found, Some(r)) if upper.is_some_and(|u| u < r) => Exit::No,
         (Outcome::Found, Some(_)) => Exit::Undecided,
     };
-    match (&bound, &file.dry, require) {
-        (Exit::Yes, Some(dry), Some(r)) if dry.found != Found::Unlimited => match dry.value.map(scale) {
+    let Some(dry) = &file.dry else { return bound };
+    let rests_at = dry.rests_at.map(scale);
+    match (&bound, dry.found, require) {
+        (_, Found::NotAtRest, _) => Exit::No,
+        (Exit::Yes, Found::Unlimited, _) | (Exit::Yes, _, None) => bound,
+        // Seen at rest there, whatever is known beyond.
+        (Exit::Yes, _, Some(r)) if rests_at.is_some_and(|rests| rests >= r) => Exit::Yes,
+        (Exit::Yes, found, Some(r)) => match dry.value.map(scale) {
             // Where nothing slides it is the bound itself, and its bracket has decided.
-            Some(_) if dry.found == Found::NothingSlides => bound,
-            Some(value) if value >= r => Exit::Yes,
-            Some(_) => Exit::No,
-            None => Exit::Undecided,
+            Some(value) if value < r && found != Found::NothingSlides => Exit::No,
+            Some(_) if dry.is_reached() => Exit::Yes,
+            Some(_) | None => Exit::Undecided,
         },
         _ => bound,
     }

@@ -2,6 +2,7 @@
 
 use super::{
     args::Simulate,
+    claim,
     exit::Exit,
     progress::Bar,
     question::{Question, Seen},
@@ -30,7 +31,10 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     .filmed(&args.pictures)?;
     // Created before the work, and filled as it goes.
     let mut csv = match &args.csv {
-        Some(path) => Some(TrajectoryWriter::new(File::create(path).with_context(|| written(path))?).with_context(|| written(path))?),
+        Some(path) => {
+            claim::written(path)?;
+            Some(TrajectoryWriter::new(File::create(path).with_context(|| written(path))?).with_context(|| written(path))?)
+        }
         None => None,
     };
     let settings = Settings {

@@ -1,15 +1,16 @@
 //! `voussoir study`
 
-use super::{args::Study, exit::Exit, output::Sink, report as pages, terminal, terminal::Terminal};
+use super::{args::Study, claim, exit::Exit, output::Sink, report as pages, terminal, terminal::Terminal};
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{io::IsTerminal, path::Path};
 use voussoir::{
-    report::{json, page, study as report},
-    study::{self, Known, extreme, soak},
+    report::{forge, json, page, study as report},
+    study::{self, Known, cross, extreme, soak},
 };
 
 pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
+    args.keep.as_deref().map_or(Ok(()), claim::written)?;
     let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let sink = args.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let printed = pages::is_printed(&args.report);
@@ -27,8 +28,14 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let layout = terminal.layout(Path::new("study"));
     let wide = pages::layout(layout);
-    if args.keep.is_some() && args.soak.is_none() && !args.extreme {
-        bail!("--keep goes with --soak and --extreme: the other studies compare times, which belong to one run");
+    if let Some(folder) = &args.dump
+        && !folder.is_dir()
+    {
+        bail!("{}: there is no such folder", folder.display());
+    }
+    let random = args.soak.or(args.cross).or(args.forge);
+    if args.keep.is_some() && random.is_none() && !args.extreme {
+        bail!("--keep goes with --soak, --cross, --forge and --extreme: the other studies compare times, which belong to one run");
     }
     if args.extreme {
         let cells = extreme::grid();
@@ -52,8 +59,54 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         return Ok(if extreme::count(&found, None).wrong == 0 { Exit::Yes } else { Exit::No });
     }
     if let Some(index) = args.only {
-        terminal::print(&json::pretty(&soak::scene(args.seed, index as usize)?.0)?)?;
+        let index = index as usize;
+        let scene = if args.soak.is_some() { soak::scene(args.seed, index)?.0 } else { cross::scene(args.seed, index)?.0 };
+        terminal::print(&json::pretty(&scene)?)?;
         return Ok(Exit::Yes);
+    }
+    if let Some(count) = args.cross {
+        let kept = args.keep.as_deref().map(|path| cross::keep(path, args.seed)).transpose()?;
+        let there = kept.as_ref().map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
+        taken_up(args, there, count as usize);
+        bar.set_length(u64::from(count) - there as u64);
+        let list = cross::run(args.seed, count as usize, kept.as_ref(), |_| bar.inc(1))?;
+        bar.finish_and_clear();
+        if let Some(folder) = &args.dump {
+            for (name, scene) in cross::scenes(args.seed, &list) {
+                Sink::open(Some(&folder.join(name)))?.write(&json::pretty(&scene)?)?;
+            }
+        }
+        if let Some(csv) = csv {
+            csv.write(&report::cross_csv(&list)?)?;
+        }
+        if args.json {
+            terminal::print(&json::pretty(&list)?)?;
+        } else {
+            terminal.page(&report::cross_text(&list, args.seed, args.verbose, layout))?;
+        }
+        return Ok(if list.iter().any(cross::Crossed::is_wrong) { Exit::No } else { Exit::Yes });
+    }
+    if let Some(count) = args.forge {
+        let kept = args.keep.as_deref().map(|path| forge::keep(path, args.seed)).transpose()?;
+        let there = kept.as_ref().map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
+        taken_up(args, there, count as usize);
+        bar.set_length(u64::from(count) - there as u64);
+        let list = forge::run(args.seed, count as usize, kept.as_ref(), |_| bar.inc(1))?;
+        bar.finish_and_clear();
+        if let Some(folder) = &args.dump {
+            for (name, file) in forge::files(args.seed, &list) {
+                Sink::open(Some(&folder.join(name)))?.write(&json::pretty(&file)?)?;
+            }
+        }
+        if let Some(csv) = csv {
+            csv.write(&report::forge_csv(&list)?)?;
+        }
+        if args.json {
+            terminal::print(&json::pretty(&list)?)?;
+        } else {
+            terminal.page(&report::forge_text(&list, args.seed, args.verbose, layout))?;
+        }
+        return Ok(if list.iter().any(forge::Forged::is_wrong) { Exit::No } else { Exit::Yes });
     }
     if let Some(count) = args.soak {
         let kept = args.keep.as_deref().map(|path| soak::keep(path, args.seed)).transpose()?;

@@ -2,6 +2,7 @@
 
 use super::{
     args::{Merge, Summary, Sweep, SweepVerb},
+    claim,
     exit::Exit,
     input,
     output::Sink,
@@ -35,7 +36,9 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     let sweep = sweep::open_bytes(name, bytes, folder, args.outside.reach())?;
     terminal::notes(&sweep.findings);
     args.summary.chart.map_or(Ok(()), |kind| report::Kind::from(kind).fits(&sweep.plan))?;
+    claim::read(&folder.join(&sweep.plan.scene))?;
     let output = rows_file(args, plan)?;
+    claim::written(&output)?;
     let sinks = Sinks::open(&args.summary)?;
     if args.slurm.slurm {
         return slurm::submit::run(args, &sweep, &output, &sinks, terminal);
@@ -44,11 +47,12 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     let bar = bar(args.summary.quiet);
     let quiet = args.summary.quiet;
     let done = sweep::run(&sweep, &output, &options, &|event| match event {
-        Event::Begin { rows, there, mended } => {
+        Event::Begin { rows, there, mended, unchecked } => {
             bar.set_length((rows - there) as u64);
             if mended > 0 {
                 terminal::say(&format!("note: the last row was written in part ({mended} bytes): it is computed again"));
             }
+            slurm::say_unchecked(unchecked);
             if there > 0 && !quiet {
                 terminal::say(&format!("note: {} holds {there} of {rows} rows already", output.display()));
             }
@@ -62,6 +66,7 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
 }
 
 fn merged(args: &Merge, terminal: &Terminal) -> anyhow::Result<Exit> {
+    args.rows.iter().try_for_each(|rows| claim::read(rows))?;
     let sinks = Sinks::open(&args.summary)?;
     let rows = args.output.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let merged = sweep::merge(&args.rows)?.context("no file of rows is given")?;
@@ -70,6 +75,7 @@ fn merged(args: &Merge, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     sinks.write(&args.summary, &merged.header, &merged.rows, terminal)?;
     slurm::say_damaged(merged.damaged);
+    slurm::say_unchecked(merged.unchecked);
     match merged.missing() {
         None => Ok(Exit::Yes),
         Some((many, first)) => {

@@ -8,7 +8,8 @@ use std::{
 };
 use voussoir::{
     error::{Finding, InputError},
-    report::text::{Layout, Page, Role, printable},
+    plain::printable,
+    report::text::{Layout, Page, Role},
 };
 
 /// How pages look.
@@ -96,11 +97,22 @@ pub fn error(error: &anyhow::Error) {
     let hint = error.downcast_ref::<InputError>().and_then(|e| e.hint.clone());
     match error.downcast_ref::<InputError>() {
         Some(input) => say(&format!("error: {}", InputError { hint: None, ..input.clone() })),
-        None => say(&format!("error: {error:#}")),
+        None => say(&format!("error: {}", words(error))),
     }
     if let Some(hint) = hint {
         say(&format!("hint: {hint}"));
     }
+}
+
+/// What an error and its causes say, each thing once: many an error repeats what it was caused by.
+pub fn words(error: &anyhow::Error) -> String {
+    let mut text = String::new();
+    for cause in error.chain().map(ToString::to_string).filter(|c| !c.is_empty()) {
+        if !text.contains(&cause) {
+            text = if text.is_empty() { cause } else { format!("{text}: {cause}") };
+        }
+    }
+    text
 }
 
 /// Prints what the argument parser answers: help and version on standard output, errors on standard error.

@@ -24,6 +24,7 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &Options) -> Result<Imported, 
     if let Some(gap) = options.gap {
         scene.contact.gap = gap;
     }
+    let (mut unwanted, mut with_forces) = (0, 0);
     for file in files {
         findings.extend(file.findings);
         scene.materials.extend(file.materials);
@@ -32,11 +33,11 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &Options) -> Result<Imported, 
             let shape = Shape::Polyhedron { vertices: block.vertices, faces: block.faces };
             scene.blocks.push(BlockSpec { support: block.support, material: block.material, ..BlockSpec::new(block.id, shape) });
         }
-        if !options.stored_interfaces && !file.interfaces.is_empty() {
-            let text = format!("stored interfaces, left out as asked (contacts are detected instead): {}", file.interfaces.len());
-            findings.push(Finding::new(FindingCode::LeftOut, text));
+        if !options.stored_interfaces {
+            unwanted += file.interfaces.len();
             continue;
         }
+        with_forces += file.with_forces;
         for mut interface in file.interfaces {
             place(&mut interface.points, options).map_err(|v| beyond(&file.origin, &interface.between.join("–"), v, options))?;
             interface.normal = interface.normal.map(|n| options.up.rotate(n));
@@ -48,6 +49,7 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &Options) -> Result<Imported, 
         scene.blocks.iter_mut().for_each(|b| b.material = Some(MATERIAL.into()));
     }
     supports(&mut scene, options, &mut findings)?;
+    interfaces(&mut scene, unwanted, with_forces, &mut findings);
     if options.friction.is_none() {
         findings.push(Finding::new(
             FindingCode::Missing,
@@ -176,6 +178,25 @@ fn supports(scene: &mut Scene, options: &Options, findings: &mut Vec<Finding>) -
         findings.push(Finding::new(FindingCode::Missing, "every block is a support: there is nothing that could move"));
     }
     Ok(())
+}
+
+/// Leaves out stored interfaces between supports, where nothing can move and which a scene may not have, and says what became of the others.
+fn interfaces(scene: &mut Scene, unwanted: usize, with_forces: usize, findings: &mut Vec<Finding>) {
+    let held: HashSet<&str> = scene.blocks.iter().filter(|b| b.support).map(|b| b.id.as_str()).collect();
+    let (idle, kept): (Vec<_>, Vec<_>) =
+        std::mem::take(&mut scene.interfaces).into_iter().partition(|i| i.between.iter().all(|id| held.contains(id.as_str())));
+    scene.interfaces = kept;
+    let mut say = |code, count: usize, text: String| {
+        if count > 0 {
+            findings.push(Finding::new(code, text));
+        }
+    };
+    say(FindingCode::LeftOut, unwanted, format!("stored interfaces, left out as asked (contacts are detected instead): {unwanted}"));
+    let names: Vec<String> = idle.iter().map(|i| format!("{:?}–{:?}", i.between[0], i.between[1])).collect();
+    say(FindingCode::LeftOut, idle.len(), format!("stored interfaces between two supports, left out: {}", tally(&names)));
+    let forces = if with_forces > 0 { format!("; with solved forces, which were left out: {with_forces}") } else { String::new() };
+    let kept = scene.interfaces.len();
+    say(FindingCode::Converted, kept, format!("stored interfaces, kept in place of detected contacts: {kept}{forces}"));
 }
 
 /// The lowest blocks, as candidates for supports.

@@ -1,18 +1,20 @@
 //! The files that blocks of a scene name: `{ "mesh": { "path": "stone.obj" } }`.
 //!
 //! A scene may come from anybody, and its paths with it. So a path stays within the folder of the scene, links resolved, unless the user
-//! says otherwise ([`Reach`]); and only regular files are opened, for a pipe would never end and a device may do anything. What is read
-//! is put into the scene, as the file has it: from there on the scene needs no file, and neither does a result that holds it.
+//! says otherwise ([`Reach`]); it is opened from there without following a link, so that what was looked at is what is read. Only regular
+//! files are opened ([`files`]). What is read is put into the scene, as the file has it: from there on the scene needs no file, and neither does
+//! a result that holds it.
 
 use super::{Format, raw::list, read};
 use crate::{
     error::{Finding, InputError, JsonPath},
-    limits,
+    files, limits,
     scene::{Scene, Shape},
 };
 use std::{
     collections::HashMap,
-    fs, io,
+    fs::File,
+    io,
     path::{Component, Path, PathBuf},
 };
 
@@ -55,12 +57,12 @@ pub fn read_meshes(scene: &mut Scene, folder: &Path, reach: Reach) -> Result<Vec
             InputError { hint: e.hint, ..InputError::at(place.clone(), format!("block {:?}: {name}: {line}{}", block.id, e.message)) }
         };
         let file = find(folder, Path::new(name.as_str()), reach).map_err(refuse)?;
-        if !known.contains_key(&file) {
-            let (mesh, said) = load(&file, name).map_err(refuse)?;
+        if !known.contains_key(&file.path) {
+            let (mesh, said) = file.open().and_then(|opened| load(&opened, name)).map_err(refuse)?;
             findings.extend(said.into_iter().map(|f| Finding { text: format!("{name}: {}", f.text), ..f }));
-            known.insert(file.clone(), mesh);
+            known.insert(file.path.clone(), mesh);
         }
-        let Some(mesh) = known.get(&file) else { continue };
+        let Some(mesh) = known.get(&file.path) else { continue };
         // A thousand blocks may name one file: each has its own copy.
         total = total.saturating_add(mesh.length);
         limits::afford("the meshes up to this one", total, limits::PER_FOREIGN_BYTE).map_err(refuse)?;
@@ -69,27 +71,42 @@ pub fn read_meshes(scene: &mut Scene, folder: &Path, reach: Reach) -> Result<Vec
     Ok(findings)
 }
 
-/// The file that is meant, without links on the way.
-fn find(folder: &Path, path: &Path, reach: Reach) -> Result<PathBuf, InputError> {
+/// A file that is meant.
+struct Meant {
+    /// Its whole path, without links on the way.
+    path: PathBuf,
+    /// The folder that it must not leave, and the way from there.
+    below: Option<(PathBuf, PathBuf)>,
+}
+
+impl Meant {
+    /// Opens it, unless something else has come in its place since it was found.
+    fn open(&self) -> Result<File, InputError> {
+        match &self.below {
+            None => files::open(&self.path),
+            Some((folder, way)) => files::open_below(folder, way),
+        }
+        .map_err(missing)
+    }
+}
+
+/// The file that a path means.
+fn find(folder: &Path, path: &Path, reach: Reach) -> Result<Meant, InputError> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     // First by the letters alone, so that files elsewhere are not even asked for.
     if reach == Reach::Folder && leaves(path) {
         return Err(outside("the path leaves the folder of the scene"));
     }
     let file = folder.join(path).canonicalize().map_err(missing)?;
-    if reach == Reach::Folder {
-        let folder = folder.canonicalize().map_err(missing)?;
-        if !file.starts_with(folder) {
-            return Err(outside("a link leads out of the folder of the scene"));
-        }
+    if reach == Reach::Anywhere {
+        return Ok(Meant { path: file, below: None });
     }
-    // Before it is opened: opening a pipe waits for somebody to write.
-    let kind = fs::metadata(&file).map_err(missing)?.file_type();
-    if !kind.is_file() {
-        let what = if kind.is_dir() { "this is a folder" } else { "this is no regular file but a pipe, a device or the like" };
-        return Err(InputError::at(JsonPath::root(), what).hint("name an OBJ, PLY or STL file"));
+    let folder = folder.canonicalize().map_err(missing)?;
+    match file.strip_prefix(&folder) {
+        Ok(way) if way.as_os_str().is_empty() => Ok(Meant { path: file, below: None }),
+        Ok(way) => Ok(Meant { below: Some((folder, way.to_path_buf())), path: file }),
+        Err(_) => Err(outside("a link leads out of the folder of the scene")),
     }
-    Ok(file)
 }
 
 /// Whether a path is absolute or has more steps up than down before them.
@@ -122,8 +139,8 @@ fn missing(e: io::Error) -> InputError {
 }
 
 /// The one mesh of a file.
-fn load(file: &Path, name: &str) -> Result<(Mesh, Vec<Finding>), InputError> {
-    let bytes = limits::read_file(file, limits::PER_FOREIGN_BYTE)?;
+fn load(file: &File, name: &str) -> Result<(Mesh, Vec<Finding>), InputError> {
+    let bytes = limits::read_opened(file, limits::PER_FOREIGN_BYTE)?;
     let error = |text: String, hint: &str| Err(InputError::at(JsonPath::root(), text).hint(hint));
     if Format::of(Path::new(name), &bytes, None)? == Format::Compas {
         return error("this is JSON, not a mesh".into(), "name an OBJ, PLY or STL file; `voussoir import` reads COMPAS JSON");

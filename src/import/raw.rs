@@ -15,6 +15,8 @@ pub(super) struct Raw {
     pub origin: String,
     pub blocks: Vec<Solid>,
     pub interfaces: Vec<InterfaceSpec>,
+    /// How many of them hold solved forces, which are not read.
+    pub with_forces: usize,
     pub materials: BTreeMap<String, Material>,
     pub findings: Vec<Finding>,
 }

@@ -15,6 +15,7 @@ pub mod fuzzing;
 mod given;
 mod limits;
 mod overlap;
+mod parts;
 mod plane;
 mod polygon;
 mod section;
@@ -26,6 +27,7 @@ mod tally;
 mod tests;
 
 pub use detect::detect;
+pub use parts::{Members, Part, Units, members, parts};
 pub use section::{Affine, Cut};
 
 use crate::{assembly::JointLaw, error::Finding};

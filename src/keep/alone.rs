@@ -1,9 +1,10 @@
 //! A file that only this run writes.
 
-use crate::error::RowsError;
+use super::bytes;
+use crate::{error::RowsError, files};
 use std::{
     fs::{File, OpenOptions, TryLockError},
-    io::{self, Read, Seek, SeekFrom, Write},
+    io::{self, Seek, SeekFrom, Write},
     path::Path,
 };
 
@@ -15,23 +16,21 @@ use std::{
 pub(crate) struct Alone(File);
 
 impl Alone {
-    /// Opens a file, made where there is none, locks it, and reads all of it.
+    /// Opens a regular file, made where there is none, locks it, and reads all of it.
     ///
     /// # Errors
-    /// It cannot be written or read, or another run writes it.
+    /// It cannot be written or read, is no regular file, is too long, or another run writes it.
     pub(crate) fn open(path: &Path) -> Result<(Self, Vec<u8>), RowsError> {
         let name = path.display().to_string();
         let problem = |what, cause| RowsError::File { file: name.clone(), what, cause };
-        let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
-        let file = opened.map_err(|e| problem("written", e))?;
+        let file = files::open_to_continue(path).map_err(|e| problem("written", e))?;
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Err(RowsError::Busy { file: name }),
             Err(TryLockError::Error(e)) => return Err(problem("locked", e)),
         }
-        let mut alone = Self(file);
-        let mut bytes = Vec::new();
-        alone.0.read_to_end(&mut bytes).map_err(|e| problem("read", e))?;
+        let alone = Self(file);
+        let bytes = bytes(&name, &alone.0)?;
         Ok((alone, bytes))
     }
 

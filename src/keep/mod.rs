@@ -5,10 +5,11 @@ mod alone;
 
 pub(crate) use alone::Alone;
 
-use crate::error::RowsError;
+use crate::{error::RowsError, files, limits, plain};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::Value;
 use std::{
+    fs::File,
     io,
     path::Path,
     sync::{Mutex, PoisonError},
@@ -89,9 +90,21 @@ fn read<T: DeserializeOwned>(name: &str, bytes: &[u8], wanted: &Header) -> Resul
         .collect()
 }
 
+/// The bytes of a file that was kept, unless it is longer than can be read.
+pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, RowsError> {
+    let name = path.display().to_string();
+    let file = files::open(path).map_err(|cause| RowsError::File { file: name.clone(), what: "read", cause })?;
+    bytes(&name, &file)
+}
+
+/// As [`read_file`], of a file that is open already.
+fn bytes(name: &str, file: &File) -> Result<Vec<u8>, RowsError> {
+    limits::read_opened(file, limits::PER_KEPT_BYTE).map_err(|e| RowsError::Unreadable { file: name.into(), why: e.to_string() })
+}
+
 /// A value as one line.
 pub(crate) fn line(value: &impl Serialize) -> Result<String, io::Error> {
-    let mut text = serde_json::to_string(value)?;
+    let mut text = plain::json(serde_json::to_string(value)?);
     text.push('\n');
     Ok(text)
 }

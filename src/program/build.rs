@@ -25,7 +25,7 @@ impl Statics {
     /// Builds the equilibrium of an assembly.
     pub fn new(assembly: &Assembly, interfaces: &Interfaces, options: Options) -> Self {
         let (plane, mut list) = plane_and_bearings(assembly, interfaces, options);
-        let weight = |block: usize| if options.unscaled { 1.0 } else { assembly.weight(block).max(assembly.dead[block].force.norm()) };
+        let weight = |block: usize| if options.unscaled { 1.0 } else { assembly.weight(block).max(load_size(assembly, block)) };
         let unit = set_units(assembly, interfaces, options, &mut list, weight);
         let dead = with_water(assembly, interfaces);
         let mut left_out = Vec::new();
@@ -107,6 +107,12 @@ impl Statics {
             }
         }
     }
+}
+
+/// The dead load of a block, N, its moment over the radius of gyration.
+fn load_size(assembly: &Assembly, block: usize) -> f64 {
+    let Wrench { force, moment } = &assembly.dead[block];
+    force.norm().hypot(assembly.blocks[block].gyration.force(moment).norm())
 }
 
 /// The mirror plane that a plane scene is solved in, and its contact points.

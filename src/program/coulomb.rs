@@ -6,8 +6,8 @@
 //!
 //! *State (C).* `min ½ fᵀ C f + (1/2ε) ‖A f + w‖²` subject to `f_n ≥ 0`, `‖f_t‖ ≤ s`: always feasible, what cannot balance
 //! accelerates. `C` is a contact compliance (mean area / area of the point), which picks among admissible forces those that the
-//! loads produce; forces are in mean block loads, rows scaled by each block's load. The rate of a joint is the gradient,
-//! `u = C f + Aᵀ (A f + w) / ε`.
+//! loads produce; forces are in mean block loads, rows scaled by the root of each block's load × the mean one, so that the multipliers
+//! `(A f + w) / ε` are accelerations ([`Contacts::by_mass`]). The rate of a joint is the gradient, `u = C f + Aᵀ (A f + w) / ε`.
 //!
 //! *Load factor (D).* `max λ − ½ δ fᵀ C f` subject to `A f + w + λ ℓ = 0` and the same limits; `u = δ C f + Aᵀ y` with the
 //! multipliers `y`.
@@ -46,6 +46,10 @@ pub struct Contacts {
     pub points: Vec<Point>,
     /// Compliance of each column.
     pub compliance: Vec<f64>,
+    /// The load that presumably passes each limit, in units of the forces: what a change of it is measured by.
+    pub passing: Vec<f64>,
+    /// The load of the lighter of the two blocks at each limit, in units of the forces: what a wrong limit accelerates.
+    pub lighter: Vec<f64>,
     /// How many blocks each row, and how many bearings each column stands for: what is summed over the scene counts them.
     pub(super) row_images: Vec<f64>,
     pub(super) column_images: Vec<f64>,
@@ -69,6 +73,9 @@ pub enum Aim {
     LoadFactor(f64, f64),
 }
 
+/// A limit is reached by forces of this share of it. More: rounding hides some. Less: sticking joints count as sliding.
+const REACHED: f64 = 0.999;
+
 impl Contacts {
     /// Builds the contacts of an assembly.
     ///
@@ -87,7 +94,7 @@ impl Contacts {
         let with_area = || statics.bearings.iter().zip(&areas).filter(|(_, a)| **a > 0.0).map(|(b, a)| (column_images[b.column], a));
         let mean_area = with_area().map(|(n, a)| n * a).sum::<f64>() / with_area().map(|(n, _)| n).sum::<f64>().max(1.0);
         let mut compliance = Vec::with_capacity(statics.matrix.columns);
-        let points = statics
+        let points: Vec<Point> = statics
             .bearings
             .iter()
             .zip(&areas)
@@ -107,7 +114,36 @@ impl Contacts {
             })
             .collect();
         let row_images = statics.row_images();
-        Self { statics, points, compliance, row_images, column_images }
+        let passing = points.iter().zip(&statics.bearings).flat_map(|(p, b)| p.discs.iter().map(|_| b.presumed / b.unit)).collect();
+        let weight = |block: usize| {
+            let loaded = assembly.weight(block).max(assembly.dead[block].force.norm());
+            if assembly.blocks[block].support { f64::INFINITY } else { loaded }
+        };
+        let lighter = |b: &super::Bearing| weight(interfaces.list[b.interface].a).min(weight(interfaces.list[b.interface].b)) / b.unit;
+        let lighter = points.iter().zip(&statics.bearings).flat_map(|(p, b)| p.discs.iter().map(move |_| lighter(b))).collect();
+        Self { statics, points, compliance, passing, lighter, row_images, column_images }
+    }
+
+    /// Measures the blocks for [`Aim::State`]: what is left of a block's load over ε is then the block's acceleration, whatever the others
+    /// weigh, as if every mass were on its way for a while.
+    pub fn by_mass(&mut self) {
+        let mean = self.statics.unit;
+        self.statics.measure(|weight| (weight * mean).sqrt());
+    }
+
+    /// The load that presumably passes through the block of each row, as the rows measure it.
+    pub fn carried(&self) -> Vec<f64> {
+        let Statics { free, bearings, matrix, .. } = &self.statics;
+        let mut passing = vec![0.0; matrix.columns];
+        for b in bearings {
+            passing[b.column..b.column + b.basis.len()].fill(b.presumed);
+        }
+        let block: Vec<usize> = free.iter().enumerate().flat_map(|(k, f)| f.rows.clone().map(move |_| k)).collect();
+        let mut carried = vec![f64::MIN_POSITIVE; free.len()];
+        for (&i, &j) in matrix.i.iter().zip(&matrix.j) {
+            carried[block[i]] = f64::max(carried[block[i]], passing[j]);
+        }
+        block.iter().map(|&k| carried[k] / free[k].weight).collect()
     }
 
     /// One convex program of the sequence; `held` are the limits or the sliding rates per point.
@@ -249,6 +285,17 @@ impl Contacts {
     /// Limits `μ f_n + c` of forces, per disc.
     pub fn limits(&self, forces: &[f64]) -> Vec<f64> {
         self.points.iter().flat_map(|p| p.discs.iter().map(|d| d.limit(forces[p.column].max(-p.tension)))).collect()
+    }
+
+    /// What limits that were held, while those of the forces are `next`, can make of accelerations at most, in multiples of gravity: only
+    /// where a limit is reached does it matter.
+    pub fn unsettled(&self, forces: &[f64], held: &[f64], next: &[f64]) -> f64 {
+        let reached = |d: &Disc, s: f64| forces[d.first..d.first + d.count].iter().map(|v| v * v).sum::<f64>().sqrt() >= REACHED * s;
+        let off = self.discs().zip(held).zip(next).zip(&self.lighter).map(|(((d, &s), n), load)| {
+            let off = (n - s).abs() / load;
+            if reached(d, s) { off } else { 0.0 }
+        });
+        off.fold(0.0, f64::max)
     }
 
     /// `μ‖u_t‖` of joint rates, per disc.

@@ -146,7 +146,12 @@ impl Statics {
     /// those of the heavy ones, at the cost of their forces.
     pub fn even(&mut self) {
         let greatest = self.free.iter().map(|f| f.weight).fold(0.0, f64::max);
-        let by: Vec<f64> = self.free.iter().flat_map(|f| std::iter::repeat_n(f.weight / greatest, f.rows.len())).collect();
+        self.measure(|_| greatest);
+    }
+
+    /// Measures every block by what `scale` makes of its own load.
+    pub fn measure(&mut self, scale: impl Fn(f64) -> f64) {
+        let by: Vec<f64> = self.free.iter().flat_map(|f| std::iter::repeat_n(f.weight / scale(f.weight), f.rows.len())).collect();
         for (i, v) in self.matrix.i.iter().zip(&mut self.matrix.v) {
             *v *= by[*i];
         }
@@ -154,7 +159,7 @@ impl Statics {
             *dead *= by[row];
             *live *= by[row];
         }
-        self.free.iter_mut().for_each(|f| f.weight = greatest);
+        self.free.iter_mut().for_each(|f| f.weight = scale(f.weight));
     }
 
     /// Whether joints have strengths or couples, for which only programs in forces exist.

@@ -1,5 +1,6 @@
 //! Contact forces of a packing as CSV, a row for each contact that carries.
 
+use super::cells::Table;
 use crate::{analysis::fabric, assembly::Assembly, interface::Interfaces, verdict::Forces};
 
 /// The columns: blocks, centre of pressure (m), unit normal from `a` into `b`, normal and tangential force (N), share of friction used.
@@ -10,7 +11,7 @@ const HEAD: [&str; 11] = ["a", "b", "x", "y", "z", "nx", "ny", "nz", "normal_for
 /// # Errors
 /// The table cannot be written.
 pub fn csv(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut writer = Table::new();
     writer.write_record(HEAD)?;
     for contact in fabric::contacts(interfaces, forces) {
         let face = &interfaces.list[contact.interface];
@@ -20,5 +21,5 @@ pub fn csv(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Res
         row.push(contact.mobilised.map(|m| m.to_string()).unwrap_or_default());
         writer.write_record(&row)?;
     }
-    Ok(String::from_utf8(writer.into_inner()?)?)
+    Ok(writer.end()?)
 }

@@ -1,5 +1,6 @@
 //! JSON for people and programs: one member a line, but what fits on a line stays on it (points, forces, faces).
 
+use crate::plain;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -14,7 +15,7 @@ pub fn pretty(value: &impl Serialize) -> Result<String, serde_json::Error> {
     let mut text = String::new();
     write(&serde_json::to_value(value)?, 0, &mut text);
     text.push('\n');
-    Ok(text)
+    Ok(plain::json(text))
 }
 
 fn write(value: &Value, indent: usize, out: &mut String) {

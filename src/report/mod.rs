@@ -1,13 +1,16 @@
 //! Answers for people and for programs. No mechanics here: one file per format.
 
+mod cells;
 pub mod contacts;
 pub mod critical;
 pub mod drawing;
+pub mod forge;
 pub mod heaps;
 pub mod inspection;
 pub mod json;
 pub mod packing;
 pub mod page;
+mod part;
 pub mod read;
 pub mod result;
 pub mod simulation;

@@ -5,7 +5,7 @@ use super::{
     result::{Question, Versions},
 };
 use crate::{
-    analysis::{Fabric, Model, Outcome, Stability, Timings, coulomb::Found, stability::Round},
+    analysis::{Deciding, Fabric, Model, Outcome, Stability, Timings, coulomb::Found, stability::Round},
     error::{Finding, FindingCode},
     verdict::mechanism::Motion,
 };
@@ -77,6 +77,9 @@ pub struct PackingDirection {
     pub reached: bool,
     /// Grains that move in the round with the answer, the one with the greatest tilt, the fastest first.
     pub moving: Vec<String>,
+    /// The part of the packing that loses balance there, where it has several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<Deciding>,
     /// Joints of its mechanism that roll, slide and part.
     pub joints: [usize; 3],
     /// All rounds, where there are several: the tilt (degrees) and the grains that lost balance.
@@ -98,6 +101,9 @@ pub struct Removed {
 impl PackingDirection {
     /// The tilt that counts: with dry friction where known, else the bound. One without an answer governs: it must not hide.
     pub fn governing(&self) -> f64 {
+        if self.dry == Some(Found::NotAtRest) {
+            return f64::NEG_INFINITY;
+        }
         self.dry_deg.or(self.tilt_deg).unwrap_or(f64::NEG_INFINITY)
     }
 }
@@ -146,6 +152,7 @@ impl PackingFile {
                 moved: total,
                 reached: reached && factor.status == Outcome::Found,
                 moving,
+                part: file.answer.part.clone(),
                 joints: [count(&[Motion::Hinge]), count(&[Motion::Slide, Motion::HingeAndSlide]), count(&[Motion::Part, Motion::Crush])],
                 removed,
             });

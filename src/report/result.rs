@@ -8,7 +8,7 @@ use super::{
     work::Work,
 };
 use crate::{
-    analysis::{Assessment, Attempt, Bracket, Law, LoadFactor, Model, Outcome, Tilt, Timings, agreement, coulomb},
+    analysis::{Assessment, Attempt, Bracket, Deciding, Law, LoadFactor, Model, Outcome, Tilt, Timings, agreement, coulomb},
     dynamics::{Fate, Outcome as Simulated},
     error::Finding,
     scene::Scene,
@@ -16,6 +16,7 @@ use crate::{
         Forces, Rate, Verdict,
         check::{Claim, Findings, verify},
         evidence::{BlockRate, ContactForces, write_forces, write_rates},
+        exact::Grade,
         mechanism::{Mechanism, Motion},
     },
 };
@@ -132,6 +133,12 @@ pub struct Answer {
     /// Bracket of the least unbalance, in multiples of gravity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unbalance: Option<Bracket>,
+    /// The part of the scene that decides, where it has several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<Deciding>,
+    /// How exactly what is claimed is proved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub proof: Option<Grade>,
     /// The load factor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_factor: Option<LoadFactorAnswer>,
@@ -182,7 +189,8 @@ pub struct Certificate {
     pub base: Option<Vec<ContactForces>>,
     /// Kinematic side: rates per moving block.
     pub rates: Vec<BlockRate>,
-    /// What the verification found before the result was written.
+    /// What the verification found when the answer was given. Not saved, for nobody could tell whether it was edited: `check` finds it anew.
+    #[serde(default, skip_serializing)]
     pub verified: Vec<String>,
 }
 
@@ -203,6 +211,9 @@ impl Direction {
     /// The tilt that counts, degrees: with dry friction where that is known, else the bound. A direction without an answer governs:
     /// it must not hide behind the others.
     pub(super) fn governing(&self) -> f64 {
+        if self.dry.as_ref().is_some_and(|d| d.found == coulomb::Found::NotAtRest) {
+            return f64::NEG_INFINITY;
+        }
         let dry = self.dry.as_ref().and_then(|d| d.value).map(|v| v.atan().to_degrees());
         dry.or(self.answer.tilt_deg).unwrap_or(f64::NEG_INFINITY)
     }
@@ -235,9 +246,19 @@ pub struct CoulombState {
 pub struct DryResult {
     /// How it was found.
     pub found: coulomb::Found,
+    /// The part of the scene that decides, where it has several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<Deciding>,
     /// The value, where found.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
+    /// The greatest load factor at which the state under dry friction was seen at rest, having rested from the dead load on. Computed, not
+    /// proved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rests_at: Option<f64>,
+    /// The least load factor at which it was seen to move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moves_at: Option<f64>,
     /// How far forces and mechanism are from Coulomb's law.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub natural_map: Option<f64>,
@@ -245,6 +266,13 @@ pub struct DryResult {
     pub solves: usize,
     /// The evidence.
     pub certificate: Certificate,
+}
+
+impl DryResult {
+    /// Whether the state was seen at rest just below the value.
+    pub fn is_reached(&self) -> bool {
+        self.rests_at.zip(self.value).is_some_and(|(rests_at, value)| coulomb::is_reached(rests_at, value))
+    }
 }
 
 /// A mechanism with names.
@@ -367,7 +395,7 @@ impl ResultFile {
                 let (mut answer, certificate, findings) = load_factor(model, &tilt.load_factor);
                 all.fails.extend(findings.fails);
                 answer.toward = Some(tilt.toward.into());
-                let status = answer.load_factor.map(|l| l.status);
+                let status = answer.load_factor.as_ref().map(|l| l.status);
                 answer.tilt_deg = match status {
                     Some(Outcome::Found) => Some(tilt.angle_deg()),
                     Some(Outcome::Unbounded) => Some(90.0),
@@ -455,9 +483,14 @@ fn dry_result(model: &Model, d: &coulomb::DryLoadFactor) -> (DryResult, Findings
     if !proved {
         certificate.claim = None;
     }
+    let is_computed = claim.is_none() && d.value.is_finite();
+    let finite = |v: f64| v.is_finite().then_some(v);
     let dry = DryResult {
-        found: if proved || d.found == coulomb::Found::Unlimited { d.found } else { coulomb::Found::Undecided },
-        value: proved.then_some(d.value),
+        found: if proved || claim.is_none() { d.found } else { coulomb::Found::Undecided },
+        value: (proved || is_computed).then_some(d.value),
+        rests_at: finite(d.rests_at),
+        moves_at: finite(d.moves_at),
+        part: d.part.clone(),
         natural_map: d.natural_map.is_finite().then_some(d.natural_map),
         solves: d.solves,
         certificate,
@@ -471,7 +504,8 @@ pub(super) fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate,
     if !findings.fails.is_empty() {
         (verdict, certificate.claim) = (Verdict::Undecided, None);
     }
-    let answer = Answer { verdict: Some(verdict), unbalance: Some(a.unbalance), ..Answer::default() };
+    let proof = certificate.claim.map(|_| findings.grade);
+    let answer = Answer { verdict: Some(verdict), unbalance: Some(a.unbalance), part: a.part.clone(), proof, ..Answer::default() };
     (answer, certificate, findings)
 }
 
@@ -483,6 +517,7 @@ fn load_factor(model: &Model, l: &LoadFactor) -> (Answer, Certificate, Findings)
     }
     let finite = |v: f64| v.is_finite().then_some(v);
     let answer = Answer {
+        proof: certificate.claim.map(|_| findings.grade),
         load_factor: Some(LoadFactorAnswer {
             status,
             law: Law::Associative,
@@ -490,6 +525,7 @@ fn load_factor(model: &Model, l: &LoadFactor) -> (Answer, Certificate, Findings)
             lower: finite(l.bracket.lower),
             upper: finite(l.bracket.upper),
         }),
+        part: l.part.clone(),
         ..Answer::default()
     };
     (answer, certificate, findings)

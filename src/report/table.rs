@@ -1,6 +1,9 @@
 //! Answers as tables (CSV): a row for each joint and system of forces, a row for each block.
 
-use super::view::{Joint, View};
+use super::{
+    cells::Table,
+    view::{Joint, View},
+};
 use crate::{interface::ContactKind, scene::Friction, verdict::mechanism::Motion as Kind};
 use std::error::Error;
 
@@ -41,7 +44,7 @@ const BLOCKS: [&str; 14] = ["block", "support", "material", "mass", "x", "y", "z
 /// # Errors
 /// The table cannot be written.
 pub fn joints(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut writer = Table::new();
     writer.write_record(JOINTS)?;
     let motion = |k: usize| {
         let mark = view.motions.first().and_then(|m| m.marks.iter().find(|mark| mark.joint == k));
@@ -68,7 +71,7 @@ pub fn joints(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
             writer.write_record(row)?;
         }
     }
-    Ok(String::from_utf8(writer.into_inner()?)?)
+    Ok(writer.end()?)
 }
 
 /// The columns that do not depend on the forces.
@@ -103,7 +106,7 @@ fn word(kind: Kind) -> &'static str {
 /// # Errors
 /// The table cannot be written.
 pub fn blocks(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut writer = Table::new();
     writer.write_record(BLOCKS)?;
     for (i, body) in view.bodies.iter().enumerate() {
         let mut row = vec![body.id.clone(), body.support.to_string(), body.material.clone().unwrap_or_default(), body.mass.to_string()];
@@ -115,5 +118,5 @@ pub fn blocks(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
         }
         writer.write_record(row)?;
     }
-    Ok(String::from_utf8(writer.into_inner()?)?)
+    Ok(writer.end()?)
 }

@@ -1,5 +1,6 @@
 //! Trajectories as CSV, a row for each block and time, written as they come.
 
+use super::cells::Table;
 use crate::{assembly::Assembly, dynamics::Frame};
 use std::io::Write;
 
@@ -17,7 +18,7 @@ impl<W: Write> TrajectoryWriter<W> {
     /// The output cannot be written.
     pub fn new(out: W) -> std::io::Result<Self> {
         let mut writer = Self(out);
-        let mut head = csv::Writer::from_writer(Vec::new());
+        let mut head = Table::new();
         head.write_record(HEAD)?;
         writer.write(head)?;
         Ok(writer)
@@ -28,7 +29,7 @@ impl<W: Write> TrajectoryWriter<W> {
     /// # Errors
     /// The output cannot be written.
     pub fn frame(&mut self, assembly: &Assembly, frame: &Frame) -> std::io::Result<()> {
-        let mut rows = csv::Writer::from_writer(Vec::new());
+        let mut rows = Table::new();
         let run = format!("{:?}", frame.fidelity).to_lowercase();
         for (block, pose) in assembly.blocks.iter().zip(&frame.blocks) {
             let (q, text) = (pose.turn, |v: f64| v.to_string());
@@ -40,8 +41,8 @@ impl<W: Write> TrajectoryWriter<W> {
         self.write(rows)
     }
 
-    fn write(&mut self, rows: csv::Writer<Vec<u8>>) -> std::io::Result<()> {
-        self.0.write_all(&rows.into_inner().map_err(|e| std::io::Error::other(e.to_string()))?)?;
+    fn write(&mut self, rows: Table) -> std::io::Result<()> {
+        self.0.write_all(rows.end().map_err(std::io::Error::other)?.as_bytes())?;
         self.0.flush()
     }
 }

@@ -1,6 +1,7 @@
 //! What the verification of a result found (`"format": "voussoir-verification/1"`), for programs.
 
 use super::verify::Verification;
+use crate::{error::Finding, verdict::exact::Grade};
 use serde::Serialize;
 
 /// The outcome and its reasons.
@@ -12,7 +13,12 @@ pub struct VerificationFile<'a> {
     refuted: bool,
     /// Whether the answer claims something and every part holds.
     proved: bool,
+    /// The weakest grade of all that holds; absent where nothing is proved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proof: Option<Grade>,
     parts: Vec<Part<'a>>,
+    /// What is to be known about the scene.
+    scene: &'a [Finding],
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -35,7 +41,9 @@ impl<'a> VerificationFile<'a> {
             name,
             refuted: verification.refuted(),
             proved: verification.proved(),
+            proof: verification.proved().then(|| verification.grade()),
             parts: verification.parts.iter().map(part).collect(),
+            scene: &verification.scene,
         }
     }
 }

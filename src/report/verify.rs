@@ -2,19 +2,21 @@
 //! against the claim. Nothing that the file says about itself is believed.
 
 use super::{
-    ResultFile, critical,
-    result::{Answer, Certificate, Direction, DryResult, LoadFactorAnswer, Question, words},
+    ResultFile, critical, part,
+    result::{Answer, Certificate, Direction, DryResult, JointWords, LoadFactorAnswer, MechanismWords, Question, words},
     thrust,
 };
 use crate::{
-    analysis::{Model, Outcome, coulomb::Found, prepare, tilt::tilted},
-    error::InputError,
+    analysis::{Law, Model, Outcome, agreement::agree, coulomb::Found, prepare, tilt::tilted},
+    error::{Finding, FindingCode, InputError},
+    interface::{self, Part},
     scene::Scene,
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate,
         check::{self, Claim, Findings},
         evidence::{read_forces, read_rates},
+        exact::Grade,
         mechanism,
     },
 };
@@ -32,12 +34,19 @@ pub struct Verification {
     pub parts: Vec<(String, Findings)>,
     /// Whether the main answer claims anything; an undecided one does not.
     pub claimed: bool,
+    /// What is to be known about the scene that all of it is about.
+    pub scene: Vec<Finding>,
 }
 
 impl Verification {
     /// Whether any part fails.
     pub fn refuted(&self) -> bool {
         self.parts.iter().any(|(_, f)| !f.fails.is_empty())
+    }
+
+    /// The weakest grade of all that holds.
+    pub fn grade(&self) -> Grade {
+        self.parts.iter().fold(Grade::Exact, |all, (_, f)| all.and(f.grade))
     }
 
     /// Whether the answer is proved: it claims something, and every part holds.
@@ -55,21 +64,29 @@ impl Verification {
 /// # Errors
 /// The scene cannot be resolved.
 pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputError> {
-    let model = prepare(scene)?;
-    let mut all = Verification { claimed: file.certificate.claim.is_some(), parts: vec![("scene".into(), counts(file, &model))] };
+    Ok(verify_model(file, scene, &prepare(scene)?))
+}
+
+/// The same against a scene that is prepared already as `model`.
+pub(super) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> Verification {
+    let mut all = Verification {
+        claimed: file.certificate.claim.is_some(),
+        parts: vec![("scene".into(), counts(file, model))],
+        scene: model.findings().cloned().collect(),
+    };
     match file.question {
         Question::Assess | Question::Limit | Question::Simulate => {
-            let (mut f, rates) = answer(&model, file.question, &file.answer, &file.certificate);
-            mechanism_words(&mut f, file, &model, rates.as_deref());
+            let (mut f, rates) = answer(model, file.question, &file.answer, &file.certificate);
+            mechanism_words(&mut f, file, model, rates.as_deref());
             all.part("answer", f);
             let stray = !file.directions.is_empty() || (file.question != Question::Limit && file.dead_load.is_some());
             if stray {
                 all.part("form", failure("the file holds answers to a question that was not asked"));
             }
         }
-        Question::Tilt => tilts(&mut all, file, &model),
+        Question::Tilt => tilts(&mut all, file, model),
         Question::Critical => critical::verify(&mut all, file, scene),
-        Question::Thrust => thrust::verify(&mut all, file, &model),
+        Question::Thrust => thrust::verify(&mut all, file, model),
     }
     let strangers =
         [file.question != Question::Critical && file.critical.is_some(), file.question != Question::Thrust && file.thrust.is_some()];
@@ -77,21 +94,21 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
         all.part("form", failure("the file holds answers to a question that was not asked"));
     }
     if let Some(dead) = &file.dead_load {
-        all.part("dead load alone", answer(&model, Question::Assess, &dead.answer, &dead.certificate).0);
+        all.part("dead load alone", answer(model, Question::Assess, &dead.answer, &dead.certificate).0);
     }
     if let Some(dry) = file.dry.as_ref().filter(|_| file.question != Question::Tilt) {
         let findings = match file.question {
             Question::Assess | Question::Simulate | Question::Critical | Question::Thrust => {
                 failure("the file holds a load factor that was not asked for")
             }
-            _ => dry_friction(&model, dry),
+            _ => dry_friction(model, dry),
         };
         all.part("dry friction", findings);
     }
     if file.simulation.is_some() || file.question == Question::Simulate {
         all.part("simulation", simulation(file));
     }
-    Ok(all)
+    all
 }
 
 /// The words about a simulation agree with each other; that it went so is only known by repeating it.
@@ -105,6 +122,8 @@ fn simulation(file: &ResultFile) -> Findings {
         "the outcome is that of the last run",
     );
     if let Some(a) = &s.agreement {
+        let left_out = s.findings.iter().any(|f| f.code == FindingCode::LeftOut);
+        require(&mut f, a.agrees == agree(a.verdict, a.fate, left_out), "whether they agree follows from the two");
         require(&mut f, a.fate == s.fate && Some(a.verdict) == file.answer.verdict, "it is compared with the verdict of this result");
     }
     f.holds.push("observed, not proved: `voussoir simulate` on the scene repeats it".into());
@@ -115,11 +134,18 @@ fn simulation(file: &ResultFile) -> Findings {
 fn dry_friction(model: &Model, dry: &DryResult) -> Findings {
     match (&dry.certificate.claim, dry.value) {
         (None, None) if dry.found == Found::Undecided => {
-            Findings { holds: vec!["undecided: nothing is claimed".into()], fails: Vec::new() }
+            Findings { holds: vec!["undecided: nothing is claimed".into()], ..Findings::default() }
         }
         (None, None) if dry.found == Found::Unlimited => {
-            Findings { holds: vec!["no limit: computed, nothing is claimed".into()], fails: Vec::new() }
+            Findings { holds: vec!["no limit: computed, nothing is claimed".into()], ..Findings::default() }
         }
+        (None, None) if dry.found == Found::NotAtRest => {
+            Findings { holds: vec!["not at rest under the dead load: computed, nothing is claimed".into()], ..Findings::default() }
+        }
+        (None, Some(value)) if dry.found == Found::Rests && dry.rests_at == Some(value) => Findings {
+            holds: vec!["the load factor up to which the state rests: computed, nothing is claimed".into()],
+            ..Findings::default()
+        },
         (Some(claim @ Claim::DryLoadFactor { value }), Some(said))
             if *value == said && matches!(dry.found, Found::NothingSlides | Found::FixedPoint) =>
         {
@@ -140,7 +166,7 @@ fn dry_friction(model: &Model, dry: &DryResult) -> Findings {
 }
 
 pub(super) fn failure(text: impl Into<String>) -> Findings {
-    Findings { holds: Vec::new(), fails: vec![text.into()] }
+    Findings { fails: vec![text.into()], ..Findings::default() }
 }
 
 pub(super) fn require(f: &mut Findings, ok: bool, text: impl Into<String>) {
@@ -158,6 +184,9 @@ fn counts(file: &ResultFile, model: &Model) -> Findings {
         f.holds.push(words(here));
     } else {
         f.fails.push(format!("the scene has {}; the result is about {}", words(here), words(said)));
+    }
+    if s.name != s.input.name {
+        f.fails.push(format!("the scene is called {:?}, the result says {:?}", s.input.name, s.name));
     }
     f
 }
@@ -212,15 +241,32 @@ pub(super) fn answer(model: &Model, question: Question, answer: &Answer, evidenc
             return (f, None);
         }
     };
+    if let Some(said) = answer.proof.filter(|_| evidence.claim.is_none()) {
+        f.fails.push(format!("nothing is claimed, but said to be proved ({said})"));
+    }
     if let Some(claim) = &evidence.claim {
         let claimed = check::verify(assembly, interfaces, claim, &forces, base.as_ref(), &rates);
+        let said = answer.proof.unwrap_or(Grade::ToRounding(f64::INFINITY));
+        require(&mut f, is_no_better(said, claimed.grade), format!("the proof is {}, the answer says {said}", claimed.grade));
+        f.grade = claimed.grade;
         f.holds.extend(claimed.holds);
         f.fails.extend(claimed.fails);
         if matches!(claim, Claim::Stable | Claim::Conditional | Claim::Unstable) {
             unbalance(&mut f, model, answer, &forces, &rates);
         }
+        part::verify(&mut f, model, answer.part.as_ref(), &rates);
     }
     (f, Some(rates))
+}
+
+/// Whether a grade that was said is no better than the one recomputed.
+fn is_no_better(said: Grade, here: Grade) -> bool {
+    match (said, here) {
+        (_, Grade::Exact) => true,
+        (Grade::Exact, Grade::ToRounding(_)) => false,
+        // Rounding of another machine's arithmetic is no matter.
+        (Grade::ToRounding(a), Grade::ToRounding(b)) => b <= 2.0 * a,
+    }
 }
 
 /// The words and numbers of an answer are those of its claim.
@@ -240,6 +286,9 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
         return;
     }
     let said = answer.load_factor.as_ref();
+    if said.is_some_and(|l| l.law != Law::Associative) {
+        f.fails.push("the bound is said to hold for dry friction: it is one for associative sliding".into());
+    }
     let numbers = |l: &LoadFactorAnswer| (l.value, l.lower, l.upper);
     let agrees = match (answer.verdict, said.map(|l| l.status), claim) {
         (Some(Verdict::Stable), None, Some(Claim::Stable))
@@ -298,8 +347,14 @@ fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, 
         f.fails.push("the answer does not say how far it is out of balance".into());
         return;
     };
-    let upper = certificate::statics(&model.assembly, &model.interfaces, forces, 0.0).unbalance;
-    let k = certificate::kinematics(&model.assembly, &model.interfaces, rates, forces);
+    // Part by part, in units in which nothing over- or underflows.
+    let parts = interface::parts(&model.assembly, &model.interfaces);
+    let left = |part: &Part| certificate::statics(&part.assembly, &part.interfaces, &part.take_forces(forces), 0.0).unbalance;
+    let upper = parts.iter().map(left).fold(0.0, f64::max);
+    let k = match check::moving(&model.assembly, &model.interfaces, forces, rates) {
+        Some((part, own, rates)) => certificate::kinematics(&part.assembly, &part.interfaces, &rates, &own),
+        None => certificate::kinematics(&model.assembly, &model.interfaces, rates, forces),
+    };
     let (lower, slack) = if k.norm > 0.0 { (k.gain().max(0.0) / k.norm, k.slack / k.norm) } else { (0.0, 0.0) };
     // Rates that prove nothing because they part what is pressed together bound nothing: the lower end is then 0.
     let near = |a: f64, b: f64, extra: f64| (a - b).abs() <= SAME * a.abs() + tolerance::UNBALANCE + extra;
@@ -311,8 +366,18 @@ fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, 
     );
 }
 
+/// Whether the joints of two mechanisms lie in the same places: every one of the first next to one of the second between the same blocks.
+fn places_agree(model: &Model, said: &MechanismWords, here: &MechanismWords) -> bool {
+    let near = |a: &JointWords, b: &JointWords| {
+        let size = a.between.iter().filter_map(|id| model.assembly.find(id)).map(|i| model.assembly.blocks[i].size).fold(0.0, f64::max);
+        a.between == b.between && a.motion == b.motion && (Vector3::from(a.at) - Vector3::from(b.at)).norm() <= SAME * size
+    };
+    let all = |a: &MechanismWords, b: &MechanismWords| a.joints.iter().all(|j| b.joints.iter().any(|k| near(j, k)));
+    said.joints.len() == here.joints.len() && all(said, here) && all(here, said)
+}
+
 /// The mechanism in words is the one of the rates.
-fn mechanism_words(f: &mut Findings, file: &ResultFile, model: &Model, rates: Option<&[Rate]>) {
+pub(super) fn mechanism_words(f: &mut Findings, file: &ResultFile, model: &Model, rates: Option<&[Rate]>) {
     let (Some(said), Some(rates)) = (&file.mechanism, rates) else { return };
     let here = words(model, &mechanism::read(&model.assembly, &model.interfaces, rates));
     let moving = |w: &super::result::MechanismWords| w.moving.iter().cloned().collect::<BTreeSet<String>>();
@@ -320,7 +385,7 @@ fn mechanism_words(f: &mut Findings, file: &ResultFile, model: &Model, rates: Op
         |w: &super::result::MechanismWords| w.joints.iter().map(|j| (j.between.clone(), j.motion)).collect::<BTreeSet<([String; 2], _)>>();
     require(
         f,
-        moving(said) == moving(&here) && joints(said) == joints(&here),
+        moving(said) == moving(&here) && joints(said) == joints(&here) && places_agree(model, said, &here),
         format!("the mechanism in words is that of the rates: {} blocks move, {} joints", here.moving.len(), here.joints.len()),
     );
 }

@@ -23,6 +23,22 @@ impl Default for ContactSpec {
 }
 
 impl ContactSpec {
+    /// Which tolerances are wider than usual, in words; `None` where none is.
+    pub fn widened(&self) -> Option<String> {
+        let usual = Self::default();
+        let mut words = Vec::new();
+        if self.gap > usual.gap {
+            words.push(format!("gap {}", self.gap));
+        }
+        if self.angle_deg > usual.angle_deg {
+            words.push(format!("angle {}°", self.angle_deg));
+        }
+        if self.min_area > usual.min_area {
+            words.push(format!("least area {}", self.min_area));
+        }
+        (!words.is_empty()).then(|| words.join(", "))
+    }
+
     pub(super) fn is_default(&self) -> bool {
         *self == Self::default()
     }

@@ -96,12 +96,18 @@ fn combined(model: &Model, bound: &LoadFactor, dry: Option<(&Model, &DryLoadFact
     };
     let Some((model, dry)) = dry else { return answer };
     let proved = dry.proved(&model.assembly, &model.interfaces);
-    let found = if proved || dry.found == Found::Unlimited { dry.found } else { Found::Undecided };
+    let claims = matches!(dry.found, Found::NothingSlides | Found::FixedPoint);
+    let known = proved && coulomb::is_reached(dry.rests_at, dry.value);
+    let found = if known || !claims { dry.found } else { Found::Undecided };
     match found {
         // The bound itself is the answer, with its bracket.
         Found::NothingSlides => Answer { dry: Some(found), ..answer },
         Found::FixedPoint => Answer { status: Status::Found, value: Some(scale(dry.value)), lower: None, dry: Some(found), ..answer },
         Found::Unlimited => Answer { dry: Some(found), ..answer },
+        Found::Rests => {
+            Answer { status: Status::Found, value: Some(scale(dry.value)), lower: Some(scale(dry.rests_at)), dry: Some(found), ..answer }
+        }
+        Found::NotAtRest => Answer { dry: Some(found), ..Answer::of(Status::Conditional) },
         Found::Undecided => Answer { status: Status::Undecided, value: None, lower: None, dry: Some(found), ..answer },
     }
 }
@@ -113,12 +119,13 @@ fn least_tilt(options: &TiltOptions, model: &Model) -> Result<Answer, InputError
     } else {
         options.toward.iter().map(|&d| d.into()).collect()
     };
+    let level = (control.law == Law::Coulomb).then(|| assess(&model.assembly, &model.interfaces, &control).verdict);
     let mut least: Option<Answer> = None;
     for direction in toward {
         let tilt = tilt(&model.assembly, &model.interfaces, direction, &control)?;
         let turned = tilted(model, direction, tilt.load_factor.value)?;
         let dry = if control.law == Law::Coulomb && bounds(tilt.load_factor.outcome) {
-            let dry = tilt::dry(&turned.assembly, &model.interfaces, &tilt.load_factor, &control);
+            let dry = tilt::dry(&turned.assembly, &model.interfaces, &tilt.load_factor, level, &control);
             Some((tilted(model, direction, dry.value)?, dry))
         } else {
             None

@@ -1,10 +1,13 @@
 //! The file of rows on the disk: begun, taken up again, appended to. A row is written by one call as one line, so that a killed
 //! run leaves at most one piece of a line, which is cut off when the file is taken up.
 
-use super::{Header, Row};
+use super::{
+    Header, Row,
+    sum::{Checked, Seal},
+};
 use crate::{
     error::RowsError,
-    keep::{Alone, line},
+    keep::{self, Alone, line},
 };
 use std::{
     collections::BTreeMap,
@@ -19,6 +22,7 @@ pub(super) const ENDING: &str = "jsonl";
 #[derive(Debug)]
 pub struct RowsFile {
     name: String,
+    seal: Seal,
     file: Mutex<Alone>,
 }
 
@@ -31,6 +35,16 @@ pub struct Opened {
     pub rows: Vec<Row>,
     /// Bytes of a half-written last line that were cut off.
     pub mended: usize,
+    /// Rows without a check sum, as older versions wrote them.
+    pub unchecked: usize,
+}
+
+/// A file of rows as it was read.
+pub(super) struct Contents {
+    pub header: Header,
+    pub rows: Vec<Row>,
+    /// Rows without a check sum.
+    pub unchecked: usize,
 }
 
 impl RowsFile {
@@ -46,13 +60,16 @@ impl RowsFile {
         // What is there of a header may be the beginning of this one; anything else is somebody's file.
         let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
         let nothing = restart && looks_like_rows(&bytes) || whole == 0 && first.as_bytes().starts_with(&bytes);
-        let (kept, rows) = if nothing { (0, Vec::new()) } else { taken_up(&name, &bytes, whole, header)? };
-        let mended = if nothing { 0 } else { bytes.len() - kept };
+        let there = if nothing { None } else { Some(taken_up(&name, &bytes, whole, header)?) };
+        let (kept, mended) = if nothing { (0, 0) } else { (whole, bytes.len() - whole) };
         file.cut(kept).map_err(|e| problem("written", e))?;
         if kept == 0 {
             file.write(&first).map_err(|e| problem("written", e))?;
         }
-        Ok(Opened { file: Self { name, file: Mutex::new(file) }, rows, mended })
+        // Of the header that is in the file, whose names may be others.
+        let seal = Seal::new(if nothing { first.as_bytes() } else { first_line(&bytes) });
+        let (rows, unchecked) = there.map_or_else(Default::default, |t| (t.rows, t.unchecked));
+        Ok(Opened { file: Self { name, seal, file: Mutex::new(file) }, rows, mended, unchecked })
     }
 
     /// Begins a file that nobody else has or will have: `name` in `folder`, or `name-2`, `name-3`, …, the first that is not there.
@@ -67,8 +84,9 @@ impl RowsFile {
             let problem = |cause| RowsError::File { file: path.display().to_string(), what: "written", cause };
             match Alone::fresh(&path) {
                 Ok(mut file) => {
-                    file.write(&line(header).map_err(problem)?).map_err(problem)?;
-                    return Ok(Self { name: path.display().to_string(), file: Mutex::new(file) });
+                    let first = line(header).map_err(problem)?;
+                    file.write(&first).map_err(problem)?;
+                    return Ok(Self { name: path.display().to_string(), seal: Seal::new(first.as_bytes()), file: Mutex::new(file) });
                 }
                 Err(e) if e.kind() == std::io::ErrorKind::AlreadyExists => number += 1,
                 Err(e) => return Err(problem(e)),
@@ -82,7 +100,7 @@ impl RowsFile {
     /// The file cannot be written.
     pub fn append(&self, row: &Row) -> Result<(), RowsError> {
         let problem = |cause| RowsError::File { file: self.name.clone(), what: "written", cause };
-        let line = line(row).map_err(problem)?;
+        let line = self.seal.line(row).map_err(problem)?;
         self.file.lock().unwrap_or_else(PoisonError::into_inner).write(&line).map_err(problem)
     }
 }
@@ -92,21 +110,27 @@ fn looks_like_rows(bytes: &[u8]) -> bool {
     bytes.starts_with(b"{\"format\":\"voussoir-rows/1\"")
 }
 
-fn taken_up(name: &str, bytes: &[u8], whole: usize, header: &Header) -> Result<(usize, Vec<Row>), RowsError> {
-    let (old, rows) = parse(name, bytes.get(..whole).unwrap_or_default())?;
+/// The first line that is not empty.
+fn first_line(bytes: &[u8]) -> &[u8] {
+    bytes.split(|b| *b == b'\n').find(|l| !l.is_empty()).unwrap_or_default()
+}
+
+fn taken_up(name: &str, bytes: &[u8], whole: usize, header: &Header) -> Result<Contents, RowsError> {
+    let there = parse(name, bytes.get(..whole).unwrap_or_default())?;
+    let old = &there.header;
     let differs = |why: String| RowsError::Differs {
         file: name.into(),
         wanted: "this plan".into(),
         why,
         remedy: "give another --output, or --restart to begin again",
     };
-    if let Some(why) = header.differs(&old) {
+    if let Some(why) = header.differs(old) {
         return Err(differs(why.into()));
     }
     if old.shard != header.shard {
         return Err(differs(format!("they are shard {}, not {}", old.shard, header.shard)));
     }
-    Ok((whole, rows))
+    Ok(there)
 }
 
 /// Reads a file of rows: its header and its rows by number. A half-written last line is left out.
@@ -114,9 +138,13 @@ fn taken_up(name: &str, bytes: &[u8], whole: usize, header: &Header) -> Result<(
 /// # Errors
 /// The file cannot be read, or is no file of rows.
 pub fn read_rows(path: &Path) -> Result<(Header, Vec<Row>), RowsError> {
-    let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|cause| RowsError::File { file: name.clone(), what: "read", cause })?;
-    parse_rows(&name, &bytes)
+    parse_rows(&path.display().to_string(), &keep::read_file(path)?)
+}
+
+/// As [`read_rows`], and how many rows have no check sum.
+pub(super) fn contents(path: &Path) -> Result<Contents, RowsError> {
+    let bytes = keep::read_file(path)?;
+    parse(&path.display().to_string(), whole(&bytes))
 }
 
 /// As [`read_rows`], from the bytes of a file; `name` stands for it in messages.
@@ -124,8 +152,13 @@ pub fn read_rows(path: &Path) -> Result<(Header, Vec<Row>), RowsError> {
 /// # Errors
 /// The bytes are no file of rows.
 pub fn parse_rows(name: &str, bytes: &[u8]) -> Result<(Header, Vec<Row>), RowsError> {
-    let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
-    parse(name, bytes.get(..whole).unwrap_or_default())
+    parse(name, whole(bytes)).map(|c| (c.header, c.rows))
+}
+
+/// The lines that were written to their ends.
+fn whole(bytes: &[u8]) -> &[u8] {
+    let end = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
+    bytes.get(..end).unwrap_or_default()
 }
 
 /// What could be read of a file that another process may be writing, or whose writer lost its machine.
@@ -135,8 +168,10 @@ pub(super) struct Remains {
     pub header: Option<Header>,
     /// Its rows, in the order of the lines.
     pub rows: Vec<Row>,
-    /// Lines that are no rows of it.
+    /// Lines that are no rows of it, or were edited.
     pub damaged: usize,
+    /// Rows without a check sum.
+    pub unchecked: usize,
 }
 
 /// Reads what can be read: a half-written last line is left out, other lines that are no rows are counted.
@@ -144,17 +179,21 @@ pub(super) struct Remains {
 /// # Errors
 /// The file cannot be read.
 pub(super) fn read_remains(path: &Path) -> Result<Remains, RowsError> {
-    let bytes = std::fs::read(path).map_err(|cause| RowsError::File { file: path.display().to_string(), what: "read", cause })?;
-    let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
-    let mut lines = bytes.get(..whole).unwrap_or_default().split(|b| *b == b'\n').filter(|l| !l.is_empty());
+    let bytes = keep::read_file(path)?;
+    let mut lines = whole(&bytes).split(|b| *b == b'\n').filter(|l| !l.is_empty());
     let Some(first) = lines.next() else { return Ok(Remains::default()) };
     let Ok(header) = serde_json::from_slice::<Header>(first) else {
         return Ok(Remains { damaged: 1 + lines.count(), ..Remains::default() });
     };
-    let mut remains = Remains::default();
+    let (mut remains, seal) = (Remains::default(), Seal::new(first));
     for line in lines {
+        let checked = seal.check(line);
+        let genuine = checked == Checked::Same || checked == Checked::Unknown && !header.sums;
         match serde_json::from_slice::<Row>(line) {
-            Ok(row) if row.row < header.rows && row.parameters.len() == header.plan.vary.len() => remains.rows.push(row),
+            Ok(row) if genuine && row.row < header.rows && row.parameters.len() == header.plan.vary.len() => {
+                remains.unchecked += usize::from(checked == Checked::Unknown);
+                remains.rows.push(row);
+            }
             _ => remains.damaged += 1,
         }
     }
@@ -162,14 +201,14 @@ pub(super) fn read_remains(path: &Path) -> Result<Remains, RowsError> {
     Ok(remains)
 }
 
-fn parse(name: &str, bytes: &[u8]) -> Result<(Header, Vec<Row>), RowsError> {
+fn parse(name: &str, bytes: &[u8]) -> Result<Contents, RowsError> {
     let damaged = |line: usize, why: String| RowsError::Damaged { file: name.into(), line, why };
     let mut lines = bytes.split(|b| *b == b'\n').enumerate().filter(|(_, l)| !l.is_empty());
     let header: Header = match lines.next() {
         Some((_, line)) => serde_json::from_slice(line).map_err(|e| damaged(1, format!("not the beginning of a file of rows: {e}")))?,
         None => return Err(damaged(1, "not the beginning of a file of rows: it has no whole header".into())),
     };
-    let mut rows = BTreeMap::new();
+    let (mut rows, mut unchecked, seal) = (BTreeMap::new(), 0, Seal::new(first_line(bytes)));
     for (index, text) in lines {
         let at = |why: String| damaged(index + 1, why);
         let row: Row =
@@ -177,9 +216,10 @@ fn parse(name: &str, bytes: &[u8]) -> Result<(Header, Vec<Row>), RowsError> {
         if row.row >= header.rows || !header.shard.holds(row.row) || row.parameters.len() != header.plan.vary.len() {
             return Err(at(format!("row {} is none of this plan", row.row)));
         }
+        unchecked += usize::from(!seal.require(text, header.sums, at)?);
         add(&mut rows, row).map_err(|number| at(format!("row {number} is there twice with different answers; remove one of them")))?;
     }
-    Ok((header, rows.into_values().collect()))
+    Ok(Contents { header, rows: rows.into_values().collect(), unchecked })
 }
 
 /// Adds a row unless the same one is there.

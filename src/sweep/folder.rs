@@ -9,7 +9,9 @@ use super::{
 };
 use crate::{
     error::{InputError, RowsError},
+    files,
     keep::line,
+    limits,
 };
 use std::{
     collections::BTreeMap,
@@ -41,6 +43,8 @@ pub struct Gathered {
     pub rows: BTreeMap<usize, Row>,
     /// Lines that are no rows, as a machine may leave behind that goes down: their rows count as not done.
     pub damaged: usize,
+    /// Rows without a check sum, as older versions wrote them.
+    pub unchecked: usize,
 }
 
 impl Folder {
@@ -67,7 +71,7 @@ impl Folder {
                 }
                 // Whole or not at all: who opens the folder relies on it.
                 let text = line(&header).map_err(problem)?;
-                let mut file = tempfile::NamedTempFile::new_in(path).map_err(problem)?;
+                let mut file = tempfile::NamedTempFile::new_in(path).map_err(files::unnamed).map_err(problem)?;
                 std::io::Write::write_all(&mut file, text.as_bytes()).map_err(problem)?;
                 file.persist(path.join(HEADER)).map_err(|e| problem(e.error))?;
                 Ok(Self { path: path.to_path_buf(), header })
@@ -147,6 +151,7 @@ impl Folder {
             };
             let remains = file::read_remains(&path)?;
             all.damaged += remains.damaged;
+            all.unchecked += remains.unchecked;
             if let Some(why) = remains.header.and_then(|h| h.differs(&self.header)) {
                 return Err(differs(why.into(), "move the file away"));
             }
@@ -182,10 +187,11 @@ impl Tally {
         for path in folder.files()? {
             let problem = |cause| RowsError::File { file: path.display().to_string(), what: "read", cause };
             let (at, lines) = self.seen.entry(path.clone()).or_default();
-            let mut file = fs::File::open(&path).map_err(problem)?;
+            let mut file = files::open(&path).map_err(problem)?;
             file.seek(SeekFrom::Start(*at)).map_err(problem)?;
             let mut more = Vec::new();
-            file.read_to_end(&mut more).map_err(problem)?;
+            // What is longer than a file of rows may be is told when its rows are read.
+            file.take(limits::FILE).read_to_end(&mut more).map_err(problem)?;
             *at += more.len() as u64;
             *lines += more.iter().filter(|b| **b == b'\n').count();
             all += lines.saturating_sub(1);

@@ -2,7 +2,8 @@
 
 use super::{
     Folder, Header, Row, Shard,
-    file::{add, read_rows},
+    file::{add, contents},
+    sum::Seal,
 };
 use crate::{error::RowsError, keep::line};
 use std::{collections::BTreeMap, path::Path};
@@ -12,6 +13,8 @@ use std::{collections::BTreeMap, path::Path};
 pub struct Merged {
     /// Lines in folders that are no rows, left out.
     pub damaged: usize,
+    /// Rows without a check sum, as older versions wrote them.
+    pub unchecked: usize,
     /// What they are about.
     pub header: Header,
     /// The rows, by number.
@@ -24,7 +27,7 @@ pub struct Merged {
 /// A file cannot be read, or is about something else than the first.
 pub fn merge(paths: &[impl AsRef<Path>]) -> Result<Option<Merged>, RowsError> {
     let mut header: Option<(String, Header)> = None;
-    let (mut rows, mut damaged) = (BTreeMap::new(), 0);
+    let (mut rows, mut damaged, mut unchecked) = (BTreeMap::new(), 0, 0);
     for path in paths {
         let path = path.as_ref();
         let file = path.display().to_string();
@@ -32,9 +35,12 @@ pub fn merge(paths: &[impl AsRef<Path>]) -> Result<Option<Merged>, RowsError> {
             let folder = Folder::open(path)?;
             let gathered = folder.read()?;
             damaged += gathered.damaged;
+            unchecked += gathered.unchecked;
             (folder.header, gathered.rows.into_values().collect())
         } else {
-            read_rows(path)?
+            let there = contents(path)?;
+            unchecked += there.unchecked;
+            (there.header, there.rows)
         };
         let differs = |wanted: &str, why: String| RowsError::Differs {
             file: file.clone(),
@@ -55,7 +61,7 @@ pub fn merge(paths: &[impl AsRef<Path>]) -> Result<Option<Merged>, RowsError> {
         }
     }
     let Some((_, header)) = header else { return Ok(None) };
-    Ok(Some(Merged { damaged, header: Header { shard: Shard::ALL, ..header }, rows: rows.into_values().collect() }))
+    Ok(Some(Merged { damaged, unchecked, header: Header { shard: Shard::ALL, ..header }, rows: rows.into_values().collect() }))
 }
 
 impl Merged {
@@ -64,9 +70,10 @@ impl Merged {
     /// # Errors
     /// A row has no JSON form.
     pub fn text(&self) -> Result<String, std::io::Error> {
-        let mut text = line(&self.header)?;
+        let mut text = line(&Header { sums: true, ..self.header.clone() })?;
+        let seal = Seal::new(text.as_bytes());
         for row in &self.rows {
-            text.push_str(&line(row)?);
+            text.push_str(&seal.line(row)?);
         }
         Ok(text)
     }

@@ -32,6 +32,7 @@ mod run;
 mod sampling;
 mod shard;
 pub mod slurm;
+mod sum;
 mod summary;
 mod worst;
 

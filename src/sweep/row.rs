@@ -26,6 +26,9 @@ pub struct Header {
     pub rows: usize,
     /// Which of them are here.
     pub shard: Shard,
+    /// Whether every row carries a check sum; older files have none.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub sums: bool,
     /// The plan.
     pub plan: Plan,
     /// The scene it names.
@@ -39,12 +42,14 @@ impl Header {
             voussoir: env!("CARGO_PKG_VERSION").into(),
             rows: sweep.rows(),
             shard,
+            sums: true,
             plan: sweep.plan.clone(),
             scene: sweep.scene.clone(),
         }
     }
 
-    /// Why rows under this header are not rows under `other`; the path of the scene file and the names do not matter.
+    /// Why rows under this header are not rows under `other`; the path of the scene file, the names
+    /// and whether there are check sums do not matter.
     pub fn differs(&self, other: &Self) -> Option<&'static str> {
         let (a, b) = (&self.plan, &other.plan);
         let vary = |p: &Plan| -> Vec<super::Vary> { p.vary.iter().map(|v| super::Vary { name: None, ..v.clone() }).collect() };

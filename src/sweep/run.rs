@@ -32,6 +32,8 @@ pub enum Event {
         there: usize,
         /// Bytes of a half-written row that were cut off.
         mended: usize,
+        /// Rows that were there and have no check sum, as older versions wrote them.
+        unchecked: usize,
     },
     /// A row has been written.
     Row(Status),
@@ -56,10 +58,10 @@ pub struct Done {
 /// The file cannot be used. Rows that fail are rows with their error.
 pub fn run(sweep: &Sweep, path: &Path, options: &Options, watch: &(dyn Fn(Event) + Sync)) -> Result<Done, RowsError> {
     let header = sweep.header(options.shard);
-    let Opened { file, rows, mended } = RowsFile::open(path, &header, options.restart)?;
+    let Opened { file, rows, mended, unchecked } = RowsFile::open(path, &header, options.restart)?;
     let there: HashSet<usize> = rows.iter().map(|r| r.row).collect();
     let open = options.shard.rows(sweep.rows()).filter(|row| !there.contains(row)).collect::<Vec<_>>();
-    watch(Event::Begin { rows: there.len() + open.len(), there: there.len(), mended });
+    watch(Event::Begin { rows: there.len() + open.len(), there: there.len(), mended, unchecked });
     let (more, computed) = answers(sweep, &file, open, options.threads, watch)?;
     let mut rows = rows;
     rows.extend(more);
@@ -76,7 +78,7 @@ pub fn run_in(sweep: &Sweep, folder: &Folder, name: &str, options: &Options, wat
     let there = folder.read()?.rows;
     let mine: Vec<usize> = options.shard.rows(sweep.rows()).collect();
     let open: Vec<usize> = mine.iter().copied().filter(|row| !there.contains_key(row)).collect();
-    watch(Event::Begin { rows: mine.len(), there: mine.len() - open.len(), mended: 0 });
+    watch(Event::Begin { rows: mine.len(), there: mine.len() - open.len(), mended: 0, unchecked: 0 });
     if open.is_empty() {
         return Ok(0);
     }

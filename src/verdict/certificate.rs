@@ -23,9 +23,9 @@ use crate::{
 };
 use nalgebra::Vector3;
 
-/// Force scale of a free block, N: the greater of its weight and its dead load.
+/// Force scale of a free block, N: the greater of its weight and its dead load, whose moment counts as in [`size`].
 pub fn load_scale(assembly: &Assembly, block: usize) -> f64 {
-    assembly.weight(block).max(assembly.dead[block].force.norm())
+    assembly.weight(block).max(size(assembly, block, &assembly.dead[block]))
 }
 
 /// Size of a wrench on a block, N: `‖(F; G⁻¹ M)‖`, moments measured by the radii of gyration about their own axes ([`Gyration`]).
@@ -50,8 +50,6 @@ pub struct Statics {
     pub unbalance: f64,
     /// The block of the largest unbalance.
     pub worst: usize,
-    /// What rounding of coordinates and forces alone can amount to on any block, in multiples of its load.
-    pub resolution: f64,
     /// Largest distance of a force outside its friction cone, over that very force: a large force elsewhere makes no room for
     /// a small one that pulls.
     pub cone_excess: f64,
@@ -59,7 +57,7 @@ pub struct Statics {
     pub crushing: f64,
     /// The interface of that.
     pub most_pressed: usize,
-    /// Whether every block is balanced, each up to [`tolerance::UNBALANCE`] or what rounding of its own forces amounts to.
+    /// Whether every block is balanced up to [`tolerance::UNBALANCE`] of its own load.
     pub balanced: bool,
 }
 
@@ -79,8 +77,6 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             moment: assembly.dead[i].moment + assembly.live[i].moment * lambda,
         })
         .collect();
-    let mut rounding: Vec<f64> = residuals.iter().map(|r| r.force.norm()).collect();
-    let most = tolerance::ROUNDING_FORCE * assembly.free().map(|i| load_scale(assembly, i)).sum::<f64>();
     let (mut excess, mut crushing, mut most_pressed) = (0.0_f64, 0.0_f64, 0);
     for (index, (face, forces)) in interfaces.list.iter().zip(forces).enumerate() {
         let strength = Strength::of(face);
@@ -97,7 +93,6 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
                 let arm = point - assembly.blocks[block].centroid;
                 residuals[block] += Wrench { force: total * sign, moment: (arm.cross(&total) + moment) * sign };
-                rounding[block] += total.norm().min(most) * (1.0 + point.amax() / assembly.blocks[block].gyration.least());
             }
         }
         if let Some(used) = strength.crushing(face, forces) {
@@ -107,26 +102,21 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             }
         }
     }
-    let (mut unbalance, mut worst, mut resolution, mut balanced) = (0.0, 0, 0.0_f64, true);
-    for i in 0..n {
+    let (mut unbalance, mut worst) = (0.0, 0);
+    for (i, residual) in residuals.iter_mut().enumerate() {
         if assembly.blocks[i].support {
-            residuals[i] = Wrench::zero();
+            *residual = Wrench::zero();
             continue;
         }
-        let u = size(assembly, i, &residuals[i]) / load_scale(assembly, i);
-        let rounding = (ROUNDING * rounding[i] / load_scale(assembly, i)).min(tolerance::RESOLUTION);
-        resolution = resolution.max(rounding);
-        balanced &= u <= tolerance::UNBALANCE.max(rounding);
+        let scale = load_scale(assembly, i).max(lambda.abs() * size(assembly, i, &assembly.live[i]));
+        let u = size(assembly, i, residual) / scale;
         // A NaN is the worst there is, and stays.
         if (u > unbalance || u.is_nan()) && !f64::is_nan(unbalance) {
             (unbalance, worst) = (u, i);
         }
     }
-    Statics { residuals, unbalance, worst, resolution, cone_excess: excess, crushing, most_pressed, balanced }
+    Statics { residuals, unbalance, worst, cone_excess: excess, crushing, most_pressed, balanced: unbalance <= tolerance::UNBALANCE }
 }
-
-/// Rounding counted per addition: one unit in the last place.
-const ROUNDING: f64 = f64::EPSILON;
 
 /// What the corners of a joint carry beside friction, N.
 #[derive(Clone, Debug, Default)]

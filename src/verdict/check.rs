@@ -2,12 +2,14 @@
 //! but the forces and the rates themselves.
 
 use super::{
-    Forces, Rate, certificate, law,
+    Forces, Rate, certificate,
+    exact::{Grade, balance::Unbalance, existence, motion},
+    law,
     thrust::{self, Extreme, ThrustAt},
 };
 use crate::{
     assembly::{Assembly, Wrench},
-    interface::Interfaces,
+    interface::{self, Interfaces, Part},
     tolerance,
 };
 use serde::{Deserialize, Serialize};
@@ -23,7 +25,7 @@ pub enum Claim {
     Conditional,
     /// The mechanism gains power under the dead load: nothing balances it.
     Unstable,
-    /// The forces balance the dead load and `value` × the live load; the mechanism admits no more than `upper`.
+    /// The forces balance the dead load and `lower` × the live load; the mechanism admits no more than `upper`.
     LoadFactor {
         /// Claimed load factor.
         value: f64,
@@ -75,11 +77,19 @@ pub struct Findings {
     pub holds: Vec<String>,
     /// What does not, with its number.
     pub fails: Vec<String>,
+    /// How exactly: the weakest of all that holds.
+    pub grade: Grade,
 }
 
 impl Findings {
     pub(super) fn require(&mut self, ok: bool, text: String) {
         if ok { &mut self.holds } else { &mut self.fails }.push(text);
+    }
+
+    /// Requires something that is proved with a grade.
+    pub(super) fn require_graded(&mut self, ok: bool, grade: Grade, text: impl std::fmt::Display) {
+        self.grade = self.grade.and(grade);
+        self.require(ok, format!("{text} ({grade})"));
     }
 
     /// Whether the claim is proved.
@@ -115,12 +125,7 @@ pub fn verify(
                 Some(base) => balanced(&mut f, "at a load factor at which it stands, ", assembly, interfaces, base, standing),
                 None => f.fails.push("forces at a load factor at which the scene stands are missing".into()),
             }
-            let (alone, factor) = live_alone(assembly);
-            f.require(factor.is_finite() && factor > 0.0, "there is a live load".into());
-            // Forces in joints that limit them are not counted: nothing that has a limit wedges.
-            let (unlimited, kept) = interfaces.unlimited();
-            let scaled = kept.iter().map(|&k| forces[k].iter().map(|&v| v * factor).collect()).collect();
-            balanced(&mut f, "under the live load alone, ", &alone, &unlimited, &scaled, 0.0);
+            live_alone_balances(&mut f, assembly, interfaces, forces);
         }
         Claim::Thrust { at, extreme, value, lower, upper } => {
             thrust::verify(&mut f, assembly, interfaces, (forces, rates), (&at, extreme), [value, lower, upper]);
@@ -128,23 +133,51 @@ pub fn verify(
         Claim::EndlessThrust { at, extreme } => thrust::verify_endless(&mut f, assembly, interfaces, forces, base, &at, extreme),
         Claim::Impossible => {
             gains(&mut f, assembly, interfaces, rates);
-            let k = certificate::kinematics(assembly, interfaces, rates, forces);
-            let natural = natural_factor(assembly);
-            let reach = (k.gain() / k.live_power).abs() / natural;
-            f.require(
-                reach >= REACH && natural.is_finite(),
-                format!("the live load gains no power: the proof holds for load factors up to {reach:.1e} × dead / live load"),
-            );
+            without_live_power(&mut f, assembly, interfaces, rates);
         }
     }
     f
+}
+
+/// The rates gain no power from the live load, so that no multiple of it stops them.
+fn without_live_power(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) {
+    let Some(m) = motion::motion(assembly, interfaces, rates) else {
+        return f.fails.push("a joint that can crush closes: that bounds no load factor".into());
+    };
+    let live = m.live.magnitude();
+    if live == 0.0 {
+        return f.holds.push("the live load has no power on it, whatever its multiple (exact)".into());
+    }
+    // Each load by what it does on the blocks that move.
+    let norm = |loads: &[Wrench]| -> f64 {
+        assembly.free().map(|i| certificate::size(assembly, i, &loads[i]) * certificate::speed(assembly, i, &rates[i])).sum()
+    };
+    let reach = m.gain().lower / norm(&assembly.dead) / (live / norm(&assembly.live));
+    f.require_graded(
+        reach >= REACH,
+        Grade::ToRounding(1.0 / reach),
+        format!("the live load gains no power: the proof holds for load factors up to {reach:.1e} × dead / live load of what moves"),
+    );
+}
+
+/// Forces that balance the live load alone: added to others as often as wanted, they leave the scene standing.
+fn live_alone_balances(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) {
+    f.require(assembly.free().any(|i| assembly.live[i] != Wrench::zero()), "there is a live load".into());
+    // Forces in joints that limit them are not counted: nothing that has a limit wedges.
+    let (unlimited, kept) = interfaces.unlimited();
+    let counted = kept.iter().map(|&k| forces[k].clone()).collect();
+    let mut alone = assembly.clone();
+    for (dead, live) in alone.dead.iter_mut().zip(&mut alone.live) {
+        *dead = std::mem::replace(live, Wrench::zero());
+    }
+    by_themselves(f, "under the live load alone, ", &alone, &unlimited, &counted);
 }
 
 /// Forces and a mechanism that obey Coulomb's law together.
 fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], value: f64) {
     let s = certificate::statics(assembly, interfaces, forces, value);
     cones(f, "", assembly, interfaces, &s);
-    let allowed = tolerance::DRY_BALANCE.max(s.resolution);
+    let allowed = tolerance::DRY_BALANCE;
     f.require(
         s.unbalance <= allowed,
         format!("forces balance every free block at λ = {value}: largest unbalance {:.1e} g, allowed {allowed:.0e}", s.unbalance),
@@ -165,9 +198,7 @@ fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &
 
 /// The natural map of a mechanism with the rates as the live load drives them.
 pub fn dry_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> f64 {
-    let k = certificate::kinematics(assembly, interfaces, rates, forces);
-    let power = k.live_power * natural_factor(assembly);
-    law::natural_map_in_loads(assembly, interfaces, forces, rates, power).unwrap_or(f64::INFINITY)
+    law::natural_map_in_loads(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY)
 }
 
 /// Forces from which a motion starts that obeys Coulomb's law with them.
@@ -181,6 +212,11 @@ fn moves(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, base: &
     f.require(
         m.natural_map <= tolerance::MOTION_LAW,
         format!("forces and motion obey Coulomb's law: natural map {:.1e}, allowed {:.0e}", m.natural_map, tolerance::MOTION_LAW),
+    );
+    let allowed = tolerance::MOTION_BREACH * m.acceleration;
+    f.require(
+        m.natural_map_in_loads <= allowed,
+        format!("to far less than that motion: natural map in g {:.1e}, allowed {allowed:.0e}", m.natural_map_in_loads),
     );
     let dot = |a: &[Rate], b: &[Rate]| -> f64 {
         assembly
@@ -218,16 +254,45 @@ pub fn live_alone(assembly: &Assembly) -> (Assembly, f64) {
 
 /// `when` says which of several sets of forces is meant.
 pub(super) fn balanced(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) {
-    let s = certificate::statics(assembly, interfaces, forces, lambda);
-    let threshold = tolerance::UNBALANCE.max(s.resolution);
-    f.require(
-        s.balanced,
-        format!(
-            "{when}forces balance every free block: largest unbalance {:.1e} g, on {}, allowed {threshold:.1e}",
-            s.unbalance, assembly.blocks[s.worst].id
-        ),
-    );
-    cones(f, when, assembly, interfaces, &s);
+    let scale = |i: usize| certificate::load_scale(assembly, i).max(lambda.abs() * certificate::size(assembly, i, &assembly.live[i]));
+    balanced_against(f, when, (assembly, interfaces), forces, lambda, &scale);
+}
+
+/// Forces that balance without any load, or one that stands in the place of the dead load: each block by its own load, by the contact
+/// forces on it where it has none.
+pub(super) fn by_themselves(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) {
+    let mut greatest = vec![0.0_f64; assembly.blocks.len()];
+    for (face, forces) in interfaces.list.iter().zip(forces) {
+        let most = largest(std::slice::from_ref(forces));
+        [face.a, face.b].into_iter().for_each(|i| greatest[i] = greatest[i].max(most));
+    }
+    let scale = |i: usize| match certificate::size(assembly, i, &assembly.dead[i]) {
+        0.0 => greatest[i],
+        own => own,
+    };
+    balanced_against(f, when, (assembly, interfaces), forces, 0.0, &scale);
+}
+
+/// Forces that balance at `lambda`, each block by its own `scale`, N.
+fn balanced_against(
+    f: &mut Findings,
+    when: &str,
+    (assembly, interfaces): (&Assembly, &Interfaces),
+    forces: &Forces,
+    lambda: f64,
+    scale: &dyn Fn(usize) -> f64,
+) {
+    let left = Unbalance::of(assembly, interfaces, forces, lambda, scale);
+    let (by, id) = (left.greatest, &assembly.blocks[left.block].id);
+    if existence::exists(assembly, interfaces, forces, lambda).is_some() {
+        let text = format!("{when}forces that balance every free block exist inside their cones, within {by:.1e} g of the given ones");
+        f.require_graded(true, Grade::Exact, text);
+    } else {
+        let allowed = tolerance::UNBALANCE;
+        let text = format!("{when}forces balance every free block: largest unbalance {by:.1e} g, on {id}, allowed {allowed:.1e}");
+        f.require_graded(by <= allowed, Grade::ToRounding(by), text);
+    }
+    cones(f, when, assembly, interfaces, &certificate::statics(assembly, interfaces, forces, lambda));
 }
 
 pub(super) fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, s: &certificate::Statics) {
@@ -242,25 +307,45 @@ pub(super) fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interface
     }
 }
 
+/// The part of a scene that alone moves, in its own units, with its forces and rates: what the others weigh is no matter of its proof. `None`
+/// where several move.
+pub fn moving(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<(Part, Forces, Vec<Rate>)> {
+    let moves = |part: &Part| part.blocks.iter().any(|&i| rates[i] != Rate::zero());
+    let mut list: Vec<Part> = interface::parts(assembly, interfaces).into_iter().filter(moves).collect();
+    let part = list.pop().filter(|_| list.is_empty())?;
+    let own = part.blocks.iter().map(|&i| Rate { velocity: rates[i].velocity, spin: part.units.own_spin(&rates[i].spin) }).collect();
+    let forces = part.take_forces(forces);
+    Some((part, forces, own))
+}
+
 fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) {
+    match moving(assembly, interfaces, &super::no_forces(interfaces), rates) {
+        Some((part, _, own)) => gains_of(f, &part.assembly, &part.interfaces, &own),
+        None => gains_of(f, assembly, interfaces, rates),
+    }
+}
+
+fn gains_of(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) {
     let none = super::no_forces(interfaces);
     let k = certificate::kinematics(assembly, interfaces, rates, &none);
-    let resolution = certificate::statics(assembly, interfaces, &none, 0.0).resolution;
-    let gain = k.gain() / k.norm;
-    let threshold = tolerance::UNBALANCE.max(resolution);
-    f.require(gain > threshold, format!("the mechanism gains power: {gain:.3e} g, at least {threshold:.1e} needed"));
+    let exact = motion::motion(assembly, interfaces, rates);
+    let gain = exact.map_or(k.gain(), |m| m.gain().lower);
+    let threshold = tolerance::UNBALANCE;
+    f.require(gain > threshold * k.norm, format!("the mechanism gains power: {:.3e} g, at least {threshold:.1e} needed", gain / k.norm));
+    if exact.is_some_and(|m| m.is_admissible()) {
+        return f.require_graded(true, Grade::Exact, "the mechanism is admissible: no joint closes");
+    }
     let cap = k.force_cap(assembly);
-    let closing = if cap.is_infinite() {
-        "no joint closes".to_string()
-    } else {
+    f.require_graded(
+        k.is_admissible(assembly),
+        Grade::ToRounding(1.0 / cap),
         format!(
             // Rounding: its size is worth telling, its digits are not.
-            "joints close by less than {:.0e} of its speed; only contact forces above {:.0e} × the total load could hide behind that",
+            "the mechanism is admissible: joints close by less than {:.0e} of its speed; only contact forces above {:.0e} × the total load could hide behind that",
             decade(k.inadmissibility, f64::ceil),
             decade(cap, f64::floor)
-        )
-    };
-    f.require(k.is_admissible(assembly), format!("the mechanism is admissible: {closing}"));
+        ),
+    );
 }
 
 /// The two blocks of a joint.
@@ -274,6 +359,7 @@ fn decade(x: f64, round: fn(f64) -> f64) -> f64 {
     10f64.powf(round(x.log10()))
 }
 
+/// Forces at `lower` from below and a mechanism from above.
 fn load_factor(
     f: &mut Findings,
     assembly: &Assembly,
@@ -282,36 +368,76 @@ fn load_factor(
     rates: &[Rate],
     [value, lower, upper]: [f64; 3],
 ) {
-    let s = certificate::statics(assembly, interfaces, forces, value);
-    cones(f, "", assembly, interfaces, &s);
-    let k = certificate::kinematics(assembly, interfaces, rates, forces);
-    let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
-    f.require(k.live_power > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));
-    let natural = natural_factor(assembly);
-    let width = |v: f64| tolerance::LOAD_FACTOR_WIDTH * v.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
-    let loose = tolerance::LOOSE_BALANCE.max(s.resolution);
-    f.require(
-        s.unbalance <= loose,
-        format!(
-            "forces balance every free block at λ = {value}: largest unbalance {:.1e} g, on {}, allowed {loose:.1e}",
-            s.unbalance, assembly.blocks[s.worst].id
-        ),
-    );
-    let behind = k.behind(forces);
-    let allowed = tolerance::LOAD_FACTOR_BEHIND * value.abs() + tolerance::LOAD_FACTOR_WIDTH * natural;
-    f.require(
-        behind <= allowed,
-        format!("the mechanism is admissible: its rounding could hide at most {behind:.1e} of λ, allowed {allowed:.1e}"),
-    );
-    let (low, high) = (value - hidden / k.live_power, k.upper());
-    f.require(
-        low >= lower - width(value) && high <= upper + width(value),
-        format!("bracket recomputed: [{low:.12}, {high:.12}], claimed [{lower:.12}, {upper:.12}]"),
-    );
+    let (high, natural) = match moving(assembly, interfaces, forces, rates) {
+        Some((part, own, rates)) => {
+            let high = upper_end(f, &part.assembly, &part.interfaces, &own, &rates, part.units.own_load_factor(value));
+            (part.units.load_factor(high), part.units.load_factor(natural_factor(&part.assembly)))
+        }
+        None => (upper_end(f, assembly, interfaces, forces, rates, value), natural_factor(assembly)),
+    };
+    f.require(high <= upper, format!("the mechanism bounds the load factor: recomputed {high:.12}, claimed {upper:.12}"));
     // A bracket may be true and wide; a load factor below the limit is still not the limit. NaN is not narrow.
-    let (open, narrow) = (high - low, 2.0 * width(value));
+    let width = tolerance::LOAD_FACTOR_WIDTH * lower.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
+    supported(f, assembly, interfaces, (forces, rates), lower, width);
+    let (open, narrow) = (upper - lower, 2.0 * width);
     if open.is_nan() || open.abs() > narrow {
         f.fails.push(format!("the two sides do not meet: bracket {open:.1e} wide, allowed {narrow:.1e}"));
     }
-    f.require(lower - width(value) <= value && value <= upper + width(value), format!("λ = {value:.12} lies in its bracket"));
+    f.require(lower <= value && value <= upper, format!("λ = {value:.12} lies in its bracket"));
+}
+
+/// Forces that hold the scene at the lower end of a load factor. What they leave unbalanced counts with the power that it has on the
+/// mechanism, and may be more than elsewhere where that is next to nothing.
+fn supported(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, (forces, rates): (&Forces, &[Rate]), lower: f64, width: f64) {
+    let scale = |i: usize| certificate::load_scale(assembly, i).max(lower.abs() * certificate::size(assembly, i, &assembly.live[i]));
+    let when = format!("at λ = {lower}, ");
+    let left = Unbalance::of(assembly, interfaces, forces, lower, &scale).greatest;
+    if left <= tolerance::UNBALANCE || existence::exists(assembly, interfaces, forces, lower).is_some() {
+        return balanced_against(f, &when, (assembly, interfaces), forces, lower, &scale);
+    }
+    let s = certificate::statics(assembly, interfaces, forces, lower);
+    let live = certificate::kinematics(assembly, interfaces, rates, forces).live_power;
+    let hidden = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum::<f64>() / live;
+    let (block, allowed) = (&assembly.blocks[s.worst].id, tolerance::LOOSE_BALANCE);
+    let text = format!("{when}forces balance every free block: largest unbalance {left:.1e} g, on {block}, allowed {allowed:.0e}");
+    f.require_graded(left <= allowed, Grade::ToRounding(left), text);
+    f.require(hidden <= width, format!("what they leave hides at most {hidden:.1e} of λ, allowed {width:.1e}"));
+    cones(f, &when, assembly, interfaces, &s);
+}
+
+/// The load factor above which a mechanism gains power.
+fn upper_end(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], value: f64) -> f64 {
+    let k = certificate::kinematics(assembly, interfaces, rates, forces);
+    let exact = motion::motion(assembly, interfaces, rates);
+    let live = exact.map_or(k.live_power, |m| m.live.lower);
+    f.require(live > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));
+    if exact.is_some_and(|m| m.is_admissible()) {
+        f.require_graded(true, Grade::Exact, "the mechanism is admissible: no joint closes");
+        return upper_bound(assembly, interfaces, forces, rates);
+    }
+    // What joints that close by rounding take up of the given forces counts to first order; of the largest on all of them, as a bound.
+    let natural = natural_factor(assembly);
+    let behind = exact.map_or(k.excess, |m| m.excess) * largest(forces) / live;
+    let allowed = tolerance::LOAD_FACTOR_BEHIND * value.abs() + tolerance::LOAD_FACTOR_WIDTH * natural;
+    f.require_graded(
+        behind <= allowed,
+        Grade::ToRounding(behind / value.abs().max(natural)),
+        format!("the mechanism is admissible: its rounding could hide at most {behind:.1e} of λ, allowed {allowed:.1e}"),
+    );
+    upper_bound(assembly, interfaces, forces, rates)
+}
+
+/// The load factor above which a mechanism gains power; where its joints close by rounding, at least with what these take up of the forces.
+pub fn upper_bound(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> f64 {
+    let to_first_order = || certificate::kinematics(assembly, interfaces, rates, forces).upper();
+    match motion::motion(assembly, interfaces, rates) {
+        Some(m) if m.is_admissible() => (-m.gain()).over(m.live).upper,
+        Some(m) => (-m.gain()).over(m.live).upper.max(to_first_order()),
+        None => to_first_order(),
+    }
+}
+
+/// The greatest contact force, N.
+pub(super) fn largest(forces: &[Vec<Wrench>]) -> f64 {
+    forces.iter().flatten().map(|v| v.force.norm()).fold(0.0, f64::max)
 }

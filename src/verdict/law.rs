@@ -2,67 +2,93 @@
 
 use super::{
     Forces, Rate,
-    certificate::{Strength, at, load_scale, statics},
+    certificate::{Strength, at, load_scale, power, size, speed, statics},
 };
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interface, Interfaces},
     scene::Friction,
+    tolerance,
 };
 use nalgebra::Vector3;
 
 /// How exactly forces and rates obey Signorini's and Coulomb's laws together: the natural map
-/// `‖f − P_K(f − ρ (u + μ‖u_t‖ n))‖ / F` over all contact points (Acary, Brémond & Huber 2018), zero for an exact solution.
+/// `‖f − P_K(f − ρ (u + μ‖u_t‖ n))‖ / F` (Acary, Brémond & Huber 2018), the greatest over all joints, zero for an exact solution.
 ///
-/// `u` are the rates of the joints. The law does not change when `u` is multiplied, so `ρ` brings `u` to the size `F` of the
-/// forces, the greater of `‖f‖` and the norm of the dead loads: a measure without units. `None` where nothing moves.
+/// `u` are the rates of the joints. The law does not change when `u` is multiplied, so `ρ` brings the greatest of them to the size `F` of
+/// the forces: a measure without units. `F` is each joint's own: the load or greatest contact force of its two blocks, of the lesser block.
+/// What large forces or heavy blocks elsewhere do makes no room for a breach here. `None` where nothing moves.
 ///
 /// Cohesion and tension move and cut the cone `K`; couples of a rolling arm count in the same way, over the arm, against the rates
 /// of rolling and twisting. Where a joint crushes, the normal forces count by what they fall short of the greatest power on the
 /// closing `g`, `√(σ ∫ g⁺ dA − Σ g f_n)`, instead: zero exactly where the pressure is σ on all that closes and nothing on what opens.
 pub fn natural_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<f64> {
-    map(assembly, interfaces, forces, rates, None)
+    let speeds = interfaces.list.iter().flat_map(|face| face.points.iter().map(move |p| joint_rate(assembly, rates, face, p).norm()));
+    let fastest = speeds.fold(0.0, greatest);
+    (fastest > 0.0).then(|| map(assembly, interfaces, forces, rates, 1.0 / fastest))
 }
 
-/// The same with rates as the convex program has them, not brought to the size of the forces: in multiples of the mean load of a
-/// block, for a mechanism on which the live load, brought to the size of the dead load, has a power of one. Less strict than
-/// [`natural_map`] where rates are small beside forces; the measure of the literature.
-pub fn natural_map_in_loads(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], power: f64) -> Option<f64> {
-    let mean = mean_load(assembly);
-    map(assembly, interfaces, forces, rates, Some(mean * mean / power))
+/// The same with rates as the convex program has them, not brought to the size of the forces: in multiples of the joint's own forces, for a
+/// mechanism on which the live load, brought to the size of the dead load, has the power of one mean load; sizes, loads and means are
+/// those of the blocks that the mechanism moves. Less strict than [`natural_map`] where rates are small beside forces; the measure of the
+/// literature. `None` where nothing moves, or the live load does not drive it.
+pub fn natural_map_in_loads(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<f64> {
+    let fastest = assembly.free().map(|i| speed(assembly, i, &rates[i])).fold(0.0, greatest);
+    let moving: Vec<usize> = assembly.free().filter(|&i| speed(assembly, i, &rates[i]) > tolerance::MECHANISM_REST * fastest).collect();
+    let sum = |of: &dyn Fn(usize) -> f64| moving.iter().map(|&i| of(i)).sum::<f64>();
+    let (dead, live) = (sum(&|i| size(assembly, i, &assembly.dead[i])), sum(&|i| size(assembly, i, &assembly.live[i])));
+    let driven = sum(&|i| power(&assembly.live[i], &rates[i])) * dead / live;
+    let mean = sum(&|i| load_scale(assembly, i)) / moving.len() as f64;
+    (driven > 0.0).then(|| map(assembly, interfaces, forces, rates, mean / driven))
 }
 
-fn mean_load(assembly: &Assembly) -> f64 {
-    assembly.free().map(|i| load_scale(assembly, i)).sum::<f64>() / assembly.free().count().max(1) as f64
+/// The greater of two; a NaN stays.
+fn greatest(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
 }
 
-fn map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], scale: Option<f64>) -> Option<f64> {
-    let loads: f64 = assembly.free().map(|i| assembly.dead[i].force.norm_squared()).sum();
-    let size = forces.iter().flatten().map(|f| f.force.norm_squared()).sum::<f64>().max(loads).sqrt();
-    let spins = |block: usize| rates[block].spin;
-    let joint = |face: &Interface, p: &Vector3<f64>| at(assembly, rates, face.b, p) - at(assembly, rates, face.a, p);
-    let speed = interfaces.list.iter().flat_map(|face| face.points.iter().map(move |p| joint(face, p).norm_squared())).sum::<f64>().sqrt();
-    if speed == 0.0 {
-        return None;
-    }
-    let scale = scale.unwrap_or(size / speed);
-    let mut sum = 0.0;
+/// Rate of a joint at one of its points, m/s.
+fn joint_rate(assembly: &Assembly, rates: &[Rate], face: &Interface, p: &Vector3<f64>) -> Vector3<f64> {
+    at(assembly, rates, face.b, p) - at(assembly, rates, face.a, p)
+}
+
+/// What breaches at each joint are measured by, N: of its two blocks (supports do not count) the lesser, each by the greatest of its load and
+/// of the forces of its contacts.
+fn measures(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Vec<f64> {
+    let mut own: Vec<f64> = (0..assembly.blocks.len()).map(|i| load_scale(assembly, i)).collect();
     for (face, forces) in interfaces.list.iter().zip(forces) {
+        for block in [face.a, face.b] {
+            own[block] = forces.iter().map(|f| f.force.norm()).fold(own[block], f64::max);
+        }
+    }
+    let of = |block: usize| if assembly.blocks[block].support { f64::INFINITY } else { own[block] };
+    interfaces.list.iter().map(|face| of(face.a).min(of(face.b))).map(|size| if size > 0.0 { size } else { 1.0 }).collect()
+}
+
+/// The greatest breach of a joint over its own forces; rates of `1 / scale` count as much as these.
+fn map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], scale: f64) -> f64 {
+    let spins = |block: usize| rates[block].spin;
+    let mut worst = 0.0;
+    for ((face, forces), size) in interfaces.list.iter().zip(forces).zip(measures(assembly, interfaces, forces)) {
+        if !size.is_finite() {
+            continue;
+        }
         let strength = Strength::of(face);
-        let rates: Vec<Vector3<f64>> = face.points.iter().map(|p| joint(face, p) * scale).collect();
+        let rates: Vec<Vector3<f64>> = face.points.iter().map(|p| joint_rate(assembly, rates, face, p) * scale).collect();
+        let own: Vec<Wrench> = forces.iter().map(|&w| w * (1.0 / size)).collect();
         let (mut breach, mut tangential) = (0.0, 0.0);
-        for (place, (u, Wrench { force, .. })) in rates.iter().zip(forces).enumerate() {
-            let [cohesion, tension] = strength.at(place);
+        for (place, (u, Wrench { force, .. })) in rates.iter().zip(&own).enumerate() {
+            let [cohesion, tension] = strength.at(place).map(|s| s / size);
             breach += contact_breach(face, force, u, cohesion, tension);
             tangential += sliding_breach(face, force, u, cohesion);
         }
         if face.crushes() {
-            breach = breach.min(tangential + crushing_breach(face, &strength, forces, &rates));
+            breach = breach.min(tangential + crushing_breach(face, &strength, forces, &rates) / size);
         }
         let (n, arm) = (face.frame.n, face.rolling_arm());
         if arm > 0.0 {
             let spin = (spins(face.b) - spins(face.a)) * scale;
-            for Wrench { force, moment } in forces {
+            for Wrench { force, moment } in &own {
                 let limit = n.dot(force).max(0.0);
                 let part = |v: Vector3<f64>| (n.dot(&v), v - n * n.dot(&v));
                 let ((twist, roll), (twist_rate, roll_rate)) = (part(moment / arm), part(spin * arm));
@@ -70,9 +96,9 @@ fn map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[R
                 breach += (roll - onto_disc(roll - roll_rate, limit)).norm_squared();
             }
         }
-        sum += breach;
+        worst = greatest(worst, breach.sqrt());
     }
-    Some(sum.sqrt() / size)
+    worst
 }
 
 /// How far one force and the rate there are from Signorini's and Coulomb's laws, squared.
@@ -135,28 +161,44 @@ fn onto_cone(f: Vector3<f64>, n: Vector3<f64>, friction: Friction, cohesion: f64
 pub struct Released {
     /// Largest acceleration, in multiples of gravity ([`Statics::unbalance`](super::certificate::Statics::unbalance)).
     pub acceleration: f64,
+    /// Acceleration of each block, in multiples of gravity; zero for supports.
+    pub accelerations: Vec<f64>,
     /// How far forces and motion are from Coulomb's law together ([`natural_map`]).
     pub natural_map: f64,
-    /// The same with accelerations in multiples of gravity and forces in mean block loads ([`natural_map_in_loads`]).
+    /// The same with accelerations in multiples of gravity, not brought to the size of the forces: what breaches of the law could make of
+    /// the accelerations.
     pub natural_map_in_loads: f64,
-    /// The motion, each block's unbalance over the square of its load scale.
+    /// The motion, each block's unbalance over its load scale: accelerations in multiples of gravity.
     pub rates: Vec<Rate>,
+}
+
+impl Released {
+    /// Whether some block moves off, by forces and a motion that obey the law to far less than that motion: what still creeps, and forces
+    /// that are not yet those of the law, are none.
+    pub fn is_motion(&self) -> bool {
+        self.acceleration >= tolerance::LEAST_MOTION
+            && self.natural_map <= tolerance::MOTION_LAW
+            && self.natural_map_in_loads <= tolerance::MOTION_BREACH * self.acceleration
+    }
 }
 
 /// The motion that starts from rest under contact forces, and how exactly the two obey Coulomb's law.
 ///
-/// Each block moves by its own unbalance; a block's mass is taken as its load scale squared, with its own radii of gyration. The law of contact does not depend on that choice, only the speeds do.
+/// Each block moves by its own unbalance; a block's mass is taken as its load scale, with its own radii of gyration. The law of contact does
+/// not depend on that choice, only the speeds do.
 pub fn motion(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Released {
     let s = statics(assembly, interfaces, forces, 0.0);
     let mut rates = vec![Rate::zero(); assembly.blocks.len()];
+    let mut accelerations = vec![0.0; assembly.blocks.len()];
     for i in assembly.free() {
         let (w, gyration) = (load_scale(assembly, i), &assembly.blocks[i].gyration);
         let spin = gyration.spin(&gyration.force(&s.residuals[i].moment));
-        rates[i] = Rate { velocity: s.residuals[i].force / (w * w), spin: spin / (w * w) };
+        rates[i] = Rate { velocity: s.residuals[i].force / w, spin: spin / w };
+        accelerations[i] = size(assembly, i, &s.residuals[i]) / w;
     }
     let natural_map = natural_map(assembly, interfaces, forces, &rates).unwrap_or(f64::INFINITY);
-    let natural_map_in_loads = natural_map_in_loads(assembly, interfaces, forces, &rates, 1.0).unwrap_or(f64::INFINITY);
-    Released { acceleration: s.unbalance, natural_map, natural_map_in_loads, rates }
+    let natural_map_in_loads = map(assembly, interfaces, forces, &rates, 1.0);
+    Released { acceleration: s.unbalance, accelerations, natural_map, natural_map_in_loads, rates }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 pub mod certificate;
 pub mod check;
 pub mod evidence;
+pub mod exact;
 pub mod law;
 pub mod mechanism;
 pub mod section;

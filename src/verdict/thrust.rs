@@ -138,7 +138,7 @@ pub(super) fn verify(
     let p = at.bracket(assembly, interfaces, extreme, forces, rates);
     let s = &p.statics;
     super::check::cones(f, "", assembly, interfaces, s);
-    let loose = tolerance::LOOSE_BALANCE.max(s.resolution);
+    let loose = tolerance::LOOSE_BALANCE;
     f.require(
         s.unbalance <= loose,
         format!(

@@ -184,7 +184,8 @@ fn loose_grains_are_taken_away_until_enough_moves() {
     assert_eq!(first.rounds[0].moving, ["ball"]);
     let half = stability(&scene, &model, toward, 0.5, &associative()).unwrap();
     let last = &half.rounds[half.answer];
-    assert!(half.reached && half.rounds.len() == 2 && last.moved > 0.99, "{:?}", half.rounds.iter().map(|r| &r.moving).collect::<Vec<_>>());
+    // The two blocks are parts of their own that slide at the same tilt: a round moves one of them.
+    assert!(half.reached && half.rounds.len() == 2 && last.moved > 0.5, "{:?}", half.rounds.iter().map(|r| &r.moving).collect::<Vec<_>>());
     assert!((last.tilt.angle_deg() - 0.5f64.atan().to_degrees()).abs() < 1e-6, "{}", last.tilt.angle_deg());
     assert!(last.scene.blocks.iter().all(|b| b.id != "ball"), "what fell is gone");
     // As a result, with the grains that fell and a proof of the last round.

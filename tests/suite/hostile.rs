@@ -3,8 +3,9 @@
 use serde_json::{Value, json};
 use std::{fs, path::Path, process::Command};
 
-/// Markup, a terminal code that clears the screen and one that sets the title, an end of a comment, a path, a backspace.
-const HOSTILE: &str = "<script>alert(1)</script>\"'&\u{1b}[2J\u{1b}]0;x\u{7}-->]]>../../evil\u{8}\r\n$(touch evil)`touch evil`";
+/// A formula, markup, a terminal code that clears the screen and one that sets the title, an end of a comment, a path, a backspace, a terminal
+/// code of one byte, marks that reorder what follows, ends of line and paragraph.
+const HOSTILE: &str = "=cmd|'/C calc'!A0<script>alert(1)</script>\"'&\u{1b}[2J\u{1b}]0;x\u{7}-->]]>../../evil\u{8}\r\n$(touch evil)`touch evil`\u{9b}2J\u{202e}\u{2066}\u{200f}\u{61c}\u{2028}\u{2029}";
 
 fn run(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_voussoir")).current_dir(folder).args(args).output().unwrap();
@@ -12,9 +13,18 @@ fn run(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
     (output.status.code(), text(&output.stdout), text(&output.stderr))
 }
 
-/// No control characters but line breaks.
+/// No control characters but line breaks, no marks of direction, no separators of lines.
 fn plain(text: &str) -> bool {
-    !text.contains(|c: char| c.is_control() && c != '\n')
+    !text.contains(|c: char| {
+        c.is_control() && c != '\n' || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    })
+}
+
+/// No cell of a table that a spreadsheet would compute; numbers are no such thing.
+fn inert(table: &str) -> bool {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(table.as_bytes());
+    let computed = |cell: &str| cell.trim_start().starts_with(['=', '+', '-', '@']) && cell.parse::<f64>().is_err();
+    plain(table) && reader.records().all(|row| !row.unwrap().iter().any(computed))
 }
 
 fn scene() -> Value {
@@ -39,7 +49,10 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
     for args in [
         &["assess", "scene.json", "--verbose", "--report", "page.html", "--svg", "assess.svg"][..],
         &["assess", "scene.json", "--simulate"],
-        &["limit", "scene.json", "--verbose", "--save", "result.json"],
+        &["limit", "scene.json", "--verbose", "--save", "result.json", "--vtk", "limit.vtp", "--csv", "joints.csv"],
+        &["limit", "scene.json", "--json"],
+        &["check", "scene.json", "--json"],
+        &["check", "result.json", "--json"],
         &["check", "result.json"],
         &["check", "scene.json"],
         &["tilt", "scene.json", "--all", "1"],
@@ -48,6 +61,7 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
         &["critical", "scene.json", "--vary", "/joints/default/friction", "--between", "0.1", "0.9", "--scan", "3"],
         &["simulate", "scene.json", "--fast", "--csv", "way.csv"],
         &["sweep", "plan.json", "-o", "rows.jsonl", "--csv", "table.csv", "--svg", "chart.svg", "--report", "rows.html"],
+        &["sweep", "merge", "rows.jsonl", "-o", "merged.jsonl", "--json"],
     ] {
         let (code, out, err) = run(at, args);
         assert!(matches!(code, Some(0 | 1)), "{args:?}: {code:?} {err}");
@@ -57,8 +71,22 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
         let text = fs::read_to_string(at.join(page)).unwrap();
         // Neither as markup nor inside the page's own script, where `</script>` would end it.
         assert!(!text.contains("<script>alert") && !text.contains("alert(1)</script>"), "{page} lets markup through");
-        assert!(text.contains("alert(1)") && !text.contains('\u{1b}'), "{page}");
+        assert!(text.contains("alert(1)") && plain(&text), "{page}");
     }
+    for table in ["contacts.csv", "joints.csv", "joints.blocks.csv", "table.csv", "way.csv"] {
+        let text = fs::read_to_string(at.join(table)).unwrap();
+        assert!(text.contains("cmd|") && inert(&text), "{table}: {text}");
+    }
+    for file in ["result.json", "rows.jsonl", "merged.jsonl"] {
+        let text = fs::read_to_string(at.join(file)).unwrap();
+        assert!(plain(&text) && text.contains("\\u202e") && text.contains("\\u009b"), "{file}");
+    }
+    // Strings stand there as the numbers of their bytes.
+    let vtp = fs::read_to_string(at.join("limit.vtp")).unwrap();
+    let names = vtp.split("Name=\"block names\"").nth(1).unwrap().split('>').nth(1).unwrap().split('<').next().unwrap();
+    let bytes: Vec<u8> = names.split_whitespace().map(|n| n.parse().unwrap()).collect();
+    let names = String::from_utf8(bytes).unwrap();
+    assert!(plain(&vtp) && names.contains("cmd|") && plain(&names.replace('\0', "")), "{names:?}");
     for drawing in ["assess.svg", "thrust.svg", "chart.svg"] {
         let text = fs::read_to_string(at.join(drawing)).unwrap();
         assert!(!text.contains("<script") && plain(&text), "{drawing}");
@@ -78,6 +106,10 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
         "assess.svg",
         "chart.svg",
         "contacts.csv",
+        "joints.blocks.csv",
+        "joints.csv",
+        "limit.vtp",
+        "merged.jsonl",
         "page.html",
         "plan.json",
         "result.json",

@@ -158,3 +158,15 @@ fn files_stay_small_and_main_smaller() {
         }
     }
 }
+
+#[test]
+fn files_are_opened_and_tables_written_in_one_place_each() {
+    for (word, home) in [("File::open(", "src/files.rs"), ("fs::read(", "src/files.rs"), ("csv::Writer", "src/report/cells.rs")] {
+        for (path, text) in sources("src") {
+            let name = path.to_string_lossy().replace('\\', "/");
+            // Not as the end of a longer name: `RowsFile::open`.
+            let holds = text.match_indices(word).any(|(at, _)| !text[..at].ends_with(char::is_alphanumeric));
+            assert!(is_test(&path) || name == home || !holds, "{name} holds {word}, which belongs to {home}");
+        }
+    }
+}

@@ -30,19 +30,24 @@ fn wall_pushed(direction: [f64; 3]) -> Scene {
     )
 }
 
-/// `n` cubes around the vertical, each turned by the same angle against its radius, so that there is no mirror; each is pushed along its
-/// own face.
+/// `n` cubes around the vertical on a table with `n` sides, which makes one part of them, each turned by the same angle against its radius, so
+/// that there is no mirror; each is pushed along its own face.
 fn pinwheel(n: usize, mu: f64) -> Scene {
     let mut blocks = vec![ground()];
     let mut loads = Vec::new();
     for k in 0..n {
         let turn = std::f64::consts::TAU * k as f64 / n as f64;
-        let mut block = cuboid(&format!("b{k}"), [1.0, 0.7, 0.5], [2.0 * turn.cos(), 2.0 * turn.sin(), 0.0]);
+        let mut block = cuboid(&format!("b{k}"), [1.0, 0.7, 0.5], [2.0 * turn.cos(), 2.0 * turn.sin(), 1.0]);
         block["rotation_deg"] = json!({ "axis": [0, 0, 1], "angle": turn.to_degrees() + 20.0 });
         blocks.push(block);
         let along = turn + 20f64.to_radians();
         loads.push(json!({ "block": format!("b{k}"), "force": [along.cos(), along.sin(), 0.0] }));
     }
+    let corner = |k: usize| (std::f64::consts::TAU * k as f64 / n as f64).sin_cos();
+    let mut table = ask::prism("table", &(0..n).map(|k| [6.0 * corner(k).1, 6.0 * corner(k).0]).collect::<Vec<_>>());
+    table["rotation_deg"] = json!({ "axis": [1, 0, 0], "angle": 90 });
+    table["at"] = json!([0, 0, 0.5]);
+    blocks.push(table);
     scene(mu, json!(blocks), json!({ "loads": { "live": loads } }))
 }
 
@@ -76,7 +81,7 @@ fn verdicts_of_the_part_are_those_of_the_whole() {
         ("wall", wall_pushed([0.0, 1.0, 0.0]), Verdict::Stable, "mirror images of each other): 10 of 18"),
         ("spheres", pile(json!({})), Verdict::Stable, "3 equal parts around the vertical, each its own mirror image): 2 of 4"),
         ("squeezed block", squeezed(), Verdict::Conditional, "mirror images of each other): 1 of 1"),
-        ("pinwheel", pinwheel(5, 0.3), Verdict::Stable, "5 equal parts around the vertical): 1 of 5"),
+        ("pinwheel", pinwheel(5, 0.3), Verdict::Stable, "5 equal parts around the vertical): 2 of 6"),
     ];
     for (name, s, want, words) in cases {
         assert_eq!(ask::verdict(&s, Law::Coulomb), want, "{name}");

@@ -21,8 +21,10 @@ pub(super) struct FixedPoint {
     pub rates: Vec<f64>,
     /// The load factor (0 for a state).
     pub lambda: f64,
-    /// Last change of what was held, in mean block loads.
+    /// Last change of what was held, each in the load that presumably passes there.
     pub change: f64,
+    /// What is unsettled can make this of accelerations at most, in multiples of gravity.
+    pub noise: f64,
     /// Convex programs solved.
     pub solves: usize,
 }
@@ -30,8 +32,8 @@ pub(super) struct FixedPoint {
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stop {
-    /// Change of what is held, absolute, in mean block loads: a measure relative to the current value would let blocks that
-    /// are squeezed by ever smaller forces hang.
+    /// Change of what is held, in the load that presumably passes there: a measure relative to the current value would let blocks that
+    /// are squeezed by ever smaller forces hang, one that is the same everywhere overlooks light blocks among heavy ones.
     pub change: f64,
     /// Most convex programs.
     pub solves: usize,
@@ -98,17 +100,20 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
             Hold::Limits => contacts.limits(&forces),
             Hold::SlidingRates => contacts.sliding(&joint_rates(contacts, aim, &forces, &rates)),
         };
-        let change = next.iter().zip(&held).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let local = |x: &[f64]| -> Vec<f64> { x.iter().zip(&contacts.passing).map(|(x, p)| x / p).collect() };
+        let (now, then) = (local(&held), local(&next));
+        let change = now.iter().zip(&then).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         // The last iterate is kept unless an earlier one was much better: near the end the change is the engine's noise.
         if best.as_ref().is_none_or(|b| change < 10.0 * b.change) {
-            best = Some(FixedPoint { forces: contacts.cut(&forces), rates: rates.clone(), lambda, change, solves: k });
+            let noise = if hold == Hold::Limits { contacts.unsettled(&forces, &held, &next) } else { change };
+            best = Some(FixedPoint { forces: contacts.cut(&forces), rates: rates.clone(), lambda, change, noise, solves: k });
         } else if let Some(best) = &mut best {
             best.solves = k;
         }
         if change <= stop.change {
             break;
         }
-        held = anderson.next(&held, &next);
+        held = anderson.next(&now, &then).iter().zip(&contacts.passing).map(|(x, p)| x * p).collect();
     }
     best
 }

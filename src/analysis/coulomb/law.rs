@@ -127,7 +127,7 @@ impl Law {
             if size <= EXACT + ROUNDING * norm(&z) {
                 let rates = z.iter().map(|z| z / way).collect();
                 self.last = Some(Place { z, lambda, way });
-                return Some(FixedPoint { forces, rates, lambda, change: 0.0, solves: 0 });
+                return Some(FixedPoint { forces, rates, lambda, change: 0.0, noise: 0.0, solves: 0 });
             }
         }
         None

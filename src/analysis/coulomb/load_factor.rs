@@ -5,14 +5,17 @@
 //! forces that balance at λ and a mechanism that obeys Coulomb's law with them: *a* complementary solution. Load factors
 //! without dilatancy are not unique (Ferris & Tin-Loi 2001; Gilbert, Casapulla & Ahmed 2006); the associative value bounds
 //! them all from above. A run that does not settle is undecided and gives no number.
+//!
+//! Forces and a mechanism at λ say that the scene moves there, not that it comes to rest below: that is asked of the state ([`rest`](super::rest)).
 
 use super::{
     fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
     law::Law,
+    rest::{loaded, up_to_rest},
     state::{Motion, state},
 };
 use crate::{
-    analysis::{Control, LoadFactor, Outcome},
+    analysis::{Control, Deciding, LoadFactor, Outcome},
     assembly::Assembly,
     interface::Interfaces,
     program::{
@@ -22,7 +25,7 @@ use crate::{
     },
     solve::Settings,
     tolerance,
-    verdict::{Forces, Rate, certificate, check, law},
+    verdict::{Forces, Rate, Verdict, certificate, check, law},
 };
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
@@ -37,6 +40,10 @@ pub enum Found {
     FixedPoint,
     /// The live load alone comes to rest on forces that it produces itself: no limit. Computed, not proved.
     Unlimited,
+    /// The state under dry friction rests up to the value, and no longer somewhat above it. Computed, not proved.
+    Rests,
+    /// Already under the dead load the state does not rest: it needs a pre-stress, or falls. There is no value.
+    NotAtRest,
     /// It did not settle: there is no value.
     Undecided,
 }
@@ -46,13 +53,20 @@ pub enum Found {
 pub struct DryLoadFactor {
     /// How it was found.
     pub found: Found,
-    /// The value; NaN where undecided.
+    /// The value; NaN where there is none.
     pub value: f64,
+    /// The greatest load factor at which the state under dry friction was seen at rest; it rested at all smaller ones that were asked, from
+    /// the dead load on. NaN where it was not asked, or did not come out.
+    pub rests_at: f64,
+    /// The least load factor at which it was seen to move; NaN where it never was.
+    pub moves_at: f64,
+    /// The part that decides, where there are several.
+    pub part: Option<Deciding>,
     /// How far forces and mechanism are from Coulomb's law ([`law::natural_map`]).
     pub natural_map: f64,
     /// The same with rates as the program has them ([`law::natural_map_in_loads`]).
     pub natural_map_in_loads: f64,
-    /// Convex programs solved.
+    /// Convex programs solved for the value; those of the states that were asked whether they rest are not counted.
     pub solves: usize,
     /// Forces at the value, N.
     pub forces: Forces,
@@ -79,12 +93,35 @@ const LOST: f64 = 10.0;
 /// The engine's tolerance before and after.
 const TOLERANCES: [f64; 2] = [1e-11, 1e-13];
 
-/// The load factor with dry friction; `associative` is the answer of [`limit`](crate::analysis::limit()) for the same model.
-pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
+/// The load factor with dry friction of one part, up to which it comes to rest; `associative` is the answer of
+/// [`limit`](crate::analysis::limit()) for the same part, `dead` the verdict under the dead load alone, where it is known.
+pub(in crate::analysis) fn of_part(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    associative: &LoadFactor,
+    dead: Option<Verdict>,
+    control: &Control,
+) -> DryLoadFactor {
+    let start = Instant::now();
+    let answer = complementary(assembly, interfaces, associative, control);
+    let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
+    up_to_rest(answer, associative, dead, &|lambda| (loaded(assembly, lambda), interfaces.clone()), &control)
+}
+
+/// Forces and a mechanism that obey Coulomb's law together at a load factor; nothing is said about what happens below.
+pub(in crate::analysis) fn complementary(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    associative: &LoadFactor,
+    control: &Control,
+) -> DryLoadFactor {
     let map = |forces: &Forces, rates: &[Rate]| law::natural_map(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY);
     let mut answer = DryLoadFactor {
         found: Found::Undecided,
         value: f64::NAN,
+        rests_at: f64::NAN,
+        moves_at: f64::NAN,
+        part: None,
         natural_map: f64::INFINITY,
         natural_map_in_loads: f64::INFINITY,
         solves: 0,
@@ -110,23 +147,25 @@ pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &L
     let options = Options { keep_all: control.keep_all, live: true, symmetry: true, ..Options::default() };
     let contacts = Contacts::new(assembly, interfaces, options);
     let is_part = contacts.statics.is_part();
-    lowered(assembly, interfaces, contacts, control, start, &mut answer);
+    let scene = Scene { assembly, interfaces, associative };
+    lowered(&scene, contacts, control, start, &mut answer);
     if answer.found == Found::Undecided && is_part {
         let whole = Contacts::new(assembly, interfaces, Options { symmetry: false, ..options });
-        lowered(assembly, interfaces, whole, control, start, &mut answer);
+        lowered(&scene, whole, control, start, &mut answer);
     }
     answer
 }
 
+/// What a value is asked of.
+struct Scene<'a> {
+    assembly: &'a Assembly,
+    interfaces: &'a Interfaces,
+    associative: &'a LoadFactor,
+}
+
 /// Lowers δ until the law is obeyed.
-fn lowered(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    mut contacts: Contacts,
-    control: &Control,
-    start: Instant,
-    answer: &mut DryLoadFactor,
-) {
+fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, start: Instant, answer: &mut DryLoadFactor) {
+    let Scene { assembly, interfaces, .. } = *scene;
     let settings = Settings { tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
     let scale = check::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
@@ -149,7 +188,7 @@ fn lowered(
         });
         let Some(point) = point else { break };
         answer.solves += point.solves;
-        if stage + 1 >= LEAST_STAGES && accept(assembly, interfaces, &contacts, &point, answer) {
+        if stage + 1 >= LEAST_STAGES && accept(scene, &contacts, &point, answer) {
             break;
         }
         let settled = point.change == 0.0 && stage + 1 >= LEAST_STAGES;
@@ -157,7 +196,7 @@ fn lowered(
             let left = (control.seconds - start.elapsed().as_secs_f64()).max(0.0);
             let end = Duration::try_from_secs_f64(left).ok().and_then(|s| Instant::now().checked_add(s));
             let further = |by: &f64| law.on(&contacts, by * delta, end).map(|p| FixedPoint { lambda: scale * p.lambda, ..p });
-            if FURTHER.iter().map_while(further).any(|p| accept(assembly, interfaces, &contacts, &p, answer)) {
+            if FURTHER.iter().map_while(further).any(|p| accept(scene, &contacts, &p, answer)) {
                 break;
             }
         }
@@ -178,7 +217,8 @@ fn engine(settings: &Settings) -> Means<'_> {
 }
 
 /// Takes a fixed point as the answer if it is more exact than the one before; says whether it is a value.
-fn accept(assembly: &Assembly, interfaces: &Interfaces, contacts: &Contacts, point: &FixedPoint, answer: &mut DryLoadFactor) -> bool {
+fn accept(scene: &Scene, contacts: &Contacts, point: &FixedPoint, answer: &mut DryLoadFactor) -> bool {
+    let Scene { assembly, interfaces, .. } = *scene;
     let forces = contacts.statics.forces(interfaces, &point.forces);
     let rates: Vec<Rate> =
         contacts.statics.rates(assembly.blocks.len(), &point.rates).into_iter().map(|(velocity, spin)| Rate { velocity, spin }).collect();
@@ -186,15 +226,31 @@ fn accept(assembly: &Assembly, interfaces: &Interfaces, contacts: &Contacts, poi
     let natural_map_in_loads = check::dry_map(assembly, interfaces, &forces, &rates);
     // The forces as they are, cut to their limits, balance best at this load factor.
     let lambda = contacts.best_factor(point.lambda, &contacts.residual(&point.forces, point.lambda));
+    let lambda = lower_end(scene, &forces, &rates, lambda);
     let s = certificate::statics(assembly, interfaces, &forces, lambda);
     let obeys = natural_map <= tolerance::DRY_LAW && natural_map_in_loads <= tolerance::NATURAL_MAP;
-    let found = obeys && s.is_within_strength() && s.unbalance <= tolerance::DRY_BALANCE.max(s.resolution);
+    let found = obeys && s.is_within_strength() && s.unbalance <= tolerance::DRY_BALANCE;
     if found {
         (answer.found, answer.value) = (Found::FixedPoint, lambda);
     }
     (answer.forces, answer.rates) = (forces, rates);
     (answer.natural_map, answer.natural_map_in_loads) = (natural_map, natural_map_in_loads);
     found
+}
+
+/// The load factor that these forces prove: what they leave off balance at `lambda` may be worth some of it, as the mechanism tells, and as
+/// that of the associative bound does, which no value passes.
+fn lower_end(Scene { assembly, interfaces, associative }: &Scene, forces: &Forces, rates: &[Rate], lambda: f64) -> f64 {
+    let s = certificate::statics(assembly, interfaces, forces, lambda);
+    let hidden = |rates: &[Rate]| {
+        let driven: f64 = assembly.free().map(|i| certificate::power(&assembly.live[i], &rates[i])).sum();
+        let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
+        if driven > 0.0 { hidden / driven } else { 0.0 }
+    };
+    if associative.outcome != Outcome::Found {
+        return lambda - hidden(rates);
+    }
+    (lambda - hidden(rates).max(hidden(&associative.rates))).min(associative.value)
 }
 
 /// Whether the live load alone, on joints without any strength, produces the forces that balance it.

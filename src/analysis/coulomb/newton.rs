@@ -24,10 +24,11 @@ const SLOPE: f64 = 0.1;
 /// Most looks along a line.
 const LOOKS: usize = 40;
 
-/// The imbalance aimed at, over ε: that of the rates. Larger: the friction limits settle no better. Smaller: one more step for nothing.
+/// The imbalance aimed at, in the loads that pass the blocks, over ε: that of the rates. Larger: the friction limits settle no better.
+/// Smaller: one more step for nothing.
 const EXACT: f64 = 1e-8;
 
-/// The imbalance, in block loads, that is good enough where rounding allows no better. Larger: noise in the rates at small ε, and the
+/// The imbalance, in the same loads, that is good enough where rounding allows no better. Larger: noise in the rates at small ε, and the
 /// engine would have done better. Smaller: scenes of large forces, which it does no better either, go back to it.
 const ENOUGH: f64 = 1e-10;
 
@@ -35,6 +36,8 @@ const ENOUGH: f64 = 1e-10;
 pub(super) struct Newton {
     response: Response,
     cholesky: Cholesky,
+    /// What the imbalance of each row is measured by: a heavy block makes no room for a light one.
+    carried: Vec<f64>,
 }
 
 /// One solution.
@@ -51,7 +54,7 @@ impl Newton {
         let response = Response::new(contacts)?;
         let (starts, rows) = response.pattern();
         let cholesky = Cholesky::new(Pattern { starts: starts.to_vec(), rows: rows.to_vec() })?;
-        Some(Self { response, cholesky })
+        Some(Self { response, cholesky, carried: contacts.carried() })
     }
 
     /// Solves one program from the rates `start`; `None` where it does not get there, or not before `end`.
@@ -67,10 +70,11 @@ impl Newton {
         }
         let friction = Friction::Held(hold, held);
         let look = |q: &[f64]| self.response.forces(contacts, epsilon, friction, q);
+        let left = |g: &[f64]| g.iter().zip(&self.carried).map(|(g, c)| (g / c).powi(2)).sum::<f64>().sqrt();
         let mut rates = start.to_vec();
         let (mut forces, mut gradient) = look(&rates);
         for _ in 0..STEPS {
-            let size = norm(&gradient);
+            let size = left(&gradient);
             if size <= EXACT * epsilon {
                 return Some(Solved { forces, rates });
             }
@@ -85,7 +89,7 @@ impl Newton {
             let at = |share: f64| rates.iter().zip(&step).map(|(q, s)| q + share * s).collect::<Vec<f64>>();
             let mut best = at(1.0);
             let (mut f, mut g) = look(&best);
-            if norm(&g) > FALL * size {
+            if left(&g) > FALL * size {
                 // No better for rounding.
                 if size <= ENOUGH {
                     return Some(Solved { forces, rates });
@@ -114,10 +118,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn norm(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -127,6 +127,10 @@ mod tests {
         scene::read_str,
         solve::{self, Settings},
     };
+
+    fn norm(a: &[f64]) -> f64 {
+        dot(a, a).sqrt()
+    }
 
     /// A leaning stack of three, pushed by its load, on a support; all parts in three dimensions.
     fn contacts(joints: &str, loads: &str) -> Contacts {

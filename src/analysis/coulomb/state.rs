@@ -7,6 +7,7 @@
 //! that a state at rest is the one the loads produce; rest under a pre-stress and motion are often both exact solutions.
 
 use super::{
+    exact::Exact,
     fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
     newton::Newton,
 };
@@ -20,10 +21,13 @@ use crate::{
     },
     solve::Settings,
     tolerance,
-    verdict::{Forces, law},
+    verdict::{
+        Forces,
+        law::{self, Released},
+    },
 };
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What the state does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,11 +48,11 @@ pub struct Step {
     pub epsilon: f64,
     /// Largest acceleration left on a block, in multiples of gravity.
     pub acceleration: f64,
-    /// Last change of the friction limits, in mean block loads.
+    /// Last change of the friction limits, each in the load that passes there.
     pub change: f64,
     /// How far the forces and that acceleration are from Coulomb's law ([`law::natural_map`]).
     pub natural_map: f64,
-    /// The same with accelerations in multiples of gravity ([`law::natural_map_in_loads`]).
+    /// The same with accelerations in multiples of gravity ([`law::Released`]).
     pub natural_map_in_loads: f64,
     /// Convex programs solved.
     pub solves: usize,
@@ -79,6 +83,13 @@ const TOLERANCE_PER_EPSILON: f64 = 1e-5;
 /// The engine's tolerance at large ε. Larger: the friction limits settle no better than that.
 const COARSEST_TOLERANCE: f64 = 1e-9;
 
+/// Steps of ε before the law itself is solved where no verdict came out. Fewer: time lost on scenes that rest plainly. More: the limits of
+/// states near the edge of friction do not settle.
+const BEFORE_EXACT: usize = 2;
+
+/// An acceleration counts when it is more than this × what unsettled friction can make. Less: noise that falls passes for rest. More: time lost.
+const NOISE: f64 = 10.0;
+
 /// When a fixed point has settled.
 const STOP: Stop = Stop { change: 1e-5, solves: 25 };
 
@@ -105,7 +116,10 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
     let still = vec![0.0; contacts.discs().count()];
     let once = Stop { solves: 1, ..STOP };
     let mut exact = f64::INFINITY;
+    let mut exactly: Option<Option<Exact>> = None;
+    contacts.by_mass();
     let mut newton = Newton::new(&contacts);
+    let mut history: Vec<Seen> = Vec::new();
     let rest = vec![0.0; contacts.statics.matrix.rows];
     // The associative state is the first guess of the friction limits.
     let first = Settings { seconds: control.seconds - begin.elapsed().as_secs_f64(), ..settings };
@@ -118,9 +132,20 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
         let tolerance = (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE);
         let settings = Settings { seconds: left, tolerance, ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, newton.as_mut(), &settings));
-        let Some(point) = point else { break };
-        let forces = contacts.statics.forces(interfaces, &point.forces);
-        let moved = law::motion(assembly, interfaces, &forces);
+        let Some(mut point) = point else { break };
+        let mut forces = contacts.statics.forces(interfaces, &point.forces);
+        let mut moved = law::motion(assembly, interfaces, &forces);
+        let rests = decide(&history, &point, &moved) == Motion::Rests;
+        if history.len() >= BEFORE_EXACT && point.change > 0.0 && !rests {
+            let end = Duration::try_from_secs_f64(left).ok().and_then(|s| start.checked_add(s));
+            let solver = exactly.get_or_insert_with(|| Exact::new(&contacts));
+            if let Some((solved, change)) = solver.as_mut().and_then(|e| e.near(&contacts, epsilon, &point.rates, end)) {
+                point = FixedPoint { forces: contacts.cut(&solved.forces), rates: solved.rates, change, noise: change, ..point };
+                forces = contacts.statics.forces(interfaces, &point.forces);
+                moved = law::motion(assembly, interfaces, &forces);
+            }
+        }
+        let decided = decide(&history, &point, &moved);
         answer.steps.push(Step {
             epsilon,
             acceleration: moved.acceleration,
@@ -130,8 +155,9 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
             solves: point.solves,
             seconds: start.elapsed().as_secs_f64(),
         });
+        history.push(Seen { accelerations: moved.accelerations, change: point.change, noise: point.noise });
         last = Some(point);
-        match (answer.motion, decide(&answer.steps)) {
+        match (answer.motion, decided) {
             // A motion once told is followed while it obeys the law more and more exactly.
             (Motion::Moves, decided) if decided != Motion::Moves || moved.natural_map_in_loads >= exact => break,
             (_, decided) => (answer.motion, answer.forces, exact) = (decided, forces, moved.natural_map_in_loads),
@@ -161,24 +187,30 @@ fn settled(contacts: &Contacts, aim: Aim, from: &FixedPoint, mut newton: Option<
     }
 }
 
-fn decide(steps: &[Step]) -> Motion {
-    let [.., before, last] = steps else { return Motion::Undecided };
-    if before.change > tolerance::COULOMB_SETTLED || last.change > tolerance::COULOMB_SETTLED {
+/// What one ε left.
+struct Seen {
+    /// Acceleration of each block, in multiples of gravity.
+    accelerations: Vec<f64>,
+    change: f64,
+    noise: f64,
+}
+
+/// What the state tells beside those at the ε before it.
+fn decide(history: &[Seen], point: &FixedPoint, moved: &Released) -> Motion {
+    let [.., before] = history else { return Motion::Undecided };
+    if before.change.max(point.change) > tolerance::COULOMB_SETTLED {
         return Motion::Undecided;
     }
-    // An acceleration that grew as ε fell is the engine's noise: it is no measure for the next one.
-    if steps.len() > 2 && before.acceleration > 2.0 * steps[steps.len() - 3].acceleration {
-        return Motion::Undecided;
+    // An acceleration that grew as ε fell, or that unsettled friction may have made, is no measure for the next one.
+    let grew = |i: usize| matches!(history, [.., earlier, _] if before.accelerations[i] > 2.0 * earlier.accelerations[i]);
+    let is_measure = |i: usize| before.accelerations[i] > NOISE * before.noise && !grew(i);
+    let rest = (NOISE * point.noise).clamp(tolerance::UNBALANCE, tolerance::AT_REST);
+    // Every block for itself: what sinks on soft joints must not hide what moves beside it.
+    let falls = |(i, &a): (usize, &f64)| a <= rest || (is_measure(i) && a < tolerance::ACCELERATION_FALLS * before.accelerations[i]);
+    if moved.accelerations.iter().enumerate().all(falls) {
+        return Motion::Rests;
     }
-    let ratio = last.acceleration / before.acceleration;
-    if ratio < tolerance::ACCELERATION_FALLS {
-        Motion::Rests
-    } else if ratio > tolerance::ACCELERATION_STAYS
-        && last.natural_map <= tolerance::MOTION_LAW
-        && last.acceleration >= tolerance::LEAST_MOTION
-    {
-        Motion::Moves
-    } else {
-        Motion::Undecided
-    }
+    let stays =
+        |(i, &a): (usize, &f64)| a == moved.acceleration && is_measure(i) && a > tolerance::ACCELERATION_STAYS * before.accelerations[i];
+    if moved.is_motion() && moved.accelerations.iter().enumerate().any(stays) { Motion::Moves } else { Motion::Undecided }
 }

@@ -25,6 +25,15 @@ pub enum Mend {
         /// The first of them.
         first: usize,
     },
+    /// Faces listed more than once were taken once.
+    Doubled {
+        /// How many were left out.
+        faces: usize,
+        /// The first of them.
+        first: usize,
+        /// The one that it repeats.
+        repeats: usize,
+    },
     /// Vertices in the middle of another face's edge: the edge was split there.
     Split {
         /// How many vertices were put into edges.
@@ -85,6 +94,10 @@ impl fmt::Display for Mend {
             }
             Mend::Dropped { faces, first } => {
                 write!(f, "{} without extent {} left out (the first is face {first})", count(*faces, "face"), were(*faces))
+            }
+            Mend::Doubled { faces, first, repeats } => {
+                let them = if *faces == 1 { "1 face that is".into() } else { format!("{faces} faces that are") };
+                write!(f, "{them} listed before {} left out (the first is face {first}, the same as face {repeats})", were(*faces))
             }
             Mend::Split { vertices, at } => write!(
                 f,
@@ -177,8 +190,8 @@ pub enum ShapeError {
         /// The largest distance of a corner from the mean plane, m.
         warp: f64,
     },
-    /// The same face twice.
-    #[error("faces {first} and {second} are the same face")]
+    /// Two faces over the same corners in another order.
+    #[error("faces {first} and {second} have the same corners in another order")]
     DuplicateFace {
         /// One of them.
         first: usize,
@@ -265,7 +278,7 @@ impl ShapeError {
             Self::TooFewCorners { .. } => "leave the face out or list at least three different vertices",
             Self::CrossedFace { .. } => "list the corners in order around the face",
             Self::Folded { .. } => "cut it into plane faces, or into triangles",
-            Self::DuplicateFace { .. } => "leave one of them out",
+            Self::DuplicateFace { .. } => "list the corners in order around the face, and leave one of the two out",
             Self::Open { .. } => {
                 "close the surface: add the missing faces or cap the holes; vertices that should coincide must agree to 1e-7 of the shape's size"
             }

@@ -6,6 +6,7 @@
 
 mod check;
 mod convex;
+mod double;
 mod facets;
 mod mass;
 mod message;
@@ -66,6 +67,7 @@ impl Polyhedron {
         let (mut surface, vertices) = weld::weld(vertices, faces, &mut mends)?;
         check::refuse_plane(&surface)?;
         let edges = split::split_edges(&mut surface, &mut mends);
+        let edges = double::take_once(&mut surface, edges, &mut mends);
         check::refuse_crossed(&surface)?;
         check::refuse_folded(&surface)?;
         let shells = orient::orient(&mut surface, &edges, &mut mends)?;

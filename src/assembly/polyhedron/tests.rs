@@ -591,10 +591,14 @@ fn body_inside_a_body_is_refused() {
 }
 
 #[test]
-fn duplicate_face_is_refused() {
-    let mut shape = cuboid(1.0, 1.0, 1.0);
-    shape.1.push(vec![4, 5, 7, 6]);
-    assert_eq!(refused(&shape), ShapeError::DuplicateFace { first: 1, second: 6 });
+fn a_face_listed_again_is_taken_once() {
+    for again in [vec![4, 5, 7, 6], vec![7, 6, 4, 5], vec![6, 7, 5, 4]] {
+        let mut shape = cuboid(1.0, 1.0, 1.0);
+        shape.1.push(again);
+        let (solid, mends) = build(&shape).unwrap();
+        assert_eq!(mends, [Mend::Doubled { faces: 1, first: 6, repeats: 1 }]);
+        assert_eq!((solid.facets.len(), solid.mass_properties().volume), (6, 1.0));
+    }
 }
 
 #[test]

@@ -22,16 +22,30 @@ pub struct Study {
     pub extreme: bool,
     /// So many random scenes instead: verdicts held against their certificates, against omissions and, of a sample, against simulations.
     /// Exit code 1 if any two exclude each other.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), group = "random", conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
     pub soak: Option<u32>,
-    /// Which random scenes (--soak).
-    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "soak")]
+    /// So many random scenes instead, each asked in several ways that must give one answer: with strangers beside it, at the coordinates of
+    /// a survey, under loads up to its load factor and beyond. Exit code 1 if any two proofs exclude each other.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), group = "random", conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
+    pub cross: Option<u32>,
+    /// The results of so many random scenes instead, each changed into false claims, some two hundred a scene. Exit code 1 if any is called
+    /// proved.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), group = "random", conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
+    pub forge: Option<u32>,
+    /// Which random scenes (--soak, --cross, --forge).
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "random")]
     pub seed: u64,
-    /// Keep every scene in this file as soon as it is asked; the same command takes it up again after a kill at any point (--soak, --extreme).
+    /// Write the scenes of contradictions (--cross), each as it was asked, or the forged results that were called proved (--forge) into this
+    /// folder.
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["soak", "only"], requires = "random")]
+    pub dump: Option<PathBuf>,
+    /// Keep every scene in this file as soon as it is asked; the same command takes it up again after a kill at any point (--soak, --cross,
+    /// --forge, --extreme).
     #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "omissions"])]
     pub keep: Option<PathBuf>,
-    /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak).
-    #[arg(long, value_name = "NUMBER", requires = "soak", conflicts_with_all = ["csv", "json"])]
+    /// Print this one of the random scenes, to look at it with other commands; nothing is asked (--soak, --cross,
+    /// --forge).
+    #[arg(long, value_name = "NUMBER", requires = "random", conflicts_with_all = ["csv", "json"])]
     pub only: Option<u32>,
     /// Write every run to this file, comma-separated.
     #[arg(long, value_name = "FILE")]

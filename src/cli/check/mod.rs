@@ -3,7 +3,7 @@
 mod result;
 mod scene;
 
-use super::{args::Check, exit::Exit, input, pictures::Pictures, terminal::Terminal};
+use super::{args::Check, claim, exit::Exit, input, pictures::Pictures, terminal::Terminal};
 use anyhow::bail;
 use voussoir::{
     error::{InputError, JsonPath},
@@ -11,6 +11,8 @@ use voussoir::{
 };
 
 pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
+    // Before the pictures, which are opened before anything is read.
+    [Some(&args.file), args.scene.as_ref()].into_iter().flatten().try_for_each(|file| claim::read(file))?;
     let pictures = Pictures::open(&args.pictures, args.tables.csv.as_deref())?;
     if pictures.printed() && args.json {
         bail!("standard output takes one of --svg, --vtk and --json");

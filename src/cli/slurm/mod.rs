@@ -18,6 +18,16 @@ pub fn folder_of(output: &Path) -> PathBuf {
 /// Lines that could not be read are never passed over in silence.
 pub fn say_damaged(damaged: usize) {
     if damaged > 0 {
-        terminal::say(&format!("note: {damaged} damaged lines are left out; their rows count as not done unless another file has them"));
+        terminal::say(&format!(
+            "note: {damaged} damaged or edited lines are left out; their rows count as not done unless another file has them"
+        ));
+    }
+}
+
+/// Nor rows that may have been edited.
+pub fn say_unchecked(unchecked: usize) {
+    if unchecked > 0 {
+        let rows = if unchecked == 1 { "1 row has".into() } else { format!("{unchecked} rows have") };
+        terminal::say(&format!("note: {rows} no check sum, as older versions wrote them: whether anybody edited them is not known"));
     }
 }

@@ -28,7 +28,7 @@ pub fn run(args: &SweepStatus, terminal: &Terminal) -> anyhow::Result<Exit> {
                 jobs.into_iter().map(|((_, word), many)| (word, many)).collect()
             }
             Err(e) => {
-                terminal::say(&format!("note: what the tasks do is not known: {e:#}"));
+                terminal::say(&format!("note: what the tasks do is not known: {}", terminal::words(&e)));
                 Vec::new()
             }
         };

@@ -22,7 +22,7 @@ pub fn run(args: &args::Sweep, sweep: &Sweep, output: &Path, sinks: &Sinks, term
     }
     slurm::require_commands()?;
     let partition = slurm::partition(&slurm::partitions()?, args.slurm.partition.as_deref())?;
-    Sink::open(Some(output))?;
+    Sink::again(Some(output))?;
     let path = folder_of(output);
     if !args.slurm.shared {
         slurm::require_shared(&path, &partition.name)?;
@@ -82,7 +82,7 @@ fn submitted(
     };
     if !missing.is_empty() {
         let script = script(&args.slurm, sweep, tasks, &missing)?;
-        Sink::open(Some(&path.join(SCRIPT)))?.write(&script.to_string())?;
+        Sink::again(Some(&path.join(SCRIPT)))?.write(&script.to_string())?;
         let number = slurm::submit(path, SCRIPT)?;
         let mut job = Job::read(path)?.unwrap_or_default();
         (job.tasks, job.jobs) = (tasks, [job.jobs, vec![number]].concat());

@@ -1,6 +1,6 @@
 //! Rows as they arrive, and what is made of them at the end. Watching may stop and begin again at any time; the job goes on.
 
-use super::{folder_of, say_damaged};
+use super::{folder_of, say_damaged, say_unchecked};
 use crate::cli::{
     args::Summary,
     exit::Exit,
@@ -43,12 +43,18 @@ pub fn run(folder: &Folder, output: &Path, summary: &Summary, sinks: &Sinks, ter
     let job = Job::read(&folder.path)?.unwrap_or_default();
     let gathered = rows(folder, &job, summary.quiet)?;
     let missing = folder.missing(&gathered);
-    let merged = Merged { header: folder.header.clone(), rows: gathered.rows.into_values().collect(), damaged: gathered.damaged };
+    let merged = Merged {
+        header: folder.header.clone(),
+        rows: gathered.rows.into_values().collect(),
+        damaged: gathered.damaged,
+        unchecked: gathered.unchecked,
+    };
     say_damaged(merged.damaged);
+    say_unchecked(merged.unchecked);
     if missing.is_empty() {
         // Refuses a file that another run is writing, or that is none of this plan.
         drop(RowsFile::open(output, &folder.header, false)?);
-        Sink::open(Some(output))?.write(&merged.text()?)?;
+        Sink::again(Some(output))?.write(&merged.text()?)?;
     }
     sinks.write(summary, &merged.header, &merged.rows, terminal)?;
     let Some(first) = missing.first() else { return Ok(Exit::Yes) };
@@ -104,7 +110,7 @@ fn rows(folder: &Folder, job: &Job, quiet: bool) -> anyhow::Result<Gathered> {
                     }
                 }
                 Err(e) if answered.elapsed() > PATIENCE => return Err(e),
-                Err(e) if !quiet => bar.suspend(|| terminal::say(&format!("note: {e:#}; asking again"))),
+                Err(e) if !quiet => bar.suspend(|| terminal::say(&format!("note: {}; asking again", terminal::words(&e)))),
                 Err(_) => {}
             }
         }

@@ -28,7 +28,7 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
         };
         let of_block = block.get("attributes").map_or(Ok(None), |a| a.flag("is_support"))?;
         let support = node.flag("is_support")?.or(of_block).unwrap_or(default_support);
-        let geometry = block.get("geometry").unwrap_or(block);
+        let geometry = mesh::of(&block).unwrap_or(block);
         raw.blocks.push(Solid { support, ..mesh::read(&geometry, key.into())? });
     }
     if !bare.is_empty() {

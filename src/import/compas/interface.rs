@@ -25,7 +25,6 @@ struct Odd {
     twice: Vec<String>,
     skew: Vec<String>,
     backwards: Vec<String>,
-    with_forces: usize,
 }
 
 /// Reads the interfaces of all edges into `raw`, sorted by the places of their blocks.
@@ -76,7 +75,7 @@ pub(super) fn read(edges: &Cursor, ids: &Ids, raw: &mut Raw) -> Result<(), Input
                 if normal.is_some_and(|n| n.dot(&(centres[*j] - centres[*i])) < 0.0) {
                     odd.backwards.push(name);
                 }
-                odd.with_forces += usize::from(at.get("forces").and_then(|f| f.items()).is_some_and(|f| !f.is_empty()));
+                raw.with_forces += usize::from(at.get("forces").and_then(|f| f.items()).is_some_and(|f| !f.is_empty()));
                 let between = [a.clone(), b.clone()];
                 found.push((*i, *j, InterfaceSpec { between, points, normal: normal.map(Into::into), friction: None }));
             }
@@ -139,14 +138,6 @@ fn mean(points: &[[f64; 3]]) -> Vector3<f64> {
 }
 
 fn say(odd: &Odd, raw: &mut Raw) {
-    let kept = raw.interfaces.len();
-    if kept > 0 {
-        let forces = match odd.with_forces {
-            0 => String::new(),
-            n => format!("; with solved forces, which were left out: {n}"),
-        };
-        raw.say(FindingCode::Converted, format!("stored interfaces, kept in place of detected contacts: {kept}{forces}"));
-    }
     let mut report = |code, names: &[String], what: &str| {
         if !names.is_empty() {
             raw.say(code, format!("stored interfaces {what}: {}", tally(names)));

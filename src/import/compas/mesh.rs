@@ -5,6 +5,11 @@ use crate::{error::InputError, import::raw::Solid};
 use serde_json::Value;
 use std::collections::HashMap;
 
+/// Where an element has its mesh: `geometry`, in old files `shape`. None where it has neither.
+pub(super) fn of<'a>(element: &Cursor<'a>) -> Option<Cursor<'a>> {
+    ["geometry", "shape"].into_iter().find_map(|key| element.get(key))
+}
+
 /// The solid of a mesh.
 ///
 /// `vertex[key] = {x, y, z}`, where a missing coordinate is the one of `default_vertex_attributes` (`dva` in old files);

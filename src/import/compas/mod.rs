@@ -6,7 +6,7 @@
 //! | layout | blocks | interfaces |
 //! |---|---|---|
 //! | Assembly, CRA_Assembly ([`graph`]) | `graph.node[key].block`, in old files `blocks[key]` | `graph.edge[u][v].interfaces`, `.interface` or `.interface_points` |
-//! | BlockModel ([`model`]) | `elements[guid].geometry`, key in `graph.node[key].element` | `graph.edge[u][v].contacts` |
+//! | BlockModel ([`model`]) | `elements[guid].geometry`, in old files `.shape`, key in `graph.node[key].element` | `graph.edge[u][v].contacts` |
 //! | lists of meshes, nested as they like | the meshes | none |
 //!
 //! Ids are the keys of the graph, else the place in the list. Keys are strings in no particular order; where all of them are whole numbers
@@ -62,7 +62,7 @@ fn collect(at: &Cursor, raw: &mut Raw) -> Result<(), InputError> {
     } else {
         let support = at.flag("is_support")?.unwrap_or(false);
         let id = raw.blocks.len().to_string();
-        let geometry = at.get("geometry").unwrap_or(at);
+        let geometry = mesh::of(&at).unwrap_or(at);
         let solid = mesh::read(&geometry, id)?;
         raw.blocks.push(Solid { support, ..solid });
         Ok(())

@@ -32,7 +32,7 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
     for (number, (guid, element)) in elements.iter().enumerate() {
         let key = keys.get(guid);
         let id = key.cloned().unwrap_or_else(|| guid.clone());
-        let Some(geometry) = element.get("geometry") else {
+        let Some(geometry) = mesh::of(element) else {
             without.push(id);
             continue;
         };

@@ -179,3 +179,58 @@ fn a_normal_against_the_centres_is_kept_and_said() {
     assert_eq!(imported.scene.interfaces[0].normal, Some([0.0, 0.0, -1.0]));
     finding(&imported, FindingCode::Converted, &["from the second block's centre"]);
 }
+
+#[test]
+fn stored_interfaces_between_two_supports_are_left_out_with_their_number() {
+    let edges = json!({"10": {"9": {"interfaces": [interface(2, &SEAM, Y, X)]}}});
+    let text = assembly(2, edges).to_string();
+    let held = |ids: &[&str]| {
+        let options = Options { supports: ids.iter().map(|id| id.to_string()).collect(), ..Options::default() };
+        import_bytes("x.json", text.as_bytes(), &options).expect("fine")
+    };
+    let one = held(&["10"]);
+    assert_eq!(one.scene.interfaces.len(), 1);
+    finding(&one, FindingCode::Converted, &["kept in place of detected contacts: 1"]);
+    let both = held(&["9", "10"]);
+    assert!(both.scene.interfaces.is_empty());
+    finding(&both, FindingCode::LeftOut, &["between two supports, left out: 1 (\"10\"–\"9\")"]);
+    assert!(both.findings.iter().all(|f| !f.text.contains("kept in place")), "{:?}", both.findings);
+    // With a third block on top the scene can be asked about; the stored interface alone would have been in its way.
+    let mut three: Value = serde_json::from_str(&text).expect("JSON");
+    three["data"]["graph"]["data"]["node"]["11"] = json!({"block": envelope(2, compas_mesh([0.0, 0.0, 6.0]))});
+    let options = Options {
+        supports: vec!["9".into()],
+        friction: Some(crate::scene::Friction::Coefficient(0.6)),
+        density: Some(2000.0),
+        ..Options::default()
+    };
+    let scene = import_bytes("x.json", three.to_string().as_bytes(), &options).expect("fine").scene;
+    assert_eq!(crate::assembly::resolve(&scene).expect("a scene").blocks.len(), 3);
+}
+
+#[test]
+fn what_became_of_the_stored_interfaces_is_counted_once() {
+    let mut solved = interface(2, &SEAM, Y, X);
+    solved["data"]["forces"] = json!([{"c_np": 1.0}]);
+    let text = assembly(2, json!({"10": {"9": {"interfaces": [solved]}}})).to_string();
+    let said = |stored_interfaces: bool| {
+        let imported = import_bytes("x.json", text.as_bytes(), &Options { stored_interfaces, ..Options::default() }).expect("fine");
+        imported.findings.into_iter().map(|f| f.text).filter(|t| t.starts_with("stored interfaces, ")).collect::<Vec<_>>()
+    };
+    assert_eq!(said(false), ["stored interfaces, left out as asked (contacts are detected instead): 1"]);
+    assert_eq!(said(true), ["stored interfaces, kept in place of detected contacts: 1; with solved forces, which were left out: 1"]);
+}
+
+#[test]
+fn older_block_models_keep_their_meshes_under_shape() {
+    let mut old = model();
+    for element in old["data"]["elements"].as_object_mut().expect("a map").values_mut() {
+        let data = element["data"].as_object_mut().expect("an element");
+        if let Some(mesh) = data.remove("geometry") {
+            data.insert("shape".into(), mesh);
+        }
+    }
+    assert_eq!(good("model.json", old.to_string()).scene, good("model.json", model().to_string()).scene);
+    let list = json!([{"dtype": "Block", "data": {"shape": envelope(2, compas_mesh([0.0; 3])), "is_support": true}}]);
+    assert_eq!(supports(&good("x.json", list.to_string())), ["0"]);
+}

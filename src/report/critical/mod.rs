@@ -12,6 +12,7 @@ use crate::{
         flip::Probe,
     },
     scene::Scene,
+    tolerance,
     verdict::{Verdict, check::Findings},
 };
 use serde::{Deserialize, Serialize};
@@ -107,12 +108,26 @@ impl Side {
 }
 
 impl FlipResult {
-    /// The value with its ends, where both are proved and differ.
+    /// The value with its ends, where both are proved and differ: near together, or the middle of what the scan leaves.
     pub fn proved(&self) -> Option<CriticalValue> {
         let (below, above) = (self.below.verdict()?, self.above.verdict()?);
-        let value = CriticalValue { value: self.value, lower: self.below.value, upper: self.above.value, below, above };
-        (below != above && value.lower <= value.value && value.value <= value.upper).then_some(value)
+        let (lower, upper) = (self.below.value, self.above.value);
+        let value = CriticalValue { value: self.value, lower, upper, below, above };
+        let is_known = match self.method {
+            Method::Margin | Method::Halving => is_narrow(lower, upper),
+            Method::Scan => self.value == middle(lower, upper),
+        };
+        (below != above && lower <= self.value && self.value <= upper && is_known).then_some(value)
     }
+}
+
+/// Whether two ends are near enough to each other for a value between them.
+fn is_narrow(lower: f64, upper: f64) -> bool {
+    upper - lower <= tolerance::CRITICAL_BRACKET * lower.abs().max(upper.abs())
+}
+
+fn middle(lower: f64, upper: f64) -> f64 {
+    0.5 * (lower + upper)
 }
 
 /// The verdict throughout the range, where the scan found no flip and left nothing open.
@@ -135,7 +150,12 @@ impl ResultFile {
         let flips: Vec<FlipResult> = c
             .changes
             .iter()
-            .map(|f| FlipResult { value: f.value, method: f.method, below: side(&f.below), above: side(&f.above) })
+            .map(|f| {
+                // Ends that are far apart prove no more than that there is a flip between them.
+                let known = f.method != Method::Scan && is_narrow(f.below.value, f.above.value);
+                let (value, method) = if known { (f.value, f.method) } else { (middle(f.below.value, f.above.value), Method::Scan) };
+                FlipResult { value, method, below: side(&f.below), above: side(&f.above) }
+            })
             .collect();
         let ends = if flips.is_empty() { c.ends.iter().map(&mut side).collect() } else { Vec::new() };
         let values = flips.iter().filter_map(FlipResult::proved).collect();

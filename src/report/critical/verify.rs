@@ -5,11 +5,11 @@ use crate::{
     analysis::prepare,
     report::{
         result::{Question, ResultFile},
-        verify::{Verification, answer, failure, require},
+        verify::{SAME, Verification, answer, failure, require},
     },
     scene::Scene,
     tolerance,
-    verdict::check::Findings,
+    verdict::{Verdict, check::Findings},
 };
 
 /// Adds the parts of a result of `critical`.
@@ -24,6 +24,7 @@ pub fn verify(all: &mut Verification, file: &ResultFile, scene: &Scene) {
     // A flip at the very end of the range has its other side just outside.
     let slack = 100.0 * tolerance::CRITICAL_WIDTH * low.abs().max(high.abs());
     require(&mut f, said.iter().all(|v| low - slack <= v.lower && v.upper <= high + slack), format!("they lie between {low} and {high}"));
+    scanned(&mut f, c);
     let others = [file.answer.verdict.is_some(), file.answer.load_factor.is_some(), file.certificate.claim.is_some()];
     require(&mut f, !others.contains(&true), "nothing else is claimed");
     all.part("answer", f);
@@ -32,6 +33,30 @@ pub fn verify(all: &mut Verification, file: &ResultFile, scene: &Scene) {
     for side in sides {
         all.part(format!("{} = {}", c.vary, side.value), one(scene, c, side));
     }
+}
+
+/// The scan is the way there, computed and not proved; it agrees with what is proved, and with the scene.
+fn scanned(f: &mut Findings, c: &CriticalResult) {
+    let near = |a: f64, b: f64| (a - b).abs() <= SAME * (c.between[1] - c.between[0]).abs();
+    let within = |v: f64| (v - c.between[0]) * (v - c.between[1]) <= 0.0 || c.between.iter().any(|&end| near(v, end));
+    let order = (c.between[1] - c.between[0]).signum();
+    let sorted = c.scan.windows(2).all(|w| (w[1].value - w[0].value) * order > 0.0) && c.scan.iter().all(|s| within(s.value));
+    let whole = !c.whole || c.scan.iter().all(|s| s.value.fract() == 0.0);
+    let proved = |v: f64| {
+        let sides = c.flips.iter().flat_map(|flip| [&flip.below, &flip.above]).chain(&c.ends);
+        sides.filter(move |s| s.value == v).filter_map(Side::verdict)
+    };
+    // Whether a pre-stress is needed may have stayed open on one of the two occasions.
+    let falls = |v: Verdict| v == Verdict::Unstable;
+    let agrees =
+        c.scan.iter().all(|s| proved(s.value).all(|v| s.verdict.is_none_or(|said| said == Verdict::Undecided || falls(said) == falls(v))));
+    require(
+        f,
+        sorted && whole && agrees,
+        format!("the scan lies in the range and agrees with what is proved: {} values, computed", c.scan.len()),
+    );
+    let ends = |s: &Side| c.between.iter().any(|&end| near(s.value, end)) || c.whole;
+    require(f, c.ends.iter().all(ends), "the ends are those of the range");
 }
 
 fn one(scene: &Scene, c: &CriticalResult, side: &Side) -> Findings {

@@ -3,9 +3,12 @@
 use super::{
     body::{Form, Solid},
     projection::Projection,
-    sheet::{Sheet, escape},
+    sheet::Sheet,
 };
-use crate::report::view::{Surface, View};
+use crate::{
+    plain::markup,
+    report::view::{Surface, View},
+};
 use nalgebra::Vector3;
 use std::{collections::HashMap, fmt::Write};
 
@@ -22,7 +25,7 @@ pub fn draw(sheet: &mut Sheet, view: &View, paper: &Projection, bodies: &[Solid]
     for &i in order {
         let body = &bodies[i];
         let class = if view.bodies[i].support { "support" } else { class(i) };
-        sheet.put(format_args!("<g class=\"{class}\"><title>{}</title>", escape(&body.body.id)));
+        sheet.put(format_args!("<g class=\"{class}\"><title>{}</title>", markup(&body.body.id)));
         match &body.form {
             Form::Sphere(radius) => {
                 let [x, y] = paper.at(&body.middle);

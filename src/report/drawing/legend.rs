@@ -1,10 +1,7 @@
 //! What the signs mean, and how long a metre is.
 
-use super::{
-    LINE, MARGIN, WIDTH,
-    projection::Projection,
-    sheet::{Sheet, escape},
-};
+use super::{LINE, MARGIN, WIDTH, projection::Projection, sheet::Sheet};
+use crate::plain::markup;
 
 /// Width of a sign.
 const SIGN: f64 = 30.0;
@@ -53,7 +50,7 @@ impl Legend {
                 (x, y) = (MARGIN, y + LINE);
             }
             sign(sheet, *glyph, x, y);
-            sheet.put(format_args!("<text x=\"{:.1}\" y=\"{:.1}\">{}</text>\n", x + SIGN + 8.0, y + 5.0, escape(words)));
+            sheet.put(format_args!("<text x=\"{:.1}\" y=\"{:.1}\">{}</text>\n", x + SIGN + 8.0, y + 5.0, markup(words)));
             x += width + GAP;
         }
         let (length, words) = scale(paper.scale);

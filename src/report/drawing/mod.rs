@@ -18,9 +18,9 @@ mod sheet;
 
 pub use aspect::Aspect;
 pub(super) use choice::sized;
-pub(super) use sheet::escape;
 
 use super::view::View;
+use crate::plain::markup;
 use choice::{Choice, Movement};
 use legend::{Glyph, Legend};
 use projection::Projection;
@@ -62,8 +62,8 @@ pub fn svg(view: &View, aspect: Aspect) -> String {
     let (text, height) = lay_out(&panels, &paper, beside, &legend);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH:.0} {height:.0}\" width=\"{WIDTH:.0}\" height=\"{height:.0}\" role=\"img\">\n<title>{}</title>\n<desc>{}</desc>\n<style>{}{}</style>\n<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n",
-        escape(&view.name),
-        escape(&panels.iter().map(|p| p.caption.as_str()).collect::<Vec<_>>().join("; ")),
+        markup(&view.name),
+        markup(&panels.iter().map(|p| p.caption.as_str()).collect::<Vec<_>>().join("; ")),
         sheet::STYLE,
         thin(view, &paper)
     );
@@ -156,7 +156,7 @@ fn lay_out(panels: &[Panel], paper: &Projection, beside: bool, legend: &Legend) 
             sheet.put(format_args!(
                 "<text class=\"caption\" x=\"{x:.1}\" y=\"{:.1}\">{letter}{}</text>\n",
                 bottom + 0.8 * LINE,
-                escape(&panel.caption)
+                markup(&panel.caption)
             ));
             bottom += LINE;
         }

@@ -1,6 +1,6 @@
 //! The words of an answer, as printed on a terminal, as HTML: what is said there is said here.
 
-use super::html::escape;
+use crate::plain::markup;
 use crate::report::text::{Page, Role, Span};
 
 /// Rows of more lines than this are folded.
@@ -17,10 +17,10 @@ pub(super) fn plain_title(page: &Page) -> String {
 pub(super) fn head(page: &Page) -> String {
     let spans = page.lines.first().map(Vec::as_slice).unwrap_or_default();
     let of = |want: &dyn Fn(Role) -> bool| spans.iter().find(|s| want(s.role));
-    let name = of(&|r| r == Role::Name).map(|s| format!("<p class=\"name\">{}</p>", escape(&s.text))).unwrap_or_default();
+    let name = of(&|r| r == Role::Name).map(|s| format!("<p class=\"name\">{}</p>", markup(&s.text))).unwrap_or_default();
     let answer = of(&|r| class(r).is_some()).map(|s| {
         let text = if s.text.contains('λ') { s.text.clone() } else { capital(&s.text) };
-        format!("<h1 class=\"{}\">{}</h1>", class(s.role).unwrap_or_default(), escape(&text))
+        format!("<h1 class=\"{}\">{}</h1>", class(s.role).unwrap_or_default(), markup(&text))
     });
     name + &answer.unwrap_or_default()
 }
@@ -69,7 +69,7 @@ pub(super) fn body(page: &Page) -> String {
 }
 
 fn inline(span: &Span) -> String {
-    let text = escape(&span.text);
+    let text = markup(&span.text);
     match span.role {
         Role::Command => format!("<code>{text}</code>"),
         _ => text,
@@ -89,7 +89,7 @@ impl Row {
         } else {
             body
         };
-        format!("<dt>{}</dt><dd>{body}</dd>", escape(&self.label))
+        format!("<dt>{}</dt><dd>{body}</dd>", markup(&self.label))
     }
 }
 

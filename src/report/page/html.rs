@@ -1,23 +1,7 @@
 //! Text inside HTML.
 
+use crate::plain::document;
 use serde_json::Value;
-
-/// Text as it may stand between tags and inside quoted attributes. Control characters are left out.
-pub(super) fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            c if c.is_control() && c != '\n' && c != '\t' => {}
-            c => out.push(c),
-        }
-    }
-    out
-}
 
 /// JSON as it may stand in a `script` element of type `application/json`: nothing in it ends the element or opens a comment.
 ///
@@ -25,7 +9,17 @@ pub(super) fn escape(text: &str) -> String {
 /// Only if memory runs out.
 pub(super) fn json(value: &Value) -> Result<String, serde_json::Error> {
     // Outside strings JSON has none of these characters.
-    Ok(serde_json::to_string(value)?.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026"))
+    Ok(serde_json::to_string(&shown(value))?.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026"))
+}
+
+/// The value with every text as it is to be read: scripts put it on the page as it is.
+fn shown(value: &Value) -> Value {
+    match value {
+        Value::String(text) => document(text).into(),
+        Value::Array(list) => list.iter().map(shown).collect(),
+        Value::Object(members) => members.iter().map(|(key, value)| (document(key).into_owned(), shown(value))).collect(),
+        other => other.clone(),
+    }
 }
 
 /// The template with every `{{name}}` replaced, in one pass: what is put in is not looked at again.
@@ -47,12 +41,13 @@ pub(super) fn fill(template: &str, values: &[(&str, &str)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plain::markup;
 
     const HOSTILE: &str = "</script><img src=x onerror='alert(1)'>&\"<!--";
 
     #[test]
     fn nothing_ends_the_element_it_stands_in() {
-        for text in [escape(HOSTILE), json(&Value::from(HOSTILE)).unwrap()] {
+        for text in [markup(HOSTILE), json(&Value::from(HOSTILE)).unwrap()] {
             assert!(!text.contains(['<', '>']) && !text.contains("&\""), "{text}");
         }
         assert_eq!(serde_json::from_str::<String>(&json(&Value::from(HOSTILE)).unwrap()).unwrap(), HOSTILE);

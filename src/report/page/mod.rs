@@ -2,7 +2,7 @@
 //!
 //! The page holds the answer in words as printed on a terminal, the [`View`] as packed arrays, and charts. Its styles and scripts are
 //! in `assets/`. Without WebGL 2 the picture is drawn on a plain canvas; without scripts the words are still there. Every string that
-//! comes from a scene is escaped (`html::escape`, `html::json`) or set by the script as text, never as markup.
+//! comes from a scene is escaped ([`markup`], `html::json`) or set by the script as text, never as markup.
 
 mod chart;
 mod facts;
@@ -16,6 +16,7 @@ pub use study::{extreme, omissions, study};
 pub use sweep::sweep;
 
 use super::{text::Page, view::View};
+use crate::plain::markup;
 use serde_json::json;
 
 const TEMPLATE: &str = include_str!("assets/page.html");
@@ -48,7 +49,7 @@ pub fn page(text: &Page, view: &View, charts: &[Chart]) -> Result<String, serde_
     Ok(html::fill(
         TEMPLATE,
         &[
-            ("title", &html::escape(&facts::plain_title(text))),
+            ("title", &markup(&facts::plain_title(text))),
             ("style", STYLE),
             ("head", &facts::head(text)),
             ("kind", "picture"),
@@ -67,7 +68,7 @@ fn tables(text: &Page, charts: &[Chart], tables: &[serde_json::Value]) -> Result
     Ok(html::fill(
         TEMPLATE,
         &[
-            ("title", &html::escape(&facts::plain_title(text))),
+            ("title", &markup(&facts::plain_title(text))),
             ("style", STYLE),
             ("head", &facts::head(text)),
             ("kind", "tables"),

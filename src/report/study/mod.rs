@@ -1,12 +1,19 @@
 //! Studies as text and tables.
 
 mod chart;
+mod cross;
+mod forge;
 mod soak;
 
 pub use chart::{ChartError, errors, profiles};
+pub use cross::{cross_csv, cross_text};
+pub use forge::{forge_csv, forge_text};
 pub use soak::{soak_csv, soak_text};
 
-use super::text::{Layout, Page, Role};
+use super::{
+    cells::Table,
+    text::{Layout, Page, Role},
+};
 use crate::study::{
     Method, Omission, Point,
     extreme::{Count, Found, Grade, count},
@@ -20,7 +27,7 @@ pub const ANSWER: f64 = 1e-6;
 /// # Errors
 /// The writer's, which has no reason to fail in memory.
 pub fn csv(points: &[Point]) -> Result<String, csv::Error> {
-    let mut out = csv::Writer::from_writer(Vec::new());
+    let mut out = Table::new();
     out.write_record([
         "scene",
         "method",
@@ -49,7 +56,7 @@ pub fn csv(points: &[Point]) -> Result<String, csv::Error> {
             status,
         ])?;
     }
-    Ok(String::from_utf8_lossy(&out.into_inner().map_err(|e| e.into_error())?).into_owned())
+    out.end()
 }
 
 /// A table of every cell of the extreme grid.
@@ -57,7 +64,7 @@ pub fn csv(points: &[Point]) -> Result<String, csv::Error> {
 /// # Errors
 /// As [`csv()`].
 pub fn extreme_csv(found: &[Found]) -> Result<String, csv::Error> {
-    let mut out = csv::Writer::from_writer(Vec::new());
+    let mut out = Table::new();
     out.write_record(["family", "what", "asked", "grade", "value", "relative_error", "bracket", "iterations", "seconds"])?;
     let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
     for f in found {
@@ -73,7 +80,7 @@ pub fn extreme_csv(found: &[Found]) -> Result<String, csv::Error> {
             f.seconds.to_string(),
         ])?;
     }
-    Ok(String::from_utf8_lossy(&out.into_inner().map_err(|e| e.into_error())?).into_owned())
+    out.end()
 }
 
 /// A study as a page: per scene each method at its best, then what was silently wrong.

@@ -1,6 +1,9 @@
 //! The soak as a table and as a page.
 
-use super::super::text::{Layout, Page, Role};
+use super::super::{
+    cells::Table,
+    text::{Layout, Page, Role},
+};
 use crate::{
     study::soak::{Count, FAMILIES, Perturbation, Soaked, count},
     verdict::Verdict,
@@ -18,7 +21,7 @@ const NAMED: usize = 8;
 /// # Errors
 /// The writer's, which has no reason to fail in memory.
 pub fn soak_csv(list: &[Soaked]) -> Result<String, csv::Error> {
-    let mut out = csv::Writer::from_writer(Vec::new());
+    let mut out = Table::new();
     out.write_record([
         "scene",
         "family",
@@ -52,7 +55,7 @@ pub fn soak_csv(list: &[Soaked]) -> Result<String, csv::Error> {
             s.seconds.to_string(),
         ])?;
     }
-    Ok(String::from_utf8_lossy(&out.into_inner().map_err(|e| e.into_error())?).into_owned())
+    out.end()
 }
 
 /// The soak as a page: sums by family and by perturbation, then what is not as it should be.

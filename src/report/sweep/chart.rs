@@ -2,6 +2,7 @@
 
 use super::group::{Cell, bands, cells};
 use crate::{
+    plain::document,
     report::text::number::short,
     sweep::{Fragility, Header, Plan, Row, Sampling, Summary, value_of},
 };
@@ -101,9 +102,8 @@ pub fn chart(header: &Header, rows: &[Row], summary: &Summary, kind: Kind) -> Re
         }?;
         area.present().map_err(refused)?;
     }
-    // Markup in names is escaped where they are drawn; control characters are not allowed in XML at all.
-    text.retain(|c| !c.is_control() || matches!(c, '\t' | '\n'));
-    Ok(text)
+    // Markup in names is escaped where they are drawn.
+    Ok(document(&text).into_owned())
 }
 
 fn refused(e: impl std::fmt::Display) -> ChartError {

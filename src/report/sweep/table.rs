@@ -1,13 +1,16 @@
 //! The rows as a table (CSV, RFC 4180), in the order of their numbers.
 
-use crate::sweep::{Header, Row};
+use crate::{
+    report::cells::Table,
+    sweep::{Header, Row},
+};
 
 /// The table: row, the varied numbers, status, value, bracket, how dry friction was found, direction, error, seconds.
 ///
 /// # Errors
 /// Only if memory runs out.
 pub fn csv(header: &Header, rows: &[Row]) -> Result<String, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
+    let mut table = Table::new();
     let labels = header.plan.vary.iter().map(|v| v.label());
     let after = ["status", "value", "lower", "upper", "dry", "toward_x", "toward_y", "toward_z", "error", "seconds"];
     table.write_record(["row"].into_iter().chain(labels).chain(after))?;
@@ -22,6 +25,5 @@ pub fn csv(header: &Header, rows: &[Row]) -> Result<String, csv::Error> {
         record.extend([row.error.clone().unwrap_or_default(), row.seconds.to_string()]);
         table.write_record(record)?;
     }
-    let bytes = table.into_inner().map_err(|e| csv::Error::from(e.into_error()))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    table.end()
 }

@@ -8,10 +8,18 @@ use super::{
 };
 use crate::{
     analysis::{Outcome, coulomb::Found},
-    report::result::{Answer, LoadFactorAnswer, Question, ResultFile},
+    report::result::{Answer, DryResult, LoadFactorAnswer, Question, ResultFile},
     tolerance,
     verdict::{Verdict, check::Claim},
 };
+
+/// What is said with the contact tolerances that it rests on, where the scene has widened them.
+pub(super) fn under(file: &ResultFile, text: impl std::fmt::Display) -> String {
+    match file.scene.input.contact.widened() {
+        Some(words) => format!("{text} (contact tolerances widened by the scene: {words})"),
+        None => text.to_string(),
+    }
+}
 
 /// The answer in one line.
 pub(super) fn title(page: &mut Page, file: &ResultFile) {
@@ -30,16 +38,25 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 let text = match dry_of(file) {
                     Dry::Same => format!("λ = {bound}"),
                     Dry::Other(v) => format!("λ = {v:.5} with dry friction, at most {bound}"),
+                    Dry::Never => format!("no λ with dry friction: not at rest under the dead load (at most {bound} with a pre-stress)"),
+                    Dry::UpTo(v) => format!("λ at most {bound}; with dry friction at rest up to {v:.5}, then undecided"),
                     Dry::Undecided => format!("λ at most {bound}; with dry friction undecided"),
                 };
-                (text, role)
+                (text, if matches!(dry_of(file), Dry::Never) { Role::Bad } else { role })
             }
             (Outcome::Unbounded, _) => match dry_value(file) {
                 Some(v) => (format!("the live load wedges where joints open as they slide; with dry friction λ = {v:.5}"), Role::Value),
-                None if matches!(dry_of(file), Dry::Undecided) => {
-                    ("the live load wedges where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
-                }
-                None => ("the live load wedges: it can grow without limit".to_string(), Role::Good),
+                None => match dry_of(file) {
+                    Dry::Never => ("no λ with dry friction: not at rest under the dead load".to_string(), Role::Bad),
+                    Dry::UpTo(v) => {
+                        let text = "the live load wedges where joints open as they slide; with dry friction at rest up to";
+                        (format!("{text} λ = {v:.5}, then undecided"), Role::Unsure)
+                    }
+                    Dry::Undecided => {
+                        ("the live load wedges where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
+                    }
+                    Dry::Same | Dry::Other(_) => ("the live load wedges: it can grow without limit".to_string(), Role::Good),
+                },
             },
             (Outcome::Impossible, _) => ("falls, whatever the live load".to_string(), Role::Bad),
             _ => ("undecided".to_string(), Role::Unsure),
@@ -55,9 +72,14 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                         Dry::Other(v) => {
                             format!("falls at a tilt of {:.4}°{toward} with dry friction, at {bound}° at the latest", v.atan().to_degrees())
                         }
+                        Dry::Never => format!("not even at rest when level with dry friction (with a pre-stress up to {bound}°{toward})"),
+                        Dry::UpTo(v) => {
+                            let up_to = v.atan().to_degrees();
+                            format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction at rest up to {up_to:.4}°")
+                        }
                         Dry::Undecided => format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction undecided"),
                     };
-                    (text, Role::Value)
+                    (text, if matches!(dry_of(file), Dry::Never) { Role::Bad } else { Role::Value })
                 }
                 (Outcome::Unbounded, _) => match dry_value(file) {
                     Some(v) => {
@@ -66,10 +88,18 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                             format!("stands at every tilt where joints open as they slide; falls at {angle:.4}°{toward} with dry friction");
                         (text, Role::Value)
                     }
-                    None if matches!(dry_of(file), Dry::Undecided) => {
-                        ("stands at every tilt where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
-                    }
-                    None => ("stands at every tilt below 90°".to_string(), Role::Good),
+                    None => match dry_of(file) {
+                        Dry::Never => ("not even at rest when level with dry friction".to_string(), Role::Bad),
+                        Dry::UpTo(v) => {
+                            let up_to = v.atan().to_degrees();
+                            let text = "stands at every tilt where joints open as they slide; with dry friction at rest up to";
+                            (format!("{text} {up_to:.4}°{toward}, then undecided"), Role::Unsure)
+                        }
+                        Dry::Undecided => {
+                            ("stands at every tilt where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
+                        }
+                        Dry::Same | Dry::Other(_) => ("stands at every tilt below 90°".to_string(), Role::Good),
+                    },
                 },
                 (Outcome::Impossible, _) => (format!("falls, however it is tilted{toward}"), Role::Bad),
                 _ => (format!("undecided{toward}"), Role::Unsure),
@@ -78,7 +108,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         Question::Critical => super::critical::title(file),
         Question::Thrust => super::thrust::title(file),
     };
-    page.title(&file.scene.name, text, role);
+    page.title(&file.scene.name, under(file, text), role);
 }
 
 /// The sentences that say what the answer rests on and what it does not say.
@@ -203,21 +233,45 @@ fn dry(page: &mut Page, file: &ResultFile) {
     let Some(dry) = &file.dry else { return };
     let words = |v: f64| if file.question == Question::Tilt { format!("{:.4}°", v.atan().to_degrees()) } else { format!("λ = {v:.5}") };
     let text = match (dry.found, dry.value) {
-        (Found::NothingSlides, Some(_)) => "In the mechanism nothing slides, so with dry friction it is the same.".to_string(),
+        (Found::NothingSlides, Some(_)) => {
+            format!("In the mechanism nothing slides, so with dry friction it is the same{}.", rest(dry, words))
+        }
+        (Found::Rests, Some(v)) => {
+            let moves = dry.moves_at.map(|m| format!(", and no longer at {}", words(m))).unwrap_or_default();
+            format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves}: the forces that the bound needs are not such as the loads produce. Computed, not proved.", words(v))
+        }
+        (Found::NotAtRest, _) => "With dry friction there is no load factor: already without the load the blocks do not come to rest, for the forces that hold them would need a pre-stress that nobody applied. Computed, not proved.".to_string(),
         (Found::FixedPoint, Some(v)) => {
             let others = if status(&file.answer) == Outcome::Found { ", none above the associative one" } else { "" };
             format!(
-                "With dry friction (joints slide without opening): {}. Forces and a mechanism that obey Coulomb's law together prove that it is one; there may be others{others}.",
-                words(v)
+                "With dry friction (joints slide without opening): {}. Forces and a mechanism that obey Coulomb's law together prove that it is one{}; there may be others{others}.",
+                words(v),
+                rest(dry, words)
             )
         }
         (Found::Unlimited, _) => {
             "With dry friction the live load alone comes to rest as well, on forces that it produces itself: no limit (computed, not proved)."
                 .to_string()
         }
-        _ => format!("With dry friction no value came out: after {} convex programs the friction limits had not settled.", dry.solves),
+        _ => {
+            let rests = dry.rests_at.filter(|&r| r > 0.0).map(|r| format!(" The blocks come to rest up to {} at least (computed, not proved).", words(r)));
+            format!(
+                "With dry friction no value came out: after {} convex programs the friction limits had not settled.{}",
+                dry.solves,
+                rests.unwrap_or_default()
+            )
+        }
     };
     page.paragraph(&text);
+}
+
+/// Up to where the blocks were seen at rest below a value.
+fn rest(dry: &DryResult, words: impl Fn(f64) -> String) -> String {
+    match dry.rests_at {
+        _ if dry.is_reached() => String::new(),
+        Some(rests_at) => format!(" (the blocks were seen at rest up to {}; what they do from there on did not come out)", words(rests_at)),
+        None => " (whether the blocks come to rest below it did not come out)".into(),
+    }
 }
 
 /// What dry friction makes of a load factor.
@@ -226,21 +280,30 @@ enum Dry {
     Same,
     /// A value of its own.
     Other(f64),
+    /// It does not rest under the dead load.
+    Never,
+    /// It rests up to there; what it does from there on did not come out.
+    UpTo(f64),
     /// It did not come out.
     Undecided,
 }
 
 fn dry_of(file: &ResultFile) -> Dry {
     match &file.dry {
-        Some(d) if d.found == Found::Undecided => Dry::Undecided,
-        Some(d) if d.found == Found::FixedPoint => d.value.map_or(Dry::Undecided, Dry::Other),
-        _ => Dry::Same,
+        None => Dry::Same,
+        Some(d) => match (d.found, d.value) {
+            (Found::NotAtRest, _) => Dry::Never,
+            (Found::Unlimited, _) => Dry::Same,
+            (Found::NothingSlides, Some(_)) if d.is_reached() => Dry::Same,
+            (Found::FixedPoint | Found::Rests, Some(v)) if d.is_reached() => Dry::Other(v),
+            _ => d.rests_at.filter(|&r| r > 0.0).map_or(Dry::Undecided, Dry::UpTo),
+        },
     }
 }
 
 /// The load factor with dry friction, where it is proved to be one of its own.
 fn dry_value(file: &ResultFile) -> Option<f64> {
-    file.dry.as_ref().filter(|d| d.found == Found::FixedPoint)?.value
+    file.dry.as_ref().filter(|d| d.is_reached() && matches!(d.found, Found::FixedPoint | Found::Rests))?.value
 }
 
 fn dead_load(page: &mut Page, file: &ResultFile) {
@@ -270,7 +333,8 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: Options) {
             let toward = d.answer.toward.map(point).unwrap_or_default();
             let dry = d.dry.as_ref().map(|dry| (dry.found, dry.value.map(|v| v.atan().to_degrees())));
             let dry = match dry {
-                Some((Found::FixedPoint, Some(angle))) => format!(", with dry friction {angle:.4}°"),
+                Some((Found::FixedPoint | Found::Rests, Some(angle))) => format!(", with dry friction {angle:.4}°"),
+                Some((Found::NotAtRest, _)) => ", with dry friction not even level".into(),
                 Some((Found::Undecided, _)) => ", with dry friction undecided".into(),
                 _ => String::new(),
             };
@@ -284,6 +348,16 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: Options) {
         })
         .collect();
     page.row("towards", cut(&lines, SHOWN, options));
+}
+
+/// The part of the scene that decides.
+pub(super) fn part(page: &mut Page, file: &ResultFile) {
+    let dry = file.dry.as_ref().filter(|_| !matches!(dry_of(file), Dry::Same)).and_then(|d| d.part.as_ref());
+    let lines = match (file.answer.part.as_ref(), dry) {
+        (Some(bound), Some(dry)) if bound != dry => vec![format!("{bound}"), format!("with dry friction {dry}")],
+        (bound, dry) => bound.or(dry).map(ToString::to_string).into_iter().collect(),
+    };
+    page.row("decided by", lines);
 }
 
 fn status(answer: &Answer) -> Outcome {

@@ -5,7 +5,7 @@ use super::{
     page::{Layout, Page, Role},
 };
 use crate::{
-    analysis::Model,
+    analysis::{Model, coulomb::Found},
     error::Finding,
     report::{result::ResultFile, verify::Verification},
 };
@@ -18,12 +18,23 @@ pub fn verification(file: &ResultFile, verification: &Verification, layout: Layo
         (false, true) => ("proved", Role::Good),
         (false, false) => ("claims nothing", Role::Unsure),
     };
-    page.title(&file.scene.name, text, role);
+    let text = if verification.refuted() || !verification.claimed { text.into() } else { format!("{text}, {}", verification.grade()) };
+    let computed = [Found::Unlimited, Found::Rests, Found::NotAtRest];
+    let text = match &file.dry {
+        Some(dry) if computed.contains(&dry.found) => format!("{text}; the load factor with dry friction is computed, not proved"),
+        _ => text,
+    };
+    page.title(&file.scene.name, super::answer::under(file, text), role);
     for (title, findings) in &verification.parts {
         page.blank();
         page.paragraph(title);
         page.row("fails", findings.fails.iter().cloned());
         page.row("holds", findings.holds.iter().cloned());
+    }
+    if !verification.scene.is_empty() {
+        page.blank();
+        page.paragraph("what is to be known about the scene");
+        page.row("note", verification.scene.iter().map(|f| f.text.clone()));
     }
     page
 }

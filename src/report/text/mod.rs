@@ -14,7 +14,7 @@ mod thrust;
 pub use check::{inspection, verification};
 pub use heaps::heaps;
 pub use packing::packing;
-pub use page::{Layout, Page, Role, Span, printable};
+pub use page::{Layout, Page, Role, Span};
 
 use super::{
     result::{Question, ResultFile},
@@ -58,6 +58,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: Options, layout: Layout)
     page.blank();
     mechanism::rows(&mut page, file, options);
     answer::directions(&mut page, file, options);
+    answer::part(&mut page, file);
     critical::rows(&mut page, file, options);
     thrust::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);

@@ -35,6 +35,7 @@ pub fn packing(file: &PackingFile, options: Options, layout: Layout) -> Page {
     page.paragraph(&format!("{what} The bound holds for joints that open as they slide, and for dry friction as an upper bound."));
     page.blank();
     page.row("moves", [moves(least)]);
+    page.row("moves in", least.part.iter().map(ToString::to_string));
     page.row("directions", cut(&file.directions.iter().map(row).collect::<Vec<_>>(), SHOWN + 2, options));
     if let Some(fabric) = &file.fabric {
         page.row("fabric", self::fabric(fabric, options));
@@ -57,6 +58,7 @@ fn angle(d: &PackingDirection) -> String {
         _ => return "undecided".into(),
     };
     match (d.dry, dry(d)) {
+        (Some(Found::NotAtRest), _) => format!("not even level with dry friction, at most {bound}° with a pre-stress"),
         (Some(Found::NothingSlides), _) => format!("{bound}°, with dry friction as well"),
         (_, Some(v)) => format!("{v:.4}° with dry friction, at most {bound}°"),
         (Some(_), None) => format!("at most {bound}°; with dry friction undecided"),

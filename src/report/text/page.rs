@@ -1,5 +1,6 @@
 //! Lines of text whose parts say what they are. How they look (colour, weight) is decided where they are shown.
 
+use crate::plain::printable;
 use std::{borrow::Cow, fmt};
 
 /// Sentences are broken to lines of this many characters where nobody says how many there is room for.
@@ -126,15 +127,6 @@ fn span(text: impl Into<String>, role: Role) -> Span {
         Cow::Owned(printable) => printable,
     };
     Span { text, role }
-}
-
-/// Text from a scene without what would move the cursor or change the colours of a terminal.
-pub fn printable(text: &str) -> Cow<'_, str> {
-    if !text.contains(char::is_control) {
-        return Cow::Borrowed(text);
-    }
-    let escape = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
-    Cow::Owned(text.chars().map(escape).collect())
 }
 
 /// Breaks a sentence at its spaces; a single word may be longer than the line. Spaces at the start of a line are kept as its indent.

@@ -16,6 +16,7 @@ use crate::{
         thrust::{Thrust, ThrustEnd},
     },
     scene::Scene,
+    tolerance,
     verdict::{
         check::{Claim, Findings},
         section::{SectionForce, sections},
@@ -180,11 +181,12 @@ impl ResultFile {
     }
 }
 
-/// The factor that shrunk sections prove.
+/// The factor that shrunk sections prove: a value only where the two sides are near each other.
 fn factor(shrunk: &[Side], value: Option<f64>) -> Option<Factor> {
     let proved = |s: &&Side| s.verdict().is_some();
-    let stands = shrunk.first().filter(proved)?;
-    Some(Factor { value, lower: 1.0 / stands.value, upper: shrunk.get(1).filter(proved).map(|s| 1.0 / s.value) })
+    let (lower, upper) = (1.0 / shrunk.first().filter(proved)?.value, shrunk.get(1).filter(proved).map(|s| 1.0 / s.value));
+    let is_known = |v: &f64| upper.is_some_and(|u| lower <= *v && *v <= u && u - lower <= tolerance::CRITICAL_BRACKET * u);
+    Some(Factor { value: value.filter(is_known), lower, upper })
 }
 
 fn end(model: &Model, at: ThrustAt, e: &ThrustEnd, refused: &mut Findings) -> (ThrustValue, Certificate) {

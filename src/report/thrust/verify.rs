@@ -5,7 +5,7 @@ use crate::{
     analysis::{Model, Outcome, geometric::shrunk_model},
     report::{
         result::{Certificate, Question, ResultFile},
-        verify::{SAME, Verification, answer, failure, require},
+        verify::{SAME, Verification, answer, failure, mechanism_words, require},
     },
     verdict::{
         Forces, Rate,
@@ -18,7 +18,11 @@ use crate::{
 /// Adds the parts of a result of `thrust`.
 pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     let (said, proof) = match (&file.answer.thrust, &file.thrust) {
-        (None, None) => return all.part("answer", answer(model, Question::Assess, &file.answer, &file.certificate).0),
+        (None, None) => {
+            let (mut f, rates) = answer(model, Question::Assess, &file.answer, &file.certificate);
+            mechanism_words(&mut f, file, model, rates.as_deref());
+            return all.part("answer", f);
+        }
         (Some(said), Some(proof)) => (said, proof),
         _ => return all.part("answer", failure("the answer is not one to its question")),
     };
@@ -117,7 +121,10 @@ fn same(here: &[Section], said: &[Section]) -> bool {
                 && near(a.shear, b.shear, largest)
                 // Where next to nothing presses, its place is rounding.
                 && (a.normal.abs() <= SAME * largest
-                    || (near(a.used, b.used, 1.0) && (0..3).all(|k| near(a.at[k], b.at[k], a.eccentricity)) && a.in_kern == b.in_kern))
+                    || (near(a.used, b.used, 1.0) && (0..3).all(|k| near(a.at[k], b.at[k], a.eccentricity))
+                        && near(a.eccentricity, b.eccentricity, a.eccentricity)
+                        && a.in_kern == b.in_kern
+                        && a.inside == b.inside))
         }
         _ => false,
     };

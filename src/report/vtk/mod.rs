@@ -15,11 +15,8 @@ mod ball;
 mod mesh;
 mod xml;
 
-use super::{
-    drawing::{escape, sized},
-    view::View,
-};
-use crate::dynamics::Frame;
+use super::{drawing::sized, view::View};
+use crate::{dynamics::Frame, plain::markup};
 use mesh::Mesh;
 use nalgebra::Vector3;
 use xml::Xml;
@@ -53,7 +50,7 @@ pub fn moment(view: &View, frame: &Frame) -> String {
 pub fn collection(view: &View, named: impl Fn(usize) -> String) -> String {
     let mut xml = Xml::new("Collection");
     for (k, frame) in view.film.iter().enumerate() {
-        xml.open("DataSet", &format!(" timestep=\"{}\" file=\"{}\"", frame.time, escape(&named(k))));
+        xml.open("DataSet", &format!(" timestep=\"{}\" file=\"{}\"", frame.time, markup(&named(k))));
         xml.close("DataSet");
     }
     xml.end("Collection")

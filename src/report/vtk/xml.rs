@@ -1,6 +1,6 @@
 //! The XML of VTK, numbers as text: exact to the last bit, and legible.
 
-use crate::report::drawing::escape;
+use crate::plain::{markup, printable};
 use nalgebra::Vector3;
 use std::fmt::{Display, Write};
 
@@ -41,13 +41,13 @@ impl Xml {
     /// Strings: VTK wants their bytes as numbers, each ended by 0.
     pub fn strings<'a>(&mut self, name: &str, values: impl ExactSizeIterator<Item = &'a str>) {
         let count = format!(" NumberOfTuples=\"{}\"", values.len());
-        self.array("String", name, &count, values.flat_map(|s| s.bytes().chain([0])));
+        self.array("String", name, &count, values.flat_map(|s| printable(s).into_owned().into_bytes().into_iter().chain([0])));
     }
 
     fn array<T: Display>(&mut self, kind: &str, name: &str, attributes: &str, values: impl Iterator<Item = T>) {
         /// Numbers on a line.
         const LINE: usize = 12;
-        self.put(format_args!("<DataArray type=\"{kind}\" Name=\"{}\"{attributes} format=\"ascii\">\n", escape(name)));
+        self.put(format_args!("<DataArray type=\"{kind}\" Name=\"{}\"{attributes} format=\"ascii\">\n", markup(name)));
         for (k, value) in values.enumerate() {
             let end = if (k + 1) % LINE == 0 { '\n' } else { ' ' };
             self.put(format_args!("{value}{end}"));

@@ -3,7 +3,7 @@
 //! Scene *i* depends on (seed, *i*) alone. Perturbations are drawn over decades, so that some are far below what a contact tolerance
 //! closes, some near it, and some leave blocks in the air.
 
-use super::Perturbation;
+use super::{super::random::Random, Perturbation};
 use crate::{
     error::InputError,
     generate::expand,
@@ -13,57 +13,18 @@ use crate::{
     },
 };
 use nalgebra::{Unit, UnitQuaternion, Vector3};
-use rand_pcg::{
-    Pcg64,
-    rand_core::{Rng, SeedableRng},
-};
 /// The kinds of structures, in the order of the table.
 pub const FAMILIES: [&str; 7] = ["wall", "arch", "dome", "flat arch", "stack", "cairn", "heap"];
 
 /// A named material, for all blocks.
 const STONE: &str = "stone";
 
-/// Random numbers of one scene.
-struct Random(Pcg64);
-
-impl Random {
-    /// Between 0 and 1, with 53 random bits.
-    fn unit(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Evenly over decades.
-    fn decades(&mut self, low: f64, high: f64) -> f64 {
-        10f64.powf(self.between(low, high))
-    }
-
-    /// A whole number, both ends included.
-    fn count(&mut self, low: usize, high: usize) -> usize {
-        low + ((high - low + 1) as f64 * self.unit()) as usize
-    }
-
-    fn chance(&mut self, share: f64) -> bool {
-        self.unit() < share
-    }
-
-    fn vector(&mut self) -> Vector3<f64> {
-        Vector3::from_fn(|_, _| self.between(-1.0, 1.0))
-    }
-}
-
 /// Scene number `index` of the soak `seed`, its family and its perturbations.
 ///
 /// # Errors
 /// A template refused its values, which would be a mistake in this file.
 pub fn scene(seed: u64, index: usize) -> Result<(Scene, &'static str, Vec<Perturbation>), InputError> {
-    let mut stream = Pcg64::seed_from_u64(seed);
-    // A stretch of the stream for every scene, longer than any needs.
-    stream.advance(index as u128 * (1 << 32));
-    let random = &mut Random(stream);
+    let random = &mut Random::of(seed, index);
     let family = FAMILIES[index % FAMILIES.len()];
     let blocks = blocks(family, random)?;
     let mut scene = Scene { name: format!("soak {seed}/{index}: {family}"), blocks, ..Scene::default() };

@@ -1,9 +1,12 @@
 //! What was submitted, kept beside the rows (`job.json`).
 
 use super::states;
-use crate::error::{RowsError, SlurmError};
+use crate::{
+    error::{RowsError, SlurmError},
+    files, keep,
+};
 use serde::{Deserialize, Serialize};
-use std::{fs, io::Write, path::Path};
+use std::{io::Write, path::Path};
 
 /// The name of the file.
 const NAME: &str = "job.json";
@@ -37,17 +40,17 @@ impl Job {
     pub fn read(folder: &Path) -> Result<Option<Self>, RowsError> {
         let path = folder.join(NAME);
         let file = path.display().to_string();
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(cause) => return Err(RowsError::File { file, what: "read", cause }),
+        let bytes = match keep::read_file(&path) {
+            Ok(bytes) => bytes,
+            Err(RowsError::File { cause, .. }) if cause.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(e) => return Err(e),
         };
         let damaged = |e: serde_json::Error| RowsError::Damaged {
             file,
             line: e.line(),
             why: format!("not the record of a job: {e}; remove the file, the rows stay"),
         };
-        serde_json::from_str(&text).map(Some).map_err(damaged)
+        serde_json::from_slice(&bytes).map(Some).map_err(damaged)
     }
 
     /// The last of the arrays of which a task may still write, by Slurm's number.
@@ -71,7 +74,7 @@ impl Job {
         let path = folder.join(NAME);
         let problem = |cause| RowsError::File { file: path.display().to_string(), what: "written", cause };
         let text = serde_json::to_string(self).map_err(|e| problem(e.into()))?;
-        let mut file = tempfile::NamedTempFile::new_in(folder).map_err(problem)?;
+        let mut file = tempfile::NamedTempFile::new_in(folder).map_err(files::unnamed).map_err(problem)?;
         writeln!(file, "{text}").and_then(|()| file.as_file().sync_all()).map_err(problem)?;
         file.persist(&path).map(drop).map_err(|e| problem(e.error))
     }

@@ -9,6 +9,7 @@ mod next;
 mod pictures;
 mod proofs;
 mod scenes;
+mod study;
 mod verbs;
 
 use serde_json::{Value, json};

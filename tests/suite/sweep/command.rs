@@ -124,8 +124,11 @@ fn what_cannot_be_done_is_said_before_the_work() {
     says(&["sweep", "none.json"], "cannot be read");
     says(&["sweep", "plan.json", "-o", "-"], "--output takes a file");
     says(&["sweep", "plan.json", "--shard", "3/2"], "K/N");
-    says(&["sweep", "plan.json", "-o", "scene.json"], "not the beginning of a file of rows");
-    says(&["sweep", "plan.json", "--restart", "-o", "scene.json"], "not the beginning of a file of rows");
+    says(&["sweep", "plan.json", "-o", "scene.json"], "this file is read");
+    fs::copy(at.join("scene.json"), at.join("other.json")).unwrap();
+    says(&["sweep", "plan.json", "-o", "other.json"], "not the beginning of a file of rows");
+    says(&["sweep", "plan.json", "--restart", "-o", "other.json"], "not the beginning of a file of rows");
+    assert_eq!(fs::read_to_string(at.join("other.json")).unwrap(), arch().to_string());
     says(&["sweep", "plan.json", "-o", "nowhere/rows.jsonl"], "cannot be written");
     says(&["sweep", "plan.json", "--csv", "nowhere/table.csv"], "no such folder");
     says(&["sweep", "plan.json", "--chart", "line"], "--svg");

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use std::{collections::BTreeMap, fs, path::Path};
 use voussoir::{
     analysis::prepare,
-    sweep::{Options, Row, RowsFile, Shard, Status, Sweep, ask, merge, read_rows, run},
+    sweep::{Event, Options, Row, RowsFile, Shard, Status, Sweep, ask, merge, read_rows, run},
 };
 
 fn options(threads: usize, shard: Shard) -> Options {
@@ -195,7 +195,8 @@ fn damage_in_the_middle_is_told_with_its_line() {
     let (header, row) = (rows[0], rows[1]);
     for (text, word) in [
         (text.replacen("\"status\":\"found\"", "\"status\":\"fuond\"", 1), "rows.jsonl:"),
-        (format!("{text}{}\n", row.replacen("\"value\":0.", "\"value\":1.", 1)), "is there twice"),
+        (format!("{text}{}\n", row.replacen("\"value\":0.", "\"value\":1.", 1)), "was edited"),
+        (unsummed(&format!("{text}{}\n", row.replacen("\"value\":0.", "\"value\":1.", 1))), "is there twice"),
         (format!("{header}\n{}\n", row.replacen("\"row\":", "\"row\":9", 1)), "none of this plan"),
     ] {
         fs::write(&path, &text).unwrap();
@@ -255,4 +256,72 @@ fn thrust_repose_and_simulation_can_be_swept() {
     let sweep = sweep(block(), json!({ "simulate": { "fast": true, "load_factor": 0.3 } }), vary, json!({ "grid": {} }));
     let rows = done(&sweep, &folder.path().join("simulate.jsonl"), 2);
     assert_eq!([0, 1].map(|k: usize| rows[k].answer.status), [Status::Unstable, Status::Stable]);
+}
+
+/// The text of a file as it was before rows had check sums.
+fn unsummed(text: &str) -> String {
+    let line = |line: &str| match line.rsplit_once(",\"sum\":\"") {
+        Some((row, _)) => format!("{row}}}\n"),
+        None => format!("{}\n", line.replacen("\"sums\":true,", "", 1)),
+    };
+    text.lines().map(line).collect()
+}
+
+#[test]
+fn rows_that_were_edited_are_noticed_by_whoever_reads_them() {
+    let sweep = mixed(4);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.jsonl");
+    done(&sweep, &path, 1);
+    let text = fs::read_to_string(&path).unwrap();
+    let third = text.lines().nth(2).unwrap();
+    let without = third.rsplit_once(",\"sum\":\"").unwrap().0.to_string() + "}";
+    for (edited, word) in [
+        (
+            text.replacen(third, &third.replacen("\"value\":0.", "\"value\":0.9", 1), 1),
+            "rows.jsonl:3: the row or the first line of the file was edited",
+        ),
+        (text.replacen(third, &third.replacen("\"seconds\":", "\"seconds\":1", 1), 1), "rows.jsonl:3: "),
+        (text.replacen(third, &without, 1), "rows.jsonl:3: the check sum of the row is gone"),
+        (text.replacen("\"seed\":5", "\"seed\":6", 1), "rows.jsonl:2: "),
+    ] {
+        assert_ne!(edited, text);
+        fs::write(&path, &edited).unwrap();
+        for error in [run(&sweep, &path, &options(1, Shard::ALL), &|_| {}).err(), merge(&[&path]).err(), read_rows(&path).err()] {
+            let error = error.expect("refused").to_string();
+            assert!(error.contains(word) && error.contains("remove the line"), "{error}");
+        }
+        assert_eq!(fs::read_to_string(&path).unwrap(), edited, "a refused file stays as it is");
+    }
+    // Without the line the row is done again.
+    fs::write(&path, text.replacen(&format!("{third}\n"), "", 1)).unwrap();
+    done(&sweep, &path, 1);
+    assert_eq!(lines(&path).len(), 4);
+}
+
+#[test]
+fn files_of_versions_without_check_sums_are_read_and_counted() {
+    let sweep = mixed(5);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.jsonl");
+    done(&sweep, &path, 1);
+    let all = lines(&path);
+    let old = unsummed(&fs::read_to_string(&path).unwrap());
+    assert!(!old.contains("sum"));
+    // Three rows of an old run; the others are done now.
+    fs::write(&path, old.split_inclusive('\n').take(4).collect::<String>()).unwrap();
+    let counted = std::sync::Mutex::new(None);
+    run(&sweep, &path, &options(1, Shard::ALL), &|event| {
+        if let Event::Begin { there, unchecked, .. } = event {
+            *counted.lock().unwrap() = Some((there, unchecked));
+        }
+    })
+    .unwrap();
+    assert_eq!(*counted.lock().unwrap(), Some((3, 3)));
+    assert_eq!(lines(&path), all);
+    let merged = merge(&[&path]).unwrap().unwrap();
+    assert_eq!((merged.unchecked, merged.rows.len()), (3, 5));
+    // What is merged has sums of its own.
+    fs::write(&path, merged.text().unwrap()).unwrap();
+    assert_eq!(merge(&[&path]).unwrap().unwrap().unchecked, 0);
 }

@@ -164,7 +164,9 @@ fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
     fake.refused(&["sweep", "plan.json", "--tasks", "2"], &[], "--slurm");
     fake.refused(&["sweep", "--attach", "out.jsonl"], &[], "nothing was submitted for out.jsonl");
     fake.refused(&["sweep", "plan.json", "--slurm", "-o", "nowhere/out.jsonl"], &[], "nowhere");
-    fake.refused(&["sweep", "plan.json", "--slurm", "-o", "scene.json"], &[], "not the beginning of a file of rows");
+    fake.refused(&["sweep", "plan.json", "--slurm", "-o", "scene.json"], &[], "this file is read");
+    std::fs::copy(fake.at().join("scene.json"), fake.at().join("other.json")).unwrap();
+    fake.refused(&["sweep", "plan.json", "--slurm", "-o", "other.json"], &[], "not the beginning of a file of rows");
     fake.refused(&["sweep", "task", "out.jsonl.slurm", "--shard", "1/2"], &[], "finds no sweep");
     fake.refused(&["sweep", "status", "out.jsonl"], &[], "cannot be read");
     assert!(!fake.at().join("out.jsonl").exists() && !fake.at().join("out.jsonl.slurm").exists());

@@ -1,0 +1,89 @@
+//! The state to the last digit: Newton's method on Coulomb's law itself ([`Friction::Law`]), started where the fixed point on the friction
+//! limits ended.
+//!
+//! The limits of a fixed point are those of the iterate before, off by what the last step changed; near the edge of friction that is as much
+//! as the acceleration that decides. Here each limit follows from the normal force of the same rates, and the error falls to rounding in a
+//! few steps. The derivative is not symmetric (Alart & Curnier 1991): a step costs several of those with limits held, so this comes last.
+
+use super::newton::Solved;
+use crate::{
+    program::{
+        coulomb::Contacts,
+        response::{Friction, Response},
+    },
+    solve::{Lu, Pattern},
+};
+use std::time::Instant;
+
+/// Most steps. Fewer: states of many joints that stick and slip by turns go back to the fixed point. More: time lost where it leads nowhere.
+const STEPS: usize = 20;
+/// Shares of a step that are looked at, each half of the one before.
+const SHARES: usize = 8;
+/// The imbalance aimed at, in the loads that pass the blocks, over ε. Larger: digits of the acceleration. Smaller: rounding keeps from it.
+const EXACT: f64 = 1e-6;
+/// Rounding of the imbalance for each of the rates, which are large where something moves. Larger: noise in the acceleration. Smaller: motions
+/// at small ε, which rounding keeps from the imbalance aimed at, go back to the fixed point.
+const ROUNDING: f64 = 1e-14;
+/// Where no step leads further, this many times as much is good enough.
+const ENOUGH: f64 = 100.0;
+/// Most rows. More: factors without symmetry of structures in space take minutes.
+const MOST_ROWS: usize = 12_000;
+
+/// Coulomb's law for the states of one set of contacts.
+pub(super) struct Exact {
+    response: Response,
+    lu: Lu,
+    carried: Vec<f64>,
+}
+
+impl Exact {
+    /// `None` where the forces do not follow from the rates, or the factors take too much.
+    pub fn new(contacts: &Contacts) -> Option<Self> {
+        if contacts.statics.matrix.rows > MOST_ROWS {
+            return None;
+        }
+        let response = Response::new(contacts)?;
+        let (starts, rows) = response.pattern();
+        let lu = Lu::new(&Pattern { starts: starts.to_vec(), rows: rows.to_vec() })?;
+        Some(Self { response, lu, carried: contacts.carried() })
+    }
+
+    /// The state at ε near `rates`, and the imbalance it leaves, in the loads that pass the blocks; `None` where it does not get there, or not
+    /// before `end`.
+    pub fn near(&mut self, contacts: &Contacts, epsilon: f64, rates: &[f64], end: Option<Instant>) -> Option<(Solved, f64)> {
+        let mut q = rates.to_vec();
+        let (mut forces, mut imbalance) = self.response.forces(contacts, epsilon, Friction::Law, &q);
+        for _ in 0..STEPS {
+            let size = self.size(&imbalance);
+            let allowed = EXACT * epsilon + ROUNDING * q.iter().map(|q| q * q).sum::<f64>().sqrt();
+            if size <= allowed {
+                return Some((Solved { forces, rates: q }, size));
+            }
+            if !size.is_finite() || end.is_some_and(|end| Instant::now() >= end) {
+                return None;
+            }
+            let [lower, upper] = [false, true].map(|mirrored| self.response.derivative(contacts, epsilon, Friction::Law, &q, mirrored));
+            let mut step: Vec<f64> = imbalance.iter().map(|g| -g).collect();
+            if !self.lu.solve(&lower, &upper, &mut step) {
+                return None;
+            }
+            let mut share = 1.0;
+            let better = (0..SHARES).find_map(|_| {
+                let next: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + share * s).collect();
+                let (f, g) = self.response.forces(contacts, epsilon, Friction::Law, &next);
+                let falls = self.size(&g) < (1.0 - 0.1 * share) * size;
+                share *= 0.5;
+                falls.then_some((next, f, g))
+            });
+            match better {
+                Some(better) => (q, forces, imbalance) = better,
+                None => return (size <= ENOUGH * allowed).then_some((Solved { forces, rates: q }, size)),
+            }
+        }
+        None
+    }
+
+    fn size(&self, imbalance: &[f64]) -> f64 {
+        imbalance.iter().zip(&self.carried).map(|(g, c)| (g / c).powi(2)).sum::<f64>().sqrt()
+    }
+}

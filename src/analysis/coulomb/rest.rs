@@ -1,0 +1,196 @@
+//! Up to which load factor does the scene come to rest under dry friction?
+//!
+//! Forces and a mechanism that obey Coulomb's law at λ show that the scene can move there. Whether it rests below is another matter: part
+//! of it may be wedged, and stand on nothing but a pre-stress that the loads do not produce, while the mechanism moves something else. So the
+//! state ([`state`]) is asked under the dead load, on the way, and just below the value; where it does not rest, the value is no load factor
+//! of the scene, and the greatest one up to which it rests is sought by halving.
+//! *Computed, not proved:* that a state comes to rest.
+
+use super::{
+    load_factor::{DryLoadFactor, Found},
+    state::{Motion, State, state},
+};
+use crate::{
+    analysis::{Control, LoadFactor, Outcome},
+    assembly::Assembly,
+    interface::Interfaces,
+    program::is_forest,
+    tolerance,
+    verdict::{Verdict, check, law},
+};
+use std::time::Instant;
+
+/// Where the state is asked on the way to a value, in shares of it. Fewer: what comes loose on the way and wedges again is not seen.
+const ON_THE_WAY: [f64; 3] = [0.25, 0.5, 0.75];
+/// The same for scenes of more than [`MANY`] free blocks, a state of which takes seconds.
+const ON_THE_WAY_OF_MANY: [f64; 1] = [0.5];
+const MANY: usize = 300;
+
+/// How far below the value the state is asked, in shares of it; the next one where the one before does not come out. Nearer: states that
+/// neither rest nor move. Farther: what the value says is not seen.
+const BELOW: [f64; 4] = [tolerance::REST_BELOW, 1e-2, 0.05, 0.2];
+
+/// Without an end to the load factor: where the state is asked, in multiples of the one at which live and dead load weigh the same.
+const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
+
+/// Most states asked while halving. Fewer: the value is known to fewer digits than [`tolerance::DRY_CRITICAL_WIDTH`].
+const MOST: usize = 40;
+/// The same for more than [`MANY`] free blocks.
+const MOST_OF_MANY: usize = 8;
+
+/// The assembly with its live load, times `lambda`, added to its dead load.
+pub(in crate::analysis) fn loaded(assembly: &Assembly, lambda: f64) -> Assembly {
+    let mut loaded = assembly.clone();
+    for (dead, live) in loaded.dead.iter_mut().zip(&assembly.live) {
+        *dead += *live * lambda;
+    }
+    loaded
+}
+
+/// Whether a state seen at rest at `rests_at` is one just below `value`.
+pub fn is_reached(rests_at: f64, value: f64) -> bool {
+    rests_at >= value - 1.01 * tolerance::REST_BELOW * value.abs()
+}
+
+/// States asked of a scene under load factors.
+struct Probe<'a> {
+    at: &'a dyn Fn(f64) -> (Assembly, Interfaces),
+    control: &'a Control,
+    start: Instant,
+    /// The last state that rested, and the last that moved, with their load factors.
+    rests: Option<(f64, State)>,
+    moves: Option<(f64, State)>,
+}
+
+impl Probe<'_> {
+    /// What the state does at a load factor; nothing where the time is over.
+    fn ask(&mut self, lambda: f64) -> Option<Motion> {
+        let seconds = self.control.seconds - self.start.elapsed().as_secs_f64();
+        if seconds <= 0.0 {
+            return None;
+        }
+        let (assembly, interfaces) = (self.at)(lambda);
+        let state = state(&assembly, &interfaces, &Control { seconds, ..*self.control });
+        let motion = state.motion;
+        match motion {
+            Motion::Rests => self.rests = Some((lambda, state)),
+            Motion::Moves => self.moves = Some((lambda, state)),
+            Motion::Undecided => {}
+        }
+        Some(motion)
+    }
+
+    /// Asks at each of these in turn, and stops at the first that moves; the greatest that rested stays.
+    fn climb(&mut self, lambdas: impl Iterator<Item = f64>) {
+        for lambda in lambdas {
+            if !matches!(self.ask(lambda), Some(Motion::Rests | Motion::Undecided)) {
+                break;
+            }
+        }
+    }
+
+    /// Narrows what lies between rest and the rest by halving.
+    fn halve(&mut self, mut rests: f64, mut above: f64, most: usize) -> f64 {
+        for _ in 0..most {
+            if above - rests <= tolerance::DRY_CRITICAL_WIDTH * above.abs() {
+                break;
+            }
+            let middle = 0.5 * (rests + above);
+            match self.ask(middle) {
+                Some(Motion::Rests) => rests = middle,
+                Some(Motion::Moves | Motion::Undecided) => above = middle,
+                None => break,
+            }
+        }
+        rests
+    }
+}
+
+/// Makes a complementary solution the load factor up to which the scene comes to rest. `dead` is the verdict under the dead load, where it is
+/// known, `at` the scene under a load factor as its dead load.
+pub(in crate::analysis) fn up_to_rest(
+    mut answer: DryLoadFactor,
+    associative: &LoadFactor,
+    dead: Option<Verdict>,
+    at: &dyn Fn(f64) -> (Assembly, Interfaces),
+    control: &Control,
+) -> DryLoadFactor {
+    let (level, joints) = at(0.0);
+    let is_bounded = associative.outcome == Outcome::Found;
+    // Where contacts form no closed chain there is nothing that could be wedged, and below zero the dead load falls by itself.
+    let negative = answer.value < 0.0 || (is_bounded && associative.value <= 0.0);
+    if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) || control.seconds <= 0.0 {
+        return answer;
+    }
+    if is_forest(&level, &joints) {
+        answer.rests_at = answer.value;
+        return answer;
+    }
+    if negative {
+        return answer;
+    }
+    let mut probe = Probe { at, control, start: Instant::now(), rests: None, moves: None };
+    let rests = match dead {
+        Some(Verdict::Stable) => Some(Motion::Rests),
+        Some(Verdict::Conditional | Verdict::Unstable) => Some(Motion::Moves),
+        Some(Verdict::Undecided) => Some(Motion::Undecided),
+        None => probe.ask(0.0),
+    };
+    match rests {
+        Some(Motion::Rests) => answer.rests_at = 0.0,
+        Some(Motion::Moves) => (answer.found, answer.value, answer.moves_at) = (Found::NotAtRest, f64::NAN, 0.0),
+        // What is not known at the dead load is not known above it.
+        Some(Motion::Undecided) | None => (answer.found, answer.value) = (Found::Undecided, f64::NAN),
+    }
+    if rests == Some(Motion::Rests) {
+        climb(&mut probe, &mut answer, associative, &level);
+    }
+    answer
+}
+
+/// From the dead load, at which the state rests, upwards.
+fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor, level: &Assembly) {
+    let many = level.free().count() > MANY;
+    let most = if many { MOST_OF_MANY } else { MOST };
+    let on_the_way = if many { &ON_THE_WAY_OF_MANY[..] } else { &ON_THE_WAY[..] };
+    // A value, or where none was found the bound above all values.
+    let goal = [answer.value, associative.value].into_iter().find(|v| v.is_finite());
+    match goal {
+        Some(goal) => {
+            probe.climb(on_the_way.iter().map(|share| share * goal));
+            let halfway = probe.rests.as_ref().map_or(0.0, |r| r.0);
+            for share in BELOW {
+                let lambda = (1.0 - share) * goal;
+                if probe.moves.is_some() || lambda <= halfway || probe.ask(lambda) != Some(Motion::Undecided) {
+                    break;
+                }
+            }
+        }
+        None => {
+            let natural = check::natural_factor(level);
+            probe.climb(WITHOUT_END.iter().map(|multiple| multiple * natural));
+        }
+    }
+    let mut rests_at = probe.rests.as_ref().map_or(0.0, |r| r.0);
+    // What was at rest above a load factor at which it moves does not count.
+    if let Some((moves, _)) = &probe.moves {
+        rests_at = if rests_at < *moves { rests_at } else { 0.0 };
+    }
+    let above = probe.moves.as_ref().map(|m| m.0);
+    // Where nothing else is known, the bracket from below is what there is to say.
+    let above = above.or(goal.filter(|_| answer.value.is_nan()));
+    if let Some(above) = above.filter(|above| *above > rests_at) {
+        rests_at = probe.halve(rests_at, above, most);
+    }
+    answer.rests_at = rests_at;
+    let Some((moves_at, moving)) = &probe.moves else { return };
+    answer.moves_at = *moves_at;
+    (answer.found, answer.value) = (Found::Rests, rests_at);
+    // The evidence is that of the states on both sides.
+    if let Some((_, state)) = &probe.rests {
+        answer.forces.clone_from(&state.forces);
+    }
+    let (assembly, interfaces) = (probe.at)(*moves_at);
+    answer.rates = law::motion(&assembly, &interfaces, &moving.forces).rates;
+    (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
+}

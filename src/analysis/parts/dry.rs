@@ -1,0 +1,159 @@
+//! The load factor with dry friction of a scene is the least of those of its parts, where all the others come to rest there.
+
+use super::{
+    Deciding, each,
+    limit::{SAME, as_they_are, loaded},
+    scene_forces, scene_rates,
+};
+use crate::{
+    analysis::{
+        Control, Law, LoadFactor, Outcome,
+        assess::of_part as assess_part,
+        coulomb::{self, DryLoadFactor, Found},
+        limit::of_part as limit_part,
+    },
+    assembly::Assembly,
+    interface::{self, Interfaces, Part},
+    verdict::{Forces, Verdict, no_forces},
+};
+use std::{borrow::Cow, time::Instant};
+
+/// The load factor with dry friction, up to which every part comes to rest; `associative` is the answer of
+/// [`limit`](crate::analysis::limit()) for the same model.
+pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
+    load_factor_from(assembly, interfaces, associative, None, control)
+}
+
+/// The same where the verdict under the dead load alone is known.
+pub fn load_factor_from(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    associative: &LoadFactor,
+    dead: Option<Verdict>,
+    control: &Control,
+) -> DryLoadFactor {
+    // Where all stands, every part does; any other verdict is that of one of them.
+    let dead = dead.filter(|&v| v == Verdict::Stable);
+    let solve = |part: &Part, bound: Option<&LoadFactor>, control: &Control| match bound {
+        Some(bound) => coulomb::of_part(&part.assembly, &part.interfaces, bound, dead, control),
+        None => {
+            let bound = limit_part(&part.assembly, &part.interfaces, control);
+            coulomb::of_part(&part.assembly, &part.interfaces, &bound, dead, control)
+        }
+    };
+    load_factor_by(assembly, interfaces, associative, control, (solve, as_they_are))
+}
+
+/// The same with ways of one's own: what is asked of a part that the live load acts on (given its own associative answer, where that is
+/// known), in its own units, and the joints of a part when the scene has this load factor.
+pub fn load_factor_by<S, J>(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    associative: &LoadFactor,
+    control: &Control,
+    (solve, joints): (S, J),
+) -> DryLoadFactor
+where
+    S: Fn(&Part, Option<&LoadFactor>, &Control) -> DryLoadFactor + Sync,
+    J: for<'p> Fn(&'p Part, f64) -> Cow<'p, Interfaces> + Sync,
+{
+    let start = Instant::now();
+    let parts = interface::parts(assembly, interfaces);
+    if associative.outcome == Outcome::Impossible || control.seconds <= 0.0 || !parts.iter().any(Part::is_driven) {
+        return coulomb::complementary(assembly, interfaces, associative, control);
+    }
+    let known = |k: usize| associative.parts.get(k).filter(|_| associative.parts.len() == parts.len()).and_then(Option::as_ref);
+    let driven: Vec<usize> = (0..parts.len()).filter(|&k| parts[k].is_driven()).collect();
+    let answers = each(&parts, &driven, control, |k, control| solve(&parts[k], known(k), control));
+    let mut own: Vec<Option<DryLoadFactor>> = parts.iter().map(|_| None).collect();
+    driven.iter().zip(answers).for_each(|(&k, a)| own[k] = Some(a));
+    let scene = Scene { assembly, interfaces, parts: &parts, own: &own };
+    scene.answer(&Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control }, &joints)
+}
+
+struct Scene<'a> {
+    assembly: &'a Assembly,
+    interfaces: &'a Interfaces,
+    parts: &'a [Part],
+    /// The answers of the parts that the live load acts on.
+    own: &'a [Option<DryLoadFactor>],
+}
+
+impl Scene<'_> {
+    /// The value of a part, as one of the scene.
+    fn value(&self, k: usize) -> Option<f64> {
+        let own = self.own[k].as_ref().filter(|a| !open(a.found) && a.value.is_finite())?;
+        Some(self.parts[k].units.load_factor(own.value))
+    }
+
+    fn answer(&self, control: &Control, joints: &(impl for<'p> Fn(&'p Part, f64) -> Cow<'p, Interfaces> + Sync)) -> DryLoadFactor {
+        let n = self.parts.len();
+        let driven: Vec<(usize, &DryLoadFactor)> = self.own.iter().enumerate().filter_map(|(k, a)| Some((k, a.as_ref()?))).collect();
+        let values = (0..n).filter_map(|k| self.value(k).map(|v| (k, v)));
+        let least = values.reduce(|a, b| if b.1 < a.1 { b } else { a });
+        // Without any value: a part that is open, else any of those that have no limit.
+        let is_open = |(_, a): &&(usize, &DryLoadFactor)| open(a.found);
+        let never_rests = driven.iter().find(|(_, a)| a.found == Found::NotAtRest);
+        let &(decides, own) = match (never_rests, least) {
+            (Some(_), _) => never_rests,
+            (None, Some((k, _))) => driven.iter().find(|d| d.0 == k),
+            (None, None) => driven.iter().find(is_open),
+        }
+        .unwrap_or(&driven[0]);
+        let lambda = least.map(|l| l.1);
+        let all: Vec<usize> = (0..n).collect();
+        let beside = each(self.parts, &all, control, |k, control| self.beside(k, decides, lambda, control, joints));
+        let refused = (0..n).find(|&k| k != decides && !beside[k].1);
+        let found = match refused {
+            _ if own.found == Found::NotAtRest => Found::NotAtRest,
+            Some(k) if self.own[k].is_none() && beside[k].2 => Found::NotAtRest,
+            Some(_) => Found::Undecided,
+            None => own.found,
+        };
+        let scene = |v: f64| self.parts[decides].units.load_factor(v);
+        DryLoadFactor {
+            found,
+            part: Deciding::new(self.parts, refused.filter(|_| found != own.found).unwrap_or(decides)),
+            value: lambda.filter(|_| !open(found)).unwrap_or(f64::NAN),
+            rests_at: if refused.is_some() { f64::NAN } else { scene(own.rests_at) },
+            moves_at: scene(own.moves_at),
+            natural_map: own.natural_map,
+            natural_map_in_loads: own.natural_map_in_loads,
+            solves: self.own.iter().flatten().map(|a| a.solves).sum(),
+            forces: scene_forces(self.interfaces, self.parts.iter().zip(beside.iter().map(|b| &b.0))),
+            rates: scene_rates(self.assembly, &self.parts[decides], &own.rates),
+        }
+    }
+
+    /// The forces of part `k` where the scene has the load factor `lambda`, whether it bears that, and whether it is known not to rest. What has a value of its own bears all
+    /// that is less, and so does what has no limit; of the others the state under dry friction has to come to rest.
+    fn beside(
+        &self,
+        k: usize,
+        decides: usize,
+        lambda: Option<f64>,
+        control: &Control,
+        joints: &impl for<'p> Fn(&'p Part, f64) -> Cow<'p, Interfaces>,
+    ) -> (Forces, bool, bool) {
+        let part = &self.parts[k];
+        let found = self.own[k].as_ref().map(|a| a.found);
+        let own = |bears: bool| (self.own[k].as_ref().map_or_else(|| no_forces(&part.interfaces), |a| a.forces.clone()), bears, false);
+        let close = self.value(k).zip(lambda).is_some_and(|(v, lambda)| v - lambda <= SAME * lambda.abs());
+        if k == decides || close {
+            return own(!found.is_some_and(open));
+        }
+        if lambda.is_none() && found.is_some() {
+            return own(found == Some(Found::Unlimited));
+        }
+        let lambda = lambda.unwrap_or(0.0);
+        let law = if found.is_none_or(open) { Law::Coulomb } else { Law::Associative };
+        let a =
+            assess_part(&loaded(&part.assembly, part.units.own_load_factor(lambda)), &joints(part, lambda), &Control { law, ..*control });
+        (a.forces, a.verdict == Verdict::Stable, matches!(a.verdict, Verdict::Conditional | Verdict::Unstable))
+    }
+}
+
+/// Without a value.
+fn open(found: Found) -> bool {
+    matches!(found, Found::Undecided | Found::NotAtRest)
+}

@@ -1,0 +1,61 @@
+//! Single numbers of what is claimed, made tiny, huge, negative, a little different, or no numbers.
+
+use super::{Forgery, Honest, edit::Draft};
+use crate::study::random::Random;
+use serde_json::{Value, json};
+
+/// Where claimed numbers are.
+const CLAIMED: [&str; 8] = [
+    "/answer/load_factor",
+    "/answer/tilt_deg",
+    "/answer/critical",
+    "/certificate/claim",
+    "/directions",
+    "/dry",
+    "/critical/flips",
+    "/thrust",
+];
+/// Numbers below these names are evidence, or of no size of their own.
+const OTHERS: [&str; 12] =
+    ["forces", "base", "rates", "points", "couples", "unbalance", "standing", "direction", "toward", "natural_map", "solves", "sections"];
+/// How many of them are changed.
+const CHANGED: usize = 4;
+/// A change of less than this × the number may still be true.
+const MATERIAL: f64 = 1e-3;
+/// Numbers below this are rounding of ones that are 0.
+const LEAST: f64 = 1e-5;
+
+/// A few numbers, each changed in every way.
+pub(super) fn forge(honest: &Honest, random: &mut Random) -> Vec<Forgery> {
+    let mut all = Vec::new();
+    for pointer in CLAIMED {
+        if let Some(value) = honest.file.pointer(pointer) {
+            leaves(value, pointer.into(), &mut all);
+        }
+    }
+    let mut made = Vec::new();
+    for _ in 0..CHANGED.min(all.len()) {
+        let (pointer, value) = all.swap_remove(random.count(0, all.len() - 1));
+        let numbers = [0.0, -0.0, 5e-324, 1e-170, -value, value * (1.0 + 2.0 * MATERIAL), 2.0 * value, value * 2f64.powi(600), 1e300];
+        let numbers = numbers.into_iter().filter(|v| v.is_finite() && (v - value).abs() > MATERIAL * value.abs()).map(Value::from);
+        for other in numbers.chain([Value::Null, json!("NaN"), json!("Infinity")]) {
+            // A bracket or a value that is left out may claim less, which is no lie where nothing else is said.
+            let what = format!("{pointer}: {other} instead of {value}");
+            made.extend(Draft::of(honest).set(&pointer, other).done(honest, "number", what));
+        }
+    }
+    made
+}
+
+fn leaves(value: &Value, pointer: String, out: &mut Vec<(String, f64)>) {
+    match value {
+        Value::Object(map) => {
+            for (key, value) in map.iter().filter(|(k, _)| !OTHERS.contains(&k.as_str())) {
+                leaves(value, format!("{pointer}/{key}"), out);
+            }
+        }
+        Value::Array(list) => list.iter().enumerate().for_each(|(k, value)| leaves(value, format!("{pointer}/{k}"), out)),
+        Value::Number(n) => out.extend(n.as_f64().filter(|v| v.abs() > LEAST).map(|v| (pointer, v))),
+        _ => {}
+    }
+}

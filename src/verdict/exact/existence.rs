@@ -1,0 +1,307 @@
+//! Do forces near the given ones balance exactly?
+//!
+//! *Claim.* Given forces leave the blocks a little, `r`, for they are doubles. Let `m_i` be how far force `i` can change inside its cone
+//! and `S = Σ D_i B_i B_iᵀ` with `B_i` what a change of force `i` does to the blocks and `D_i ≥ 0` (zero where `m_i` is). If `S` is positive
+//! definite, `d_i = −D_i B_iᵀ S⁻¹ r` balances what is left: `Σ B_i d_i = −r`, and `‖d_i‖ ≤ D_i ‖B_i‖ ‖r‖ / λ_min(S)`. Where that is at most
+//! `m_i`, the forces `f_i + d_i` lie in their cones and balance: they exist, and the scene stands.
+//!
+//! *Method.* Most of the change is computed, with doubles that are then added without rounding; the bound covers only what that leaves,
+//! some 1e-28 of the loads. The lower bound of the smallest eigenvalue is the shift with which one Cholesky factorisation in doubles
+//! still ends, less what rounding may have done to it: `(n + 1) ε tr S` for the factorisation (Rump, BIT 46, 2006, from Demmel 1989), as
+//! much again for the sums that make the entries. Forces with room in all directions count with all three; without friction, along the
+//! normal. The existence of a solution near an approximate one: Jansson, Chaykin & Keil, SIAM J. Numer. Anal. 46, 2007.
+
+use super::balance::{Balance, ENLARGED, Pair, REDUCED, Room, exactly, multiple, room};
+use crate::{
+    assembly::Assembly,
+    interface::{Interfaces, Members, members},
+    solve::{Cholesky, Pattern},
+    tolerance,
+    verdict::{
+        Forces,
+        certificate::{self, Strength},
+    },
+};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use std::collections::{BTreeMap, HashMap};
+
+type Vector6 = SVector<f64, 6>;
+type Matrix6 = SMatrix<f64, 6, 6>;
+
+/// How the room of a force counts in `S`: `m^p`. The first suits forces of very different sizes, the last load factors, where much of the
+/// room is as small as the distance from the limit.
+const POWERS: [f64; 3] = [1.0, 0.5, 0.0];
+
+/// Rounds of correction. Each leaves some 1e-10 of what was there; the second ends at the rounding of the sums.
+const ROUNDS: usize = 3;
+
+/// The share of its room that the computed change of a force may use; the rest is for the bound.
+const USED: f64 = 0.5;
+
+/// Parts of more free blocks are proved to rounding. More: factors of tens of thousands of rows, which cost more than the answer itself.
+pub const MOST_BLOCKS: usize = 1500;
+
+/// A force that can change, and what it does.
+struct Column {
+    interface: usize,
+    point: usize,
+    /// Rows of the blocks that it acts on, with the arm; first the one that it acts on with the opposite sign.
+    blocks: [Option<(usize, Vector3<f64>)>; 2],
+    room: f64,
+    direction: Option<Vector3<f64>>,
+}
+
+impl Column {
+    /// `B_i` for one of its blocks.
+    fn part(&self, side: usize) -> Option<(usize, SMatrix<f64, 6, 3>)> {
+        let (row, arm) = self.blocks[side]?;
+        let sign = if side == 0 { -1.0 } else { 1.0 };
+        let mut b = SMatrix::<f64, 6, 3>::zeros();
+        b.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * sign));
+        b.fixed_view_mut::<3, 3>(3, 0).copy_from(&(arm.cross_matrix() * sign));
+        Some((row, b))
+    }
+
+    /// What is left of a change of the force in the directions that it has.
+    fn along(&self, change: Vector3<f64>) -> Vector3<f64> {
+        self.direction.map_or(change, |n| n * n.dot(&change))
+    }
+}
+
+/// Whether forces that balance exactly exist near the given ones, in their cones, at load factor `lambda`, each part of the scene by itself.
+/// If so, the sum of the distances of the contact forces from the given ones is at most the number returned, N. Not where joints can crush:
+/// their corners share one bound; nor where the given ones are not [near](tolerance::NEAR_BALANCE).
+pub fn exists(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<f64> {
+    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda, tolerance::NEAR_BALANCE)?;
+    members(assembly, interfaces).iter().try_fold(0.0, |sum, part| Some(sum + part.exists(assembly, interfaces, &rooms, &mut balance)?))
+}
+
+/// The room of every force, and what all of them leave; `None` where one lies outside its cone, or a joint can crush, or a block is left
+/// with more than `most` of the largest of its loads and the forces on it: a light block between heavy ones has forces that no double
+/// balances any better, and what is left is measured by the room that they have.
+fn rooms<'a>(
+    assembly: &'a Assembly,
+    interfaces: &Interfaces,
+    forces: &Forces,
+    lambda: f64,
+    most: f64,
+) -> Option<(Vec<Vec<Room>>, Balance<'a>)> {
+    let mut scale: Vec<f64> = (0..assembly.blocks.len())
+        .map(|i| certificate::load_scale(assembly, i).max(lambda.abs() * certificate::size(assembly, i, &assembly.live[i])))
+        .collect();
+    let mut balance = Balance::loads(assembly, interfaces, lambda);
+    let mut rooms: Vec<Vec<Room>> = Vec::with_capacity(forces.len());
+    for (face, forces) in interfaces.list.iter().zip(forces) {
+        if face.crushes() {
+            return None;
+        }
+        let strength = Strength::of(face);
+        let list: Vec<Room> = forces.iter().enumerate().map(|(k, f)| room(face, k, f, &strength)).collect();
+        if list.iter().any(|r| r.margin < 0.0) {
+            return None;
+        }
+        for ((point, r), f) in face.points.iter().zip(&list).zip(forces) {
+            balance.add(face, point, &r.force);
+            balance.add_couple(face, &f.moment);
+            [face.a, face.b].into_iter().for_each(|i| scale[i] = scale[i].max(f.force.norm()));
+        }
+        rooms.push(list);
+    }
+    assembly.free().all(|i| balance.size(i) <= most * scale[i]).then_some((rooms, balance))
+}
+
+/// Forces near the given ones that leave no more than rounding, in their cones; `None` where there is no room for them.
+pub fn improved(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<Forces> {
+    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda, tolerance::LOOSE_BALANCE)?;
+    let mut improved = forces.clone();
+    for part in members(assembly, interfaces) {
+        if part.free.len() > MOST_BLOCKS {
+            return None;
+        }
+        let columns = part.columns(assembly, interfaces, &rooms);
+        let changes = POWERS.into_iter().find_map(|power| {
+            let mut stiffness = Stiffness::new(&columns, part.free.len(), power)?;
+            let changes = stiffness.changes(&columns, &balance, &part)?;
+            let fits = changes.iter().zip(&columns).all(|(change, c)| change.norm() <= USED * c.room);
+            fits.then_some(changes)
+        })?;
+        for (column, change) in columns.iter().zip(changes) {
+            let face = &interfaces.list[column.interface];
+            balance.add(face, &face.points[column.point], &exactly(&change));
+            improved[column.interface][column.point].force += change;
+        }
+    }
+    Some(improved)
+}
+
+impl Members {
+    fn exists(&self, assembly: &Assembly, interfaces: &Interfaces, rooms: &[Vec<Room>], balance: &mut Balance) -> Option<f64> {
+        let is_zero = |i: &usize| balance.left(*i).iter().all(|c| c.lower == 0.0 && c.upper == 0.0);
+        if self.free.iter().all(is_zero) {
+            return Some(0.0);
+        }
+        if self.free.len() > MOST_BLOCKS {
+            return None;
+        }
+        let columns = self.columns(assembly, interfaces, rooms);
+        POWERS.into_iter().find_map(|power| {
+            let mut balance = balance.clone();
+            Stiffness::new(&columns, self.free.len(), power)?.covers(&columns, interfaces, &mut balance, self)
+        })
+    }
+
+    /// The forces that have room.
+    fn columns(&self, assembly: &Assembly, interfaces: &Interfaces, rooms: &[Vec<Room>]) -> Vec<Column> {
+        let row_of: HashMap<usize, usize> = self.free.iter().enumerate().map(|(row, &i)| (i, row)).collect();
+        let mut list = Vec::new();
+        for &k in &self.contacts {
+            let face = &interfaces.list[k];
+            for (p, (point, r)) in face.points.iter().zip(&rooms[k]).enumerate().filter(|(_, (_, r))| r.margin > 0.0) {
+                let blocks = [face.a, face.b].map(|i| Some((*row_of.get(&i)?, point - assembly.blocks[i].centroid)));
+                list.push(Column { interface: k, point: p, blocks, room: r.margin, direction: r.direction });
+            }
+        }
+        list
+    }
+}
+
+/// `T S T` with its factors and a lower bound of its smallest eigenvalue.
+struct Stiffness {
+    /// Powers of two that bring the diagonal of `S` near one.
+    scale: Vec<Vector6>,
+    /// `D_i`.
+    weights: Vec<f64>,
+    factors: Cholesky,
+    least: f64,
+}
+
+impl Stiffness {
+    fn new(columns: &[Column], blocks: usize, power: f64) -> Option<Self> {
+        let most = columns.iter().map(|c| c.room).fold(0.0, f64::max);
+        let weights: Vec<f64> = columns.iter().map(|c| (c.room / most).powf(power)).collect();
+        let mut diagonal = vec![Matrix6::zeros(); blocks];
+        let mut beside: BTreeMap<(usize, usize), Matrix6> = Default::default();
+        // The diagonal as it were if nothing cancelled in a product: what rounding is measured by.
+        let mut absolute = vec![Vector6::zeros(); blocks];
+        let mut terms = vec![0_usize; blocks];
+        for (column, weight) in columns.iter().zip(&weights) {
+            let sides = [column.part(0), column.part(1)];
+            let weigh = |b: &SMatrix<f64, 6, 3>| column.direction.map_or(b * *weight, |n| b * (n * n.transpose()) * *weight);
+            for (row, b) in sides.into_iter().flatten() {
+                diagonal[row] += weigh(&b) * b.transpose();
+                absolute[row] += Vector6::from_fn(|k, _| match column.direction {
+                    Some(n) => weight * b.row(k).iter().zip(&n).map(|(b, n)| (b * n).abs()).sum::<f64>().powi(2),
+                    None => weight * b.row(k).norm_squared(),
+                });
+                terms[row] += 1;
+            }
+            if let [Some((r, b)), Some((s, c))] = sides {
+                let (low, high, entry) = if r < s { (r, s, weigh(&c) * b.transpose()) } else { (s, r, weigh(&b) * c.transpose()) };
+                *beside.entry((low, high)).or_default() += entry;
+            }
+        }
+        let scale: Vec<Vector6> = diagonal
+            .iter()
+            .map(|d| Vector6::from_fn(|k, _| if d[(k, k)] > 0.0 { (-0.5 * d[(k, k)].log2()).round().exp2() } else { 0.0 }))
+            .collect();
+        if scale.iter().flatten().any(|t| *t == 0.0 || !t.is_finite()) {
+            return None;
+        }
+        let n = 6 * blocks;
+        let trace: f64 = absolute.iter().zip(&scale).map(|(a, t)| a.dot(&t.component_mul(t))).sum();
+        let rounding = f64::EPSILON * trace * (n + 4 * terms.iter().max().unwrap_or(&0) + 32) as f64;
+        // The shift is four times what rounding may have done, and three of the four are left as the bound.
+        let shift = 4.0 * rounding;
+        let (pattern, values) = lower_triangle(&diagonal, &beside, &scale, shift);
+        let mut factors = Cholesky::new(pattern)?;
+        factors.factorize(&values).then_some(Self { scale, weights, factors, least: 3.0 * rounding })
+    }
+
+    /// Corrects what is left, and says by how much all forces change together where the change and the bound on the rest stay inside the
+    /// room of each.
+    fn covers(&mut self, columns: &[Column], interfaces: &Interfaces, balance: &mut Balance, part: &Members) -> Option<f64> {
+        let mut sizes = vec![0.0_f64; columns.len()];
+        for round in 0..=ROUNDS {
+            let left: Vec<[f64; 6]> = part.free.iter().map(|&i| balance.left(i).map(|c| c.magnitude())).collect();
+            let scaled = |row: usize| Vector6::from_fn(|k, _| left[row][k] * self.scale[row][k]);
+            let size = (0..left.len()).map(|row| scaled(row).norm_squared()).sum::<f64>().sqrt() * ENLARGED;
+            let by = size / (self.least * REDUCED) * ENLARGED;
+            let changes = columns.iter().zip(&self.weights).zip(&sizes).map(|((c, weight), used)| {
+                let reach: f64 = [0, 1].iter().filter_map(|&side| c.part(side)).map(|(row, b)| self.scaled(row, &b).norm_squared()).sum();
+                let length = c.direction.map_or(1.0, |n| n.norm_squared());
+                let change = used + weight * reach.sqrt() * length * by * ENLARGED;
+                (change <= c.room).then_some(change)
+            });
+            if let Some(all) = changes.sum::<Option<f64>>() {
+                return Some(all * ENLARGED);
+            }
+            if round == ROUNDS || !size.is_finite() {
+                break;
+            }
+            for (at, (column, change)) in columns.iter().zip(self.changes(columns, balance, part)?).enumerate() {
+                let force: Pair = match column.direction {
+                    Some(n) => multiple(n.dot(&change) / n.norm_squared(), &n),
+                    None => exactly(&change),
+                };
+                sizes[at] += change.norm() * ENLARGED;
+                if sizes[at] > USED * column.room {
+                    return None;
+                }
+                let face = &interfaces.list[column.interface];
+                balance.add(face, &face.points[column.point], &force);
+            }
+        }
+        None
+    }
+
+    /// `−D_i B_iᵀ S⁻¹ r`, computed in doubles; `None` where they are not finite.
+    fn changes(&mut self, columns: &[Column], balance: &Balance, part: &Members) -> Option<Vec<Vector3<f64>>> {
+        let mut y = Vec::with_capacity(6 * part.free.len());
+        for (&i, scale) in part.free.iter().zip(&self.scale) {
+            y.extend(balance.left(i).iter().zip(scale).map(|(left, t)| left.middle() * t));
+        }
+        self.factors.solve(&mut y);
+        let list = columns.iter().zip(&self.weights).map(|(column, weight)| {
+            let mut toward = Vector3::zeros();
+            for (row, b) in [0, 1].iter().filter_map(|&side| column.part(side)) {
+                toward += b.transpose() * Vector6::from_fn(|k, _| y[6 * row + k] * self.scale[row][k]);
+            }
+            let change = column.along(toward) * -weight;
+            change.iter().all(|c| c.is_finite()).then_some(change)
+        });
+        list.collect()
+    }
+
+    /// `T B_i` for one block.
+    fn scaled(&self, row: usize, b: &SMatrix<f64, 6, 3>) -> SMatrix<f64, 6, 3> {
+        let mut scaled = *b;
+        for (k, mut r) in scaled.row_iter_mut().enumerate() {
+            r *= self.scale[row][k];
+        }
+        scaled
+    }
+}
+
+/// The lower triangle of `T S T − shift`, column by column.
+fn lower_triangle(diagonal: &[Matrix6], beside: &BTreeMap<(usize, usize), Matrix6>, scale: &[Vector6], shift: f64) -> (Pattern, Vec<f64>) {
+    let mut below: Vec<Vec<(usize, &Matrix6)>> = vec![Vec::new(); diagonal.len()];
+    beside.iter().for_each(|((low, high), entry)| below[*low].push((*high, entry)));
+    let (mut pattern, mut values) = (Pattern { starts: vec![0], rows: Vec::new() }, Vec::new());
+    for (block, own) in diagonal.iter().enumerate() {
+        for column in 0..6 {
+            for row in column..6 {
+                pattern.rows.push(6 * block + row);
+                let value = own[(row, column)] * scale[block][row] * scale[block][column];
+                values.push(if row == column { value - shift } else { value });
+            }
+            for (other, entry) in &below[block] {
+                for row in 0..6 {
+                    pattern.rows.push(6 * other + row);
+                    values.push(entry[(row, column)] * scale[*other][row] * scale[block][column]);
+                }
+            }
+            pattern.starts.push(pattern.rows.len());
+        }
+    }
+    (pattern, values)
+}

@@ -1,0 +1,156 @@
+//! Does a motion close no joint, and what power does it gain?
+//!
+//! The rates are doubles and are taken as they are. A contact is not closed where `n·v ≥ μ ‖v × n‖` (plus rolling), `v` the velocity of
+//! block `b` against `a` there, enclosed by intervals; then no admissible force has positive power, `f·v ≥ 0`, and power gained by the
+//! loads is power that nothing takes away.
+
+use super::{
+    balance::{ENLARGED, arm, norm},
+    interval::{Interval, Sum},
+};
+use crate::{
+    assembly::{Assembly, Wrench},
+    interface::{Interface, Interfaces},
+    scene::Friction,
+    verdict::{Rate, certificate::Strength},
+};
+use nalgebra::Vector3;
+
+/// What a motion proves.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion {
+    /// Power of the dead load and of the water in the joints.
+    pub dead: Interval,
+    /// Power of the live load.
+    pub live: Interval,
+    /// At most what cohesion and tension dissipate.
+    pub dissipation: f64,
+    /// At most `Σ` inadmissibility per newton of the whole force: 0 where no joint closes.
+    pub excess: f64,
+    /// At most the greatest inadmissibility.
+    pub greatest: f64,
+}
+
+impl Motion {
+    /// At least the power of the dead load that nothing dissipates.
+    pub fn gain(&self) -> Interval {
+        self.dead - Interval { lower: 0.0, upper: self.dissipation }
+    }
+
+    /// Whether no joint closes.
+    pub fn is_admissible(&self) -> bool {
+        self.excess == 0.0
+    }
+}
+
+/// Velocity of block `b` against `a` at a point.
+pub fn velocity(assembly: &Assembly, face: &Interface, rates: &[Rate], point: &Vector3<f64>) -> [Interval; 3] {
+    let mut sums = [Sum::ZERO; 3];
+    for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
+        let Rate { velocity, spin } = &rates[block];
+        let still = spin.iter().all(|w| *w == 0.0);
+        let r = arm(point, &assembly.blocks[block].centroid);
+        for (k, sum) in sums.iter_mut().enumerate() {
+            sum.add(sign * velocity[k]);
+            if !still {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                sum.add_scaled(sign * spin[i], r[j]);
+                sum.add_scaled(-sign * spin[j], r[i]);
+            }
+        }
+    }
+    sums.map(Sum::total)
+}
+
+/// Normal and sliding speed of a relative velocity.
+pub fn split(n: &Vector3<f64>, v: &[Interval; 3]) -> (Interval, Interval) {
+    let along = |k: usize| v[k] * Interval::exactly(n[k]);
+    let across = |k: usize| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        v[i] * Interval::exactly(n[j]) - v[j] * Interval::exactly(n[i])
+    };
+    (along(0) + along(1) + along(2), norm([across(0), across(1), across(2)]))
+}
+
+/// What a motion proves; joints that can crush are no matter of this ([`certificate`](crate::verdict::certificate)): `None` where one closes.
+pub fn motion(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Option<Motion> {
+    let mut m = Motion { dead: Interval::ZERO, live: Interval::ZERO, dissipation: 0.0, excess: 0.0, greatest: 0.0 };
+    let (mut dead, mut live) = (Sum::ZERO, Sum::ZERO);
+    for i in assembly.free() {
+        add_power(&mut dead, &assembly.dead[i], &rates[i]);
+        add_power(&mut live, &assembly.live[i], &rates[i]);
+    }
+    m.dead = dead.total();
+    m.live = live.total();
+    for face in &interfaces.list {
+        let is_still = |i: usize| rates[i] == Rate::zero();
+        if is_still(face.a) && is_still(face.b) {
+            continue;
+        }
+        let strength = Strength::of(face);
+        let n = &face.frame.n;
+        let rolling = rolling(face, rates);
+        for ((place, point), uplift) in face.points.iter().enumerate().zip(uplifts(face)) {
+            let v = velocity(assembly, face, rates, point);
+            let (normal, sliding) = split(n, &v);
+            let [cohesion, tension] = strength.at(place);
+            let (mu, slips) = match face.law.friction {
+                Friction::Coefficient(mu) => (mu, 0.0),
+                Friction::Infinite => (0.0, sliding.upper),
+            };
+            let closing = Interval::exactly(mu) * sliding + rolling - normal;
+            if closing.upper > 0.0 && face.crushes() {
+                return None;
+            }
+            if cohesion > 0.0 {
+                m.dissipation = (Interval::exactly(m.dissipation) + Interval::exactly(cohesion) * sliding).upper;
+            }
+            if tension > 0.0 {
+                m.dissipation = (Interval::exactly(m.dissipation) + Interval::exactly(tension) * (-closing).positive()).upper;
+            }
+            if let Some(force) = uplift {
+                for k in 0..3 {
+                    m.dead += Interval::exactly(force[k]) * v[k];
+                }
+            }
+            let mut inadmissible = closing.upper.max(0.0);
+            if cohesion == 0.0 && tension == 0.0 && inadmissible > 0.0 {
+                inadmissible = inadmissible.min((hidden(mu, normal.lower, sliding.upper) + rolling.upper) * ENLARGED);
+            }
+            let all = if closing.upper.is_nan() || slips.is_nan() { f64::INFINITY } else { inadmissible + slips };
+            m.excess += all;
+            m.greatest = m.greatest.max(all);
+        }
+    }
+    m.excess *= ENLARGED;
+    Some(m)
+}
+
+/// The power that a force of 1 N inside the friction cone can have at most against a joint that separates at `normal` and slides at
+/// `sliding`: the size of the projection of the closing velocity onto the cone.
+fn hidden(mu: f64, normal: f64, sliding: f64) -> f64 {
+    if sliding <= -mu * normal { normal.hypot(sliding) } else { (mu * sliding - normal).max(0.0) / mu.hypot(1.0) }
+}
+
+/// Water at each corner, where there is any.
+fn uplifts(face: &Interface) -> impl Iterator<Item = Option<Vector3<f64>>> {
+    face.uplift().into_iter().map(Some).chain(std::iter::repeat(None))
+}
+
+/// What couples can take up per newton of normal force.
+fn rolling(face: &Interface, rates: &[Rate]) -> Interval {
+    let arm = face.rolling_arm();
+    if arm == 0.0 {
+        return Interval::ZERO;
+    }
+    let spin = [0, 1, 2].map(|k| Interval::exactly(rates[face.b].spin[k]) - Interval::exactly(rates[face.a].spin[k]));
+    let (twist, roll) = split(&face.frame.n, &spin);
+    Interval::exactly(arm) * (roll + twist.max(-twist))
+}
+
+fn add_power(sum: &mut Sum, w: &Wrench, q: &Rate) {
+    for k in 0..3 {
+        sum.add_product(w.force[k], q.velocity[k]);
+        sum.add_product(w.moment[k], q.spin[k]);
+    }
+}

@@ -1,0 +1,77 @@
+//! Scenes that were answered wrongly once, each with what is true about it (findings/README.md); those about dry friction are in [`dry`](crate::dry).
+
+use crate::ask::open;
+use std::path::PathBuf;
+use voussoir::{
+    analysis::{Control, LoadFactor, Outcome, assess, coulomb, limit, prepare},
+    report::{ResultFile, verify},
+    scene::Scene,
+    verdict::Verdict,
+};
+
+fn path(name: &str) -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/findings")).join(format!("{name}.json"))
+}
+
+fn scene(name: &str) -> Scene {
+    open(&path(name))
+}
+
+/// What a result says of the verdict, proved from the scene alone.
+fn verdict(name: &str) -> Verdict {
+    let scene = scene(name);
+    let model = prepare(&scene).unwrap();
+    let file = ResultFile::assessment(&scene, &model, &assess(&model.assembly, &model.interfaces, &Control::default()));
+    let said = file.answer.verdict.unwrap();
+    assert!(said == Verdict::Undecided || verify(&file, &scene).unwrap().proved(), "{name}");
+    println!("{name}: {said:?}");
+    said
+}
+
+/// The bound and the load factor with dry friction, as a result has them.
+fn limits(name: &str) -> (LoadFactor, ResultFile) {
+    let scene = scene(name);
+    let model = prepare(&scene).unwrap();
+    let bound = limit(&model.assembly, &model.interfaces, &Control::default());
+    let mut file = ResultFile::load_factor(&scene, &model, &bound);
+    if matches!(bound.outcome, Outcome::Found | Outcome::Unbounded) {
+        file = file.with_dry(&model, &coulomb::load_factor(&model.assembly, &model.interfaces, &bound, &Control::default()));
+    }
+    println!("{name}: {:?} {} in {:?}, dry {:?}", bound.outcome, bound.value, bound.bracket, file.dry.as_ref().and_then(|d| d.value));
+    (bound, file)
+}
+
+#[test]
+fn nothing_hides_behind_survey_coordinates() {
+    assert!(!matches!(verdict("arch-at-survey-coordinates"), Verdict::Stable | Verdict::Conditional));
+}
+
+#[test]
+fn live_loads_on_other_blocks_hide_no_wall() {
+    // Held from 19.62 on: whatever else is said of its load factor, it does not fall whatever the load.
+    assert_ne!(limits("wall-and-pressed").0.outcome, Outcome::Impossible);
+    assert_eq!(verdict("wall-and-pressed-at-20"), Verdict::Stable);
+}
+
+#[test]
+fn a_couple_is_measured_as_a_couple() {
+    assert_eq!(verdict("key-and-couple"), Verdict::Stable);
+}
+
+#[test]
+fn what_forged_results_held_falls() {
+    assert_eq!(verdict("overhang"), Verdict::Unstable);
+    assert_eq!(verdict("channel"), Verdict::Unstable);
+}
+
+#[test]
+fn no_dry_load_factor_is_above_the_proved_bound() {
+    for name in ["dry-above-1192", "dry-above-2872"] {
+        let (bound, file) = limits(name);
+        assert_eq!(bound.outcome, Outcome::Found, "{name}");
+        if let Some(value) = file.dry.and_then(|d| d.value) {
+            let upper = bound.bracket.upper;
+            assert!(value <= upper, "{name}: {value} is above {upper} by {:.1e}", value / upper - 1.0);
+        }
+    }
+}
