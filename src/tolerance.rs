@@ -193,7 +193,8 @@ pub const LEAST_MOTION: f64 = 1e-4;
 pub const ADMISSIBLE: f64 = 1e-7;
 
 /// As [`FORCE_CAP`], for the joints that close by more than rounding of the speeds of their own blocks. Larger: correct
-/// mechanisms with thousands of resting blocks are refused. Smaller: blocks squeezed at μ = 1e-4 could be "proved" to fall.
+/// mechanisms with thousands of resting blocks are refused. Smaller: blocks squeezed at μ = 1e-4 could be "proved" to fall. Contact forces
+/// above it, in total loads, are not taken for evidence that something stands either.
 pub const COARSE_FORCE_CAP: f64 = 1e4;
 
 /// Given forces may leave this much unbalanced on a block, in multiples of its load or of the greatest force on it, where others that balance exactly are proved to exist near

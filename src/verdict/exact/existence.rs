@@ -72,23 +72,15 @@ impl Column {
 /// If so, the sum of the distances of the contact forces from the given ones is at most the number returned, N. Not where joints can crush:
 /// their corners share one bound; nor where the given ones are not [near](tolerance::NEAR_BALANCE).
 pub fn exists(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<f64> {
-    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda, tolerance::NEAR_BALANCE)?;
-    members(assembly, interfaces).iter().try_fold(0.0, |sum, part| Some(sum + part.exists(assembly, interfaces, &rooms, &mut balance)?))
+    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda)?;
+    members(assembly, interfaces).iter().try_fold(0.0, |sum, part| {
+        let near = part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::NEAR_BALANCE);
+        Some(sum + near.then(|| part.exists(assembly, interfaces, &rooms, &mut balance))??)
+    })
 }
 
-/// The room of every force, and what all of them leave; `None` where one lies outside its cone, or a joint can crush, or a block is left
-/// with more than `most` of the largest of its loads and the forces on it: a light block between heavy ones has forces that no double
-/// balances any better, and what is left is measured by the room that they have.
-fn rooms<'a>(
-    assembly: &'a Assembly,
-    interfaces: &Interfaces,
-    forces: &Forces,
-    lambda: f64,
-    most: f64,
-) -> Option<(Vec<Vec<Room>>, Balance<'a>)> {
-    let mut scale: Vec<f64> = (0..assembly.blocks.len())
-        .map(|i| certificate::load_scale(assembly, i).max(lambda.abs() * certificate::size(assembly, i, &assembly.live[i])))
-        .collect();
+/// The room of every force, and what all of them leave; `None` where one lies outside its cone, or a joint can crush.
+fn rooms<'a>(assembly: &'a Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<(Vec<Vec<Room>>, Balance<'a>)> {
     let mut balance = Balance::loads(assembly, interfaces, lambda);
     let mut rooms: Vec<Vec<Room>> = Vec::with_capacity(forces.len());
     for (face, forces) in interfaces.list.iter().zip(forces) {
@@ -103,19 +95,18 @@ fn rooms<'a>(
         for ((point, r), f) in face.points.iter().zip(&list).zip(forces) {
             balance.add(face, point, &r.force);
             balance.add_couple(face, &f.moment);
-            [face.a, face.b].into_iter().for_each(|i| scale[i] = scale[i].max(f.force.norm()));
         }
         rooms.push(list);
     }
-    assembly.free().all(|i| balance.size(i) <= most * scale[i]).then_some((rooms, balance))
+    Some((rooms, balance))
 }
 
 /// Forces near the given ones that leave no more than rounding, in their cones; `None` where there is no room for them.
 pub fn improved(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<Forces> {
-    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda, tolerance::LOOSE_BALANCE)?;
+    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda)?;
     let mut improved = forces.clone();
     for part in members(assembly, interfaces) {
-        if part.free.len() > MOST_BLOCKS {
+        if part.free.len() > MOST_BLOCKS || !part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::LOOSE_BALANCE) {
             return None;
         }
         let columns = part.columns(assembly, interfaces, &rooms);
@@ -135,6 +126,28 @@ pub fn improved(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, l
 }
 
 impl Members {
+    /// Whether no block is left with more than `most` of its loads, or of the forces on it: a light block between heavy ones has forces
+    /// that no doubles balance any better. Forces far larger than all loads together hold nothing
+    /// ([`COARSE_FORCE_CAP`](tolerance::COARSE_FORCE_CAP)): at survey coordinates, without a limit to friction, the rounding of the
+    /// coordinates alone would bear what falls.
+    fn is_near(&self, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64, balance: &Balance, most: f64) -> bool {
+        let own = |i: usize| certificate::load_scale(assembly, i).max(lambda.abs() * certificate::size(assembly, i, &assembly.live[i]));
+        let total: f64 = self.free.iter().map(|&i| own(i)).sum();
+        let cap = if total > 0.0 { tolerance::COARSE_FORCE_CAP * total } else { f64::INFINITY };
+        let mut greatest: HashMap<usize, f64> = HashMap::new();
+        for &k in &self.contacts {
+            let force = forces[k].iter().map(|f| f.force.norm()).fold(0.0, f64::max);
+            if force > cap {
+                return false;
+            }
+            for i in [interfaces.list[k].a, interfaces.list[k].b] {
+                let known = greatest.entry(i).or_default();
+                *known = known.max(force);
+            }
+        }
+        self.free.iter().all(|i| balance.size(*i) <= most * own(*i).max(greatest.get(i).copied().unwrap_or(0.0)))
+    }
+
     fn exists(&self, assembly: &Assembly, interfaces: &Interfaces, rooms: &[Vec<Room>], balance: &mut Balance) -> Option<f64> {
         let is_zero = |i: &usize| balance.left(*i).iter().all(|c| c.lower == 0.0 && c.upper == 0.0);
         if self.free.iter().all(is_zero) {
