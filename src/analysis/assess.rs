@@ -210,7 +210,7 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
             if !k.is_admissible(assembly)
                 && live == LiveLoad::Absent
                 && !s.balanced
-                && let Some(mended) = mend::admissible(assembly, interfaces, &c.rates, 0.0, 0.5 * k.gain())
+                && let Some(mended) = mend::admissible(assembly, interfaces, &c.rates, (0.0, 0.5 * k.gain()), left)
             {
                 k = certificate::kinematics(assembly, interfaces, &mended, &c.forces);
                 c.rates = mended;
@@ -260,7 +260,10 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
         let power = certificate::kinematics(assembly, interfaces, &answer.rates, &no_forces(interfaces));
         let most = 0.5 * (power.gain() - tolerance::UNBALANCE * power.norm);
         let with_live = live == LiveLoad::AnyMultiple;
-        if let Some(mended) = mend::admissible(assembly, interfaces, &answer.rates, 0.0, most).filter(|_| !with_live) {
+        if let Some(mended) =
+            mend::admissible(assembly, interfaces, &answer.rates, (0.0, most), control.seconds - start.elapsed().as_secs_f64())
+                .filter(|_| !with_live)
+        {
             let k = certificate::kinematics(assembly, interfaces, &mended, &no_forces(interfaces));
             (answer.unbalance.lower, answer.rates) = (k.gain() / k.norm, mended);
         }

@@ -125,7 +125,8 @@ pub(super) fn of_part(assembly: &Assembly, interfaces: &Interfaces, control: &Co
         let value = answer.value.abs();
         if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural) {
             let mut proved = answer.clone();
-            if prove(assembly, interfaces, control, &mut proved, natural, &mut inside) {
+            let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
+            if prove(assembly, interfaces, &control, &mut proved, natural, &mut inside) {
                 answer = proved;
                 answer.outcome = Outcome::Found;
                 break;
@@ -163,7 +164,7 @@ fn prove(
 ) -> bool {
     let k = certificate::kinematics(assembly, interfaces, &answer.rates, &answer.forces);
     let width = tolerance::LOAD_FACTOR_WIDTH * answer.value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
-    if let Some(mended) = mend::admissible(assembly, interfaces, &answer.rates, answer.value, 0.1 * width * k.live_power)
+    if let Some(mended) = mend::admissible(assembly, interfaces, &answer.rates, (answer.value, 0.1 * width * k.live_power), control.seconds)
         && check::upper_bound(assembly, interfaces, &answer.forces, &mended).is_finite()
     {
         answer.rates = mended;

@@ -65,8 +65,14 @@ const MOST_BLOCKS: usize = 1500;
 const INSIDE: f64 = 1e-14;
 
 /// A motion next to `rates` that closes no joint; `None` where none is found, or where it loses more than `most` of the power of the loads
-/// (the dead load's and `lambda` × the live load's).
-pub(super) fn admissible(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], lambda: f64, most: f64) -> Option<Vec<Rate>> {
+/// (the dead load's and `lambda` × the live load's), or none within `seconds`.
+pub(super) fn admissible(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    rates: &[Rate],
+    (lambda, most): (f64, f64),
+    seconds: f64,
+) -> Option<Vec<Rate>> {
     let is_proof = |m: &Motion| m.is_admissible() && m.gain().lower.is_finite();
     if motion(assembly, interfaces, rates).as_ref().is_some_and(is_proof) {
         return Some(rates.to_vec());
@@ -92,10 +98,10 @@ pub(super) fn admissible(assembly: &Assembly, interfaces: &Interfaces, rates: &[
     if let Some((_, mended)) = rising {
         return Some(mended);
     }
-    if assembly.free().count() > MOST_BLOCKS {
+    if assembly.free().count() > MOST_BLOCKS || seconds <= 0.0 {
         return None;
     }
-    let p = sought(assembly, interfaces)?;
+    let p = sought(assembly, interfaces, seconds)?;
     mended(&p).map(|(_, mended)| mended)
 }
 
@@ -181,10 +187,10 @@ fn fields(assembly: &Assembly) -> impl Iterator<Item = Vec<Rate>> + '_ {
 
 /// The least motion that opens every contact by one, of the whole scene; `None` where there is none (forces that balance without a load hold
 /// some contact closed) or where joints have strengths.
-fn sought(assembly: &Assembly, interfaces: &Interfaces) -> Option<Vec<Rate>> {
+fn sought(assembly: &Assembly, interfaces: &Interfaces, seconds: f64) -> Option<Vec<Rate>> {
     let statics = Statics::new(assembly, interfaces, Options::default());
     let program = opening(&statics)?;
-    let settings = Settings { tolerance: 1e-6, ..Settings::default() };
+    let settings = Settings { seconds, tolerance: 1e-6, ..Settings::default() };
     let solution = solve::solve(&program, &settings);
     if !solution.is_finite() {
         return None;

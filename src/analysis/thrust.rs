@@ -119,16 +119,16 @@ pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: 
     let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
     let problem = Problem { assembly, interfaces, at, extreme, total };
     for (index, step) in LADDER.into_iter().enumerate() {
-        let left = control.seconds - start.elapsed().as_secs_f64();
-        if left <= 0.0 {
+        let left = || control.seconds - start.elapsed().as_secs_f64();
+        if left() <= 0.0 {
             break;
         }
-        problem.climb(&mut base, step, left, &mut answer);
+        problem.climb(&mut base, step, left(), &mut answer);
         if answer.bracket.width() <= width(assembly, answer.value) {
             answer.outcome = Outcome::Found;
             break;
         }
-        if index == 0 && problem.has_no_end(step, left, control.keep_all || base.plane.is_none(), &mut answer) {
+        if index == 0 && problem.has_no_end(step, left(), control.keep_all || base.plane.is_none(), &mut answer) {
             answer.outcome = Outcome::Unbounded;
             answer.value = f64::NAN;
             let end = -extreme.sigma() * f64::INFINITY;
@@ -256,12 +256,14 @@ pub struct Thrust {
 /// Least and greatest thrust and the geometric safety factor.
 pub fn answer(model: &Model, at: ThrustAt, control: &Control) -> Thrust {
     let start = Instant::now();
-    let left = || Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0), ..*control };
+    // Each question may take as much of the time as those after it.
+    let share = |of: f64| Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0) / of, ..*control };
     let standing = assess(&model.assembly, &model.interfaces, control);
     // Whether the loads produce them or not: there are forces.
     let balanced = certificate::statics(&model.assembly, &model.interfaces, &standing.forces, 0.0).balanced;
     let admissible = balanced && standing.verdict != Verdict::Unstable;
-    let ends = admissible.then(|| [Extreme::Least, Extreme::Greatest].map(|e| thrust(model, &at, e, &standing.forces, &left())));
-    let factor = admissible.then(|| geometric_factor(model, &left()));
+    let end = |extreme, of| thrust(model, &at, extreme, &standing.forces, &share(of));
+    let ends = admissible.then(|| [end(Extreme::Least, 3.0), end(Extreme::Greatest, 2.0)]);
+    let factor = admissible.then(|| geometric_factor(model, &share(1.0)));
     Thrust { at, standing, ends, factor }
 }

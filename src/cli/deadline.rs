@@ -9,6 +9,15 @@ use std::time::Duration;
 const SHARE: f64 = 0.5;
 const SECONDS: f64 = 2.0;
 
+/// The share of a limit that programs may take; with the iteration that is under way, the check and the output the whole takes no more than
+/// a tenth beyond the limit. More: answers come late. Less: answers that would still have been found are not.
+const PROGRAMS: f64 = 0.9;
+
+/// Seconds for programs within a limit.
+pub fn for_programs(limit: f64) -> f64 {
+    PROGRAMS * limit
+}
+
 /// Ends the program once the limit is well past.
 pub fn watch(limit: f64) {
     let Ok(patience) = Duration::try_from_secs_f64(limit * (1.0 + SHARE) + SECONDS) else { return };

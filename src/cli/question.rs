@@ -138,7 +138,10 @@ impl<'a> Question<'a> {
 
     /// What is left of the time for programs.
     pub fn control(&self) -> Control {
-        let seconds = self.common.time_limit.map_or(f64::INFINITY, |limit| (limit - self.begin.elapsed().as_secs_f64()).max(0.0));
+        let seconds = self
+            .common
+            .time_limit
+            .map_or(f64::INFINITY, |limit| (deadline::for_programs(limit) - self.begin.elapsed().as_secs_f64()).max(0.0));
         Control { law: self.common.law.into(), keep_all: self.common.keep_all, seconds }
     }
 

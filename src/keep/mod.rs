@@ -2,8 +2,10 @@
 //! ends, so that a kill costs the pieces that were being done and no other. The same command takes the file up again.
 
 mod alone;
+mod numbered;
 
 pub(crate) use alone::Alone;
+pub(crate) use numbered::{Numbered, numbered};
 
 use crate::{error::RowsError, files, limits, plain};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};

@@ -166,7 +166,8 @@ struct Scene<'a> {
 /// Lowers δ until the law is obeyed.
 fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, start: Instant, answer: &mut DryLoadFactor) {
     let Scene { assembly, interfaces, .. } = *scene;
-    let settings = Settings { tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
+    let seconds = control.seconds - start.elapsed().as_secs_f64();
+    let settings = Settings { seconds, tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
     let scale = check::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
     let first = Stop { change: 0.0, solves: 1 };

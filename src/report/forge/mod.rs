@@ -13,8 +13,7 @@ mod words;
 use super::{ResultFile, verify::verify_model};
 use crate::{
     error::RowsError,
-    keep::Kept,
-    parallel,
+    keep::{Kept, Numbered, numbered},
     study::{
         cross::{FAMILIES, Stranger, beside, scene},
         random::Random,
@@ -28,7 +27,6 @@ use std::{
     collections::BTreeMap,
     panic::{AssertUnwindSafe, catch_unwind},
     path::Path,
-    sync::{Mutex, PoisonError},
     time::Instant,
 };
 
@@ -64,6 +62,12 @@ pub struct Accepted {
     pub what: String,
 }
 
+impl Numbered for Forged {
+    fn number(&self) -> usize {
+        self.index
+    }
+}
+
 impl Forged {
     /// A forgery was accepted, or the program failed.
     pub fn is_wrong(&self) -> bool {
@@ -97,22 +101,7 @@ pub fn keep(path: &Path, seed: u64) -> Result<Kept<Forged>, RowsError> {
 /// # Errors
 /// Threads cannot be started, or the file cannot be written.
 pub fn run(seed: u64, count: usize, kept: Option<&Kept<Forged>>, each: impl Fn(&Forged) + Sync) -> Result<Vec<Forged>, RowsError> {
-    let there: BTreeMap<usize, &Forged> =
-        kept.iter().flat_map(|k| &k.there).map(|s| (s.index, s)).filter(|(index, _)| *index < count).collect();
-    let numbers: Vec<usize> = (0..count).filter(|index| !there.contains_key(index)).collect();
-    let fresh = Mutex::new(Vec::new());
-    parallel::for_each(0, &numbers, |&index| {
-        let forged = one(seed, index);
-        kept.map_or(Ok(()), |kept| kept.append(&forged))?;
-        each(&forged);
-        fresh.lock().unwrap_or_else(PoisonError::into_inner).push(forged);
-        Ok(())
-    })
-    .map_err(|e| RowsError::Threads { threads: 0, cause: e.to_string() })??;
-    let mut all = fresh.into_inner().unwrap_or_else(PoisonError::into_inner);
-    all.extend(there.into_values().cloned());
-    all.sort_by_key(|s| s.index);
-    Ok(all)
+    numbered(count, kept, |index| one(seed, index), each)
 }
 
 /// Forges the results of one scene.

@@ -16,14 +16,18 @@ pub use stranger::{COLUMN, STRANGERS, Stranger, beside, moved, rough};
 pub use ways::Way;
 
 use super::soak::FAILED;
-use crate::{analysis::Outcome, error::RowsError, keep::Kept, parallel, scene::Scene, verdict::Verdict};
+use crate::{
+    analysis::Outcome,
+    error::RowsError,
+    keep::{Kept, Numbered, numbered},
+    scene::Scene,
+    verdict::Verdict,
+};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::{
-    collections::BTreeMap,
     panic::{AssertUnwindSafe, catch_unwind},
     path::Path,
-    sync::{Mutex, PoisonError},
     time::Instant,
 };
 
@@ -74,6 +78,12 @@ pub struct Differs {
     pub what: String,
 }
 
+impl Numbered for Crossed {
+    fn number(&self) -> usize {
+        self.index
+    }
+}
+
 impl Crossed {
     /// A contradiction, or a failure of the program.
     pub fn is_wrong(&self) -> bool {
@@ -95,22 +105,7 @@ pub fn keep(path: &Path, seed: u64) -> Result<Kept<Crossed>, RowsError> {
 /// # Errors
 /// Threads cannot be started, or the file cannot be written.
 pub fn run(seed: u64, count: usize, kept: Option<&Kept<Crossed>>, each: impl Fn(&Crossed) + Sync) -> Result<Vec<Crossed>, RowsError> {
-    let there: BTreeMap<usize, &Crossed> =
-        kept.iter().flat_map(|k| &k.there).map(|s| (s.index, s)).filter(|(index, _)| *index < count).collect();
-    let numbers: Vec<usize> = (0..count).filter(|index| !there.contains_key(index)).collect();
-    let fresh = Mutex::new(Vec::new());
-    parallel::for_each(0, &numbers, |&index| {
-        let crossed = one(seed, index);
-        kept.map_or(Ok(()), |kept| kept.append(&crossed))?;
-        each(&crossed);
-        fresh.lock().unwrap_or_else(PoisonError::into_inner).push(crossed);
-        Ok(())
-    })
-    .map_err(|e| RowsError::Threads { threads: 0, cause: e.to_string() })??;
-    let mut all = fresh.into_inner().unwrap_or_else(PoisonError::into_inner);
-    all.extend(there.into_values().cloned());
-    all.sort_by_key(|s| s.index);
-    Ok(all)
+    numbered(count, kept, |index| one(seed, index), each)
 }
 
 /// Asks one scene in all ways.

@@ -12,18 +12,15 @@ use crate::{
     analysis::{Assessment, Control, Law, agreement, assess, prepare},
     dynamics::{self, Fate},
     error::{FindingCode, RowsError},
-    keep::Kept,
-    parallel,
+    keep::{Kept, Numbered, numbered},
     verdict::Verdict,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::{
-    collections::BTreeMap,
     ops::ControlFlow,
     panic::{AssertUnwindSafe, catch_unwind},
     path::Path,
-    sync::{Mutex, PoisonError},
     time::Instant,
 };
 
@@ -96,6 +93,12 @@ pub struct Soaked {
     pub seconds: f64,
 }
 
+impl Numbered for Soaked {
+    fn number(&self) -> usize {
+        self.index
+    }
+}
+
 impl Soaked {
     /// Two proofs that exclude each other, or a failure of the program.
     pub fn is_wrong(&self) -> bool {
@@ -122,22 +125,7 @@ pub fn keep(path: &Path, seed: u64) -> Result<Kept<Soaked>, RowsError> {
 /// # Errors
 /// Threads cannot be started, or the file cannot be written.
 pub fn run(seed: u64, count: usize, kept: Option<&Kept<Soaked>>, each: impl Fn(&Soaked) + Sync) -> Result<Vec<Soaked>, RowsError> {
-    let there: BTreeMap<usize, &Soaked> =
-        kept.iter().flat_map(|k| &k.there).map(|s| (s.index, s)).filter(|(index, _)| *index < count).collect();
-    let numbers: Vec<usize> = (0..count).filter(|index| !there.contains_key(index)).collect();
-    let fresh = Mutex::new(Vec::new());
-    parallel::for_each(0, &numbers, |&index| {
-        let soaked = one(seed, index);
-        kept.map_or(Ok(()), |kept| kept.append(&soaked))?;
-        each(&soaked);
-        fresh.lock().unwrap_or_else(PoisonError::into_inner).push(soaked);
-        Ok(())
-    })
-    .map_err(|e| RowsError::Threads { threads: 0, cause: e.to_string() })??;
-    let mut all = fresh.into_inner().unwrap_or_else(PoisonError::into_inner);
-    all.extend(there.into_values().cloned());
-    all.sort_by_key(|s| s.index);
-    Ok(all)
+    numbered(count, kept, |index| one(seed, index), each)
 }
 
 /// Asks one scene.
