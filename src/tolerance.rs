@@ -210,6 +210,10 @@ pub const LOAD_FACTOR_BEHIND: f64 = 1e-3;
 /// mechanisms that still lift where they slide pass. Smaller: δ must fall to where the engine's noise rules.
 pub const DRY_LAW: f64 = 1e-4;
 
+/// What forces of a load factor with dry friction leave unbalanced may have this share of the live load's power on the mechanism. Larger: other
+/// values pass with the same evidence. Smaller: the engine's noise at small δ.
+pub const DRY_WIDTH: f64 = 1e-5;
+
 /// Forces of a load factor with dry friction balance each block up to this, in multiples of its load. Larger: values of
 /// iterations that still wander. Smaller: the engine's noise at small δ (1e-5) leaves walls undecided.
 pub const DRY_BALANCE: f64 = 1e-4;

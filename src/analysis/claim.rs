@@ -2,6 +2,7 @@
 
 use super::{
     Assessment, LoadFactor, Outcome,
+    assess::NO_STATE_NEEDED,
     coulomb::{DryLoadFactor, Found},
 };
 use crate::{
@@ -22,6 +23,12 @@ impl Assessment {
             Verdict::Conditional => Some(Claim::Conditional),
             Verdict::Undecided => None,
         }
+    }
+
+    /// Whether it counts as standing although the state under dry friction, which could deny it, was not asked.
+    pub fn rests_on_statics(&self) -> bool {
+        let forest = self.left_out.iter().any(|l| l.starts_with(NO_STATE_NEEDED));
+        self.verdict == Verdict::Stable && self.state.is_none() && !forest
     }
 
     /// Of a conditional verdict: the forces without the pre-stress.

@@ -72,6 +72,8 @@ pub struct Critical {
     pub range: Range,
     /// Whether the number is a count, of which only whole values make scenes.
     pub whole: bool,
+    /// For which law of sliding.
+    pub law: Law,
     /// The scan, from `from` to `to`.
     pub scan: Vec<Scanned>,
     /// The changes of verdict, in the order of the scan.
@@ -161,7 +163,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             notes.push(format!("the range from {} to {} could not be narrowed: {e}", a.value, b.value));
             (0.5 * (a.value + b.value), Method::Scan, a.clone(), b.clone())
         });
-        if let Some(side) = [&one, &other].into_iter().find(|p| control.law == Law::Coulomb && p.rests_on_statics()) {
+        if let Some(side) = [&one, &other].into_iter().find(|p| control.law == Law::Coulomb && p.assessment.rests_on_statics()) {
             notes.push(format!(
                 "at {} admissible forces exist; whether the loads produce them with dry friction stayed undecided",
                 side.value
@@ -170,7 +172,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
         let (below, above) = if one.value <= other.value { (one, other) } else { (other, one) };
         changes.push(Change { value, method, below, above });
     }
-    Ok(Critical { range: range.clone(), whole, scan, changes, ends, notes, probes })
+    Ok(Critical { range: range.clone(), whole, law: control.law, scan, changes, ends, notes, probes })
 }
 
 /// The verdict at a value.

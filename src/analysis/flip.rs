@@ -5,7 +5,7 @@
 //! and far closer than the two verdicts can be told apart, which needs `t` above the tolerance. Where `t` does not behave (a contact
 //! that is lost at once), the range is halved instead. Both ends of the answer are verdicts with their own evidence.
 
-use super::{Assessment, Model, assess::NO_STATE_NEEDED};
+use super::{Assessment, Model};
 use crate::{error::InputError, tolerance, verdict::Verdict};
 
 /// A model at one value of what varies, with its verdict.
@@ -24,12 +24,6 @@ impl Probe {
     /// still be far away; measured near the flip, the lower one holds to 1e-11 g.
     pub fn unbalance(&self) -> f64 {
         self.assessment.unbalance.lower
-    }
-
-    /// Whether it counts as standing although the state under dry friction, which could deny it, is not known.
-    pub(super) fn rests_on_statics(&self) -> bool {
-        let forest = self.assessment.left_out.iter().any(|l| l.starts_with(NO_STATE_NEEDED));
-        self.assessment.verdict == Verdict::Stable && self.assessment.state.is_none() && !forest
     }
 
     /// Whether admissible forces exist; `None` where that is undecided.

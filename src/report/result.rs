@@ -127,6 +127,10 @@ pub struct Answer {
     /// Does it stand?
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
+    /// It stands: for which law of sliding. With `associative` forces exist, and whether the loads produce them was not asked; dry friction
+    /// where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub law: Option<Law>,
     /// Simulate: what became of it in time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fate: Option<Fate>,
@@ -505,7 +509,8 @@ pub(super) fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate,
         (verdict, certificate.claim) = (Verdict::Undecided, None);
     }
     let proof = certificate.claim.map(|_| findings.grade);
-    let answer = Answer { verdict: Some(verdict), unbalance: Some(a.unbalance), part: a.part.clone(), proof, ..Answer::default() };
+    let law = (verdict == Verdict::Stable).then_some(if a.rests_on_statics() { Law::Associative } else { Law::Coulomb });
+    let answer = Answer { verdict: Some(verdict), law, unbalance: Some(a.unbalance), part: a.part.clone(), proof, ..Answer::default() };
     (answer, certificate, findings)
 }
 

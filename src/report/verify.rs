@@ -1,13 +1,15 @@
 //! Verifying a saved result from the scene: every claim with its evidence, and every word and number of the answer
 //! against the claim. Nothing that the file says about itself is believed.
 
+mod again;
+
 use super::{
     ResultFile, critical, part,
-    result::{Answer, Certificate, Direction, DryResult, JointWords, LoadFactorAnswer, MechanismWords, Question, words},
+    result::{Answer, Certificate, Direction, JointWords, LoadFactorAnswer, MechanismWords, Question, words},
     thrust,
 };
 use crate::{
-    analysis::{Law, Model, Outcome, agreement::agree, coulomb::Found, prepare, tilt::tilted},
+    analysis::{Law, Model, Outcome, agreement::agree, prepare, tilt::tilted},
     error::{Finding, FindingCode, InputError},
     interface::{self, Part},
     scene::Scene,
@@ -47,6 +49,11 @@ impl Verification {
     /// The weakest grade of all that holds.
     pub fn grade(&self) -> Grade {
         self.parts.iter().fold(Grade::Exact, |all, (_, f)| all.and(f.grade))
+    }
+
+    /// Whether something that holds is computed, not proved.
+    pub fn computed(&self) -> bool {
+        !self.refuted() && self.parts.iter().any(|(_, f)| f.computed)
     }
 
     /// Whether the answer is proved: it claims something, and every part holds.
@@ -101,7 +108,7 @@ pub(super) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             Question::Assess | Question::Simulate | Question::Critical | Question::Thrust => {
                 failure("the file holds a load factor that was not asked for")
             }
-            _ => dry_friction(model, dry),
+            _ => again::dry_friction(&|_| Ok(model.clone()), (&file.answer, &file.certificate), dry),
         };
         all.part("dry friction", findings);
     }
@@ -128,41 +135,6 @@ fn simulation(file: &ResultFile) -> Findings {
     }
     f.holds.push("observed, not proved: `voussoir simulate` on the scene repeats it".into());
     f
-}
-
-/// A load factor with dry friction, from its own forces and rates.
-fn dry_friction(model: &Model, dry: &DryResult) -> Findings {
-    match (&dry.certificate.claim, dry.value) {
-        (None, None) if dry.found == Found::Undecided => {
-            Findings { holds: vec!["undecided: nothing is claimed".into()], ..Findings::default() }
-        }
-        (None, None) if dry.found == Found::Unlimited => {
-            Findings { holds: vec!["no limit: computed, nothing is claimed".into()], ..Findings::default() }
-        }
-        (None, None) if dry.found == Found::NotAtRest => {
-            Findings { holds: vec!["not at rest under the dead load: computed, nothing is claimed".into()], ..Findings::default() }
-        }
-        (None, Some(value)) if dry.found == Found::Rests && dry.rests_at == Some(value) => Findings {
-            holds: vec!["the load factor up to which the state rests: computed, nothing is claimed".into()],
-            ..Findings::default()
-        },
-        (Some(claim @ Claim::DryLoadFactor { value }), Some(said))
-            if *value == said && matches!(dry.found, Found::NothingSlides | Found::FixedPoint) =>
-        {
-            let (assembly, interfaces) = (&model.assembly, &model.interfaces);
-            let read = || {
-                Ok::<_, String>((
-                    read_forces(assembly, interfaces, &dry.certificate.forces)?,
-                    read_rates(assembly, &dry.certificate.rates)?,
-                ))
-            };
-            match read() {
-                Ok((forces, rates)) => check::verify(assembly, interfaces, claim, &forces, None, &rates),
-                Err(e) => failure(e),
-            }
-        }
-        _ => failure("the load factor with dry friction is not the one its certificate claims"),
-    }
 }
 
 pub(super) fn failure(text: impl Into<String>) -> Findings {
@@ -216,10 +188,8 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
             }
         }
         if let Some(dry) = &direction.dry {
-            let findings = match tilted(model, Vector3::from(toward), dry.value.unwrap_or(0.0)) {
-                Err(e) => failure(e.to_string()),
-                Ok(turned) => dry_friction(&turned, dry),
-            };
+            let at = |tilt: f64| tilted(model, Vector3::from(toward), tilt);
+            let findings = again::dry_friction(&at, (&direction.answer, &direction.certificate), dry);
             all.part(format!("{title}, dry friction"), findings);
         }
     }
@@ -255,6 +225,9 @@ pub(super) fn answer(model: &Model, question: Question, answer: &Answer, evidenc
             unbalance(&mut f, model, answer, &forces, &rates);
         }
         part::verify(&mut f, model, answer.part.as_ref(), &rates);
+        if matches!(claim, Claim::Stable) {
+            again::stands(&mut f, model, answer.law);
+        }
     }
     (f, Some(rates))
 }
@@ -284,6 +257,9 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
     if !form {
         f.fails.push("the answer is not one to its question".into());
         return;
+    }
+    if answer.law.is_some() && claim != Some(&Claim::Stable) {
+        f.fails.push("a law of sliding is named beside an answer that does not depend on it".into());
     }
     let said = answer.load_factor.as_ref();
     if said.is_some_and(|l| l.law != Law::Associative) {
@@ -351,6 +327,7 @@ fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, 
     let parts = interface::parts(&model.assembly, &model.interfaces);
     let left = |part: &Part| certificate::statics(&part.assembly, &part.interfaces, &part.take_forces(forces), 0.0).unbalance;
     let upper = parts.iter().map(left).fold(0.0, f64::max);
+    let rates = &certificate::at_unit_speed(&model.assembly, rates)[..];
     let k = match check::moving(&model.assembly, &model.interfaces, forces, rates) {
         Some((part, own, rates)) => certificate::kinematics(&part.assembly, &part.interfaces, &rates, &own),
         None => certificate::kinematics(&model.assembly, &model.interfaces, rates, forces),

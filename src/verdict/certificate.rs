@@ -41,6 +41,23 @@ pub fn speed(assembly: &Assembly, block: usize, q: &Rate) -> f64 {
     q.velocity.norm().hypot(assembly.blocks[block].gyration.speed(&q.spin).norm())
 }
 
+/// Speeds of which neither squares nor products with loads under- or overflow.
+const ORDINARY: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
+
+/// The same motion, with its fastest block at a speed near one where it was out of the ordinary (by a power of two, which rounds nothing): what
+/// is so slow that squares of speeds underflow would slide without friction.
+pub fn at_unit_speed(assembly: &Assembly, rates: &[Rate]) -> Vec<Rate> {
+    let size = |(i, q): (usize, &Rate)| q.velocity.amax().max(q.spin.amax() * assembly.blocks[i].size);
+    let fastest = rates.iter().enumerate().map(size).fold(0.0, f64::max);
+    if fastest == 0.0 || !fastest.is_finite() || ORDINARY.contains(&fastest) {
+        return rates.to_vec();
+    }
+    // In two steps: the inverse of the smallest numbers is none.
+    let half = (-0.5 * fastest.log2()).floor().exp2();
+    let rest = (fastest * half).log2().floor().exp2();
+    rates.iter().map(|q| Rate { velocity: q.velocity * half / rest, spin: q.spin * half / rest }).collect()
+}
+
 /// What forces leave unbalanced.
 #[derive(Clone, Debug)]
 pub struct Statics {

@@ -79,6 +79,8 @@ pub struct Findings {
     pub fails: Vec<String>,
     /// How exactly: the weakest of all that holds.
     pub grade: Grade,
+    /// Whether something in it is computed, not proved.
+    pub computed: bool,
 }
 
 impl Findings {
@@ -108,6 +110,15 @@ pub fn verify(
     rates: &[Rate],
 ) -> Findings {
     let mut f = Findings::default();
+    // How fast a mechanism moves says nothing, but for rates that belong to forces or to a support.
+    let unit;
+    let rates = match claim {
+        Claim::Unstable | Claim::LoadFactor { .. } | Claim::Impossible => {
+            unit = certificate::at_unit_speed(assembly, rates);
+            &unit[..]
+        }
+        _ => rates,
+    };
     match *claim {
         Claim::Stable => balanced(&mut f, "", assembly, interfaces, forces, 0.0),
         Claim::Conditional => {
@@ -194,6 +205,10 @@ fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &
         in_loads <= tolerance::NATURAL_MAP,
         format!("with rates as the live load drives them: natural map {in_loads:.1e}, allowed {:.0e}", tolerance::NATURAL_MAP),
     );
+    // Where the live load is small beside the dead load, far more of it is no more than rounding of a block's balance.
+    let hidden = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum::<f64>() / k.live_power;
+    let width = tolerance::DRY_WIDTH * value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural_factor(assembly);
+    f.require(hidden <= width, format!("what the forces leave hides at most {hidden:.1e} of λ, allowed {width:.1e}"));
 }
 
 /// The natural map of a mechanism with the rates as the live load drives them.

@@ -59,6 +59,18 @@ fn a_couple_is_measured_as_a_couple() {
 }
 
 #[test]
+fn forged_results_of_the_findings_are_refused() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/cases/findings/forged");
+    let Ok(list) = std::fs::read_dir(&folder) else { return println!("skipped: no ../shared/cases/findings/forged") };
+    let forged = list.map(|f| f.unwrap().path()).filter(|p| p.file_name().is_some_and(|n| n.to_string_lossy().starts_with('F')));
+    for path in forged {
+        let file: ResultFile = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
+        let proved = verify(&file, &file.scene.input).is_ok_and(|v| v.proved());
+        assert!(!proved, "{}", path.display());
+    }
+}
+
+#[test]
 fn what_forged_results_held_falls() {
     assert_eq!(verdict("overhang"), Verdict::Unstable);
     assert_eq!(verdict("channel"), Verdict::Unstable);

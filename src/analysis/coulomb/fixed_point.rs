@@ -103,6 +103,9 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
         let local = |x: &[f64]| -> Vec<f64> { x.iter().zip(&contacts.passing).map(|(x, p)| x / p).collect() };
         let (now, then) = (local(&held), local(&next));
         let change = now.iter().zip(&then).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        if !then.iter().all(|x| x.is_finite()) {
+            break;
+        }
         // The last iterate is kept unless an earlier one was much better: near the end the change is the engine's noise.
         if best.as_ref().is_none_or(|b| change < 10.0 * b.change) {
             let noise = if hold == Hold::Limits { contacts.unsettled(&forces, &held, &next) } else { change };

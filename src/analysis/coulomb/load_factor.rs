@@ -139,7 +139,7 @@ pub(in crate::analysis) fn complementary(
             return answer;
         }
     }
-    if associative.outcome == Outcome::Unbounded && rests_alone(assembly, interfaces, control) {
+    if associative.outcome == Outcome::Unbounded && part_rests_alone(assembly, interfaces, control) {
         answer.found = Found::Unlimited;
         return answer;
     }
@@ -255,7 +255,7 @@ fn lower_end(Scene { assembly, interfaces, associative }: &Scene, forces: &Force
 }
 
 /// Whether the live load alone, on joints without any strength, produces the forces that balance it.
-fn rests_alone(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> bool {
+pub(in crate::analysis) fn part_rests_alone(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> bool {
     let (alone, _) = check::live_alone(assembly);
     let (unlimited, _) = interfaces.unlimited();
     is_forest(&alone, &unlimited) || state(&alone, &unlimited, control).motion == Motion::Rests

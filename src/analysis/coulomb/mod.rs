@@ -9,9 +9,13 @@ mod newton;
 mod rest;
 mod state;
 
-pub use super::parts::dry::{load_factor, load_factor_from};
+pub use super::parts::{
+    assess::motion,
+    dry::{load_factor, load_factor_from, rests_alone},
+};
 pub use load_factor::{DryLoadFactor, Found};
-pub(super) use load_factor::{complementary, of_part};
-pub use rest::is_reached;
-pub(super) use rest::{loaded, up_to_rest};
+pub(super) use load_factor::{complementary, of_part, part_rests_alone};
+pub use rest::loaded;
+pub(super) use rest::up_to_rest;
+pub use rest::{is_reached, resolution};
 pub use state::{Motion, State, Step, state};

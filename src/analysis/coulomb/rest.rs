@@ -39,12 +39,17 @@ const MOST: usize = 40;
 const MOST_OF_MANY: usize = 8;
 
 /// The assembly with its live load, times `lambda`, added to its dead load.
-pub(in crate::analysis) fn loaded(assembly: &Assembly, lambda: f64) -> Assembly {
+pub fn loaded(assembly: &Assembly, lambda: f64) -> Assembly {
     let mut loaded = assembly.clone();
     for (dead, live) in loaded.dead.iter_mut().zip(&assembly.live) {
         *dead += *live * lambda;
     }
     loaded
+}
+
+/// How near above a load factor up to which the state rests it does so no longer, at most, in shares of one at which it moves.
+pub fn resolution(assembly: &Assembly) -> f64 {
+    if assembly.free().count() > MANY { 1.0 / 64.0 } else { 4.0 * tolerance::DRY_CRITICAL_WIDTH }
 }
 
 /// Whether a state seen at rest at `rests_at` is one just below `value`.
@@ -89,20 +94,20 @@ impl Probe<'_> {
         }
     }
 
-    /// Narrows what lies between rest and the rest by halving.
-    fn halve(&mut self, mut rests: f64, mut above: f64, most: usize) -> f64 {
+    /// Narrows what lies between rest and the rest by halving; false where the time is over before.
+    fn halve(&mut self, rests: &mut f64, mut above: f64, most: usize) -> bool {
         for _ in 0..most {
-            if above - rests <= tolerance::DRY_CRITICAL_WIDTH * above.abs() {
+            if above - *rests <= tolerance::DRY_CRITICAL_WIDTH * above.abs() {
                 break;
             }
-            let middle = 0.5 * (rests + above);
+            let middle = 0.5 * (*rests + above);
             match self.ask(middle) {
-                Some(Motion::Rests) => rests = middle,
+                Some(Motion::Rests) => *rests = middle,
                 Some(Motion::Moves | Motion::Undecided) => above = middle,
-                None => break,
+                None => return false,
             }
         }
-        rests
+        true
     }
 }
 
@@ -179,12 +184,14 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
     let above = probe.moves.as_ref().map(|m| m.0);
     // Where nothing else is known, the bracket from below is what there is to say.
     let above = above.or(goal.filter(|_| answer.value.is_nan()));
-    if let Some(above) = above.filter(|above| *above > rests_at) {
-        rests_at = probe.halve(rests_at, above, most);
-    }
+    let narrow = above.filter(|above| *above > rests_at).is_none_or(|above| probe.halve(&mut rests_at, above, most));
     answer.rests_at = rests_at;
     let Some((moves_at, moving)) = &probe.moves else { return };
     answer.moves_at = *moves_at;
+    if !narrow {
+        (answer.found, answer.value) = (Found::Undecided, f64::NAN);
+        return;
+    }
     (answer.found, answer.value) = (Found::Rests, rests_at);
     // The evidence is that of the states on both sides.
     if let Some((_, state)) = &probe.rests {

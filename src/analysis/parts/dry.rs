@@ -71,6 +71,14 @@ where
     scene.answer(&Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control }, &joints)
 }
 
+/// Whether in every part that it acts on the live load alone produces the forces that balance it, so that no multiple of it moves anything.
+pub fn rests_alone(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> bool {
+    let parts = interface::parts(assembly, interfaces);
+    let driven: Vec<usize> = (0..parts.len()).filter(|&k| parts[k].is_driven()).collect();
+    let rests = each(&parts, &driven, control, |k, control| coulomb::part_rests_alone(&parts[k].assembly, &parts[k].interfaces, control));
+    !rests.is_empty() && !rests.contains(&false)
+}
+
 struct Scene<'a> {
     assembly: &'a Assembly,
     interfaces: &'a Interfaces,

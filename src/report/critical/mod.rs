@@ -7,7 +7,7 @@ pub(super) use verify::verify;
 use super::result::{Answer, Certificate, Question, ResultFile, assessment};
 use crate::{
     analysis::{
-        Critical, Model,
+        Critical, Law, Model,
         critical::{Method, Scanned},
         flip::Probe,
     },
@@ -43,6 +43,9 @@ pub struct CriticalResult {
     pub between: [f64; 2],
     /// Whether the number is a count.
     pub whole: bool,
+    /// For which law of sliding the scan was asked; dry friction where nothing is said.
+    #[serde(default)]
+    pub law: Law,
     /// The scan: computed, not proved.
     pub scan: Vec<ScanPoint>,
     /// The flips, in the order of the scan.
@@ -165,6 +168,7 @@ impl ResultFile {
             vary: c.range.pointer.clone(),
             between: [c.range.from, c.range.to],
             whole: c.whole,
+            law: c.law,
             scan: c.scan.iter().map(scan_point).collect(),
             flips,
             ends,

@@ -1,8 +1,8 @@
 //! Verifying critical values: the scene is made anew at both ends of every flip, and the verdict proved there.
 
-use super::{CriticalResult, FlipResult, Side, exhausted};
+use super::{CriticalResult, FlipResult, ScanPoint, Side, exhausted};
 use crate::{
-    analysis::prepare,
+    analysis::{Control, critical::probe, prepare},
     report::{
         result::{Question, ResultFile},
         verify::{SAME, Verification, answer, failure, require},
@@ -24,7 +24,7 @@ pub fn verify(all: &mut Verification, file: &ResultFile, scene: &Scene) {
     // A flip at the very end of the range has its other side just outside.
     let slack = 100.0 * tolerance::CRITICAL_WIDTH * low.abs().max(high.abs());
     require(&mut f, said.iter().all(|v| low - slack <= v.lower && v.upper <= high + slack), format!("they lie between {low} and {high}"));
-    scanned(&mut f, c);
+    scanned(&mut f, scene, c);
     let others = [file.answer.verdict.is_some(), file.answer.load_factor.is_some(), file.certificate.claim.is_some()];
     require(&mut f, !others.contains(&true), "nothing else is claimed");
     all.part("answer", f);
@@ -36,7 +36,7 @@ pub fn verify(all: &mut Verification, file: &ResultFile, scene: &Scene) {
 }
 
 /// The scan is the way there, computed and not proved; it agrees with what is proved, and with the scene.
-fn scanned(f: &mut Findings, c: &CriticalResult) {
+fn scanned(f: &mut Findings, scene: &Scene, c: &CriticalResult) {
     let near = |a: f64, b: f64| (a - b).abs() <= SAME * (c.between[1] - c.between[0]).abs();
     let within = |v: f64| (v - c.between[0]) * (v - c.between[1]) <= 0.0 || c.between.iter().any(|&end| near(v, end));
     let order = (c.between[1] - c.between[0]).signum();
@@ -55,8 +55,43 @@ fn scanned(f: &mut Findings, c: &CriticalResult) {
         sorted && whole && agrees,
         format!("the scan lies in the range and agrees with what is proved: {} values, computed", c.scan.len()),
     );
+    require(f, reaches_the_ends(c), "the scan goes from one end of the range to the other, or says where it stopped");
+    if f.fails.is_empty() {
+        let open: Vec<f64> = c.scan.iter().filter(|s| proved(s.value).next().is_none() && !is_so(scene, c, s)).map(|s| s.value).collect();
+        f.computed = true;
+        let values = c.scan.len();
+        require(
+            f,
+            open.is_empty(),
+            format!("the scan: {values} values asked again (computed, not proved), {} of them otherwise", open.len()),
+        );
+    }
     let ends = |s: &Side| c.between.iter().any(|&end| near(s.value, end)) || c.whole;
     require(f, c.ends.iter().all(ends), "the ends are those of the range");
+}
+
+/// Whether the scan begins at one end of the range and reaches the other, or was cut short in even steps, with a note.
+fn reaches_the_ends(c: &CriticalResult) -> bool {
+    let [a, b] = c.between;
+    let near = |x: f64, y: f64| (x - y).abs() <= SAME * (b - a).abs().max(if c.whole { 1.0 / SAME } else { 0.0 });
+    let (Some(first), Some(last)) = (c.scan.first(), c.scan.last()) else { return false };
+    let steps = c.scan.get(1).map_or(1.0, |second| (b - a) / (second.value - first.value));
+    let even = c.whole || (steps - steps.round()).abs() <= SAME * steps.abs();
+    near(first.value, a) && even && (near(last.value, b) || !c.notes.is_empty())
+}
+
+/// Whether a value of the scan is as it is said to be.
+fn is_so(scene: &Scene, c: &CriticalResult, said: &ScanPoint) -> bool {
+    let control = Control { law: c.law, ..Control::default() };
+    match (probe(scene, &c.vary, said.value, &control), said.verdict) {
+        (Err(_), None) => true,
+        (Ok(_), Some(Verdict::Undecided)) => true,
+        (Ok(here), Some(verdict)) => {
+            let unbalance = said.unbalance.unwrap_or(0.0);
+            here.assessment.verdict == verdict && (here.unbalance() - unbalance).abs() <= SAME * unbalance.abs() + tolerance::UNBALANCE
+        }
+        _ => false,
+    }
 }
 
 fn one(scene: &Scene, c: &CriticalResult, side: &Side) -> Findings {

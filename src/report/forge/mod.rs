@@ -197,4 +197,12 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn no_forgery_is_accepted() {
+        for index in [0, 3, 9, 15, 19] {
+            let forged = one(1, index);
+            assert!(forged.count() > 50 && !forged.is_wrong(), "{index}: {:?} {:?}", forged.error, forged.accepted);
+        }
+    }
 }

@@ -16,8 +16,21 @@ const CLAIMED: [&str; 8] = [
     "/thrust",
 ];
 /// Numbers below these names are evidence, or of no size of their own.
-const OTHERS: [&str; 12] =
-    ["forces", "base", "rates", "points", "couples", "unbalance", "standing", "direction", "toward", "natural_map", "solves", "sections"];
+const OTHERS: [&str; 13] = [
+    "forces",
+    "base",
+    "rates",
+    "points",
+    "couples",
+    "unbalance",
+    "standing",
+    "direction",
+    "toward",
+    "natural_map",
+    "solves",
+    "sections",
+    "to_rounding",
+];
 /// How many of them are changed.
 const CHANGED: usize = 4;
 /// A change of less than this × the number may still be true.
@@ -37,8 +50,14 @@ pub(super) fn forge(honest: &Honest, random: &mut Random) -> Vec<Forgery> {
     for _ in 0..CHANGED.min(all.len()) {
         let (pointer, value) = all.swap_remove(random.count(0, all.len() - 1));
         let numbers = [0.0, -0.0, 5e-324, 1e-170, -value, value * (1.0 + 2.0 * MATERIAL), 2.0 * value, value * 2f64.powi(600), 1e300];
-        let numbers = numbers.into_iter().filter(|v| v.is_finite() && (v - value).abs() > MATERIAL * value.abs()).map(Value::from);
-        for other in numbers.chain([Value::Null, json!("NaN"), json!("Infinity")]) {
+        let numbers = numbers.into_iter().filter(|v| v.is_finite() && (v - value).abs() > MATERIAL * value.abs());
+        // To have been seen at rest at less, or to move at more, claims less.
+        let decided =
+            honest.file.pointer(&pointer.replace("/rests_at", "/value").replace("/moves_at", "/value")).is_some_and(|v| !v.is_null());
+        let lies = |v: &f64| decided && !(pointer.ends_with("/rests_at") && v < &value || pointer.ends_with("/moves_at") && v > &value);
+        let numbers = numbers.into_iter().filter(lies);
+        let odd = if pointer.ends_with("s_at") { &[][..] } else { &[Value::Null][..] };
+        for other in numbers.map(Value::from).chain(odd.iter().cloned()).chain([json!("NaN"), json!("Infinity")]) {
             // A bracket or a value that is left out may claim less, which is no lie where nothing else is said.
             let what = format!("{pointer}: {other} instead of {value}");
             made.extend(Draft::of(honest).set(&pointer, other).done(honest, "number", what));

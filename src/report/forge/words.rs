@@ -95,8 +95,9 @@ fn dry(honest: &Honest) -> Vec<Option<Forgery>> {
     let unlimited = Draft::of(honest).set("/dry/found", "unlimited");
     made.push(unlimited.clone().done(honest, "dry word", format!("unlimited instead of {value}")));
     let bare = Draft::of(honest).without("/dry/certificate/claim");
-    for word in ["unlimited", "not_at_rest"] {
-        let bare = bare.clone().set("/dry/found", word).without("/dry/value");
+    // What needs a live load to stand is not at rest without.
+    for word in if value > 0.0 { &["unlimited", "not_at_rest"][..] } else { &["unlimited"][..] } {
+        let bare = bare.clone().set("/dry/found", *word).without("/dry/value");
         made.push(bare.done(honest, "dry, nothing claimed", format!("{word} instead of {value}, without a claim")));
     }
     for other in [0.5 * value, 2.0 * value] {

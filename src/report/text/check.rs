@@ -5,7 +5,7 @@ use super::{
     page::{Layout, Page, Role},
 };
 use crate::{
-    analysis::{Model, coulomb::Found},
+    analysis::{Law, Model},
     error::Finding,
     report::{result::ResultFile, verify::Verification},
 };
@@ -19,9 +19,9 @@ pub fn verification(file: &ResultFile, verification: &Verification, layout: Layo
         (false, false) => ("claims nothing", Role::Unsure),
     };
     let text = if verification.refuted() || !verification.claimed { text.into() } else { format!("{text}, {}", verification.grade()) };
-    let computed = [Found::Unlimited, Found::Rests, Found::NotAtRest];
-    let text = match &file.dry {
-        Some(dry) if computed.contains(&dry.found) => format!("{text}; the load factor with dry friction is computed, not proved"),
+    let text = match file.answer.law {
+        Some(Law::Associative) if !verification.refuted() => format!("{text}; whether a pre-stress is needed was not asked"),
+        _ if verification.computed() => format!("{text}; that states under dry friction rest or move is computed, not proved"),
         _ => text,
     };
     page.title(&file.scene.name, super::answer::under(file, text), role);

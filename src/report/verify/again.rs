@@ -1,0 +1,135 @@
+//! What is computed and not proved is computed again: that states under dry friction come to rest, or move.
+//!
+//! That admissible forces exist is proved from forces alone; that the loads produce such forces is not: of that there is a state, not a
+//! theorem. Nothing that a file says about it is believed either, so the state is asked again, once all else holds.
+
+use super::{failure, require};
+use crate::{
+    analysis::{
+        Control, Law, Model, Outcome,
+        coulomb::{self, Found, Motion},
+    },
+    error::InputError,
+    program::is_forest,
+    report::result::{Answer, Certificate, DryResult},
+    verdict::{
+        check::{self, Claim, Findings},
+        evidence::{read_forces, read_rates},
+    },
+};
+
+/// The model at a load factor or tilt, as joints with strengths are there.
+pub(super) type At<'a> = &'a dyn Fn(f64) -> Result<Model, InputError>;
+
+/// Of what stands: the loads produce such forces by themselves, or that was not asked, which is said.
+pub(super) fn stands(f: &mut Findings, model: &Model, law: Option<Law>) {
+    if law == Some(Law::Associative) {
+        return f.holds.push("whether the loads produce such forces by themselves was not asked: they may need a pre-stress".into());
+    }
+    if is_forest(&model.assembly, &model.interfaces) {
+        f.holds.push("contacts form no closed chain: the loads fix the forces".into());
+    } else if f.fails.is_empty() {
+        let motion = coulomb::motion(&model.assembly, &model.interfaces, &Control::default());
+        computed(
+            f,
+            motion == Motion::Rests,
+            "the loads produce such forces by themselves: with dry friction the blocks come to rest".into(),
+        );
+    }
+}
+
+/// A load factor with dry friction: its evidence where it claims something, and what its states do; `bound` is the associative answer.
+pub(super) fn dry_friction(at: At, bound: (&Answer, &Certificate), dry: &DryResult) -> Findings {
+    let mut f = match (&dry.certificate.claim, dry.value) {
+        (None, None) if matches!(dry.found, Found::Undecided | Found::Unlimited | Found::NotAtRest) => Findings::default(),
+        (None, Some(_)) if dry.found == Found::Rests && dry.rests_at == dry.value => Findings::default(),
+        (Some(claim @ Claim::DryLoadFactor { value }), Some(said))
+            if *value == said && matches!(dry.found, Found::NothingSlides | Found::FixedPoint) =>
+        {
+            let is_bound = bound.0.load_factor.and_then(|l| l.value) == Some(said) && bound.1.rates == dry.certificate.rates;
+            match at(said).map_err(|e| e.to_string()).and_then(|model| evidence(&model, claim, dry)) {
+                Ok(mut f) => {
+                    require(&mut f, is_bound == (dry.found == Found::NothingSlides), words(dry.found));
+                    f
+                }
+                Err(e) => failure(e),
+            }
+        }
+        _ => return failure("the load factor with dry friction is not the one its certificate claims"),
+    };
+    let status = bound.0.load_factor.map(|l| l.status);
+    require(&mut f, dry.found != Found::Unlimited || status == Some(Outcome::Unbounded), "where there is no limit, the bound has none");
+    if f.fails.is_empty() && dry.found == Found::Undecided {
+        f.holds.push("undecided: nothing is claimed".into());
+    }
+    if f.fails.is_empty()
+        && let Err(e) = states(&mut f, at, dry)
+    {
+        f.fails.push(e.to_string());
+    }
+    f
+}
+
+/// Requires what was computed again.
+fn computed(f: &mut Findings, ok: bool, text: String) {
+    f.computed = true;
+    require(f, ok, format!("{text} (computed again, not proved)"));
+}
+
+fn words(found: Found) -> &'static str {
+    match found {
+        Found::NothingSlides => "it is the bound itself: in its mechanism nothing slides",
+        _ => "it is another one than the bound, with evidence of its own",
+    }
+}
+
+/// Forces and a mechanism that obey Coulomb's law.
+fn evidence(model: &Model, claim: &Claim, dry: &DryResult) -> Result<Findings, String> {
+    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    let forces = read_forces(assembly, interfaces, &dry.certificate.forces)?;
+    let rates = read_rates(assembly, &dry.certificate.rates)?;
+    Ok(check::verify(assembly, interfaces, claim, &forces, None, &rates))
+}
+
+/// The states that are spoken of.
+fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
+    let control = Control::default();
+    let motion = |lambda: f64| -> Result<Motion, InputError> {
+        let model = at(lambda)?;
+        Ok(coulomb::motion(&coulomb::loaded(&model.assembly, lambda), &model.interfaces, &control))
+    };
+    let order = [dry.rests_at, dry.value, dry.moves_at].into_iter().flatten().collect::<Vec<f64>>();
+    let rising = order.windows(2).all(|w| w[0] <= w[1]);
+    require(f, rising, "it rests up to no more than the value, and moves from no less on");
+    if !rising {
+        return Ok(());
+    }
+    let ask = |f: &mut Findings, lambda: f64, wanted: Motion, text: String| -> Result<(), InputError> {
+        computed(f, motion(lambda)? == wanted, text);
+        Ok(())
+    };
+    if let Some(lambda) = dry.rests_at {
+        ask(f, lambda, Motion::Rests, format!("the state rests at {lambda}"))?;
+    }
+    if let Some(lambda) = dry.moves_at {
+        ask(f, lambda, Motion::Moves, format!("the state moves at {lambda}"))?;
+    }
+    match (dry.found, dry.value, dry.moves_at) {
+        (Found::NotAtRest, ..) if dry.moves_at != Some(0.0) => {
+            ask(f, 0.0, Motion::Moves, "the state moves under the dead load".into())?;
+        }
+        (Found::Unlimited, ..) => {
+            let model = at(0.0)?;
+            let rests = coulomb::rests_alone(&model.assembly, &model.interfaces, &control);
+            computed(f, rests, "the live load alone produces the forces that balance it: no limit".into());
+        }
+        (Found::Rests, Some(value), moves_at) => {
+            let next = value + coulomb::resolution(&at(value)?.assembly) * moves_at.unwrap_or(value).abs();
+            let rests = moves_at.is_none_or(|m| next < m) && motion(next)? == Motion::Rests;
+            let known = moves_at.is_some_and(|m| m > value);
+            computed(f, known && !rests, format!("at {next} it rests no longer"));
+        }
+        _ => {}
+    }
+    Ok(())
+}
