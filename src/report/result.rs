@@ -1,5 +1,5 @@
 //! The result file (`"format": "voussoir-result/1"`): the question, the answer and its evidence, complete enough to be
-//! verified without a solver.
+//! verified from the scene: what is proved without a solver, states under dry friction by computing them again.
 
 use super::{
     critical::{CriticalResult, CriticalValue},

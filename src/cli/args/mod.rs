@@ -128,7 +128,7 @@ pub enum Verb {
     ///
     /// What was assumed or left out is said on standard error.
     Import(Import),
-    /// Verify a saved result without a solver, or look for slips in a scene.
+    /// Verify a saved result from its scene (proofs without a solver), or look for slips in a scene.
     ///
     /// A result is verified from the scene inside it, or from --scene: forces are added up block by block, powers of the mechanism joint by
     /// joint, and every word of the answer is compared. Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing.

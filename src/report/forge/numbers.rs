@@ -51,12 +51,12 @@ pub(super) fn forge(honest: &Honest, random: &mut Random) -> Vec<Forgery> {
         let (pointer, value) = all.swap_remove(random.count(0, all.len() - 1));
         let numbers = [0.0, -0.0, 5e-324, 1e-170, -value, value * (1.0 + 2.0 * MATERIAL), 2.0 * value, value * 2f64.powi(600), 1e300];
         let numbers = numbers.into_iter().filter(|v| v.is_finite() && (v - value).abs() > MATERIAL * value.abs());
-        // To have been seen at rest at less, or to move at more, claims less.
-        let decided =
-            honest.file.pointer(&pointer.replace("/rests_at", "/value").replace("/moves_at", "/value")).is_some_and(|v| !v.is_null());
-        let lies = |v: &f64| decided && !(pointer.ends_with("/rests_at") && v < &value || pointer.ends_with("/moves_at") && v > &value);
+        // To have been seen at rest below the value, or to move above it, may be true.
+        let (rests, moves) = (pointer.ends_with("/rests_at"), pointer.ends_with("/moves_at"));
+        let decides = honest.file.pointer(&pointer.replace("/rests_at", "/value").replace("/moves_at", "/value")).and_then(Value::as_f64);
+        let lies = |v: &f64| !(rests || moves) || decides.is_some_and(|value| if rests { *v > value } else { *v < value });
         let numbers = numbers.into_iter().filter(lies);
-        let odd = if pointer.ends_with("s_at") { &[][..] } else { &[Value::Null][..] };
+        let odd = if rests || moves { &[][..] } else { &[Value::Null][..] };
         for other in numbers.map(Value::from).chain(odd.iter().cloned()).chain([json!("NaN"), json!("Infinity")]) {
             // A bracket or a value that is left out may claim less, which is no lie where nothing else is said.
             let what = format!("{pointer}: {other} instead of {value}");

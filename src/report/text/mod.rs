@@ -174,6 +174,6 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         });
     }
     list.push((format!("{again} --save result.json"), "keep the answer with its proof"));
-    list.push(("voussoir check result.json".into(), "verify it again, without a solver"));
+    list.push(("voussoir check result.json".into(), "verify it again, from the scene"));
     page.commands("next", &list);
 }
