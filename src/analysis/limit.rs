@@ -15,7 +15,16 @@ use crate::{
     interface::Interfaces,
     program::{self, LiveLoad, Options, Statics, Unknowns},
     tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, check, exact::existence, mechanism, mechanism::Mechanism, no_forces},
+    verdict::{
+        Forces, Rate, Verdict, certificate, check,
+        exact::{
+            existence,
+            motion::{self, Motion},
+        },
+        mechanism,
+        mechanism::Mechanism,
+        no_forces,
+    },
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -164,12 +173,21 @@ fn prove(
 ) -> bool {
     let k = certificate::kinematics(assembly, interfaces, &answer.rates, &answer.forces);
     let width = tolerance::LOAD_FACTOR_WIDTH * answer.value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
-    if let Some(mended) = mend::admissible(assembly, interfaces, &answer.rates, (answer.value, 0.1 * width * k.live_power), control.seconds)
-        && check::upper_bound(assembly, interfaces, &answer.forces, &mended).is_finite()
+    let seconds = control.seconds;
+    let mut moved = motion::motion(assembly, interfaces, &answer.rates);
+    let is_proof = |m: &Motion| m.is_admissible() && m.gain().lower.is_finite();
+    if !moved.as_ref().is_some_and(is_proof)
+        && let Some(mended) = mend::admissible(assembly, interfaces, &answer.rates, (answer.value, 0.1 * width * k.live_power), seconds)
     {
-        answer.rates = mended;
+        let other = motion::motion(assembly, interfaces, &mended);
+        if check::upper_bound(other, || f64::INFINITY).is_finite() {
+            (answer.rates, moved) = (mended, other);
+        }
     }
-    answer.bracket.upper = check::upper_bound(assembly, interfaces, &answer.forces, &answer.rates);
+    let upper = |forces: &Forces, rates: &[Rate]| {
+        check::upper_bound(moved, || certificate::kinematics(assembly, interfaces, rates, forces).upper())
+    };
+    answer.bracket.upper = upper(&answer.forces, &answer.rates);
     let start = answer.value.min(answer.bracket.upper);
     let mut best: Option<(f64, f64, Forces)> = None;
     let mut proved = false;
@@ -207,7 +225,7 @@ fn prove(
     if let Some((left, lambda, forces)) = best {
         proved |= left <= tolerance::LOOSE_BALANCE;
         (answer.bracket.lower, answer.forces) = (lambda, forces);
-        answer.bracket.upper = check::upper_bound(assembly, interfaces, &answer.forces, &answer.rates);
+        answer.bracket.upper = upper(&answer.forces, &answer.rates);
     }
     answer.value = answer.value.clamp(answer.bracket.lower, answer.bracket.upper.max(answer.bracket.lower));
     proved

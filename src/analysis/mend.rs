@@ -86,23 +86,28 @@ pub(super) fn admissible(
         assembly.free().map(of).sum()
     };
     let own = power(rates);
-    let mended = |p: &[Rate]| -> Option<(f64, Vec<Rate>)> {
+    // How much of a motion is added, and the power that it takes.
+    let added = |p: &[Rate]| -> Option<(f64, f64)> {
         let share = share(&closing, &self::closing(assembly, interfaces, p))?;
-        let loss = -share * power(p);
+        Some((share, -share * power(p)))
+    };
+    let mended = |p: &[Rate], share: f64| -> Option<Vec<Rate>> {
         let mended: Vec<Rate> =
             rates.iter().zip(p).map(|(q, p)| Rate { velocity: q.velocity + p.velocity * share, spin: q.spin + p.spin * share }).collect();
         let holds = own - power(&mended) <= most && motion(assembly, interfaces, &mended).as_ref().is_some_and(is_proof);
-        holds.then_some((loss, mended))
+        holds.then_some(mended)
     };
-    let rising = fields(assembly).filter_map(|p| mended(&p)).min_by(|a, b| a.0.total_cmp(&b.0));
-    if let Some((_, mended)) = rising {
+    let mut rising: Vec<(f64, f64, Vec<Rate>)> =
+        fields(assembly).filter_map(|p| added(&p).map(|(share, loss)| (loss, share, p))).filter(|(loss, ..)| *loss <= most).collect();
+    rising.sort_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some(mended) = rising.iter().find_map(|(_, share, p)| mended(p, *share)) {
         return Some(mended);
     }
     if assembly.free().count() > MOST_BLOCKS || seconds <= 0.0 {
         return None;
     }
     let p = sought(assembly, interfaces, seconds)?;
-    mended(&p).map(|(_, mended)| mended)
+    added(&p).and_then(|(share, _)| mended(&p, share))
 }
 
 /// The same motion without the blocks that all but rest in it, where it proves as much: what an engine leaves of a zero has power on large loads.

@@ -83,7 +83,7 @@ pub(super) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
     };
     match file.question {
         Question::Assess | Question::Limit | Question::Simulate => {
-            let (mut f, rates) = answer(model, file.question, &file.answer, &file.certificate);
+            let (mut f, rates) = answer(model, file.question, &file.answer, &file.certificate, all.refuted());
             mechanism_words(&mut f, file, model, rates.as_deref());
             all.part("answer", f);
             let stray = !file.directions.is_empty() || (file.question != Question::Limit && file.dead_load.is_some());
@@ -101,14 +101,14 @@ pub(super) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         all.part("form", failure("the file holds answers to a question that was not asked"));
     }
     if let Some(dead) = &file.dead_load {
-        all.part("dead load alone", answer(model, Question::Assess, &dead.answer, &dead.certificate).0);
+        all.part("dead load alone", answer(model, Question::Assess, &dead.answer, &dead.certificate, all.refuted()).0);
     }
     if let Some(dry) = file.dry.as_ref().filter(|_| file.question != Question::Tilt) {
         let findings = match file.question {
             Question::Assess | Question::Simulate | Question::Critical | Question::Thrust => {
                 failure("the file holds a load factor that was not asked for")
             }
-            _ => again::dry_friction(&|_| Ok(model.clone()), (&file.answer, &file.certificate), dry),
+            _ => again::dry_friction(&|_| Ok(model.clone()), (&file.answer, &file.certificate), dry, all.refuted()),
         };
         all.part("dry friction", findings);
     }
@@ -180,7 +180,7 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
         match tilted(model, Vector3::from(toward), load_factor) {
             Err(e) => all.part(title.clone(), failure(e.to_string())),
             Ok(turned) => {
-                let (mut f, rates) = answer(&turned, Question::Tilt, &direction.answer, &direction.certificate);
+                let (mut f, rates) = answer(&turned, Question::Tilt, &direction.answer, &direction.certificate, all.refuted());
                 if index == least {
                     mechanism_words(&mut f, file, &turned, rates.as_deref());
                 }
@@ -189,14 +189,20 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
         }
         if let Some(dry) = &direction.dry {
             let at = |tilt: f64| tilted(model, Vector3::from(toward), tilt);
-            let findings = again::dry_friction(&at, (&direction.answer, &direction.certificate), dry);
+            let findings = again::dry_friction(&at, (&direction.answer, &direction.certificate), dry, all.refuted());
             all.part(format!("{title}, dry friction"), findings);
         }
     }
 }
 
-/// One answer with its evidence; gives back the rates where they could be read.
-pub(super) fn answer(model: &Model, question: Question, answer: &Answer, evidence: &Certificate) -> (Findings, Option<Vec<Rate>>) {
+/// One answer with its evidence; gives back the rates where they could be read. What is refuted already is not computed again.
+pub(super) fn answer(
+    model: &Model,
+    question: Question,
+    answer: &Answer,
+    evidence: &Certificate,
+    refuted: bool,
+) -> (Findings, Option<Vec<Rate>>) {
     let mut f = Findings::default();
     says_what_is_claimed(&mut f, question, answer, evidence.claim.as_ref());
     let (assembly, interfaces) = (&model.assembly, &model.interfaces);
@@ -225,7 +231,7 @@ pub(super) fn answer(model: &Model, question: Question, answer: &Answer, evidenc
             unbalance(&mut f, model, answer, &forces, &rates);
         }
         part::verify(&mut f, model, answer.part.as_ref(), &rates);
-        if matches!(claim, Claim::Stable) {
+        if matches!(claim, Claim::Stable) && !refuted {
             again::stands(&mut f, model, answer.law);
         }
     }

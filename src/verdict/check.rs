@@ -3,7 +3,12 @@
 
 use super::{
     Forces, Rate, certificate,
-    exact::{Grade, balance::Unbalance, existence, motion},
+    exact::{
+        Grade,
+        balance::Unbalance,
+        existence,
+        motion::{self, Motion},
+    },
     law,
     thrust::{self, Extreme, ThrustAt},
 };
@@ -207,7 +212,10 @@ fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &
     );
     // Where the live load is small beside the dead load, far more of it is no more than rounding of a block's balance.
     let hidden = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum::<f64>() / k.live_power;
-    let width = tolerance::DRY_WIDTH * value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural_factor(assembly);
+    // What stands beside it makes no room.
+    let natural = moving(assembly, interfaces, forces, rates)
+        .map_or_else(|| natural_factor(assembly), |(part, ..)| part.units.load_factor(natural_factor(&part.assembly)));
+    let width = tolerance::DRY_WIDTH * value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
     f.require(hidden <= width, format!("what the forces leave hides at most {hidden:.1e} of λ, allowed {width:.1e}"));
 }
 
@@ -298,8 +306,15 @@ fn balanced_against(
     scale: &dyn Fn(usize) -> f64,
 ) {
     let left = Unbalance::of(assembly, interfaces, forces, lambda, scale);
+    let exists = existence::exists(assembly, interfaces, forces, lambda).is_some();
+    held(f, when, assembly, (left, exists));
+    cones(f, when, assembly, interfaces, &certificate::statics(assembly, interfaces, forces, lambda));
+}
+
+/// What forces leave, and whether others that balance exactly exist nearby.
+fn held(f: &mut Findings, when: &str, assembly: &Assembly, (left, exists): (Unbalance, bool)) {
     let (by, id) = (left.greatest, &assembly.blocks[left.block].id);
-    if existence::exists(assembly, interfaces, forces, lambda).is_some() {
+    if exists {
         let text = format!("{when}forces that balance every free block exist inside their cones, within {by:.1e} g of the given ones");
         f.require_graded(true, Grade::Exact, text);
     } else {
@@ -307,7 +322,6 @@ fn balanced_against(
         let text = format!("{when}forces balance every free block: largest unbalance {by:.1e} g, on {id}, allowed {allowed:.1e}");
         f.require_graded(by <= allowed, Grade::ToRounding(by), text);
     }
-    cones(f, when, assembly, interfaces, &certificate::statics(assembly, interfaces, forces, lambda));
 }
 
 pub(super) fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, s: &certificate::Statics) {
@@ -406,11 +420,14 @@ fn load_factor(
 fn supported(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, (forces, rates): (&Forces, &[Rate]), lower: f64, width: f64) {
     let scale = |i: usize| certificate::load_scale(assembly, i).max(lower.abs() * certificate::size(assembly, i, &assembly.live[i]));
     let when = format!("at λ = {lower}, ");
-    let left = Unbalance::of(assembly, interfaces, forces, lower, &scale).greatest;
-    if left <= tolerance::UNBALANCE || existence::exists(assembly, interfaces, forces, lower).is_some() {
-        return balanced_against(f, &when, (assembly, interfaces), forces, lower, &scale);
-    }
+    let left = Unbalance::of(assembly, interfaces, forces, lower, &scale);
+    let exists = existence::exists(assembly, interfaces, forces, lower).is_some();
     let s = certificate::statics(assembly, interfaces, forces, lower);
+    if exists || left.greatest <= tolerance::UNBALANCE {
+        held(f, &when, assembly, (left, exists));
+        return cones(f, &when, assembly, interfaces, &s);
+    }
+    let left = left.greatest;
     let live = certificate::kinematics(assembly, interfaces, rates, forces).live_power;
     let hidden = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum::<f64>() / live;
     let (block, allowed) = (&assembly.blocks[s.worst].id, tolerance::LOOSE_BALANCE);
@@ -428,7 +445,7 @@ fn upper_end(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, for
     f.require(live > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));
     if exact.is_some_and(|m| m.is_admissible()) {
         f.require_graded(true, Grade::Exact, "the mechanism is admissible: no joint closes");
-        return upper_bound(assembly, interfaces, forces, rates);
+        return upper_bound(exact, || k.upper());
     }
     // What joints that close by rounding take up of the given forces counts to first order; of the largest on all of them, as a bound.
     let natural = natural_factor(assembly);
@@ -439,15 +456,16 @@ fn upper_end(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, for
         Grade::ToRounding(behind / value.abs().max(natural)),
         format!("the mechanism is admissible: its rounding could hide at most {behind:.1e} of λ, allowed {allowed:.1e}"),
     );
-    upper_bound(assembly, interfaces, forces, rates)
+    upper_bound(exact, || k.upper())
 }
 
-/// The load factor above which a mechanism gains power; where its joints close by rounding, at least with what these take up of the forces.
-pub fn upper_bound(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> f64 {
-    let to_first_order = || certificate::kinematics(assembly, interfaces, rates, forces).upper();
-    match motion::motion(assembly, interfaces, rates) {
-        Some(m) if m.is_admissible() => (-m.gain()).over(m.live).upper,
-        Some(m) => (-m.gain()).over(m.live).upper.max(to_first_order()),
+/// The load factor above which a mechanism gains power; where its joints close by rounding, at least `to_first_order`, with what these take up of
+/// the forces.
+pub fn upper_bound(motion: Option<Motion>, to_first_order: impl Fn() -> f64) -> f64 {
+    let exactly = |m: Motion| (-m.gain()).over(m.live).upper;
+    match motion {
+        Some(m) if m.is_admissible() => exactly(m),
+        Some(m) => exactly(m).max(to_first_order()),
         None => to_first_order(),
     }
 }

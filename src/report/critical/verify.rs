@@ -24,28 +24,42 @@ pub fn verify(all: &mut Verification, file: &ResultFile, scene: &Scene) {
     // A flip at the very end of the range has its other side just outside.
     let slack = 100.0 * tolerance::CRITICAL_WIDTH * low.abs().max(high.abs());
     require(&mut f, said.iter().all(|v| low - slack <= v.lower && v.upper <= high + slack), format!("they lie between {low} and {high}"));
-    scanned(&mut f, scene, c);
+    scanned(&mut f, c);
     let others = [file.answer.verdict.is_some(), file.answer.load_factor.is_some(), file.certificate.claim.is_some()];
     require(&mut f, !others.contains(&true), "nothing else is claimed");
     all.part("answer", f);
     all.claimed = !said.is_empty() || exhausted(file).is_some();
-    let sides = c.flips.iter().flat_map(|flip| [&flip.below, &flip.above]).chain(&c.ends);
-    for side in sides {
-        all.part(format!("{} = {}", c.vary, side.value), one(scene, c, side));
+    for side in sides(c) {
+        all.part(format!("{} = {}", c.vary, side.value), one(scene, c, side, all.refuted()));
+    }
+    if !all.refuted() {
+        all.part("scan", asked_again(scene, c));
     }
 }
 
+/// All values with evidence.
+fn sides(c: &CriticalResult) -> impl Iterator<Item = &Side> {
+    c.flips.iter().flat_map(|flip| [&flip.below, &flip.above]).chain(&c.ends)
+}
+
+/// The values of the scan that have no evidence.
+fn asked_again(scene: &Scene, c: &CriticalResult) -> Findings {
+    let mut f = Findings { computed: true, ..Findings::default() };
+    let rest: Vec<&ScanPoint> = c.scan.iter().filter(|s| sides(c).all(|side| side.value != s.value)).collect();
+    let otherwise = rest.iter().filter(|s| !is_so(scene, c, s)).count();
+    let text = format!("{} values asked again (computed, not proved), {otherwise} of them otherwise than said", rest.len());
+    require(&mut f, otherwise == 0, text);
+    f
+}
+
 /// The scan is the way there, computed and not proved; it agrees with what is proved, and with the scene.
-fn scanned(f: &mut Findings, scene: &Scene, c: &CriticalResult) {
+fn scanned(f: &mut Findings, c: &CriticalResult) {
     let near = |a: f64, b: f64| (a - b).abs() <= SAME * (c.between[1] - c.between[0]).abs();
     let within = |v: f64| (v - c.between[0]) * (v - c.between[1]) <= 0.0 || c.between.iter().any(|&end| near(v, end));
     let order = (c.between[1] - c.between[0]).signum();
     let sorted = c.scan.windows(2).all(|w| (w[1].value - w[0].value) * order > 0.0) && c.scan.iter().all(|s| within(s.value));
     let whole = !c.whole || c.scan.iter().all(|s| s.value.fract() == 0.0);
-    let proved = |v: f64| {
-        let sides = c.flips.iter().flat_map(|flip| [&flip.below, &flip.above]).chain(&c.ends);
-        sides.filter(move |s| s.value == v).filter_map(Side::verdict)
-    };
+    let proved = |v: f64| sides(c).filter(move |s| s.value == v).filter_map(Side::verdict);
     // Whether a pre-stress is needed may have stayed open on one of the two occasions.
     let falls = |v: Verdict| v == Verdict::Unstable;
     let agrees =
@@ -56,16 +70,6 @@ fn scanned(f: &mut Findings, scene: &Scene, c: &CriticalResult) {
         format!("the scan lies in the range and agrees with what is proved: {} values, computed", c.scan.len()),
     );
     require(f, reaches_the_ends(c), "the scan goes from one end of the range to the other, or says where it stopped");
-    if f.fails.is_empty() {
-        let open: Vec<f64> = c.scan.iter().filter(|s| proved(s.value).next().is_none() && !is_so(scene, c, s)).map(|s| s.value).collect();
-        f.computed = true;
-        let values = c.scan.len();
-        require(
-            f,
-            open.is_empty(),
-            format!("the scan: {values} values asked again (computed, not proved), {} of them otherwise", open.len()),
-        );
-    }
     let ends = |s: &Side| c.between.iter().any(|&end| near(s.value, end)) || c.whole;
     require(f, c.ends.iter().all(ends), "the ends are those of the range");
 }
@@ -94,9 +98,9 @@ fn is_so(scene: &Scene, c: &CriticalResult, said: &ScanPoint) -> bool {
     }
 }
 
-fn one(scene: &Scene, c: &CriticalResult, side: &Side) -> Findings {
+fn one(scene: &Scene, c: &CriticalResult, side: &Side, refuted: bool) -> Findings {
     match scene.with_field(&c.vary, side.value).and_then(|scene| prepare(&scene)) {
-        Ok(model) => answer(&model, Question::Assess, &side.answer, &side.certificate).0,
+        Ok(model) => answer(&model, Question::Assess, &side.answer, &side.certificate, refuted).0,
         Err(e) => failure(e.to_string()),
     }
 }

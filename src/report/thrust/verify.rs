@@ -19,7 +19,7 @@ use crate::{
 pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     let (said, proof) = match (&file.answer.thrust, &file.thrust) {
         (None, None) => {
-            let (mut f, rates) = answer(model, Question::Assess, &file.answer, &file.certificate);
+            let (mut f, rates) = answer(model, Question::Assess, &file.answer, &file.certificate, all.refuted());
             mechanism_words(&mut f, file, model, rates.as_deref());
             return all.part("answer", f);
         }
@@ -65,7 +65,7 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     for side in &proof.shrunk {
         let sane = side.value > 0.0 && side.value <= 1.0;
         let findings = if sane {
-            answer(&shrunk_model(model, side.value), Question::Assess, &side.answer, &side.certificate).0
+            answer(&shrunk_model(model, side.value), Question::Assess, &side.answer, &side.certificate, all.refuted()).0
         } else {
             failure("sections cannot be shrunk by this")
         };

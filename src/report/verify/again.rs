@@ -39,7 +39,7 @@ pub(super) fn stands(f: &mut Findings, model: &Model, law: Option<Law>) {
 }
 
 /// A load factor with dry friction: its evidence where it claims something, and what its states do; `bound` is the associative answer.
-pub(super) fn dry_friction(at: At, bound: (&Answer, &Certificate), dry: &DryResult) -> Findings {
+pub(super) fn dry_friction(at: At, bound: (&Answer, &Certificate), dry: &DryResult, refuted: bool) -> Findings {
     let mut f = match (&dry.certificate.claim, dry.value) {
         (None, None) if matches!(dry.found, Found::Undecided | Found::Unlimited | Found::NotAtRest) => Findings::default(),
         (None, Some(_)) if dry.found == Found::Rests && dry.rests_at == dry.value => Findings::default(),
@@ -63,6 +63,7 @@ pub(super) fn dry_friction(at: At, bound: (&Answer, &Certificate), dry: &DryResu
         f.holds.push("undecided: nothing is claimed".into());
     }
     if f.fails.is_empty()
+        && !refuted
         && let Err(e) = states(&mut f, at, dry)
     {
         f.fails.push(e.to_string());

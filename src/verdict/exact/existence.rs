@@ -72,11 +72,17 @@ impl Column {
 /// If so, the sum of the distances of the contact forces from the given ones is at most the number returned, N. Not where joints can crush:
 /// their corners share one bound; nor where the given ones are not [near](tolerance::NEAR_BALANCE).
 pub fn exists(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<f64> {
+    let parts = affordable(assembly, interfaces)?;
     let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda)?;
-    members(assembly, interfaces).iter().try_fold(0.0, |sum, part| {
+    parts.iter().try_fold(0.0, |sum, part| {
         let near = part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::NEAR_BALANCE);
         Some(sum + near.then(|| part.exists(assembly, interfaces, &rooms, &mut balance))??)
     })
+}
+
+/// The parts, where none has more than [`MOST_BLOCKS`].
+fn affordable(assembly: &Assembly, interfaces: &Interfaces) -> Option<Vec<Members>> {
+    Some(members(assembly, interfaces)).filter(|parts| parts.iter().all(|part| part.free.len() <= MOST_BLOCKS))
 }
 
 /// The room of every force, and what all of them leave; `None` where one lies outside its cone, or a joint can crush.
@@ -103,10 +109,11 @@ fn rooms<'a>(assembly: &'a Assembly, interfaces: &Interfaces, forces: &Forces, l
 
 /// Forces near the given ones that leave no more than rounding, in their cones; `None` where there is no room for them.
 pub fn improved(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<Forces> {
+    let parts = affordable(assembly, interfaces)?;
     let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda)?;
     let mut improved = forces.clone();
-    for part in members(assembly, interfaces) {
-        if part.free.len() > MOST_BLOCKS || !part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::LOOSE_BALANCE) {
+    for part in parts {
+        if !part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::LOOSE_BALANCE) {
             return None;
         }
         let columns = part.columns(assembly, interfaces, &rooms);
@@ -152,9 +159,6 @@ impl Members {
         let is_zero = |i: &usize| balance.left(*i).iter().all(|c| c.lower == 0.0 && c.upper == 0.0);
         if self.free.iter().all(is_zero) {
             return Some(0.0);
-        }
-        if self.free.len() > MOST_BLOCKS {
-            return None;
         }
         let columns = self.columns(assembly, interfaces, rooms);
         POWERS.into_iter().find_map(|power| {
