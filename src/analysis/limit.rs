@@ -1,8 +1,9 @@
 //! How large may the live load grow? Program L, λ's bracket recomputed from the scene.
 //!
 //! Forces that balance up to a residual `r` bound λ from below by `λ − |r·q|`, a mechanism `q` with inadmissibility `e`
-//! bounds it from above by `(−w·q + Σ e f_n) / ℓ·q`; both corrections are first-order in the residuals and are of the size
-//! of the rounding where the bracket is accepted.
+//! bounds it from above by `(−w·q + Σ e f_n) / ℓ·q`; both corrections are first-order in the residuals. They steer the search; what is
+//! answered is proved: a mechanism that closes no joint, and forces at the lower end near which others balance exactly (`prove`), or
+//! the number that the proof rests on.
 
 use super::{
     Bracket, Deciding,
