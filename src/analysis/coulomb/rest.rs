@@ -38,6 +38,10 @@ const MOST: usize = 40;
 /// The same for more than [`MANY`] free blocks.
 const MOST_OF_MANY: usize = 8;
 
+/// Most states that stay undecided while halving, where none was seen to move: without one there is no value, only how far it was seen at rest. More:
+/// minutes, for these states take longest. Fewer: it is seen at rest less far.
+const MOST_OPEN: usize = 4;
+
 /// The assembly with its live load, times `lambda`, added to its dead load.
 pub fn loaded(assembly: &Assembly, lambda: f64) -> Assembly {
     let mut loaded = assembly.clone();
@@ -96,14 +100,21 @@ impl Probe<'_> {
 
     /// Narrows what lies between rest and the rest by halving; false where the time is over before.
     fn halve(&mut self, rests: &mut f64, mut above: f64, most: usize) -> bool {
+        let mut open = 0;
         for _ in 0..most {
+            if self.moves.is_none() && open == MOST_OPEN {
+                break;
+            }
             if above - *rests <= tolerance::DRY_CRITICAL_WIDTH * above.abs() {
                 break;
             }
             let middle = 0.5 * (*rests + above);
             match self.ask(middle) {
                 Some(Motion::Rests) => *rests = middle,
-                Some(Motion::Moves | Motion::Undecided) => above = middle,
+                Some(motion) => {
+                    open += usize::from(motion == Motion::Undecided);
+                    above = middle;
+                }
                 None => return false,
             }
         }
@@ -164,7 +175,9 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
         Some(goal) => {
             probe.climb(on_the_way.iter().map(|share| share * goal));
             let halfway = probe.rests.as_ref().map_or(0.0, |r| r.0);
-            for share in BELOW {
+            // Without a value, what does not come out far below the bound does not next to it.
+            let hopeless = answer.value.is_nan() && halfway < on_the_way[on_the_way.len() - 1] * goal;
+            for share in BELOW.into_iter().filter(|_| !hopeless) {
                 let lambda = (1.0 - share) * goal;
                 if probe.moves.is_some() || lambda <= halfway || probe.ask(lambda) != Some(Motion::Undecided) {
                     break;
