@@ -203,7 +203,7 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
                 }
             }
             if !s.balanced {
-                s.balanced = existence::exists(assembly, interfaces, &c.forces, lambda).is_some();
+                s.balanced = existence::exists(assembly, interfaces, &c.forces, lambda);
             }
             upper = if s.is_within_strength() { s.unbalance } else { f64::INFINITY };
             let mut k = k;

@@ -214,7 +214,7 @@ fn prove(
         mend::cut(interfaces, &mut forces);
         let forces = existence::improved(assembly, interfaces, &forces, lambda).unwrap_or(forces);
         let left = certificate::statics(assembly, interfaces, &forces, lambda).unbalance;
-        let exact = existence::exists(assembly, interfaces, &forces, lambda).is_some();
+        let exact = existence::exists(assembly, interfaces, &forces, lambda);
         if exact || best.as_ref().is_none_or(|(least, ..)| left < *least) {
             best = Some((left, lambda, forces));
         }

@@ -305,22 +305,42 @@ fn balanced_against(
     lambda: f64,
     scale: &dyn Fn(usize) -> f64,
 ) {
-    let left = Unbalance::of(assembly, interfaces, forces, lambda, scale);
-    let exists = existence::exists(assembly, interfaces, forces, lambda).is_some();
-    held(f, when, assembly, (left, exists));
+    let left = Left::of((assembly, interfaces), forces, lambda, scale);
+    held(f, when, assembly, &left);
     cones(f, when, assembly, interfaces, &certificate::statics(assembly, interfaces, forces, lambda));
 }
 
-/// What forces leave, and whether others that balance exactly exist nearby.
-fn held(f: &mut Findings, when: &str, assembly: &Assembly, (left, exists): (Unbalance, bool)) {
-    let (by, id) = (left.greatest, &assembly.blocks[left.block].id);
-    if exists {
+/// What forces leave, over the scale of the block.
+struct Left {
+    /// Where no forces that balance exactly are [covered](existence::covered) nearby; on any block where there are everywhere.
+    greatest: Unbalance,
+    /// Whether there are everywhere.
+    exists: bool,
+}
+
+impl Left {
+    fn of((assembly, interfaces): (&Assembly, &Interfaces), forces: &Forces, lambda: f64, scale: &dyn Fn(usize) -> f64) -> Self {
+        let covered = existence::covered(assembly, interfaces, forces, lambda);
+        let exists = covered.iter().all(|held| *held);
+        let counted = |i: usize| if covered[i] && !exists { f64::INFINITY } else { scale(i) };
+        Self { greatest: Unbalance::of(assembly, interfaces, forces, lambda, &counted), exists }
+    }
+
+    /// Whether that proves that the blocks are held.
+    fn is_balanced(&self) -> bool {
+        self.exists || self.greatest.greatest <= tolerance::UNBALANCE
+    }
+}
+
+fn held(f: &mut Findings, when: &str, assembly: &Assembly, left: &Left) {
+    let (by, id) = (left.greatest.greatest, &assembly.blocks[left.greatest.block].id);
+    if left.exists {
         let text = format!("{when}forces that balance every free block exist inside their cones, within {by:.1e} g of the given ones");
         f.require_graded(true, Grade::Exact, text);
     } else {
         let allowed = tolerance::UNBALANCE;
         let text = format!("{when}forces balance every free block: largest unbalance {by:.1e} g, on {id}, allowed {allowed:.1e}");
-        f.require_graded(by <= allowed, Grade::ToRounding(by), text);
+        f.require_graded(left.is_balanced(), Grade::ToRounding(by), text);
     }
 }
 
@@ -420,14 +440,13 @@ fn load_factor(
 fn supported(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, (forces, rates): (&Forces, &[Rate]), lower: f64, width: f64) {
     let scale = |i: usize| certificate::load_scale(assembly, i).max(lower.abs() * certificate::size(assembly, i, &assembly.live[i]));
     let when = format!("at λ = {lower}, ");
-    let left = Unbalance::of(assembly, interfaces, forces, lower, &scale);
-    let exists = existence::exists(assembly, interfaces, forces, lower).is_some();
+    let left = Left::of((assembly, interfaces), forces, lower, &scale);
     let s = certificate::statics(assembly, interfaces, forces, lower);
-    if exists || left.greatest <= tolerance::UNBALANCE {
-        held(f, &when, assembly, (left, exists));
+    if left.is_balanced() {
+        held(f, &when, assembly, &left);
         return cones(f, &when, assembly, interfaces, &s);
     }
-    let left = left.greatest;
+    let left = left.greatest.greatest;
     let live = certificate::kinematics(assembly, interfaces, rates, forces).live_power;
     let hidden = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum::<f64>() / live;
     let (block, allowed) = (&assembly.blocks[s.worst].id, tolerance::LOOSE_BALANCE);

@@ -159,6 +159,40 @@ fn a_stranger_at_rest_changes_no_digit_of_a_verdict() {
     }
 }
 
+/// Forces that a proof to rounding cannot measure: a light block under one of 1e9 kg/m³ that is pushed aslant. What stands beside it is too
+/// large for an exact proof, has joints whose strength leaves none, or is held by forces without room.
+#[test]
+fn a_stranger_without_an_exact_proof_takes_none_away() {
+    let sizes = [(1.0, 0.5), (1e9, 1.5), (1.3, 2.5)];
+    let mut list = vec![block("slab", [1.0, 0.7, 1.0], [0.0, 0.0, -0.5], true)];
+    list.extend(sizes.iter().enumerate().map(|(k, (_, z))| block(&format!("c{k}"), [1.0, 0.7, 1.0], [0.0, 0.0, *z], false)));
+    let mut a = model(&scene(&list.join(","), "0.7", r#""dead": [{"block": "c1", "force": [848.0, 254.8, 0]}]"#));
+    for (k, (density, _)) in sizes.iter().enumerate() {
+        let by = density / 2000.0;
+        a.assembly.blocks[k + 1].mass *= by;
+        a.assembly.blocks[k + 1].inertia *= by;
+        a.assembly.dead[k + 1] = a.assembly.dead[k + 1] * by;
+    }
+    a.assembly.dead_forces.iter_mut().for_each(|f| f.force *= sizes[1].0 / 2000.0);
+    let row = |count: usize| {
+        let mut list = vec![block("ground", [count as f64, 1.0, 1.0], [100.0 + 0.5 * count as f64, 0.0, -0.5], true)];
+        list.extend((0..count).map(|k| block(&format!("r{k}"), [1.0; 3], [100.5 + k as f64, 0.0, 0.5], false)));
+        list.join(",")
+    };
+    let crushable = r#"0.6, "compression": 1e6"#;
+    let strangers = [model(&scene(&row(1600), "0.6", "")), model(&scene(&row(1), crushable, "")), model(&scene(&row(1), "0", ""))];
+    let alone = analysis::assess(&a.assembly, &a.interfaces, &control());
+    assert_eq!(alone.verdict, Verdict::Stable);
+    for stranger in &strangers {
+        for (m, ..) in both(&a, stranger) {
+            let got = analysis::assess(&m.assembly, &m.interfaces, &control());
+            assert_eq!(got.verdict, Verdict::Stable);
+            let proof = check::verify(&m.assembly, &m.interfaces, &check::Claim::Stable, &got.forces, None, &got.rates);
+            assert!(proof.proved(), "{:?}", proof.fails);
+        }
+    }
+}
+
 #[test]
 fn the_worst_part_decides() {
     let [falls, pre_stress] = [column(4, 0.45, 0.0, ""), squeezed(300.0)];

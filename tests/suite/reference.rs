@@ -4,11 +4,16 @@
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{
-        Control, Law, Model, Outcome, assess, limit, prepare,
+        Control, Law, LoadFactor, Model, Outcome, assess, limit, prepare,
         thrust::{answer, outwards},
     },
     scene::{Scene, read_str},
-    verdict::{Verdict, thrust::ThrustAt},
+    verdict::{
+        Verdict,
+        check::{self, Findings},
+        exact::Grade,
+        thrust::ThrustAt,
+    },
 };
 
 /// Friction for "infinite (no sliding)".
@@ -95,9 +100,36 @@ fn model(scene: &Scene) -> Model {
     prepare(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name))
 }
 
-fn verdict(case: &Value, variant: &Value, mu: f64) -> Verdict {
-    let m = model(&scene(case, variant, mu));
-    assess(&m.assembly, &m.interfaces, &Control { law: Law::Associative, ..Control::default() }).verdict
+/// How many answers are proved, and how many of them exactly.
+#[derive(Default)]
+struct Grades {
+    all: usize,
+    exact: usize,
+}
+
+impl Grades {
+    fn add(&mut self, case: &Value, proof: &Findings) {
+        self.all += 1;
+        self.exact += usize::from(proof.grade == Grade::Exact);
+        println!("{}: proved: {}, {}", case["id"], proof.proved(), proof.grade);
+    }
+
+    fn verdict(&mut self, case: &Value, variant: &Value, mu: f64) -> Verdict {
+        let Model { assembly, interfaces, .. } = model(&scene(case, variant, mu));
+        let a = assess(&assembly, &interfaces, &Control { law: Law::Associative, ..Control::default() });
+        if let Some(claim) = a.claim() {
+            self.add(case, &check::verify(&assembly, &interfaces, &claim, &a.forces, None, &a.rates));
+        }
+        a.verdict
+    }
+
+    fn limit(&mut self, case: &Value, Model { assembly, interfaces, .. }: &Model) -> LoadFactor {
+        let l = limit(assembly, interfaces, &Control::default());
+        if let Some(claim) = l.claim() {
+            self.add(case, &check::verify(assembly, interfaces, &claim, &l.forces, l.base.as_ref().map(|b| &b.1), &l.rates));
+        }
+        l
+    }
 }
 
 pub fn mu_of(case: &Value) -> f64 {
@@ -133,8 +165,9 @@ fn masonry_cases() {
     let file: Value = serde_json::from_str(&text).unwrap();
     let mut failures = Vec::new();
     let mut seen = 0;
-    let expect = |case: &Value, variant: &Value, mu: f64, want: Verdict, failures: &mut Vec<String>| {
-        let got = verdict(case, variant, mu);
+    let mut grades = Grades::default();
+    let expect = |grades: &mut Grades, case: &Value, variant: &Value, mu: f64, want: Verdict, failures: &mut Vec<String>| {
+        let got = grades.verdict(case, variant, mu);
         println!("{} {}: {got:?} at mu {mu} {}", case["id"], if got == want { "met" } else { "NOT MET" }, variant["label"]);
         if got != want {
             failures.push(format!("{}: {got:?} expected {want:?} (mu {mu})", case["id"]));
@@ -156,11 +189,11 @@ fn masonry_cases() {
             "lambda_max" => {
                 let m = model(&scene(case, case, mu));
                 if let Some(word) = e["verdict"].as_str().filter(|w| w.starts_with("unstable")) {
-                    expect(case, case, mu, Verdict::Unstable, &mut failures);
+                    expect(&mut grades, case, case, mu, Verdict::Unstable, &mut failures);
                     println!("   {word}; findings: {:?}", m.findings().collect::<Vec<_>>());
                     continue;
                 }
-                let l = limit(&m.assembly, &m.interfaces, &Control::default());
+                let l = grades.limit(case, &m);
                 if e["static"] == "unbounded" {
                     println!("{}: {:?}", case["id"], l.outcome);
                     if l.outcome != Outcome::Unbounded {
@@ -183,7 +216,7 @@ fn masonry_cases() {
                 let mut c = case.clone();
                 c["query"]["live"] = json!({ "kind": "body", "dir": [1, 0] });
                 let m = model(&scene(&c, &c, mu));
-                let l = limit(&m.assembly, &m.interfaces, &Control::default());
+                let l = grades.limit(case, &m);
                 close(case, l.value.atan().to_degrees(), e["value"].as_f64().unwrap(), &mut failures);
             }
             "verdict_flip" => {
@@ -198,27 +231,27 @@ fn masonry_cases() {
                         None if k == 0 => Verdict::Stable,
                         None => Verdict::Unstable,
                     };
-                    expect(case, variant, mu, want, &mut failures);
+                    expect(&mut grades, case, variant, mu, want, &mut failures);
                 }
             }
             "mu_min" => {
                 let value = e["value"].as_f64().unwrap();
                 let tol = e["tol_abs"].as_f64().unwrap();
                 if !e["stable_with_mu"].is_null() || case.get("blocks").is_some() || case.get("explicit_contacts").is_some() {
-                    expect(case, case, value + tol, Verdict::Stable, &mut failures);
-                    expect(case, case, value - tol, Verdict::Unstable, &mut failures);
+                    expect(&mut grades, case, case, value + tol, Verdict::Stable, &mut failures);
+                    expect(&mut grades, case, case, value - tol, Verdict::Unstable, &mut failures);
                 }
             }
             "verdict" => match query.get("mu_list") {
                 Some(list) => {
                     for mu in list.as_array().unwrap() {
-                        expect(case, case, mu.as_f64().unwrap(), Verdict::Stable, &mut failures);
+                        expect(&mut grades, case, case, mu.as_f64().unwrap(), Verdict::Stable, &mut failures);
                     }
                 }
                 None if query.get("gravity_rotations").is_some() => {
-                    expect(case, case, mu, Verdict::Stable, &mut failures);
+                    expect(&mut grades, case, case, mu, Verdict::Stable, &mut failures);
                 }
-                None => expect(case, case, mu, Verdict::Unstable, &mut failures),
+                None => expect(&mut grades, case, case, mu, Verdict::Unstable, &mut failures),
             },
             kind @ ("thrust_min" | "thrust_unique" | "thrust_range") => {
                 let m = model(&scene(case, case, mu));
@@ -239,6 +272,6 @@ fn masonry_cases() {
             }
         }
     }
-    println!("{seen} cases asked, {} not met", failures.len());
+    println!("{seen} cases asked, {} not met; {} of {} proofs exact", failures.len(), grades.exact, grades.all);
     assert!(failures.is_empty(), "{failures:#?}");
 }

@@ -4,7 +4,7 @@ use super::super::{
     cells::Table,
     text::{Layout, Page, Role},
 };
-use crate::study::cross::{Count, Crossed, Differs, FAMILIES, count};
+use crate::study::cross::{Count, Crossed, Differs, FAMILIES, SAME_DRY, count};
 
 /// How many scenes are named where not all are asked for.
 const NAMED: usize = 8;
@@ -28,6 +28,7 @@ pub fn cross_csv(list: &[Crossed]) -> Result<String, csv::Error> {
         "same",
         "lost",
         "wrong",
+        "several",
         "simulated",
         "agree",
         "error",
@@ -49,6 +50,7 @@ pub fn cross_csv(list: &[Crossed]) -> Result<String, csv::Error> {
             c.unions[1].to_string(),
             lines(&c.lost),
             lines(&c.wrong),
+            c.several.iter().map(f64::to_string).collect::<Vec<_>>().join("; "),
             c.simulated[0].to_string(),
             c.simulated[1].to_string(),
             c.error.clone().unwrap_or_default(),
@@ -95,6 +97,10 @@ fn sums(c: &Count) -> Vec<String> {
             c.ways, c.wrong, c.lost, c.same, c.unions
         ),
     ];
+    if c.several > 0 {
+        let s = if c.several == 1 { "" } else { "s" };
+        lines.push(format!("{} scene{s} with two load factors with dry friction, both proved, more than {SAME_DRY} apart", c.several));
+    }
     if c.simulated > 0 {
         let open = c.simulated - c.agree - c.apart;
         lines.push(format!("{} simulated beside the load factor: {} agree, {open} open, {} differ", c.simulated, c.agree, c.apart));

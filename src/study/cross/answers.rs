@@ -30,6 +30,8 @@ pub struct Answers {
     pub bound: Option<[f64; 2]>,
     /// The load factor with dry friction.
     pub dry: Option<f64>,
+    /// Whether forces and a mechanism that obey Coulomb's law prove it; otherwise it was seen only up to where the state rests.
+    pub is_complementary: bool,
     /// Whether it is without limit with dry friction as well.
     pub is_unlimited: bool,
 }
@@ -55,11 +57,13 @@ impl Answers {
             Found::Rests => true,
             Found::Unlimited | Found::NotAtRest | Found::Undecided => false,
         };
+        let known = dry.as_ref().filter(|d| is_known(d));
         Self {
             verdict,
             outcome,
             bound: (outcome == Outcome::Found).then_some([bound.value, bound.bracket.upper]),
-            dry: dry.as_ref().filter(|d| is_known(d)).map(|d| d.value),
+            dry: known.map(|d| d.value),
+            is_complementary: known.is_some_and(|d| d.found != Found::Rests),
             is_unlimited: dry.is_some_and(|d| d.found == Found::Unlimited),
         }
     }

@@ -13,7 +13,7 @@ mod ways;
 pub use answers::Answers;
 pub use scenes::{FAMILIES, scene};
 pub use stranger::{COLUMN, STRANGERS, Stranger, beside, moved, rough};
-pub use ways::Way;
+pub use ways::{SAME_DRY, Way};
 
 use super::soak::FAILED;
 use crate::{
@@ -59,6 +59,8 @@ pub struct Crossed {
     pub lost: Vec<Differs>,
     /// Contradictions.
     pub wrong: Vec<Differs>,
+    /// Two load factors with dry friction that are both proved: how far apart, over the greater.
+    pub several: Vec<f64>,
     /// Simulations, and those that agree.
     pub simulated: [usize; 2],
     /// Simulations that do not.
@@ -96,7 +98,7 @@ impl Crossed {
 /// # Errors
 /// As [`Kept::open`].
 pub fn keep(path: &Path, seed: u64) -> Result<Kept<Crossed>, RowsError> {
-    Kept::open(path, "voussoir-cross/1", json!({ "seed": seed }))
+    Kept::open(path, "voussoir-cross/2", json!({ "seed": seed }))
 }
 
 /// Asks scenes number 0 to `count`, on all threads, but for those that are kept already; each is kept as it ends, where there is a file, and
@@ -123,6 +125,7 @@ pub fn one(seed: u64, index: usize) -> Crossed {
         unions: [0; 2],
         lost: Vec::new(),
         wrong: Vec::new(),
+        several: Vec::new(),
         simulated: [0; 2],
         apart: Vec::new(),
         error: None,
@@ -182,6 +185,8 @@ pub struct Count {
     pub same: usize,
     /// Contradictions and failures.
     pub wrong: usize,
+    /// With two load factors with dry friction, both proved.
+    pub several: usize,
     /// Simulated.
     pub simulated: usize,
     /// Of those, in agreement.
@@ -208,6 +213,7 @@ pub fn count(list: &[Crossed], of: impl Fn(&Crossed) -> bool) -> Count {
         c.lost += s.lost.len();
         (c.unions, c.same) = (c.unions + s.unions[0], c.same + s.unions[1]);
         c.wrong += usize::from(s.is_wrong());
+        c.several += usize::from(!s.several.is_empty());
         (c.simulated, c.agree, c.apart) = (c.simulated + s.simulated[0], c.agree + s.simulated[1], c.apart + s.apart.len());
     }
     c

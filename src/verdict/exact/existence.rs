@@ -68,52 +68,48 @@ impl Column {
     }
 }
 
-/// Whether forces that balance exactly exist near the given ones, in their cones, at load factor `lambda`, each part of the scene by itself.
-/// If so, the sum of the distances of the contact forces from the given ones is at most the number returned, N. Not where joints can crush:
-/// their corners share one bound; nor where the given ones are not [near](tolerance::NEAR_BALANCE).
-pub fn exists(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<f64> {
-    let parts = affordable(assembly, interfaces)?;
-    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda)?;
-    parts.iter().try_fold(0.0, |sum, part| {
-        let near = part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::NEAR_BALANCE);
-        Some(sum + near.then(|| part.exists(assembly, interfaces, &rooms, &mut balance))??)
-    })
+/// Which blocks are held by forces that balance exactly, in their cones and near the given ones, at load factor `lambda`: all of a part or none,
+/// each part by itself, so that what one is too large or too poor for is no matter of another. Supports count as held.
+pub fn covered(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Vec<bool> {
+    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda);
+    let mut covered = vec![true; assembly.blocks.len()];
+    for part in members(assembly, interfaces) {
+        let held = part.has_room(&rooms)
+            && part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::NEAR_BALANCE)
+            && part.exists(assembly, interfaces, &rooms, &mut balance);
+        part.free.iter().for_each(|&i| covered[i] = held);
+    }
+    covered
 }
 
-/// The parts, where none has more than [`MOST_BLOCKS`].
-fn affordable(assembly: &Assembly, interfaces: &Interfaces) -> Option<Vec<Members>> {
-    Some(members(assembly, interfaces)).filter(|parts| parts.iter().all(|part| part.free.len() <= MOST_BLOCKS))
+/// Whether all free blocks are [`covered`].
+pub fn exists(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> bool {
+    covered(assembly, interfaces, forces, lambda).into_iter().all(|held| held)
 }
 
-/// The room of every force, and what all of them leave; `None` where one lies outside its cone, or a joint can crush.
-fn rooms<'a>(assembly: &'a Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<(Vec<Vec<Room>>, Balance<'a>)> {
+/// The room of every force, and what all of them leave; no rooms in a contact where a force lies outside its cone, nor where a joint can crush:
+/// its corners share one bound.
+fn rooms<'a>(assembly: &'a Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> (Vec<Option<Vec<Room>>>, Balance<'a>) {
     let mut balance = Balance::loads(assembly, interfaces, lambda);
-    let mut rooms: Vec<Vec<Room>> = Vec::with_capacity(forces.len());
-    for (face, forces) in interfaces.list.iter().zip(forces) {
-        if face.crushes() {
-            return None;
-        }
+    let rooms = interfaces.list.iter().zip(forces).map(|(face, forces)| {
         let strength = Strength::of(face);
         let list: Vec<Room> = forces.iter().enumerate().map(|(k, f)| room(face, k, f, &strength)).collect();
-        if list.iter().any(|r| r.margin < 0.0) {
-            return None;
-        }
         for ((point, r), f) in face.points.iter().zip(&list).zip(forces) {
             balance.add(face, point, &r.force);
             balance.add_couple(face, &f.moment);
         }
-        rooms.push(list);
-    }
-    Some((rooms, balance))
+        let inside = !face.crushes() && list.iter().all(|r| r.margin >= 0.0);
+        inside.then_some(list)
+    });
+    (rooms.collect(), balance)
 }
 
 /// Forces near the given ones that leave no more than rounding, in their cones; `None` where there is no room for them.
 pub fn improved(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<Forces> {
-    let parts = affordable(assembly, interfaces)?;
-    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda)?;
+    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda);
     let mut improved = forces.clone();
-    for part in parts {
-        if !part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::LOOSE_BALANCE) {
+    for part in members(assembly, interfaces) {
+        if !part.has_room(&rooms) || !part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::LOOSE_BALANCE) {
             return None;
         }
         let columns = part.columns(assembly, interfaces, &rooms);
@@ -133,6 +129,11 @@ pub fn improved(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, l
 }
 
 impl Members {
+    /// Whether a proof can be tried: a part of no more than [`MOST_BLOCKS`] whose joints have [rooms].
+    fn has_room(&self, rooms: &[Option<Vec<Room>>]) -> bool {
+        self.free.len() <= MOST_BLOCKS && self.contacts.iter().all(|&k| rooms[k].is_some())
+    }
+
     /// Whether no block is left with more than `most` of its loads, or of the forces on it: a light block between heavy ones has forces
     /// that no doubles balance any better. Forces far larger than all loads together hold nothing
     /// ([`COARSE_FORCE_CAP`](tolerance::COARSE_FORCE_CAP)): at survey coordinates, without a limit to friction, the rounding of the
@@ -155,25 +156,25 @@ impl Members {
         self.free.iter().all(|i| balance.size(*i) <= most * own(*i).max(greatest.get(i).copied().unwrap_or(0.0)))
     }
 
-    fn exists(&self, assembly: &Assembly, interfaces: &Interfaces, rooms: &[Vec<Room>], balance: &mut Balance) -> Option<f64> {
+    fn exists(&self, assembly: &Assembly, interfaces: &Interfaces, rooms: &[Option<Vec<Room>>], balance: &mut Balance) -> bool {
         let is_zero = |i: &usize| balance.left(*i).iter().all(|c| c.lower == 0.0 && c.upper == 0.0);
         if self.free.iter().all(is_zero) {
-            return Some(0.0);
+            return true;
         }
         let columns = self.columns(assembly, interfaces, rooms);
-        POWERS.into_iter().find_map(|power| {
+        POWERS.into_iter().any(|power| {
             let mut balance = balance.clone();
-            Stiffness::new(&columns, self.free.len(), power)?.covers(&columns, interfaces, &mut balance, self)
+            Stiffness::new(&columns, self.free.len(), power).is_some_and(|mut s| s.covers(&columns, interfaces, &mut balance, self))
         })
     }
 
     /// The forces that have room.
-    fn columns(&self, assembly: &Assembly, interfaces: &Interfaces, rooms: &[Vec<Room>]) -> Vec<Column> {
+    fn columns(&self, assembly: &Assembly, interfaces: &Interfaces, rooms: &[Option<Vec<Room>>]) -> Vec<Column> {
         let row_of: HashMap<usize, usize> = self.free.iter().enumerate().map(|(row, &i)| (i, row)).collect();
         let mut list = Vec::new();
         for &k in &self.contacts {
             let face = &interfaces.list[k];
-            for (p, (point, r)) in face.points.iter().zip(&rooms[k]).enumerate().filter(|(_, (_, r))| r.margin > 0.0) {
+            for (p, (point, r)) in face.points.iter().zip(rooms[k].iter().flatten()).enumerate().filter(|(_, (_, r))| r.margin > 0.0) {
                 let blocks = [face.a, face.b].map(|i| Some((*row_of.get(&i)?, point - assembly.blocks[i].centroid)));
                 list.push(Column { interface: k, point: p, blocks, room: r.margin, direction: r.direction });
             }
@@ -234,41 +235,40 @@ impl Stiffness {
         factors.factorize(&values).then_some(Self { scale, weights, factors, least: 3.0 * rounding })
     }
 
-    /// Corrects what is left, and says by how much all forces change together where the change and the bound on the rest stay inside the
-    /// room of each.
-    fn covers(&mut self, columns: &[Column], interfaces: &Interfaces, balance: &mut Balance, part: &Members) -> Option<f64> {
+    /// Corrects what is left, and says whether the change of each force and the bound on the rest stay inside its room.
+    fn covers(&mut self, columns: &[Column], interfaces: &Interfaces, balance: &mut Balance, part: &Members) -> bool {
         let mut sizes = vec![0.0_f64; columns.len()];
         for round in 0..=ROUNDS {
             let left: Vec<[f64; 6]> = part.free.iter().map(|&i| balance.left(i).map(|c| c.magnitude())).collect();
             let scaled = |row: usize| Vector6::from_fn(|k, _| left[row][k] * self.scale[row][k]);
             let size = (0..left.len()).map(|row| scaled(row).norm_squared()).sum::<f64>().sqrt() * ENLARGED;
             let by = size / (self.least * REDUCED) * ENLARGED;
-            let changes = columns.iter().zip(&self.weights).zip(&sizes).map(|((c, weight), used)| {
+            let fits = columns.iter().zip(&self.weights).zip(&sizes).all(|((c, weight), used)| {
                 let reach: f64 = [0, 1].iter().filter_map(|&side| c.part(side)).map(|(row, b)| self.scaled(row, &b).norm_squared()).sum();
                 let length = c.direction.map_or(1.0, |n| n.norm_squared());
-                let change = used + weight * reach.sqrt() * length * by * ENLARGED;
-                (change <= c.room).then_some(change)
+                used + weight * reach.sqrt() * length * by * ENLARGED <= c.room
             });
-            if let Some(all) = changes.sum::<Option<f64>>() {
-                return Some(all * ENLARGED);
+            if fits {
+                return true;
             }
             if round == ROUNDS || !size.is_finite() {
                 break;
             }
-            for (at, (column, change)) in columns.iter().zip(self.changes(columns, balance, part)?).enumerate() {
+            let Some(changes) = self.changes(columns, balance, part) else { break };
+            for (at, (column, change)) in columns.iter().zip(changes).enumerate() {
                 let force: Pair = match column.direction {
                     Some(n) => multiple(n.dot(&change) / n.norm_squared(), &n),
                     None => exactly(&change),
                 };
                 sizes[at] += change.norm() * ENLARGED;
                 if sizes[at] > USED * column.room {
-                    return None;
+                    return false;
                 }
                 let face = &interfaces.list[column.interface];
                 balance.add(face, &face.points[column.point], &force);
             }
         }
-        None
+        false
     }
 
     /// `−D_i B_iᵀ S⁻¹ r`, computed in doubles; `None` where they are not finite.
