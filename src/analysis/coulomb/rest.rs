@@ -22,6 +22,10 @@ use std::time::Instant;
 
 /// Where the state is asked on the way to a value, in shares of it. Fewer: what comes loose on the way and wedges again is not seen.
 const ON_THE_WAY: [f64; 3] = [0.25, 0.5, 0.75];
+/// The same for scenes of no more than [`FEW`] free blocks in which something slides: there the law may have both rest and motion for an answer over
+/// a whole range of load factors, and a motion anywhere in it refutes all values above.
+const ON_THE_WAY_OF_FEW: [f64; 11] = [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85, 0.95, 0.99];
+const FEW: usize = 100;
 /// The same for scenes of more than [`MANY`] free blocks, a state of which takes seconds.
 const ON_THE_WAY_OF_MANY: [f64; 1] = [0.5];
 const MANY: usize = 300;
@@ -33,13 +37,13 @@ const BELOW: [f64; 4] = [tolerance::REST_BELOW, 1e-2, 0.05, 0.2];
 /// Without an end to the load factor: where the state is asked, in multiples of the one at which live and dead load weigh the same.
 const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
 
-/// Most states asked while halving. Fewer: the value is known to fewer digits than [`tolerance::DRY_CRITICAL_WIDTH`].
+/// Most states asked while halving. Fewer: the value is known to fewer digits than [`tolerance::REST_WIDTH`].
 const MOST: usize = 40;
 /// The same for more than [`MANY`] free blocks.
 const MOST_OF_MANY: usize = 8;
 
-/// Most states that stay undecided while halving, where none was seen to move: without one there is no value, only how far it was seen at rest. More:
-/// minutes, for these states take longest. Fewer: it is seen at rest less far.
+/// Most states that stay undecided where none was seen to move: without one there is no value, only how far it was seen at rest. More: minutes, for
+/// these states take longest. Fewer: it is seen at rest less far.
 const MOST_OPEN: usize = 4;
 
 /// The assembly with its live load, times `lambda`, added to its dead load.
@@ -53,7 +57,7 @@ pub fn loaded(assembly: &Assembly, lambda: f64) -> Assembly {
 
 /// How near above a load factor up to which the state rests it does so no longer, at most, in shares of one at which it moves.
 pub fn resolution(assembly: &Assembly) -> f64 {
-    if assembly.free().count() > MANY { 1.0 / 64.0 } else { 4.0 * tolerance::DRY_CRITICAL_WIDTH }
+    if assembly.free().count() > MANY { 1.0 / 64.0 } else { 4.0 * tolerance::REST_WIDTH }
 }
 
 /// Whether a state seen at rest at `rests_at` is one just below `value`.
@@ -66,9 +70,8 @@ struct Probe<'a> {
     at: &'a dyn Fn(f64) -> (Assembly, Interfaces),
     control: &'a Control,
     start: Instant,
-    /// The last state that rested, and the last that moved, with their load factors.
-    rests: Option<(f64, State)>,
-    moves: Option<(f64, State)>,
+    /// All that came out, with their load factors.
+    seen: Vec<(f64, State)>,
 }
 
 impl Probe<'_> {
@@ -81,40 +84,59 @@ impl Probe<'_> {
         let (assembly, interfaces) = (self.at)(lambda);
         let state = state(&assembly, &interfaces, &Control { seconds, ..*self.control });
         let motion = state.motion;
-        match motion {
-            Motion::Rests => self.rests = Some((lambda, state)),
-            Motion::Moves => self.moves = Some((lambda, state)),
-            Motion::Undecided => {}
-        }
+        self.seen.push((lambda, state));
         Some(motion)
     }
 
-    /// Asks at each of these in turn, and stops at the first that moves; the greatest that rested stays.
+    /// The states that do this, with their load factors.
+    fn seen_to(&self, motion: Motion) -> impl Iterator<Item = &(f64, State)> {
+        self.seen.iter().filter(move |(_, state)| state.motion == motion)
+    }
+
+    /// The least load factor at which it moves.
+    fn moves(&self) -> Option<&(f64, State)> {
+        self.seen_to(Motion::Moves).min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// The greatest load factor at which it rests. What rests above one at which it moves does not count.
+    fn rests(&self) -> Option<&(f64, State)> {
+        let moves = self.moves().map_or(f64::INFINITY, |m| m.0);
+        self.seen_to(Motion::Rests).filter(|(lambda, _)| *lambda < moves).max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// The same, or the dead load, at which it is known to rest.
+    fn rests_at(&self) -> f64 {
+        self.rests().map_or(0.0, |r| r.0)
+    }
+
+    /// Whether nothing more is to be had.
+    fn is_hopeless(&self) -> bool {
+        self.seen_to(Motion::Moves).next().is_none() && self.seen_to(Motion::Undecided).count() >= MOST_OPEN
+    }
+
+    /// Asks at each of these in turn, and stops at the first that moves.
     fn climb(&mut self, lambdas: impl Iterator<Item = f64>) {
         for lambda in lambdas {
-            if !matches!(self.ask(lambda), Some(Motion::Rests | Motion::Undecided)) {
+            if self.is_hopeless() || !matches!(self.ask(lambda), Some(Motion::Rests | Motion::Undecided)) {
                 break;
             }
         }
     }
 
-    /// Narrows what lies between rest and the rest by halving; false where the time is over before.
-    fn halve(&mut self, rests: &mut f64, mut above: f64, most: usize) -> bool {
-        let mut open = 0;
+    /// Narrows what lies between rest and the rest by halving; false where the time is over before. Without a state that moves there is no value, and
+    /// no more digits are sought than a value may be off.
+    fn halve(&mut self, above: f64, most: usize) -> bool {
+        let rests = self.rests_at();
+        let mut above = self.seen_to(Motion::Undecided).map(|s| s.0).filter(|open| *open > rests).fold(above, f64::min);
         for _ in 0..most {
-            if self.moves.is_none() && open == MOST_OPEN {
+            let (width, rests) = (if self.moves().is_some() { tolerance::REST_WIDTH } else { tolerance::REST_BELOW }, self.rests_at());
+            if self.is_hopeless() || above - rests <= width * above.abs() {
                 break;
             }
-            if above - *rests <= tolerance::DRY_CRITICAL_WIDTH * above.abs() {
-                break;
-            }
-            let middle = 0.5 * (*rests + above);
+            let middle = 0.5 * (rests + above);
             match self.ask(middle) {
-                Some(Motion::Rests) => *rests = middle,
-                Some(motion) => {
-                    open += usize::from(motion == Motion::Undecided);
-                    above = middle;
-                }
+                Some(Motion::Rests) => {}
+                Some(_) => above = middle,
                 None => return false,
             }
         }
@@ -145,7 +167,7 @@ pub(in crate::analysis) fn up_to_rest(
     if negative {
         return answer;
     }
-    let mut probe = Probe { at, control, start: Instant::now(), rests: None, moves: None };
+    let mut probe = Probe { at, control, start: Instant::now(), seen: Vec::new() };
     let rests = match dead {
         Some(Verdict::Stable) => Some(Motion::Rests),
         Some(Verdict::Conditional | Verdict::Unstable) => Some(Motion::Moves),
@@ -166,20 +188,23 @@ pub(in crate::analysis) fn up_to_rest(
 
 /// From the dead load, at which the state rests, upwards.
 fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor, level: &Assembly) {
-    let many = level.free().count() > MANY;
-    let most = if many { MOST_OF_MANY } else { MOST };
-    let on_the_way = if many { &ON_THE_WAY_OF_MANY[..] } else { &ON_THE_WAY[..] };
+    let blocks = level.free().count();
+    let (most, on_the_way) = match blocks {
+        _ if blocks > MANY => (MOST_OF_MANY, &ON_THE_WAY_OF_MANY[..]),
+        _ if blocks > FEW || answer.found == Found::NothingSlides => (MOST, &ON_THE_WAY[..]),
+        _ => (MOST, &ON_THE_WAY_OF_FEW[..]),
+    };
     // A value, or where none was found the bound above all values.
     let goal = [answer.value, associative.value].into_iter().find(|v| v.is_finite());
     match goal {
         Some(goal) => {
             probe.climb(on_the_way.iter().map(|share| share * goal));
-            let halfway = probe.rests.as_ref().map_or(0.0, |r| r.0);
+            let halfway = probe.rests_at();
             // Without a value, what does not come out far below the bound does not next to it.
-            let hopeless = answer.value.is_nan() && halfway < on_the_way[on_the_way.len() - 1] * goal;
+            let hopeless = answer.value.is_nan() && halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal;
             for share in BELOW.into_iter().filter(|_| !hopeless) {
                 let lambda = (1.0 - share) * goal;
-                if probe.moves.is_some() || lambda <= halfway || probe.ask(lambda) != Some(Motion::Undecided) {
+                if probe.moves().is_some() || lambda <= halfway || probe.is_hopeless() || probe.ask(lambda) != Some(Motion::Undecided) {
                     break;
                 }
             }
@@ -189,25 +214,28 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
             probe.climb(WITHOUT_END.iter().map(|multiple| multiple * natural));
         }
     }
-    let mut rests_at = probe.rests.as_ref().map_or(0.0, |r| r.0);
-    // What was at rest above a load factor at which it moves does not count.
-    if let Some((moves, _)) = &probe.moves {
-        rests_at = if rests_at < *moves { rests_at } else { 0.0 };
-    }
-    let above = probe.moves.as_ref().map(|m| m.0);
     // Where nothing else is known, the bracket from below is what there is to say.
-    let above = above.or(goal.filter(|_| answer.value.is_nan()));
-    let narrow = above.filter(|above| *above > rests_at).is_none_or(|above| probe.halve(&mut rests_at, above, most));
-    answer.rests_at = rests_at;
-    let Some((moves_at, moving)) = &probe.moves else { return };
+    let above = probe.moves().map(|m| m.0).or(goal.filter(|_| answer.value.is_nan()));
+    let mut narrow = above.is_none_or(|above| probe.halve(above, most));
+    // On the way to what came out of halving it is asked once more, until no motion refutes it.
+    while let Some(moves) = probe.moves().map(|m| m.0).filter(|_| narrow && on_the_way.len() == ON_THE_WAY_OF_FEW.len()) {
+        let value = probe.rests_at();
+        probe.climb(on_the_way.iter().map(|share| share * value));
+        match probe.moves() {
+            Some((lower, _)) if *lower < moves => narrow = probe.halve(*lower, most),
+            _ => break,
+        }
+    }
+    answer.rests_at = probe.rests_at();
+    let Some((moves_at, moving)) = probe.moves() else { return };
     answer.moves_at = *moves_at;
     if !narrow {
         (answer.found, answer.value) = (Found::Undecided, f64::NAN);
         return;
     }
-    (answer.found, answer.value) = (Found::Rests, rests_at);
+    (answer.found, answer.value) = (Found::Rests, answer.rests_at);
     // The evidence is that of the states on both sides.
-    if let Some((_, state)) = &probe.rests {
+    if let Some((_, state)) = probe.rests() {
         answer.forces.clone_from(&state.forces);
     }
     let (assembly, interfaces) = (probe.at)(*moves_at);

@@ -99,7 +99,8 @@ fn sums(c: &Count) -> Vec<String> {
     ];
     if c.several > 0 {
         let s = if c.several == 1 { "" } else { "s" };
-        lines.push(format!("{} scene{s} with two load factors with dry friction, both proved, more than {SAME_DRY} apart", c.several));
+        let by = format!("more than {SAME_DRY} apart (rest and motion may both obey the law)");
+        lines.push(format!("{} scene{s} with another load factor with dry friction at the coordinates of a survey, {by}", c.several));
     }
     if c.simulated > 0 {
         let open = c.simulated - c.agree - c.apart;

@@ -2,8 +2,9 @@
 //!
 //! There is no closed form for these scenes, but there is for what happens to their answers: a stranger beside a scene changes nothing
 //! (`stranger`), nor does the place where the scene stands; up to the load factor with dry friction it stands, beyond the bound it falls;
-//! and more of the same load does not raise again what it has brought down. Only answers whose proofs hold from the scene alone count, so that
-//! each contradiction is a proof of something false.
+//! and more of the same load does not raise again what it has brought down. Only answers whose proofs hold from the scene alone count; what is
+//! computed, not proved, is that the state rests up to a load factor with dry friction. Where that differs at other coordinates alone, it is
+//! counted apart.
 
 mod answers;
 mod scenes;
@@ -59,7 +60,7 @@ pub struct Crossed {
     pub lost: Vec<Differs>,
     /// Contradictions.
     pub wrong: Vec<Differs>,
-    /// Two load factors with dry friction that are both proved: how far apart, over the greater.
+    /// Two load factors with dry friction, here and at the coordinates of a survey: how far apart, over the greater.
     pub several: Vec<f64>,
     /// Simulations, and those that agree.
     pub simulated: [usize; 2],
@@ -185,7 +186,7 @@ pub struct Count {
     pub same: usize,
     /// Contradictions and failures.
     pub wrong: usize,
-    /// With two load factors with dry friction, both proved.
+    /// With two load factors with dry friction, here and at the coordinates of a survey.
     pub several: usize,
     /// Simulated.
     pub simulated: usize,

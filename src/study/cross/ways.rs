@@ -208,13 +208,11 @@ impl Asked<'_> {
             _ => {}
         };
         near("bound", own.bound.map(|b| b[0]), said.bound.map(|b| b[0]), same_bound);
-        // Coulomb's law may hold at several load factors, each with a mechanism of its own. Two that are proved are no contradiction; from
-        // other digits of the coordinates the search may come upon another. A stranger changes no digit.
+        // Coulomb's law may hold at several load factors, and rest and motion both obey it over whole ranges: from other digits of the coordinates
+        // the search may come upon another. That is counted, but is no contradiction. A stranger changes no digit.
         let apart = |(a, b): (f64, f64)| (a - b).abs() / a.abs().max(b.abs());
         match own.dry.zip(said.dry).map(apart) {
-            Some(by) if by > SAME_DRY && own.is_complementary && said.is_complementary && matches!(way, Way::Surveyed { .. }) => {
-                self.crossed.several.push(by);
-            }
+            Some(by) if by > SAME_DRY && matches!(way, Way::Surveyed { .. }) => self.crossed.several.push(by),
             _ => near("dry load factor", own.dry, said.dry, SAME_DRY),
         }
     }
