@@ -14,6 +14,7 @@ use crate::{
     analysis::{Control, LoadFactor, Outcome},
     assembly::Assembly,
     interface::Interfaces,
+    parallel,
     program::is_forest,
     tolerance,
     verdict::{Verdict, check, law},
@@ -46,6 +47,9 @@ const MOST_OF_MANY: usize = 8;
 /// these states take longest. Fewer: it is seen at rest less far.
 const MOST_OPEN: usize = 4;
 
+/// So many states on the way are asked at a time. More: those above one that moves are asked in vain. Fewer: threads wait.
+const AT_A_TIME: usize = 4;
+
 /// The assembly with its live load, times `lambda`, added to its dead load.
 pub fn loaded(assembly: &Assembly, lambda: f64) -> Assembly {
     let mut loaded = assembly.clone();
@@ -67,7 +71,7 @@ pub fn is_reached(rests_at: f64, value: f64) -> bool {
 
 /// States asked of a scene under load factors.
 struct Probe<'a> {
-    at: &'a dyn Fn(f64) -> (Assembly, Interfaces),
+    at: &'a (dyn Fn(f64) -> (Assembly, Interfaces) + Sync),
     control: &'a Control,
     start: Instant,
     /// All that came out, with their load factors.
@@ -75,17 +79,20 @@ struct Probe<'a> {
 }
 
 impl Probe<'_> {
-    /// What the state does at a load factor; nothing where the time is over.
-    fn ask(&mut self, lambda: f64) -> Option<Motion> {
+    /// The state at a load factor; nothing where the time is over.
+    fn state(&self, lambda: f64) -> Option<(f64, State)> {
         let seconds = self.control.seconds - self.start.elapsed().as_secs_f64();
         if seconds <= 0.0 {
             return None;
         }
         let (assembly, interfaces) = (self.at)(lambda);
-        let state = state(&assembly, &interfaces, &Control { seconds, ..*self.control });
-        let motion = state.motion;
-        self.seen.push((lambda, state));
-        Some(motion)
+        Some((lambda, state(&assembly, &interfaces, &Control { seconds, ..*self.control })))
+    }
+
+    /// What the state does at a load factor; nothing where the time is over.
+    fn ask(&mut self, lambda: f64) -> Option<Motion> {
+        self.seen.push(self.state(lambda)?);
+        self.seen.last().map(|(_, state)| state.motion)
     }
 
     /// The states that do this, with their load factors.
@@ -114,10 +121,13 @@ impl Probe<'_> {
         self.seen_to(Motion::Moves).next().is_none() && self.seen_to(Motion::Undecided).count() >= MOST_OPEN
     }
 
-    /// Asks at each of these in turn, and stops at the first that moves.
-    fn climb(&mut self, lambdas: impl Iterator<Item = f64>) {
-        for lambda in lambdas {
-            if self.is_hopeless() || !matches!(self.ask(lambda), Some(Motion::Rests | Motion::Undecided)) {
+    /// Asks at these shares of a load factor, some at a time on all threads, until one moves or nothing more is to be had.
+    fn climb(&mut self, shares: &[f64], of: f64) {
+        for some in shares.chunks(AT_A_TIME) {
+            let one = |share: &f64| self.state(share * of);
+            let states = parallel::map(0, some, one).unwrap_or_else(|_| some.iter().map(one).collect());
+            self.seen.extend(states.into_iter().flatten());
+            if self.moves().is_some_and(|m| m.0 <= of) || self.is_hopeless() {
                 break;
             }
         }
@@ -150,7 +160,7 @@ pub(in crate::analysis) fn up_to_rest(
     mut answer: DryLoadFactor,
     associative: &LoadFactor,
     dead: Option<Verdict>,
-    at: &dyn Fn(f64) -> (Assembly, Interfaces),
+    at: &(dyn Fn(f64) -> (Assembly, Interfaces) + Sync),
     control: &Control,
 ) -> DryLoadFactor {
     let (level, joints) = at(0.0);
@@ -198,7 +208,7 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
     let goal = [answer.value, associative.value].into_iter().find(|v| v.is_finite());
     match goal {
         Some(goal) => {
-            probe.climb(on_the_way.iter().map(|share| share * goal));
+            probe.climb(on_the_way, goal);
             let halfway = probe.rests_at();
             // Without a value, what does not come out far below the bound does not next to it.
             let hopeless = answer.value.is_nan() && halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal;
@@ -211,7 +221,7 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
         }
         None => {
             let natural = check::natural_factor(level);
-            probe.climb(WITHOUT_END.iter().map(|multiple| multiple * natural));
+            probe.climb(&WITHOUT_END, natural);
         }
     }
     // Where nothing else is known, the bracket from below is what there is to say.
@@ -220,7 +230,7 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
     // On the way to what came out of halving it is asked once more, until no motion refutes it.
     while let Some(moves) = probe.moves().map(|m| m.0).filter(|_| narrow && on_the_way.len() == ON_THE_WAY_OF_FEW.len()) {
         let value = probe.rests_at();
-        probe.climb(on_the_way.iter().map(|share| share * value));
+        probe.climb(on_the_way, value);
         match probe.moves() {
             Some((lower, _)) if *lower < moves => narrow = probe.halve(*lower, most),
             _ => break,
