@@ -12,6 +12,7 @@ use super::{
 };
 use crate::{
     assembly::Assembly,
+    error::{InputError, JsonPath},
     interface::Interfaces,
     program::{self, Options, Statics, Unknowns},
     tolerance,
@@ -56,11 +57,47 @@ const LADDER: [Rung; 5] = [
     rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
 ];
 
+/// Where a thrust is asked for: on this support, or the first that touches a free block; in the part of this direction across gravity, or outwards.
+///
+/// # Errors
+/// There is no such support, it touches no free block, or no direction follows.
+pub fn place(model: &Model, support: Option<&str>, direction: Option<[f64; 3]>) -> Result<ThrustAt, InputError> {
+    let error = |text: String| InputError::at(JsonPath::root(), text);
+    let blocks = &model.assembly.blocks;
+    let supports = || blocks.iter().filter(|b| b.support).map(|b| b.id.as_str()).take(8).collect::<Vec<_>>().join(", ");
+    let support = match support {
+        Some(id) => match model.assembly.find(id) {
+            Some(index) if blocks[index].support => index,
+            Some(_) => return Err(error(format!("support {id}: this block is free")).hint(format!("supports are {}", supports()))),
+            None => return Err(error(format!("support {id}: there is no such block")).hint(format!("supports are {}", supports()))),
+        },
+        None => first_support(model).ok_or_else(|| error("no support touches a free block: there is no thrust".into()))?,
+    };
+    let id = &blocks[support].id;
+    if !touches(model, support) {
+        let text = format!("support {id} touches no free block: there is no thrust on it");
+        return Err(error(text).hint("`voussoir check` lists near misses"));
+    }
+    let direction = match direction {
+        Some(d) => level(&model.assembly.gravity, d.into(), Vector3::from(d).norm())
+            .ok_or_else(|| error(format!("direction {d:?} is parallel to gravity")).hint("give one across gravity, such as 1,0,0"))?,
+        None => outwards(model, support).ok_or_else(|| {
+            error(format!("support {id} lies straight below the blocks: no direction is outwards")).hint("give a direction, such as 1,0,0")
+        })?,
+    };
+    Ok(ThrustAt { support, direction: direction.into() })
+}
+
+/// Whether a support touches a free block.
+fn touches(model: &Model, support: usize) -> bool {
+    let free = |i: usize| !model.assembly.blocks[i].support;
+    model.interfaces.list.iter().any(|f| (f.a == support && free(f.b)) || (f.b == support && free(f.a)))
+}
+
 /// The support that is asked about where none is named: the first that touches a free block.
 pub fn first_support(model: &Model) -> Option<usize> {
     let blocks = &model.assembly.blocks;
-    let touches = |s: usize| model.interfaces.list.iter().any(|f| (f.a == s && !blocks[f.b].support) || (f.b == s && !blocks[f.a].support));
-    (0..blocks.len()).find(|&s| blocks[s].support && touches(s))
+    (0..blocks.len()).find(|&s| blocks[s].support && touches(model, s))
 }
 
 /// The horizontal direction from the free blocks' centre of mass to where a support touches them: outwards. `None` where it is straight

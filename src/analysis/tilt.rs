@@ -15,7 +15,7 @@ use super::{
     parts::limit::Ways,
 };
 use crate::{
-    assembly::{Assembly, Wrench},
+    assembly::{AppliedForce, Assembly, Wrench},
     error::InputError,
     interface::{Interfaces, Part},
     tolerance,
@@ -75,8 +75,10 @@ pub fn turned(assembly: &Assembly, toward: Vector3<f64>) -> Result<(Assembly, Ve
         }
         turned.live[i] = Wrench { force: d * along, moment: Vector3::zeros() };
     }
-    for applied in &assembly.dead_forces {
-        turned.live[applied.block].moment += applied.arm.cross(&(d * down.dot(&applied.force)));
+    let level = |applied: &AppliedForce| AppliedForce { force: d * down.dot(&applied.force), ..*applied };
+    turned.live_forces = assembly.dead_forces.iter().map(level).collect();
+    for applied in &turned.live_forces {
+        turned.live[applied.block].moment += applied.arm.cross(&applied.force);
     }
     Ok((turned, d))
 }
@@ -173,8 +175,8 @@ pub fn dry(
         };
         let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
         let model =
-            |lambda: f64| (coulomb::loaded(&part.assembly, lambda), tilted_joints(part, part.units.load_factor(lambda)).into_owned());
-        coulomb::up_to_rest(answer, bound, dead, &model, &control)
+            |lambda: f64| (part.assembly.at_load_factor(lambda), tilted_joints(part, part.units.load_factor(lambda)).into_owned());
+        coulomb::up_to_rest(answer, &part.assembly, bound, dead, &model, &control)
     };
     parts::dry::load_factor_by(turned, interfaces, associative, control, (solve, tilted_joints))
 }

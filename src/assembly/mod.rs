@@ -35,6 +35,8 @@ pub struct Assembly {
     pub live: Vec<Wrench>,
     /// The dead forces that act off the centre of mass; contained in `dead`. Their heights matter when gravity turns.
     pub dead_forces: Vec<AppliedForce>,
+    /// The live forces that act off the centre of mass; contained in `live`.
+    pub live_forces: Vec<AppliedForce>,
     /// Interfaces given by hand.
     pub given: Vec<GivenInterface>,
     /// Contact tolerances.
@@ -162,6 +164,18 @@ pub struct GivenInterface {
 }
 
 impl Assembly {
+    /// The assembly with `lambda` times its live load among its dead loads, and no live load.
+    pub fn at_load_factor(&self, lambda: f64) -> Self {
+        let mut loaded = self.clone();
+        for (dead, live) in loaded.dead.iter_mut().zip(&mut loaded.live) {
+            *dead += *live * lambda;
+            *live = Wrench::zero();
+        }
+        let forces = std::mem::take(&mut loaded.live_forces).into_iter().map(|f| AppliedForce { force: f.force * lambda, ..f });
+        loaded.dead_forces.extend(forces.filter(|f| f.force != Vector3::zeros()));
+        loaded
+    }
+
     /// Indices of the free blocks.
     pub fn free(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.blocks.len()).filter(|&i| !self.blocks[i].support)

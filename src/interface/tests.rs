@@ -133,6 +133,7 @@ fn assembly(shapes: &[Shape]) -> Assembly {
         joints: JointRules { default: rule, by_material: Vec::new(), by_blocks: HashMap::new() },
         dead: none.clone(),
         dead_forces: Vec::new(),
+        live_forces: Vec::new(),
         live: none,
         given: Vec::new(),
         contact: ContactSpec::default(),

@@ -6,7 +6,6 @@ use crate::{
         Control, Law, LoadFactor, Model, assess, coulomb,
         limit::{self, Way},
     },
-    assembly::Assembly,
     dynamics::{self, Fate, Fidelity},
     program::{Options, Pyramid, Statics, Unknowns},
     solve::Settings,
@@ -188,7 +187,7 @@ fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Got {
     let mut low = 0.0;
     for _ in 0..SIMULATIONS {
         let middle = 0.5 * (low + high);
-        match dynamics::simulate(&loaded(model, middle), &model.interfaces, &settings, &mut |_| std::ops::ControlFlow::Continue(()))
+        match dynamics::simulate(&model.assembly.at_load_factor(middle), &model.interfaces, &settings, &mut |_| std::ops::ControlFlow::Continue(()))
             .map(|outcome| outcome.fate)
         {
             Ok(Fate::Stands) => low = middle,
@@ -199,21 +198,12 @@ fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Got {
     Got { value: Some(0.5 * (low + high)), bracket: Some(high - low), ..Got::default() }
 }
 
-/// The assembly with a multiple of the live load added to the dead load.
-fn loaded(model: &Model, factor: f64) -> Assembly {
-    let mut loaded = model.assembly.clone();
-    for (dead, live) in loaded.dead.iter_mut().zip(&model.assembly.live) {
-        *dead += *live * factor;
-    }
-    loaded
-}
-
 /// Halving between 0 and `high` by verdicts about the scene under its dead load and that multiple of the live load.
 fn bisection(model: &Model, verdicts: usize, mut high: f64) -> Got {
     let (mut low, mut iterations) = (0.0, 0);
     for _ in 0..verdicts {
         let middle = 0.5 * (low + high);
-        let answer = assess(&loaded(model, middle), &model.interfaces, &Control { law: Law::Associative, ..Control::default() });
+        let answer = assess(&model.assembly.at_load_factor(middle), &model.interfaces, &Control { law: Law::Associative, ..Control::default() });
         iterations += answer.attempts.iter().map(|a| a.iterations).sum::<usize>();
         match answer.verdict {
             Verdict::Stable | Verdict::Conditional => low = middle,

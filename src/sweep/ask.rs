@@ -5,7 +5,7 @@ use crate::{
     analysis::{
         Control, Law, LoadFactor, Model, Outcome, assess,
         coulomb::{self, DryLoadFactor, Found},
-        limit, stability,
+        limit, prepare, stability,
         stability::held,
         thrust, tilt,
         tilt::{directions, tilted},
@@ -17,7 +17,7 @@ use crate::{
     verdict::{
         Verdict,
         check::{Claim, verify},
-        thrust::{Extreme, ThrustAt},
+        thrust::Extreme,
     },
 };
 
@@ -35,7 +35,7 @@ pub fn ask(question: &Question, scene: &Scene, model: &Model) -> Result<Answer, 
         Question::Tilt(options) => least_tilt(options, model),
         Question::Thrust(options) => thrust_on(options, model),
         Question::Repose(options) => repose(options, scene, model),
-        Question::Simulate(options) => simulated(options, model),
+        Question::Simulate(options) => simulated(options, scene, model),
     }
 }
 
@@ -150,19 +150,7 @@ fn height(answer: &Answer) -> f64 {
 
 /// Least or greatest thrust on a support, proved on both sides.
 fn thrust_on(options: &ThrustOptions, model: &Model) -> Result<Answer, InputError> {
-    let error = |text: &str, hint: &str| InputError::at(JsonPath::root().key("blocks"), text).hint(hint);
-    let support = match &options.support {
-        Some(id) => model.assembly.find(id).filter(|&i| model.assembly.blocks[i].support),
-        None => thrust::first_support(model),
-    };
-    let support = support.ok_or_else(|| error("there is no such support, or none touches a free block", "name a support of the scene"))?;
-    let direction = match options.direction {
-        Some(d) => thrust::level(&model.assembly.gravity, d.into(), nalgebra::Vector3::from(d).norm()),
-        None => thrust::outwards(model, support),
-    };
-    let direction =
-        direction.ok_or_else(|| error("no direction across gravity is outwards for this support", "give \"direction\": [1, 0, 0]"))?;
-    let at = ThrustAt { support, direction: direction.into() };
+    let at = thrust::place(model, options.support.as_deref(), options.direction)?;
     let control = control(options.law);
     let standing = assess(&model.assembly, &model.interfaces, &control);
     if !matches!(standing.verdict, Verdict::Stable | Verdict::Conditional) {
@@ -212,13 +200,14 @@ fn repose(options: &ReposeOptions, scene: &Scene, model: &Model) -> Result<Answe
 }
 
 /// What happens in time; always on one thread, the rows are what runs side by side.
-fn simulated(options: &SimulateOptions, model: &Model) -> Result<Answer, InputError> {
-    let mut loaded = model.assembly.clone();
-    for (dead, live) in loaded.dead.iter_mut().zip(&model.assembly.live) {
-        *dead += *live * options.load_factor.unwrap_or(0.0);
-    }
+fn simulated(options: &SimulateOptions, scene: &Scene, model: &Model) -> Result<Answer, InputError> {
+    // As the verb does it: in the scene, whose live loads may act off the centre of mass and turn with their blocks.
+    let loaded = match options.load_factor {
+        Some(factor) if factor != 0.0 => &prepare(&Scene { loads: scene.loads.fixed(factor), ..scene.clone() })?,
+        _ => model,
+    };
     let settings = dynamics::Settings { fidelity: options.fast.then_some(Fidelity::Fast), ..dynamics::Settings::default() };
-    let outcome = dynamics::simulate(&loaded, &model.interfaces, &settings, &mut |_| std::ops::ControlFlow::Continue(()))?;
+    let outcome = dynamics::simulate(&loaded.assembly, &loaded.interfaces, &settings, &mut |_| std::ops::ControlFlow::Continue(()))?;
     Ok(Answer::of(match outcome.fate {
         Fate::Stands => Status::Stable,
         Fate::Falls => Status::Unstable,

@@ -199,10 +199,21 @@ fn fits(pointer: &Pointer, axis: &Axis, scene: &Value) -> Result<(), InputError>
     Ok(())
 }
 
+/// What the command line refuses as an argument.
 fn question(question: &Question, path: &JsonPath) -> Result<(), InputError> {
-    let Question::Tilt(tilt) = question else { return Ok(()) };
-    let path = path.key("tilt");
-    match (tilt.all, tilt.toward.is_empty()) {
+    let (path, toward, all) = match question {
+        Question::Tilt(tilt) => (path.key("tilt"), &tilt.toward, tilt.all),
+        Question::Repose(repose) => {
+            let path = path.key("repose");
+            let share = repose.moving_mass;
+            if !(0.0..=1.0).contains(&share) {
+                return Err(InputError::at(path.key("moving_mass"), format!("must be a share from 0 to 1, got {share}")));
+            }
+            (path, &repose.toward, repose.all)
+        }
+        Question::Assess(_) | Question::Limit(_) | Question::Thrust(_) | Question::Simulate(_) => return Ok(()),
+    };
+    match (all, toward.is_empty()) {
         (Some(_), false) => Err(InputError::at(path.key("all"), "\"toward\" and \"all\" are both given").hint("keep one of them")),
         (Some(n), true) if !(1..=3600).contains(&n) => Err(InputError::at(path.key("all"), format!("must be from 1 to 3600, got {n}"))),
         _ => Ok(()),

@@ -11,7 +11,7 @@
 use super::{
     fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
     law::Law,
-    rest::{loaded, up_to_rest},
+    rest::up_to_rest,
     state::{Motion, state},
 };
 use crate::{
@@ -105,7 +105,7 @@ pub(in crate::analysis) fn of_part(
     let start = Instant::now();
     let answer = complementary(assembly, interfaces, associative, control);
     let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-    up_to_rest(answer, associative, dead, &|lambda| (loaded(assembly, lambda), interfaces.clone()), &control)
+    up_to_rest(answer, assembly, associative, dead, &|lambda| (assembly.at_load_factor(lambda), interfaces.clone()), &control)
 }
 
 /// Forces and a mechanism that obey Coulomb's law together at a load factor; nothing is said about what happens below.

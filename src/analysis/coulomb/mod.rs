@@ -15,7 +15,6 @@ pub use super::parts::{
 };
 pub use load_factor::{DryLoadFactor, Found};
 pub(super) use load_factor::{complementary, of_part, part_rests_alone};
-pub use rest::loaded;
 pub(super) use rest::up_to_rest;
 pub use rest::{is_reached, resolution};
 pub use state::{Motion, State, Step, state};

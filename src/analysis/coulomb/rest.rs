@@ -50,15 +50,6 @@ const MOST_OPEN: usize = 4;
 /// So many states on the way are asked at a time. More: those above one that moves are asked in vain. Fewer: threads wait.
 const AT_A_TIME: usize = 4;
 
-/// The assembly with its live load, times `lambda`, added to its dead load.
-pub fn loaded(assembly: &Assembly, lambda: f64) -> Assembly {
-    let mut loaded = assembly.clone();
-    for (dead, live) in loaded.dead.iter_mut().zip(&assembly.live) {
-        *dead += *live * lambda;
-    }
-    loaded
-}
-
 /// How near above a load factor up to which the state rests it does so no longer, at most, in shares of one at which it moves.
 pub fn resolution(assembly: &Assembly) -> f64 {
     if assembly.free().count() > MANY { 1.0 / 64.0 } else { 4.0 * tolerance::REST_WIDTH }
@@ -155,9 +146,10 @@ impl Probe<'_> {
 }
 
 /// Makes a complementary solution the load factor up to which the scene comes to rest. `dead` is the verdict under the dead load, where it is
-/// known, `at` the scene under a load factor as its dead load.
+/// known, `at` the `assembly` under a load factor as its dead load.
 pub(in crate::analysis) fn up_to_rest(
     mut answer: DryLoadFactor,
+    assembly: &Assembly,
     associative: &LoadFactor,
     dead: Option<Verdict>,
     at: &(dyn Fn(f64) -> (Assembly, Interfaces) + Sync),
@@ -191,14 +183,14 @@ pub(in crate::analysis) fn up_to_rest(
         Some(Motion::Undecided) | None => (answer.found, answer.value) = (Found::Undecided, f64::NAN),
     }
     if rests == Some(Motion::Rests) {
-        climb(&mut probe, &mut answer, associative, &level);
+        climb(&mut probe, &mut answer, associative, assembly);
     }
     answer
 }
 
 /// From the dead load, at which the state rests, upwards.
-fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor, level: &Assembly) {
-    let blocks = level.free().count();
+fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor, assembly: &Assembly) {
+    let blocks = assembly.free().count();
     let (most, on_the_way) = match blocks {
         _ if blocks > MANY => (MOST_OF_MANY, &ON_THE_WAY_OF_MANY[..]),
         _ if blocks > FEW || answer.found == Found::NothingSlides => (MOST, &ON_THE_WAY[..]),
@@ -220,7 +212,7 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
             }
         }
         None => {
-            let natural = check::natural_factor(level);
+            let natural = check::natural_factor(assembly);
             probe.climb(&WITHOUT_END, natural);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{
     Deciding, each,
-    limit::{SAME, as_they_are, loaded},
+    limit::{SAME, as_they_are},
     scene_forces, scene_rates,
 };
 use crate::{
@@ -156,7 +156,7 @@ impl Scene<'_> {
         let lambda = lambda.unwrap_or(0.0);
         let law = if found.is_none_or(open) { Law::Coulomb } else { Law::Associative };
         let a =
-            assess_part(&loaded(&part.assembly, part.units.own_load_factor(lambda)), &joints(part, lambda), &Control { law, ..*control });
+            assess_part(&part.assembly.at_load_factor(part.units.own_load_factor(lambda)), &joints(part, lambda), &Control { law, ..*control });
         (a.forces, a.verdict == Verdict::Stable, matches!(a.verdict, Verdict::Conditional | Verdict::Unstable))
     }
 }

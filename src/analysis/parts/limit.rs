@@ -256,7 +256,7 @@ impl Scene<'_> {
         let others: Vec<usize> = (0..self.parts.len()).filter(|&k| bears_more(k)).collect();
         let standing = each(self.parts, &others, &left(), |k, control| {
             let part = &self.parts[k];
-            assess_part(&loaded(&part.assembly, part.units.own_load_factor(standing_at)), &joints(part, standing_at), control)
+            assess_part(&part.assembly.at_load_factor(part.units.own_load_factor(standing_at)), &joints(part, standing_at), control)
         });
         for (&k, a) in others.iter().zip(&standing) {
             self.parts[k].put_forces(&a.forces, &mut answer.forces);
@@ -309,16 +309,6 @@ impl Scene<'_> {
             answer.left_out.push(format!("the load factors of {more} of {n} independent parts: greater, and they stand at this one"));
         }
     }
-}
-
-/// The assembly with a multiple of its live load among the dead loads.
-pub fn loaded(assembly: &Assembly, lambda: f64) -> Assembly {
-    let mut loaded = assembly.clone();
-    for (dead, live) in loaded.dead.iter_mut().zip(&mut loaded.live) {
-        *dead += *live * lambda;
-        *live = Wrench::zero();
-    }
-    loaded
 }
 
 /// `base + by × more`.

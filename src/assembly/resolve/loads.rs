@@ -19,6 +19,8 @@ pub(super) struct Resolved {
     pub live: Vec<Wrench>,
     /// Dead forces off the centre of mass, contained in `dead`.
     pub dead_forces: Vec<AppliedForce>,
+    /// Live forces off the centre of mass, contained in `live`.
+    pub live_forces: Vec<AppliedForce>,
 }
 
 /// Resolves dead and live loads.
@@ -39,7 +41,7 @@ pub(super) fn resolve(scene: &Scene, assembly: &Assembly, names: &Names) -> Resu
         return Err(InputError::at(path, format!("the load on block {:?} is too large to compute with", assembly.blocks[i].id))
             .hint("forces are in N, lengths in m, masses in kg"));
     }
-    Ok(Resolved { dead, live, dead_forces })
+    Ok(Resolved { dead, live, dead_forces, live_forces })
 }
 
 /// Adds one load to `sum`; returns its force where that acts off the centre of mass.

@@ -80,6 +80,7 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
         dead: Vec::new(),
         live: Vec::new(),
         dead_forces: Vec::new(),
+        live_forces: Vec::new(),
         given: Vec::new(),
         contact: scene.contact.clone(),
         findings,
@@ -88,7 +89,9 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     };
     let (given, told) = given::resolve(scene, &assembly, &names)?;
     let loads = loads::resolve(scene, &assembly, &names)?;
-    (assembly.given, assembly.dead, assembly.live, assembly.dead_forces) = (given, loads.dead, loads.live, loads.dead_forces);
+    assembly.given = given;
+    (assembly.dead, assembly.live) = (loads.dead, loads.live);
+    (assembly.dead_forces, assembly.live_forces) = (loads.dead_forces, loads.live_forces);
     assembly.findings.extend(told);
     assembly.findings.extend(units::slips(&assembly));
     Ok(assembly)

@@ -71,7 +71,10 @@ pub fn members(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Members> {
         }
     }
     for applied in assembly.dead_forces.iter().filter(|a| free(a.block)) {
-        members[number[applied.block]].applied.push(*applied);
+        members[number[applied.block]].dead_forces.push(*applied);
+    }
+    for applied in assembly.live_forces.iter().filter(|a| free(a.block)) {
+        members[number[applied.block]].live_forces.push(*applied);
     }
     members
 }
@@ -83,7 +86,8 @@ pub struct Members {
     pub free: Vec<usize>,
     /// Contacts, in order.
     pub contacts: Vec<usize>,
-    applied: Vec<AppliedForce>,
+    dead_forces: Vec<AppliedForce>,
+    live_forces: Vec<AppliedForce>,
 }
 
 /// Follows a union–find chain to its root.
@@ -98,7 +102,7 @@ fn find(root: &mut [usize], mut i: usize) -> usize {
 impl Part {
     /// `place` is room for the number that each block has in the part.
     fn new(assembly: &Assembly, interfaces: &Interfaces, members: Members, place: &mut [usize]) -> Self {
-        let Members { free, contacts, applied } = members;
+        let Members { free, contacts, dead_forces, live_forces } = members;
         let faces = || contacts.iter().map(|&k| &interfaces.list[k]);
         let units = Units::of(assembly, &free, faces().flat_map(|f| f.points.iter().copied()));
         let mut blocks: Vec<usize> = free.iter().copied().chain(faces().flat_map(|f| [f.a, f.b])).collect();
@@ -106,6 +110,9 @@ impl Part {
         blocks.dedup();
         blocks.iter().enumerate().for_each(|(own, &i)| place[i] = own);
         let list = faces().map(|f| contact(f, &units, place)).collect();
+        let applied = |list: &[AppliedForce], unit: f64| {
+            list.iter().map(|a| AppliedForce { block: place[a.block], force: a.force / unit, arm: a.arm / units.length }).collect()
+        };
         let assembly = Assembly {
             name: assembly.name.clone(),
             gravity: assembly.gravity / units.acceleration,
@@ -113,10 +120,8 @@ impl Part {
             joints: JointRules { default: None, by_material: Vec::new(), by_blocks: Default::default() },
             dead: blocks.iter().map(|&i| units.inward(&assembly.dead[i])).collect(),
             live: blocks.iter().map(|&i| units.live(&assembly.live[i])).collect(),
-            dead_forces: applied
-                .iter()
-                .map(|a| AppliedForce { block: place[a.block], force: a.force / units.force, arm: a.arm / units.length })
-                .collect(),
+            dead_forces: applied(&dead_forces, units.force),
+            live_forces: applied(&live_forces, units.live),
             given: Vec::new(),
             contact: assembly.contact.clone(),
             findings: Vec::new(),

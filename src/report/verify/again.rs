@@ -97,7 +97,7 @@ fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
     let control = Control::default();
     let motion = |lambda: f64| -> Result<Motion, InputError> {
         let model = at(lambda)?;
-        Ok(coulomb::motion(&coulomb::loaded(&model.assembly, lambda), &model.interfaces, &control))
+        Ok(coulomb::motion(&model.assembly.at_load_factor(lambda), &model.interfaces, &control))
     };
     let order = [dry.rests_at, dry.value, dry.moves_at].into_iter().flatten().collect::<Vec<f64>>();
     let rising = order.windows(2).all(|w| w[0] <= w[1]);

@@ -7,7 +7,6 @@ use super::{
 };
 use crate::{
     analysis::{Agreement, Model, Outcome, agreement, assess, prepare},
-    assembly::Assembly,
     dynamics::{self, Fate},
     error::InputError,
     scene::Scene,
@@ -231,7 +230,7 @@ impl Asked<'_> {
         let mut fell: Option<f64> = None;
         for factor in factors {
             let way = Way::Loaded { factor };
-            let said = verdict(&loaded(model, factor), &model.interfaces);
+            let said = verdict(&model.assembly.at_load_factor(factor), &model.interfaces);
             self.crossed.ways += 1;
             if dry.is_some_and(|dry| factor < dry * (1.0 - 1e-6)) {
                 self.verdicts(way, Verdict::Stable, said);
@@ -259,7 +258,7 @@ impl Asked<'_> {
         let has_one = |d: &f64| *d > NONE * check::natural_factor(&model.assembly) && self.own.verdict != Verdict::Unstable;
         let Some(dry) = self.own.dry.filter(|d| has_one(d) && model.interfaces.list.iter().all(|f| f.law.is_dry())) else { return };
         for (share, expected) in SIMULATED.into_iter().zip([Fate::Stands, Fate::Falls]) {
-            let assembly = loaded(model, share * dry);
+            let assembly = model.assembly.at_load_factor(share * dry);
             let run = dynamics::simulate(&assembly, &model.interfaces, &dynamics::Settings::default(), &mut |_| ControlFlow::Continue(()));
             let Ok(outcome) = run else { continue };
             self.crossed.simulated[0] += 1;
@@ -273,14 +272,4 @@ impl Asked<'_> {
             }
         }
     }
-}
-
-/// The blocks under their dead load and so many times their live load.
-fn loaded(model: &Model, factor: f64) -> Assembly {
-    let mut loaded = model.assembly.clone();
-    for (dead, live) in loaded.dead.iter_mut().zip(&mut loaded.live) {
-        *dead += *live * factor;
-        *live = crate::assembly::Wrench::zero();
-    }
-    loaded
 }

@@ -1,5 +1,6 @@
 //! Sweeps: rows that depend on plan, scene and number alone, files that survive a kill, summaries against hand counts.
 
+mod both;
 mod command;
 mod plan;
 mod rows;
