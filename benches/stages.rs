@@ -2,6 +2,8 @@
 //!
 //! `cargo bench` prints them; one thread throughout. Nothing here asserts a time.
 
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
+
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use std::{hint::black_box, ops::ControlFlow, process::Command, time::Duration};
 use voussoir::{

@@ -67,6 +67,7 @@
 //! | unbalance | in multiples of each block's own load (g) |
 
 #![warn(missing_docs)]
+#![forbid(unsafe_code)]
 
 pub mod error;
 pub mod tolerance;

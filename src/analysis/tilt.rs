@@ -174,8 +174,7 @@ pub fn dry(
             Err(answer) => DryLoadFactor { found: Found::Undecided, value: f64::NAN, ..answer },
         };
         let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-        let model =
-            |lambda: f64| (part.assembly.at_load_factor(lambda), tilted_joints(part, part.units.load_factor(lambda)).into_owned());
+        let model = |lambda: f64| (part.assembly.at_load_factor(lambda), tilted_joints(part, part.units.load_factor(lambda)).into_owned());
         coulomb::up_to_rest(answer, &part.assembly, bound, dead, &model, &control)
     };
     parts::dry::load_factor_by(turned, interfaces, associative, control, (solve, tilted_joints))

@@ -5,6 +5,9 @@
 //! one that the system refuses (`ulimit -v`, a machine without more), where the language would abort. Files that were being written are absent
 //! then, as after a kill.
 
+// An allocator is unsafe by its trait, and the system's is asked directly where none is left.
+#![allow(unsafe_code)]
+
 use super::exit::Exit;
 use std::{
     alloc::{GlobalAlloc, Layout, System},

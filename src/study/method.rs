@@ -187,8 +187,10 @@ fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Got {
     let mut low = 0.0;
     for _ in 0..SIMULATIONS {
         let middle = 0.5 * (low + high);
-        match dynamics::simulate(&model.assembly.at_load_factor(middle), &model.interfaces, &settings, &mut |_| std::ops::ControlFlow::Continue(()))
-            .map(|outcome| outcome.fate)
+        match dynamics::simulate(&model.assembly.at_load_factor(middle), &model.interfaces, &settings, &mut |_| {
+            std::ops::ControlFlow::Continue(())
+        })
+        .map(|outcome| outcome.fate)
         {
             Ok(Fate::Stands) => low = middle,
             Ok(Fate::Falls) => high = middle,
@@ -203,7 +205,8 @@ fn bisection(model: &Model, verdicts: usize, mut high: f64) -> Got {
     let (mut low, mut iterations) = (0.0, 0);
     for _ in 0..verdicts {
         let middle = 0.5 * (low + high);
-        let answer = assess(&model.assembly.at_load_factor(middle), &model.interfaces, &Control { law: Law::Associative, ..Control::default() });
+        let answer =
+            assess(&model.assembly.at_load_factor(middle), &model.interfaces, &Control { law: Law::Associative, ..Control::default() });
         iterations += answer.attempts.iter().map(|a| a.iterations).sum::<usize>();
         match answer.verdict {
             Verdict::Stable | Verdict::Conditional => low = middle,

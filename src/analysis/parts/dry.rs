@@ -155,8 +155,11 @@ impl Scene<'_> {
         }
         let lambda = lambda.unwrap_or(0.0);
         let law = if found.is_none_or(open) { Law::Coulomb } else { Law::Associative };
-        let a =
-            assess_part(&part.assembly.at_load_factor(part.units.own_load_factor(lambda)), &joints(part, lambda), &Control { law, ..*control });
+        let a = assess_part(
+            &part.assembly.at_load_factor(part.units.own_load_factor(lambda)),
+            &joints(part, lambda),
+            &Control { law, ..*control },
+        );
         (a.forces, a.verdict == Verdict::Stable, matches!(a.verdict, Verdict::Conditional | Verdict::Unstable))
     }
 }

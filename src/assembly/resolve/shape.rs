@@ -125,6 +125,7 @@ pub(super) fn body(spec: &BlockSpec, frame: &Frame, place: &Place) -> Result<Bod
                     file = Some(name);
                     ("mesh", vertices.iter().map(|&v| Vector3::from(v) * scale).collect(), faces.clone())
                 }
+                #[expect(clippy::unreachable, reason = "balls are handled before the match, which the compiler cannot see")]
                 Shape::Sphere { .. } | Shape::Clump { .. } => unreachable!("spheres are handled above"),
             };
             let path = path.key(kind);

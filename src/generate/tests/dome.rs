@@ -62,7 +62,7 @@ fn dome_volume_tends_to_that_of_the_shell() {
 fn neighbouring_dome_blocks_share_their_corners_to_the_last_bit() {
     let blocks = build(Template::Dome(Dome { radius: 5.0, thickness: 0.5, rings: 3, segments: 12, ..Dome::default() }));
     let corners = |id: &str| -> HashSet<[u64; 3]> {
-        let Shape::Polyhedron { vertices, .. } = &find(&blocks, id).shape else { unreachable!("domes are polyhedra") };
+        let Shape::Polyhedron { vertices, .. } = &find(&blocks, id).shape else { panic!("domes are polyhedra") };
         vertices.iter().map(|p| p.map(|c| (c + 0.0).to_bits())).collect()
     };
     for (a, b, shared) in

@@ -11,7 +11,10 @@ use std::{
 /// Ends a child with a signal; the status it ended with, by the signal or by itself if it was faster.
 fn signal(child: &mut Child, number: i32) -> ExitStatus {
     // SAFETY: a child of this test that has not been waited for: its number is its own.
-    unsafe { libc::kill(i32::try_from(child.id()).unwrap(), number) };
+    #[expect(unsafe_code, reason = "a signal by its number is sent by the system alone")]
+    unsafe {
+        libc::kill(i32::try_from(child.id()).unwrap(), number)
+    };
     child.wait().unwrap()
 }
 
