@@ -74,6 +74,8 @@ pub mod tolerance;
 
 pub mod plain;
 
+pub mod plane;
+
 pub mod files;
 
 pub mod limits;

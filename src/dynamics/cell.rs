@@ -1,5 +1,6 @@
 //! A convex cell: cutting it by planes, eroding it.
 
+use crate::plane::clip::inside;
 use nalgebra::{Matrix3, Vector3};
 
 /// Points closer to a plane than this × the cell's reach lie on it, and points this close are one.
@@ -78,7 +79,7 @@ impl Cell {
         let mut faces = Vec::with_capacity(self.faces.len() + 1);
         let mut rim = Vec::new();
         for face in &self.faces {
-            let points = clip(&face.points, &height, on);
+            let points = inside(&face.points, |p| -height(p), on);
             rim.extend(points.iter().filter(|p| height(p).abs() <= on));
             if points.len() >= 3 && points.iter().any(|p| height(p) < -on) {
                 faces.push(Face { points, ..face.clone() });
@@ -131,22 +132,6 @@ impl Cell {
         }
         (corners, loops)
     }
-}
-
-/// The part of a convex loop below a plane; points on it are kept (Sutherland & Hodgman 1974).
-pub(super) fn clip(points: &[Vector3<f64>], height: &impl Fn(&Vector3<f64>) -> f64, on: f64) -> Vec<Vector3<f64>> {
-    let mut kept = Vec::with_capacity(points.len() + 1);
-    for (i, p) in points.iter().enumerate() {
-        let q = &points[(i + 1) % points.len()];
-        let (hp, hq) = (height(p), height(q));
-        if hp <= on {
-            kept.push(*p);
-        }
-        if (hp < -on && hq > on) || (hp > on && hq < -on) {
-            kept.push(p + (q - p) * (hp / (hp - hq)));
-        }
-    }
-    kept
 }
 
 /// Points in a plane in order around its normal, each once.

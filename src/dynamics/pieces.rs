@@ -9,8 +9,9 @@
 //!
 //! * W. C. Thibault, B. F. Naylor, *Set operations on polyhedra using binary space partitioning trees*, SIGGRAPH 1987.
 
-use super::cell::{Cell, Face, clip, mean};
+use super::cell::{Cell, Face, mean};
 use crate::assembly::Polyhedron;
+use crate::plane::clip::inside;
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 /// Corners of a face that the engine sees.
@@ -139,7 +140,7 @@ fn solid_cells(facets: &[Vec<Face>]) -> Option<Vec<Cell>> {
 fn through(facet: &[Face], height: &impl Fn(&Vector3<f64>) -> f64, on: f64) -> Option<Vec<Face>> {
     let parts: Vec<Face> = facet
         .iter()
-        .map(|f| Face { points: clip(&f.points, height, 0.0), ..f.clone() })
+        .map(|f| Face { points: inside(&f.points, |p| -height(p), 0.0), ..f.clone() })
         .filter(|f| f.points.len() >= 3 && f.points.iter().any(|p| height(p) < -on))
         .collect();
     (!parts.is_empty()).then_some(parts)

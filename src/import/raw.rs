@@ -2,6 +2,7 @@
 
 use crate::{
     error::{Finding, FindingCode},
+    plane::Sets,
     scene::{InterfaceSpec, Material},
 };
 use std::collections::{BTreeMap, HashSet};
@@ -103,18 +104,10 @@ pub(super) fn list(names: &[String]) -> String {
 
 /// Which connected part every face belongs to, numbered by first appearance: two faces are connected when they share a corner's index.
 pub(super) fn parts(vertices: usize, faces: &[Vec<usize>]) -> Vec<usize> {
-    fn root(parent: &mut [usize], mut i: usize) -> usize {
-        while parent[i] != i {
-            parent[i] = parent[parent[i]];
-            i = parent[i];
-        }
-        i
-    }
-    let mut parent: Vec<usize> = (0..vertices).collect();
+    let mut sets = Sets::new(vertices);
     for face in faces {
         for pair in face.windows(2) {
-            let (a, b) = (root(&mut parent, pair[0]), root(&mut parent, pair[1]));
-            parent[a.max(b)] = a.min(b);
+            sets.join(pair[0], pair[1]);
         }
     }
     let mut number = BTreeMap::new();
@@ -122,7 +115,7 @@ pub(super) fn parts(vertices: usize, faces: &[Vec<usize>]) -> Vec<usize> {
         .iter()
         .map(|face| {
             let next = number.len();
-            face.first().map_or(0, |&corner| *number.entry(root(&mut parent, corner)).or_insert(next))
+            face.first().map_or(0, |&corner| *number.entry(sets.find(corner)).or_insert(next))
         })
         .collect()
 }

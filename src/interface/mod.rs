@@ -4,20 +4,15 @@
 //! compression is `f_n ≥ 0`; the frame `(t1, t2, n)` is right-handed.
 
 mod body;
-mod clip;
 mod detect;
 mod detect_candidates;
 mod faces;
 mod features;
-#[cfg(fuzzing)]
-#[doc(hidden)]
-pub mod fuzzing;
 mod given;
 mod limits;
 mod overlap;
 mod parts;
 mod plane;
-mod polygon;
 mod section;
 mod shrink;
 mod spheres;
@@ -30,7 +25,11 @@ pub use detect::detect;
 pub use parts::{Members, Part, Units, members, parts};
 pub use section::{Affine, Cut};
 
-use crate::{assembly::JointLaw, error::Finding};
+use crate::{
+    assembly::JointLaw,
+    error::Finding,
+    plane::{clip, polygon},
+};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 

@@ -9,9 +9,8 @@
 //! one axis this is the compressed block at the edge, `|M| ≤ N t / 2 − N² / (2 σ b)`.
 
 use super::{ContactFrame, Interface};
-use nalgebra::{Matrix2, Vector2, Vector3};
-
-type P2 = Vector2<f64>;
+use crate::plane::{clip::inside, polygon::P2};
+use nalgebra::{Matrix2, Vector3};
 
 /// An affine function on the plane of a joint, `value + slope · (x − at)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -186,7 +185,7 @@ impl Region {
     fn positive(&self, value: f64, slope: P2) -> (f64, f64) {
         let mut sum = (0.0, 0.0);
         for piece in &self.pieces {
-            let kept = clip(piece, |p| value + slope.dot(p));
+            let kept = inside(piece, |p| value + slope.dot(p), 0.0);
             let (area, moment) = area_and_moment(&kept);
             sum = (sum.0 + area, sum.1 + value * area + slope.dot(&moment));
         }
@@ -201,7 +200,7 @@ impl Region {
         for k in 0..mirrored.len() {
             let (p, q) = (mirrored[k], mirrored[(k + 1) % mirrored.len()]);
             let inward = P2::new(p.y - q.y, q.x - p.x);
-            kept = clip(&kept, |x| inward.dot(&(x - p)));
+            kept = inside(&kept, |x| inward.dot(&(x - p)), 0.0);
         }
         area_and_moment(&kept).0
     }
@@ -252,22 +251,6 @@ impl Region {
 const DIRECTIONS: usize = 48;
 /// Steps of the refinement by thirds: (2/3)⁴⁰ = 1e-7 of a direction, and the use is flat there: its error is the square.
 const REFINEMENTS: usize = 40;
-
-/// The part of a convex polygon where `g ≥ 0`.
-fn clip(polygon: &[P2], g: impl Fn(&P2) -> f64) -> Vec<P2> {
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    for (k, p) in polygon.iter().enumerate() {
-        let q = &polygon[(k + 1) % polygon.len()];
-        let (a, b) = (g(p), g(q));
-        if a >= 0.0 {
-            kept.push(*p);
-        }
-        if (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0) {
-            kept.push(p + (q - p) * (a / (a - b)));
-        }
-    }
-    kept
-}
 
 /// Signed area and first moment about the origin.
 fn area_and_moment(polygon: &[P2]) -> (f64, P2) {
@@ -420,7 +403,7 @@ mod tests {
             let value = offset - slope.dot(&region.centroid());
             let mut resultant = (0.0, P2::zeros());
             for piece in &region.pieces {
-                let (a, m) = area_and_moment(&clip(piece, |p| value + slope.dot(p)));
+                let (a, m) = area_and_moment(&inside(piece, |p| value + slope.dot(p), 0.0));
                 resultant = (resultant.0 + a, resultant.1 + m);
             }
             prop_assume!(resultant.0 > 1e-3);
@@ -442,7 +425,7 @@ mod tests {
             let value = offset - slope.dot(&region.centroid());
             let mut resultant = (0.0, P2::zeros());
             for piece in &region.pieces {
-                let (a, m) = area_and_moment(&clip(piece, |p| value + slope.dot(p)));
+                let (a, m) = area_and_moment(&inside(piece, |p| value + slope.dot(p), 0.0));
                 resultant = (resultant.0 + a, resultant.1 + m);
             }
             prop_assume!(resultant.0 > 1e-2 && resultant.0 < 0.99 * face.area);

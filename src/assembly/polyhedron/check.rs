@@ -2,10 +2,10 @@
 
 use super::{
     ShapeError,
-    plane::{self, Frame, Point2},
+    plane::{self, Frame},
     surface::{Face, Surface},
 };
-use crate::tolerance;
+use crate::{plane::polygon::P2, tolerance};
 use nalgebra::Vector3;
 
 /// Refuses corners that all lie within [`tolerance::FLAT`] × size of one plane. Said before anything else about the surface:
@@ -89,7 +89,7 @@ fn check_face(surface: &Surface, face: &Face) -> Result<(), ShapeError> {
     }
     let points = points();
     let frame = Frame::around(&normal);
-    let flat: Vec<Point2> = points.iter().map(|p| frame.project(p)).collect();
+    let flat: Vec<P2> = points.iter().map(|p| frame.project(p)).collect();
     if plane::convex_corners(&flat, reach).is_some() {
         return Ok(());
     }

@@ -1,11 +1,10 @@
 //! Whether a polyhedron is convex.
 
-use super::{
-    facets::Region,
-    plane::{self, Frame, Point2},
-    surface::Surface,
+use super::{facets::Region, plane::Frame, surface::Surface};
+use crate::{
+    plane::polygon::{self, P2},
+    tolerance,
 };
-use crate::tolerance;
 use nalgebra::Vector3;
 
 /// Corners in one cluster, roughly.
@@ -29,9 +28,9 @@ fn covers_once(surface: &Surface, regions: &[Region]) -> bool {
     let direction = Vector3::new(0.48, 0.6, 0.64);
     let frame = Frame::around(&direction);
     let shadow: f64 = regions.iter().map(|r| r.area * r.normal.dot(&direction).max(0.0)).sum();
-    let points: Vec<Point2> = surface.points.iter().map(|p| frame.project(p)).collect();
-    let hull: Vec<Point2> = plane::hull(&points).into_iter().map(|i| points[i]).collect();
-    shadow < 1.5 * plane::area(&hull)
+    let points: Vec<P2> = surface.points.iter().map(|p| frame.project(p)).collect();
+    let hull: Vec<P2> = polygon::corners(&points).into_iter().map(|i| points[i]).collect();
+    shadow < 1.5 * polygon::area(&hull)
 }
 
 /// Corners near each other with their bounding box: a plane above the box is above all of them, so that a convex polyhedron of

@@ -1,9 +1,10 @@
 //! The boundary of a facet, and its convex pieces.
 
 use super::{
-    plane::{self, Frame, Point2},
+    plane::{self, Frame},
     surface::Surface,
 };
+use crate::plane::polygon::{self, P2};
 
 /// What bounds a facet and what fills it.
 pub(super) struct Outline {
@@ -19,7 +20,7 @@ pub(super) fn outline(surface: &Surface, faces: &[u32], frame: &Frame, area: f64
     let boundary = boundary(surface, faces);
     let loops = loops(surface, &boundary, frame);
     if let [single] = loops.as_slice() {
-        let points: Vec<Point2> = single.iter().map(|&c| frame.project(&surface.point(c))).collect();
+        let points: Vec<P2> = single.iter().map(|&c| frame.project(&surface.point(c))).collect();
         if let Some(corners) = plane::convex_corners(&points, reach) {
             let pieces = vec![corners.into_iter().map(|i| single[i]).collect()];
             return Outline { boundary, pieces };
@@ -37,17 +38,17 @@ pub(super) fn outline(surface: &Surface, faces: &[u32], frame: &Frame, area: f64
 }
 
 fn piece_area(surface: &Surface, piece: &[u32], frame: &Frame) -> f64 {
-    let points: Vec<Point2> = piece.iter().map(|&c| frame.project(&surface.point(c))).collect();
-    plane::area(&points)
+    let points: Vec<P2> = piece.iter().map(|&c| frame.project(&surface.point(c))).collect();
+    polygon::area(&points)
 }
 
 /// Convex pieces of the region within loops.
 fn cut(surface: &Surface, loops: &[Vec<u32>], frame: &Frame, reach: f64) -> Vec<Vec<u32>> {
     let mut corners: Vec<u32> = Vec::new();
-    let mut points: Vec<Point2> = Vec::new();
+    let mut points: Vec<P2> = Vec::new();
     let mut straight: Vec<Vec<usize>> = Vec::new();
     for each in loops {
-        let own: Vec<Point2> = each.iter().map(|&c| frame.project(&surface.point(c))).collect();
+        let own: Vec<P2> = each.iter().map(|&c| frame.project(&surface.point(c))).collect();
         let base = points.len();
         let kept = plane::straighten(&own, reach);
         if kept.len() >= 3 {

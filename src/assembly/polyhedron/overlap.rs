@@ -5,13 +5,11 @@
 //! other's plane, and only what is in both counts: an edge that rests on a face has a section on one side only.
 //! Facets are tested as wholes, not triangles, so that a cut along a diagonal of the triangulation is seen.
 
-use super::{
-    ShapeError,
-    facets::Region,
-    plane::{Frame, Point2, area, cross},
-    surface::Surface,
+use super::{ShapeError, facets::Region, plane::Frame, surface::Surface};
+use crate::{
+    plane::polygon::{P2, area, cross, edges},
+    tolerance,
 };
-use crate::tolerance;
 use nalgebra::Vector3;
 
 /// Refuses a surface that cuts through or covers itself. Convex ones need not be asked.
@@ -128,9 +126,9 @@ impl<'a> Sheet<'a> {
             return None;
         }
         let frame = Frame::around(&self.region.normal);
-        let flat = |sheet: &Sheet| -> Vec<Vec<Point2>> {
+        let flat = |sheet: &Sheet| -> Vec<Vec<P2>> {
             let points = |p: &Vec<u32>| {
-                let mut points: Vec<Point2> = p.iter().map(|&c| frame.project(&sheet.surface.point(c))).collect();
+                let mut points: Vec<P2> = p.iter().map(|&c| frame.project(&sheet.surface.point(c))).collect();
                 if area(&points) < 0.0 {
                     points.reverse();
                 }
@@ -150,12 +148,8 @@ impl<'a> Sheet<'a> {
 }
 
 /// Whether an edge of the convex polygon `a`, which runs counter-clockwise, has all of `b` beyond it, but for `slack`.
-fn apart(a: &[Point2], b: &[Point2], slack: f64) -> bool {
-    (0..a.len()).any(|i| {
-        let (p, q) = (a[i], a[(i + 1) % a.len()]);
-        let length = (q[0] - p[0]).hypot(q[1] - p[1]);
-        b.iter().all(|&c| cross(p, q, c) <= slack * length)
-    })
+fn apart(a: &[P2], b: &[P2], slack: f64) -> bool {
+    edges(a).any(|(p, q)| b.iter().all(|&c| cross(p, q, c) <= slack * (q - p).norm()))
 }
 
 /// What two sorted lists of intervals have in common.

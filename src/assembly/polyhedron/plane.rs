@@ -1,10 +1,8 @@
 //! Polygons in a plane: hulls, straight edges, crossings, convex pieces.
 
+use crate::plane::polygon::{P2, area, corners as hull, cross, distance_to_segment};
 use nalgebra::Vector3;
 use std::collections::HashMap;
-
-/// A point in the coordinates of a [`Frame`].
-pub(super) type Point2 = [f64; 2];
 
 /// Two axes of a plane, right-handed with its normal.
 pub(super) struct Frame {
@@ -20,56 +18,26 @@ impl Frame {
         Self { t1, t2: n.cross(&t1) }
     }
 
-    pub fn project(&self, p: &Vector3<f64>) -> Point2 {
-        [self.t1.dot(p), self.t2.dot(p)]
+    pub fn project(&self, p: &Vector3<f64>) -> P2 {
+        P2::new(self.t1.dot(p), self.t2.dot(p))
     }
 
     /// The point at `p` in the parallel plane through the origin.
-    pub fn lift(&self, p: Point2) -> Vector3<f64> {
+    pub fn lift(&self, p: P2) -> Vector3<f64> {
         self.t1 * p[0] + self.t2 * p[1]
     }
 }
 
-/// Twice the signed area of the triangle `o a b`.
-pub(super) fn cross(o: Point2, a: Point2, b: Point2) -> f64 {
-    (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
-}
-
-/// Signed area of a loop, counter-clockwise positive.
-pub(super) fn area(points: &[Point2]) -> f64 {
-    points.windows(2).skip(1).map(|p| cross(points[0], p[0], p[1])).sum::<f64>() / 2.0
-}
-
-/// Corners of the convex hull, counter-clockwise, as positions in `points` (monotone chain, Andrew 1979).
-pub(super) fn hull(points: &[Point2]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_unstable_by(|&a, &b| points[a].partial_cmp(&points[b]).unwrap_or(std::cmp::Ordering::Equal));
-    let mut chain: Vec<usize> = Vec::with_capacity(points.len() + 1);
-    for upper in [false, true] {
-        let start = chain.len();
-        for k in 0..order.len() {
-            let p = order[if upper { order.len() - 1 - k } else { k }];
-            while chain.len() >= start + 2 && cross(points[chain[chain.len() - 2]], points[chain[chain.len() - 1]], points[p]) <= 0.0 {
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        // The last of each half is the first of the other.
-        chain.pop();
-    }
-    chain
-}
-
 /// The corners of a loop that is convex within `tolerance`, points on its straight edges left out; `None` where it is not convex.
 /// Positions in `points`, which run counter-clockwise.
-pub(super) fn convex_corners(points: &[Point2], tolerance: f64) -> Option<Vec<usize>> {
+pub(super) fn convex_corners(points: &[P2], tolerance: f64) -> Option<Vec<usize>> {
     // Triangles and quadrilaterals, by far the most common: convex if every corner stands out from the line between its neighbours.
     // (Four left turns cannot go around twice.)
     if let 3 | 4 = points.len() {
         let n = points.len();
         let stands_out = |i: usize| {
             let (a, b, c) = (points[(i + n - 1) % n], points[i], points[(i + 1) % n]);
-            cross(a, b, c) > tolerance * (c[0] - a[0]).hypot(c[1] - a[1])
+            cross(a, b, c) > tolerance * (c - a).norm()
         };
         if (0..n).all(stands_out) {
             return Some((0..n).collect());
@@ -89,13 +57,13 @@ pub(super) fn convex_corners(points: &[Point2], tolerance: f64) -> Option<Vec<us
         let (from, to) = (corners[i], corners[(i + 1) % corners.len()]);
         let mut p = (from + 1) % points.len();
         while p != to {
-            if distance(points[p], points[from], points[to]) > tolerance {
+            if distance_to_segment(points[p], points[from], points[to]) > tolerance {
                 return None;
             }
             p = (p + 1) % points.len();
         }
     }
-    let hull: Vec<Point2> = corners.iter().map(|&c| points[c]).collect();
+    let hull: Vec<P2> = corners.iter().map(|&c| points[c]).collect();
     let kept = straighten(&hull, tolerance);
     (kept.len() >= 3).then(|| kept.into_iter().map(|k| corners[k]).collect())
 }
@@ -104,13 +72,13 @@ pub(super) fn convex_corners(points: &[Point2], tolerance: f64) -> Option<Vec<us
 ///
 /// Every point left out is compared with the edge that replaces it (Douglas & Peucker 1973), not with its neighbours: a fine curve is
 /// never straightened by more than the tolerance, however many points it has.
-pub(super) fn straighten(points: &[Point2], tolerance: f64) -> Vec<usize> {
+pub(super) fn straighten(points: &[P2], tolerance: f64) -> Vec<usize> {
     let n = points.len();
     if n <= 3 {
         return (0..n).collect();
     }
-    let farthest = |from: Point2| {
-        let d = |p: &Point2| (p[0] - from[0]).hypot(p[1] - from[1]);
+    let farthest = |from: P2| {
+        let d = |p: &P2| (p - from).norm();
         (0..n).max_by(|&a, &b| d(&points[a]).total_cmp(&d(&points[b]))).unwrap_or(0)
     };
     // Two corners that surely remain.
@@ -122,7 +90,7 @@ pub(super) fn straighten(points: &[Point2], tolerance: f64) -> Vec<usize> {
     (kept[0], kept[end], kept[n]) = (true, true, true);
     let mut open = vec![(0, end), (end, n)];
     while let Some((from, to)) = open.pop() {
-        let off = |i: usize| distance(at(i), at(from), at(to));
+        let off = |i: usize| distance_to_segment(at(i), at(from), at(to));
         if let Some(worst) = (from + 1..to).max_by(|&a, &b| off(a).total_cmp(&off(b)))
             && off(worst) > tolerance
         {
@@ -137,7 +105,7 @@ pub(super) fn straighten(points: &[Point2], tolerance: f64) -> Vec<usize> {
             continue;
         }
         let next = (i + 1..=n).find(|&j| kept[j]).unwrap_or(n);
-        if (previous + 1..next).all(|j| distance(at(j), at(previous), at(next)) <= tolerance) {
+        if (previous + 1..next).all(|j| distance_to_segment(at(j), at(previous), at(next)) <= tolerance) {
             kept[i] = false;
         } else {
             previous = i;
@@ -148,16 +116,8 @@ pub(super) fn straighten(points: &[Point2], tolerance: f64) -> Vec<usize> {
     corners
 }
 
-/// Distance of a point from a segment.
-fn distance(p: Point2, a: Point2, b: Point2) -> f64 {
-    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-    let square = dx * dx + dy * dy;
-    let t = if square > 0.0 { (((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (p[0] - a[0] - t * dx).hypot(p[1] - a[1] - t * dy)
-}
-
 /// Where a loop crosses itself by more than `tolerance`, if it does. Touching itself, or running back along itself, is not crossing.
-pub(super) fn crossing(points: &[Point2], tolerance: f64) -> Option<Point2> {
+pub(super) fn crossing(points: &[P2], tolerance: f64) -> Option<P2> {
     let n = points.len();
     let end = |i: usize| points[(i + 1) % n];
     let span = |i: usize| (points[i][0].min(end(i)[0]), points[i][0].max(end(i)[0]));
@@ -166,12 +126,12 @@ pub(super) fn crossing(points: &[Point2], tolerance: f64) -> Option<Point2> {
     for (rank, &i) in order.iter().enumerate() {
         for &j in order[rank + 1..].iter().take_while(|&&j| span(j).0 <= span(i).1) {
             let (a, b, c, d) = (points[i], end(i), points[j], end(j));
-            let (ab, cd) = ((b[0] - a[0]).hypot(b[1] - a[1]), (d[0] - c[0]).hypot(d[1] - c[1]));
+            let (ab, cd) = ((b - a).norm(), (d - c).norm());
             let (pa, pb, pc, pd) = (cross(c, d, a), cross(c, d, b), cross(a, b, c), cross(a, b, d));
             let apart = |x: f64, y: f64, length: f64| x * y < 0.0 && x.abs().min(y.abs()) > tolerance * length;
             if apart(pa, pb, cd) && apart(pc, pd, ab) {
                 let t = pa / (pa - pb);
-                return Some([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]);
+                return Some(a + (b - a) * t);
             }
         }
     }
@@ -179,7 +139,7 @@ pub(super) fn crossing(points: &[Point2], tolerance: f64) -> Option<Point2> {
 }
 
 /// Whether a point lies inside a loop (even-odd rule).
-fn contains(points: &[Point2], p: Point2) -> bool {
+fn contains(points: &[P2], p: P2) -> bool {
     let n = points.len();
     let mut inside = false;
     for i in 0..n {
@@ -193,8 +153,8 @@ fn contains(points: &[Point2], p: Point2) -> bool {
 
 /// Cuts a region into convex pieces. `loops` are positions in `points`; those that run counter-clockwise bound the region from outside,
 /// the others are its holes.
-pub(super) fn convex_pieces(points: &[Point2], loops: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let shape = |l: &[usize]| -> Vec<Point2> { l.iter().map(|&i| points[i]).collect() };
+pub(super) fn convex_pieces(points: &[P2], loops: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let shape = |l: &[usize]| -> Vec<P2> { l.iter().map(|&i| points[i]).collect() };
     let (outer, holes): (Vec<_>, Vec<_>) = loops.iter().map(|l| (l, shape(l))).partition(|(_, s)| area(s) > 0.0);
     let mut pieces = Vec::new();
     let mut ear = earcut::Earcut::new();
@@ -208,7 +168,7 @@ pub(super) fn convex_pieces(points: &[Point2], loops: &[Vec<usize>]) -> Vec<Vec<
             }
         }
         let mut triangles: Vec<u32> = Vec::new();
-        ear.earcut(corners.iter().map(|&c| points[c]), &starts, &mut triangles);
+        ear.earcut(corners.iter().map(|&c| points[c].into()), &starts, &mut triangles);
         let triangles = triangles.chunks_exact(3).filter_map(|t| {
             let [a, b, c] = [corners[t[0] as usize], corners[t[1] as usize], corners[t[2] as usize]];
             let sign = cross(points[a], points[b], points[c]);
@@ -226,7 +186,7 @@ pub(super) fn convex_pieces(points: &[Point2], loops: &[Vec<usize>]) -> Vec<Vec<
 }
 
 /// Removes inner edges as long as the pieces stay convex (Hertel & Mehlhorn 1983: at most four times the least number of pieces).
-fn join_convex(points: &[Point2], mut pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
+fn join_convex(points: &[P2], mut pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     let edges = |piece: &[usize]| -> Vec<(usize, usize)> { (0..piece.len()).map(|i| (piece[i], piece[(i + 1) % piece.len()])).collect() };
     let mut owner: HashMap<(usize, usize), usize> = HashMap::new();
     for (p, piece) in pieces.iter().enumerate() {
@@ -234,7 +194,7 @@ fn join_convex(points: &[Point2], mut pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>
     }
     let mut inner: Vec<(usize, usize)> = owner.keys().copied().filter(|&(u, v)| u < v && owner.contains_key(&(v, u))).collect();
     // Longest first: leaves compact pieces, and does not hang on the order of the hash map.
-    let length = |&(u, v): &(usize, usize)| (points[u][0] - points[v][0]).hypot(points[u][1] - points[v][1]);
+    let length = |&(u, v): &(usize, usize)| (points[u] - points[v]).norm();
     inner.sort_unstable_by(|a, b| length(b).total_cmp(&length(a)).then(a.cmp(b)));
     for (u, v) in inner {
         let (Some(&p), Some(&q)) = (owner.get(&(u, v)), owner.get(&(v, u))) else { continue };

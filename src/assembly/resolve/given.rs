@@ -7,6 +7,7 @@ use super::{Names, check, joints, shape::diagonal};
 use crate::{
     assembly::{Assembly, Block, GivenInterface, JointLaw, Solid},
     error::{Finding, FindingCode, InputError, JsonPath},
+    plane::polygon,
     scene::{InterfaceSpec, Scene},
     tolerance::{COPLANAR, GIVEN_APART, WELD},
 };
@@ -186,7 +187,7 @@ fn polygon(points: &[Point], raw: Point, extent: f64, path: &JsonPath, notes: &m
     let u = (axis - raw * raw.dot(&axis)).normalize();
     let v = raw.cross(&u);
     let flat: Vec<Vector2<f64>> = points.iter().map(|p| p - points[0]).map(|d| Vector2::new(u.dot(&d), v.dot(&d))).collect();
-    let hull = hull(&flat);
+    let hull = polygon::corners(&flat);
 
     let mut corner = vec![false; flat.len()];
     hull.iter().for_each(|&i| corner[i] = true);
@@ -206,34 +207,11 @@ fn polygon(points: &[Point], raw: Point, extent: f64, path: &JsonPath, notes: &m
     (corners, area.normalize())
 }
 
-/// Corners of the convex hull, counter-clockwise (Andrew 1979, "Another efficient algorithm for convex hulls in two dimensions").
-fn hull(points: &[Vector2<f64>]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|&i, &j| points[i].x.total_cmp(&points[j].x).then(points[i].y.total_cmp(&points[j].y)));
-    let chain = |order: &mut dyn Iterator<Item = usize>| {
-        let mut chain: Vec<usize> = Vec::new();
-        for i in order {
-            while let [.., a, b] = chain[..] {
-                if (points[b] - points[a]).perp(&(points[i] - points[a])) > 0.0 {
-                    break;
-                }
-                chain.pop();
-            }
-            chain.push(i);
-        }
-        chain.pop();
-        chain
-    };
-    let mut lower = chain(&mut order.iter().copied());
-    lower.extend(chain(&mut order.iter().rev().copied()));
-    lower
-}
-
 /// How deep a point lies inside a hull.
 fn depth(points: &[Vector2<f64>], hull: &[usize], i: usize) -> f64 {
     let sides = (0..hull.len()).map(|k| {
         let (p, q) = (points[hull[k]], points[hull[(k + 1) % hull.len()]]);
-        (q - p).perp(&(points[i] - p)) / (q - p).norm()
+        polygon::cross(p, q, points[i]) / (q - p).norm()
     });
     sides.fold(f64::INFINITY, f64::min)
 }

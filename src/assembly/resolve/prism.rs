@@ -2,6 +2,7 @@
 
 use crate::{
     error::{InputError, JsonPath},
+    plane::polygon::area,
     tolerance,
 };
 use nalgebra::{Vector2, Vector3};
@@ -15,7 +16,7 @@ pub(super) type Surface = (Vec<Vector3<f64>>, Vec<Vec<usize>>);
 pub(super) fn faces(polygon: &[[f64; 2]], depth: f64, path: &JsonPath) -> Result<Surface, InputError> {
     let mut points: Vec<Point> = polygon.iter().map(|&p| p.into()).collect();
     simple(&points, path)?;
-    if twice_area(&points) < 0.0 {
+    if area(&points) < 0.0 {
         points.reverse();
     }
     let n = points.len();
@@ -28,11 +29,6 @@ pub(super) fn faces(polygon: &[[f64; 2]], depth: f64, path: &JsonPath) -> Result
         vec![i, n + i, n + j, j]
     }));
     Ok((vertices, faces))
-}
-
-/// Twice the signed area, about the first corner so that nothing cancels far from the origin.
-fn twice_area(points: &[Point]) -> f64 {
-    points.windows(2).map(|w| (w[0] - points[0]).perp(&(w[1] - points[0]))).sum()
 }
 
 /// Refuses a polygon that has fewer than three corners, repeats a corner, or touches or crosses itself.

@@ -7,7 +7,10 @@ mod units;
 pub use units::Units;
 
 use super::{Interface, Interfaces};
-use crate::assembly::{AppliedForce, Assembly, Block, JointLaw, JointRules, Solid, Wrench};
+use crate::{
+    assembly::{AppliedForce, Assembly, Block, JointLaw, JointRules, Solid, Wrench},
+    plane::Sets,
+};
 use nalgebra::Vector3;
 
 /// A part of a scene, made ready to be asked by itself.
@@ -48,16 +51,14 @@ pub fn parts(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Part> {
 pub fn members(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Members> {
     let n = assembly.blocks.len();
     let free = |i: usize| !assembly.blocks[i].support;
-    let mut root: Vec<usize> = (0..n).collect();
+    let mut sets = Sets::new(n);
     for face in interfaces.list.iter().filter(|f| free(f.a) && free(f.b)) {
-        let (a, b) = (find(&mut root, face.a), find(&mut root, face.b));
-        root[a.max(b)] = a.min(b);
+        sets.join(face.a, face.b);
     }
-    // Roots are the first blocks of their parts.
     let mut number = vec![usize::MAX; n];
     let mut members: Vec<Members> = Vec::new();
     for i in assembly.free() {
-        let first = find(&mut root, i);
+        let first = sets.find(i);
         if first == i {
             number[i] = members.len();
             members.push(Default::default());
@@ -88,15 +89,6 @@ pub struct Members {
     pub contacts: Vec<usize>,
     dead_forces: Vec<AppliedForce>,
     live_forces: Vec<AppliedForce>,
-}
-
-/// Follows a union–find chain to its root.
-fn find(root: &mut [usize], mut i: usize) -> usize {
-    while root[i] != i {
-        root[i] = root[root[i]];
-        i = root[i];
-    }
-    i
 }
 
 impl Part {

@@ -4,6 +4,7 @@ use super::{
     body::{Form, Solid},
     projection::Projection,
 };
+use crate::plane::polygon::{self, P2};
 
 /// Hulls that overlap by less than this × their reach only touch.
 const TOUCH: f64 = 1e-6;
@@ -21,7 +22,7 @@ impl Hull {
     pub fn new(body: &Solid, paper: &Projection) -> Self {
         match &body.form {
             Form::Sphere(radius) => Self::Circle(paper.at(&body.middle), radius * paper.scale),
-            Form::Surface { points, .. } => Self::Polygon(hull(points.iter().map(|p| paper.at(p)).collect())),
+            Form::Surface { points, .. } => Self::Polygon(outline(&points.iter().map(|p| paper.at(p)).collect::<Vec<_>>())),
         }
     }
 
@@ -55,22 +56,8 @@ impl Hull {
     }
 }
 
-/// Convex hull (Andrew 1979, the monotone chain).
-fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let turn = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
-        let mut chain: Vec<[f64; 2]> = Vec::new();
-        for p in points {
-            while chain.len() > 1 && turn(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0 {
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        chain.pop();
-        chain
-    };
-    let mut lower = chain(&mut points.iter().copied());
-    lower.extend(chain(&mut points.iter().rev().copied()));
-    lower
+/// Corners of the convex hull.
+fn outline(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let flat: Vec<P2> = points.iter().map(|&p| p.into()).collect();
+    polygon::corners(&flat).into_iter().map(|i| points[i]).collect()
 }

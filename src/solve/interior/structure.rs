@@ -5,7 +5,10 @@ use super::{
     cones::{ConeAt, MOST_ROWS},
     panels::Panels,
 };
-use crate::program::{Cone, ConicProgram};
+use crate::{
+    plane::Sets,
+    program::{Cone, ConicProgram},
+};
 
 /// Compressed columns: rows and values of each.
 #[derive(Clone, Debug, Default)]
@@ -168,7 +171,7 @@ impl Structure {
         }
         let is_border = |j: usize| count[j] > LOCAL;
         // Variables of one cone belong together.
-        let mut root: Vec<usize> = (0..m.columns).collect();
+        let mut sets = Sets::new(m.columns);
         let mut seen = vec![None; cones.len()];
         for (&i, &j) in m.i.iter().zip(&m.j) {
             let (false, row) = place[i] else { continue };
@@ -178,15 +181,13 @@ impl Structure {
             match seen[cone_of[row]] {
                 None => seen[cone_of[row]] = Some(j),
                 Some(other) => {
-                    let (a, b) = (find(&mut root, j), find(&mut root, other));
-                    root[a.max(b)] = a.min(b);
+                    sets.join(j, other);
                 }
             }
         }
         let mut members: Vec<Vec<usize>> = vec![Vec::new(); m.columns];
         for j in (0..m.columns).filter(|&j| !is_border(j)) {
-            let r = find(&mut root, j);
-            members[r].push(j);
+            members[sets.find(j)].push(j);
         }
         let (mut blocks, mut variables, mut block_of) = (Vec::<Block>::new(), Vec::new(), vec![usize::MAX; m.columns]);
         let mut local = vec![usize::MAX; m.columns];
@@ -243,13 +244,4 @@ impl Structure {
             && block.variables.len() == cone.size
             && block.variables.clone().enumerate().all(|(k, j)| self.g.of(j).eq([(cone.first + k, -1.0)]))
     }
-}
-
-/// Follows a chain to its root.
-fn find(root: &mut [usize], mut i: usize) -> usize {
-    while root[i] != i {
-        root[i] = root[root[i]];
-        i = root[i];
-    }
-    i
 }

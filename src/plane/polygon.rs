@@ -1,24 +1,24 @@
 //! Plane polygons: area, centroid, convex hull, least width, distance.
 //!
-//! Loops are counter-clockwise; lengths are in m in the plane of a contact.
+//! Loops are counter-clockwise; lengths are in m.
 
 use nalgebra::Vector2;
 
-/// A point of the contact plane, m.
-pub(super) type P2 = Vector2<f64>;
+/// A point of a plane, m.
+pub type P2 = Vector2<f64>;
 
 /// Twice the signed area of the triangle `a`, `b`, `c`; positive counter-clockwise.
-pub(super) fn cross(a: P2, b: P2, c: P2) -> f64 {
+pub fn cross(a: P2, b: P2, c: P2) -> f64 {
     (b - a).perp(&(c - a))
 }
 
 /// Signed area, m²; positive counter-clockwise. Taken about the first corner, so that a far origin costs no digits.
-pub(super) fn area(polygon: &[P2]) -> f64 {
+pub fn area(polygon: &[P2]) -> f64 {
     polygon.windows(2).skip(1).map(|w| cross(polygon[0], w[0], w[1])).sum::<f64>() / 2.0
 }
 
 /// Centroid of the area; the mean of the corners where there is no area.
-pub(super) fn centroid(polygon: &[P2]) -> P2 {
+pub fn centroid(polygon: &[P2]) -> P2 {
     let Some(&origin) = polygon.first() else { return P2::zeros() };
     let (mut twice, mut moment) = (0.0, P2::zeros());
     for w in polygon.windows(2).skip(1) {
@@ -30,17 +30,17 @@ pub(super) fn centroid(polygon: &[P2]) -> P2 {
 }
 
 /// Length of the closed loop, m.
-pub(super) fn perimeter(polygon: &[P2]) -> f64 {
+pub fn perimeter(polygon: &[P2]) -> f64 {
     edges(polygon).map(|(p, q)| (q - p).norm()).sum()
 }
 
 /// The sides of the closed loop.
-pub(super) fn edges(polygon: &[P2]) -> impl Iterator<Item = (P2, P2)> + '_ {
+pub fn edges(polygon: &[P2]) -> impl Iterator<Item = (P2, P2)> + '_ {
     polygon.iter().enumerate().map(|(i, &p)| (p, polygon[(i + 1) % polygon.len()]))
 }
 
 /// Removes corners that repeat a neighbour or lie on the line between their neighbours, both within `tol`.
-pub(super) fn tidy(polygon: &mut Vec<P2>, tol: f64) {
+pub fn tidy(polygon: &mut Vec<P2>, tol: f64) {
     loop {
         let n = polygon.len();
         if n < 3 {
@@ -69,7 +69,7 @@ pub(super) fn tidy(polygon: &mut Vec<P2>, tol: f64) {
 ///
 /// The turn at two corners that are one but for rounding has any sign, and behind it a corner that dents the hull may be kept: the chain
 /// is made anew without such pairs until it is convex.
-pub(super) fn hull(points: &[P2], tol: f64) -> Vec<P2> {
+pub fn hull(points: &[P2], tol: f64) -> Vec<P2> {
     let mut points = points.to_vec();
     loop {
         let mut hull = chain(&mut points);
@@ -94,24 +94,36 @@ fn chain(points: &mut Vec<P2>) -> Vec<P2> {
     if points.len() < 3 {
         return points.clone();
     }
-    let mut chain: Vec<P2> = Vec::with_capacity(2 * points.len());
-    let mut half = |points: &mut dyn Iterator<Item = &P2>| {
-        let start = chain.len();
-        for &p in points {
-            while chain.len() >= start + 2 && cross(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0 {
+    corners(points).into_iter().map(|i| points[i]).collect()
+}
+
+/// Corners of the convex hull, counter-clockwise, as positions in `points`: Andrew's monotone chain (Andrew 1979, "Another efficient algorithm for
+/// convex hulls in two dimensions").
+pub fn corners(points: &[P2]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&i, &j| points[i].x.total_cmp(&points[j].x).then(points[i].y.total_cmp(&points[j].y)));
+    let half = |order: &mut dyn Iterator<Item = usize>| {
+        let mut chain: Vec<usize> = Vec::new();
+        for i in order {
+            while let [.., a, b] = chain[..] {
+                if cross(points[a], points[b], points[i]) > 0.0 {
+                    break;
+                }
                 chain.pop();
             }
-            chain.push(p);
+            chain.push(i);
         }
+        // The last of each half is the first of the other.
         chain.pop();
+        chain
     };
-    half(&mut points.iter());
-    half(&mut points.iter().rev());
-    chain
+    let mut lower = half(&mut order.iter().copied());
+    lower.extend(half(&mut order.iter().rev().copied()));
+    lower
 }
 
 /// Least width of a convex polygon: the least, over its sides, of the greatest distance of a corner from that side.
-pub(super) fn width(hull: &[P2]) -> f64 {
+pub fn width(hull: &[P2]) -> f64 {
     if hull.len() < 3 {
         return 0.0;
     }
@@ -122,7 +134,7 @@ pub(super) fn width(hull: &[P2]) -> f64 {
 }
 
 /// Distance of `p` from the segment `a`–`b`.
-pub(super) fn distance_to_segment(p: P2, a: P2, b: P2) -> f64 {
+pub fn distance_to_segment(p: P2, a: P2, b: P2) -> f64 {
     let along = b - a;
     let square = along.norm_squared();
     let s = if square > 0.0 { ((p - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
@@ -130,12 +142,12 @@ pub(super) fn distance_to_segment(p: P2, a: P2, b: P2) -> f64 {
 }
 
 /// Whether `p` lies in the convex polygon, its rim widened by `tol`.
-pub(super) fn contains(polygon: &[P2], p: P2, tol: f64) -> bool {
+pub fn contains(polygon: &[P2], p: P2, tol: f64) -> bool {
     edges(polygon).all(|(a, b)| cross(a, b, p) >= -tol * (b - a).norm())
 }
 
 /// Whether two convex polygons come within about `tol` of each other: no side of either separates them by more.
-pub(super) fn touch(a: &[P2], b: &[P2], tol: f64) -> bool {
+pub fn touch(a: &[P2], b: &[P2], tol: f64) -> bool {
     let separates = |a: &[P2], b: &[P2]| edges(a).any(|(p, q)| b.iter().all(|&c| cross(p, q, c) < -tol * (q - p).norm()));
     !separates(a, b) && !separates(b, a)
 }

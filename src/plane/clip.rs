@@ -4,10 +4,11 @@
 //! share corners and sides, exact: nothing is doubled and nothing is lost. The result may reach `tol` beyond the clip polygon.
 
 use super::polygon::{P2, cross, tidy};
+use nalgebra::SVector;
 
 /// The part of the convex polygon `subject` inside the convex polygon `clip`, counter-clockwise like both;
 /// empty where they have no area in common.
-pub(super) fn clip(subject: &[P2], clip: &[P2], tol: f64) -> Vec<P2> {
+pub fn clip(subject: &[P2], clip: &[P2], tol: f64) -> Vec<P2> {
     let mut polygon = subject.to_vec();
     for (i, &a) in clip.iter().enumerate() {
         let b = clip[(i + 1) % clip.len()];
@@ -28,8 +29,13 @@ pub(super) fn clip(subject: &[P2], clip: &[P2], tol: f64) -> Vec<P2> {
     if polygon.len() < 3 { Vec::new() } else { polygon }
 }
 
-/// Cuts a convex polygon by the line from which its corners have the signed distances `depth`, positive inside.
-fn cut(polygon: &[P2], depth: &[f64], tol: f64) -> Vec<P2> {
+/// The part of a convex polygon, in its plane or in space, where `depth` is positive; corners where it is 0 within `tol` are kept.
+pub fn inside<const D: usize>(polygon: &[SVector<f64, D>], depth: impl Fn(&SVector<f64, D>) -> f64, tol: f64) -> Vec<SVector<f64, D>> {
+    cut(polygon, &polygon.iter().map(depth).collect::<Vec<_>>(), tol)
+}
+
+/// Cuts a convex polygon, in its plane or in space, by the line or plane from which its corners have the signed distances `depth`, positive inside.
+fn cut<const D: usize>(polygon: &[SVector<f64, D>], depth: &[f64], tol: f64) -> Vec<SVector<f64, D>> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (i, &p) in polygon.iter().enumerate() {
         let next = (i + 1) % polygon.len();
