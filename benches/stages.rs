@@ -9,9 +9,9 @@ use std::{hint::black_box, ops::ControlFlow, process::Command, time::Duration};
 use voussoir::{
     analysis::{self, Control, Law},
     assembly,
-    dynamics::{Fidelity, Settings, simulate},
+    dynamics::{Fidelity, SimulationSettings, simulate},
     import, interface,
-    program::{self, Options, Statics, Unknowns},
+    program::{self, Statics, StaticsOptions, Unknowns},
     report::ResultFile,
     scene::{Friction, Load, Scene, read_str},
     sweep,
@@ -44,7 +44,7 @@ fn stages(c: &mut Criterion) {
         group.bench_function(BenchmarkId::new("build", blocks), |b| {
             b.iter(|| {
                 program::load_factor(
-                    &Statics::new(assembly, interfaces, Options { keep_all: false, live: true, ..Options::default() }),
+                    &Statics::new(assembly, interfaces, StaticsOptions { keep_all: false, live: true, ..StaticsOptions::default() }),
                     1.0,
                     Unknowns::Rates,
                 )
@@ -86,7 +86,7 @@ fn figures(c: &mut Criterion) {
     let sweep = sweep::open(plan.as_ref()).expect("the plan opens");
     let folder = tempfile::tempdir().expect("a folder");
     for threads in [1, 2, 4] {
-        let options = sweep::Options { threads: Some(threads), restart: true, ..sweep::Options::default() };
+        let options = sweep::RunOptions { threads: Some(threads), restart: true, ..sweep::RunOptions::default() };
         group.bench_function(format!("sweep of {} arches of 27 voussoirs, {threads} threads", sweep.rows()), |b| {
             b.iter(|| sweep::run(&sweep, &folder.path().join("rows.jsonl"), &options, &|_| {}).expect("the sweep runs"))
         });
@@ -100,11 +100,11 @@ fn large(c: &mut Criterion) {
     group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(5));
     let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/compas/cra-armadillo.json"));
     if path.exists() {
-        let options = import::Options {
+        let options = import::ImportOptions {
             supports: (0..8).chain(79..89).chain(217..228).chain(328..332).map(|k| k.to_string()).collect(),
             friction: Some(Friction::Coefficient(0.84)),
             density: Some(1.0),
-            ..import::Options::default()
+            ..import::ImportOptions::default()
         };
         let mut scene = import::import_file(path, &options).expect("the vault is read").scene;
         scene.loads.live = vec![Load { weight: Some([1.0, 0.0, 0.0]), ..Load::default() }];
@@ -142,12 +142,12 @@ fn steps(c: &mut Criterion) {
         let blocks = model.assembly.blocks.len();
         let unit = (model.assembly.blocks[0].size / model.assembly.gravity.norm()).sqrt();
         for threads in [1, 4] {
-            let settings = Settings {
+            let settings = SimulationSettings {
                 fidelity: Some(Fidelity::Fast),
                 seconds: Some(STEPS as f64 * unit / 100.0),
                 to_the_end: true,
                 threads,
-                ..Settings::default()
+                ..SimulationSettings::default()
             };
             group.throughput(Throughput::Elements(STEPS as u64));
             group.bench_function(BenchmarkId::new(format!("{STEPS} fast steps, {threads} threads"), blocks), |b| {

@@ -1,10 +1,10 @@
 //! Bytes → the importer of this format. What it makes is a scene: written and read again it is the same.
 #![no_main]
 use libfuzzer_sys::fuzz_target;
-use voussoir::import::{Options, import_bytes};
+use voussoir::import::{ImportOptions, import_bytes};
 
 fuzz_target!(|bytes: &[u8]| {
-    match import_bytes("fuzzed.stl", bytes, &Options::default()) {
+    match import_bytes("fuzzed.stl", bytes, &ImportOptions::default()) {
         Err(e) => voussoir_fuzz::said(&e),
         Ok(imported) => {
             let text = serde_json::to_string(&imported.scene).expect("a scene has a JSON form");

@@ -3,7 +3,7 @@
 use super::Assessment;
 use crate::{
     assembly::Assembly,
-    dynamics::{Fate, Outcome},
+    dynamics::{Fate, SimulationOutcome},
     error::FindingCode,
     interface::Interfaces,
     program,
@@ -65,7 +65,7 @@ pub fn agree(verdict: Verdict, fate: Fate, left_out: bool) -> Option<bool> {
 }
 
 /// Compares an assessment with a simulation of the same scene.
-pub fn agreement(assembly: &Assembly, interfaces: &Interfaces, assessment: &Assessment, outcome: &Outcome) -> Agreement {
+pub fn agreement(assembly: &Assembly, interfaces: &Interfaces, assessment: &Assessment, outcome: &SimulationOutcome) -> Agreement {
     let (verdict, fate) = (assessment.verdict, outcome.fate);
     let agrees = agree(verdict, fate, outcome.findings.iter().any(|f| f.code == FindingCode::LeftOut));
     let falls = matches!(verdict, Verdict::Unstable | Verdict::Conditional) && fate == Fate::Falls;
@@ -85,7 +85,7 @@ pub fn agreement(assembly: &Assembly, interfaces: &Interfaces, assessment: &Asse
 }
 
 /// `⟨x, q⟩ / (‖x‖ ‖q‖)` with `⟨x, q⟩ = Σ m u·v + φ·J ω` over the free blocks, `x = (u, φ)` the first motion and `q = (v, ω)` the rates.
-fn correlation(assembly: &Assembly, outcome: &Outcome, rates: &[Rate]) -> Option<f64> {
+fn correlation(assembly: &Assembly, outcome: &SimulationOutcome, rates: &[Rate]) -> Option<f64> {
     let (mut across, mut one, mut other) = (0.0, 0.0, 0.0);
     for i in assembly.free() {
         let (block, motion, rate) = (&assembly.blocks[i], outcome.first_motion.get(i)?, rates.get(i)?);
@@ -99,7 +99,13 @@ fn correlation(assembly: &Assembly, outcome: &Outcome, rates: &[Rate]) -> Option
     (size > 0.0).then(|| (across / size).clamp(-1.0, 1.0))
 }
 
-fn forces(assembly: &Assembly, interfaces: &Interfaces, computed: &Forces, outcome: &Outcome, determinate: bool) -> Option<ForceAgreement> {
+fn forces(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    computed: &Forces,
+    outcome: &SimulationOutcome,
+    determinate: bool,
+) -> Option<ForceAgreement> {
     // By pairs of blocks: computed, simulated; both on the block with the larger index.
     let mut pairs: BTreeMap<(usize, usize), [Vector3<f64>; 2]> = BTreeMap::new();
     for (face, points) in interfaces.list.iter().zip(computed) {

@@ -4,13 +4,13 @@
 use super::{
     Bracket, Deciding,
     attempt::{Attempt, Control, Law, Run, Rung, even, interior, is_large, run, rung, steps},
-    coulomb::{Motion, State, state},
+    coulomb::{State, StateMotion, state},
     mend, parts,
 };
 use crate::{
     assembly::Assembly,
     interface::Interfaces,
-    program::{self, LiveLoad, Options, Statics, Unknowns},
+    program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate,
@@ -98,11 +98,11 @@ fn settle(assembly: &Assembly, interfaces: &Interfaces, control: &Control, answe
     }
     let state = state(assembly, interfaces, control);
     answer.verdict = match state.motion {
-        Motion::Rests => Verdict::Stable,
-        Motion::Moves => Verdict::Conditional,
-        Motion::Undecided => Verdict::Undecided,
+        StateMotion::Rests => Verdict::Stable,
+        StateMotion::Moves => Verdict::Conditional,
+        StateMotion::Undecided => Verdict::Undecided,
     };
-    if state.motion == Motion::Moves {
+    if state.motion == StateMotion::Moves {
         answer.rates = law::motion(assembly, interfaces, &state.forces).rates;
         answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
     }
@@ -146,7 +146,8 @@ pub(super) fn falls_freely(assembly: &Assembly, interfaces: &Interfaces) -> Opti
 /// Program V down the ladder until its bracket decides.
 pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live: LiveLoad, control: &Control) -> Assessment {
     let start = Instant::now();
-    let options = Options { keep_all: control.keep_all, live: live != LiveLoad::Absent, symmetry: true, ..Options::default() };
+    let options =
+        StaticsOptions { keep_all: control.keep_all, live: live != LiveLoad::Absent, symmetry: true, ..StaticsOptions::default() };
     let mut base = Statics::new(assembly, interfaces, options);
     let zero = no_forces(interfaces);
     let unloaded = certificate::statics(assembly, interfaces, &zero, 0.0);
@@ -177,7 +178,7 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
             break;
         }
         if whole && base.is_part() {
-            base = Statics::new(assembly, interfaces, Options { symmetry: false, ..options });
+            base = Statics::new(assembly, interfaces, StaticsOptions { symmetry: false, ..options });
             answer.left_out.clone_from(&base.left_out);
         }
         let mut statics = step.scaled(&base);

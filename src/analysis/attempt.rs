@@ -5,7 +5,7 @@
 use crate::{
     assembly::Assembly,
     interface::Interfaces,
-    program::{ConicProgram, Layout, Statics, Unknowns},
+    program::{ConicProgram, Positions, Statics, Unknowns},
     solve::{self, Engine, Settings, Solution, Status},
     verdict::{Forces, Rate, certificate},
 };
@@ -167,7 +167,7 @@ pub(super) fn run(
     assembly: &Assembly,
     interfaces: &Interfaces,
     statics: &mut Statics,
-    build: impl Fn(&Statics) -> (ConicProgram, Layout),
+    build: impl Fn(&Statics) -> (ConicProgram, Positions),
     settings: &Settings,
 ) -> Run {
     let start = Instant::now();

@@ -14,13 +14,13 @@ use super::{
 use crate::{
     assembly::{Assembly, Wrench},
     interface::Interfaces,
-    program::{self, LiveLoad, Options, Statics, Unknowns},
+    program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate, check,
         exact::{
             existence,
-            motion::{self, Motion},
+            motion::{self, MotionProof},
         },
         mechanism,
         mechanism::Mechanism,
@@ -107,7 +107,7 @@ pub(super) fn of_part(assembly: &Assembly, interfaces: &Interfaces, control: &Co
     if control.seconds <= 0.0 {
         return unknown(assembly, interfaces, Vec::new());
     }
-    let options = Options { keep_all: control.keep_all, live: true, symmetry: true, ..Options::default() };
+    let options = StaticsOptions { keep_all: control.keep_all, live: true, symmetry: true, ..StaticsOptions::default() };
     let mut statics = Statics::new(assembly, interfaces, options);
     let natural = check::natural_factor(assembly);
     let mut answer = unknown(assembly, interfaces, statics.left_out.clone());
@@ -124,7 +124,7 @@ pub(super) fn of_part(assembly: &Assembly, interfaces: &Interfaces, control: &Co
             return answer;
         }
         if whole && statics.is_part() {
-            statics = Statics::new(assembly, interfaces, Options { symmetry: false, ..options });
+            statics = Statics::new(assembly, interfaces, StaticsOptions { symmetry: false, ..options });
             answer.left_out.clone_from(&statics.left_out);
         }
         let left = control.seconds - start.elapsed().as_secs_f64();
@@ -176,7 +176,7 @@ fn prove(
     let width = tolerance::LOAD_FACTOR_WIDTH * answer.value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
     let seconds = control.seconds;
     let mut moved = motion::motion(assembly, interfaces, &answer.rates);
-    let is_proof = |m: &Motion| m.is_admissible() && m.gain().lower.is_finite();
+    let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
     if !moved.as_ref().is_some_and(is_proof)
         && let Some(mended) = mend::admissible(assembly, interfaces, &answer.rates, (answer.value, 0.1 * width * k.live_power), seconds)
     {
@@ -333,8 +333,8 @@ fn pair(assembly: &Assembly, interfaces: &Interfaces, answer: &mut LoadFactor) {
 }
 
 /// One attempt at program L with a way of one's own, for studies: nothing is tried again.
-pub fn attempt(assembly: &Assembly, interfaces: &Interfaces, way: &Way) -> LoadFactor {
-    let mut statics = Statics::new(assembly, interfaces, Options { live: true, ..way.options });
+pub fn attempt(assembly: &Assembly, interfaces: &Interfaces, way: &Formulation) -> LoadFactor {
+    let mut statics = Statics::new(assembly, interfaces, StaticsOptions { live: true, ..way.options });
     let mut answer = unknown(assembly, interfaces, statics.left_out.clone());
     let scale = if way.options.unscaled { 1.0 } else { check::natural_factor(assembly) };
     let step = Rung { unknowns: way.unknowns, unit: way.unit, local: way.local, even: false, settings: way.settings };
@@ -348,9 +348,9 @@ pub fn attempt(assembly: &Assembly, interfaces: &Interfaces, way: &Way) -> LoadF
 
 /// How one attempt goes about it.
 #[derive(Clone, Copy, Debug)]
-pub struct Way {
+pub struct Formulation {
     /// What to leave out and how to scale.
-    pub options: Options,
+    pub options: StaticsOptions,
     /// The unknowns.
     pub unknowns: Unknowns,
     /// Factor on the force unit.
@@ -361,11 +361,11 @@ pub struct Way {
     pub settings: crate::solve::Settings,
 }
 
-impl Way {
+impl Formulation {
     /// The first way of [`limit`] in the given unknowns.
     pub fn usual(unknowns: Unknowns) -> Self {
         let step = LADDER.into_iter().find(|step| step.unknowns == unknowns).unwrap_or(LADDER[0]);
-        Self { options: Options::default(), unknowns, unit: step.unit, local: step.local, settings: step.settings }
+        Self { options: StaticsOptions::default(), unknowns, unit: step.unit, local: step.local, settings: step.settings }
     }
 }
 

@@ -11,14 +11,14 @@
 use crate::{
     assembly::Assembly,
     interface::{Interface, Interfaces},
-    program::{Options, Statics, opening},
+    program::{Statics, StaticsOptions, opening},
     scene::Friction,
     solve::{self, Settings},
     tolerance,
     verdict::{
         Forces, Rate,
         certificate::{self, Strength, at},
-        exact::motion::{Motion, motion},
+        exact::motion::{MotionProof, motion},
         no_forces,
     },
 };
@@ -73,7 +73,7 @@ pub(super) fn admissible(
     (lambda, most): (f64, f64),
     seconds: f64,
 ) -> Option<Vec<Rate>> {
-    let is_proof = |m: &Motion| m.is_admissible() && m.gain().lower.is_finite();
+    let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
     if motion(assembly, interfaces, rates).as_ref().is_some_and(is_proof) {
         return Some(rates.to_vec());
     }
@@ -193,7 +193,7 @@ fn fields(assembly: &Assembly) -> impl Iterator<Item = Vec<Rate>> + '_ {
 /// The least motion that opens every contact by one, of the whole scene; `None` where there is none (forces that balance without a load hold
 /// some contact closed) or where joints have strengths.
 fn sought(assembly: &Assembly, interfaces: &Interfaces, seconds: f64) -> Option<Vec<Rate>> {
-    let statics = Statics::new(assembly, interfaces, Options::default());
+    let statics = Statics::new(assembly, interfaces, StaticsOptions::default());
     let program = opening(&statics)?;
     let settings = Settings { seconds, tolerance: 1e-6, ..Settings::default() };
     let solution = solve::solve(&program, &settings);

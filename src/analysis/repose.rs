@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     assembly,
-    dynamics::granular::{Change, Flow, Rest, flow},
+    dynamics::granular::{Disturbance, Flow, Rest, flow},
     error::{Finding, FindingCode, InputError},
     generate::{Deposit, deposit},
     scene::{BlockSpec, Protocol, ProtocolKind, Rotation, Scene},
@@ -105,16 +105,16 @@ pub fn heap(protocol: &Protocol, seed: u64, watch: &mut dyn FnMut(&Flow) -> Cont
     let g = assembly.gravity.norm();
     let natural = (d / g).sqrt();
     let stages = match protocol.kind {
-        ProtocolKind::Drain => vec![Change::Settle, Change::Remove(find(&gates))],
-        ProtocolKind::Funnel => vec![Change::Pour(layers.iter().map(|l| find(l)).collect(), POUR * natural)],
+        ProtocolKind::Drain => vec![Disturbance::Settle, Disturbance::Remove(find(&gates))],
+        ProtocolKind::Funnel => vec![Disturbance::Pour(layers.iter().map(|l| find(l)).collect(), POUR * natural)],
         ProtocolKind::Cylinder => {
             let height = 3.0 * d * (protocol.grains as f64).cbrt();
-            vec![Change::Settle, Change::Lift(find(&gates), protocol.rate * (g * d).sqrt(), height)]
+            vec![Disturbance::Settle, Disturbance::Lift(find(&gates), protocol.rate * (g * d).sqrt(), height)]
         }
         // Towards the gate, which goes as soon as the bed has settled.
         ProtocolKind::Tilt => {
             let rate = protocol.rate.to_radians() / natural;
-            vec![Change::Settle, Change::Turn(Unit::new_unchecked(-Vector3::y()), rate)]
+            vec![Disturbance::Settle, Disturbance::Turn(Unit::new_unchecked(-Vector3::y()), rate)]
         }
     };
     let rest = flow(&assembly, &stages, d, HORIZON, watch)?;

@@ -14,7 +14,7 @@ use crate::{
     assembly::Assembly,
     error::{InputError, JsonPath},
     interface::Interfaces,
-    program::{self, Options, Statics, Unknowns},
+    program::{self, Statics, StaticsOptions, Unknowns},
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate, no_forces,
@@ -136,7 +136,7 @@ pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: 
     let (assembly, interfaces) = (&model.assembly, &model.interfaces);
     let start = Instant::now();
     let direction = Vector3::from(at.direction);
-    let build = |keep_all: bool| Statics::new(assembly, interfaces, Options { keep_all, ..Options::default() });
+    let build = |keep_all: bool| Statics::new(assembly, interfaces, StaticsOptions { keep_all, ..StaticsOptions::default() });
     let mut base = build(control.keep_all);
     // A plane scene knows no thrust out of its plane.
     if base.plane.is_some_and(|p| p.axis.dot(&direction).abs() > 1e-9) {
@@ -255,7 +255,7 @@ impl Problem<'_> {
     /// Whether forces that need no load push without end; then they are the forces of `answer`.
     fn has_no_end(&self, step: Rung, left: f64, keep_all: bool, answer: &mut ThrustEnd) -> bool {
         let (unlimited, kept) = self.interfaces.unlimited();
-        let mut statics = Statics::new(self.assembly, &unlimited, Options { keep_all, ..Options::default() });
+        let mut statics = Statics::new(self.assembly, &unlimited, StaticsOptions { keep_all, ..StaticsOptions::default() });
         statics.rescale(step.unit, step.local);
         let settings = crate::solve::Settings { seconds: left, ..step.settings };
         let build = |statics: &Statics| program::endless_thrust(statics, &self.objective(statics, &unlimited));

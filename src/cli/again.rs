@@ -1,7 +1,7 @@
 //! The options that would have to be given again for the same answer, as typed.
 
 use super::args::{Assess, Common, Critical, DIRECTIONS, Law, Simulate, Thrust, Tilt};
-use voussoir::sweep::Range;
+use voussoir::sweep::Between;
 
 /// As typed, where it was given.
 pub fn skip_dead(given: bool) -> Vec<String> {
@@ -9,8 +9,8 @@ pub fn skip_dead(given: bool) -> Vec<String> {
 }
 
 /// As typed, where there are ranges.
-pub fn worst(ranges: &[Range]) -> Vec<String> {
-    let list: Vec<String> = ranges.iter().map(Range::to_string).collect();
+pub fn worst(ranges: &[Between]) -> Vec<String> {
+    let list: Vec<String> = ranges.iter().map(Between::to_string).collect();
     if list.is_empty() { Vec::new() } else { vec![format!("--worst {}", list.join(","))] }
 }
 

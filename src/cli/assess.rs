@@ -10,7 +10,7 @@ use super::{
 use std::ops::ControlFlow;
 use voussoir::{
     analysis::assess,
-    dynamics::Settings,
+    dynamics::SimulationSettings,
     report::{ResultFile, view::Film},
     sweep::WorstOf,
     verdict::Verdict,
@@ -22,7 +22,7 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     let assessment = assess(&question.model.assembly, &question.model.interfaces, &question.control());
     let doubt = matches!(assessment.verdict, Verdict::Conditional | Verdict::Undecided);
     let mut film = question.report().map(|_| Film::fitting(question.model.assembly.blocks.len()));
-    let settings = Settings { threads: threads(args.threads), every_step: film.is_some(), ..Settings::default() };
+    let settings = SimulationSettings { threads: threads(args.threads), every_step: film.is_some(), ..SimulationSettings::default() };
     let outcome = match args.simulate || (args.thorough && doubt) {
         true => Some(watch(&question, &settings, &mut film, &mut |_| ControlFlow::Continue(()))?),
         false => None,

@@ -17,7 +17,7 @@ use voussoir::{
         Leaning, ResultFile,
         heaps::{HeapResult, MarginResult, ReposeFile},
         json, page,
-        text::{self, Options},
+        text::{self, TextOptions},
         view::View,
     },
     scene::Protocol,
@@ -126,7 +126,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.common.json {
         terminal::print(&text)?;
     } else if !(report::is_printed(&args.common.report) || pictures.printed()) {
-        let options = Options { verbose: args.common.verbose, brief: args.common.quiet };
+        let options = TextOptions { verbose: args.common.verbose, brief: args.common.quiet };
         terminal.page(&text::heaps(&file, options, layout))?;
     }
     Ok(if file.at_rest == file.heaps.len() { Exit::Yes } else { Exit::Undecided })

@@ -2,14 +2,14 @@
 
 use super::{args::Import, claim, exit::Exit, output::Sink, terminal};
 use voussoir::{
-    import::{Options, import_files},
+    import::{ImportOptions, import_files},
     report::json,
 };
 
 pub fn run(args: &Import) -> anyhow::Result<Exit> {
     args.files.iter().chain(&args.supports_file).try_for_each(|file| claim::read(file))?;
     let sink = Sink::open(args.output.as_deref())?;
-    let options = Options {
+    let options = ImportOptions {
         supports: args.support.clone(),
         support_below: args.support_below,
         support_files: args.supports_file.clone(),
@@ -19,7 +19,7 @@ pub fn run(args: &Import) -> anyhow::Result<Exit> {
         up: args.up,
         gap: args.gap,
         stored_interfaces: !args.no_stored_interfaces,
-        ..Options::default()
+        ..ImportOptions::default()
     };
     let imported = import_files(&args.files, &options)?;
     terminal::notes(&imported.findings);

@@ -19,13 +19,13 @@ use voussoir::{
     limits,
     report::{
         ResultFile, json, page,
-        result::Question as Kind,
-        text::{self, Asked, Options},
+        result::QuestionKind as Kind,
+        text::{self, Asked, TextOptions},
         view::View,
         work::Work,
     },
     scene::{Scene, Source},
-    sweep::{self, Range, WorstOf},
+    sweep::{self, Between, WorstOf},
     verdict::Verdict,
 };
 
@@ -121,7 +121,7 @@ impl<'a> Question<'a> {
     }
 
     /// Puts the worst case within ranges in the place of the scene, and the argument among what the user should know.
-    pub fn worst(&mut self, ranges: &[Range], asked: WorstOf) -> anyhow::Result<()> {
+    pub fn worst(&mut self, ranges: &[Between], asked: WorstOf) -> anyhow::Result<()> {
         if ranges.is_empty() {
             return Ok(());
         }
@@ -228,7 +228,7 @@ impl<'a> Question<'a> {
         if self.common.json {
             terminal::print(&json::pretty(&file)?)?;
         } else if !self.is_printed() {
-            let options = Options { verbose: self.common.verbose, brief: self.common.quiet };
+            let options = TextOptions { verbose: self.common.verbose, brief: self.common.quiet };
             terminal.page(&text::render(&file, asked, options, layout))?;
         }
         Ok(file)

@@ -4,13 +4,13 @@ use std::path::PathBuf;
 use voussoir::{
     dynamics::Frame,
     report::{
-        text::{Layout, Options},
+        text::{Layout, TextOptions},
         view::Film,
     },
 };
 
 /// A page holds all that can be said; what is long is folded there.
-pub const EVERYTHING: Options = Options { verbose: true, brief: false };
+pub const EVERYTHING: TextOptions = TextOptions { verbose: true, brief: false };
 
 /// A browser breaks lines by itself.
 pub fn layout(layout: Layout) -> Layout {

@@ -17,7 +17,7 @@ use voussoir::{
         contacts, json,
         packing::PackingFile,
         page,
-        text::{self, Options},
+        text::{self, TextOptions},
         view::View,
     },
     verdict::Forces,
@@ -75,7 +75,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.common.json {
         terminal::print(&json::pretty(&file)?)?;
     } else if !question.is_printed() {
-        let options = Options { verbose: args.common.verbose, brief: args.common.quiet };
+        let options = TextOptions { verbose: args.common.verbose, brief: args.common.quiet };
         terminal.page(&text::packing(&file, options, layout))?;
     }
     let open = !file.directions.iter().all(|d| d.governing().is_finite());

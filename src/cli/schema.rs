@@ -1,7 +1,7 @@
 //! `voussoir schema`
 
 use super::{
-    args::{Format, Schema},
+    args::{FileFormat, Schema},
     exit::Exit,
     terminal,
 };
@@ -9,8 +9,8 @@ use voussoir::{report::json, scene, sweep};
 
 pub fn run(args: &Schema) -> anyhow::Result<Exit> {
     let schema = match args.of {
-        Format::Scene => scene::schema(),
-        Format::Plan => sweep::schema(),
+        FileFormat::Scene => scene::schema(),
+        FileFormat::Plan => sweep::schema(),
     };
     terminal::print(&json::pretty(&schema)?)?;
     Ok(Exit::Yes)

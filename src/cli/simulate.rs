@@ -13,7 +13,7 @@ use anyhow::Context;
 use std::{fs::File, ops::ControlFlow};
 use voussoir::{
     analysis::assess,
-    dynamics::{Fate, Fidelity, Outcome, Settings, simulate},
+    dynamics::{Fate, Fidelity, SimulationOutcome, SimulationSettings, simulate},
     report::{ResultFile, trajectory::TrajectoryWriter, view::Film},
 };
 
@@ -37,7 +37,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         None => None,
     };
-    let settings = Settings {
+    let settings = SimulationSettings {
         fidelity: if args.fast { Some(Fidelity::Fast) } else { args.fine.then_some(Fidelity::Fine) },
         seconds: args.seconds,
         threads: threads(args.threads),
@@ -73,10 +73,10 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
 /// Simulates under a bar until the time limit, and films it where there is a film.
 pub fn watch(
     question: &Question,
-    settings: &Settings,
+    settings: &SimulationSettings,
     film: &mut Option<Film>,
     keep: &mut dyn FnMut(&voussoir::dynamics::Frame) -> ControlFlow<()>,
-) -> anyhow::Result<Outcome> {
+) -> anyhow::Result<SimulationOutcome> {
     let bar = Bar::new(question.shows_progress());
     let model = &question.model;
     simulate(&model.assembly, &model.interfaces, settings, &mut |progress| {

@@ -17,7 +17,7 @@ use std::{
 };
 use voussoir::{
     report::{json, page, sweep as report},
-    sweep::{self, Event, Header, Options, Row},
+    sweep::{self, Event, Header, Row, RunOptions},
 };
 
 pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -43,7 +43,7 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.slurm.slurm {
         return slurm::submit::run(args, &sweep, &output, &sinks, terminal);
     }
-    let options = Options { shard: args.shard, threads: args.threads.map(usize::from), restart: args.restart };
+    let options = RunOptions { shard: args.shard, threads: args.threads.map(usize::from), restart: args.restart };
     let bar = bar(args.summary.quiet);
     let quiet = args.summary.quiet;
     let done = sweep::run(&sweep, &output, &options, &|event| match event {

@@ -41,7 +41,7 @@ const FLOWING: f64 = 0.01;
 
 /// What is done to the grains in one stage.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Change {
+pub enum Disturbance {
     /// Nothing: they settle.
     Settle,
     /// These blocks are taken away.
@@ -92,7 +92,7 @@ pub struct Flow {
 /// A block that the engine cannot take.
 pub fn flow(
     assembly: &Assembly,
-    stages: &[Change],
+    stages: &[Disturbance],
     diameter: f64,
     horizon: f64,
     watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>,
@@ -149,7 +149,7 @@ pub fn flow(
         run.world.refine(Step { dt: dt / FINER, ..step });
         run.dt /= FINER;
         let mut watch = |time: f64, energy: f64| watch(&Flow { stage: stages.len(), time: time / natural, energy });
-        rested = run.stage(&Change::Settle, horizon * natural, &mut watch).0;
+        rested = run.stage(&Disturbance::Settle, horizon * natural, &mut watch).0;
     }
     let gone = run.free.iter().filter(|&&i| !run.there[i]).count();
     let poses = (0..assembly.blocks.len()).map(|i| run.there[i].then(|| (run.center(i), run.world.pose(i).1))).collect();
@@ -189,30 +189,30 @@ impl Flowing<'_> {
     }
 
     /// One stage; whether it came to rest, and by how much gravity had turned when the grains began to flow.
-    fn stage(&mut self, change: &Change, horizon: f64, watch: &mut dyn FnMut(f64, f64) -> ControlFlow<()>) -> (bool, Option<f64>) {
+    fn stage(&mut self, change: &Disturbance, horizon: f64, watch: &mut dyn FnMut(f64, f64) -> ControlFlow<()>) -> (bool, Option<f64>) {
         let start: Vec<Vector3<f64>> = (0..self.there.len()).map(|i| self.center(i)).collect();
         let (mut lifted, mut waiting) = (Vec::new(), Vec::new());
         match change {
-            Change::Remove(blocks) => blocks.iter().for_each(|&i| self.remove(i)),
-            Change::Lift(blocks, ..) => lifted.clone_from(blocks),
-            Change::Pour(groups, _) => {
+            Disturbance::Remove(blocks) => blocks.iter().for_each(|&i| self.remove(i)),
+            Disturbance::Lift(blocks, ..) => lifted.clone_from(blocks),
+            Disturbance::Pour(groups, _) => {
                 waiting.clone_from(groups);
                 // Far away and without load until their turn comes.
                 for (k, &i) in groups.iter().flatten().enumerate() {
                     self.park(i, k);
                 }
             }
-            Change::Settle | Change::Turn(..) => {}
+            Disturbance::Settle | Disturbance::Turn(..) => {}
         }
         waiting.reverse();
         let mut parked: std::collections::BTreeSet<usize> = waiting.iter().flatten().copied().collect();
-        let (mut time, mut poured, mut angle, mut flowing) = (0.0, f64::NEG_INFINITY, 0.0, !matches!(change, Change::Turn(..)));
+        let (mut time, mut poured, mut angle, mut flowing) = (0.0, f64::NEG_INFINITY, 0.0, !matches!(change, Disturbance::Turn(..)));
         let mut still_since = 0.0;
         self.resting = 0.0;
         self.load(&BTreeMap::new(), &parked);
         loop {
             let mut loads = false;
-            if let Change::Lift(_, speed, height) = change {
+            if let Disturbance::Lift(_, speed, height) = change {
                 if speed * time > *height {
                     lifted.drain(..).for_each(|i| self.remove(i));
                 } else {
@@ -222,7 +222,7 @@ impl Flowing<'_> {
                     }
                 }
             }
-            if let Change::Pour(_, every) = change
+            if let Disturbance::Pour(_, every) = change
                 && !waiting.is_empty()
                 && time - poured >= *every
             {
@@ -237,7 +237,7 @@ impl Flowing<'_> {
                 }
                 (poured, loads) = (time, true);
             }
-            if let (Change::Turn(axis, rate), false) = (change, flowing) {
+            if let (Disturbance::Turn(axis, rate), false) = (change, flowing) {
                 angle += rate * self.dt;
                 self.gravity = Rotation3::from_axis_angle(axis, angle) * self.assembly.gravity;
                 loads = true;
@@ -277,7 +277,7 @@ impl Flowing<'_> {
             if watch(time, self.energy).is_break() {
                 return (false, None);
             }
-            let turned = matches!(change, Change::Turn(..)).then_some(angle);
+            let turned = matches!(change, Disturbance::Turn(..)).then_some(angle);
             if self.resting >= GRAIN_REST_TIME * self.natural && !changing {
                 return (true, turned);
             }

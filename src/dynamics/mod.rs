@@ -22,7 +22,7 @@ mod rolling;
 mod run;
 mod units;
 
-pub use outcome::{Contact, Fate, Fidelity, Frame, Motion, Outcome, Pose, Run, Stop};
+pub use outcome::{Fate, Fidelity, FirstMotion, Frame, MeanContact, Pose, Run, SimulationOutcome, Stop};
 pub use run::simulate;
 
 #[cfg(doc)]
@@ -34,7 +34,7 @@ pub const FIRST_MOTION: f64 = 0.01;
 
 /// What the caller may change about a simulation.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct SimulationSettings {
     /// One kind of run only; by default a fast one, and a fine one unless that shows that it stands.
     pub fidelity: Option<Fidelity>,
     /// Time to simulate at most, s; by default 10 √(H/g), H the height of the scene, and at least 10 √(L/g), L the median block size.
@@ -51,7 +51,7 @@ pub struct Settings {
     pub every_step: bool,
 }
 
-impl Default for Settings {
+impl Default for SimulationSettings {
     fn default() -> Self {
         Self { fidelity: None, seconds: None, threads: 1, frames: 0, keep_frames: true, to_the_end: false, every_step: false }
     }

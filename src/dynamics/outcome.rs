@@ -76,7 +76,7 @@ pub struct Run {
 
 /// The motion of a block from the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
+pub struct FirstMotion {
     /// Way of the centre of mass, m.
     pub way: Vector3<f64>,
     /// Rotation vector, radians.
@@ -85,7 +85,7 @@ pub struct Motion {
 
 /// The contact force between two blocks: mean over the last step, on `b`, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
+pub struct MeanContact {
     /// Index of the first block, `a < b`.
     pub a: usize,
     /// Index of the second block.
@@ -126,7 +126,7 @@ pub struct Pose {
 
 /// The answer of [`simulate`](super::simulate).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct SimulationOutcome {
     /// What became of it, by the last run.
     pub fate: Fate,
     /// When the first block had fallen, s.
@@ -134,9 +134,9 @@ pub struct Outcome {
     /// The runs, the decisive one last.
     pub runs: Vec<Run>,
     /// The motion from the start to where some block first moved by [`FIRST_MOTION`](super::FIRST_MOTION) × its thickness; empty where none did.
-    pub first_motion: Vec<Motion>,
+    pub first_motion: Vec<FirstMotion>,
     /// Contact forces at the end, by pairs of blocks.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<MeanContact>,
     /// What is left when the contact forces on the supports and all loads are added up, over the sum of the loads' sizes: 0 at rest.
     pub reaction_error: f64,
     /// The frames that were asked for.

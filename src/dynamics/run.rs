@@ -1,7 +1,7 @@
 //! Running the engine until the outcome is clear.
 
 use super::{
-    Contact, FIRST_MOTION, Fate, Fidelity, Frame, Motion, Outcome, Pose, Progress, Run, Settings, Stop,
+    FIRST_MOTION, Fate, Fidelity, FirstMotion, Frame, MeanContact, Pose, Progress, Run, SimulationOutcome, SimulationSettings, Stop,
     bodies::{Body, Frictions, bodies},
     rapier::{PREDICTION, Step, World},
     rolling::Rolling,
@@ -54,11 +54,11 @@ impl Fidelity {
 pub fn simulate(
     assembly: &Assembly,
     interfaces: &Interfaces,
-    settings: &Settings,
+    settings: &SimulationSettings,
     watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
-) -> Result<Outcome, InputError> {
+) -> Result<SimulationOutcome, InputError> {
     let loads = Loads::of(assembly, interfaces);
-    let mut outcome = Outcome {
+    let mut outcome = SimulationOutcome {
         fate: Fate::Stands,
         collapse: None,
         runs: Vec::new(),
@@ -142,14 +142,14 @@ struct Stage<'a> {
     frictions: &'a Frictions<'a>,
     units: Units,
     loads: &'a Loads,
-    settings: &'a Settings,
+    settings: &'a SimulationSettings,
 }
 
 /// A run with what it showed.
 struct Show {
     run: Run,
-    first_motion: Vec<Motion>,
-    contacts: Vec<Contact>,
+    first_motion: Vec<FirstMotion>,
+    contacts: Vec<MeanContact>,
     reaction_error: f64,
     frames: Vec<Frame>,
 }
@@ -324,10 +324,10 @@ impl Stage<'_> {
         self.assembly.blocks[block].size / self.units.length
     }
 
-    fn motions(&self, world: &World) -> Vec<Motion> {
+    fn motions(&self, world: &World) -> Vec<FirstMotion> {
         let motion = |(i, body): (usize, &Body)| {
             let (center, turn) = world.pose(i);
-            Motion { way: (center - body.center) * self.units.length, turn: turn.scaled_axis() }
+            FirstMotion { way: (center - body.center) * self.units.length, turn: turn.scaled_axis() }
         };
         self.bodies.iter().enumerate().map(motion).collect()
     }
@@ -351,7 +351,7 @@ impl Stage<'_> {
     }
 
     /// Contact forces by pairs of blocks, N.
-    fn contacts(&self, world: &World) -> Vec<Contact> {
+    fn contacts(&self, world: &World) -> Vec<MeanContact> {
         let mut sums: BTreeMap<(usize, usize), (Vector3<f64>, f64)> = BTreeMap::new();
         for patch in world.patches() {
             let (pair, force) = if patch.a < patch.b { ((patch.a, patch.b), patch.force) } else { ((patch.b, patch.a), -patch.force) };
@@ -359,10 +359,10 @@ impl Stage<'_> {
             sum.0 += force * self.units.force();
             sum.1 += patch.normal_force * self.units.force();
         }
-        sums.into_iter().map(|((a, b), (force, normal_force))| Contact { a, b, force, normal_force }).collect()
+        sums.into_iter().map(|((a, b), (force, normal_force))| MeanContact { a, b, force, normal_force }).collect()
     }
 
-    fn reaction_error(&self, contacts: &[Contact]) -> f64 {
+    fn reaction_error(&self, contacts: &[MeanContact]) -> f64 {
         let held = |i: usize| self.bodies[i].support;
         let mut left: Vector3<f64> = self.assembly.free().map(|i| self.loads.total[i].force).sum();
         for c in contacts {

@@ -1,7 +1,7 @@
 //! Files → one scene: scale and rotation, supports, friction, density, and what is still missing.
 
 use super::{
-    Imported, Options, Up,
+    ImportOptions, Imported, Up,
     raw::{Raw, list, tally},
 };
 use crate::{
@@ -11,11 +11,11 @@ use crate::{
 };
 use std::collections::{BTreeMap, HashSet};
 
-/// Name of the material that carries [`Options::density`].
+/// Name of the material that carries [`ImportOptions::density`].
 const MATERIAL: &str = "block";
 
 /// The scene of all files.
-pub(super) fn scene(mut files: Vec<Raw>, options: &Options) -> Result<Imported, InputError> {
+pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Imported, InputError> {
     let mut findings = name_files_apart(&mut files)?;
     name_materials_apart(&mut files);
     let mut scene = Scene { source: source(&files, options), ..Scene::default() };
@@ -115,7 +115,7 @@ fn name_materials_apart(files: &mut [Raw]) {
 }
 
 /// Where the scene comes from, in words.
-fn source(files: &[Raw], options: &Options) -> String {
+fn source(files: &[Raw], options: &ImportOptions) -> String {
     let mut text = format!("imported from {}", files.iter().map(|f| f.origin.as_str()).collect::<Vec<_>>().join(", "));
     if options.scale != 1.0 {
         text.push_str(&format!("; coordinates × {}", options.scale));
@@ -132,7 +132,7 @@ fn source(files: &[Raw], options: &Options) -> String {
 }
 
 /// Scale and rotation; a coordinate that is no longer finite comes back.
-fn place(points: &mut [[f64; 3]], options: &Options) -> Result<(), f64> {
+fn place(points: &mut [[f64; 3]], options: &ImportOptions) -> Result<(), f64> {
     for point in points {
         *point = options.up.rotate(point.map(|c| c * options.scale));
         if let Some(&bad) = point.iter().find(|c| !c.is_finite()) {
@@ -142,13 +142,13 @@ fn place(points: &mut [[f64; 3]], options: &Options) -> Result<(), f64> {
     Ok(())
 }
 
-fn beyond(origin: &str, what: &str, value: f64, options: &Options) -> InputError {
+fn beyond(origin: &str, what: &str, value: f64, options: &ImportOptions) -> InputError {
     let message = format!("{origin}: {what:?} has the coordinate {value} after multiplication by {}", options.scale);
     InputError::at(JsonPath::root(), message).hint("look for damaged coordinates, or choose a smaller scale")
 }
 
 /// Supports by name and by height, and a word where there is none.
-fn supports(scene: &mut Scene, options: &Options, findings: &mut Vec<Finding>) -> Result<(), InputError> {
+fn supports(scene: &mut Scene, options: &ImportOptions, findings: &mut Vec<Finding>) -> Result<(), InputError> {
     for id in &options.supports {
         let Some(block) = scene.blocks.iter_mut().find(|b| b.id == *id) else {
             let known: Vec<String> = scene.blocks.iter().map(|b| format!("{:?}", b.id)).collect();

@@ -9,11 +9,11 @@
 //!
 //! Importers say what the file says: faces keep their corners and their order, nothing is welded, turned or closed. Whether a block is a
 //! proper solid is judged later, by [`crate::assembly::resolve`], for scenes of every origin alike. What a scene needs and the file does
-//! not have (supports, friction) is taken from [`Options`]; what is still missing then is a [`Finding`], not an error.
+//! not have (supports, friction) is taken from [`ImportOptions`]; what is still missing then is a [`Finding`], not an error.
 //!
 //! Single meshes are read as well: those that the blocks of a scene name ([`read_meshes`]).
 //!
-//! Coordinates of the scene = rotation that brings [`Options::up`] to z × [`Options::scale`] × coordinates of the file.
+//! Coordinates of the scene = rotation that brings [`ImportOptions::up`] to z × [`ImportOptions::scale`] × coordinates of the file.
 
 mod compas;
 mod finish;
@@ -31,7 +31,7 @@ mod tests;
 
 pub use format::Format;
 pub use mesh::{Reach, read_meshes};
-pub use options::{Options, Up};
+pub use options::{ImportOptions, Up};
 
 use crate::{
     error::{Finding, InputError, JsonPath},
@@ -50,21 +50,21 @@ pub struct Imported {
     pub findings: Vec<Finding>,
 }
 
-/// Imports one file (and the files of [`Options::support_files`]).
+/// Imports one file (and the files of [`ImportOptions::support_files`]).
 ///
 /// # Errors
 /// A file cannot be read or makes no sense; an option is out of its range or names a block that is not there.
-pub fn import_file(path: &Path, options: &Options) -> Result<Imported, InputError> {
+pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Imported, InputError> {
     import_files(&[path], options)
 }
 
-/// Imports several files into one scene, in order; the files of [`Options::support_files`] come last and all their blocks are supports.
+/// Imports several files into one scene, in order; the files of [`ImportOptions::support_files`] come last and all their blocks are supports.
 ///
 /// Where two files use the same id, the ids of every file get its name in front (`blocks-12`), and a finding says so.
 ///
 /// # Errors
 /// As for [`import_file`].
-pub fn import_files<P: AsRef<Path>>(paths: &[P], options: &Options) -> Result<Imported, InputError> {
+pub fn import_files<P: AsRef<Path>>(paths: &[P], options: &ImportOptions) -> Result<Imported, InputError> {
     options.check()?;
     let mut files = paths.iter().map(|path| load(path.as_ref(), false, options)).collect::<Result<Vec<_>, _>>()?;
     add_support_files(&mut files, options)?;
@@ -74,29 +74,29 @@ pub fn import_files<P: AsRef<Path>>(paths: &[P], options: &Options) -> Result<Im
 /// Imports a file that is already in memory; `name` stands for it in messages, its extension tells the format.
 ///
 /// # Errors
-/// As for [`import_file`]; the files of [`Options::support_files`] are read here too.
-pub fn import_bytes(name: &str, bytes: &[u8], options: &Options) -> Result<Imported, InputError> {
+/// As for [`import_file`]; the files of [`ImportOptions::support_files`] are read here too.
+pub fn import_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Imported, InputError> {
     options.check()?;
     let mut files = vec![read(name, bytes, false, options)?];
     add_support_files(&mut files, options)?;
     finish::scene(files, options)
 }
 
-fn add_support_files(files: &mut Vec<Raw>, options: &Options) -> Result<(), InputError> {
+fn add_support_files(files: &mut Vec<Raw>, options: &ImportOptions) -> Result<(), InputError> {
     for path in &options.support_files {
         files.push(load(path, true, options)?);
     }
     Ok(())
 }
 
-fn load(path: &Path, is_support: bool, options: &Options) -> Result<Raw, InputError> {
+fn load(path: &Path, is_support: bool, options: &ImportOptions) -> Result<Raw, InputError> {
     let name = path.display().to_string();
     let bytes = limits::read_file(path, limits::PER_FOREIGN_BYTE)?;
     read(&name, &bytes, is_support, options)
 }
 
 /// One file, read but not yet scaled, turned or merged with others.
-fn read(name: &str, bytes: &[u8], is_support: bool, options: &Options) -> Result<Raw, InputError> {
+fn read(name: &str, bytes: &[u8], is_support: bool, options: &ImportOptions) -> Result<Raw, InputError> {
     let path = Path::new(name);
     let stem = path.file_stem().map_or_else(|| "block".into(), |s| s.to_string_lossy().into_owned());
     let result = Format::of(path, bytes, options.format).and_then(|format| {

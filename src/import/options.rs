@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 /// What the user adds to a foreign file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Options {
+pub struct ImportOptions {
     /// Ids of supports, besides those the file names.
     pub supports: Vec<String>,
     /// Blocks whose lowest corner lies below this height are supports; m, in the scene (after scale and rotation).
@@ -32,7 +32,7 @@ pub struct Options {
     pub stored_interfaces: bool,
 }
 
-impl Default for Options {
+impl Default for ImportOptions {
     fn default() -> Self {
         Self {
             supports: Vec::new(),
@@ -83,7 +83,7 @@ impl Up {
     }
 }
 
-impl Options {
+impl ImportOptions {
     /// Refuses values out of range before any file is read.
     pub(super) fn check(&self) -> Result<(), InputError> {
         let refuse = |what: &str, value: f64, rule: &str, hint: &str| {

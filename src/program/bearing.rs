@@ -1,6 +1,6 @@
 //! Contact points of the program: what each may carry, as columns and a cone.
 
-use super::{Cone, ConicProgram, Options, Pyramid, planar, planar::Plane, symmetry::BearingOrbit};
+use super::{Cone, ConicProgram, Pyramid, StaticsOptions, planar, planar::Plane, symmetry::BearingOrbit};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interface, Interfaces},
@@ -200,7 +200,7 @@ impl Limits {
 }
 
 /// The bearings of every interface, in column order.
-pub(super) fn bearings(assembly: &Assembly, interfaces: &Interfaces, plane: Option<Plane>, options: Options) -> Vec<Bearing> {
+pub(super) fn bearings(assembly: &Assembly, interfaces: &Interfaces, plane: Option<Plane>, options: StaticsOptions) -> Vec<Bearing> {
     let mut list = Vec::new();
     let mut column = 0;
     for (index, face) in interfaces.list.iter().enumerate() {
@@ -248,7 +248,7 @@ pub(super) fn bearings(assembly: &Assembly, interfaces: &Interfaces, plane: Opti
 const STEEP: f64 = 30.0;
 
 /// Directions of the force columns and their cone; constants of [`Limits`] are still to be filled in.
-fn friction_columns(face: &Interface, plane: Option<Plane>, options: Options) -> (Vec<Vector3<f64>>, BearingCone) {
+fn friction_columns(face: &Interface, plane: Option<Plane>, options: StaticsOptions) -> (Vec<Vector3<f64>>, BearingCone) {
     let n = face.frame.n;
     let tangents = plane.map_or_else(|| vec![face.frame.t1, face.frame.t2], |p| vec![p.axis.cross(&n)]);
     let split = || std::iter::once(n).chain(tangents.iter().copied()).collect::<Vec<_>>();

@@ -6,7 +6,7 @@ use super::{
     conic::Sparse,
     planar::{self, Plane},
     section::sections,
-    statics::{FreeBlock, Options, Statics},
+    statics::{FreeBlock, Statics, StaticsOptions},
     symmetry::{self, BlockOrbit, Part},
 };
 use crate::{
@@ -23,7 +23,7 @@ const UNIT_SHARE: f64 = 8.0;
 
 impl Statics {
     /// Builds the equilibrium of an assembly.
-    pub fn new(assembly: &Assembly, interfaces: &Interfaces, options: Options) -> Self {
+    pub fn new(assembly: &Assembly, interfaces: &Interfaces, options: StaticsOptions) -> Self {
         let (plane, mut list) = plane_and_bearings(assembly, interfaces, options);
         let weight = |block: usize| if options.unscaled { 1.0 } else { assembly.weight(block).max(load_size(assembly, block)) };
         let unit = set_units(assembly, interfaces, options, &mut list, weight);
@@ -116,7 +116,7 @@ fn load_size(assembly: &Assembly, block: usize) -> f64 {
 }
 
 /// The mirror plane that a plane scene is solved in, and its contact points.
-fn plane_and_bearings(assembly: &Assembly, interfaces: &Interfaces, options: Options) -> (Option<Plane>, Vec<Bearing>) {
+fn plane_and_bearings(assembly: &Assembly, interfaces: &Interfaces, options: StaticsOptions) -> (Option<Plane>, Vec<Bearing>) {
     let loads: &[&[Wrench]] = if options.live { &[&assembly.dead, &assembly.live] } else { &[&assembly.dead] };
     let plane = if options.keep_all { None } else { planar::find(assembly, interfaces, loads) };
     let list = bearings(assembly, interfaces, plane, options);
@@ -129,7 +129,13 @@ fn plane_and_bearings(assembly: &Assembly, interfaces: &Interfaces, options: Opt
 }
 
 /// Gives the bearings their force unit, which is returned, and the load that presumably passes there.
-fn set_units(assembly: &Assembly, interfaces: &Interfaces, options: Options, list: &mut [Bearing], weight: impl Fn(usize) -> f64) -> f64 {
+fn set_units(
+    assembly: &Assembly,
+    interfaces: &Interfaces,
+    options: StaticsOptions,
+    list: &mut [Bearing],
+    weight: impl Fn(usize) -> f64,
+) -> f64 {
     let total: f64 = assembly.free().map(&weight).sum();
     let supported = interfaces.list.iter().filter(|f| assembly.blocks[f.a].support || assembly.blocks[f.b].support).count();
     let unit = if options.unscaled { 1.0 } else { UNIT_SHARE * total / supported.max(1) as f64 };
@@ -160,7 +166,7 @@ fn with_water(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Wrench> {
 fn part(
     assembly: &Assembly,
     interfaces: &Interfaces,
-    options: Options,
+    options: StaticsOptions,
     plane: Option<Plane>,
     dead: &[Wrench],
     list: &[Bearing],
@@ -175,7 +181,7 @@ fn part(
 /// The free blocks that have rows: all, or those that stand for their images.
 fn free_blocks(
     assembly: &Assembly,
-    options: Options,
+    options: StaticsOptions,
     plane: Option<Plane>,
     mut orbits: Option<HashMap<usize, BlockOrbit>>,
     weight: impl Fn(usize) -> f64,

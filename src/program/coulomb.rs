@@ -14,19 +14,19 @@
 //!
 //! *More than friction.* Cohesion `c` and tension `T` make the limit `μ f_n + c` and `f_n ≥ −T`; the couples of a rolling arm are
 //! limited by `f_n` in the same way ([`Disc`]), and what rolls or twists does not open either. Crushing bounds the normal forces
-//! ([`Section`](super::Section)), held and associative: what crushes closes.
+//! ([`CrushingJoint`](super::CrushingJoint)), held and associative: what crushes closes.
 //!
 //! *Twin (De Saxcé & Feng 1998).* `f` in the friction cone with a linear term `μ‖u_t‖ f_n`: the fixed point is in the sliding
 //! rates instead of the limits. It serves as a second opinion; where dilatancy jams it does not settle.
 //! Sources: Haslinger 1983 (fixed point on the Tresca limit), Acary, Brémond & Huber 2018 (natural map), Gilbert, Casapulla &
 //! Ahmed 2006 (sequence of convex programs for non-associative limit analysis).
 
-use super::{BearingCone, Cone, ConicProgram, Disc, Options, Statics, unbalance::copy};
+use super::{BearingCone, Cone, ConicProgram, Disc, Statics, StaticsOptions, unbalance::copy};
 use crate::{assembly::Assembly, interface::Interfaces, scene::Friction};
 
 /// A contact point of programs C and D.
 #[derive(Clone, Debug)]
-pub struct Point {
+pub struct SlidingPoint {
     /// First column of its forces `(f_n, f_t…)` and couples.
     pub column: usize,
     /// Number of columns.
@@ -43,7 +43,7 @@ pub struct Contacts {
     /// Equilibrium, columns `(f_n, f_t…, couples…)` per point, unit = mean block load.
     pub statics: Statics,
     /// The contact points in column order.
-    pub points: Vec<Point>,
+    pub points: Vec<SlidingPoint>,
     /// Compliance of each column.
     pub compliance: Vec<f64>,
     /// The load that presumably passes each limit, in units of the forces: what a change of it is measured by.
@@ -81,8 +81,8 @@ impl Contacts {
     ///
     /// A plane scene is solved as plane only where every interface is wholly represented by its two ends: the compliance of
     /// inner points would be lost.
-    pub fn new(assembly: &Assembly, interfaces: &Interfaces, options: Options) -> Self {
-        let mut statics = Statics::new(assembly, interfaces, Options { split: true, ..options });
+    pub fn new(assembly: &Assembly, interfaces: &Interfaces, options: StaticsOptions) -> Self {
+        let mut statics = Statics::new(assembly, interfaces, StaticsOptions { split: true, ..options });
         let mean = statics.total_load() / statics.free_count().max(1) as f64;
         statics.rescale(mean / statics.unit, false);
         let share = |b: &super::Bearing| {
@@ -94,7 +94,7 @@ impl Contacts {
         let with_area = || statics.bearings.iter().zip(&areas).filter(|(_, a)| **a > 0.0).map(|(b, a)| (column_images[b.column], a));
         let mean_area = with_area().map(|(n, a)| n * a).sum::<f64>() / with_area().map(|(n, _)| n).sum::<f64>().max(1.0);
         let mut compliance = Vec::with_capacity(statics.matrix.columns);
-        let points: Vec<Point> = statics
+        let points: Vec<SlidingPoint> = statics
             .bearings
             .iter()
             .zip(&areas)
@@ -110,7 +110,7 @@ impl Contacts {
                     _ => Vec::new(),
                 };
                 let tension = b.limits().map_or(0.0, |l| l.tension / b.unit);
-                Point { column: b.column, columns: b.basis.len(), tension, discs: limits }
+                SlidingPoint { column: b.column, columns: b.basis.len(), tension, discs: limits }
             })
             .collect();
         let row_images = statics.row_images();

@@ -4,13 +4,13 @@
 //! (the kinematic theorem of limit analysis: Drucker, Prager & Greenberg 1952; for masonry Livesley 1978).
 
 use super::{
-    Cone, ConicProgram, Layout, Statics, Unknowns,
+    Cone, ConicProgram, Positions, Statics, Unknowns,
     unbalance::{copy, force_cones, rate_cones},
 };
 
 /// Builds program L with the live load multiplied by `live_scale`; the optimal value is `−λ / live_scale` in forces and
 /// `λ / live_scale` in rates.
-pub fn load_factor(statics: &Statics, live_scale: f64, unknowns: Unknowns) -> (ConicProgram, Layout) {
+pub fn load_factor(statics: &Statics, live_scale: f64, unknowns: Unknowns) -> (ConicProgram, Positions) {
     let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
     let unknowns = statics.unknowns(unknowns);
     match unknowns {
@@ -24,7 +24,7 @@ pub fn load_factor(statics: &Statics, live_scale: f64, unknowns: Unknowns) -> (C
                 p.rhs[row] = -statics.dead[row];
             }
             force_cones(&mut p, statics, 0);
-            (p, Layout { unknowns, forces: 0, force_count: forces, rates: 0, rate_count: rows })
+            (p, Positions { unknowns, forces: 0, force_count: forces, rates: 0, rate_count: rows })
         }
         Unknowns::Rates => {
             let mut p = ConicProgram::new(rows);
@@ -37,7 +37,7 @@ pub fn load_factor(statics: &Statics, live_scale: f64, unknowns: Unknowns) -> (C
                 p.matrix.push(power, row, live_scale * l);
             }
             let first = rate_cones(&mut p, statics);
-            (p, Layout { unknowns, forces: first, force_count: forces, rates: 0, rate_count: rows })
+            (p, Positions { unknowns, forces: first, force_count: forces, rates: 0, rate_count: rows })
         }
     }
 }

@@ -32,8 +32,8 @@ pub use load_factor::load_factor;
 pub use opening::opening;
 pub use planar::Plane;
 pub use reach::{floating, is_forest};
-pub use section::Section;
-pub use statics::{FreeBlock, Options, Pyramid, Statics};
+pub use section::CrushingJoint;
+pub use statics::{FreeBlock, Pyramid, Statics, StaticsOptions};
 pub use thrust::{endless_thrust, thrust, thrust_columns};
 pub use unbalance::{LiveLoad, unbalance};
 
@@ -48,7 +48,7 @@ pub enum Unknowns {
 
 /// Where the forces and the rates stand in the vectors of a solved program.
 #[derive(Clone, Debug)]
-pub struct Layout {
+pub struct Positions {
     unknowns: Unknowns,
     /// First entry of the forces (in `x` for [`Unknowns::Forces`], in `z` for [`Unknowns::Rates`]).
     forces: usize,
@@ -60,7 +60,7 @@ pub struct Layout {
     rate_count: usize,
 }
 
-impl Layout {
+impl Positions {
     /// Scaled forces `x` (columns of [`Statics`]) of a solution given as primal `x` and dual `z`.
     pub fn forces<'a>(&self, x: &'a [f64], z: &'a [f64]) -> &'a [f64] {
         let source = if self.unknowns == Unknowns::Forces { x } else { z };

@@ -7,7 +7,7 @@
 //! `g(q) = ε q − A f(q) − w = 0`, the gradient of a convex function that is once differentiable, and `∂g/∂q = ε + A D Aᵀ` with
 //! `D = P_K′ / c`, symmetric and positive definite (Alart & Curnier 1991; Qi & Sun 1993 for Newton's method on it).
 
-use super::coulomb::{Contacts, Hold, Point};
+use super::coulomb::{Contacts, Hold, SlidingPoint};
 use std::ops::Range;
 
 /// Most columns of a point: a force and three couples.
@@ -28,16 +28,16 @@ struct Joint {
 
 /// What limits the forces across a joint.
 #[derive(Clone, Copy, Debug)]
-pub enum Friction<'a> {
+pub enum FrictionLimits<'a> {
     /// What is held, one number a disc.
     Held(Hold, &'a [f64]),
     /// Coulomb's law: the normal force of the same rates.
     Law,
 }
 
-impl<'a> Friction<'a> {
+impl<'a> FrictionLimits<'a> {
     /// The same for the discs of one point.
-    fn of(self, joint: &Joint, point: &Point) -> Self {
+    fn of(self, joint: &Joint, point: &SlidingPoint) -> Self {
         match self {
             Self::Held(hold, held) => Self::Held(hold, &held[joint.disc..joint.disc + point.discs.len()]),
             Self::Law => Self::Law,
@@ -150,7 +150,7 @@ impl Response {
     }
 
     /// Forces per column and `g` per row at the rates `q`.
-    pub fn forces(&self, contacts: &Contacts, epsilon: f64, friction: Friction, q: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub fn forces(&self, contacts: &Contacts, epsilon: f64, friction: FrictionLimits, q: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let mut forces = vec![0.0; contacts.compliance.len()];
         let mut gradient: Vec<f64> =
             q.iter().zip(&contacts.row_images).zip(&contacts.statics.dead).map(|((q, n), w)| epsilon * q / n - w).collect();
@@ -172,7 +172,7 @@ impl Response {
 
     /// `∂g/∂q` at the rates `q`, its lower triangle in the order of [`Self::pattern`]; `mirrored`: its upper triangle, entry by entry the
     /// mirror image, which differs under Coulomb's law.
-    pub fn derivative(&self, contacts: &Contacts, epsilon: f64, friction: Friction, q: &[f64], mirrored: bool) -> Vec<f64> {
+    pub fn derivative(&self, contacts: &Contacts, epsilon: f64, friction: FrictionLimits, q: &[f64], mirrored: bool) -> Vec<f64> {
         let mut values = vec![0.0; self.entries.len()];
         for (start, n) in self.starts.iter().zip(&contacts.row_images) {
             values[*start] = epsilon / n;
@@ -239,14 +239,20 @@ impl Response {
 }
 
 /// The forces of a point nearest to `wanted`, and with `slope` how they change with it (`slope[i][j]`: column `i` with `wanted` `j`).
-fn answer(point: &Point, c: f64, friction: Friction, wanted: &[f64; MOST], mut slope: Option<&mut [[f64; MOST]; MOST]>) -> [f64; MOST] {
+fn answer(
+    point: &SlidingPoint,
+    c: f64,
+    friction: FrictionLimits,
+    wanted: &[f64; MOST],
+    mut slope: Option<&mut [[f64; MOST]; MOST]>,
+) -> [f64; MOST] {
     let mut f = *wanted;
     if let Some(slope) = slope.as_deref_mut() {
         for (k, row) in slope.iter_mut().enumerate().take(point.columns) {
             row[k] = 1.0;
         }
     }
-    if let (Friction::Held(Hold::SlidingRates, &[rate, ..]), Some(disc)) = (friction, point.discs.first().filter(|d| d.slope > 0.0)) {
+    if let (FrictionLimits::Held(Hold::SlidingRates, &[rate, ..]), Some(disc)) = (friction, point.discs.first().filter(|d| d.slope > 0.0)) {
         // Tension beyond cohesion / μ does not count: the cone ends there.
         let tension = point.tension.min(disc.constant / disc.slope);
         f[0] -= rate / c;
@@ -262,13 +268,13 @@ fn answer(point: &Point, c: f64, friction: Friction, wanted: &[f64; MOST], mut s
     }
     for (k, disc) in point.discs.iter().enumerate() {
         let s = match friction {
-            Friction::Held(Hold::Limits, held) => held.get(k).copied().unwrap_or(0.0),
-            Friction::Held(Hold::SlidingRates, _) => disc.constant,
-            Friction::Law => disc.limit(f[0]),
+            FrictionLimits::Held(Hold::Limits, held) => held.get(k).copied().unwrap_or(0.0),
+            FrictionLimits::Held(Hold::SlidingRates, _) => disc.constant,
+            FrictionLimits::Law => disc.limit(f[0]),
         };
         let at = disc.first - point.column..disc.first - point.column + disc.count;
         let cut = onto_disc(&mut f, at.clone(), s, slope.as_deref_mut());
-        if let (Friction::Law, true, Some(slope)) = (friction, cut && s > 0.0, slope.as_deref_mut()) {
+        if let (FrictionLimits::Law, true, Some(slope)) = (friction, cut && s > 0.0, slope.as_deref_mut()) {
             let normal = slope[0][0];
             for i in at {
                 slope[i][0] = disc.slope * normal * f[i] / s;

@@ -10,7 +10,7 @@ use crate::interface::{Cut, Interfaces};
 
 /// A joint with a compressive strength.
 #[derive(Clone, Debug)]
-pub struct Section {
+pub struct CrushingJoint {
     /// Index of the interface.
     pub interface: usize,
     /// Compressive and tensile strength together, Pa: normal forces count from the tensile strength on.
@@ -25,7 +25,7 @@ pub struct Section {
     cuts: Vec<(Vec<f64>, f64)>,
 }
 
-impl Section {
+impl CrushingJoint {
     /// Adds a linear bound.
     fn add(&mut self, cut: &Cut, bearings: &[Bearing]) {
         let weights = bearings[self.bearings.clone()].iter().map(|b| b.mean(&cut.weights)).collect();
@@ -34,7 +34,7 @@ impl Section {
 }
 
 /// The joints of a program that have a compressive strength.
-pub(super) fn sections(interfaces: &Interfaces, bearings: &[Bearing]) -> Vec<Section> {
+pub(super) fn sections(interfaces: &Interfaces, bearings: &[Bearing]) -> Vec<CrushingJoint> {
     let mut sections = Vec::new();
     let mut first = 0;
     for (interface, face) in interfaces.list.iter().enumerate() {
@@ -47,7 +47,7 @@ pub(super) fn sections(interfaces: &Interfaces, bearings: &[Bearing]) -> Vec<Sec
         let edges = face.edge_bounds().into_iter();
         let edges = edges.map(|(width, d)| (width, bearings[own.clone()].iter().map(|b| b.mean(&d)).collect())).collect();
         let strength = face.law.compression + face.tension();
-        sections.push(Section { interface, strength, area: face.area, bearings: own, edges, cuts: Vec::new() });
+        sections.push(CrushingJoint { interface, strength, area: face.area, bearings: own, edges, cuts: Vec::new() });
     }
     sections
 }

@@ -1,13 +1,13 @@
 //! The equilibrium of the free blocks, reduced and scaled.
 
-use super::{Unknowns, bearing::Bearing, conic::Sparse, planar::Plane, section::Section, symmetry::Orbits};
+use super::{Unknowns, bearing::Bearing, conic::Sparse, planar::Plane, section::CrushingJoint, symmetry::Orbits};
 use crate::assembly::{Gyration, Wrench};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
 /// What to leave out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Options {
+pub struct StaticsOptions {
     /// Keep everything, for comparison: three dimensions, every tangential force.
     pub keep_all: bool,
     /// Whether the live load takes part (it must then lie in the plane of a plane scene).
@@ -39,7 +39,7 @@ pub struct FreeBlock {
     pub block: usize,
     /// Force scale, N: the greatest of own weight and dead load.
     pub weight: f64,
-    /// What moments are measured by: the block's own radii of gyration, or metres ([`Options::unscaled`]).
+    /// What moments are measured by: the block's own radii of gyration, or metres ([`StaticsOptions::unscaled`]).
     pub gyration: Gyration,
     /// Its rows: 6 in space, 3 in a plane, fewer where the block is its own image.
     pub rows: Range<usize>,
@@ -66,7 +66,7 @@ pub struct Statics {
     /// The contact points in column order.
     pub bearings: Vec<Bearing>,
     /// The joints that can crush.
-    pub sections: Vec<Section>,
+    pub sections: Vec<CrushingJoint>,
     /// Scaled equilibrium operator.
     pub matrix: Sparse,
     /// Scaled dead load, with the water in the joints.

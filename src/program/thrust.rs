@@ -5,7 +5,7 @@
 //! mechanism: the two limiting states of an arch whose abutments give way (Heyman 1966).
 
 use super::{
-    Cone, ConicProgram, Layout, Statics, Unknowns,
+    Cone, ConicProgram, Positions, Statics, Unknowns,
     unbalance::{copy, force_cones},
 };
 use crate::interface::Interfaces;
@@ -25,7 +25,7 @@ pub fn thrust_columns(statics: &Statics, interfaces: &Interfaces, support: usize
 }
 
 /// Builds program T with the objective `objective · x`.
-pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Layout) {
+pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Positions) {
     let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
     let mut p = ConicProgram::new(forces);
     p.objective.copy_from_slice(objective);
@@ -35,12 +35,12 @@ pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Layout) {
         p.rhs[row] = -w;
     }
     force_cones(&mut p, statics, 0);
-    (p, Layout { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
+    (p, Positions { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
 }
 
 /// Can the thrust grow without end? Forces that balance by themselves with `objective · x = −1`, or what they leave:
 /// `min t`, `‖(A x)_i‖ ≤ t` per block.
-pub fn endless_thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Layout) {
+pub fn endless_thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Positions) {
     let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
     let t = forces + rows;
     let mut p = ConicProgram::new(t + 1);
@@ -63,5 +63,5 @@ pub fn endless_thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, La
             p.matrix.push(first + 1 + k, forces + row, -1.0);
         }
     }
-    (p, Layout { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
+    (p, Positions { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
 }

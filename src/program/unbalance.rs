@@ -4,7 +4,7 @@
 //! acceleration in multiples of gravity. The program is always feasible and bounded, and so is its dual,
 //! `max w·q` over admissible rates with `Σ ‖q_i‖ ≤ 1`, so it answers clearly where a feasibility problem fails: near the limit.
 
-use super::{BearingCone, Cone, ConicProgram, Layout, Statics, Unknowns};
+use super::{BearingCone, Cone, ConicProgram, Positions, Statics, Unknowns};
 
 /// What is done with the live load in program V.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub enum LiveLoad {
 }
 
 /// Builds program V; the optimal value is `t`. With [`LiveLoad::AnyMultiple`] in forces, λ is the last variable.
-pub fn unbalance(statics: &Statics, live: LiveLoad, unknowns: Unknowns) -> (ConicProgram, Layout) {
+pub fn unbalance(statics: &Statics, live: LiveLoad, unknowns: Unknowns) -> (ConicProgram, Positions) {
     match statics.unknowns(unknowns) {
         Unknowns::Forces => in_forces(statics, live),
         Unknowns::Rates => in_rates(statics, live),
@@ -29,7 +29,7 @@ fn loads(statics: &Statics, live: LiveLoad) -> &[f64] {
     if live == LiveLoad::Alone { &statics.live } else { &statics.dead }
 }
 
-fn in_forces(statics: &Statics, live: LiveLoad) -> (ConicProgram, Layout) {
+fn in_forces(statics: &Statics, live: LiveLoad) -> (ConicProgram, Positions) {
     let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
     // Variables: forces, residuals r, t [, λ].
     let lambda = usize::from(live == LiveLoad::AnyMultiple);
@@ -53,10 +53,10 @@ fn in_forces(statics: &Statics, live: LiveLoad) -> (ConicProgram, Layout) {
             p.matrix.push(first + 1 + k, forces + row, -1.0);
         }
     }
-    (p, Layout { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
+    (p, Positions { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
 }
 
-fn in_rates(statics: &Statics, live: LiveLoad) -> (ConicProgram, Layout) {
+fn in_rates(statics: &Statics, live: LiveLoad) -> (ConicProgram, Positions) {
     let (rows, blocks) = (statics.matrix.rows, statics.free.len());
     // Variables: rates q, bounds τ_i ≥ ‖q_i‖.
     let mut p = ConicProgram::new(rows + blocks);
@@ -82,7 +82,7 @@ fn in_rates(statics: &Statics, live: LiveLoad) -> (ConicProgram, Layout) {
         p.matrix.push(sum, rows + block, 1.0);
     }
     p.rhs[sum] = 1.0;
-    (p, Layout { unknowns: Unknowns::Rates, forces, force_count: statics.matrix.columns, rates: 0, rate_count: rows })
+    (p, Positions { unknowns: Unknowns::Rates, forces, force_count: statics.matrix.columns, rates: 0, rate_count: rows })
 }
 
 /// Copies the equilibrium operator to (`row`, `column`).

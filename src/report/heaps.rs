@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 /// The version of the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Format {
+pub enum HeapsFormat {
     /// Version 1.
     #[default]
     #[serde(rename = "voussoir-repose/1")]
@@ -25,7 +25,7 @@ pub enum Format {
 #[serde(deny_unknown_fields)]
 pub struct ReposeFile {
     /// The format and its version.
-    pub format: Format,
+    pub format: HeapsFormat,
     /// How the heaps were made.
     pub protocol: Protocol,
     /// Restitution of the contacts, and damping beside them: none is hidden.
@@ -146,7 +146,7 @@ impl ReposeFile {
         let mean = angles.iter().sum::<f64>() / angles.len().max(1) as f64;
         let ends = [angles.iter().copied().fold(f64::INFINITY, f64::min), angles.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
         Self {
-            format: Format::V1,
+            format: HeapsFormat::V1,
             protocol: protocol.clone(),
             restitution: 0.0,
             damping: 0.0,

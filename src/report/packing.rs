@@ -2,18 +2,18 @@
 
 use super::{
     Leaning, ResultFile,
-    result::{Question, Versions},
+    result::{QuestionKind, Versions},
 };
 use crate::{
     analysis::{Deciding, Fabric, Model, Outcome, Stability, Timings, coulomb::Found, stability::Round},
     error::{Finding, FindingCode},
-    verdict::mechanism::Motion,
+    verdict::mechanism::JointMotion,
 };
 use serde::{Deserialize, Serialize};
 
 /// The version of the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Format {
+pub enum PackingFormat {
     /// Version 1.
     #[default]
     #[serde(rename = "voussoir-packing/1")]
@@ -25,7 +25,7 @@ pub enum Format {
 #[serde(deny_unknown_fields)]
 pub struct PackingFile {
     /// The format and its version.
-    pub format: Format,
+    pub format: PackingFormat,
     /// Name of the scene.
     pub name: String,
     /// Free grains that were asked about.
@@ -137,7 +137,7 @@ impl PackingFile {
             let (file, moving) = chosen?;
             let factor = file.answer.load_factor?;
             let degrees = |v: f64| v.atan().to_degrees();
-            let count = |kinds: &[Motion]| file.mechanism.iter().flat_map(|m| &m.joints).filter(|j| kinds.contains(&j.motion)).count();
+            let count = |kinds: &[JointMotion]| file.mechanism.iter().flat_map(|m| &m.joints).filter(|j| kinds.contains(&j.motion)).count();
             directions.push(PackingDirection {
                 toward: file.answer.toward?,
                 status: factor.status,
@@ -153,20 +153,24 @@ impl PackingFile {
                 reached: reached && factor.status == Outcome::Found,
                 moving,
                 part: file.answer.part.clone(),
-                joints: [count(&[Motion::Hinge]), count(&[Motion::Slide, Motion::HingeAndSlide]), count(&[Motion::Part, Motion::Crush])],
+                joints: [
+                    count(&[JointMotion::Hinge]),
+                    count(&[JointMotion::Slide, JointMotion::HingeAndSlide]),
+                    count(&[JointMotion::Part, JointMotion::Crush]),
+                ],
                 removed,
             });
             files.push(file);
         }
         let least = (0..directions.len()).min_by(|&i, &j| directions[i].governing().total_cmp(&directions[j].governing()))?;
         let file = files.swap_remove(least);
-        debug_assert_eq!(file.question, Question::Tilt);
+        debug_assert_eq!(file.question, QuestionKind::Tilt);
         let mut left_out = file.left_out.clone();
         if !loose.is_empty() {
             left_out.insert(0, format!("{} grains without a contact path to a support", loose.len()));
         }
         let packing = Self {
-            format: Format::V1,
+            format: PackingFormat::V1,
             name: name.to_string(),
             grains: model.assembly.free().count(),
             contacts: model.interfaces.list.len(),

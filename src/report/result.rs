@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     analysis::{Assessment, Attempt, Bracket, Deciding, Law, LoadFactor, Model, Outcome, Tilt, Timings, agreement, coulomb},
-    dynamics::{Fate, Outcome as Simulated},
+    dynamics::{Fate, SimulationOutcome as Simulated},
     error::Finding,
     scene::Scene,
     verdict::{
@@ -17,14 +17,14 @@ use crate::{
         check::{Claim, Findings, verify},
         evidence::{BlockRate, ContactForces, write_forces, write_rates},
         exact::Grade,
-        mechanism::{Mechanism, Motion},
+        mechanism::{JointMotion, Mechanism},
     },
 };
 use serde::{Deserialize, Serialize};
 
 /// The version of the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Format {
+pub enum ResultFormat {
     /// Version 1.
     #[default]
     #[serde(rename = "voussoir-result/1")]
@@ -36,9 +36,9 @@ pub enum Format {
 #[serde(deny_unknown_fields)]
 pub struct ResultFile {
     /// The format and its version.
-    pub format: Format,
+    pub format: ResultFormat,
     /// What was asked.
-    pub question: Question,
+    pub question: QuestionKind,
     /// The scene.
     pub scene: SceneSummary,
     /// The answer to the question; of a tilt in several directions, the least.
@@ -87,7 +87,7 @@ pub struct ResultFile {
 /// What was asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Question {
+pub enum QuestionKind {
     /// Does it stand?
     Assess,
     /// How large may the live load grow?
@@ -239,9 +239,9 @@ pub struct Leaning {
 #[serde(deny_unknown_fields)]
 pub struct CoulombState {
     /// What it does.
-    pub motion: coulomb::Motion,
+    pub motion: coulomb::StateMotion,
     /// The continuation in ε.
-    pub steps: Vec<coulomb::Step>,
+    pub steps: Vec<coulomb::StateStep>,
 }
 
 /// A load factor with dry friction (program D).
@@ -296,7 +296,7 @@ pub struct JointWords {
     /// The blocks.
     pub between: [String; 2],
     /// What it does.
-    pub motion: Motion,
+    pub motion: JointMotion,
     /// Where, m.
     pub at: [f64; 3],
 }
@@ -336,9 +336,9 @@ pub fn certify(model: &Model, claim: Option<Claim>, forces: &Forces, base: Optio
 }
 
 impl ResultFile {
-    pub(super) fn new(question: Question, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
+    pub(super) fn new(question: QuestionKind, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
         Self {
-            format: Format::V1,
+            format: ResultFormat::V1,
             question,
             scene: SceneSummary {
                 name: scene.name.clone(),
@@ -370,7 +370,7 @@ impl ResultFile {
     /// The result of `assess`; where its verification fails the verdict becomes undecided and the failures become warnings.
     pub fn assessment(scene: &Scene, model: &Model, a: &Assessment) -> Self {
         let (answer, certificate, findings) = assessment(model, a);
-        let mut file = Self::new(Question::Assess, scene, model, answer, certificate);
+        let mut file = Self::new(QuestionKind::Assess, scene, model, answer, certificate);
         file.mechanism = a.mechanism.as_ref().map(|m| words(model, m));
         file.coulomb_state = a.state.as_ref().map(|s| CoulombState { motion: s.motion, steps: s.steps.clone() });
         file.left_out.clone_from(&a.left_out);
@@ -382,7 +382,7 @@ impl ResultFile {
     /// The result of `limit`.
     pub fn load_factor(scene: &Scene, model: &Model, l: &LoadFactor) -> Self {
         let (answer, certificate, findings) = load_factor(model, l);
-        let mut file = Self::new(Question::Limit, scene, model, answer, certificate);
+        let mut file = Self::new(QuestionKind::Limit, scene, model, answer, certificate);
         file.mechanism = l.mechanism.as_ref().map(|m| words(model, m));
         file.left_out.clone_from(&l.left_out);
         file.trace.clone_from(&l.attempts);
@@ -415,7 +415,7 @@ impl ResultFile {
             .collect();
         let least = (0..directions.len()).min_by(|&i, &j| directions[i].governing().total_cmp(&directions[j].governing()))?;
         let (Leaning { model, tilt, .. }, direction) = (&leaning[least], directions[least].clone());
-        let mut file = Self::new(Question::Tilt, scene, model, direction.answer, direction.certificate);
+        let mut file = Self::new(QuestionKind::Tilt, scene, model, direction.answer, direction.certificate);
         file.dry = direction.dry;
         file.timings.solve = leaning.iter().map(|l| l.model.timings.solve).sum();
         file.mechanism = tilt.load_factor.mechanism.as_ref().map(|m| words(model, m));
@@ -451,9 +451,9 @@ impl ResultFile {
     pub fn simulated(scene: &Scene, model: &Model, a: Option<&Assessment>, outcome: &Simulated) -> Self {
         let mut file = match a {
             Some(a) => Self::assessment(scene, model, a),
-            None => Self::new(Question::Simulate, scene, model, Answer::default(), certify(model, None, &Vec::new(), None, &[]).0),
+            None => Self::new(QuestionKind::Simulate, scene, model, Answer::default(), certify(model, None, &Vec::new(), None, &[]).0),
         };
-        file.question = Question::Simulate;
+        file.question = QuestionKind::Simulate;
         file.answer.fate = Some(outcome.fate);
         file.with_simulation(model, a, outcome)
     }

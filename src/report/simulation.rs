@@ -2,7 +2,7 @@
 
 use crate::{
     analysis::{Agreement, Model},
-    dynamics::{Fate, Frame, Outcome, Run},
+    dynamics::{Fate, Frame, Run, SimulationOutcome},
     error::Finding,
 };
 use serde::{Deserialize, Serialize};
@@ -76,7 +76,7 @@ pub struct FrameResult {
 
 impl Simulation {
     /// Packs an outcome.
-    pub fn new(model: &Model, outcome: &Outcome, agreement: Option<Agreement>) -> Self {
+    pub fn new(model: &Model, outcome: &SimulationOutcome, agreement: Option<Agreement>) -> Self {
         let blocks = &model.assembly.blocks;
         let id = |i: usize| blocks[i].id.clone();
         let mut moved: Vec<(usize, f64)> = outcome

@@ -4,7 +4,7 @@ use super::{
     cells::Table,
     view::{Joint, View},
 };
-use crate::{interface::ContactKind, scene::Friction, verdict::mechanism::Motion as Kind};
+use crate::{interface::ContactKind, scene::Friction, verdict::mechanism::JointMotion as Kind};
 use std::error::Error;
 
 /// Joints: the two blocks, what touches what, the centre of pressure (m; the middle where nothing presses), the unit normal from `a` into

@@ -5,7 +5,7 @@ mod again;
 
 use super::{
     ResultFile, critical, part,
-    result::{Answer, Certificate, Direction, JointWords, LoadFactorAnswer, MechanismWords, Question, words},
+    result::{Answer, Certificate, Direction, JointWords, LoadFactorAnswer, MechanismWords, QuestionKind, words},
     thrust,
 };
 use crate::{
@@ -82,37 +82,39 @@ pub(super) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         scene: model.findings().cloned().collect(),
     };
     match file.question {
-        Question::Assess | Question::Limit | Question::Simulate => {
+        QuestionKind::Assess | QuestionKind::Limit | QuestionKind::Simulate => {
             let (mut f, rates) = answer(model, file.question, &file.answer, &file.certificate, all.refuted());
             mechanism_words(&mut f, file, model, rates.as_deref());
             all.part("answer", f);
-            let stray = !file.directions.is_empty() || (file.question != Question::Limit && file.dead_load.is_some());
+            let stray = !file.directions.is_empty() || (file.question != QuestionKind::Limit && file.dead_load.is_some());
             if stray {
                 all.part("form", failure("the file holds answers to a question that was not asked"));
             }
         }
-        Question::Tilt => tilts(&mut all, file, model),
-        Question::Critical => critical::verify(&mut all, file, scene),
-        Question::Thrust => thrust::verify(&mut all, file, model),
+        QuestionKind::Tilt => tilts(&mut all, file, model),
+        QuestionKind::Critical => critical::verify(&mut all, file, scene),
+        QuestionKind::Thrust => thrust::verify(&mut all, file, model),
     }
-    let strangers =
-        [file.question != Question::Critical && file.critical.is_some(), file.question != Question::Thrust && file.thrust.is_some()];
+    let strangers = [
+        file.question != QuestionKind::Critical && file.critical.is_some(),
+        file.question != QuestionKind::Thrust && file.thrust.is_some(),
+    ];
     if strangers.contains(&true) {
         all.part("form", failure("the file holds answers to a question that was not asked"));
     }
     if let Some(dead) = &file.dead_load {
-        all.part("dead load alone", answer(model, Question::Assess, &dead.answer, &dead.certificate, all.refuted()).0);
+        all.part("dead load alone", answer(model, QuestionKind::Assess, &dead.answer, &dead.certificate, all.refuted()).0);
     }
-    if let Some(dry) = file.dry.as_ref().filter(|_| file.question != Question::Tilt) {
+    if let Some(dry) = file.dry.as_ref().filter(|_| file.question != QuestionKind::Tilt) {
         let findings = match file.question {
-            Question::Assess | Question::Simulate | Question::Critical | Question::Thrust => {
+            QuestionKind::Assess | QuestionKind::Simulate | QuestionKind::Critical | QuestionKind::Thrust => {
                 failure("the file holds a load factor that was not asked for")
             }
             _ => again::dry_friction(&|_| Ok(model.clone()), (&file.answer, &file.certificate), dry, all.refuted()),
         };
         all.part("dry friction", findings);
     }
-    if file.simulation.is_some() || file.question == Question::Simulate {
+    if file.simulation.is_some() || file.question == QuestionKind::Simulate {
         all.part("simulation", simulation(file));
     }
     all
@@ -180,7 +182,7 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
         match tilted(model, Vector3::from(toward), load_factor) {
             Err(e) => all.part(title.clone(), failure(e.to_string())),
             Ok(turned) => {
-                let (mut f, rates) = answer(&turned, Question::Tilt, &direction.answer, &direction.certificate, all.refuted());
+                let (mut f, rates) = answer(&turned, QuestionKind::Tilt, &direction.answer, &direction.certificate, all.refuted());
                 if index == least {
                     mechanism_words(&mut f, file, &turned, rates.as_deref());
                 }
@@ -198,7 +200,7 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
 /// One answer with its evidence; gives back the rates where they could be read. What is refuted already is not computed again.
 pub(super) fn answer(
     model: &Model,
-    question: Question,
+    question: QuestionKind,
     answer: &Answer,
     evidence: &Certificate,
     refuted: bool,
@@ -249,17 +251,17 @@ fn is_no_better(said: Grade, here: Grade) -> bool {
 }
 
 /// The words and numbers of an answer are those of its claim.
-fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, claim: Option<&Claim>) {
+fn says_what_is_claimed(f: &mut Findings, question: QuestionKind, answer: &Answer, claim: Option<&Claim>) {
     let form = match question {
-        Question::Assess => answer.verdict.is_some() && answer.load_factor.is_none() && answer.fate.is_none(),
-        Question::Simulate => answer.fate.is_some() && answer.load_factor.is_none(),
-        Question::Limit | Question::Tilt => {
+        QuestionKind::Assess => answer.verdict.is_some() && answer.load_factor.is_none() && answer.fate.is_none(),
+        QuestionKind::Simulate => answer.fate.is_some() && answer.load_factor.is_none(),
+        QuestionKind::Limit | QuestionKind::Tilt => {
             answer.verdict.is_none() && answer.unbalance.is_none() && answer.load_factor.is_some() && answer.fate.is_none()
         }
-        Question::Critical | Question::Thrust => false,
+        QuestionKind::Critical | QuestionKind::Thrust => false,
     } && answer.critical.is_none()
         && answer.thrust.is_none()
-        && (question == Question::Tilt || answer.tilt_deg.is_none() && answer.toward.is_none());
+        && (question == QuestionKind::Tilt || answer.tilt_deg.is_none() && answer.toward.is_none());
     if !form {
         f.fails.push("the answer is not one to its question".into());
         return;
@@ -309,7 +311,7 @@ fn says_what_is_claimed(f: &mut Findings, question: Question, answer: &Answer, c
     } else {
         f.fails.push(format!("the answer does not say what the certificate claims: {claim_words}"));
     }
-    if question == Question::Tilt {
+    if question == QuestionKind::Tilt {
         let angle = match claim {
             Some(&Claim::LoadFactor { value, .. }) => Some(value.atan().to_degrees()),
             Some(Claim::Unbounded { .. }) => Some(90.0),

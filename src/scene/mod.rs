@@ -40,7 +40,7 @@ use std::collections::BTreeMap;
 
 /// The version of the format, the only value of the key `format`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum Format {
+pub enum SceneFormat {
     /// Version 1.
     #[default]
     #[serde(rename = "voussoir-scene/1")]
@@ -52,7 +52,7 @@ pub enum Format {
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The format and its version.
-    pub format: Format,
+    pub format: SceneFormat,
     /// A name for people.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
@@ -93,7 +93,7 @@ pub fn standard_gravity() -> [f64; 3] {
 impl Default for Scene {
     fn default() -> Self {
         Self {
-            format: Format::V1,
+            format: SceneFormat::V1,
             name: String::new(),
             source: String::new(),
             gravity: standard_gravity(),

@@ -1,6 +1,6 @@
 //! JSON text → [`Scene`], with errors that name file, line, column, JSON path and remedy.
 
-use super::{Format, Scene, Source, explain};
+use super::{Scene, SceneFormat, Source, explain};
 use crate::{
     error::{InputError, JsonPath},
     limits,
@@ -44,7 +44,7 @@ pub(crate) fn text(name: impl Into<String>, bytes: Vec<u8>) -> Result<Source, In
 /// # Errors
 /// The text is not JSON, or is not a scene.
 pub fn read_str(name: impl Into<String>, text: impl Into<String>) -> Result<(Scene, Source), InputError> {
-    debug_assert_eq!(serde_json::to_value(Format::V1).ok().as_ref().and_then(|v| v.as_str()), Some(SCENE.format));
+    debug_assert_eq!(serde_json::to_value(SceneFormat::V1).ok().as_ref().and_then(|v| v.as_str()), Some(SCENE.format));
     read_as(&SCENE, Source::new(name, text))
 }
 

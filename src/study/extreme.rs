@@ -29,14 +29,14 @@ pub struct Cell {
     /// What is extreme about it.
     pub what: String,
     /// What is asked.
-    pub ask: Ask,
+    pub ask: CellQuestion,
     scene: Value,
 }
 
 /// The question about a cell, with its answer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Ask {
+pub enum CellQuestion {
     /// The load factor.
     LoadFactor(f64),
     /// Does it stand, at this relative distance from the critical value?
@@ -45,15 +45,15 @@ pub enum Ask {
 
 /// What came out of a cell.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Found {
+pub struct CellAnswer {
     /// Column, wall or arch.
     pub family: String,
     /// What is extreme about it.
     pub what: String,
     /// The question and its answer.
-    pub ask: Ask,
+    pub ask: CellQuestion,
     /// What became of it.
-    pub grade: Grade,
+    pub grade: CellGrade,
     /// The load factor, relative error, and bracket width over the value (absolute where the answer is 0).
     pub value: Option<f64>,
     /// |value − truth| / truth.
@@ -71,7 +71,7 @@ pub struct Found {
 /// What an answer is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Grade {
+pub enum CellGrade {
     /// Right, and its certificate holds.
     Right,
     /// No answer.
@@ -134,7 +134,7 @@ fn around(cells: &mut Vec<Cell>, family: &'static str, what: &str, critical: f64
             continue;
         }
         for (stands, factor) in [(true, 1.0 - distance), (false, 1.0 + distance)] {
-            cells.push(Cell { family, what: what.into(), ask: Ask::Stands(stands, distance), scene: make(critical * factor) });
+            cells.push(Cell { family, what: what.into(), ask: CellQuestion::Stands(stands, distance), scene: make(critical * factor) });
         }
     }
 }
@@ -172,7 +172,7 @@ fn column(cells: &mut Vec<Cell>, blocks: usize, mass: f64, size: f64, slendernes
     cells.push(Cell {
         family: "column",
         what: what.clone(),
-        ask: Ask::LoadFactor(critical),
+        ask: CellQuestion::LoadFactor(critical),
         scene: scene(json!({ "live": [{ "weight": [1, 0, 0] }] })),
     });
     around(cells, "column", &what, critical, |v| scene(json!({ "dead": [{ "weight": [v, 0, 0] }] })));
@@ -210,7 +210,7 @@ fn wall(cells: &mut Vec<Cell>, courses: usize, length: usize, mass: f64, thickne
     cells.push(Cell {
         family: "wall",
         what: what.clone(),
-        ask: Ask::LoadFactor(critical),
+        ask: CellQuestion::LoadFactor(critical),
         scene: scene(json!({ "live": [{ "weight": [0, 1, 0] }] })),
     });
     around(cells, "wall", &what, critical, |v| scene(json!({ "dead": [{ "weight": [0, v, 0] }] })));
@@ -223,7 +223,7 @@ fn arch(cells: &mut Vec<Cell>, voussoirs: usize, critical: f64, friction: f64, d
         for (stands, factor) in [(true, 1.0 + distance), (false, 1.0 - distance)] {
             let scene = json!({ "format": "voussoir-scene/1", "materials": { "m": { "density": density } }, "joints": { "default": { "friction": friction } },
                 "templates": [{ "arch": { "radius": radius, "thickness": radius * critical * factor, "depth": depth * radius, "embrace_deg": 180, "voussoirs": voussoirs, "material": "m" } }] });
-            cells.push(Cell { family: "arch", what: what.clone(), ask: Ask::Stands(stands, distance), scene });
+            cells.push(Cell { family: "arch", what: what.clone(), ask: CellQuestion::Stands(stands, distance), scene });
         }
     }
 }
@@ -232,7 +232,7 @@ fn arch(cells: &mut Vec<Cell>, voussoirs: usize, critical: f64, friction: f64, d
 ///
 /// # Errors
 /// As [`Kept::open`].
-pub fn keep(path: &Path, cells: &[Cell]) -> Result<Kept<(usize, Found)>, RowsError> {
+pub fn keep(path: &Path, cells: &[Cell]) -> Result<Kept<(usize, CellAnswer)>, RowsError> {
     Kept::open(path, "voussoir-extreme/1", json!({ "cells": cells.len() }))
 }
 
@@ -240,8 +240,12 @@ pub fn keep(path: &Path, cells: &[Cell]) -> Result<Kept<(usize, Found)>, RowsErr
 ///
 /// # Errors
 /// Threads cannot be started, or the file cannot be written.
-pub fn run(cells: &[Cell], kept: Option<&Kept<(usize, Found)>>, each: impl Fn(&Found) + Sync) -> Result<Vec<Found>, RowsError> {
-    let there: BTreeMap<usize, &Found> = kept.iter().flat_map(|k| &k.there).map(|(index, found)| (*index, found)).collect();
+pub fn run(
+    cells: &[Cell],
+    kept: Option<&Kept<(usize, CellAnswer)>>,
+    each: impl Fn(&CellAnswer) + Sync,
+) -> Result<Vec<CellAnswer>, RowsError> {
+    let there: BTreeMap<usize, &CellAnswer> = kept.iter().flat_map(|k| &k.there).map(|(index, found)| (*index, found)).collect();
     let numbered: Vec<(usize, &Cell)> = cells.iter().enumerate().collect();
     let found = parallel::try_map(0, &numbered, |(index, cell)| {
         if let Some(&found) = there.get(index) {
@@ -265,13 +269,13 @@ impl Cell {
     }
 
     /// Asks its question and grades the answer.
-    pub fn ask(&self) -> Found {
+    pub fn ask(&self) -> CellAnswer {
         let start = std::time::Instant::now();
-        let mut found = Found {
+        let mut found = CellAnswer {
             family: self.family.into(),
             what: self.what.clone(),
             ask: self.ask,
-            grade: Grade::Wrong,
+            grade: CellGrade::Wrong,
             value: None,
             error: None,
             bracket: None,
@@ -283,7 +287,7 @@ impl Cell {
         let (assembly, interfaces) = (&model.assembly, &model.interfaces);
         let control = Control { law: Law::Associative, ..Control::default() };
         match self.ask {
-            Ask::Stands(stands, _) => {
+            CellQuestion::Stands(stands, _) => {
                 let a = assess(assembly, interfaces, &control);
                 found.iterations = a.attempts.iter().map(|a| a.iterations).sum();
                 let claim = match a.verdict {
@@ -292,14 +296,14 @@ impl Cell {
                     Verdict::Conditional | Verdict::Undecided => None,
                 };
                 found.grade = match claim {
-                    None => Grade::Undecided,
+                    None => CellGrade::Undecided,
                     Some((said, claim)) if said == stands && verify(assembly, interfaces, &claim, &a.forces, None, &a.rates).proved() => {
-                        Grade::Right
+                        CellGrade::Right
                     }
-                    Some(_) => Grade::Wrong,
+                    Some(_) => CellGrade::Wrong,
                 };
             }
-            Ask::LoadFactor(truth) => {
+            CellQuestion::LoadFactor(truth) => {
                 let l = limit(assembly, interfaces, &control);
                 found.iterations = l.attempts.iter().map(|a| a.iterations).sum();
                 if l.value.is_finite() {
@@ -312,11 +316,11 @@ impl Cell {
                 let claim = Claim::LoadFactor { value: l.value, lower: l.bracket.lower, upper: l.bracket.upper };
                 let right = found.inside == Some(true) && verify(assembly, interfaces, &claim, &l.forces, None, &l.rates).proved();
                 found.grade = match l.outcome {
-                    Outcome::Found if right => Grade::Right,
+                    Outcome::Found if right => CellGrade::Right,
                     // Not proved: the result file gives no number either.
-                    Outcome::Found if found.inside == Some(true) => Grade::Undecided,
-                    Outcome::Undecided => Grade::Undecided,
-                    _ => Grade::Wrong,
+                    Outcome::Found if found.inside == Some(true) => CellGrade::Undecided,
+                    Outcome::Undecided => CellGrade::Undecided,
+                    _ => CellGrade::Wrong,
                 };
             }
         }
@@ -327,7 +331,7 @@ impl Cell {
 
 /// The sums over a grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Count {
+pub struct CellCount {
     /// Cells.
     pub cells: usize,
     /// Right ones.
@@ -349,19 +353,19 @@ pub struct Count {
 }
 
 /// Counts the cells of one family, or of all.
-pub fn count(found: &[Found], family: Option<&str>) -> Count {
-    let mut c = Count::default();
+pub fn count(found: &[CellAnswer], family: Option<&str>) -> CellCount {
+    let mut c = CellCount::default();
     for f in found.iter().filter(|f| family.is_none_or(|name| f.family == name)) {
         c.cells += 1;
         match f.grade {
-            Grade::Right => c.right += 1,
-            Grade::Undecided => c.undecided += 1,
-            Grade::Wrong => c.wrong += 1,
+            CellGrade::Right => c.right += 1,
+            CellGrade::Undecided => c.undecided += 1,
+            CellGrade::Wrong => c.wrong += 1,
         }
-        if matches!(f.ask, Ask::LoadFactor(_)) {
+        if matches!(f.ask, CellQuestion::LoadFactor(_)) {
             c.load_factors += 1;
             c.narrow += usize::from(f.bracket.is_some_and(|b| b <= tolerance::LOAD_FACTOR_WIDTH));
-            if f.grade == Grade::Right {
+            if f.grade == CellGrade::Right {
                 c.error = c.error.max(f.error.unwrap_or(0.0));
             }
         }

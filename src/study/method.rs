@@ -1,13 +1,13 @@
 //! The methods of a study and their knobs.
 
-use super::{Known, Point};
+use super::{Known, StudyPoint};
 use crate::{
     analysis::{
         Control, Law, LoadFactor, Model, assess, coulomb,
-        limit::{self, Way},
+        limit::{self, Formulation},
     },
     dynamics::{self, Fate, Fidelity},
-    program::{Options, Pyramid, Statics, Unknowns},
+    program::{Pyramid, Statics, StaticsOptions, Unknowns},
     solve::Settings,
     verdict::Verdict,
 };
@@ -17,7 +17,7 @@ use std::time::Instant;
 /// A way to a load factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Method {
+pub enum StudyMethod {
     /// What `limit` does: the ladder of attempts. No knob.
     Ladder,
     /// One program in the forces; knob: the engine's tolerance.
@@ -40,7 +40,7 @@ pub enum Method {
     Simulation,
 }
 
-impl Method {
+impl StudyMethod {
     /// All of them.
     pub const ALL: [Self; 10] = [
         Self::Ladder,
@@ -84,7 +84,8 @@ impl Method {
 
     /// The settings of its knob that make sense for a scene.
     pub(super) fn knobs(self, known: &Known, model: &Model, quick: bool) -> Vec<f64> {
-        let plane = || Statics::new(&model.assembly, &model.interfaces, Options { live: true, ..Options::default() }).plane.is_some();
+        let plane =
+            || Statics::new(&model.assembly, &model.interfaces, StaticsOptions { live: true, ..StaticsOptions::default() }).plane.is_some();
         let thin = |list: Vec<f64>| if quick { list.into_iter().step_by(2).collect() } else { list };
         match self {
             Self::DryFriction | Self::Simulation if known.dry.is_none() => Vec::new(),
@@ -102,14 +103,15 @@ impl Method {
     }
 
     /// One run.
-    pub(super) fn run(self, known: &Known, model: &Model, knob: f64) -> Point {
+    pub(super) fn run(self, known: &Known, model: &Model, knob: f64) -> StudyPoint {
         let start = Instant::now();
         let (assembly, interfaces) = (&model.assembly, &model.interfaces);
-        let tolerance = |way: Way| Way { settings: Settings { tolerance: knob, ..way.settings }, ..way };
-        let once = |way: Way| From::from(limit::attempt(assembly, interfaces, &way));
+        let tolerance = |way: Formulation| Formulation { settings: Settings { tolerance: knob, ..way.settings }, ..way };
+        let once = |way: Formulation| From::from(limit::attempt(assembly, interfaces, &way));
         let pyramid = |around: bool| {
-            let options = Options { pyramid: Some(Pyramid { facets: knob as usize, around }), keep_all: true, ..Options::default() };
-            once(Way { options, ..Way::usual(Unknowns::Forces) })
+            let options =
+                StaticsOptions { pyramid: Some(Pyramid { facets: knob as usize, around }), keep_all: true, ..StaticsOptions::default() };
+            once(Formulation { options, ..Formulation::usual(Unknowns::Forces) })
         };
         // What is simulated slides without opening.
         let dry = matches!(self, Self::DryFriction | Self::Simulation);
@@ -119,13 +121,14 @@ impl Method {
                 let l = limit::limit(assembly, interfaces, &Control { law: Law::Associative, ..Control::default() });
                 Got { value: Some(l.value), ..Got::from(l) }
             }
-            Self::Forces => once(tolerance(Way::usual(Unknowns::Forces))),
-            Self::Rates => once(tolerance(Way::usual(Unknowns::Rates))),
-            Self::KeepAll => {
-                once(tolerance(Way { options: Options { keep_all: true, ..Options::default() }, ..Way::usual(Unknowns::Forces) }))
-            }
-            Self::Unscaled => once(Way {
-                options: Options { unscaled: true, ..Options::default() },
+            Self::Forces => once(tolerance(Formulation::usual(Unknowns::Forces))),
+            Self::Rates => once(tolerance(Formulation::usual(Unknowns::Rates))),
+            Self::KeepAll => once(tolerance(Formulation {
+                options: StaticsOptions { keep_all: true, ..StaticsOptions::default() },
+                ..Formulation::usual(Unknowns::Forces)
+            })),
+            Self::Unscaled => once(Formulation {
+                options: StaticsOptions { unscaled: true, ..StaticsOptions::default() },
                 unknowns: Unknowns::Forces,
                 unit: 1.0,
                 local: false,
@@ -142,7 +145,7 @@ impl Method {
             Self::Simulation => simulated(model, if knob < 500.0 { Fidelity::Fast } else { Fidelity::Fine }, 2.0 * known.truth),
         };
         let value = got.value.filter(|v| v.is_finite());
-        Point {
+        StudyPoint {
             scene: known.name.into(),
             method: self,
             knob,
@@ -183,7 +186,7 @@ const SIMULATIONS: usize = 8;
 
 /// Halving between 0 and `high` by what happens in time.
 fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Got {
-    let settings = dynamics::Settings { fidelity: Some(fidelity), ..dynamics::Settings::default() };
+    let settings = dynamics::SimulationSettings { fidelity: Some(fidelity), ..dynamics::SimulationSettings::default() };
     let mut low = 0.0;
     for _ in 0..SIMULATIONS {
         let middle = 0.5 * (low + high);

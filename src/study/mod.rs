@@ -14,7 +14,7 @@ pub(crate) mod random;
 pub mod soak;
 
 pub use known::{Known, known};
-pub use method::Method;
+pub use method::StudyMethod;
 pub use omissions::{Omission, omissions};
 
 use crate::{error::InputError, solve::Status};
@@ -22,11 +22,11 @@ use serde::{Deserialize, Serialize};
 
 /// One run of a method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Point {
+pub struct StudyPoint {
     /// The scene.
     pub scene: String,
     /// The method.
-    pub method: Method,
+    pub method: StudyMethod,
     /// Its knob.
     pub knob: f64,
     /// The load factor that came out; the engine's own number, where the method has no other.
@@ -43,7 +43,7 @@ pub struct Point {
     pub status: Option<Status>,
 }
 
-impl Point {
+impl StudyPoint {
     /// Whether the engine said "solved" of a number that is off by more than [`WRONG`], and by far more than the tolerance it was given.
     pub fn is_silently_wrong(&self) -> bool {
         let asked = if self.method.knob() == "tolerance" { 100.0 * self.knob } else { 0.0 };
@@ -58,13 +58,13 @@ pub const WRONG: f64 = 1e-3;
 ///
 /// # Errors
 /// A scene cannot be resolved.
-pub fn run(scenes: &[Known], quick: bool, repeat: usize, mut each: impl FnMut(&Point)) -> Result<Vec<Point>, InputError> {
+pub fn run(scenes: &[Known], quick: bool, repeat: usize, mut each: impl FnMut(&StudyPoint)) -> Result<Vec<StudyPoint>, InputError> {
     let mut points = Vec::new();
     for known in scenes {
         let model = crate::analysis::prepare(&known.scene)?;
-        for method in Method::ALL {
+        for method in StudyMethod::ALL {
             for knob in method.knobs(known, &model, quick) {
-                let mut runs: Vec<Point> = (0..repeat.max(1)).map(|_| method.run(known, &model, knob)).collect();
+                let mut runs: Vec<StudyPoint> = (0..repeat.max(1)).map(|_| method.run(known, &model, knob)).collect();
                 runs.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
                 let point = runs.swap_remove(runs.len() / 2);
                 each(&point);
@@ -82,25 +82,25 @@ pub fn run(scenes: &[Known], quick: bool, repeat: usize, mut each: impl FnMut(&P
 pub fn count(scenes: &[Known], quick: bool) -> Result<usize, InputError> {
     let of = |known: &Known| {
         let model = crate::analysis::prepare(&known.scene)?;
-        Ok(Method::ALL.iter().map(|m| m.knobs(known, &model, quick).len()).sum::<usize>())
+        Ok(StudyMethod::ALL.iter().map(|m| m.knobs(known, &model, quick).len()).sum::<usize>())
     };
     scenes.iter().map(of).sum()
 }
 
 /// A performance profile (Dolan & Moré 2002): for each method, the share of scenes on which it reaches `error` within `ratio` times
 /// the time of the fastest method that does, at each ratio.
-pub fn profile(points: &[Point], error: f64, ratios: &[f64]) -> Vec<(Method, Vec<f64>)> {
+pub fn profile(points: &[StudyPoint], error: f64, ratios: &[f64]) -> Vec<(StudyMethod, Vec<f64>)> {
     let mut scenes: Vec<&str> = points.iter().map(|p| p.scene.as_str()).collect();
     scenes.sort_unstable();
     scenes.dedup();
-    let time = |scene: &str, method: Option<Method>| {
+    let time = |scene: &str, method: Option<StudyMethod>| {
         points
             .iter()
             .filter(|p| p.scene == scene && method.is_none_or(|m| p.method == m) && p.error.is_some_and(|e| e <= error))
             .map(|p| p.seconds)
             .fold(f64::INFINITY, f64::min)
     };
-    Method::ALL
+    StudyMethod::ALL
         .into_iter()
         .filter(|m| points.iter().any(|p| p.method == *m))
         .map(|m| {

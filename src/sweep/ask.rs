@@ -1,6 +1,6 @@
 //! One question about one scene, its answer verified from the scene alone. A further question is a further arm of [`ask`].
 
-use super::{Answer, Question, ReposeOptions, SimulateOptions, Status, ThrustOptions, TiltOptions};
+use super::{Question, ReposeOptions, RowAnswer, RowStatus, SimulateOptions, ThrustOptions, TiltOptions};
 use crate::{
     analysis::{
         Control, Law, LoadFactor, Model, Outcome, assess,
@@ -28,7 +28,7 @@ const DIRECTIONS: usize = 8;
 ///
 /// # Errors
 /// The question has no meaning for this scene.
-pub fn ask(question: &Question, scene: &Scene, model: &Model) -> Result<Answer, InputError> {
+pub fn ask(question: &Question, scene: &Scene, model: &Model) -> Result<RowAnswer, InputError> {
     match question {
         Question::Assess(options) => Ok(assessed(model, &control(options.law))),
         Question::Limit(options) => limited(model, &control(options.law)),
@@ -48,23 +48,23 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 /// Does it stand under its dead load?
-pub(super) fn assessed(model: &Model, control: &Control) -> Answer {
+pub(super) fn assessed(model: &Model, control: &Control) -> RowAnswer {
     let a = assess(&model.assembly, &model.interfaces, control);
     let status = match a.verdict {
-        _ if !a.proved(&model.assembly, &model.interfaces) => Status::Undecided,
-        Verdict::Stable => Status::Stable,
-        Verdict::Conditional => Status::Conditional,
-        Verdict::Unstable => Status::Unstable,
-        Verdict::Undecided => Status::Undecided,
+        _ if !a.proved(&model.assembly, &model.interfaces) => RowStatus::Undecided,
+        Verdict::Stable => RowStatus::Stable,
+        Verdict::Conditional => RowStatus::Conditional,
+        Verdict::Unstable => RowStatus::Unstable,
+        Verdict::Undecided => RowStatus::Undecided,
     };
-    Answer { lower: finite(a.unbalance.lower), upper: finite(a.unbalance.upper), ..Answer::of(status) }
+    RowAnswer { lower: finite(a.unbalance.lower), upper: finite(a.unbalance.upper), ..RowAnswer::of(status) }
 }
 
 /// How large may the live load grow?
 ///
 /// # Errors
 /// There is no live load.
-pub(super) fn limited(model: &Model, control: &Control) -> Result<Answer, InputError> {
+pub(super) fn limited(model: &Model, control: &Control) -> Result<RowAnswer, InputError> {
     let (assembly, interfaces) = (&model.assembly, &model.interfaces);
     if assembly.live.iter().all(|w| *w == Wrench::zero()) {
         let path = JsonPath::root().key("loads").key("live");
@@ -80,19 +80,19 @@ fn bounds(outcome: Outcome) -> bool {
 }
 
 /// The answer by the bound and, where it was asked for, the load factor with dry friction; values are read through `scale`.
-fn combined(model: &Model, bound: &LoadFactor, dry: Option<(&Model, &DryLoadFactor)>, scale: fn(f64) -> f64) -> Answer {
+fn combined(model: &Model, bound: &LoadFactor, dry: Option<(&Model, &DryLoadFactor)>, scale: fn(f64) -> f64) -> RowAnswer {
     let status = match bound.outcome {
-        _ if !bound.proved(&model.assembly, &model.interfaces) => Status::Undecided,
-        Outcome::Found => Status::Found,
-        Outcome::Unbounded => Status::Unbounded,
-        Outcome::Impossible => Status::Impossible,
-        Outcome::Undecided => Status::Undecided,
+        _ if !bound.proved(&model.assembly, &model.interfaces) => RowStatus::Undecided,
+        Outcome::Found => RowStatus::Found,
+        Outcome::Unbounded => RowStatus::Unbounded,
+        Outcome::Impossible => RowStatus::Impossible,
+        Outcome::Undecided => RowStatus::Undecided,
     };
-    let answer = Answer {
-        value: (status == Status::Found).then(|| scale(bound.value)),
+    let answer = RowAnswer {
+        value: (status == RowStatus::Found).then(|| scale(bound.value)),
         lower: finite(bound.bracket.lower).map(scale),
         upper: finite(bound.bracket.upper).map(scale),
-        ..Answer::of(status)
+        ..RowAnswer::of(status)
     };
     let Some((model, dry)) = dry else { return answer };
     let proved = dry.proved(&model.assembly, &model.interfaces);
@@ -101,18 +101,22 @@ fn combined(model: &Model, bound: &LoadFactor, dry: Option<(&Model, &DryLoadFact
     let found = if known || !claims { dry.found } else { Found::Undecided };
     match found {
         // The bound itself is the answer, with its bracket.
-        Found::NothingSlides => Answer { dry: Some(found), ..answer },
-        Found::FixedPoint => Answer { status: Status::Found, value: Some(scale(dry.value)), lower: None, dry: Some(found), ..answer },
-        Found::Unlimited => Answer { dry: Some(found), ..answer },
-        Found::Rests => {
-            Answer { status: Status::Found, value: Some(scale(dry.value)), lower: Some(scale(dry.rests_at)), dry: Some(found), ..answer }
-        }
-        Found::NotAtRest => Answer { dry: Some(found), ..Answer::of(Status::Conditional) },
-        Found::Undecided => Answer { status: Status::Undecided, value: None, lower: None, dry: Some(found), ..answer },
+        Found::NothingSlides => RowAnswer { dry: Some(found), ..answer },
+        Found::FixedPoint => RowAnswer { status: RowStatus::Found, value: Some(scale(dry.value)), lower: None, dry: Some(found), ..answer },
+        Found::Unlimited => RowAnswer { dry: Some(found), ..answer },
+        Found::Rests => RowAnswer {
+            status: RowStatus::Found,
+            value: Some(scale(dry.value)),
+            lower: Some(scale(dry.rests_at)),
+            dry: Some(found),
+            ..answer
+        },
+        Found::NotAtRest => RowAnswer { dry: Some(found), ..RowAnswer::of(RowStatus::Conditional) },
+        Found::Undecided => RowAnswer { status: RowStatus::Undecided, value: None, lower: None, dry: Some(found), ..answer },
     }
 }
 
-fn least_tilt(options: &TiltOptions, model: &Model) -> Result<Answer, InputError> {
+fn least_tilt(options: &TiltOptions, model: &Model) -> Result<RowAnswer, InputError> {
     let control = control(options.law);
     let toward = if options.toward.is_empty() {
         directions(model.assembly.gravity, options.all.map_or(DIRECTIONS, usize::from))
@@ -120,7 +124,7 @@ fn least_tilt(options: &TiltOptions, model: &Model) -> Result<Answer, InputError
         options.toward.iter().map(|&d| d.into()).collect()
     };
     let level = (control.law == Law::Coulomb).then(|| assess(&model.assembly, &model.interfaces, &control).verdict);
-    let mut least: Option<Answer> = None;
+    let mut least: Option<RowAnswer> = None;
     for direction in toward {
         let tilt = tilt(&model.assembly, &model.interfaces, direction, &control)?;
         let turned = tilted(model, direction, tilt.load_factor.value)?;
@@ -132,7 +136,7 @@ fn least_tilt(options: &TiltOptions, model: &Model) -> Result<Answer, InputError
         };
         let degrees = |lambda: f64| lambda.atan().to_degrees();
         let answer = combined(&turned, &tilt.load_factor, dry.as_ref().map(|(m, d)| (m, d)), degrees);
-        let answer = Answer { toward: Some(tilt.toward.into()), ..answer };
+        let answer = RowAnswer { toward: Some(tilt.toward.into()), ..answer };
         if least.as_ref().is_none_or(|least| height(&answer) < height(least)) {
             least = Some(answer);
         }
@@ -141,15 +145,15 @@ fn least_tilt(options: &TiltOptions, model: &Model) -> Result<Answer, InputError
 }
 
 /// Which direction governs: one without an answer must not hide behind the others.
-fn height(answer: &Answer) -> f64 {
+fn height(answer: &RowAnswer) -> f64 {
     match answer.status {
-        Status::Unbounded => 90.0,
+        RowStatus::Unbounded => 90.0,
         _ => answer.value.unwrap_or(f64::NEG_INFINITY),
     }
 }
 
 /// Least or greatest thrust on a support, proved on both sides.
-fn thrust_on(options: &ThrustOptions, model: &Model) -> Result<Answer, InputError> {
+fn thrust_on(options: &ThrustOptions, model: &Model) -> Result<RowAnswer, InputError> {
     let at = thrust::place(model, options.support.as_deref(), options.direction)?;
     let control = control(options.law);
     let standing = assess(&model.assembly, &model.interfaces, &control);
@@ -165,19 +169,19 @@ fn thrust_on(options: &ThrustOptions, model: &Model) -> Result<Answer, InputErro
     };
     let proved = claim.is_some_and(|c| verify(&model.assembly, &model.interfaces, &c, &end.forces, end.base.as_ref(), &end.rates).proved());
     Ok(match end.outcome {
-        Outcome::Found if proved => Answer {
+        Outcome::Found if proved => RowAnswer {
             value: Some(end.value),
             lower: finite(end.bracket.lower),
             upper: finite(end.bracket.upper),
-            ..Answer::of(Status::Found)
+            ..RowAnswer::of(RowStatus::Found)
         },
-        Outcome::Unbounded if proved => Answer::of(Status::Unbounded),
-        _ => Answer::of(Status::Undecided),
+        Outcome::Unbounded if proved => RowAnswer::of(RowStatus::Unbounded),
+        _ => RowAnswer::of(RowStatus::Undecided),
     })
 }
 
 /// The least angle of maximum stability of all directions; grains that nothing holds are left out.
-fn repose(options: &ReposeOptions, scene: &Scene, model: &Model) -> Result<Answer, InputError> {
+fn repose(options: &ReposeOptions, scene: &Scene, model: &Model) -> Result<RowAnswer, InputError> {
     let control = control(options.law);
     let (scene, model, _) = held(scene, model.clone())?;
     let toward = if options.toward.is_empty() {
@@ -185,13 +189,13 @@ fn repose(options: &ReposeOptions, scene: &Scene, model: &Model) -> Result<Answe
     } else {
         options.toward.iter().map(|&d| d.into()).collect()
     };
-    let mut least: Option<Answer> = None;
+    let mut least: Option<RowAnswer> = None;
     for direction in toward {
         let found = stability(&scene, &model, direction, options.moving_mass, &control)?;
         let Some(round) = found.rounds.get(found.answer) else { continue };
         let degrees = |lambda: f64| lambda.atan().to_degrees();
         let answer = combined(&round.model, &round.tilt.load_factor, round.dry.as_ref().map(|(m, d)| (m, d)), degrees);
-        let answer = Answer { toward: Some(round.tilt.toward.into()), ..answer };
+        let answer = RowAnswer { toward: Some(round.tilt.toward.into()), ..answer };
         if least.as_ref().is_none_or(|least| height(&answer) < height(least)) {
             least = Some(answer);
         }
@@ -200,17 +204,18 @@ fn repose(options: &ReposeOptions, scene: &Scene, model: &Model) -> Result<Answe
 }
 
 /// What happens in time; always on one thread, the rows are what runs side by side.
-fn simulated(options: &SimulateOptions, scene: &Scene, model: &Model) -> Result<Answer, InputError> {
+fn simulated(options: &SimulateOptions, scene: &Scene, model: &Model) -> Result<RowAnswer, InputError> {
     // As the verb does it: in the scene, whose live loads may act off the centre of mass and turn with their blocks.
     let loaded = match options.load_factor {
         Some(factor) if factor != 0.0 => &prepare(&Scene { loads: scene.loads.fixed(factor), ..scene.clone() })?,
         _ => model,
     };
-    let settings = dynamics::Settings { fidelity: options.fast.then_some(Fidelity::Fast), ..dynamics::Settings::default() };
+    let settings =
+        dynamics::SimulationSettings { fidelity: options.fast.then_some(Fidelity::Fast), ..dynamics::SimulationSettings::default() };
     let outcome = dynamics::simulate(&loaded.assembly, &loaded.interfaces, &settings, &mut |_| std::ops::ControlFlow::Continue(()))?;
-    Ok(Answer::of(match outcome.fate {
-        Fate::Stands => Status::Stable,
-        Fate::Falls => Status::Unstable,
-        Fate::Undecided => Status::Undecided,
+    Ok(RowAnswer::of(match outcome.fate {
+        Fate::Stands => RowStatus::Stable,
+        Fate::Falls => RowStatus::Unstable,
+        Fate::Undecided => RowStatus::Undecided,
     }))
 }

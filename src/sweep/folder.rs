@@ -203,7 +203,7 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::{Answer, Plan, Status, Sweep};
+    use crate::sweep::{Plan, RowAnswer, RowStatus, Sweep};
     use serde_json::json;
 
     fn header() -> Header {
@@ -217,8 +217,8 @@ mod tests {
         Sweep::new(plan, scene).unwrap().header(Shard::ALL)
     }
 
-    fn row(number: usize, seconds: f64, status: Status) -> Row {
-        Row { row: number, parameters: vec![0.5], answer: Answer::of(status), error: None, seconds }
+    fn row(number: usize, seconds: f64, status: RowStatus) -> Row {
+        Row { row: number, parameters: vec![0.5], answer: RowAnswer::of(status), error: None, seconds }
     }
 
     #[test]
@@ -229,7 +229,7 @@ mod tests {
         Folder::create(&path, &header()).unwrap();
         let mut tally = Tally::default();
         assert_eq!(tally.count(&folder).unwrap(), 0);
-        for rows in [vec![row(0, 1.0, Status::Stable), row(1, 1.0, Status::Error)], vec![row(1, 2.0, Status::Error)]] {
+        for rows in [vec![row(0, 1.0, RowStatus::Stable), row(1, 1.0, RowStatus::Error)], vec![row(1, 2.0, RowStatus::Error)]] {
             let file = folder.fresh("task").unwrap();
             rows.iter().for_each(|row| file.append(row).unwrap());
         }
@@ -246,7 +246,7 @@ mod tests {
         assert_eq!(folder.missing(&gathered), [2, 3]);
         // Two answers to one row are never merged in silence.
         let file = folder.fresh("task").unwrap();
-        file.append(&row(0, 1.0, Status::Unstable)).unwrap();
+        file.append(&row(0, 1.0, RowStatus::Unstable)).unwrap();
         assert!(folder.read().unwrap_err().to_string().contains("row 0 has another answer"));
     }
 

@@ -1,6 +1,6 @@
 //! The probability of failure against a demand or a parameter, with the uncertainty of a finite sample.
 
-use super::{Answer, Header, Question, Row, Sampling, Status, influence::groups};
+use super::{Header, Question, Row, RowAnswer, RowStatus, Sampling, influence::groups};
 use serde::Serialize;
 
 /// A share of a sample, with its Wilson interval.
@@ -51,12 +51,12 @@ const POINTS: usize = 21;
 /// Whether a row failed; nothing where that is not known.
 ///
 /// Failed is what falls or stands only with a pre-stress, a value below what the plan requires, and what no load factor lets stand.
-pub(super) fn failed(question: &Question, answer: &Answer) -> Option<bool> {
+pub(super) fn failed(question: &Question, answer: &RowAnswer) -> Option<bool> {
     match (question.require(), answer.status) {
-        (_, Status::Stable | Status::Unbounded) => Some(false),
-        (_, Status::Conditional | Status::Unstable | Status::Impossible) => Some(true),
-        (Some(require), Status::Found) => answer.value.map(|v| v < require),
-        (None, Status::Found) | (_, Status::Undecided | Status::Error) => None,
+        (_, RowStatus::Stable | RowStatus::Unbounded) => Some(false),
+        (_, RowStatus::Conditional | RowStatus::Unstable | RowStatus::Impossible) => Some(true),
+        (Some(require), RowStatus::Found) => answer.value.map(|v| v < require),
+        (None, RowStatus::Found) | (_, RowStatus::Undecided | RowStatus::Error) => None,
     }
 }
 
@@ -92,9 +92,9 @@ fn against_demand(quantity: &str, rows: &[Row]) -> Option<Fragility> {
     let strengths: Vec<f64> = rows
         .iter()
         .filter_map(|r| match r.answer.status {
-            Status::Found => r.answer.value,
-            Status::Unbounded => Some(f64::INFINITY),
-            Status::Impossible => Some(f64::NEG_INFINITY),
+            RowStatus::Found => r.answer.value,
+            RowStatus::Unbounded => Some(f64::INFINITY),
+            RowStatus::Impossible => Some(f64::NEG_INFINITY),
             _ => None,
         })
         .collect();

@@ -6,12 +6,12 @@
 //! rows ran before. [`merge`] puts shards together, [`Folder`] and [`slurm`] spread them over the machines of a cluster, [`summarize`] says what the rows have in common.
 //!
 //! ```
-//! use voussoir::sweep::{self, Options};
+//! use voussoir::sweep::{self, RunOptions};
 //! # let folder = tempfile::tempdir().unwrap();
 //! let sweep = sweep::open("structures/sweeps/arch-in-earthquake.json".as_ref())?;
 //! let rows = folder.path().join("rows.jsonl");
 //! # let few = sweep::Shard::new(1, 60).unwrap();
-//! let done = sweep::run(&sweep, &rows, &Options { shard: few, ..Options::default() }, &|_| {})?;
+//! let done = sweep::run(&sweep, &rows, &RunOptions { shard: few, ..RunOptions::default() }, &|_| {})?;
 //! let summary = sweep::summarize(&sweep.header(few), &done.rows);
 //! assert_eq!(summary.rows, done.rows.len());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -47,8 +47,8 @@ pub use plan::{
     AssessOptions, LimitOptions, Lognormal, Normal, Plan, Question, ReposeOptions, Sampling, SimulateOptions, ThrustOptions, TiltOptions,
     Vary, schema,
 };
-pub use row::{Answer, Header, Row, Status};
-pub use run::{Done, Event, Options, measure, run, run_in};
+pub use row::{Header, Row, RowAnswer, RowStatus};
+pub use run::{Done, Event, RunOptions, measure, run, run_in};
 pub use shard::Shard;
 pub use summary::{Quantiles, Summary, summarize, value_of};
-pub use worst::{Range, Worst, WorstOf, worst};
+pub use worst::{Between, Worst, WorstOf, worst};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// The version of the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum Format {
+pub enum PlanFormat {
     /// Version 1.
     #[default]
     #[serde(rename = "voussoir-sweep/1")]
@@ -18,7 +18,7 @@ pub enum Format {
 #[serde(deny_unknown_fields)]
 pub struct Plan {
     /// The format and its version.
-    pub format: Format,
+    pub format: PlanFormat,
     /// A name for people.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 /// The version of the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Format {
+pub enum RowsFormat {
     /// Version 1.
     #[default]
     #[serde(rename = "voussoir-rows/1")]
@@ -19,7 +19,7 @@ pub enum Format {
 #[serde(deny_unknown_fields)]
 pub struct Header {
     /// The format and its version.
-    pub format: Format,
+    pub format: RowsFormat,
     /// Version of the program.
     pub voussoir: String,
     /// Rows of all shards.
@@ -38,7 +38,7 @@ pub struct Header {
 impl Header {
     pub(super) fn new(sweep: &Sweep, shard: Shard) -> Self {
         Self {
-            format: Format::V1,
+            format: RowsFormat::V1,
             voussoir: env!("CARGO_PKG_VERSION").into(),
             rows: sweep.rows(),
             shard,
@@ -69,7 +69,7 @@ impl Header {
 /// How a row ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Status {
+pub enum RowStatus {
     /// It stands.
     Stable,
     /// It stands only with a pre-stress that nobody applied.
@@ -88,7 +88,7 @@ pub enum Status {
     Error,
 }
 
-impl Status {
+impl RowStatus {
     /// As written in files.
     pub fn word(self) -> &'static str {
         match self {
@@ -106,9 +106,9 @@ impl Status {
 
 /// An answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Answer {
+pub struct RowAnswer {
     /// What became of the question.
-    pub status: Status,
+    pub status: RowStatus,
     /// The load factor, or the tilt in degrees: with dry friction unless the plan says `associative`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
@@ -126,9 +126,9 @@ pub struct Answer {
     pub toward: Option<[f64; 3]>,
 }
 
-impl Answer {
+impl RowAnswer {
     /// An answer that is only a word.
-    pub fn of(status: Status) -> Self {
+    pub fn of(status: RowStatus) -> Self {
         Self { status, value: None, lower: None, upper: None, dry: None, toward: None }
     }
 }
@@ -142,7 +142,7 @@ pub struct Row {
     pub parameters: Vec<f64>,
     /// The answer.
     #[serde(flatten)]
-    pub answer: Answer,
+    pub answer: RowAnswer,
     /// Why there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,

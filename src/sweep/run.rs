@@ -1,6 +1,6 @@
 //! Rows → answers, on as many threads as wanted, each written as it ends.
 
-use super::{Answer, Folder, Header, Opened, Row, RowsFile, Shard, Status, Sweep, ask};
+use super::{Folder, Header, Opened, Row, RowAnswer, RowStatus, RowsFile, Shard, Sweep, ask};
 use crate::{analysis::reuse::Reuse, error::RowsError, parallel};
 use std::{
     collections::HashSet,
@@ -12,7 +12,7 @@ use std::{
 
 /// How a sweep is run. None of it changes a row.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Options {
+pub struct RunOptions {
     /// Which rows.
     pub shard: Shard,
     /// Threads; as many as there are processors where `None`.
@@ -36,7 +36,7 @@ pub enum Event {
         unchecked: usize,
     },
     /// A row has been written.
-    Row(Status),
+    Row(RowStatus),
 }
 
 /// A sweep that has ended.
@@ -56,7 +56,7 @@ pub struct Done {
 ///
 /// # Errors
 /// The file cannot be used. Rows that fail are rows with their error.
-pub fn run(sweep: &Sweep, path: &Path, options: &Options, watch: &(dyn Fn(Event) + Sync)) -> Result<Done, RowsError> {
+pub fn run(sweep: &Sweep, path: &Path, options: &RunOptions, watch: &(dyn Fn(Event) + Sync)) -> Result<Done, RowsError> {
     let header = sweep.header(options.shard);
     let Opened { file, rows, mended, unchecked } = RowsFile::open(path, &header, options.restart)?;
     let there: HashSet<usize> = rows.iter().map(|r| r.row).collect();
@@ -74,7 +74,13 @@ pub fn run(sweep: &Sweep, path: &Path, options: &Options, watch: &(dyn Fn(Event)
 ///
 /// # Errors
 /// A file cannot be used.
-pub fn run_in(sweep: &Sweep, folder: &Folder, name: &str, options: &Options, watch: &(dyn Fn(Event) + Sync)) -> Result<usize, RowsError> {
+pub fn run_in(
+    sweep: &Sweep,
+    folder: &Folder,
+    name: &str,
+    options: &RunOptions,
+    watch: &(dyn Fn(Event) + Sync),
+) -> Result<usize, RowsError> {
     let there = folder.read()?.rows;
     let mine: Vec<usize> = options.shard.rows(sweep.rows()).collect();
     let open: Vec<usize> = mine.iter().copied().filter(|row| !there.contains_key(row)).collect();
@@ -132,15 +138,15 @@ fn answers(
 pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize) -> Row {
     let start = Instant::now();
     let parameters = sweep.parameters(number);
-    let asked = || -> Result<Answer, crate::error::InputError> {
+    let asked = || -> Result<RowAnswer, crate::error::InputError> {
         let scene = sweep.scene_with(&parameters)?;
         ask(&sweep.plan.question, &scene, &reuse.prepare(&scene, &sweep.keys(&parameters))?)
     };
     // A mistake in the program costs one row, not the sweep.
     let (answer, error) = match catch_unwind(AssertUnwindSafe(asked)) {
         Ok(Ok(answer)) => (answer, None),
-        Ok(Err(e)) => (Answer::of(Status::Error), Some(e.to_string())),
-        Err(_) => (Answer::of(Status::Error), Some("the program failed on this scene (please report it)".into())),
+        Ok(Err(e)) => (RowAnswer::of(RowStatus::Error), Some(e.to_string())),
+        Err(_) => (RowAnswer::of(RowStatus::Error), Some("the program failed on this scene (please report it)".into())),
     };
     Row { row: number, parameters, answer, error, seconds: start.elapsed().as_secs_f64() }
 }

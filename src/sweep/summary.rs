@@ -1,7 +1,7 @@
 //! What the rows of a sweep have in common.
 
 use super::{
-    Fragility, Header, Influence, Proportion, Row, Status,
+    Fragility, Header, Influence, Proportion, Row, RowStatus,
     fragility::{failed, fragility},
     influence::influence,
     wilson,
@@ -72,7 +72,7 @@ pub fn summarize(header: &Header, rows: &[Row]) -> Summary {
         failed: (told && !fates.is_empty()).then(|| wilson(fates.iter().filter(|f| **f).count(), fates.len())),
         fragility: fragility(header, rows, most),
         influence,
-        first_error: rows.iter().find(|r| r.answer.status == Status::Error).map(|r| (r.row, r.error.clone().unwrap_or_default())),
+        first_error: rows.iter().find(|r| r.answer.status == RowStatus::Error).map(|r| (r.row, r.error.clone().unwrap_or_default())),
         seconds: rows.iter().map(|r| r.seconds).sum(),
     }
 }

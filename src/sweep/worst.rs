@@ -10,7 +10,7 @@
 //!
 //! The argument is about the existence of forces. The state under dry friction is computed at the corners alone.
 
-use super::{Answer, Status, ask, pointer::Pointer};
+use super::{RowAnswer, RowStatus, ask, pointer::Pointer};
 use crate::{
     analysis::{Control, Law, prepare},
     error::{InputError, JsonPath},
@@ -20,7 +20,7 @@ use std::{fmt, str::FromStr, time::Instant};
 
 /// A number that lies between two ends.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Range {
+pub struct Between {
     /// `friction`, `density`, `density:NAME`, `load`, or a JSON pointer.
     pub name: String,
     /// Lower end.
@@ -29,7 +29,7 @@ pub struct Range {
     pub high: f64,
 }
 
-impl FromStr for Range {
+impl FromStr for Between {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
         const FORM: &str = "not of the form NAME=LOW..HIGH, such as friction=0.5..0.7";
@@ -44,7 +44,7 @@ impl FromStr for Range {
     }
 }
 
-impl fmt::Display for Range {
+impl fmt::Display for Between {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}={}..{}", self.name, self.low, self.high)
     }
@@ -92,7 +92,7 @@ enum What {
 ///
 /// # Errors
 /// A range names nothing in the scene, or a corner is no scene that can be asked about.
-pub fn worst(scene: &Scene, ranges: &[Range], asked: WorstOf, control: &Control) -> Result<Worst, InputError> {
+pub fn worst(scene: &Scene, ranges: &[Between], asked: WorstOf, control: &Control) -> Result<Worst, InputError> {
     let mut base = scene.clone();
     let mut argument = Vec::new();
     let mut ends = Vec::new();
@@ -111,7 +111,7 @@ pub fn worst(scene: &Scene, ranges: &[Range], asked: WorstOf, control: &Control)
     }
     let start = Instant::now();
     let corners = 1_usize << ends.len();
-    let mut worst: Option<(Scene, Answer, usize)> = None;
+    let mut worst: Option<(Scene, RowAnswer, usize)> = None;
     for corner in 0..corners {
         let scene = at_corner(&base, &ends, corner)?;
         if corners == 1 {
@@ -134,11 +134,11 @@ pub fn worst(scene: &Scene, ranges: &[Range], asked: WorstOf, control: &Control)
     Ok(Worst { scene: worst, argument, corners })
 }
 
-fn refuse(range: &Range, message: &str) -> InputError {
+fn refuse(range: &Between, message: &str) -> InputError {
     InputError::at(JsonPath::root(), format!("--worst {range}: {message}"))
 }
 
-fn lowest_friction(scene: &mut Scene, range: &Range, law: Law) -> Result<String, InputError> {
+fn lowest_friction(scene: &mut Scene, range: &Between, law: Law) -> Result<String, InputError> {
     if range.low < 0.0 {
         return Err(refuse(range, "a coefficient of friction is not below 0"));
     }
@@ -158,7 +158,7 @@ fn lowest_friction(scene: &mut Scene, range: &Range, law: Law) -> Result<String,
 }
 
 /// The numbers of the scene that a range is about.
-fn numbers(scene: &Scene, range: &Range) -> Result<Vec<Ends>, InputError> {
+fn numbers(scene: &Scene, range: &Between) -> Result<Vec<Ends>, InputError> {
     let ends = |label: String, what: What| Ends { label, what, low: range.low, high: range.high };
     let name = range.name.as_str();
     if let Some(material) = name.strip_prefix("density:").filter(|m| !scene.materials.contains_key(*m)) {
@@ -243,16 +243,16 @@ fn scale(load: &mut Load, by: f64) {
 }
 
 /// The worse, the lower. A corner without an answer governs: it must not hide behind the others.
-fn height(answer: &Answer) -> f64 {
+fn height(answer: &RowAnswer) -> f64 {
     match answer.status {
-        Status::Impossible | Status::Error => f64::NEG_INFINITY,
+        RowStatus::Impossible | RowStatus::Error => f64::NEG_INFINITY,
         // Among what falls, what falls fastest.
-        Status::Unstable => -1e6 - answer.lower.unwrap_or(0.0),
-        Status::Undecided => -1e6,
-        Status::Conditional => 0.0,
-        Status::Stable => 1.0,
-        Status::Found => answer.value.unwrap_or(f64::NEG_INFINITY),
-        Status::Unbounded => f64::INFINITY,
+        RowStatus::Unstable => -1e6 - answer.lower.unwrap_or(0.0),
+        RowStatus::Undecided => -1e6,
+        RowStatus::Conditional => 0.0,
+        RowStatus::Stable => 1.0,
+        RowStatus::Found => answer.value.unwrap_or(f64::NEG_INFINITY),
+        RowStatus::Unbounded => f64::INFINITY,
     }
 }
 

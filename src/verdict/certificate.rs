@@ -60,7 +60,7 @@ pub fn at_unit_speed(assembly: &Assembly, rates: &[Rate]) -> Vec<Rate> {
 
 /// What forces leave unbalanced.
 #[derive(Clone, Debug)]
-pub struct Statics {
+pub struct Residuals {
     /// Wrench left on each block, N and N·m; zero on supports.
     pub residuals: Vec<Wrench>,
     /// Largest unbalance over the free blocks, in multiples of the block's load (g).
@@ -78,7 +78,7 @@ pub struct Statics {
     pub balanced: bool,
 }
 
-impl Statics {
+impl Residuals {
     /// Whether no joint is pressed beyond its compressive strength.
     pub fn is_within_strength(&self) -> bool {
         self.crushing <= 1.0 + tolerance::CRUSHING
@@ -86,7 +86,7 @@ impl Statics {
 }
 
 /// Re-adds the contact forces at load factor `lambda`.
-pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Statics {
+pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Residuals {
     let n = assembly.blocks.len();
     let mut residuals: Vec<Wrench> = (0..n)
         .map(|i| Wrench {
@@ -132,7 +132,7 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             (unbalance, worst) = (u, i);
         }
     }
-    Statics { residuals, unbalance, worst, cone_excess: excess, crushing, most_pressed, balanced: unbalance <= tolerance::UNBALANCE }
+    Residuals { residuals, unbalance, worst, cone_excess: excess, crushing, most_pressed, balanced: unbalance <= tolerance::UNBALANCE }
 }
 
 /// What the corners of a joint carry beside friction, N.

@@ -7,7 +7,7 @@ use super::{
         Grade,
         balance::Unbalance,
         existence,
-        motion::{self, Motion},
+        motion::{self, MotionProof},
     },
     law,
     thrust::{self, Extreme, ThrustAt},
@@ -344,7 +344,7 @@ fn held(f: &mut Findings, when: &str, assembly: &Assembly, left: &Left) {
     }
 }
 
-pub(super) fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, s: &certificate::Statics) {
+pub(super) fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, s: &certificate::Residuals) {
     f.require(
         s.cone_excess <= tolerance::CONE,
         format!("{when}forces lie in their friction cones: largest excess {:.1e} of the force", s.cone_excess),
@@ -480,8 +480,8 @@ fn upper_end(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, for
 
 /// The load factor above which a mechanism gains power; where its joints close by rounding, at least `to_first_order`, with what these take up of
 /// the forces.
-pub fn upper_bound(motion: Option<Motion>, to_first_order: impl Fn() -> f64) -> f64 {
-    let exactly = |m: Motion| (-m.gain()).over(m.live).upper;
+pub fn upper_bound(motion: Option<MotionProof>, to_first_order: impl Fn() -> f64) -> f64 {
+    let exactly = |m: MotionProof| (-m.gain()).over(m.live).upper;
     match motion {
         Some(m) if m.is_admissible() => exactly(m),
         Some(m) => exactly(m).max(to_first_order()),

@@ -159,7 +159,7 @@ fn onto_cone(f: Vector3<f64>, n: Vector3<f64>, friction: Friction, cohesion: f64
 /// The motion that contact forces leave the blocks in.
 #[derive(Clone, Debug)]
 pub struct Released {
-    /// Largest acceleration, in multiples of gravity ([`Statics::unbalance`](super::certificate::Statics::unbalance)).
+    /// Largest acceleration, in multiples of gravity ([`Residuals::unbalance`](super::certificate::Residuals::unbalance)).
     pub acceleration: f64,
     /// Acceleration of each block, in multiples of gravity; zero for supports.
     pub accelerations: Vec<f64>,

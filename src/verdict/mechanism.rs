@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 /// What a joint does in a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Motion {
+pub enum JointMotion {
     /// Turns about an edge or a corner that stays in contact.
     Hinge,
     /// Slides (with the associated lift μ‖v_t‖ that limit analysis gives a sliding joint).
@@ -32,7 +32,7 @@ pub struct MovingJoint {
     /// Index of the interface.
     pub interface: usize,
     /// What it does.
-    pub motion: Motion,
+    pub motion: JointMotion,
     /// Where it keeps contact (mean of the closed or sliding corners), the middle of the crushed corners, or its middle where it parts, m.
     pub at: Vector3<f64>,
 }
@@ -58,7 +58,7 @@ pub fn read(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Mec
     Mechanism { moving, joints }
 }
 
-fn joint(assembly: &Assembly, face: &Interface, rates: &[Rate], fastest: f64) -> Option<(Motion, Vector3<f64>)> {
+fn joint(assembly: &Assembly, face: &Interface, rates: &[Rate], fastest: f64) -> Option<(JointMotion, Vector3<f64>)> {
     let rest = tolerance::MECHANISM_REST * fastest;
     // Per corner: does it keep contact (closed or sliding), and how fast does it slide?
     let corners: Vec<(Vector3<f64>, bool, f64, f64)> = face
@@ -82,16 +82,16 @@ fn joint(assembly: &Assembly, face: &Interface, rates: &[Rate], fastest: f64) ->
     let crushed: Vec<_> = corners.iter().filter(|c| c.3 < -rest).collect();
     let mean = |points: &mut dyn Iterator<Item = Vector3<f64>>, n: usize| points.sum::<Vector3<f64>>() / n as f64;
     if face.crushes() && !crushed.is_empty() {
-        return Some((Motion::Crush, mean(&mut crushed.iter().map(|c| c.0), crushed.len())));
+        return Some((JointMotion::Crush, mean(&mut crushed.iter().map(|c| c.0), crushed.len())));
     }
     if kept.is_empty() {
-        return Some((Motion::Part, mean(&mut corners.iter().map(|c| c.0), corners.len())));
+        return Some((JointMotion::Part, mean(&mut corners.iter().map(|c| c.0), corners.len())));
     }
     let slides = kept.iter().any(|c| c.2 > rest);
     let motion = match (kept.len() == corners.len(), slides) {
-        (true, true) => Motion::Slide,
-        (_, false) => Motion::Hinge,
-        (false, true) => Motion::HingeAndSlide,
+        (true, true) => JointMotion::Slide,
+        (_, false) => JointMotion::Hinge,
+        (false, true) => JointMotion::HingeAndSlide,
     };
     Some((motion, mean(&mut kept.iter().map(|c| c.0), kept.len())))
 }

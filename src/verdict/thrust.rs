@@ -100,7 +100,7 @@ pub struct Proof {
     /// What the mechanism's inadmissibility could hide if every contact carried the largest force or the total load, N.
     pub behind: f64,
     /// What the forces leave.
-    pub statics: certificate::Statics,
+    pub statics: certificate::Residuals,
 }
 
 impl Proof {

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use std::{ops::ControlFlow, path::PathBuf};
 use voussoir::{
     analysis::{Agreement, Control, agreement, assess},
-    dynamics::{Settings, simulate},
+    dynamics::{SimulationSettings, simulate},
     import,
     scene::Scene,
     verdict::Verdict,
@@ -50,8 +50,8 @@ fn has_strengths(scene: &Scene) -> bool {
 fn compare(scene: &Scene) -> (Agreement, f64) {
     let model = model(scene);
     let answer = assess(&model.assembly, &model.interfaces, &Control::default());
-    let outcome =
-        simulate(&model.assembly, &model.interfaces, &Settings::default(), &mut |_| ControlFlow::Continue(())).expect("a simulation");
+    let outcome = simulate(&model.assembly, &model.interfaces, &SimulationSettings::default(), &mut |_| ControlFlow::Continue(()))
+        .expect("a simulation");
     let seconds = outcome.runs.iter().map(|r| r.seconds).sum();
     (agreement(&model.assembly, &model.interfaces, &answer, &outcome), seconds)
 }
@@ -171,11 +171,11 @@ fn real_assemblies_do_what_is_known_of_them() {
         ("cra-cubes", &["0"], 0.84, import::Up::Z, true),
         ("cra-type-b", &["0", "1"], 0.84, import::Up::X, true),
     ] {
-        let options = import::Options {
+        let options = import::ImportOptions {
             supports: supports.iter().map(|s| s.to_string()).collect(),
             friction: Some(voussoir::scene::Friction::Coefficient(friction)),
             up,
-            ..import::Options::default()
+            ..import::ImportOptions::default()
         };
         let scene = import::import_file(&folder.join(format!("{name}.json")), &options).unwrap_or_else(|e| panic!("{e}")).scene;
         let (a, _) = compare(&scene);

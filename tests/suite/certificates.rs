@@ -7,7 +7,7 @@ use serde_json::json;
 use voussoir::{
     analysis::{Control, Law, Model, Outcome, assess, limit},
     assembly::Wrench,
-    program::{self, LiveLoad, Options, Statics, Unknowns},
+    program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
     scene::Scene,
     solve::{self, Settings},
     verdict::{
@@ -212,7 +212,7 @@ fn forces_and_rates_forms_of_the_programs_agree() {
         template(0.6, json!({ "wall": { "size": [1, 0.5, 0.4], "courses": 5, "blocks": 5, "base": "course" } }), push([0.8, 0.6, 0.0]));
     for (name, s) in [("arch", arch(0.15)), ("thin arch", arch(0.1)), ("wall", wall)] {
         let m = model(&s);
-        let statics = Statics::new(&m.assembly, &m.interfaces, Options { keep_all: false, live: true, ..Options::default() });
+        let statics = Statics::new(&m.assembly, &m.interfaces, StaticsOptions { keep_all: false, live: true, ..StaticsOptions::default() });
         let settings = Settings { tolerance: 1e-11, ..Settings::default() };
         let value = |p: &program::ConicProgram| {
             let solution = solve::solve(p, &settings);

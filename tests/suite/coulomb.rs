@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Law, Outcome, assess, coulomb, limit, prepare},
-    import::{self, Options, Up},
+    import::{self, ImportOptions, Up},
     report::ResultFile,
     scene::{Friction, Scene, read_str},
     tolerance,
@@ -103,12 +103,12 @@ fn samples_of_coupled_rigid_block_analysis() {
     ];
     for (name, supports, mu, up, want) in cases {
         for density in [1e-3, 1.0, 1e6] {
-            let options = Options {
+            let options = ImportOptions {
                 supports: supports.iter().map(|s| s.to_string()).collect(),
                 friction: Some(Friction::Coefficient(mu)),
                 density: Some(density),
                 up,
-                ..Options::default()
+                ..ImportOptions::default()
             };
             let scene = import::import_file(format!("{folder}{name}.json").as_ref(), &options).unwrap().scene;
             assert_eq!(verdict(&scene, Law::Coulomb), want, "{name} up {up:?} density {density}");
@@ -124,7 +124,7 @@ fn conditional_certificates_reject_corruption() {
     let (a, i) = (&model.assembly, &model.interfaces);
     let answer = assess(a, i, &Control::default());
     let state = answer.state.clone().unwrap();
-    assert_eq!(state.motion, coulomb::Motion::Moves);
+    assert_eq!(state.motion, coulomb::StateMotion::Moves);
     let proved = |base: Option<&_>, forces: &_, rates: &[_]| verify(a, i, &Claim::Conditional, forces, base, rates).proved();
     assert!(proved(Some(&state.forces), &answer.forces, &answer.rates));
     assert!(!proved(None, &answer.forces, &answer.rates));

@@ -7,20 +7,20 @@ use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use voussoir::{
     analysis::{Control, Model, agreement, assess},
-    dynamics::{Fate, Fidelity, Outcome, Settings, simulate},
+    dynamics::{Fate, Fidelity, SimulationOutcome, SimulationSettings, simulate},
     scene::Scene,
 };
 
-fn run_with(model: &Model, settings: &Settings) -> Outcome {
+fn run_with(model: &Model, settings: &SimulationSettings) -> SimulationOutcome {
     simulate(&model.assembly, &model.interfaces, settings, &mut |_| ControlFlow::Continue(())).expect("a simulation")
 }
 
-fn run(scene: &Scene, fidelity: Option<Fidelity>) -> Outcome {
-    run_with(&model(scene), &Settings { fidelity, ..Settings::default() })
+fn run(scene: &Scene, fidelity: Option<Fidelity>) -> SimulationOutcome {
+    run_with(&model(scene), &SimulationSettings { fidelity, ..SimulationSettings::default() })
 }
 
 #[track_caller]
-fn becomes(what: &str, scene: &Scene, want: Fate) -> Outcome {
+fn becomes(what: &str, scene: &Scene, want: Fate) -> SimulationOutcome {
     let outcome = run(scene, None);
     assert_eq!(outcome.fate, want, "{what}: {:?}", outcome.runs);
     outcome
@@ -105,7 +105,7 @@ fn stack(count: usize, size: [f64; 3], offset: impl Fn(usize) -> f64) -> Scene {
 
 #[test]
 fn a_column_of_a_hundred_blocks_stands_five_seconds() {
-    let settings = Settings { fidelity: Some(Fidelity::Fine), seconds: Some(5.0), ..Settings::default() };
+    let settings = SimulationSettings { fidelity: Some(Fidelity::Fine), seconds: Some(5.0), ..SimulationSettings::default() };
     let outcome = run_with(&model(&stack(100, [1.0, 1.0, 0.5], |_| 0.0)), &settings);
     assert_eq!(outcome.fate, Fate::Stands, "{:?}", outcome.runs);
 }
@@ -214,7 +214,7 @@ fn the_outcome_does_not_depend_on_units() {
         let scaled = voussoir::scene::read_str("scaled", text.to_string()).expect("a scene").0;
         let got = run(&scaled, Some(Fidelity::Fast));
         assert_eq!(got.fate, want.fate);
-        let time = |o: &Outcome| o.runs[0].time;
+        let time = |o: &SimulationOutcome| o.runs[0].time;
         let unit = (length / gravity).sqrt();
         assert!((time(&got) / unit / time(&want) - 1.0).abs() < 0.05, "{} {}", time(&got) / unit, time(&want));
         assert!((got.runs[0].relative / want.runs[0].relative - 1.0).abs() < 0.2, "{} {}", got.runs[0].relative, want.runs[0].relative);
@@ -233,7 +233,13 @@ fn the_same_bits_come_out_on_any_number_of_threads() {
         let bits = |threads: usize| {
             let outcome = run_with(
                 &model,
-                &Settings { threads, frames: 7, fidelity: Some(Fidelity::Fast), seconds: Some(3.0), ..Settings::default() },
+                &SimulationSettings {
+                    threads,
+                    frames: 7,
+                    fidelity: Some(Fidelity::Fast),
+                    seconds: Some(3.0),
+                    ..SimulationSettings::default()
+                },
             );
             let numbers = outcome
                 .frames
@@ -254,7 +260,13 @@ fn the_same_bits_come_out_on_any_number_of_threads() {
 #[test]
 fn frames_are_evenly_spread_and_the_watcher_may_stop() {
     let model = model(&stack(2, [1.0, 1.0, 0.5], |_| 0.0));
-    let settings = Settings { frames: 10, fidelity: Some(Fidelity::Fast), to_the_end: true, seconds: Some(1.0), ..Settings::default() };
+    let settings = SimulationSettings {
+        frames: 10,
+        fidelity: Some(Fidelity::Fast),
+        to_the_end: true,
+        seconds: Some(1.0),
+        ..SimulationSettings::default()
+    };
     let outcome = run_with(&model, &settings);
     assert!((11..=12).contains(&outcome.frames.len()), "{}", outcome.frames.len());
     let gaps: Vec<f64> = outcome.frames.windows(2).map(|f| f[1].time - f[0].time).collect();
@@ -280,7 +292,7 @@ fn forces_and_motions_are_those_of_the_verdict() {
     let compare = |scene: &Scene| {
         let model = model(scene);
         let answer = assess(&model.assembly, &model.interfaces, &Control::default());
-        let outcome = run_with(&model, &Settings::default());
+        let outcome = run_with(&model, &SimulationSettings::default());
         agreement(&model.assembly, &model.interfaces, &answer, &outcome)
     };
     let standing = compare(&stack(5, [1.0, 1.0, 0.5], |i| 0.03 * i as f64));
@@ -381,7 +393,7 @@ fn many_simulations_in_a_work_stealing_pool_do_not_pile_up_on_one_stack() {
         "templates": [{ "column": { "blocks": 2, "size": [1, 1, 0.5] } }] }"#;
     let (scene, _) = voussoir::scene::read_str("test", text).unwrap();
     let model = voussoir::analysis::prepare(&scene).unwrap();
-    let settings = voussoir::dynamics::Settings { fidelity: Some(voussoir::dynamics::Fidelity::Fast), ..Default::default() };
+    let settings = voussoir::dynamics::SimulationSettings { fidelity: Some(voussoir::dynamics::Fidelity::Fast), ..Default::default() };
     let one = |_| {
         DEPTH.set(DEPTH.get() + 1);
         let depth = DEPTH.get();

@@ -1,7 +1,7 @@
 //! Large programs take the engine that is written for them; what it finds is proved like any other answer.
 
 use voussoir::{
-    analysis::{self, Control, Law, Model, Outcome, limit::Way, prepare},
+    analysis::{self, Control, Law, Model, Outcome, limit::Formulation, prepare},
     program::Unknowns,
     scene::read_str,
     solve::Engine,
@@ -28,7 +28,7 @@ fn load_factors_are_proved_and_agree_with_the_other_engine() {
         assert_eq!(answer.attempts.len(), 1, "{:?}", answer.attempts);
         assert_eq!(answer.attempts[0].engine, Engine::Interior);
         assert!(answer.proved(assembly, interfaces));
-        let other = exact.unwrap_or_else(|| analysis::limit::attempt(assembly, interfaces, &Way::usual(Unknowns::Rates)).value);
+        let other = exact.unwrap_or_else(|| analysis::limit::attempt(assembly, interfaces, &Formulation::usual(Unknowns::Rates)).value);
         assert!((answer.value / other - 1.0).abs() < 1e-6, "{} {other}", answer.value);
     }
 }

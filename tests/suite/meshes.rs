@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use voussoir::{
     analysis::{Control, assess, prepare},
     error::FindingCode,
-    import::{Options, import_bytes},
+    import::{ImportOptions, import_bytes},
     scene::Friction,
 };
 
@@ -22,8 +22,12 @@ fn corpus() -> Vec<PathBuf> {
 fn differences(text: &str) -> Vec<String> {
     let expected: Vec<&str> = text.lines().map_while(|l| l.strip_prefix("# ")).skip(1).collect();
     let mut wrong = Vec::new();
-    let options =
-        Options { friction: Some(Friction::Coefficient(0.6)), density: Some(1.0), supports: vec!["ground".into()], ..Options::default() };
+    let options = ImportOptions {
+        friction: Some(Friction::Coefficient(0.6)),
+        density: Some(1.0),
+        supports: vec!["ground".into()],
+        ..ImportOptions::default()
+    };
     let result = import_bytes("mesh.obj", text.as_bytes(), &options).and_then(|imported| prepare(&imported.scene));
     let model = match result {
         Ok(model) => model,
@@ -92,7 +96,7 @@ fn real_files_with_open_edges_are_refused_with_the_place_of_one() {
     let mut count = 0;
     for path in list.map(|e| e.unwrap().path()).filter(|p| p.extension().is_some_and(|e| e == "ply")) {
         count += 1;
-        let options = Options { friction: Some(Friction::Coefficient(0.6)), ..Options::default() };
+        let options = ImportOptions { friction: Some(Friction::Coefficient(0.6)), ..ImportOptions::default() };
         let mut imported = voussoir::import::import_file(&path, &options).unwrap_or_else(|e| panic!("{e}"));
         // A table under the stone, so that there is something to prepare.
         let mut table = imported.scene.blocks[0].clone();

@@ -8,7 +8,7 @@ use voussoir::{
     dynamics::{Fidelity, Frame, Pose},
     report::{
         ResultFile, page,
-        text::{Asked, Layout, Options, render},
+        text::{Asked, Layout, TextOptions, render},
         view::{Film, View},
     },
     scene::{Scene, read_str},
@@ -136,7 +136,7 @@ fn a_picture_does_not_depend_on_units() {
         let answer = assess(&model.assembly, &model.interfaces, &Control::default());
         let file = ResultFile::assessment(scene, &model, &answer);
         let view = View::new(&model, &file, Vec::new()).unwrap();
-        let text = render(&file, Asked { scene: "s", options: "" }, Options::default(), Layout::default());
+        let text = render(&file, Asked { scene: "s", options: "" }, TextOptions::default(), Layout::default());
         data(&page::page(&text, &view, &[]).unwrap())["view"].take()
     };
     let (one, other) = (view(&scene(5.0, 2400.0)), view(&scene(5e-3, 1e-3)));
@@ -204,7 +204,7 @@ fn a_page_of_5000_blocks_stays_below_10_mb() {
         view.states.len(),
         view.film.len()
     );
-    let text = render(&file, Asked { scene: "s", options: "" }, Options { verbose: true, brief: false }, Layout::default());
+    let text = render(&file, Asked { scene: "s", options: "" }, TextOptions { verbose: true, brief: false }, Layout::default());
     let page = page::page(&text, &view, &[]).unwrap();
     println!("{count} blocks: {:.1} MB", page.len() as f64 / 1e6);
     assert!(page.len() < 10_000_000, "{}", page.len());

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use voussoir::{
     analysis::{Control, Law, Model, Outcome, assess, limit, prepare},
     error::FindingCode,
-    import::{self, Options},
+    import::{self, ImportOptions},
     interface::ContactKind,
     scene::{Friction, Load, Scene},
     verdict::Verdict,
@@ -19,16 +19,16 @@ fn folder() -> Option<PathBuf> {
     None
 }
 
-fn options(supports: &[&str], mu: f64) -> Options {
-    Options {
+fn options(supports: &[&str], mu: f64) -> ImportOptions {
+    ImportOptions {
         supports: supports.iter().map(|s| s.to_string()).collect(),
         friction: Some(Friction::Coefficient(mu)),
         density: Some(1.0),
-        ..Options::default()
+        ..ImportOptions::default()
     }
 }
 
-fn read(path: PathBuf, options: &Options) -> Scene {
+fn read(path: PathBuf, options: &ImportOptions) -> Scene {
     let mut scene = import::import_file(&path, options).unwrap_or_else(|e| panic!("{e}")).scene;
     scene.gravity = [0.0, 0.0, -1.0];
     scene
@@ -92,7 +92,7 @@ fn the_cross_vault_and_the_wall_stand() {
         println!("{name}: {} more interfaces, area {more:.4}", m.interfaces.list.len() - given);
         assert_eq!(admissible(&m), Verdict::Stable, "{name}, stored interfaces");
         // Five pairs of the vault overlap by 5e-4 … 7e-4 m, more than the usual 1e-4 of a block: told, and closed when asked.
-        let found = read(path, &Options { stored_interfaces: false, gap: Some(1e-3), ..options(&[], 0.7) });
+        let found = read(path, &ImportOptions { stored_interfaces: false, gap: Some(1e-3), ..options(&[], 0.7) });
         let f = ready(&found);
         let area = |m: &Model| m.interfaces.list.iter().map(|i| i.area).sum::<f64>();
         println!("{name}: stored {} interfaces, area {:.4}; found {}, area {:.4}", stored, area(&m), f.interfaces.list.len(), area(&f));
@@ -105,7 +105,7 @@ fn the_cross_vault_and_the_wall_stand() {
 fn armadillo(folder: &Path, density: f64) -> Scene {
     let supports: Vec<String> = (0..8).chain(79..89).chain(217..228).chain(328..332).map(|k| k.to_string()).collect();
     let supports: Vec<&str> = supports.iter().map(String::as_str).collect();
-    read(folder.join("cra-armadillo.json"), &Options { density: Some(density), ..options(&supports, 0.84) })
+    read(folder.join("cra-armadillo.json"), &ImportOptions { density: Some(density), ..options(&supports, 0.84) })
 }
 
 /// What a finding of this code says, empty where there is none.
@@ -136,7 +136,8 @@ fn warped_joints_of_the_armadillo_vault_are_found_at_any_gap() {
 #[test]
 fn vaults_stand_under_dry_friction_at_any_density() {
     let Some(folder) = folder() else { return };
-    let vault = |density: f64| read(folder.join("assembly-crossvault.json"), &Options { density: Some(density), ..options(&[], 0.7) });
+    let vault =
+        |density: f64| read(folder.join("assembly-crossvault.json"), &ImportOptions { density: Some(density), ..options(&[], 0.7) });
     let mut armadillo = armadillo(&folder, 1.0);
     armadillo.contact.gap = 0.05;
     let scenes = [vault(1e-3), vault(1e6), armadillo];
@@ -163,13 +164,13 @@ fn remedy(text: &str, key: &str) -> Option<f64> {
 #[test]
 fn remedies_for_vaults_with_open_joints_make_them_stand() {
     let Some(folder) = folder() else { return };
-    let own = Options { stored_interfaces: false, ..options(&[], 0.7) };
+    let own = ImportOptions { stored_interfaces: false, ..options(&[], 0.7) };
     let pavilion = folder.join("dem-pavillionvault");
-    let held = Options { support_files: vec![pavilion.join("supports.json")], ..own.clone() };
+    let held = ImportOptions { support_files: vec![pavilion.join("supports.json")], ..own.clone() };
     // The stored interfaces of the cross vault are 488; the other files have none.
     for (path, options, interfaces) in [
         (folder.join("assembly-crossvault.json"), own.clone(), 488),
-        (folder.join("dem-crossvault.obj"), Options { support_below: Some(1.744), ..own }, 488),
+        (folder.join("dem-crossvault.obj"), ImportOptions { support_below: Some(1.744), ..own }, 488),
         (pavilion.join("blocks.json"), held, 1141),
     ] {
         let mut scene = read(path, &options);
@@ -203,7 +204,7 @@ fn frames_and_shelves_are_statically_admissible() {
 #[test]
 fn rounded_meshes_are_read_and_their_gaps_told() {
     let Some(folder) = folder() else { return };
-    let wall = read(folder.join("dem-wall.obj"), &Options { support_below: Some(0.018), ..options(&[], 0.7) });
+    let wall = read(folder.join("dem-wall.obj"), &ImportOptions { support_below: Some(0.018), ..options(&[], 0.7) });
     let m = ready(&wall);
     assert_eq!((m.assembly.blocks.len(), m.interfaces.list.len()), (38, 60));
     assert!(m.interfaces.findings.is_empty(), "{:?}", m.interfaces.findings);

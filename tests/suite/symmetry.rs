@@ -5,7 +5,7 @@ use crate::ask::{self, close, cuboid, dry, fixed, ground, model, push, scene, sp
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Law, Outcome, assess, coulomb, limit},
-    program::{Options, Statics},
+    program::{Statics, StaticsOptions},
     scene::Scene,
     verdict::Verdict,
 };
@@ -108,7 +108,7 @@ fn many_blocks_far_away_are_halved() {
     let mut blocks = vec![fixed(cuboid("floor", [100.0, 100.0, 1.0], [8221.5, 4120.5, -0.5]))];
     blocks.extend((0..3000).map(|k| cuboid(&format!("b{k}"), [0.5, 0.5, 1.0], at(k))));
     let m = model(&scene(0.6, json!(blocks), push([1.0, 0.0, 0.0])));
-    let statics = Statics::new(&m.assembly, &m.interfaces, Options { live: true, symmetry: true, ..Options::default() });
+    let statics = Statics::new(&m.assembly, &m.interfaces, StaticsOptions { live: true, symmetry: true, ..StaticsOptions::default() });
     assert!(statics.is_part(), "{:?}", statics.left_out);
 }
 

@@ -1,4 +1,4 @@
-//! The state to the last digit: Newton's method on Coulomb's law itself ([`Friction::Law`]), started where the fixed point on the friction
+//! The state to the last digit: Newton's method on Coulomb's law itself ([`FrictionLimits::Law`]), started where the fixed point on the friction
 //! limits ended.
 //!
 //! The limits of a fixed point are those of the iterate before, off by what the last step changed; near the edge of friction that is as much
@@ -9,7 +9,7 @@ use super::newton::Solved;
 use crate::{
     program::{
         coulomb::Contacts,
-        response::{Friction, Response},
+        response::{FrictionLimits, Response},
     },
     solve::{Lu, Pattern},
 };
@@ -52,7 +52,7 @@ impl Exact {
     /// before `end`.
     pub fn near(&mut self, contacts: &Contacts, epsilon: f64, rates: &[f64], end: Option<Instant>) -> Option<(Solved, f64)> {
         let mut q = rates.to_vec();
-        let (mut forces, mut imbalance) = self.response.forces(contacts, epsilon, Friction::Law, &q);
+        let (mut forces, mut imbalance) = self.response.forces(contacts, epsilon, FrictionLimits::Law, &q);
         for _ in 0..STEPS {
             let size = self.size(&imbalance);
             let allowed = EXACT * epsilon + ROUNDING * q.iter().map(|q| q * q).sum::<f64>().sqrt();
@@ -62,7 +62,8 @@ impl Exact {
             if !size.is_finite() || end.is_some_and(|end| Instant::now() >= end) {
                 return None;
             }
-            let [lower, upper] = [false, true].map(|mirrored| self.response.derivative(contacts, epsilon, Friction::Law, &q, mirrored));
+            let [lower, upper] =
+                [false, true].map(|mirrored| self.response.derivative(contacts, epsilon, FrictionLimits::Law, &q, mirrored));
             let mut step: Vec<f64> = imbalance.iter().map(|g| -g).collect();
             if !self.lu.solve(&lower, &upper, &mut step) {
                 return None;
@@ -70,7 +71,7 @@ impl Exact {
             let mut share = 1.0;
             let better = (0..SHARES).find_map(|_| {
                 let next: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + share * s).collect();
-                let (f, g) = self.response.forces(contacts, epsilon, Friction::Law, &next);
+                let (f, g) = self.response.forces(contacts, epsilon, FrictionLimits::Law, &next);
                 let falls = self.size(&g) < (1.0 - 0.1 * share) * size;
                 share *= 0.5;
                 falls.then_some((next, f, g))

@@ -1,6 +1,6 @@
 //! Newton's method on Coulomb's law itself, for the load factor: no friction limit is held, each follows from the normal force of the same rates.
 //!
-//! *Law.* With the displacements `z = y / δ` of the blocks on compliant joints, forces follow from them ([`Response`], [`Friction::Law`]), and
+//! *Law.* With the displacements `z = y / δ` of the blocks on compliant joints, forces follow from them ([`Response`], [`FrictionLimits::Law`]), and
 //! program D at its fixed point is `g(z, λ) = −(A f(z) + w + λ ℓ) = 0` with `ℓ·z = 1 / δ`, the way of the live load. A smaller δ is a longer way:
 //! what the blocks then move by is the mechanism. The derivative is not symmetric (Alart & Curnier 1991), and the law need not be the
 //! gradient of anything: steps count by the imbalance they leave, and where one leaves more, a spring on each block holds the next one back
@@ -11,7 +11,7 @@ use super::fixed_point::FixedPoint;
 use crate::{
     program::{
         coulomb::Contacts,
-        response::{Friction, Response},
+        response::{FrictionLimits, Response},
     },
     solve::{Lu, Pattern},
 };
@@ -135,15 +135,15 @@ impl Law {
 
     /// Forces, and the imbalance of the blocks.
     fn look(&self, contacts: &Contacts, z: &[f64], lambda: f64) -> (Vec<f64>, Vec<f64>) {
-        let (forces, mut imbalance) = self.response.forces(contacts, 0.0, Friction::Law, z);
+        let (forces, mut imbalance) = self.response.forces(contacts, 0.0, FrictionLimits::Law, z);
         imbalance.iter_mut().zip(&self.live).for_each(|(g, l)| *g -= lambda * l);
         (forces, imbalance)
     }
 
     /// Newton's step in the displacements and the load factor: what balances, and what the live load adds, one factorisation for both.
     fn step(&mut self, contacts: &Contacts, z: &[f64], imbalance: &[f64], way: f64, spring: f64) -> Option<(Vec<f64>, f64)> {
-        let lower = self.response.derivative(contacts, spring, Friction::Law, z, false);
-        let upper = self.response.derivative(contacts, spring, Friction::Law, z, true);
+        let lower = self.response.derivative(contacts, spring, FrictionLimits::Law, z, false);
+        let upper = self.response.derivative(contacts, spring, FrictionLimits::Law, z, true);
         let mut both: Vec<f64> = imbalance.iter().map(|g| -g).chain(self.live.iter().copied()).collect();
         if !self.lu.solve(&lower, &upper, &mut both) {
             return None;

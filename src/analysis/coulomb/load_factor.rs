@@ -12,14 +12,14 @@ use super::{
     fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
     law::Law,
     rest::up_to_rest,
-    state::{Motion, state},
+    state::{StateMotion, state},
 };
 use crate::{
     analysis::{Control, Deciding, LoadFactor, Outcome},
     assembly::Assembly,
     interface::Interfaces,
     program::{
-        Options,
+        StaticsOptions,
         coulomb::{Aim, Contacts, Hold},
         is_forest,
     },
@@ -144,13 +144,13 @@ pub(in crate::analysis) fn complementary(
         return answer;
     }
     let start = Instant::now();
-    let options = Options { keep_all: control.keep_all, live: true, symmetry: true, ..Options::default() };
+    let options = StaticsOptions { keep_all: control.keep_all, live: true, symmetry: true, ..StaticsOptions::default() };
     let contacts = Contacts::new(assembly, interfaces, options);
     let is_part = contacts.statics.is_part();
     let scene = Scene { assembly, interfaces, associative };
     lowered(&scene, contacts, control, start, &mut answer);
     if answer.found == Found::Undecided && is_part {
-        let whole = Contacts::new(assembly, interfaces, Options { symmetry: false, ..options });
+        let whole = Contacts::new(assembly, interfaces, StaticsOptions { symmetry: false, ..options });
         lowered(&scene, whole, control, start, &mut answer);
     }
     answer
@@ -258,5 +258,5 @@ fn lower_end(Scene { assembly, interfaces, associative }: &Scene, forces: &Force
 pub(in crate::analysis) fn part_rests_alone(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> bool {
     let (alone, _) = check::live_alone(assembly);
     let (unlimited, _) = interfaces.unlimited();
-    is_forest(&alone, &unlimited) || state(&alone, &unlimited, control).motion == Motion::Rests
+    is_forest(&alone, &unlimited) || state(&alone, &unlimited, control).motion == StateMotion::Rests
 }

@@ -17,4 +17,4 @@ pub use load_factor::{DryLoadFactor, Found};
 pub(super) use load_factor::{complementary, of_part, part_rests_alone};
 pub(super) use rest::up_to_rest;
 pub use rest::{is_reached, resolution};
-pub use state::{Motion, State, Step, state};
+pub use state::{State, StateMotion, StateStep, state};

@@ -5,7 +5,7 @@
 use crate::{
     program::{
         coulomb::{Contacts, Hold},
-        response::{Friction, Response},
+        response::{FrictionLimits, Response},
     },
     solve::{Cholesky, Pattern},
 };
@@ -68,7 +68,7 @@ impl Newton {
         if !Response::is_explicit(contacts, hold) {
             return None;
         }
-        let friction = Friction::Held(hold, held);
+        let friction = FrictionLimits::Held(hold, held);
         let look = |q: &[f64]| self.response.forces(contacts, epsilon, friction, q);
         let left = |g: &[f64]| g.iter().zip(&self.carried).map(|(g, c)| (g / c).powi(2)).sum::<f64>().sqrt();
         let mut rates = start.to_vec();
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use crate::{
         analysis::prepare,
-        program::{Options, coulomb::Aim},
+        program::{StaticsOptions, coulomb::Aim},
         scene::read_str,
         solve::{self, Settings},
     };
@@ -142,7 +142,7 @@ mod tests {
             {{ "id": "c", "at": [0.3, 0.1, 2.3], "density": 9000, "shape": {{ "box": {{ "size": [0.7, 1.1, 1] }} }} }} ] }}"#
         );
         let model = prepare(&read_str("stack", &text).unwrap().0).unwrap();
-        Contacts::new(&model.assembly, &model.interfaces, Options { symmetry: true, ..Options::default() })
+        Contacts::new(&model.assembly, &model.interfaces, StaticsOptions { symmetry: true, ..StaticsOptions::default() })
     }
 
     fn scenes() -> Vec<Contacts> {
@@ -169,8 +169,8 @@ mod tests {
             let n = contacts.statics.matrix.rows;
             let (starts, rows) = response.pattern();
             let held: Vec<f64> = numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
-            let (limits, sliding) = (Friction::Held(Hold::Limits, &held), Friction::Held(Hold::SlidingRates, &held));
-            for (friction, size) in [limits, sliding, Friction::Law].into_iter().flat_map(|f| [(f, 0.5), (f, 3.0)]) {
+            let (limits, sliding) = (FrictionLimits::Held(Hold::Limits, &held), FrictionLimits::Held(Hold::SlidingRates, &held));
+            for (friction, size) in [limits, sliding, FrictionLimits::Law].into_iter().flat_map(|f| [(f, 0.5), (f, 3.0)]) {
                 let (q, step) = (numbers(n, 1.0, size), numbers(n, 2.0, 1e-7));
                 let imbalance = |sign: f64| {
                     let q: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + sign * s).collect();

@@ -8,7 +8,7 @@
 
 use super::{
     load_factor::{DryLoadFactor, Found},
-    state::{Motion, State, state},
+    state::{State, StateMotion, state},
 };
 use crate::{
     analysis::{Control, LoadFactor, Outcome},
@@ -81,25 +81,25 @@ impl Probe<'_> {
     }
 
     /// What the state does at a load factor; nothing where the time is over.
-    fn ask(&mut self, lambda: f64) -> Option<Motion> {
+    fn ask(&mut self, lambda: f64) -> Option<StateMotion> {
         self.seen.push(self.state(lambda)?);
         self.seen.last().map(|(_, state)| state.motion)
     }
 
     /// The states that do this, with their load factors.
-    fn seen_to(&self, motion: Motion) -> impl Iterator<Item = &(f64, State)> {
+    fn seen_to(&self, motion: StateMotion) -> impl Iterator<Item = &(f64, State)> {
         self.seen.iter().filter(move |(_, state)| state.motion == motion)
     }
 
     /// The least load factor at which it moves.
     fn moves(&self) -> Option<&(f64, State)> {
-        self.seen_to(Motion::Moves).min_by(|a, b| a.0.total_cmp(&b.0))
+        self.seen_to(StateMotion::Moves).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The greatest load factor at which it rests. What rests above one at which it moves does not count.
     fn rests(&self) -> Option<&(f64, State)> {
         let moves = self.moves().map_or(f64::INFINITY, |m| m.0);
-        self.seen_to(Motion::Rests).filter(|(lambda, _)| *lambda < moves).max_by(|a, b| a.0.total_cmp(&b.0))
+        self.seen_to(StateMotion::Rests).filter(|(lambda, _)| *lambda < moves).max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The same, or the dead load, at which it is known to rest.
@@ -109,7 +109,7 @@ impl Probe<'_> {
 
     /// Whether nothing more is to be had.
     fn is_hopeless(&self) -> bool {
-        self.seen_to(Motion::Moves).next().is_none() && self.seen_to(Motion::Undecided).count() >= MOST_OPEN
+        self.seen_to(StateMotion::Moves).next().is_none() && self.seen_to(StateMotion::Undecided).count() >= MOST_OPEN
     }
 
     /// Asks at these shares of a load factor, some at a time on all threads, until one moves or nothing more is to be had.
@@ -128,7 +128,7 @@ impl Probe<'_> {
     /// no more digits are sought than a value may be off.
     fn halve(&mut self, above: f64, most: usize) -> bool {
         let rests = self.rests_at();
-        let mut above = self.seen_to(Motion::Undecided).map(|s| s.0).filter(|open| *open > rests).fold(above, f64::min);
+        let mut above = self.seen_to(StateMotion::Undecided).map(|s| s.0).filter(|open| *open > rests).fold(above, f64::min);
         for _ in 0..most {
             let (width, rests) = (if self.moves().is_some() { tolerance::REST_WIDTH } else { tolerance::REST_BELOW }, self.rests_at());
             if self.is_hopeless() || above - rests <= width * above.abs() {
@@ -136,7 +136,7 @@ impl Probe<'_> {
             }
             let middle = 0.5 * (rests + above);
             match self.ask(middle) {
-                Some(Motion::Rests) => {}
+                Some(StateMotion::Rests) => {}
                 Some(_) => above = middle,
                 None => return false,
             }
@@ -171,18 +171,18 @@ pub(in crate::analysis) fn up_to_rest(
     }
     let mut probe = Probe { at, control, start: Instant::now(), seen: Vec::new() };
     let rests = match dead {
-        Some(Verdict::Stable) => Some(Motion::Rests),
-        Some(Verdict::Conditional | Verdict::Unstable) => Some(Motion::Moves),
-        Some(Verdict::Undecided) => Some(Motion::Undecided),
+        Some(Verdict::Stable) => Some(StateMotion::Rests),
+        Some(Verdict::Conditional | Verdict::Unstable) => Some(StateMotion::Moves),
+        Some(Verdict::Undecided) => Some(StateMotion::Undecided),
         None => probe.ask(0.0),
     };
     match rests {
-        Some(Motion::Rests) => answer.rests_at = 0.0,
-        Some(Motion::Moves) => (answer.found, answer.value, answer.moves_at) = (Found::NotAtRest, f64::NAN, 0.0),
+        Some(StateMotion::Rests) => answer.rests_at = 0.0,
+        Some(StateMotion::Moves) => (answer.found, answer.value, answer.moves_at) = (Found::NotAtRest, f64::NAN, 0.0),
         // What is not known at the dead load is not known above it.
-        Some(Motion::Undecided) | None => (answer.found, answer.value) = (Found::Undecided, f64::NAN),
+        Some(StateMotion::Undecided) | None => (answer.found, answer.value) = (Found::Undecided, f64::NAN),
     }
-    if rests == Some(Motion::Rests) {
+    if rests == Some(StateMotion::Rests) {
         climb(&mut probe, &mut answer, associative, assembly);
     }
     answer
@@ -206,7 +206,8 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
             let hopeless = answer.value.is_nan() && halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal;
             for share in BELOW.into_iter().filter(|_| !hopeless) {
                 let lambda = (1.0 - share) * goal;
-                if probe.moves().is_some() || lambda <= halfway || probe.is_hopeless() || probe.ask(lambda) != Some(Motion::Undecided) {
+                if probe.moves().is_some() || lambda <= halfway || probe.is_hopeless() || probe.ask(lambda) != Some(StateMotion::Undecided)
+                {
                     break;
                 }
             }

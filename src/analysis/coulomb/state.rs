@@ -16,7 +16,7 @@ use crate::{
     assembly::Assembly,
     interface::Interfaces,
     program::{
-        Options,
+        StaticsOptions,
         coulomb::{Aim, Contacts, Hold},
     },
     solve::Settings,
@@ -32,7 +32,7 @@ use std::time::{Duration, Instant};
 /// What the state does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Motion {
+pub enum StateMotion {
     /// It rests: the acceleration vanishes with ε.
     Rests,
     /// It moves: the acceleration stays, and obeys the law.
@@ -43,7 +43,7 @@ pub enum Motion {
 
 /// One ε of the continuation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Step {
+pub struct StateStep {
     /// Regularisation ε.
     pub epsilon: f64,
     /// Largest acceleration left on a block, in multiples of gravity.
@@ -64,9 +64,9 @@ pub struct Step {
 #[derive(Clone, Debug)]
 pub struct State {
     /// What it does.
-    pub motion: Motion,
+    pub motion: StateMotion,
     /// The continuation in ε.
-    pub steps: Vec<Step>,
+    pub steps: Vec<StateStep>,
     /// Contact forces of the last step, N.
     pub forces: Forces,
 }
@@ -100,14 +100,14 @@ const STOP: Stop = Stop { change: 1e-5, solves: 25 };
 /// Computes the state; of a symmetric scene from one part of it, and where that leaves it open from the whole.
 pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> State {
     let begin = Instant::now();
-    let options = Options { keep_all: control.keep_all, symmetry: true, ..Options::default() };
+    let options = StaticsOptions { keep_all: control.keep_all, symmetry: true, ..StaticsOptions::default() };
     let contacts = Contacts::new(assembly, interfaces, options);
     let is_part = contacts.statics.is_part();
     let part = continued(assembly, interfaces, contacts, control, begin);
-    if part.motion != Motion::Undecided || !is_part {
+    if part.motion != StateMotion::Undecided || !is_part {
         return part;
     }
-    let whole = Contacts::new(assembly, interfaces, Options { symmetry: false, ..options });
+    let whole = Contacts::new(assembly, interfaces, StaticsOptions { symmetry: false, ..options });
     let mut answer = continued(assembly, interfaces, whole, control, begin);
     answer.steps.splice(0..0, part.steps);
     answer
@@ -116,7 +116,7 @@ pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
 /// The continuation in ε.
 fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contacts, control: &Control, begin: Instant) -> State {
     let settings = Settings { tolerance: 1e-10, regularization: 1e-8, ..Settings::default() };
-    let mut answer = State { motion: Motion::Undecided, steps: Vec::new(), forces: Vec::new() };
+    let mut answer = State { motion: StateMotion::Undecided, steps: Vec::new(), forces: Vec::new() };
     let still = vec![0.0; contacts.discs().count()];
     let once = Stop { solves: 1, ..STOP };
     let mut exact = f64::INFINITY;
@@ -140,7 +140,7 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
         let Some(mut point) = point else { break };
         let mut forces = contacts.statics.forces(interfaces, &point.forces);
         let mut moved = law::motion(assembly, interfaces, &forces);
-        let rests = decide(&history, &point, &moved) == Motion::Rests;
+        let rests = decide(&history, &point, &moved) == StateMotion::Rests;
         if history.len() >= BEFORE_EXACT && point.change > 0.0 && !rests {
             let end = Duration::try_from_secs_f64(left).ok().and_then(|s| start.checked_add(s));
             let solver = exactly.get_or_insert_with(|| Exact::new(&contacts));
@@ -151,7 +151,7 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
             }
         }
         let decided = decide(&history, &point, &moved);
-        answer.steps.push(Step {
+        answer.steps.push(StateStep {
             epsilon,
             acceleration: moved.acceleration,
             change: point.change,
@@ -164,11 +164,14 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
         last = Some(point);
         match (answer.motion, decided) {
             // A motion once told is followed while it obeys the law more and more exactly.
-            (Motion::Moves, decided) if decided != Motion::Moves || moved.natural_map_in_loads >= exact => break,
+            (StateMotion::Moves, decided) if decided != StateMotion::Moves || moved.natural_map_in_loads >= exact => break,
             (_, decided) => (answer.motion, answer.forces, exact) = (decided, forces, moved.natural_map_in_loads),
         }
         hopeless = if history.len() > BEFORE_EXACT && history.last().is_some_and(|s| s.change > HOPELESS.0) { hopeless + 1 } else { 0 };
-        if hopeless == HOPELESS.1 || answer.motion == Motion::Rests || (answer.motion == Motion::Moves && exact <= tolerance::NATURAL_MAP) {
+        if hopeless == HOPELESS.1
+            || answer.motion == StateMotion::Rests
+            || (answer.motion == StateMotion::Moves && exact <= tolerance::NATURAL_MAP)
+        {
             break;
         }
     }
@@ -202,10 +205,10 @@ struct Seen {
 }
 
 /// What the state tells beside those at the ε before it.
-fn decide(history: &[Seen], point: &FixedPoint, moved: &Released) -> Motion {
-    let [.., before] = history else { return Motion::Undecided };
+fn decide(history: &[Seen], point: &FixedPoint, moved: &Released) -> StateMotion {
+    let [.., before] = history else { return StateMotion::Undecided };
     if before.change.max(point.change) > tolerance::COULOMB_SETTLED {
-        return Motion::Undecided;
+        return StateMotion::Undecided;
     }
     // An acceleration that grew as ε fell, or that unsettled friction may have made, is no measure for the next one.
     let grew = |i: usize| matches!(history, [.., earlier, _] if before.accelerations[i] > 2.0 * earlier.accelerations[i]);
@@ -214,9 +217,9 @@ fn decide(history: &[Seen], point: &FixedPoint, moved: &Released) -> Motion {
     // Every block for itself: what sinks on soft joints must not hide what moves beside it.
     let falls = |(i, &a): (usize, &f64)| a <= rest || (is_measure(i) && a < tolerance::ACCELERATION_FALLS * before.accelerations[i]);
     if moved.accelerations.iter().enumerate().all(falls) {
-        return Motion::Rests;
+        return StateMotion::Rests;
     }
     let stays =
         |(i, &a): (usize, &f64)| a == moved.acceleration && is_measure(i) && a > tolerance::ACCELERATION_STAYS * before.accelerations[i];
-    if moved.is_motion() && moved.accelerations.iter().enumerate().any(stays) { Motion::Moves } else { Motion::Undecided }
+    if moved.is_motion() && moved.accelerations.iter().enumerate().any(stays) { StateMotion::Moves } else { StateMotion::Undecided }
 }

@@ -5,7 +5,7 @@ use crate::{
     analysis::{
         Assessment, Control,
         assess::{falls_freely, of_part},
-        coulomb::{Motion, State, state},
+        coulomb::{State, StateMotion, state},
     },
     assembly::Assembly,
     interface::{self, Interfaces, Part},
@@ -29,15 +29,15 @@ pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -
 
 /// What the state under dry friction does: it rests where that of every part does. A part whose contacts form no closed chain has none of its own:
 /// statics alone fixes its forces.
-pub fn motion(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> Motion {
+pub fn motion(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> StateMotion {
     let parts = interface::parts(assembly, interfaces);
     let all: Vec<usize> = (0..parts.len()).collect();
     let own = each(&parts, &all, control, |k, control| {
         let Part { assembly, interfaces, .. } = &parts[k];
-        if is_forest(assembly, interfaces) { Motion::Rests } else { state(assembly, interfaces, control).motion }
+        if is_forest(assembly, interfaces) { StateMotion::Rests } else { state(assembly, interfaces, control).motion }
     });
     let is = |motion| own.contains(&motion);
-    [Motion::Moves, Motion::Undecided].into_iter().find(|&m| is(m)).unwrap_or(Motion::Rests)
+    [StateMotion::Moves, StateMotion::Undecided].into_iter().find(|&m| is(m)).unwrap_or(StateMotion::Rests)
 }
 
 /// Parts that touch nothing that is held fall with 1 g, which nothing else exceeds: the others are not asked.

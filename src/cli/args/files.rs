@@ -11,12 +11,12 @@ use voussoir::{import::Up, scene::Friction};
 #[derive(Debug, Args)]
 pub struct Schema {
     /// Of what: `scene` or `plan`.
-    #[arg(value_enum, default_value_t = Format::Scene, hide_possible_values = true)]
-    pub of: Format,
+    #[arg(value_enum, default_value_t = FileFormat::Scene, hide_possible_values = true)]
+    pub of: FileFormat,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
+pub enum FileFormat {
     Scene,
     Plan,
 }

@@ -8,7 +8,7 @@ mod simulate;
 mod study;
 mod sweep;
 
-pub use files::{Check, Completions, Format, Generate, Import, Man, Schema};
+pub use files::{Check, Completions, FileFormat, Generate, Import, Man, Schema};
 pub use pictures::{Pictures, Tables};
 pub use repose::{Asked, Repose};
 pub use simulate::Simulate;
@@ -18,7 +18,7 @@ pub use sweep::{Merge, Slurm, Summary, Sweep, SweepStatus, SweepVerb, Task};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use parse::{bytes, direction, finite, positive};
 use std::path::PathBuf;
-use voussoir::{import::Reach, sweep::Range};
+use voussoir::{import::Reach, sweep::Between};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -164,7 +164,7 @@ pub struct Assess {
     /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is `friction` (of all joints without an exception),
     /// `density` (every material by itself), `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is the worst is said.
     #[arg(long, value_name = "RANGES", value_delimiter = ',')]
-    pub worst: Vec<Range>,
+    pub worst: Vec<Between>,
     /// Run the scene in time as well, and compare (see `voussoir simulate`).
     #[arg(long)]
     pub simulate: bool,
@@ -194,7 +194,7 @@ pub struct Limit {
     /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is `friction` (of all joints without an exception),
     /// `density` (every material by itself), `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is the worst is said.
     #[arg(long, value_name = "RANGES", value_delimiter = ',')]
-    pub worst: Vec<Range>,
+    pub worst: Vec<Between>,
 }
 
 #[derive(Debug, Args)]

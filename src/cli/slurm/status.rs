@@ -11,7 +11,7 @@ use voussoir::{
     report::{json, sweep as report},
     sweep::{
         Folder, read_rows,
-        slurm::{Job, State},
+        slurm::{Job, TaskState},
     },
 };
 
@@ -23,7 +23,7 @@ pub fn run(args: &SweepStatus, terminal: &Terminal) -> anyhow::Result<Exit> {
         let gathered = folder.read()?;
         let jobs = match tasks(&Job::read(&place)?.unwrap_or_default()) {
             Ok(tasks) => {
-                let mut jobs: BTreeMap<(State, String), usize> = BTreeMap::new();
+                let mut jobs: BTreeMap<(TaskState, String), usize> = BTreeMap::new();
                 tasks.into_values().for_each(|t| *jobs.entry((t.state, said(t.state, t.word, t.reason))).or_default() += 1);
                 jobs.into_iter().map(|((_, word), many)| (word, many)).collect()
             }
@@ -37,7 +37,7 @@ pub fn run(args: &SweepStatus, terminal: &Terminal) -> anyhow::Result<Exit> {
         let (header, rows) = read_rows(&args.rows)?;
         (header, rows, 0, Vec::new())
     };
-    let progress = report::Progress::new(&header, &rows, damaged, jobs);
+    let progress = report::SweepProgress::new(&header, &rows, damaged, jobs);
     if args.json {
         terminal::print(&json::pretty(&progress)?)?;
     } else {
@@ -47,9 +47,9 @@ pub fn run(args: &SweepStatus, terminal: &Terminal) -> anyhow::Result<Exit> {
 }
 
 /// Slurm's word, with the reason where that helps.
-fn said(state: State, word: String, reason: String) -> String {
+fn said(state: TaskState, word: String, reason: String) -> String {
     let word = word.to_lowercase();
-    if matches!(state, State::Pending | State::Ended) && reason != "None" && !reason.is_empty() {
+    if matches!(state, TaskState::Pending | TaskState::Ended) && reason != "None" && !reason.is_empty() {
         format!("{word} ({reason})")
     } else {
         word

@@ -3,14 +3,14 @@
 use crate::cli::{args::Task, exit::Exit, terminal};
 use anyhow::Context;
 use std::time::Instant;
-use voussoir::sweep::{Folder, Options, run_in};
+use voussoir::sweep::{Folder, RunOptions, run_in};
 
 pub fn run(args: &Task) -> anyhow::Result<Exit> {
     let start = Instant::now();
     let seen = || format!("this node finds no sweep in {}; it has to see the folder under the same path", args.folder.display());
     let folder = Folder::open(&args.folder).with_context(seen)?;
     let sweep = folder.sweep()?;
-    let options = Options { shard: args.shard, threads: args.threads.map(usize::from), restart: false };
+    let options = RunOptions { shard: args.shard, threads: args.threads.map(usize::from), restart: false };
     let (number, of) = args.shard.numbers();
     let name = format!("task-{number:0width$}", width = of.to_string().len());
     let done = run_in(&sweep, &folder, &name, &options, &|_| {})?;

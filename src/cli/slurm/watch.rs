@@ -17,7 +17,7 @@ use std::{
 };
 use voussoir::sweep::{
     Folder, Gathered, Merged, RowsFile, Tally,
-    slurm::{self, Job, State, Task},
+    slurm::{self, Job, Task, TaskState},
 };
 
 /// Between two looks at the rows at least, so that the end is seen soon; and so many times as long as a look takes, where folders are slow.
@@ -130,13 +130,13 @@ pub fn tasks(job: &Job) -> anyhow::Result<BTreeMap<(u64, usize), Task>> {
 /// Why nothing moves, where every task that is left waits.
 fn waiting(tasks: &BTreeMap<(u64, usize), Task>) -> String {
     let mut alive = tasks.values().filter(|t| t.state.is_alive());
-    let all_wait = alive.clone().all(|t| t.state == State::Pending);
+    let all_wait = alive.clone().all(|t| t.state == TaskState::Pending);
     alive.next().filter(|_| all_wait).map(|t| format!(", waiting: {}", t.reason)).unwrap_or_default()
 }
 
 /// Says of every task that was stopped, once.
 fn tell(tasks: &BTreeMap<(u64, usize), Task>, told: &mut BTreeMap<(u64, usize), String>) {
-    for (&(job, k), task) in tasks.iter().filter(|t| t.1.state == State::Ended) {
+    for (&(job, k), task) in tasks.iter().filter(|t| t.1.state == TaskState::Ended) {
         if told.insert((job, k), task.word.clone()).as_ref() != Some(&task.word) {
             let why = if task.reason == "None" || task.reason.is_empty() { String::new() } else { format!(" ({})", task.reason) };
             terminal::say(&format!("note: task {k} of job {job} was stopped: {}{why}", task.word));

@@ -144,7 +144,7 @@ fn json_errors_name_the_line_or_the_path() {
 
 #[test]
 fn files_that_are_not_there_or_of_no_format_are_said() {
-    let text = import_file(Path::new("no/such.obj"), &Options::default()).expect_err("not there").to_string();
+    let text = import_file(Path::new("no/such.obj"), &ImportOptions::default()).expect_err("not there").to_string();
     assert!(text.starts_with("no/such.obj: cannot be read") && text.contains("hint:"), "{text}");
     assert!(error("notes.txt", "hello\n").contains("neither the extension nor the content"));
 }

@@ -185,7 +185,7 @@ fn stored_interfaces_between_two_supports_are_left_out_with_their_number() {
     let edges = json!({"10": {"9": {"interfaces": [interface(2, &SEAM, Y, X)]}}});
     let text = assembly(2, edges).to_string();
     let held = |ids: &[&str]| {
-        let options = Options { supports: ids.iter().map(|id| id.to_string()).collect(), ..Options::default() };
+        let options = ImportOptions { supports: ids.iter().map(|id| id.to_string()).collect(), ..ImportOptions::default() };
         import_bytes("x.json", text.as_bytes(), &options).expect("fine")
     };
     let one = held(&["10"]);
@@ -198,11 +198,11 @@ fn stored_interfaces_between_two_supports_are_left_out_with_their_number() {
     // With a third block on top the scene can be asked about; the stored interface alone would have been in its way.
     let mut three: Value = serde_json::from_str(&text).expect("JSON");
     three["data"]["graph"]["data"]["node"]["11"] = json!({"block": envelope(2, compas_mesh([0.0, 0.0, 6.0]))});
-    let options = Options {
+    let options = ImportOptions {
         supports: vec!["9".into()],
         friction: Some(crate::scene::Friction::Coefficient(0.6)),
         density: Some(2000.0),
-        ..Options::default()
+        ..ImportOptions::default()
     };
     let scene = import_bytes("x.json", three.to_string().as_bytes(), &options).expect("fine").scene;
     assert_eq!(crate::assembly::resolve(&scene).expect("a scene").blocks.len(), 3);
@@ -214,7 +214,8 @@ fn what_became_of_the_stored_interfaces_is_counted_once() {
     solved["data"]["forces"] = json!([{"c_np": 1.0}]);
     let text = assembly(2, json!({"10": {"9": {"interfaces": [solved]}}})).to_string();
     let said = |stored_interfaces: bool| {
-        let imported = import_bytes("x.json", text.as_bytes(), &Options { stored_interfaces, ..Options::default() }).expect("fine");
+        let imported =
+            import_bytes("x.json", text.as_bytes(), &ImportOptions { stored_interfaces, ..ImportOptions::default() }).expect("fine");
         imported.findings.into_iter().map(|f| f.text).filter(|t| t.starts_with("stored interfaces, ")).collect::<Vec<_>>()
     };
     assert_eq!(said(false), ["stored interfaces, left out as asked (contacts are detected instead): 1"]);

@@ -106,6 +106,6 @@ fn formats_are_told_by_content_where_the_extension_says_nothing() {
         assert_eq!(volume(&scene.blocks[0]), 6.0);
         assert_eq!(scene.source, format!("imported from file.dat {format}"));
     }
-    let asked = Options { format: Some(Format::Obj), ..Options::default() };
+    let asked = ImportOptions { format: Some(Format::Obj), ..ImportOptions::default() };
     assert_eq!(import_bytes("wrong.ply", obj.as_bytes(), &asked).expect("asked for OBJ").scene.blocks.len(), 1);
 }

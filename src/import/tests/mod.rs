@@ -14,7 +14,7 @@ use crate::{
 
 /// Imports text or bytes under a file name.
 fn import(name: &str, bytes: impl AsRef<[u8]>) -> Result<Imported, InputError> {
-    import_bytes(name, bytes.as_ref(), &Options::default())
+    import_bytes(name, bytes.as_ref(), &ImportOptions::default())
 }
 
 fn good(name: &str, bytes: impl AsRef<[u8]>) -> Imported {

@@ -10,42 +10,42 @@ fn three() -> String {
     boxes.collect()
 }
 
-fn with(options: Options) -> Result<Imported, InputError> {
+fn with(options: ImportOptions) -> Result<Imported, InputError> {
     import_bytes("x.obj", three().as_bytes(), &options)
 }
 
 #[test]
 fn without_supports_the_lowest_blocks_are_proposed_and_the_proposal_works() {
-    let imported = with(Options::default()).expect("no support is no error");
+    let imported = with(ImportOptions::default()).expect("no support is no error");
     let text = finding(&imported, FindingCode::Missing, &["lowest blocks are 2 (\"b0\", \"b1\")", "--support ID"]);
     let height = text.split("--support-below ").nth(1).and_then(|t| t.split('`').next()).expect("a height is proposed");
     let height = height.parse().expect("a number");
-    assert_eq!(supports(&with(Options { support_below: Some(height), ..Options::default() }).expect("works")), ["b0", "b1"]);
+    assert_eq!(supports(&with(ImportOptions { support_below: Some(height), ..ImportOptions::default() }).expect("works")), ["b0", "b1"]);
     finding(&imported, FindingCode::Missing, &["friction"]);
 }
 
 #[test]
 fn supports_by_name_and_by_height_add_up() {
-    let by_name = with(Options { supports: vec!["b2".into()], ..Options::default() }).expect("b2 is there");
+    let by_name = with(ImportOptions { supports: vec!["b2".into()], ..ImportOptions::default() }).expect("b2 is there");
     assert_eq!(supports(&by_name), ["b2"]);
-    let both = Options { supports: vec!["b2".into()], support_below: Some(1e-9), ..Options::default() };
+    let both = ImportOptions { supports: vec!["b2".into()], support_below: Some(1e-9), ..ImportOptions::default() };
     let both = with(both).expect("fine");
     assert_eq!(supports(&both), ["b0", "b1", "b2"]);
     finding(&both, FindingCode::Missing, &["every block is a support"]);
-    let none = with(Options { support_below: Some(0.0), ..Options::default() }).expect("below means below");
+    let none = with(ImportOptions { support_below: Some(0.0), ..ImportOptions::default() }).expect("below means below");
     assert!(supports(&none).is_empty());
     finding(&none, FindingCode::Missing, &["no block reaches below 0 m", "lowest corner is at 0 m"]);
 }
 
 #[test]
 fn a_support_that_is_not_there_is_an_error_with_the_names_there_are() {
-    let error = with(Options { supports: vec!["b7".into()], ..Options::default() }).expect_err("no b7").to_string();
+    let error = with(ImportOptions { supports: vec!["b7".into()], ..ImportOptions::default() }).expect_err("no b7").to_string();
     assert!(error.contains("\"b7\"") && error.contains("\"b0\", \"b1\", \"b2\""), "{error}");
 }
 
 #[test]
 fn scale_and_height_are_in_the_units_of_the_scene() {
-    let imported = with(Options { scale: 0.001, support_below: Some(0.002), ..Options::default() }).expect("fine");
+    let imported = with(ImportOptions { scale: 0.001, support_below: Some(0.002), ..ImportOptions::default() }).expect("fine");
     assert_eq!(supports(&imported), ["b0", "b1"], "b2 starts at 3 mm");
     assert!((volume(&imported.scene.blocks[0]) - 6e-9).abs() < 1e-20);
     assert!(imported.scene.source.contains("× 0.001"), "{}", imported.scene.source);
@@ -67,7 +67,7 @@ fn every_up_is_a_proper_rotation_that_brings_its_axis_to_z() {
         let matrix = nalgebra::Matrix3::from_columns(&[column(0), column(1), column(2)]);
         assert_eq!(matrix.determinant(), 1.0, "{up:?}");
         assert_eq!(matrix * matrix.transpose(), nalgebra::Matrix3::identity(), "{up:?}");
-        let imported = with(Options { up, ..Options::default() }).expect("fine");
+        let imported = with(ImportOptions { up, ..ImportOptions::default() }).expect("fine");
         check(&imported.scene);
         assert!((volume(&imported.scene.blocks[0]) - 6.0).abs() < 1e-12, "{up:?}: outside stays outside");
     }
@@ -79,18 +79,19 @@ fn normals_of_stored_interfaces_turn_with_the_blocks_and_do_not_scale() {
     let node = |z: f64| serde_json::json!({"block": compas_mesh([0.0, 0.0, z])});
     let text =
         serde_json::json!({"graph": {"node": {"0": node(0.0), "1": node(3.0)}, "edge": {"0": {"1": {"interfaces": [seam]}}}}}).to_string();
-    let options = Options { up: Up::Y, scale: 10.0, ..Options::default() };
+    let options = ImportOptions { up: Up::Y, scale: 10.0, ..ImportOptions::default() };
     let imported = import_bytes("x.json", text.as_bytes(), &options).expect("fine");
     assert_eq!(imported.scene.interfaces[0].normal, Some([0.0, -1.0, 0.0]));
     assert_eq!(imported.scene.interfaces[0].points, [[0.0, -30.0, 0.0], [10.0, -30.0, 0.0], [10.0, -30.0, 20.0]]);
-    let without = import_bytes("x.json", text.as_bytes(), &Options { stored_interfaces: false, ..options }).expect("fine");
+    let without = import_bytes("x.json", text.as_bytes(), &ImportOptions { stored_interfaces: false, ..options }).expect("fine");
     assert!(without.scene.interfaces.is_empty());
     finding(&without, FindingCode::LeftOut, &["left out as asked", ": 1"]);
 }
 
 #[test]
 fn friction_density_and_gap_go_into_the_scene() {
-    let options = Options { friction: Some(Friction::Coefficient(0.6)), density: Some(2400.0), gap: Some(1e-3), ..Options::default() };
+    let options =
+        ImportOptions { friction: Some(Friction::Coefficient(0.6)), density: Some(2400.0), gap: Some(1e-3), ..ImportOptions::default() };
     let imported = with(options).expect("fine");
     check(&imported.scene);
     assert_eq!(imported.scene.joints.default.friction, Some(Friction::Coefficient(0.6)));
@@ -102,20 +103,20 @@ fn friction_density_and_gap_go_into_the_scene() {
 
 #[test]
 fn options_out_of_range_are_refused_before_reading() {
-    let d = Options::default;
+    let d = ImportOptions::default;
     for (options, word) in [
-        (Options { scale: 0.0, ..d() }, "scale"),
-        (Options { scale: -1.0, ..d() }, "scale"),
-        (Options { scale: f64::NAN, ..d() }, "scale"),
-        (Options { density: Some(-1.0), ..d() }, "density"),
-        (Options { gap: Some(-1.0), ..d() }, "gap"),
-        (Options { support_below: Some(f64::NAN), ..d() }, "support below"),
-        (Options { friction: Some(Friction::Coefficient(-0.1)), ..d() }, "friction"),
+        (ImportOptions { scale: 0.0, ..d() }, "scale"),
+        (ImportOptions { scale: -1.0, ..d() }, "scale"),
+        (ImportOptions { scale: f64::NAN, ..d() }, "scale"),
+        (ImportOptions { density: Some(-1.0), ..d() }, "density"),
+        (ImportOptions { gap: Some(-1.0), ..d() }, "gap"),
+        (ImportOptions { support_below: Some(f64::NAN), ..d() }, "support below"),
+        (ImportOptions { friction: Some(Friction::Coefficient(-0.1)), ..d() }, "friction"),
     ] {
         let error = import_file(Path::new("no such file"), &options).expect_err("refused").to_string();
         assert!(error.starts_with(word) && error.contains("hint:"), "{error}");
     }
-    let error = with(Options { scale: 1e308, ..d() }).expect_err("overflow").to_string();
+    let error = with(ImportOptions { scale: 1e308, ..d() }).expect_err("overflow").to_string();
     assert!(error.contains("inf") && error.contains("hint:"), "{error}");
 }
 
@@ -130,7 +131,7 @@ fn several_files_are_one_scene_and_support_files_are_supports() {
     let list = |z: f64| serde_json::json!([[compas_mesh([0.0, 0.0, z])], [compas_mesh([9.0, 0.0, z])]]).to_string();
     let blocks = write("blocks.json", list(3.0));
     let ground = write("supports.json", list(0.0));
-    let options = Options { support_files: vec![ground], ..Options::default() };
+    let options = ImportOptions { support_files: vec![ground], ..ImportOptions::default() };
     let imported = import_file(&blocks, &options).expect("fine");
     check(&imported.scene);
     assert_eq!(ids(&imported), ["blocks-0", "blocks-1", "supports-0", "supports-1"]);
@@ -138,6 +139,6 @@ fn several_files_are_one_scene_and_support_files_are_supports() {
     finding(&imported, FindingCode::Converted, &["two files have a block \"0\"", "blocks, supports"]);
 
     let stones = ["a/stone.ply", "b/stone.ply", "rock.ply"].map(|name| write(name, ply_box()));
-    assert_eq!(ids(&import_files(&stones, &Options::default()).expect("fine")), ["stone", "stone2", "rock"]);
-    assert_eq!(ids(&import_files(&stones[1..], &Options::default()).expect("fine")), ["stone", "rock"], "no clash, no prefix");
+    assert_eq!(ids(&import_files(&stones, &ImportOptions::default()).expect("fine")), ["stone", "stone2", "rock"]);
+    assert_eq!(ids(&import_files(&stones[1..], &ImportOptions::default()).expect("fine")), ["stone", "rock"], "no clash, no prefix");
 }

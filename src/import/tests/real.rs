@@ -11,7 +11,7 @@ fn path(file: &str) -> Option<PathBuf> {
     path.exists().then_some(path)
 }
 
-fn real(file: &str, options: &Options) -> Option<Imported> {
+fn real(file: &str, options: &ImportOptions) -> Option<Imported> {
     let imported = import_file(&path(file)?, options).unwrap_or_else(|e| panic!("{e}"));
     check(&imported.scene);
     Some(imported)
@@ -31,7 +31,7 @@ fn compas_assemblies_have_their_blocks_supports_and_interfaces() {
         ("cra-shelf.json", 11, 0, 0),
         ("cra-shelf-stable.json", 9, 0, 0),
     ] {
-        let Some(imported) = real(file, &Options::default()) else { continue };
+        let Some(imported) = real(file, &ImportOptions::default()) else { continue };
         let scene = &imported.scene;
         assert_eq!((scene.blocks.len(), supports(&imported).len(), scene.interfaces.len()), (blocks, supported, interfaces), "{file}");
         assert!(scene.blocks.iter().enumerate().all(|(i, b)| b.id == i.to_string()), "{file}: ids are the keys, in numeric order");
@@ -49,7 +49,7 @@ fn stored_normals_point_from_the_first_block_into_the_second() {
         vertices.iter().map(|v| nalgebra::Vector3::from(*v)).sum::<nalgebra::Vector3<f64>>() / vertices.len() as f64
     };
     for file in ["assembly-crossvault.json", "assembly-wall.json", "assembly-stack.json"] {
-        let Some(imported) = real(file, &Options::default()) else { continue };
+        let Some(imported) = real(file, &ImportOptions::default()) else { continue };
         let block = |id: &str| imported.scene.blocks.iter().find(|b| b.id == id).expect("checked");
         for interface in &imported.scene.interfaces {
             let [a, b] = &interface.between;
@@ -62,7 +62,7 @@ fn stored_normals_point_from_the_first_block_into_the_second() {
 
 #[test]
 fn supports_can_be_named_by_node_key() {
-    let options = Options { supports: ["0", "1"].map(String::from).into(), ..Options::default() };
+    let options = ImportOptions { supports: ["0", "1"].map(String::from).into(), ..ImportOptions::default() };
     if let Some(imported) = real("cra-bridge.json", &options) {
         assert_eq!(supports(&imported), ["0", "1"]);
     }
@@ -74,10 +74,10 @@ fn the_proposed_supports_are_those_the_structures_have() {
     for (file, expected) in
         [("cra-H.json", vec![0, 1]), ("cra-bridge.json", vec![0, 1]), ("cra-cubes.json", vec![0]), ("cra-armadillo.json", armadillo)]
     {
-        let Some(imported) = real(file, &Options::default()) else { continue };
+        let Some(imported) = real(file, &ImportOptions::default()) else { continue };
         let text = finding(&imported, FindingCode::Missing, &["--support-below"]);
         let height = text.split("--support-below ").nth(1).and_then(|t| t.split('`').next()).expect("proposed").parse().expect("a number");
-        let Some(again) = real(file, &Options { support_below: Some(height), ..Options::default() }) else { continue };
+        let Some(again) = real(file, &ImportOptions { support_below: Some(height), ..ImportOptions::default() }) else { continue };
         assert_eq!(supports(&again), expected.iter().map(usize::to_string).collect::<Vec<_>>(), "{file}");
     }
 }
@@ -85,9 +85,9 @@ fn the_proposed_supports_are_those_the_structures_have() {
 #[test]
 fn a_height_selects_the_supports_stored_in_the_wall() {
     // The wall's own supports are its first course.
-    let Some(imported) = real("assembly-wall.json", &Options::default()) else { return };
+    let Some(imported) = real("assembly-wall.json", &ImportOptions::default()) else { return };
     let stored = supports(&imported);
-    let options = Options { support_below: Some(0.01), ..Options::default() };
+    let options = ImportOptions { support_below: Some(0.01), ..ImportOptions::default() };
     if let Some(by_height) = real("assembly-wall.json", &options) {
         assert_eq!(supports(&by_height), stored);
     }
@@ -96,7 +96,7 @@ fn a_height_selects_the_supports_stored_in_the_wall() {
 #[test]
 fn obj_files_have_one_block_per_object() {
     for (file, blocks, first) in [("dem-crossvault.obj", 184, "Mesh 0"), ("dem-wall.obj", 38, "Mesh_0")] {
-        let Some(imported) = real(file, &Options::default()) else { continue };
+        let Some(imported) = real(file, &ImportOptions::default()) else { continue };
         assert_eq!((imported.scene.blocks.len(), ids(&imported)[0]), (blocks, first), "{file}");
     }
 }
@@ -104,7 +104,8 @@ fn obj_files_have_one_block_per_object() {
 #[test]
 fn the_pavilion_vault_comes_in_two_files() {
     let (Some(blocks), Some(ground)) = (path("dem-pavillionvault/blocks.json"), path("dem-pavillionvault/supports.json")) else { return };
-    let imported = import_file(&blocks, &Options { support_files: vec![ground], ..Options::default() }).unwrap_or_else(|e| panic!("{e}"));
+    let imported =
+        import_file(&blocks, &ImportOptions { support_files: vec![ground], ..ImportOptions::default() }).unwrap_or_else(|e| panic!("{e}"));
     check(&imported.scene);
     assert_eq!((imported.scene.blocks.len(), supports(&imported).len()), (387, 10));
     assert!(supports(&imported).iter().all(|id| id.starts_with("supports-")));
@@ -118,7 +119,7 @@ fn stones_keep_their_faces_as_they_are() {
         ("rb3d-stones/stone_2.ply", 286, 568),
         ("rb3d-stones/stone_10.ply", 94, 184),
     ] {
-        let Some(imported) = real(file, &Options::default()) else { continue };
+        let Some(imported) = real(file, &ImportOptions::default()) else { continue };
         let block = &imported.scene.blocks[0];
         assert_eq!((mesh(block).0.len(), mesh(block).1.len()), (vertices, faces), "{file}");
         assert!(volume(block) < 0.0, "{file}: inward, and left for the judge of solids");

@@ -4,7 +4,7 @@ mod verify;
 
 pub(super) use verify::verify;
 
-use super::result::{Answer, Certificate, Question, ResultFile, assessment};
+use super::result::{Answer, Certificate, QuestionKind, ResultFile, assessment};
 use crate::{
     analysis::{
         Critical, Law, Model,
@@ -163,7 +163,7 @@ impl ResultFile {
         let ends = if flips.is_empty() { c.ends.iter().map(&mut side).collect() } else { Vec::new() };
         let values = flips.iter().filter_map(FlipResult::proved).collect();
         let answer = Answer { critical: Some(values), ..Answer::default() };
-        let mut file = Self::new(Question::Critical, scene, model, answer, Certificate::none());
+        let mut file = Self::new(QuestionKind::Critical, scene, model, answer, Certificate::none());
         file.critical = Some(CriticalResult {
             vary: c.range.pointer.clone(),
             between: [c.range.from, c.range.to],

@@ -4,7 +4,7 @@ use super::{CriticalResult, FlipResult, ScanPoint, Side, exhausted};
 use crate::{
     analysis::{Control, critical::probe, prepare},
     report::{
-        result::{Question, ResultFile},
+        result::{QuestionKind, ResultFile},
         verify::{SAME, Verification, answer, failure, require},
     },
     scene::Scene,
@@ -100,7 +100,7 @@ fn is_so(scene: &Scene, c: &CriticalResult, said: &ScanPoint) -> bool {
 
 fn one(scene: &Scene, c: &CriticalResult, side: &Side, refuted: bool) -> Findings {
     match scene.with_field(&c.vary, side.value).and_then(|scene| prepare(&scene)) {
-        Ok(model) => answer(&model, Question::Assess, &side.answer, &side.certificate, refuted).0,
+        Ok(model) => answer(&model, QuestionKind::Assess, &side.answer, &side.certificate, refuted).0,
         Err(e) => failure(e.to_string()),
     }
 }

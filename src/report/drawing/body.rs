@@ -1,7 +1,7 @@
 //! Blocks where they are drawn: in place, or moved.
 
 use super::choice::Way;
-use crate::report::view::{Body, Shape, Surface, View};
+use crate::report::view::{Body, Surface, View, ViewShape};
 use nalgebra::Vector3;
 
 /// A block where it is drawn.
@@ -37,8 +37,8 @@ pub fn still(view: &View) -> Vec<Solid<'_>> {
 /// A block where it goes.
 pub fn posed<'a>(body: &'a Body, way: &Way) -> Solid<'a> {
     let form = match &body.shape {
-        Shape::Sphere(radius) => Form::Sphere(*radius),
-        Shape::Surface(surface) => {
+        ViewShape::Sphere(radius) => Form::Sphere(*radius),
+        ViewShape::Surface(surface) => {
             let points: Vec<Vector3<f64>> = surface.corners.iter().map(|p| moved(body, way, p)).collect();
             let normals = surface.pieces.iter().map(|piece| normal(&points, piece)).collect();
             Form::Surface { surface, points, normals }
@@ -89,8 +89,8 @@ impl Body {
     /// The greatest distance of a corner from the centre of mass, m.
     pub(super) fn radius(&self) -> f64 {
         match &self.shape {
-            Shape::Sphere(radius) => *radius,
-            Shape::Surface(s) => s.corners.iter().map(|p| (p - self.center).norm()).fold(0.0, f64::max),
+            ViewShape::Sphere(radius) => *radius,
+            ViewShape::Surface(s) => s.corners.iter().map(|p| (p - self.center).norm()).fold(0.0, f64::max),
         }
     }
 }

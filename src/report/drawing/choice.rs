@@ -3,7 +3,7 @@
 use super::body::{Solid, posed};
 use crate::report::{
     text::number::seconds,
-    view::{Body, Mark, Motion, Part, Pose, Shape, State, View},
+    view::{Body, Mark, View, ViewMotion, ViewPart, ViewPose, ViewShape, ViewState},
 };
 use crate::tolerance::MECHANISM_REST;
 use nalgebra::{Matrix3, Vector3};
@@ -24,7 +24,7 @@ const MOVED: f64 = 1e-4;
 /// What is drawn.
 pub struct Choice<'a> {
     /// One system of forces, or two that enclose all others.
-    pub states: Vec<&'a State>,
+    pub states: Vec<&'a ViewState>,
     /// How it moves.
     pub movement: Option<Movement>,
 }
@@ -56,7 +56,7 @@ impl Way {
     /// Where it is.
     pub const NONE: Self = Self { shift: Vector3::new(0.0, 0.0, 0.0), turn: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0) };
 
-    fn rigid(pose: &Pose) -> Self {
+    fn rigid(pose: &ViewPose) -> Self {
         Self { shift: pose.shift, turn: pose.turn.to_rotation_matrix().into_inner() - Matrix3::identity() }
     }
 
@@ -67,9 +67,9 @@ impl Way {
 }
 
 /// How far the fastest corner of a mechanism is shown to go, m.
-pub fn sized(view: &View, motion: &Motion) -> f64 {
+pub fn sized(view: &View, motion: &ViewMotion) -> f64 {
     // Of balls nobody sees how they turn.
-    let angular = view.bodies.iter().zip(&motion.rates).filter(|(b, _)| !matches!(b.shape, Shape::Sphere(_)));
+    let angular = view.bodies.iter().zip(&motion.rates).filter(|(b, _)| !matches!(b.shape, ViewShape::Sphere(_)));
     let spin = angular.map(|(_, r)| r.spin.norm()).fold(0.0, f64::max);
     (WAY * view.size()).min(TURN * motion.reach / spin).max(LEAST_WAY * view.size())
 }
@@ -77,11 +77,11 @@ pub fn sized(view: &View, motion: &Motion) -> f64 {
 impl<'a> Choice<'a> {
     /// What is drawn of a view.
     pub fn of(view: &'a View) -> Self {
-        let state = |part: Part| view.states.iter().find(|s| s.part == part);
-        let ends: Vec<&State> = [Part::Least, Part::Greatest].into_iter().filter_map(state).collect();
-        let mut states = if ends.is_empty() { state(Part::Dry).or(state(Part::Answer)).into_iter().collect() } else { ends };
-        let motion = |part: Part| view.motions.iter().find(|m| m.part == part);
-        let fails = motion(Part::Dry).or(motion(Part::Answer));
+        let state = |part: ViewPart| view.states.iter().find(|s| s.part == part);
+        let ends: Vec<&ViewState> = [ViewPart::Least, ViewPart::Greatest].into_iter().filter_map(state).collect();
+        let mut states = if ends.is_empty() { state(ViewPart::Dry).or(state(ViewPart::Answer)).into_iter().collect() } else { ends };
+        let motion = |part: ViewPart| view.motions.iter().find(|m| m.part == part);
+        let fails = motion(ViewPart::Dry).or(motion(ViewPart::Answer));
         // What comes closest balances nothing, and a motion without a load factor proves that nothing does.
         if fails.is_some() && !states.iter().any(|s| s.balances) {
             states.clear();
@@ -96,7 +96,7 @@ impl<'a> Choice<'a> {
 }
 
 impl Movement {
-    fn mechanism(view: &View, motion: &Motion) -> Option<Self> {
+    fn mechanism(view: &View, motion: &ViewMotion) -> Option<Self> {
         let far = sized(view, motion);
         let by = far / motion.reach;
         let way = |i: usize| {
@@ -117,7 +117,7 @@ impl Movement {
         let frame = view.film.last()?;
         let poses = || view.bodies.iter().zip(&frame.blocks);
         let ways = |by: f64| -> Vec<Way> {
-            let pose = |(b, p): (&Body, &crate::dynamics::Pose)| Pose { shift: (p.center - b.center) * by, turn: p.turn.powf(by) };
+            let pose = |(b, p): (&Body, &crate::dynamics::Pose)| ViewPose { shift: (p.center - b.center) * by, turn: p.turn.powf(by) };
             poses().map(|bp| Way::rigid(&pose(bp))).collect()
         };
         let once = ways(1.0);

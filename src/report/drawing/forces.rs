@@ -7,7 +7,7 @@ use super::{
     projection::Projection,
     sheet::Sheet,
 };
-use crate::{report::view::State, tolerance};
+use crate::{report::view::ViewState, tolerance};
 use std::fmt::Write;
 
 /// Thickness of the line where no force passes, and of the greatest force, units of the sheet.
@@ -19,7 +19,7 @@ const STEPS: usize = 12;
 const LEAST: f64 = 1e-5;
 
 /// Draws the line of thrust.
-pub fn line(sheet: &mut Sheet, paper: &Projection, state: &State, class: &str) {
+pub fn line(sheet: &mut Sheet, paper: &Projection, state: &ViewState, class: &str) {
     let greatest = state.line.iter().map(|s| s.force).fold(0.0, f64::max);
     let mut paths = vec![String::new(); STEPS];
     for part in state.line.iter().filter(|s| s.force > LEAST * greatest) {
@@ -35,7 +35,7 @@ pub fn line(sheet: &mut Sheet, paper: &Projection, state: &State, class: &str) {
 }
 
 /// Marks joints that press at their edge alone.
-pub fn edges(sheet: &mut Sheet, paper: &Projection, state: &State, class: &str, legend: &mut Legend) {
+pub fn edges(sheet: &mut Sheet, paper: &Projection, state: &ViewState, class: &str, legend: &mut Legend) {
     let pressed = || state.resultants.iter().flatten();
     let greatest = pressed().map(|r| r.normal).fold(0.0, f64::max);
     let list = || pressed().filter(|r| r.normal > LEAST * greatest && r.used >= 1.0 - tolerance::AT_EDGE);

@@ -9,8 +9,8 @@ use super::{
     sheet::Sheet,
 };
 use crate::{
-    report::view::{Joint, Load, State, View},
-    verdict::mechanism::Motion as Kind,
+    report::view::{Joint, View, ViewLoad, ViewState},
+    verdict::mechanism::JointMotion as Kind,
 };
 use nalgebra::Vector3;
 use std::fmt::Write;
@@ -53,10 +53,10 @@ fn outline(path: &mut String, joint: &Joint, at: impl Fn(&Vector3<f64>) -> [f64;
 }
 
 /// Loads beside the weight: arrows on the blocks where they are few, in the legend otherwise.
-pub fn loads(sheet: &mut Sheet, view: &View, paper: &Projection, state: Option<&State>, legend: &mut Legend) {
+pub fn loads(sheet: &mut Sheet, view: &View, paper: &Projection, state: Option<&ViewState>, legend: &mut Legend) {
     let live = state.is_some_and(|s| s.live);
     for (of, word) in [(false, "load"), (true, "live load (× λ)")] {
-        let list: Vec<&Load> = view.loads.iter().filter(|l| l.live == of && (!l.live || live)).collect();
+        let list: Vec<&ViewLoad> = view.loads.iter().filter(|l| l.live == of && (!l.live || live)).collect();
         let greatest = list.iter().map(|l| l.force.norm()).fold(0.0, f64::max);
         if list.is_empty() || greatest == 0.0 {
             continue;

@@ -5,8 +5,8 @@
 
 use crate::{
     interface::ContactKind,
-    report::view::{Motion, Shape, State, View},
-    verdict::mechanism::Motion as Kind,
+    report::view::{View, ViewMotion, ViewShape, ViewState},
+    verdict::mechanism::JointMotion as Kind,
 };
 use data_encoding::BASE64;
 use nalgebra::Vector3;
@@ -104,8 +104,8 @@ fn bodies(view: &View, units: &Units) -> Value {
         .bodies
         .iter()
         .map(|b| match &b.shape {
-            Shape::Surface(s) => Some(s),
-            Shape::Sphere(_) => None,
+            ViewShape::Surface(s) => Some(s),
+            ViewShape::Sphere(_) => None,
         })
         .collect();
     let there = || surfaces.iter().flatten();
@@ -116,7 +116,7 @@ fn bodies(view: &View, units: &Units) -> Value {
         "support": wholes(view.bodies.iter().map(|b| usize::from(b.support))),
         "mass": view.bodies.iter().map(|b| b.mass).collect::<Vec<_>>(),
         "center": units.points(view.bodies.iter().map(|b| &b.center)),
-        "radius": singles(view.bodies.iter().map(|b| match b.shape { Shape::Sphere(r) => r / units.length, Shape::Surface(_) => 0.0 })),
+        "radius": singles(view.bodies.iter().map(|b| match b.shape { ViewShape::Sphere(r) => r / units.length, ViewShape::Surface(_) => 0.0 })),
         "cornerStart": starts(surfaces.iter().map(|s| s.map_or(0, |s| s.corners.len()))),
         "corners": units.points(there().flat_map(|s| &s.corners)),
         // Each piece is its number of corners, then the corners.
@@ -180,7 +180,7 @@ fn law(law: &crate::assembly::JointLaw) -> String {
 }
 
 /// Resultants are the sums of the forces, which the page adds up. A share of the section that is not a number: nothing presses.
-fn state(s: &State, joints: usize, units: &Units) -> Value {
+fn state(s: &ViewState, joints: usize, units: &Units) -> Value {
     let of = |f: &dyn Fn(&crate::report::view::Resultant) -> f64| singles(s.resultants.iter().map(|r| r.as_ref().map_or(f64::NAN, f)));
     let at: Vec<Vector3<f64>> = s.resultants.iter().map(|r| r.map_or(units.middle, |r| r.at)).collect();
     json!({
@@ -199,7 +199,7 @@ fn state(s: &State, joints: usize, units: &Units) -> Value {
 }
 
 /// Rates per unit of the way of the fastest corner, both in units of length.
-fn motion(m: &Motion, units: &Units) -> Value {
+fn motion(m: &ViewMotion, units: &Units) -> Value {
     let kind = |k: Kind| match k {
         Kind::Hinge => "hinge",
         Kind::Slide => "slides",

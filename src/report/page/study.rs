@@ -10,8 +10,8 @@ use crate::{
         },
     },
     study::{
-        Method, Omission, Point,
-        extreme::{Ask, Found},
+        Omission, StudyMethod, StudyPoint,
+        extreme::{CellAnswer, CellQuestion},
         profile,
     },
 };
@@ -24,7 +24,7 @@ const FLOOR: f64 = 1e-15;
 ///
 /// # Errors
 /// Only if memory runs out.
-pub fn study(text: &Page, points: &[Point]) -> Result<String, serde_json::Error> {
+pub fn study(text: &Page, points: &[StudyPoint]) -> Result<String, serde_json::Error> {
     let mut scenes: Vec<&str> = Vec::new();
     for p in points {
         if !scenes.contains(&p.scene.as_str()) {
@@ -47,11 +47,11 @@ pub fn study(text: &Page, points: &[Point]) -> Result<String, serde_json::Error>
 }
 
 /// Error against time on one scene, a line per method.
-fn errors(scene: &str, points: &[Point]) -> Chart {
-    let of = |method: Method| {
-        let mut own: Vec<&Point> = points.iter().filter(|p| p.scene == scene && p.method == method && p.seconds > 0.0).collect();
+fn errors(scene: &str, points: &[StudyPoint]) -> Chart {
+    let of = |method: StudyMethod| {
+        let mut own: Vec<&StudyPoint> = points.iter().filter(|p| p.scene == scene && p.method == method && p.seconds > 0.0).collect();
         own.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-        let known: Vec<(&Point, f64)> = own.into_iter().filter_map(|p| Some((p, p.error?))).collect();
+        let known: Vec<(&StudyPoint, f64)> = own.into_iter().filter_map(|p| Some((p, p.error?))).collect();
         Series {
             name: method.label().into(),
             line: true,
@@ -70,13 +70,13 @@ fn errors(scene: &str, points: &[Point]) -> Chart {
         title: scene.into(),
         x: Axis::new("seconds", true),
         y: Axis::new("relative error of the load factor", true),
-        series: Method::ALL.into_iter().map(of).filter(|s| !s.points.is_empty()).collect(),
+        series: StudyMethod::ALL.into_iter().map(of).filter(|s| !s.points.is_empty()).collect(),
         ..Chart::default()
     }
 }
 
 /// Which share of the scenes a method answers within a multiple of the fastest method's time.
-fn profiles(points: &[Point]) -> Chart {
+fn profiles(points: &[StudyPoint]) -> Chart {
     let ratios: Vec<f64> = (0..=60).map(|k| 10f64.powf(f64::from(k) / 20.0)).collect();
     let series = profile(points, ANSWER, &ratios).into_iter().map(|(method, shares)| Series {
         name: method.label().into(),
@@ -116,9 +116,9 @@ pub fn omissions(text: &Page, list: &[Omission]) -> Result<String, serde_json::E
 ///
 /// # Errors
 /// Only if memory runs out.
-pub fn extreme(text: &Page, found: &[Found]) -> Result<String, serde_json::Error> {
+pub fn extreme(text: &Page, found: &[CellAnswer]) -> Result<String, serde_json::Error> {
     let series = |family: &str| {
-        let own: Vec<(&Found, f64)> =
+        let own: Vec<(&CellAnswer, f64)> =
             found.iter().filter(|f| f.family == family && f.seconds > 0.0).filter_map(|f| Some((f, f.error?))).collect();
         Series {
             name: family.into(),
@@ -134,10 +134,10 @@ pub fn extreme(text: &Page, found: &[Found]) -> Result<String, serde_json::Error
         series: ["column", "wall", "arch"].map(series).into_iter().filter(|s| !s.points.is_empty()).collect(),
         ..Chart::default()
     };
-    let asked = |ask: Ask| match ask {
-        Ask::LoadFactor(v) => format!("load factor {}", short(v)),
-        Ask::Stands(true, by) => format!("stands, {by:.0e} from critical"),
-        Ask::Stands(false, by) => format!("falls, {by:.0e} from critical"),
+    let asked = |ask: CellQuestion| match ask {
+        CellQuestion::LoadFactor(v) => format!("load factor {}", short(v)),
+        CellQuestion::Stands(true, by) => format!("stands, {by:.0e} from critical"),
+        CellQuestion::Stands(false, by) => format!("falls, {by:.0e} from critical"),
     };
     let rows: Vec<Value> = found
         .iter()

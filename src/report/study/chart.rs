@@ -1,6 +1,6 @@
 //! Charts of studies as SVG: error against time on logarithmic axes, and the performance profile.
 
-use crate::study::{Method, Point, profile};
+use crate::study::{StudyMethod, StudyPoint, profile};
 use plotters::{
     prelude::{ChartBuilder, Circle, IntoDrawingArea, IntoLogRange, PathElement, RGBColor, SVGBackend, SeriesLabelPosition, WHITE},
     style::{Color, IntoFont},
@@ -9,7 +9,7 @@ use plotters::{
 /// A chart that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 #[error("no chart: {0}")]
-pub struct ChartError(String);
+pub struct StudyChartError(String);
 
 const SIZE: (u32, u32) = (680, 420);
 /// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008), and two more.
@@ -28,21 +28,21 @@ const COLOURS: [RGBColor; 10] = [
 /// Errors below this are drawn here: rounding.
 const FLOOR: f64 = 1e-15;
 
-fn refused(e: impl std::fmt::Display) -> ChartError {
-    ChartError(e.to_string())
+fn refused(e: impl std::fmt::Display) -> StudyChartError {
+    StudyChartError(e.to_string())
 }
 
 /// Error against run time on one scene, a line per method.
 ///
 /// # Errors
 /// No point has an error.
-pub fn errors(scene: &str, points: &[Point]) -> Result<String, ChartError> {
-    let own: Vec<&Point> = points.iter().filter(|p| p.scene == scene && p.error.is_some()).collect();
+pub fn errors(scene: &str, points: &[StudyPoint]) -> Result<String, StudyChartError> {
+    let own: Vec<&StudyPoint> = points.iter().filter(|p| p.scene == scene && p.error.is_some()).collect();
     let times = own.iter().map(|p| p.seconds).fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(t), h.max(t)));
     if own.is_empty() || times.0 <= 0.0 {
-        return Err(ChartError(format!("no run on {scene} gave a value")));
+        return Err(StudyChartError(format!("no run on {scene} gave a value")));
     }
-    let y = |p: &Point| p.error.unwrap_or(1.0).clamp(FLOOR, 10.0);
+    let y = |p: &StudyPoint| p.error.unwrap_or(1.0).clamp(FLOOR, 10.0);
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
@@ -64,7 +64,7 @@ pub fn errors(scene: &str, points: &[Point]) -> Result<String, ChartError> {
             .light_line_style(WHITE.mix(0.0))
             .draw()
             .map_err(refused)?;
-        for (k, method) in Method::ALL.into_iter().enumerate() {
+        for (k, method) in StudyMethod::ALL.into_iter().enumerate() {
             let mut line: Vec<(f64, f64)> = own.iter().filter(|p| p.method == method).map(|p| (p.seconds, y(p))).collect();
             if line.is_empty() {
                 continue;
@@ -88,7 +88,7 @@ pub fn errors(scene: &str, points: &[Point]) -> Result<String, ChartError> {
 ///
 /// # Errors
 /// There is nothing to draw.
-pub fn profiles(points: &[Point], error: f64) -> Result<String, ChartError> {
+pub fn profiles(points: &[StudyPoint], error: f64) -> Result<String, StudyChartError> {
     let ratios: Vec<f64> = (0..=120).map(|k| 10f64.powf(f64::from(k) / 40.0)).collect();
     let mut text = String::new();
     {
@@ -127,7 +127,7 @@ pub fn profiles(points: &[Point], error: f64) -> Result<String, ChartError> {
 
 type Chart<'a, 'b, X, Y> = plotters::chart::ChartContext<'a, SVGBackend<'b>, plotters::coord::cartesian::Cartesian2d<X, Y>>;
 
-fn legend<'a, X, Y>(chart: &mut Chart<'a, 'a, X, Y>) -> Result<(), ChartError>
+fn legend<'a, X, Y>(chart: &mut Chart<'a, 'a, X, Y>) -> Result<(), StudyChartError>
 where
     X: plotters::coord::ranged1d::Ranged<ValueType = f64>,
     Y: plotters::coord::ranged1d::Ranged<ValueType = f64>,

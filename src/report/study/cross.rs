@@ -4,7 +4,7 @@ use super::super::{
     cells::Table,
     text::{Layout, Page, Role},
 };
-use crate::study::cross::{Count, Crossed, Differs, FAMILIES, SAME_DRY, count};
+use crate::study::cross::{CrossCount, Crossed, Differs, FAMILIES, SAME_DRY, count};
 
 /// How many scenes are named where not all are asked for.
 const NAMED: usize = 8;
@@ -86,7 +86,7 @@ pub fn cross_text(list: &[Crossed], seed: u64, verbose: bool, layout: Layout) ->
     page
 }
 
-fn sums(c: &Count) -> Vec<String> {
+fn sums(c: &CrossCount) -> Vec<String> {
     let mut lines = vec![
         format!(
             "{} scenes: {} stand, {} with a pre-stress, {} fall, {} undecided, {} refused; {} bounds on load factors, {} values with dry friction",

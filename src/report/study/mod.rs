@@ -5,7 +5,7 @@ mod cross;
 mod forge;
 mod soak;
 
-pub use chart::{ChartError, errors, profiles};
+pub use chart::{StudyChartError, errors, profiles};
 pub use cross::{cross_csv, cross_text};
 pub use forge::{forge_csv, forge_text};
 pub use soak::{soak_csv, soak_text};
@@ -15,8 +15,8 @@ use super::{
     text::{Layout, Page, Role},
 };
 use crate::study::{
-    Method, Omission, Point,
-    extreme::{Count, Found, Grade, count},
+    Omission, StudyMethod, StudyPoint,
+    extreme::{CellAnswer, CellCount, CellGrade, count},
 };
 
 /// The relative error that is called an answer, in the summary and the performance profile.
@@ -26,7 +26,7 @@ pub const ANSWER: f64 = 1e-6;
 ///
 /// # Errors
 /// The writer's, which has no reason to fail in memory.
-pub fn csv(points: &[Point]) -> Result<String, csv::Error> {
+pub fn csv(points: &[StudyPoint]) -> Result<String, csv::Error> {
     let mut out = Table::new();
     out.write_record([
         "scene",
@@ -63,7 +63,7 @@ pub fn csv(points: &[Point]) -> Result<String, csv::Error> {
 ///
 /// # Errors
 /// As [`csv()`].
-pub fn extreme_csv(found: &[Found]) -> Result<String, csv::Error> {
+pub fn extreme_csv(found: &[CellAnswer]) -> Result<String, csv::Error> {
     let mut out = Table::new();
     out.write_record(["family", "what", "asked", "grade", "value", "relative_error", "bracket", "iterations", "seconds"])?;
     let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
@@ -84,7 +84,7 @@ pub fn extreme_csv(found: &[Found]) -> Result<String, csv::Error> {
 }
 
 /// A study as a page: per scene each method at its best, then what was silently wrong.
-pub fn text(points: &[Point], layout: Layout) -> Page {
+pub fn text(points: &[StudyPoint], layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let mut scenes: Vec<&str> = Vec::new();
     for p in points {
@@ -92,15 +92,15 @@ pub fn text(points: &[Point], layout: Layout) -> Page {
             scenes.push(&p.scene);
         }
     }
-    let wrong: Vec<&Point> = points.iter().filter(|p| p.is_silently_wrong()).collect();
+    let wrong: Vec<&StudyPoint> = points.iter().filter(|p| p.is_silently_wrong()).collect();
     let title = format!("{} runs on {} scenes, {} wrong although the engine said solved", points.len(), scenes.len(), wrong.len());
     page.title("Error against run time", title, if wrong.is_empty() { Role::Good } else { Role::Value });
     page.blank();
     for scene in &scenes {
-        let lines: Vec<String> = Method::ALL
+        let lines: Vec<String> = StudyMethod::ALL
             .into_iter()
             .filter_map(|method| {
-                let mut own: Vec<&Point> = points.iter().filter(|p| p.scene == *scene && p.method == method).collect();
+                let mut own: Vec<&StudyPoint> = points.iter().filter(|p| p.scene == *scene && p.method == method).collect();
                 own.sort_by(|a, b| error(a).total_cmp(&error(b)).then(a.seconds.total_cmp(&b.seconds)));
                 let best = own.first()?;
                 let at = if method.knob().is_empty() {
@@ -146,7 +146,7 @@ pub fn omissions_text(list: &[Omission], layout: Layout) -> Page {
     page
 }
 
-fn error(p: &Point) -> f64 {
+fn error(p: &StudyPoint) -> f64 {
     p.error.unwrap_or(f64::INFINITY)
 }
 
@@ -155,7 +155,7 @@ fn shown(error: Option<f64>) -> String {
 }
 
 /// The extreme grid as a page: sums per family, then every cell without a right answer.
-pub fn extreme_text(found: &[Found], verbose: bool, layout: Layout) -> Page {
+pub fn extreme_text(found: &[CellAnswer], verbose: bool, layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let all = count(found, None);
     let role = if all.wrong > 0 { Role::Bad } else { Role::Good };
@@ -166,18 +166,18 @@ pub fn extreme_text(found: &[Found], verbose: bool, layout: Layout) -> Page {
         page.row(family, [sums(&count(found, Some(family)))]);
     }
     page.row("all", [sums(&all)]);
-    let others = |grade: Grade| -> Vec<String> {
+    let others = |grade: CellGrade| -> Vec<String> {
         found.iter().filter(|f| f.grade == grade).map(|f| format!("{}: {}: {:?}", f.family, f.what, f.ask)).collect()
     };
-    page.row("wrong", others(Grade::Wrong));
-    let undecided = others(Grade::Undecided);
+    page.row("wrong", others(CellGrade::Wrong));
+    let undecided = others(CellGrade::Undecided);
     let shown = if verbose { undecided.len() } else { undecided.len().min(6) };
     let more = (shown < undecided.len()).then(|| format!("… and {} more (--verbose for all)", undecided.len() - shown));
     page.row("undecided", undecided[..shown].iter().cloned().chain(more));
     page
 }
 
-fn sums(c: &Count) -> String {
+fn sums(c: &CellCount) -> String {
     let share = 100.0 * c.undecided as f64 / c.cells.max(1) as f64;
     let verdicts = format!("{} cells: {} right, {} undecided ({share:.1} %), {} wrong", c.cells, c.right, c.undecided, c.wrong);
     if c.load_factors == 0 {

@@ -5,7 +5,7 @@ use super::super::{
     text::{Layout, Page, Role},
 };
 use crate::{
-    study::soak::{Count, FAMILIES, Perturbation, Soaked, count},
+    study::soak::{FAMILIES, Perturbation, SoakCount, Soaked, count},
     verdict::Verdict,
 };
 
@@ -87,7 +87,7 @@ pub fn soak_text(list: &[Soaked], seed: u64, verbose: bool, layout: Layout) -> P
     page
 }
 
-fn sums(c: &Count) -> Vec<String> {
+fn sums(c: &SoakCount) -> Vec<String> {
     let verdicts = format!(
         "{} scenes: {} stand, {} with a pre-stress, {} fall, {} undecided ({} unproved), {} refused, {} wrong",
         c.scenes, c.stable, c.conditional, c.unstable, c.undecided, c.unproved, c.refused, c.wrong

@@ -10,7 +10,7 @@ use crate::sweep::{Header, Question, Summary};
 use serde::Serialize;
 
 pub use chart::{ChartError, Kind, chart};
-pub use progress::{Progress, progress};
+pub use progress::{SweepProgress, progress};
 pub use table::csv;
 pub use text::summary;
 

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 /// How far a sweep is.
 #[derive(Clone, Debug, Serialize)]
-pub struct Progress {
+pub struct SweepProgress {
     format: &'static str,
     name: String,
     /// Rows that are asked for.
@@ -27,7 +27,7 @@ pub struct Progress {
     tasks: Vec<(String, usize)>,
 }
 
-impl Progress {
+impl SweepProgress {
     /// Of the rows in a file or folder; `tasks` are what the cluster says, with how many of each.
     pub fn new(header: &Header, rows: &[Row], damaged: usize, tasks: Vec<(String, usize)>) -> Self {
         let mut counts = BTreeMap::new();
@@ -52,7 +52,7 @@ impl Progress {
 }
 
 /// The page.
-pub fn progress(progress: &Progress, layout: Layout) -> Page {
+pub fn progress(progress: &SweepProgress, layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let list = |parts: Vec<String>| parts.join(", ");
     let counts = list(progress.counts.iter().map(|(word, n)| format!("{n} {word}")).collect());

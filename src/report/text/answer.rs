@@ -1,14 +1,14 @@
 //! The first line and the sentences below it.
 
 use super::{
-    Options, SHOWN, cut,
+    SHOWN, TextOptions, cut,
     number::{bracketed, decimals, ends, fixed, point},
     page::{Page, Role},
     simulation,
 };
 use crate::{
     analysis::{Outcome, coulomb::Found},
-    report::result::{Answer, DryResult, LoadFactorAnswer, Question, ResultFile},
+    report::result::{Answer, DryResult, LoadFactorAnswer, QuestionKind, ResultFile},
     tolerance,
     verdict::{Verdict, check::Claim},
 };
@@ -24,14 +24,14 @@ pub(super) fn under(file: &ResultFile, text: impl std::fmt::Display) -> String {
 /// The answer in one line.
 pub(super) fn title(page: &mut Page, file: &ResultFile) {
     let (text, role) = match file.question {
-        Question::Assess => match file.answer.verdict {
+        QuestionKind::Assess => match file.answer.verdict {
             Some(Verdict::Stable) => ("stands".to_string(), Role::Good),
             Some(Verdict::Conditional) => ("stands only with a pre-stress".to_string(), Role::Bad),
             Some(Verdict::Unstable) => ("falls".to_string(), Role::Bad),
             Some(Verdict::Undecided) | None => ("undecided".to_string(), Role::Unsure),
         },
-        Question::Simulate => simulation::title(file),
-        Question::Limit => match (status(&file.answer), found(&file.answer)) {
+        QuestionKind::Simulate => simulation::title(file),
+        QuestionKind::Limit => match (status(&file.answer), found(&file.answer)) {
             (Outcome::Found, Some((value, lower, upper))) => {
                 let role = if upper < 0.0 { Role::Bad } else { Role::Value };
                 let bound = bracketed(value, lower, upper);
@@ -61,7 +61,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
             (Outcome::Impossible, _) => ("falls, whatever the live load".to_string(), Role::Bad),
             _ => ("undecided".to_string(), Role::Unsure),
         },
-        Question::Tilt => {
+        QuestionKind::Tilt => {
             let toward = file.answer.toward.map(|d| format!(" towards {}", point(d))).unwrap_or_default();
             match (status(&file.answer), found(&file.answer)) {
                 (Outcome::Found, Some((_, _, upper))) if upper < 0.0 => ("falls even when level".to_string(), Role::Bad),
@@ -105,8 +105,8 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 _ => (format!("undecided{toward}"), Role::Unsure),
             }
         }
-        Question::Critical => super::critical::title(file),
-        Question::Thrust => super::thrust::title(file),
+        QuestionKind::Critical => super::critical::title(file),
+        QuestionKind::Thrust => super::thrust::title(file),
     };
     page.title(&file.scene.name, under(file, text), role);
 }
@@ -114,16 +114,16 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
 /// The sentences that say what the answer rests on and what it does not say.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
     match file.question {
-        Question::Assess => {
+        QuestionKind::Assess => {
             verdict(page, file);
             return simulation::why(page, file);
         }
-        Question::Simulate => return simulation::why(page, file),
-        Question::Critical => return super::critical::why(page, file),
-        Question::Thrust => return super::thrust::why(page, file),
-        Question::Limit | Question::Tilt => {}
+        QuestionKind::Simulate => return simulation::why(page, file),
+        QuestionKind::Critical => return super::critical::why(page, file),
+        QuestionKind::Thrust => return super::thrust::why(page, file),
+        QuestionKind::Limit | QuestionKind::Tilt => {}
     }
-    let tilt = file.question == Question::Tilt;
+    let tilt = file.question == QuestionKind::Tilt;
     match (status(&file.answer), found(&file.answer)) {
         (Outcome::Found, Some((value, lower, upper))) => {
             let [low, high] = ends(value, lower, upper);
@@ -231,7 +231,8 @@ fn unit(file: &ResultFile) -> &'static str {
 /// The load factor with dry friction.
 fn dry(page: &mut Page, file: &ResultFile) {
     let Some(dry) = &file.dry else { return };
-    let words = |v: f64| if file.question == Question::Tilt { format!("{:.4}°", v.atan().to_degrees()) } else { format!("λ = {v:.5}") };
+    let words =
+        |v: f64| if file.question == QuestionKind::Tilt { format!("{:.4}°", v.atan().to_degrees()) } else { format!("λ = {v:.5}") };
     let text = match (dry.found, dry.value) {
         (Found::NothingSlides, Some(_)) => {
             format!("In the mechanism nothing slides, so with dry friction it is the same{}.", rest(dry, words))
@@ -307,7 +308,7 @@ fn dry_value(file: &ResultFile) -> Option<f64> {
 }
 
 fn dead_load(page: &mut Page, file: &ResultFile) {
-    let place = if file.question == Question::Tilt { "When level" } else { "Without its live load" };
+    let place = if file.question == QuestionKind::Tilt { "When level" } else { "Without its live load" };
     let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);
     let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict) {
         Some(Verdict::Stable) => format!("{place} it stands."),
@@ -322,9 +323,9 @@ fn dead_load(page: &mut Page, file: &ResultFile) {
 }
 
 /// Every direction of a tilt.
-pub(super) fn directions(page: &mut Page, file: &ResultFile, options: Options) {
+pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOptions) {
     // Eight directions are what is asked for by default: they are shown in full.
-    let options = Options { verbose: options.verbose || file.directions.len() <= 8, ..options };
+    let options = TextOptions { verbose: options.verbose || file.directions.len() <= 8, ..options };
     let width = file.directions.iter().filter_map(|d| d.answer.toward).map(|d| point(d).chars().count()).max().unwrap_or(0);
     let lines: Vec<String> = file
         .directions

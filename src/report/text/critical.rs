@@ -1,7 +1,7 @@
 //! Critical values for people.
 
 use super::{
-    Options, SHOWN, cut,
+    SHOWN, TextOptions, cut,
     number::{bracketed, count, ends, short},
     page::{Page, Role},
 };
@@ -100,7 +100,7 @@ fn unseen(c: &CriticalResult) -> String {
 }
 
 /// The flips with their ends, and the scan.
-pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
+pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let Some(c) = &file.critical else { return };
     let sides = flips(file).into_iter().flat_map(|(v, method)| {
         let [low, high] = if method == Method::Scan { [v.lower.to_string(), v.upper.to_string()] } else { ends(v.value, v.lower, v.upper) };

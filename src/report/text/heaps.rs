@@ -1,14 +1,14 @@
 //! Angles of repose for people.
 
 use super::{
-    Layout, Options, Page,
+    Layout, Page, TextOptions,
     number::{count, seconds, short},
     page::Role,
 };
 use crate::report::heaps::{HeapResult, ReposeFile};
 
 /// The answer about heaps as a page.
-pub fn heaps(file: &ReposeFile, options: Options, layout: Layout) -> Page {
+pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let p = &file.protocol;
     let name = format!("{:?} of {} {}, friction {}", p.kind, p.grains, p.grain.plural(), short(p.friction));

@@ -17,7 +17,7 @@ pub use packing::packing;
 pub use page::{Layout, Page, Role, Span};
 
 use super::{
-    result::{Question, ResultFile},
+    result::{QuestionKind, ResultFile},
     work::Work,
 };
 use crate::{analysis::Attempt, solve::Engine, verdict::Verdict};
@@ -25,7 +25,7 @@ use number::{count, seconds};
 
 /// How much is said.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Options {
+pub struct TextOptions {
     /// Lists in full, and every attempt at a program.
     pub verbose: bool,
     /// The first line only.
@@ -47,7 +47,7 @@ const SHOWN: usize = 6;
 const NOTES: usize = 3;
 
 /// A result as a page.
-pub fn render(file: &ResultFile, asked: Asked, options: Options, layout: Layout) -> Page {
+pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Layout) -> Page {
     let mut page = Page::new(layout);
     answer::title(&mut page, file);
     if options.brief {
@@ -87,7 +87,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: Options, layout: Layout)
 }
 
 /// The first items of a list, and how many there are more.
-fn cut(items: &[String], most: usize, options: Options) -> Vec<String> {
+fn cut(items: &[String], most: usize, options: TextOptions) -> Vec<String> {
     // "and 1 more" takes the line that the item itself would.
     let shown = if options.verbose || items.len() <= most + 1 { items.len() } else { most };
     let mut list = items[..shown].to_vec();
@@ -147,25 +147,25 @@ fn attempt(a: &Attempt) -> String {
 fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
     let scene = asked.scene;
     let verb = match file.question {
-        Question::Assess => "assess",
-        Question::Limit => "limit",
-        Question::Tilt => "tilt",
-        Question::Critical => "critical",
-        Question::Thrust => "thrust",
-        Question::Simulate => "simulate",
+        QuestionKind::Assess => "assess",
+        QuestionKind::Limit => "limit",
+        QuestionKind::Tilt => "tilt",
+        QuestionKind::Critical => "critical",
+        QuestionKind::Thrust => "thrust",
+        QuestionKind::Simulate => "simulate",
     };
     let again =
         if asked.options.is_empty() { format!("voussoir {verb} {scene}") } else { format!("voussoir {verb} {scene} {}", asked.options) };
     let look = (format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
     let elsewhere = file.critical.is_some() || file.thrust.is_some();
-    if file.question == Question::Simulate {
+    if file.question == QuestionKind::Simulate {
         return page.commands("next", &simulation::next(file, scene, &again));
     }
     if file.certificate.claim.is_none() && !elsewhere {
         return page.commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
     }
     let mut list = Vec::new();
-    if file.question == Question::Assess {
+    if file.question == QuestionKind::Assess {
         let falls = matches!(file.answer.verdict, Some(Verdict::Unstable | Verdict::Conditional));
         list.push(match (falls, file.scene.input.loads.live.is_empty()) {
             (true, _) => look,

@@ -1,7 +1,7 @@
 //! Packings for people: the least tilt, every direction, and how the packing carries its load.
 
 use super::{
-    Layout, Options, Page, SHOWN, cut,
+    Layout, Page, SHOWN, TextOptions, cut,
     number::{bracketed, count, point, seconds, short},
     page::Role,
 };
@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// The answer about a packing as a page.
-pub fn packing(file: &PackingFile, options: Options, layout: Layout) -> Page {
+pub fn packing(file: &PackingFile, options: TextOptions, layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let Some(least) = file.directions.get(file.least) else { return page };
     let role = if least.governing().is_finite() { Role::Value } else { Role::Unsure };
@@ -92,7 +92,7 @@ fn row(d: &PackingDirection) -> String {
     format!("towards {}: {}; {} % of the mass moves", point(d.toward), angle(d), short(100.0 * d.moved))
 }
 
-fn fabric(f: &Fabric, options: Options) -> Vec<String> {
+fn fabric(f: &Fabric, options: TextOptions) -> Vec<String> {
     let [x, y, z] = [0, 1, 2].map(|k| short(f.tensor[k][k]));
     let [sx, sy, sz] = [0, 1, 2].map(|k| short(f.stress[k][k]));
     let mut rows = vec![

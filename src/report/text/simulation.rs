@@ -1,7 +1,7 @@
 //! What happened in time, for people.
 
 use super::{
-    Options, cut,
+    TextOptions, cut,
     number::{count, point, seconds, short},
     page::{Page, Role},
 };
@@ -100,7 +100,7 @@ fn beside(a: &Agreement, s: &Simulation) -> String {
 }
 
 /// First motion and runs.
-pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
+pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let Some(s) = &file.simulation else { return };
     let width = s.first_motion.iter().take(SHOWN).map(|m| m.block.chars().count()).max().unwrap_or(0);
     let moved = s.first_motion.iter().filter(|_| s.fate != Fate::Stands).map(|m| {

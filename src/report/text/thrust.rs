@@ -1,7 +1,7 @@
 //! Thrusts for people.
 
 use super::{
-    Options, cut,
+    TextOptions, cut,
     number::{bracketed, ends, fixed, point, short},
     page::{Page, Role},
 };
@@ -9,7 +9,7 @@ use crate::{
     analysis::Outcome,
     report::{
         result::ResultFile,
-        thrust::{Line, Section, ThrustAnswer, ThrustValue},
+        thrust::{Line, ThrustAnswer, ThrustSection, ThrustValue},
     },
     tolerance,
     verdict::Verdict,
@@ -87,7 +87,7 @@ fn factor(t: &ThrustAnswer, file: &ResultFile) -> String {
 const SECTIONS: usize = 4;
 
 /// Both ends, their proofs and the sections.
-pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
+pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let (Some(t), Some(proof)) = (&file.answer.thrust, &file.thrust) else { return };
     for (label, v, certificate) in [("least", &t.least, &proof.least), ("greatest", &t.greatest, &proof.greatest)] {
         let text = match (v.status, v.value, v.lower, v.upper) {
@@ -102,8 +102,8 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
         };
         page.row(label, std::iter::once(text).chain(certificate.verified.iter().map(|v| format!("  {v}"))));
     }
-    for (label, line) in [("line, least", least as fn(&Section) -> Option<&Line>), ("greatest", greatest)] {
-        let list: Vec<(&Section, &Line)> = proof.sections.iter().filter_map(|s| Some((s, line(s)?))).collect();
+    for (label, line) in [("line, least", least as fn(&ThrustSection) -> Option<&Line>), ("greatest", greatest)] {
+        let list: Vec<(&ThrustSection, &Line)> = proof.sections.iter().filter_map(|s| Some((s, line(s)?))).collect();
         page.row(label, cut(&table(&list), SECTIONS, options));
     }
     let legend = "normal and shear force, eccentricity (of the way to the edge), centre of pressure; kern: the whole section presses";
@@ -113,7 +113,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: Options) {
 }
 
 /// One line a section: normal and shear force, eccentricity with the share of the section used, centre of pressure, where it lies.
-fn table(list: &[(&Section, &Line)]) -> Vec<String> {
+fn table(list: &[(&ThrustSection, &Line)]) -> Vec<String> {
     let body = list.iter().map(|(s, l)| {
         let [normal, shear, e, at, place] = columns(l);
         [name(s), normal, shear, e, at, place]
@@ -127,15 +127,15 @@ fn table(list: &[(&Section, &Line)]) -> Vec<String> {
     rows.iter().map(line).collect()
 }
 
-fn least(s: &Section) -> Option<&Line> {
+fn least(s: &ThrustSection) -> Option<&Line> {
     s.least.as_ref()
 }
 
-fn greatest(s: &Section) -> Option<&Line> {
+fn greatest(s: &ThrustSection) -> Option<&Line> {
     s.greatest.as_ref()
 }
 
-fn name(s: &Section) -> String {
+fn name(s: &ThrustSection) -> String {
     format!("{} | {}", s.between[0], s.between[1])
 }
 

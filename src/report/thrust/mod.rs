@@ -6,7 +6,7 @@ pub(super) use verify::verify;
 
 use super::{
     critical::Side,
-    result::{Answer, Certificate, Question, ResultFile, assessment, certify},
+    result::{Answer, Certificate, QuestionKind, ResultFile, assessment, certify},
 };
 use crate::{
     analysis::{
@@ -88,13 +88,13 @@ pub struct ThrustResult {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub without_factor: Option<String>,
     /// The line of thrust, section by section.
-    pub sections: Vec<Section>,
+    pub sections: Vec<ThrustSection>,
 }
 
 /// A section with the lines of thrust through it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Section {
+pub struct ThrustSection {
     /// The two blocks.
     pub between: [String; 2],
     /// At the least thrust, where found.
@@ -144,7 +144,7 @@ impl ResultFile {
     pub fn thrust(scene: &Scene, model: &Model, t: &Thrust) -> Self {
         let (answer, certificate, findings) = assessment(model, &t.standing);
         let Some([least, greatest]) = &t.ends else {
-            let mut file = Self::new(Question::Thrust, scene, model, answer, certificate);
+            let mut file = Self::new(QuestionKind::Thrust, scene, model, answer, certificate);
             file.mechanism = t.standing.mechanism.as_ref().map(|m| super::result::words(model, m));
             file.trace.clone_from(&t.standing.attempts);
             file.warn(&findings);
@@ -171,7 +171,8 @@ impl ResultFile {
             greatest: high,
             geometric_factor: factor(&shrunk, value),
         };
-        let mut file = Self::new(Question::Thrust, scene, model, Answer { thrust: Some(answer), ..Answer::default() }, Certificate::none());
+        let mut file =
+            Self::new(QuestionKind::Thrust, scene, model, Answer { thrust: Some(answer), ..Answer::default() }, Certificate::none());
         let lines = table(model, [least, greatest].map(|e| (e.outcome == Outcome::Found).then_some(&e.forces)));
         file.thrust = Some(ThrustResult { least: low_proof, greatest: high_proof, shrunk, without_factor, sections: lines });
         file.left_out.clone_from(&least.left_out);
@@ -207,10 +208,10 @@ fn end(model: &Model, at: ThrustAt, e: &ThrustEnd, refused: &mut Findings) -> (T
 }
 
 /// The line of thrust for up to two sets of forces.
-fn table(model: &Model, forces: [Option<&crate::verdict::Forces>; 2]) -> Vec<Section> {
+fn table(model: &Model, forces: [Option<&crate::verdict::Forces>; 2]) -> Vec<ThrustSection> {
     let [least, greatest] = forces.map(|f| f.map(|f| sections(&model.interfaces, f)));
     let line = |s: &Option<Vec<SectionForce>>, k: usize| s.as_ref().and_then(|s| s.get(k)).map(Line::from);
     let id = |i: usize| model.assembly.blocks[i].id.clone();
     let faces = model.interfaces.list.iter().enumerate();
-    faces.map(|(k, f)| Section { between: [id(f.a), id(f.b)], least: line(&least, k), greatest: line(&greatest, k) }).collect()
+    faces.map(|(k, f)| ThrustSection { between: [id(f.a), id(f.b)], least: line(&least, k), greatest: line(&greatest, k) }).collect()
 }

@@ -1,10 +1,10 @@
 //! Verifying thrusts: both ends from their forces and mechanisms, the factor from the shrunk sections, the table from the forces.
 
-use super::{Section, ThrustValue, factor, table};
+use super::{ThrustSection, ThrustValue, factor, table};
 use crate::{
     analysis::{Model, Outcome, geometric::shrunk_model},
     report::{
-        result::{Certificate, Question, ResultFile},
+        result::{Certificate, QuestionKind, ResultFile},
         verify::{SAME, Verification, answer, failure, mechanism_words, require},
     },
     verdict::{
@@ -19,7 +19,7 @@ use crate::{
 pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     let (said, proof) = match (&file.answer.thrust, &file.thrust) {
         (None, None) => {
-            let (mut f, rates) = answer(model, Question::Assess, &file.answer, &file.certificate, all.refuted());
+            let (mut f, rates) = answer(model, QuestionKind::Assess, &file.answer, &file.certificate, all.refuted());
             mechanism_words(&mut f, file, model, rates.as_deref());
             return all.part("answer", f);
         }
@@ -65,7 +65,7 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     for side in &proof.shrunk {
         let sane = side.value > 0.0 && side.value <= 1.0;
         let findings = if sane {
-            answer(&shrunk_model(model, side.value), Question::Assess, &side.answer, &side.certificate, all.refuted()).0
+            answer(&shrunk_model(model, side.value), QuestionKind::Assess, &side.answer, &side.certificate, all.refuted()).0
         } else {
             failure("sections cannot be shrunk by this")
         };
@@ -111,7 +111,7 @@ fn end(model: &Model, here: ThrustAt, wanted: Extreme, said: &ThrustValue, evide
     }
 }
 
-fn same(here: &[Section], said: &[Section]) -> bool {
+fn same(here: &[ThrustSection], said: &[ThrustSection]) -> bool {
     let largest = here.iter().flat_map(|s| [s.least, s.greatest]).flatten().map(|l| l.normal.abs()).fold(0.0, f64::max);
     let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= SAME * scale.max(a.abs());
     let lines = |a: &Option<super::Line>, b: &Option<super::Line>| match (a, b) {

@@ -7,7 +7,7 @@ use super::{failure, require};
 use crate::{
     analysis::{
         Control, Law, Model, Outcome,
-        coulomb::{self, Found, Motion},
+        coulomb::{self, Found, StateMotion},
     },
     error::InputError,
     program::is_forest,
@@ -32,7 +32,7 @@ pub(super) fn stands(f: &mut Findings, model: &Model, law: Option<Law>) {
         let motion = coulomb::motion(&model.assembly, &model.interfaces, &Control::default());
         computed(
             f,
-            motion == Motion::Rests,
+            motion == StateMotion::Rests,
             "the loads produce such forces by themselves: with dry friction the blocks come to rest".into(),
         );
     }
@@ -95,7 +95,7 @@ fn evidence(model: &Model, claim: &Claim, dry: &DryResult) -> Result<Findings, S
 /// The states that are spoken of.
 fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
     let control = Control::default();
-    let motion = |lambda: f64| -> Result<Motion, InputError> {
+    let motion = |lambda: f64| -> Result<StateMotion, InputError> {
         let model = at(lambda)?;
         Ok(coulomb::motion(&model.assembly.at_load_factor(lambda), &model.interfaces, &control))
     };
@@ -105,19 +105,19 @@ fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
     if !rising {
         return Ok(());
     }
-    let ask = |f: &mut Findings, lambda: f64, wanted: Motion, text: String| -> Result<(), InputError> {
+    let ask = |f: &mut Findings, lambda: f64, wanted: StateMotion, text: String| -> Result<(), InputError> {
         computed(f, motion(lambda)? == wanted, text);
         Ok(())
     };
     if let Some(lambda) = dry.rests_at {
-        ask(f, lambda, Motion::Rests, format!("the state rests at {lambda}"))?;
+        ask(f, lambda, StateMotion::Rests, format!("the state rests at {lambda}"))?;
     }
     if let Some(lambda) = dry.moves_at {
-        ask(f, lambda, Motion::Moves, format!("the state moves at {lambda}"))?;
+        ask(f, lambda, StateMotion::Moves, format!("the state moves at {lambda}"))?;
     }
     match (dry.found, dry.value, dry.moves_at) {
         (Found::NotAtRest, ..) if dry.moves_at != Some(0.0) => {
-            ask(f, 0.0, Motion::Moves, "the state moves under the dead load".into())?;
+            ask(f, 0.0, StateMotion::Moves, "the state moves under the dead load".into())?;
         }
         (Found::Unlimited, ..) => {
             let model = at(0.0)?;
@@ -126,7 +126,7 @@ fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
         }
         (Found::Rests, Some(value), moves_at) => {
             let next = value + coulomb::resolution(&at(value)?.assembly) * moves_at.unwrap_or(value).abs();
-            let rests = moves_at.is_none_or(|m| next < m) && motion(next)? == Motion::Rests;
+            let rests = moves_at.is_none_or(|m| next < m) && motion(next)? == StateMotion::Rests;
             let known = moves_at.is_some_and(|m| m > value);
             computed(f, known && !rests, format!("at {next} it rests no longer"));
         }

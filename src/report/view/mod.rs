@@ -10,12 +10,12 @@ mod state;
 mod surface;
 
 pub use film::Film;
-pub use motion::{Mark, Motion, Pose};
-pub use state::{Part, Resultant, Segment, State};
-pub use surface::{Shape, Surface};
+pub use motion::{Mark, ViewMotion, ViewPose};
+pub use state::{Resultant, Segment, ViewPart, ViewState};
+pub use surface::{Surface, ViewShape};
 
 use super::{
-    result::{Question, ResultFile},
+    result::{QuestionKind, ResultFile},
     text::number::short,
 };
 use crate::{analysis::Model, assembly::JointLaw, dynamics::Frame, interface::ContactKind, verdict::section::centroid};
@@ -48,11 +48,11 @@ pub struct View {
     /// Joints in the order of the interfaces.
     pub joints: Vec<Joint>,
     /// Loads beside the blocks' own weight.
-    pub loads: Vec<Load>,
+    pub loads: Vec<ViewLoad>,
     /// Systems of contact forces; the first one goes with the answer.
-    pub states: Vec<State>,
+    pub states: Vec<ViewState>,
     /// Mechanisms; the first one goes with the answer.
-    pub motions: Vec<Motion>,
+    pub motions: Vec<ViewMotion>,
     /// What happened in time, evenly spread.
     pub film: Vec<Frame>,
 }
@@ -71,7 +71,7 @@ pub struct Body {
     /// Centre of mass, m.
     pub center: Vector3<f64>,
     /// Its surface.
-    pub shape: Shape,
+    pub shape: ViewShape,
 }
 
 /// Where two blocks touch.
@@ -97,7 +97,7 @@ pub struct Joint {
 
 /// A load on a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Load {
+pub struct ViewLoad {
     /// Index of the block.
     pub body: usize,
     /// Where it acts, m.
@@ -140,7 +140,7 @@ impl View {
                 material: b.material.clone(),
                 mass: b.mass,
                 center: b.centroid,
-                shape: Shape::of(&b.solid),
+                shape: ViewShape::of(&b.solid),
             })
             .collect();
         let joints = model.interfaces.list.iter().map(|f| Joint {
@@ -187,7 +187,7 @@ impl View {
 /// The ground of a tilt as it is tipped when the answer says that it falls.
 fn tipped(up: Vector3<f64>, file: &ResultFile) -> Option<Vector3<f64>> {
     match (file.question, file.answer.toward, file.answer.load_factor.and_then(|l| l.value)) {
-        (Question::Tilt, Some(toward), Some(tangent)) => Some((up - Vector3::from(toward) * tangent).normalize()),
+        (QuestionKind::Tilt, Some(toward), Some(tangent)) => Some((up - Vector3::from(toward) * tangent).normalize()),
         _ => None,
     }
 }
@@ -213,8 +213,8 @@ impl Body {
     /// Its bounding box.
     pub fn extent(&self) -> (Vector3<f64>, Vector3<f64>) {
         match &self.shape {
-            Shape::Sphere(radius) => (self.center.add_scalar(-radius), self.center.add_scalar(*radius)),
-            Shape::Surface(s) => {
+            ViewShape::Sphere(radius) => (self.center.add_scalar(-radius), self.center.add_scalar(*radius)),
+            ViewShape::Surface(s) => {
                 let inf = Vector3::repeat(f64::INFINITY);
                 s.corners.iter().fold((inf, -inf), |(l, h), p| (l.inf(p), h.sup(p)))
             }
@@ -230,24 +230,24 @@ fn front(up: Vector3<f64>, extent: Vector3<f64>) -> Vector3<f64> {
     (thin - up * up.dot(&thin)).normalize()
 }
 
-fn loads(model: &Model) -> Vec<Load> {
+fn loads(model: &Model) -> Vec<ViewLoad> {
     let assembly = &model.assembly;
-    let off = assembly.dead_forces.iter().map(|f| Load {
+    let off = assembly.dead_forces.iter().map(|f| ViewLoad {
         body: f.block,
         at: assembly.blocks[f.block].centroid + f.arm,
         force: f.force,
         live: false,
     });
-    let mut list: Vec<Load> = off.collect();
+    let mut list: Vec<ViewLoad> = off.collect();
     for i in assembly.free() {
         let at = assembly.blocks[i].centroid;
         let elsewhere: Vector3<f64> = assembly.dead_forces.iter().filter(|f| f.block == i).map(|f| f.force).sum();
         let dead = assembly.dead[i].force - assembly.self_weight(i).force - elsewhere;
         if dead.norm() > 1e-9 * (assembly.weight(i) + elsewhere.norm()) {
-            list.push(Load { body: i, at, force: dead, live: false });
+            list.push(ViewLoad { body: i, at, force: dead, live: false });
         }
         if assembly.live[i].force != Vector3::zeros() {
-            list.push(Load { body: i, at, force: assembly.live[i].force, live: true });
+            list.push(ViewLoad { body: i, at, force: assembly.live[i].force, live: true });
         }
     }
     list

@@ -7,27 +7,27 @@
 //!
 //! R. S. Ball, *A Treatise on the Theory of Screws*, Cambridge 1900.
 
-use super::{Body, Part};
+use super::{Body, ViewPart};
 use crate::{
     analysis::{Model, coulomb::Found},
     report::{
         result::{Certificate, ResultFile},
-        view::Shape,
+        view::ViewShape,
     },
     verdict::{
         Rate,
         check::Claim,
         evidence::read_rates,
-        mechanism::{self, Motion as Kind},
+        mechanism::{self, JointMotion as Kind},
     },
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A mechanism.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct ViewMotion {
     /// What it is to the answer.
-    pub part: Part,
+    pub part: ViewPart,
     /// What it is, in a few words.
     pub name: String,
     /// The rate of each block (arbitrary common scale).
@@ -51,15 +51,15 @@ pub struct Mark {
 
 /// Where a block is: turned about its centre of mass, which is shifted.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
+pub struct ViewPose {
     /// Shift of the centre of mass, m.
     pub shift: Vector3<f64>,
     /// Rotation.
     pub turn: UnitQuaternion<f64>,
 }
 
-impl Motion {
-    fn new(model: &Model, part: Part, name: &str, rates: Vec<Rate>, bodies: &[Body]) -> Option<Self> {
+impl ViewMotion {
+    fn new(model: &Model, part: ViewPart, name: &str, rates: Vec<Rate>, bodies: &[Body]) -> Option<Self> {
         let reach = bodies.iter().zip(&rates).map(|(b, r)| speed(b, r)).fold(0.0, f64::max);
         if !(reach.is_finite() && reach > 0.0) {
             return None;
@@ -70,43 +70,43 @@ impl Motion {
     }
 
     /// Where a block is when the corner that moves fastest would have gone `way` m straight on.
-    pub fn pose(&self, body: usize, way: f64) -> Pose {
-        let Some(rate) = self.rates.get(body) else { return Pose { shift: Vector3::zeros(), turn: UnitQuaternion::identity() } };
+    pub fn pose(&self, body: usize, way: f64) -> ViewPose {
+        let Some(rate) = self.rates.get(body) else { return ViewPose { shift: Vector3::zeros(), turn: UnitQuaternion::identity() } };
         let s = way / self.reach;
         let spin = rate.spin.norm();
         if spin * s.abs() < 1e-12 {
-            return Pose { shift: rate.velocity * s, turn: UnitQuaternion::identity() };
+            return ViewPose { shift: rate.velocity * s, turn: UnitQuaternion::identity() };
         }
         let axis = rate.spin / spin;
         // The axis passes this far from the centre of mass.
         let arm = axis.cross(&rate.velocity) / spin;
         let turn = UnitQuaternion::from_scaled_axis(rate.spin * s);
-        Pose { shift: arm - turn * arm + axis * (axis.dot(&rate.velocity) * s), turn }
+        ViewPose { shift: arm - turn * arm + axis * (axis.dot(&rate.velocity) * s), turn }
     }
 }
 
 /// The greatest speed of a point of a block.
 fn speed(body: &Body, rate: &Rate) -> f64 {
     match &body.shape {
-        Shape::Sphere(radius) => rate.velocity.norm() + radius * rate.spin.norm(),
-        Shape::Surface(s) => s.corners.iter().map(|p| (rate.velocity + rate.spin.cross(&(p - body.center))).norm()).fold(0.0, f64::max),
+        ViewShape::Sphere(radius) => rate.velocity.norm() + radius * rate.spin.norm(),
+        ViewShape::Surface(s) => s.corners.iter().map(|p| (rate.velocity + rate.spin.cross(&(p - body.center))).norm()).fold(0.0, f64::max),
     }
 }
 
 /// Every mechanism that a result holds.
-pub(super) fn of(model: &Model, file: &ResultFile, bodies: &[Body]) -> Result<Vec<Motion>, String> {
-    let mut list: Vec<(Part, &str, &Certificate)> = Vec::new();
+pub(super) fn of(model: &Model, file: &ResultFile, bodies: &[Body]) -> Result<Vec<ViewMotion>, String> {
+    let mut list: Vec<(ViewPart, &str, &Certificate)> = Vec::new();
     let moves = |c: &Certificate| !matches!(c.claim, None | Some(Claim::Stable | Claim::Unbounded { .. }));
-    list.push((Part::Answer, if file.answer.verdict.is_some() { "how it moves" } else { "how it fails" }, &file.certificate));
+    list.push((ViewPart::Answer, if file.answer.verdict.is_some() { "how it moves" } else { "how it fails" }, &file.certificate));
     if let Some(dry) = file.dry.as_ref().filter(|d| d.found != Found::NothingSlides) {
-        list.push((Part::Dry, "how it fails with dry friction", &dry.certificate));
+        list.push((ViewPart::Dry, "how it fails with dry friction", &dry.certificate));
     }
     if let Some(thrust) = &file.thrust {
-        list.push((Part::Least, "the support yields", &thrust.least));
-        list.push((Part::Greatest, "the support is pushed in", &thrust.greatest));
+        list.push((ViewPart::Least, "the support yields", &thrust.least));
+        list.push((ViewPart::Greatest, "the support is pushed in", &thrust.greatest));
     }
     if let Some(dead) = &file.dead_load {
-        list.push((Part::Dead, "how it moves under the dead load", &dead.certificate));
+        list.push((ViewPart::Dead, "how it moves under the dead load", &dead.certificate));
     }
     let mut motions = Vec::new();
     for (part, name, certificate) in list.into_iter().filter(|(_, _, c)| moves(c)) {
@@ -116,7 +116,7 @@ pub(super) fn of(model: &Model, file: &ResultFile, bodies: &[Body]) -> Result<Ve
         {
             support.velocity = Vector3::from(at.direction) * extreme.sigma();
         }
-        motions.extend(Motion::new(model, part, name, rates, bodies));
+        motions.extend(ViewMotion::new(model, part, name, rates, bodies));
     }
     Ok(motions)
 }
@@ -125,9 +125,9 @@ pub(super) fn of(model: &Model, file: &ResultFile, bodies: &[Body]) -> Result<Ve
 mod tests {
     use super::*;
 
-    fn motion(velocity: [f64; 3], spin: [f64; 3]) -> Motion {
-        Motion {
-            part: Part::Answer,
+    fn motion(velocity: [f64; 3], spin: [f64; 3]) -> ViewMotion {
+        ViewMotion {
+            part: ViewPart::Answer,
             name: String::new(),
             rates: vec![Rate { velocity: velocity.into(), spin: spin.into() }],
             reach: 1.0,

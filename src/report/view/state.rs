@@ -3,7 +3,7 @@
 use crate::{
     analysis::{Model, Outcome, coulomb::Found},
     report::{
-        result::{Certificate, Question, ResultFile},
+        result::{Certificate, QuestionKind, ResultFile},
         text::number::short,
     },
     scene::Friction,
@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 
 /// What a system of forces, or a mechanism, is to the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum ViewPart {
     /// It goes with the answer.
     Answer,
     /// Forces that stand beside it: without the pre-stress, or at a load factor at which the scene stands.
@@ -35,9 +35,9 @@ pub enum Part {
 
 /// One system of contact forces.
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct ViewState {
     /// What it is to the answer.
-    pub part: Part,
+    pub part: ViewPart,
     /// Whether it balances what it is about; otherwise it is what comes closest.
     pub balances: bool,
     /// Whether live loads act.
@@ -101,8 +101,8 @@ pub struct Segment {
     pub force: f64,
 }
 
-impl State {
-    fn new(model: &Model, part: Part, name: String, forces: &Forces) -> Self {
+impl ViewState {
+    fn new(model: &Model, part: ViewPart, name: String, forces: &Forces) -> Self {
         let list = sections(&model.interfaces, forces);
         let mean = list.iter().map(|s| s.normal.hypot(s.shear)).sum::<f64>() / list.len().max(1) as f64;
         let resultants: Vec<Option<Resultant>> = list
@@ -173,12 +173,12 @@ fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
 const CLOSEST: &str = "forces that come closest";
 
 /// Every system of forces that a result holds.
-pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String> {
-    let mut list: Vec<(Part, String, &[ContactForces])> = Vec::new();
+pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, String> {
+    let mut list: Vec<(ViewPart, String, &[ContactForces])> = Vec::new();
     let own = |c: &Certificate| !c.forces.is_empty();
     let lambda = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at λ = {}", short(v)));
     let tilt = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at {}°", short(v.atan().to_degrees())));
-    let at = |v: Option<f64>| if file.question == Question::Tilt { tilt(v) } else { lambda(v) };
+    let at = |v: Option<f64>| if file.question == QuestionKind::Tilt { tilt(v) } else { lambda(v) };
     if own(&file.certificate) {
         let name = match (file.answer.verdict, file.answer.load_factor) {
             (_, Some(l)) => match l.status {
@@ -190,7 +190,7 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String>
             (Some(Verdict::Conditional), _) => "forces with a pre-stress".into(),
             _ => CLOSEST.into(),
         };
-        list.push((Part::Answer, name, &file.certificate.forces));
+        list.push((ViewPart::Answer, name, &file.certificate.forces));
     }
     if let Some(base) = &file.certificate.base {
         let name = if file.answer.verdict == Some(Verdict::Conditional) {
@@ -198,16 +198,16 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String>
         } else {
             "forces that balance the dead load"
         };
-        list.push((Part::Base, name.into(), base));
+        list.push((ViewPart::Base, name.into(), base));
     }
     // Where nothing slides they are the same.
     if let Some(dry) = file.dry.as_ref().filter(|d| own(&d.certificate) && d.value.is_some() && d.found != Found::NothingSlides) {
-        list.push((Part::Dry, format!("forces with dry friction{}", at(dry.value)), &dry.certificate.forces));
+        list.push((ViewPart::Dry, format!("forces with dry friction{}", at(dry.value)), &dry.certificate.forces));
     }
     if let (Some(thrust), Some(answer)) = (&file.thrust, &file.answer.thrust) {
         let ends = [
-            (Part::Least, "forces of the least thrust", &thrust.least, &answer.least),
-            (Part::Greatest, "forces of the greatest thrust", &thrust.greatest, &answer.greatest),
+            (ViewPart::Least, "forces of the least thrust", &thrust.least, &answer.least),
+            (ViewPart::Greatest, "forces of the greatest thrust", &thrust.greatest, &answer.greatest),
         ];
         for (part, name, certificate, end) in ends.into_iter().filter(|(_, _, c, _)| own(c) && c.claim.is_some()) {
             let value = end.value.map_or(String::new(), |v| format!(", {} N", short(v)));
@@ -217,21 +217,21 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<State>, String>
     if let Some(dead) = file.dead_load.as_ref().filter(|d| own(&d.certificate)) {
         let stands = matches!(dead.answer.verdict, Some(Verdict::Stable));
         let name = if stands { "forces under the dead load" } else { "forces that come closest under the dead load" };
-        list.push((Part::Dead, name.into(), &dead.certificate.forces));
+        list.push((ViewPart::Dead, name.into(), &dead.certificate.forces));
     }
-    let tangent = |part: Part| match (file.question, part) {
-        (Question::Tilt, Part::Answer) => file.answer.load_factor.and_then(|l| l.value).unwrap_or(0.0),
-        (Question::Tilt, Part::Dry) => file.dry.as_ref().and_then(|d| d.value).unwrap_or(0.0),
+    let tangent = |part: ViewPart| match (file.question, part) {
+        (QuestionKind::Tilt, ViewPart::Answer) => file.answer.load_factor.and_then(|l| l.value).unwrap_or(0.0),
+        (QuestionKind::Tilt, ViewPart::Dry) => file.dry.as_ref().and_then(|d| d.value).unwrap_or(0.0),
         _ => 0.0,
     };
-    let state = |(part, name, saved): (Part, String, &[_])| {
+    let state = |(part, name, saved): (ViewPart, String, &[_])| {
         let mut forces = read_forces(&model.assembly, &model.interfaces, saved)?;
         // Forces of a tilt are divided by its cosine, so that gravity keeps its part across the ground.
         let tangent = tangent(part);
         forces.iter_mut().flatten().for_each(|w| *w = *w * (1.0 / 1f64.hypot(tangent)));
-        let mut state = State::new(model, part, name, &forces);
+        let mut state = ViewState::new(model, part, name, &forces);
         state.balances = !state.name.contains(CLOSEST);
-        state.live = file.question == Question::Limit && part != Part::Dead;
+        state.live = file.question == QuestionKind::Limit && part != ViewPart::Dead;
         if let Some(toward) = file.answer.toward {
             state.up = (state.up - Vector3::from(toward) * tangent).normalize();
         }

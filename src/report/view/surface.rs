@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The shape of a block, where it is in the scene.
 #[derive(Clone, Debug)]
-pub enum Shape {
+pub enum ViewShape {
     /// A closed surface of plane pieces.
     Surface(Surface),
     /// A sphere about the centre of mass, by its radius, m.
@@ -24,7 +24,7 @@ pub struct Surface {
     pub edges: Vec<[u32; 2]>,
 }
 
-impl Shape {
+impl ViewShape {
     /// The surface of a solid.
     pub fn of(solid: &Solid) -> Self {
         match solid {
@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn balls_of_a_clump_are_closed_and_face_outwards() {
         let balls = vec![(Vector3::new(1.0, 2.0, 3.0), 0.5), (Vector3::new(1.6, 2.0, 3.0), 0.4)];
-        let Shape::Surface(s) = Shape::of(&Solid::Clump { balls: balls.clone(), volume: 1.0 }) else { panic!() };
+        let ViewShape::Surface(s) = ViewShape::of(&Solid::Clump { balls: balls.clone(), volume: 1.0 }) else { panic!() };
         let p = |i: u32| s.corners[i as usize];
         let volume: f64 = s.pieces.iter().flat_map(|f| (2..f.len()).map(|k| p(f[0]).dot(&p(f[k - 1]).cross(&p(f[k]))) / 6.0)).sum();
         let round: f64 = balls.iter().map(|(_, r)| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3)).sum();

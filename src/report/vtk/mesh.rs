@@ -1,7 +1,7 @@
 //! Points and cells of a view.
 
-use super::{Part, ball::ball};
-use crate::report::view::{Shape, View};
+use super::{VtkPart, ball::ball};
+use crate::report::view::{View, ViewShape};
 use nalgebra::Vector3;
 
 /// Up to so many balls have 512 triangles, more have 128: a heap of 5,000 grains stays below 50 MB.
@@ -20,7 +20,7 @@ pub struct Point {
 /// A cell.
 pub struct Cell {
     /// What it is.
-    pub part: Part,
+    pub part: VtkPart,
     /// The block it belongs to; of a joint and its forces the second block, on which they act.
     pub block: Option<usize>,
     /// Of a joint and its forces: the first block.
@@ -68,19 +68,19 @@ impl Mesh {
     }
 
     fn blocks(&mut self, view: &View) {
-        let balls = view.bodies.iter().filter(|b| matches!(b.shape, Shape::Sphere(_))).count();
+        let balls = view.bodies.iter().filter(|b| matches!(b.shape, ViewShape::Sphere(_))).count();
         let (corners, faces) = ball(if balls > FINE { 2 } else { 3 });
         for (i, body) in view.bodies.iter().enumerate() {
-            let part = if body.support { Part::Support } else { Part::Block };
+            let part = if body.support { VtkPart::Support } else { VtkPart::Block };
             let first = self.points.len() as u32;
             let mut face =
                 |points: Vec<u32>| self.polys.push(Cell { part, block: Some(i), other: None, joint: None, segment: None, points });
             match &body.shape {
-                Shape::Surface(s) => {
+                ViewShape::Surface(s) => {
                     s.pieces.iter().for_each(|piece| face(piece.iter().map(|v| first + v).collect()));
                     self.points.extend(s.corners.iter().map(|&at| Point { at, block: Some(i), contact: None }));
                 }
-                Shape::Sphere(radius) => {
+                ViewShape::Sphere(radius) => {
                     faces.iter().for_each(|f| face(f.iter().map(|v| first + v).collect()));
                     let at = |c: &Vector3<f64>| body.center + c * *radius;
                     self.points.extend(corners.iter().map(|c| Point { at: at(c), block: Some(i), contact: None }));
@@ -94,9 +94,9 @@ impl Mesh {
             let points: Vec<u32> = joint.points.iter().enumerate().map(|(c, &at)| self.point(at, None, Some((k, c)))).collect();
             let cell = |part, points| Cell { part, block: Some(joint.b), other: Some(joint.a), joint: Some(k), segment: None, points };
             for &p in &points {
-                self.verts.push(cell(Part::Force, vec![p]));
+                self.verts.push(cell(VtkPart::Force, vec![p]));
             }
-            let cell = cell(Part::Joint, points);
+            let cell = cell(VtkPart::Joint, points);
             match cell.points.len() {
                 0 => {}
                 1 => self.verts.push(cell),
@@ -111,7 +111,7 @@ impl Mesh {
             for part in &state.line {
                 let points = [part.from, part.to].map(|at| self.point(at, None, None)).to_vec();
                 let (block, segment) = (Some(part.body), Some((k, part.force)));
-                self.lines.push(Cell { part: Part::Thrust, block, other: None, joint: None, segment, points });
+                self.lines.push(Cell { part: VtkPart::Thrust, block, other: None, joint: None, segment, points });
             }
         }
     }

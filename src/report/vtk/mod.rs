@@ -1,7 +1,7 @@
 //! Answers for ParaView and everything else that is built on VTK: one file of XML PolyData (`.vtp`) with blocks, joints, contact forces,
 //! lines of thrust and mechanisms.
 //!
-//! Cells of all kinds stand in one file and are told apart by the cell array `part` ([`Part`]); `block`, `other block` and `joint` are indices in
+//! Cells of all kinds stand in one file and are told apart by the cell array `part` ([`VtkPart`]); `block`, `other block` and `joint` are indices in
 //! scene order (−1: none), the names of blocks stand in the field data. Arrays that belong to a system of forces or
 //! a mechanism carry its name in parentheses: `force (…)`, N, on the points of contact forces; `normal force (…)`, N, and `used (…)`, the
 //! share of the section or of the friction, on joints and blocks; `displacement (…)`, m, on the points of blocks, to first order and as far
@@ -23,7 +23,7 @@ use xml::Xml;
 
 /// What a cell is: the numbers of the array `part`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum VtkPart {
     /// A face of a free block.
     Block = 0,
     /// A face of a support.

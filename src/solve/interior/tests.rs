@@ -5,7 +5,7 @@ use crate::{
     assembly::{self, Assembly},
     interface::{self, Interfaces},
     program::{
-        LiveLoad, Options, Statics, Unknowns,
+        LiveLoad, Statics, StaticsOptions, Unknowns,
         coulomb::{Aim, Contacts, Hold},
         load_factor, unbalance,
     },
@@ -36,7 +36,7 @@ fn own(program: &ConicProgram, settings: &Settings) -> Solution {
 
 fn pushed(courses: usize, length: usize, push: [f64; 3]) -> ConicProgram {
     let (assembly, interfaces) = wall(courses, length, push);
-    let statics = Statics::new(&assembly, &interfaces, Options { live: true, ..Options::default() });
+    let statics = Statics::new(&assembly, &interfaces, StaticsOptions { live: true, ..StaticsOptions::default() });
     load_factor(&statics, 1.0, Unknowns::Forces).0
 }
 
@@ -73,7 +73,7 @@ fn both_engines_find_the_same_least_unbalance() {
         );
         let assembly = assembly::resolve(&read_str("wall", text).unwrap().0).unwrap();
         let interfaces = interface::detect(&assembly).unwrap();
-        let statics = Statics::new(&assembly, &interfaces, Options::default());
+        let statics = Statics::new(&assembly, &interfaces, StaticsOptions::default());
         let (program, layout) = unbalance(&statics, LiveLoad::Absent, Unknowns::Forces);
         let [a, b] = [own(&program, &settings(Engine::Interior)), solve(&program, &settings(Engine::Clarabel))];
         assert_eq!(a.status, Status::Solved, "{:?}", a.trace.last());
@@ -87,7 +87,7 @@ fn both_engines_find_the_same_least_unbalance() {
 #[test]
 fn both_engines_find_the_same_state_again_and_again() {
     let (assembly, interfaces) = wall(6, 6, [1.0, 0.0, 0.0]);
-    let contacts = Contacts::new(&assembly, &interfaces, Options { keep_all: true, ..Options::default() });
+    let contacts = Contacts::new(&assembly, &interfaces, StaticsOptions { keep_all: true, ..StaticsOptions::default() });
     let limit = vec![0.7; contacts.discs().count()];
     let mut program = contacts.program(Aim::State(1e-2), Hold::Limits, &limit);
     let mut session = Session::new(&program, &settings(Engine::Interior)).unwrap();
@@ -134,7 +134,7 @@ fn other_programs_are_left_to_the_other_engine() {
     let mut program = pushed(6, 6, [1.0, 0.0, 0.0]);
     // In rates every block is tied to its neighbours by their contacts.
     let (assembly, interfaces) = wall(6, 6, [1.0, 0.0, 0.0]);
-    let statics = Statics::new(&assembly, &interfaces, Options { live: true, ..Options::default() });
+    let statics = Statics::new(&assembly, &interfaces, StaticsOptions { live: true, ..StaticsOptions::default() });
     let (rates, _) = load_factor(&statics, 1.0, Unknowns::Rates);
     assert!(Session::new(&rates, &settings(Engine::Interior)).is_none());
     assert_eq!(solve(&rates, &settings(Engine::Interior)).status, Status::Solved);

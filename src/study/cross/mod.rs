@@ -14,7 +14,7 @@ mod ways;
 pub use answers::Answers;
 pub use scenes::{FAMILIES, scene};
 pub use stranger::{COLUMN, STRANGERS, Stranger, beside, moved, rough};
-pub use ways::{SAME_DRY, Way};
+pub use ways::{SAME_DRY, Variation};
 
 use super::soak::FAILED;
 use crate::{
@@ -76,7 +76,7 @@ pub struct Crossed {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Differs {
     /// The way.
-    pub way: Way,
+    pub way: Variation,
     /// In words.
     pub what: String,
 }
@@ -159,7 +159,7 @@ pub fn scenes(seed: u64, list: &[Crossed]) -> Vec<(String, Scene)> {
 
 /// The sums over some scenes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Count {
+pub struct CrossCount {
     /// Scenes.
     pub scenes: usize,
     /// Stand.
@@ -197,8 +197,8 @@ pub struct Count {
 }
 
 /// Counts the scenes for which `of` holds.
-pub fn count(list: &[Crossed], of: impl Fn(&Crossed) -> bool) -> Count {
-    let mut c = Count::default();
+pub fn count(list: &[Crossed], of: impl Fn(&Crossed) -> bool) -> CrossCount {
+    let mut c = CrossCount::default();
     for s in list.iter().filter(|s| of(s)) {
         c.scenes += 1;
         match s.verdict {
@@ -255,7 +255,7 @@ mod tests {
 
     #[test]
     fn a_contradiction_is_named_and_its_scenes_can_be_written() {
-        let way = Way::Beside { stranger: Stranger::Soft, before: true };
+        let way = Variation::Beside { stranger: Stranger::Soft, before: true };
         let wrong = Crossed { wrong: vec![Differs { way, what: "Stable instead of Conditional".into() }], ..one(1, 4) };
         assert!(wrong.is_wrong() && count(std::slice::from_ref(&wrong), |_| true).wrong == 1);
         let written = scenes(1, &[wrong]);

@@ -42,7 +42,7 @@ const NONE: f64 = 1e-7;
 /// A way in which a scene is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Way {
+pub enum Variation {
     /// As it is.
     Alone,
     /// With a stranger beside it, whose blocks come first or last.
@@ -64,7 +64,7 @@ pub enum Way {
     },
 }
 
-impl Way {
+impl Variation {
     /// A word for the names of files.
     pub fn word(&self) -> String {
         match self {
@@ -118,7 +118,7 @@ struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    fn wrong(&mut self, way: Way, what: String) {
+    fn wrong(&mut self, way: Variation, what: String) {
         self.crossed.wrong.push(Differs { way, what });
     }
 
@@ -128,18 +128,18 @@ impl Asked<'_> {
         let Answers { verdict, outcome, bound, dry, .. } = self.own;
         let has_forces = matches!(verdict, Verdict::Stable | Verdict::Conditional);
         if has_forces && outcome == Outcome::Impossible {
-            self.wrong(Way::Alone, format!("{verdict:?} under its dead load, and falls whatever the live load"));
+            self.wrong(Variation::Alone, format!("{verdict:?} under its dead load, and falls whatever the live load"));
         }
         let Some([_, upper]) = bound else { return };
         if has_forces && upper < -BEYOND * upper.abs() - none {
-            self.wrong(Way::Alone, format!("{verdict:?} under its dead load, and the load factor is at most {upper}"));
+            self.wrong(Variation::Alone, format!("{verdict:?} under its dead load, and the load factor is at most {upper}"));
         }
         if let Some(dry) = dry {
             if dry > upper + BEYOND * upper.abs() + none {
-                self.wrong(Way::Alone, format!("the load factor with dry friction, {dry}, is above the proved bound {upper}"));
+                self.wrong(Variation::Alone, format!("the load factor with dry friction, {dry}, is above the proved bound {upper}"));
             }
             if verdict == Verdict::Conditional && dry > none {
-                self.wrong(Way::Alone, format!("needs a pre-stress under its dead load, and stands up to {dry}"));
+                self.wrong(Variation::Alone, format!("needs a pre-stress under its dead load, and stands up to {dry}"));
             }
         }
     }
@@ -149,7 +149,7 @@ impl Asked<'_> {
         let masses = masses(model);
         let turn = index / super::FAMILIES.len();
         for (stranger, before) in [(STRANGERS[turn % 4], turn % 8 < 4), (STRANGERS[(turn + 1 + turn / 8 % 3) % 4], turn % 8 >= 4)] {
-            let way = Way::Beside { stranger, before };
+            let way = Variation::Beside { stranger, before };
             let union = prepare(&beside(scene, &masses, stranger, before))?;
             let said = Answers::of(&union);
             let same = said.is_same(&self.own);
@@ -167,7 +167,7 @@ impl Asked<'_> {
             return Ok(());
         }
         let nothing_slides = (index / super::FAMILIES.len()).is_multiple_of(2);
-        let way = Way::Surveyed { rough: nothing_slides };
+        let way = Variation::Surveyed { rough: nothing_slides };
         let there = prepare(&way.scene(scene))?;
         if nothing_slides {
             let here = prepare(&rough(scene))?;
@@ -180,7 +180,7 @@ impl Asked<'_> {
         Ok(())
     }
 
-    fn verdicts(&mut self, way: Way, known: Verdict, said: Verdict) {
+    fn verdicts(&mut self, way: Variation, known: Verdict, said: Verdict) {
         match (known, said) {
             (Verdict::Undecided, _) => {}
             (_, Verdict::Undecided) => self.crossed.lost.push(Differs { way, what: format!("undecided instead of {known:?}") }),
@@ -190,7 +190,7 @@ impl Asked<'_> {
     }
 
     /// Answers that must be the same.
-    fn compare(&mut self, way: Way, said: Answers, same_bound: f64) {
+    fn compare(&mut self, way: Variation, said: Answers, same_bound: f64) {
         self.crossed.ways += 1;
         let own = self.own;
         self.verdicts(way, own.verdict, said.verdict);
@@ -211,7 +211,7 @@ impl Asked<'_> {
         // the search may come upon another. That is counted, but is no contradiction. A stranger changes no digit.
         let apart = |(a, b): (f64, f64)| (a - b).abs() / a.abs().max(b.abs());
         match own.dry.zip(said.dry).map(apart) {
-            Some(by) if by > SAME_DRY && matches!(way, Way::Surveyed { .. }) => self.crossed.several.push(by),
+            Some(by) if by > SAME_DRY && matches!(way, Variation::Surveyed { .. }) => self.crossed.several.push(by),
             _ => near("dry load factor", own.dry, said.dry, SAME_DRY),
         }
     }
@@ -229,7 +229,7 @@ impl Asked<'_> {
         factors.dedup_by(|a, b| (*a - *b).abs() <= 1e-6 * b.abs());
         let mut fell: Option<f64> = None;
         for factor in factors {
-            let way = Way::Loaded { factor };
+            let way = Variation::Loaded { factor };
             let said = verdict(&model.assembly.at_load_factor(factor), &model.interfaces);
             self.crossed.ways += 1;
             if dry.is_some_and(|dry| factor < dry * (1.0 - 1e-6)) {
@@ -259,7 +259,9 @@ impl Asked<'_> {
         let Some(dry) = self.own.dry.filter(|d| has_one(d) && model.interfaces.list.iter().all(|f| f.law.is_dry())) else { return };
         for (share, expected) in SIMULATED.into_iter().zip([Fate::Stands, Fate::Falls]) {
             let assembly = model.assembly.at_load_factor(share * dry);
-            let run = dynamics::simulate(&assembly, &model.interfaces, &dynamics::Settings::default(), &mut |_| ControlFlow::Continue(()));
+            let run = dynamics::simulate(&assembly, &model.interfaces, &dynamics::SimulationSettings::default(), &mut |_| {
+                ControlFlow::Continue(())
+            });
             let Ok(outcome) = run else { continue };
             self.crossed.simulated[0] += 1;
             if outcome.fate == expected {
@@ -268,7 +270,7 @@ impl Asked<'_> {
                 let answer = assess(&assembly, &model.interfaces, &control());
                 let Agreement { verdict, .. } = agreement(&assembly, &model.interfaces, &answer, &outcome);
                 let what = format!("at {share} of the dry load factor {dry} the simulation {:?}, the verdict is {verdict:?}", outcome.fate);
-                self.crossed.apart.push(Differs { way: Way::Loaded { factor: share * dry }, what });
+                self.crossed.apart.push(Differs { way: Variation::Loaded { factor: share * dry }, what });
             }
         }
     }

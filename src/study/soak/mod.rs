@@ -173,7 +173,8 @@ fn ask(seed: u64, index: usize, soaked: &mut Soaked) {
         soaked.kept = Some(said(&assess(assembly, interfaces, &Control { keep_all: true, ..control })));
     }
     if index.is_multiple_of(EVERY_SIMULATED)
-        && let Ok(outcome) = dynamics::simulate(assembly, interfaces, &dynamics::Settings::default(), &mut |_| ControlFlow::Continue(()))
+        && let Ok(outcome) =
+            dynamics::simulate(assembly, interfaces, &dynamics::SimulationSettings::default(), &mut |_| ControlFlow::Continue(()))
     {
         let found = agreement(assembly, interfaces, &answer, &outcome);
         (soaked.fate, soaked.agrees) = (Some(outcome.fate), found.agrees);
@@ -205,7 +206,7 @@ fn is_near_a_flip(model: &crate::analysis::Model, verdict: Verdict, control: &Co
 
 /// The sums over some scenes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Count {
+pub struct SoakCount {
     /// Scenes.
     pub scenes: usize,
     /// Stand.
@@ -237,8 +238,8 @@ pub struct Count {
 }
 
 /// Counts the scenes for which `of` holds.
-pub fn count(list: &[Soaked], of: impl Fn(&Soaked) -> bool) -> Count {
-    let mut c = Count::default();
+pub fn count(list: &[Soaked], of: impl Fn(&Soaked) -> bool) -> SoakCount {
+    let mut c = SoakCount::default();
     for s in list.iter().filter(|s| of(s)) {
         c.scenes += 1;
         match s.verdict {

@@ -13,7 +13,7 @@ const NAME: &str = "job.json";
 
 /// The version of the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Format {
+pub enum JobFormat {
     /// Version 1.
     #[default]
     #[serde(rename = "voussoir-slurm/1")]
@@ -25,7 +25,7 @@ pub enum Format {
 #[serde(deny_unknown_fields)]
 pub struct Job {
     /// The format and its version.
-    pub format: Format,
+    pub format: JobFormat,
     /// Shards of the last submission.
     pub tasks: usize,
     /// Slurm's numbers of the arrays, the last submission last.

@@ -11,6 +11,6 @@ mod shared;
 
 pub use chunks::tasks;
 pub use job::Job;
-pub use queue::{Partition, State, Task, hosts, partition, partitions, require_commands, states, submit};
+pub use queue::{Partition, Task, TaskState, hosts, partition, partitions, require_commands, states, submit};
 pub use script::Script;
 pub use shared::{Mount, is_shared, mount_of, require_shared};

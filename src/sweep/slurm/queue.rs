@@ -24,7 +24,7 @@ pub struct Partition {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Task {
     /// In one word.
-    pub state: State,
+    pub state: TaskState,
     /// Slurm's word.
     pub word: String,
     /// Why it waits, or why it failed.
@@ -33,7 +33,7 @@ pub struct Task {
 
 /// What becomes of a task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum State {
+pub enum TaskState {
     /// It waits.
     Pending,
     /// It runs, or is about to.
@@ -44,7 +44,7 @@ pub enum State {
     Ended,
 }
 
-impl State {
+impl TaskState {
     /// Whether it may still write rows.
     pub fn is_alive(self) -> bool {
         matches!(self, Self::Pending | Self::Running)
@@ -157,7 +157,7 @@ fn read_states(text: &str) -> BTreeMap<usize, Task> {
     let read = |line: &str| {
         let mut parts = line.trim().splitn(3, '|');
         let (number, word, reason) = (parts.next()?.parse().ok()?, parts.next()?, parts.next().unwrap_or_default());
-        Some((number, Task { state: State::of(word), word: word.into(), reason: reason.into() }))
+        Some((number, Task { state: TaskState::of(word), word: word.into(), reason: reason.into() }))
     };
     text.lines().filter_map(read).collect()
 }
@@ -194,6 +194,6 @@ mod tests {
         let states = read_states("1|RUNNING|None\n2|PENDING|Resources\n3|CANCELLED|None\n4|COMPLETING|None\nN/A|PENDING|x\n");
         assert_eq!(states.len(), 4);
         assert!(states[&1].state.is_alive() && states[&2].state.is_alive() && !states[&4].state.is_alive());
-        assert_eq!((states[&3].state, states[&2].reason.as_str()), (State::Ended, "Resources"));
+        assert_eq!((states[&3].state, states[&2].reason.as_str()), (TaskState::Ended, "Resources"));
     }
 }

@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 
 /// What a motion proves.
 #[derive(Clone, Copy, Debug)]
-pub struct Motion {
+pub struct MotionProof {
     /// Power of the dead load and of the water in the joints.
     pub dead: Interval,
     /// Power of the live load.
@@ -31,7 +31,7 @@ pub struct Motion {
     pub greatest: f64,
 }
 
-impl Motion {
+impl MotionProof {
     /// At least the power of the dead load that nothing dissipates.
     pub fn gain(&self) -> Interval {
         self.dead - Interval { lower: 0.0, upper: self.dissipation }
@@ -73,8 +73,8 @@ pub fn split(n: &Vector3<f64>, v: &[Interval; 3]) -> (Interval, Interval) {
 }
 
 /// What a motion proves; joints that can crush are no matter of this ([`certificate`](crate::verdict::certificate)): `None` where one closes.
-pub fn motion(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Option<Motion> {
-    let mut m = Motion { dead: Interval::ZERO, live: Interval::ZERO, dissipation: 0.0, excess: 0.0, greatest: 0.0 };
+pub fn motion(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Option<MotionProof> {
+    let mut m = MotionProof { dead: Interval::ZERO, live: Interval::ZERO, dissipation: 0.0, excess: 0.0, greatest: 0.0 };
     let (mut dead, mut live) = (Sum::ZERO, Sum::ZERO);
     for i in assembly.free() {
         add_power(&mut dead, &assembly.dead[i], &rates[i]);

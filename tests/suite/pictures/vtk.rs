@@ -7,7 +7,7 @@ use roxmltree::Document;
 use std::{ops::ControlFlow, process::Command};
 use voussoir::{
     analysis::Model,
-    dynamics::{Fidelity, Settings, simulate},
+    dynamics::{Fidelity, SimulationSettings, simulate},
     report::{
         ResultFile,
         view::{Film, View},
@@ -130,7 +130,8 @@ fn falling() -> (Model, View) {
     let scene = arch(0.09, 1.0, serde_json::json!({}));
     let m = model(&scene);
     let mut film = Film::new(8);
-    let settings = Settings { fidelity: Some(Fidelity::Fast), every_step: true, keep_frames: false, ..Settings::default() };
+    let settings =
+        SimulationSettings { fidelity: Some(Fidelity::Fast), every_step: true, keep_frames: false, ..SimulationSettings::default() };
     let outcome = simulate(&m.assembly, &m.interfaces, &settings, &mut |p| {
         p.moment.iter().for_each(|m| film.see(m));
         ControlFlow::Continue(())

@@ -5,11 +5,11 @@ use serde_json::{Value, json};
 use std::{collections::BTreeMap, fs, path::Path};
 use voussoir::{
     analysis::prepare,
-    sweep::{Event, Options, Row, RowsFile, Shard, Status, Sweep, ask, merge, read_rows, run},
+    sweep::{Event, Row, RowStatus, RowsFile, RunOptions, Shard, Sweep, ask, merge, read_rows, run},
 };
 
-fn options(threads: usize, shard: Shard) -> Options {
-    Options { threads: Some(threads), shard, restart: false }
+fn options(threads: usize, shard: Shard) -> RunOptions {
+    RunOptions { threads: Some(threads), shard, restart: false }
 }
 
 fn done(sweep: &Sweep, path: &Path, threads: usize) -> Vec<Row> {
@@ -119,7 +119,7 @@ fn a_row_that_fails_is_a_row_with_its_error() {
     let sweep = sweep(block(), json!({ "limit": {} }), vary, json!({ "grid": {} }));
     let folder = tempfile::tempdir().unwrap();
     let rows = done(&sweep, &folder.path().join("rows.jsonl"), 2);
-    assert_eq!(rows.iter().map(|r| r.answer.status).collect::<Vec<_>>(), [Status::Found, Status::Error, Status::Found]);
+    assert_eq!(rows.iter().map(|r| r.answer.status).collect::<Vec<_>>(), [RowStatus::Found, RowStatus::Error, RowStatus::Found]);
     let error = rows[1].error.as_ref().unwrap();
     assert!(error.contains("blocks[1].shape.box.size"), "{error}");
 }
@@ -161,7 +161,7 @@ fn rows_of_another_plan_are_not_touched() {
     other.plan.seed = 6;
     no(&other, Shard::ALL, "the seed differs");
 
-    let restart = Options { restart: true, ..options(1, Shard::ALL) };
+    let restart = RunOptions { restart: true, ..options(1, Shard::ALL) };
     assert_eq!(run(&other, &path, &restart, &|_| {}).unwrap().rows.len(), 3);
     // What is no file of rows is not replaced either way.
     let letter = folder.path().join("letter.txt");
@@ -255,7 +255,7 @@ fn thrust_repose_and_simulation_can_be_swept() {
     let vary = json!([{ "pointer": "/joints/default/friction", "values": [0.25, 0.35] }]);
     let sweep = sweep(block(), json!({ "simulate": { "fast": true, "load_factor": 0.3 } }), vary, json!({ "grid": {} }));
     let rows = done(&sweep, &folder.path().join("simulate.jsonl"), 2);
-    assert_eq!([0, 1].map(|k: usize| rows[k].answer.status), [Status::Unstable, Status::Stable]);
+    assert_eq!([0, 1].map(|k: usize| rows[k].answer.status), [RowStatus::Unstable, RowStatus::Stable]);
 }
 
 /// The text of a file as it was before rows had check sums.

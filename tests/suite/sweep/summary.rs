@@ -4,15 +4,15 @@ use super::{block, sweep};
 use serde_json::json;
 use voussoir::{
     report::sweep::{Kind, chart, csv},
-    sweep::{Answer, Row, Shard, Status, Sweep, influence, summarize, wilson},
+    sweep::{Row, RowAnswer, RowStatus, Shard, Sweep, influence, summarize, wilson},
 };
 
-fn row(number: usize, parameters: &[f64], status: Status, value: Option<f64>) -> Row {
-    Row { row: number, parameters: parameters.to_vec(), answer: Answer { value, ..Answer::of(status) }, error: None, seconds: 0.5 }
+fn row(number: usize, parameters: &[f64], status: RowStatus, value: Option<f64>) -> Row {
+    Row { row: number, parameters: parameters.to_vec(), answer: RowAnswer { value, ..RowAnswer::of(status) }, error: None, seconds: 0.5 }
 }
 
 fn found(number: usize, parameters: &[f64], value: f64) -> Row {
-    row(number, parameters, Status::Found, Some(value))
+    row(number, parameters, RowStatus::Found, Some(value))
 }
 
 fn two_numbers(question: serde_json::Value) -> Sweep {
@@ -63,9 +63,9 @@ fn the_share_of_a_number_is_that_of_the_analysis_of_variance() {
 fn counts_quantiles_and_the_fragility_against_a_demand() {
     let sweep = two_numbers(json!({ "limit": {} }));
     let mut rows: Vec<Row> = (0..5).map(|i| found(i, &[0.1, 1.0], 1.0 + i as f64)).collect();
-    rows.push(row(5, &[0.2, 1.0], Status::Impossible, None));
-    rows.push(row(6, &[0.2, 2.0], Status::Unbounded, None));
-    rows.push(row(7, &[0.2, 3.0], Status::Undecided, None));
+    rows.push(row(5, &[0.2, 1.0], RowStatus::Impossible, None));
+    rows.push(row(6, &[0.2, 2.0], RowStatus::Unbounded, None));
+    rows.push(row(7, &[0.2, 3.0], RowStatus::Undecided, None));
     let s = summarize(&sweep.header(Shard::ALL), &rows);
     assert_eq!(s.counts.into_iter().collect::<Vec<_>>(), [("found", 5), ("impossible", 1), ("unbounded", 1), ("undecided", 1)]);
     let q = s.quantiles.unwrap();
@@ -81,7 +81,7 @@ fn counts_quantiles_and_the_fragility_against_a_demand() {
 #[test]
 fn verdicts_and_requirements_fail_along_the_number_that_matters() {
     let sweep = two_numbers(json!({ "assess": {} }));
-    let stands = |b: f64| if b > 1.5 { Status::Stable } else { Status::Unstable };
+    let stands = |b: f64| if b > 1.5 { RowStatus::Stable } else { RowStatus::Unstable };
     let rows: Vec<Row> = grid(|_, b| b).into_iter().map(|r| row(r.row, &r.parameters, stands(r.parameters[1]), None)).collect();
     let s = summarize(&sweep.header(Shard::ALL), &rows);
     assert_eq!((s.failed.unwrap().failed, s.failed.unwrap().of), (3, 9));
@@ -113,7 +113,7 @@ fn charts_are_good_xml_with_what_they_show() {
     let grid_header = with(json!({ "limit": {} }), json!({ "grid": {} })).header(Shard::ALL);
     let summary = summarize(&grid_header, &rows);
     assert_eq!((Kind::suited(&grid_header, &summary), summary.fragility), (Kind::Heat, None));
-    let nothing = [row(0, &[0.1, 1.0], Status::Undecided, None)];
+    let nothing = [row(0, &[0.1, 1.0], RowStatus::Undecided, None)];
     let summary = summarize(&header, &nothing);
     for kind in [Kind::Line, Kind::Heat, Kind::Fragility] {
         assert!(chart(&header, &nothing, &summary, kind).is_err());

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, assess, limit, prepare},
     scene::{Friction, Scene},
-    sweep::{Range, Worst, WorstOf, worst},
+    sweep::{Between, Worst, WorstOf, worst},
     verdict::Verdict,
 };
 
@@ -14,7 +14,7 @@ fn scene(value: &Value) -> Scene {
 }
 
 fn ask(value: &Value, ranges: &[&str], of: WorstOf) -> Result<Worst, String> {
-    let ranges: Vec<Range> = ranges.iter().map(|r| r.parse().unwrap()).collect();
+    let ranges: Vec<Between> = ranges.iter().map(|r| r.parse().unwrap()).collect();
     worst(&scene(value), &ranges, of, &Control::default()).map_err(|e| e.to_string())
 }
 
@@ -139,6 +139,6 @@ fn ranges_that_name_nothing_are_refused() {
     }
     assert!(ask(&block(), &["friction=0..1", "friction=0..1"], WorstOf::Assess).is_err());
     for text in ["friction", "friction=1", "friction=2..1", "friction=a..b", "friction=0..inf"] {
-        assert!(text.parse::<Range>().is_err(), "{text}");
+        assert!(text.parse::<Between>().is_err(), "{text}");
     }
 }
