@@ -133,7 +133,7 @@ pub fn verify(
                 None => f.fails.push("the forces without the pre-stress are missing".into()),
             }
         }
-        Claim::Unstable => gains(&mut f, assembly, interfaces, rates),
+        Claim::Unstable => falls(&mut f, assembly, interfaces, rates, false),
         Claim::LoadFactor { value, lower, upper } => load_factor(&mut f, assembly, interfaces, forces, rates, [value, lower, upper]),
         Claim::DryLoadFactor { value } => dry(&mut f, assembly, interfaces, forces, rates, value),
         Claim::Unbounded { standing } => {
@@ -147,10 +147,7 @@ pub fn verify(
             thrust::verify(&mut f, assembly, interfaces, (forces, rates), (&at, extreme), [value, lower, upper]);
         }
         Claim::EndlessThrust { at, extreme } => thrust::verify_endless(&mut f, assembly, interfaces, forces, base, &at, extreme),
-        Claim::Impossible => {
-            gains(&mut f, assembly, interfaces, rates);
-            without_live_power(&mut f, assembly, interfaces, rates);
-        }
+        Claim::Impossible => falls(&mut f, assembly, interfaces, rates, true),
     }
     f
 }
@@ -356,25 +353,60 @@ pub(super) fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interface
     }
 }
 
-/// The part of a scene that alone moves, in its own units, with its forces and rates: what the others weigh is no matter of its proof. `None`
-/// where several move.
-pub fn moving(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<(Part, Forces, Vec<Rate>)> {
+/// The parts of a scene that move, each in its own units, with its rates: what the others weigh is no matter of its proof.
+fn moving_parts(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Vec<(Part, Vec<Rate>)> {
     let moves = |part: &Part| part.blocks.iter().any(|&i| rates[i] != Rate::zero());
-    let mut list: Vec<Part> = interface::parts(assembly, interfaces).into_iter().filter(moves).collect();
-    let part = list.pop().filter(|_| list.is_empty())?;
-    let own = part.blocks.iter().map(|&i| Rate { velocity: rates[i].velocity, spin: part.units.own_spin(&rates[i].spin) }).collect();
+    let own = |part: &Part| {
+        part.blocks.iter().map(|&i| Rate { velocity: rates[i].velocity, spin: part.units.own_spin(&rates[i].spin) }).collect::<Vec<_>>()
+    };
+    let parts = interface::parts(assembly, interfaces).into_iter().filter(moves);
+    parts
+        .map(|part| {
+            let own = own(&part);
+            (part, own)
+        })
+        .collect()
+}
+
+/// The part of a scene that alone moves, with its forces and rates. `None` where several move.
+pub fn moving(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<(Part, Forces, Vec<Rate>)> {
+    let mut list = moving_parts(assembly, interfaces, rates);
+    let (part, own) = list.pop().filter(|_| list.is_empty())?;
     let forces = part.take_forces(forces);
     Some((part, forces, own))
 }
 
-fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) {
-    match moving(assembly, interfaces, &super::no_forces(interfaces), rates) {
-        Some((part, _, own)) => gains_of(f, &part.assembly, &part.interfaces, &own),
-        None => gains_of(f, assembly, interfaces, rates),
+/// A scene falls where one of its parts does: what moves gains power and closes no joint, each part for itself, whatever the others weigh. Where no
+/// live load may help (`for_good`), it has no power on one of them.
+fn falls(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], for_good: bool) {
+    let meets = |assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]| {
+        let [mut gain, mut live] = [Findings::default(), Findings::default()];
+        gains(&mut gain, assembly, interfaces, rates);
+        if for_good {
+            without_live_power(&mut live, assembly, interfaces, rates);
+        }
+        [gain, live]
+    };
+    let parts = moving_parts(assembly, interfaces, rates);
+    let mut list: Vec<[Findings; 2]> = parts.iter().map(|(part, rates)| meets(&part.assembly, &part.interfaces, rates)).collect();
+    if list.is_empty() {
+        list.push(meets(assembly, interfaces, rates));
+    }
+    // The part that is proved best speaks for all; of the others only what fails is told.
+    let decides = (0..list.len()).min_by_key(|&k| list[k].iter().map(|own| own.fails.len()).sum::<usize>()).unwrap_or(0);
+    for (k, [gain, live]) in list.into_iter().enumerate() {
+        f.fails.extend(gain.fails);
+        f.grade = f.grade.and(gain.grade);
+        if k == decides {
+            f.holds.extend(gain.holds.into_iter().chain(live.holds));
+            f.fails.extend(live.fails);
+            f.grade = f.grade.and(live.grade);
+        }
     }
 }
 
-fn gains_of(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) {
+/// The rates gain power, and close no joint.
+fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) {
     let none = super::no_forces(interfaces);
     let k = certificate::kinematics(assembly, interfaces, rates, &none);
     let exact = motion::motion(assembly, interfaces, rates);

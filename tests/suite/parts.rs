@@ -193,6 +193,29 @@ fn a_stranger_without_an_exact_proof_takes_none_away() {
     }
 }
 
+/// Two parts fall, whatever the live load: a heavy stranger hides neither.
+#[test]
+fn a_heavy_stranger_keeps_no_proof_from_several_parts_that_fall() {
+    let mut a = column(4, 0.45, 0.0, r#""live": [{"weight": [0, 1, 0]}]"#);
+    a = union(&a, &loose(30.0));
+    let control = Control { law: Law::Associative, ..control() };
+    let alone = analysis::limit(&a.assembly, &a.interfaces, &control);
+    assert_eq!(alone.outcome, Outcome::Impossible);
+    for by in [1.0, 1e6, 1e9, 1e15] {
+        for (m, ..) in both(&a, &heavier(column(1, 0.0, 100.0, ""), by)) {
+            let got = analysis::limit(&m.assembly, &m.interfaces, &control);
+            assert_eq!(got.outcome, Outcome::Impossible, "{by}");
+            let proof = check::verify(&m.assembly, &m.interfaces, &check::Claim::Impossible, &got.forces, None, &got.rates);
+            assert!(proof.proved(), "{by}: {:?}", proof.fails);
+            // What moves beside a mechanism that is proved has to be one as well.
+            let mut rates = got.rates.clone();
+            let still = (0..rates.len()).find(|&i| !m.assembly.blocks[i].support && rates[i] == Rate::zero()).unwrap();
+            rates[still].velocity = Vector3::new(0.0, 0.0, -1.0);
+            assert!(!check::verify(&m.assembly, &m.interfaces, &check::Claim::Impossible, &got.forces, None, &rates).proved(), "{by}");
+        }
+    }
+}
+
 #[test]
 fn the_worst_part_decides() {
     let [falls, pre_stress] = [column(4, 0.45, 0.0, ""), squeezed(300.0)];

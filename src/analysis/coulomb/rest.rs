@@ -112,16 +112,22 @@ impl Probe<'_> {
         self.seen_to(StateMotion::Moves).next().is_none() && self.seen_to(StateMotion::Undecided).count() >= MOST_OPEN
     }
 
-    /// Asks at these shares of a load factor, some at a time on all threads, until one moves or nothing more is to be had.
-    fn climb(&mut self, shares: &[f64], of: f64) {
+    /// Asks at these shares of a load factor, some at a time on all threads, until one moves or nothing more is to be had; false where the time is
+    /// over before.
+    fn climb(&mut self, shares: &[f64], of: f64) -> bool {
         for some in shares.chunks(AT_A_TIME) {
             let one = |share: &f64| self.state(share * of);
             let states = parallel::map(0, some, one).unwrap_or_else(|_| some.iter().map(one).collect());
+            let in_time = states.iter().all(Option::is_some);
             self.seen.extend(states.into_iter().flatten());
             if self.moves().is_some_and(|m| m.0 <= of) || self.is_hopeless() {
                 break;
             }
+            if !in_time {
+                return false;
+            }
         }
+        true
     }
 
     /// Narrows what lies between rest and the rest by halving; false where the time is over before. Without a state that moves there is no value, and
@@ -223,7 +229,7 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
     // On the way to what came out of halving it is asked once more, until no motion refutes it.
     while let Some(moves) = probe.moves().map(|m| m.0).filter(|_| narrow && on_the_way.len() == ON_THE_WAY_OF_FEW.len()) {
         let value = probe.rests_at();
-        probe.climb(on_the_way, value);
+        narrow = probe.climb(on_the_way, value);
         match probe.moves() {
             Some((lower, _)) if *lower < moves => narrow = probe.halve(*lower, most),
             _ => break,
