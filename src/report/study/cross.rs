@@ -102,6 +102,10 @@ fn sums(c: &CrossCount) -> Vec<String> {
         let by = format!("more than {SAME_DRY} apart (rest and motion may both obey the law)");
         lines.push(format!("{} scene{s} with another load factor with dry friction at the coordinates of a survey, {by}", c.several));
     }
+    if c.other_contacts > 0 {
+        let s = if c.other_contacts == 1 { "" } else { "s" };
+        lines.push(format!("{} scene{s} with other contacts at the coordinates of a survey: slivers, not asked there", c.other_contacts));
+    }
     if c.simulated > 0 {
         let open = c.simulated - c.agree - c.apart;
         lines.push(format!("{} simulated beside the load factor: {} agree, {open} open, {} differ", c.simulated, c.agree, c.apart));

@@ -62,6 +62,9 @@ pub struct Crossed {
     pub wrong: Vec<Differs>,
     /// Two load factors with dry friction, here and at the coordinates of a survey: how far apart, over the greater.
     pub several: Vec<f64>,
+    /// Whether other contacts are found at the coordinates of a survey: slivers, next to the least that touches. It is another scene then.
+    #[serde(default)]
+    pub other_contacts: bool,
     /// Simulations, and those that agree.
     pub simulated: [usize; 2],
     /// Simulations that do not.
@@ -127,6 +130,7 @@ pub fn one(seed: u64, index: usize) -> Crossed {
         lost: Vec::new(),
         wrong: Vec::new(),
         several: Vec::new(),
+        other_contacts: false,
         simulated: [0; 2],
         apart: Vec::new(),
         error: None,
@@ -188,6 +192,8 @@ pub struct CrossCount {
     pub wrong: usize,
     /// With two load factors with dry friction, here and at the coordinates of a survey.
     pub several: usize,
+    /// With other contacts there.
+    pub other_contacts: usize,
     /// Simulated.
     pub simulated: usize,
     /// Of those, in agreement.
@@ -215,6 +221,7 @@ pub fn count(list: &[Crossed], of: impl Fn(&Crossed) -> bool) -> CrossCount {
         (c.unions, c.same) = (c.unions + s.unions[0], c.same + s.unions[1]);
         c.wrong += usize::from(s.is_wrong());
         c.several += usize::from(!s.several.is_empty());
+        c.other_contacts += usize::from(s.other_contacts);
         (c.simulated, c.agree, c.apart) = (c.simulated + s.simulated[0], c.agree + s.simulated[1], c.apart + s.apart.len());
     }
     c
