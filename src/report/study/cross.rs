@@ -4,7 +4,7 @@ use super::super::{
     cells::Table,
     text::{Layout, Page, Role},
 };
-use crate::study::cross::{CrossCount, Crossed, Differs, FAMILIES, SAME_DRY, count};
+use crate::study::cross::{CrossCount, Crossed, Differs, FAMILIES, count};
 
 /// How many scenes are named where not all are asked for.
 const NAMED: usize = 8;
@@ -28,7 +28,6 @@ pub fn cross_csv(list: &[Crossed]) -> Result<String, csv::Error> {
         "same",
         "lost",
         "wrong",
-        "several",
         "simulated",
         "agree",
         "error",
@@ -50,7 +49,6 @@ pub fn cross_csv(list: &[Crossed]) -> Result<String, csv::Error> {
             c.unions[1].to_string(),
             lines(&c.lost),
             lines(&c.wrong),
-            c.several.iter().map(f64::to_string).collect::<Vec<_>>().join("; "),
             c.simulated[0].to_string(),
             c.simulated[1].to_string(),
             c.error.clone().unwrap_or_default(),
@@ -97,15 +95,6 @@ fn sums(c: &CrossCount) -> Vec<String> {
             c.ways, c.wrong, c.lost, c.same, c.unions
         ),
     ];
-    if c.several > 0 {
-        let s = if c.several == 1 { "" } else { "s" };
-        let by = format!("more than {SAME_DRY} apart (rest and motion may both obey the law)");
-        lines.push(format!("{} scene{s} with another load factor with dry friction at the coordinates of a survey, {by}", c.several));
-    }
-    if c.other_contacts > 0 {
-        let s = if c.other_contacts == 1 { "" } else { "s" };
-        lines.push(format!("{} scene{s} with other contacts at the coordinates of a survey: slivers, not asked there", c.other_contacts));
-    }
     if c.simulated > 0 {
         let open = c.simulated - c.agree - c.apart;
         lines.push(format!("{} simulated beside the load factor: {} agree, {open} open, {} differ", c.simulated, c.agree, c.apart));

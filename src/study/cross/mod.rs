@@ -3,8 +3,7 @@
 //! There is no closed form for these scenes, but there is for what happens to their answers: a stranger beside a scene changes nothing
 //! (`stranger`), nor does the place where the scene stands; up to the load factor with dry friction it stands, beyond the bound it falls;
 //! and more of the same load does not raise again what it has brought down. Only answers whose proofs hold from the scene alone count; what is
-//! computed, not proved, is that the state rests up to a load factor with dry friction. Where that differs at other coordinates alone, it is
-//! counted apart.
+//! computed, not proved, is that the state rests up to a load factor with dry friction, and that counts as well.
 
 mod answers;
 mod scenes;
@@ -14,7 +13,7 @@ mod ways;
 pub use answers::Answers;
 pub use scenes::{FAMILIES, scene};
 pub use stranger::{COLUMN, STRANGERS, Stranger, beside, moved, rough};
-pub use ways::{SAME_DRY, Variation};
+pub use ways::Variation;
 
 use super::soak::FAILED;
 use crate::{
@@ -60,11 +59,6 @@ pub struct Crossed {
     pub lost: Vec<Differs>,
     /// Contradictions.
     pub wrong: Vec<Differs>,
-    /// Two load factors with dry friction, here and at the coordinates of a survey: how far apart, over the greater.
-    pub several: Vec<f64>,
-    /// Whether other contacts are found at the coordinates of a survey: slivers, next to the least that touches. It is another scene then.
-    #[serde(default)]
-    pub other_contacts: bool,
     /// Simulations, and those that agree.
     pub simulated: [usize; 2],
     /// Simulations that do not.
@@ -102,7 +96,7 @@ impl Crossed {
 /// # Errors
 /// As [`Kept::open`].
 pub fn keep(path: &Path, seed: u64) -> Result<Kept<Crossed>, RowsError> {
-    Kept::open(path, "voussoir-cross/2", json!({ "seed": seed }))
+    Kept::open(path, "voussoir-cross/3", json!({ "seed": seed }))
 }
 
 /// Asks scenes number 0 to `count`, on all threads, but for those that are kept already; each is kept as it ends, where there is a file, and
@@ -129,8 +123,6 @@ pub fn one(seed: u64, index: usize) -> Crossed {
         unions: [0; 2],
         lost: Vec::new(),
         wrong: Vec::new(),
-        several: Vec::new(),
-        other_contacts: false,
         simulated: [0; 2],
         apart: Vec::new(),
         error: None,
@@ -190,10 +182,6 @@ pub struct CrossCount {
     pub same: usize,
     /// Contradictions and failures.
     pub wrong: usize,
-    /// With two load factors with dry friction, here and at the coordinates of a survey.
-    pub several: usize,
-    /// With other contacts there.
-    pub other_contacts: usize,
     /// Simulated.
     pub simulated: usize,
     /// Of those, in agreement.
@@ -220,8 +208,6 @@ pub fn count(list: &[Crossed], of: impl Fn(&Crossed) -> bool) -> CrossCount {
         c.lost += s.lost.len();
         (c.unions, c.same) = (c.unions + s.unions[0], c.same + s.unions[1]);
         c.wrong += usize::from(s.is_wrong());
-        c.several += usize::from(!s.several.is_empty());
-        c.other_contacts += usize::from(s.other_contacts);
         (c.simulated, c.agree, c.apart) = (c.simulated + s.simulated[0], c.agree + s.simulated[1], c.apart + s.apart.len());
     }
     c

@@ -30,7 +30,7 @@ const SIMULATED: [f64; 2] = [0.95, 1.05];
 /// Bounds of two ways differ by less than this × their size. They are proved in brackets 1e-6 wide or narrower.
 const SAME_BOUND: f64 = 1e-5;
 /// Load factors with dry friction differ by less than this × their size. The law holds at them to a natural map of some 1e-5.
-pub const SAME_DRY: f64 = 1e-3;
+const SAME_DRY: f64 = 1e-3;
 /// What coordinates rounded to 1e-9 m may change in a bound, over its size.
 const MOVED_BOUND: f64 = 1e-4;
 /// The load factor with dry friction passes the proved bound by no more than this × its size.
@@ -104,7 +104,7 @@ pub(super) fn ask(scene: &Scene, index: usize, crossed: &mut Crossed) -> Result<
     let mut asked = Asked { crossed, own };
     asked.alone(&model);
     asked.unions(scene, &model, index)?;
-    asked.surveyed(scene, &model, index)?;
+    asked.surveyed(scene, index)?;
     asked.loaded(&model);
     if index.is_multiple_of(EVERY_SIMULATED) {
         asked.simulated(&model);
@@ -161,7 +161,7 @@ impl Asked<'_> {
     }
 
     /// At the coordinates of a survey.
-    fn surveyed(&mut self, scene: &Scene, model: &Model, index: usize) -> Result<(), InputError> {
+    fn surveyed(&mut self, scene: &Scene, index: usize) -> Result<(), InputError> {
         let (low, high) = super::scenes::extent(scene);
         if (high - low).norm() < LEAST_SURVEYED {
             return Ok(());
@@ -169,11 +169,6 @@ impl Asked<'_> {
         let nothing_slides = (index / super::FAMILIES.len()).is_multiple_of(2);
         let way = Variation::Surveyed { rough: nothing_slides };
         let there = prepare(&way.scene(scene))?;
-        // Coordinates of that size are rounded to 1e-9 m: slivers of contact come and go.
-        if there.contact_points() != model.contact_points() {
-            self.crossed.other_contacts = true;
-            return Ok(());
-        }
         if nothing_slides {
             let here = prepare(&rough(scene))?;
             let (here, there) = (verdict(&here.assembly, &here.interfaces), verdict(&there.assembly, &there.interfaces));
@@ -212,13 +207,7 @@ impl Asked<'_> {
             _ => {}
         };
         near("bound", own.bound.map(|b| b[0]), said.bound.map(|b| b[0]), same_bound);
-        // Coulomb's law may hold at several load factors, and rest and motion both obey it over whole ranges: from other digits of the coordinates
-        // the search may come upon another. That is counted, but is no contradiction. A stranger changes no digit.
-        let apart = |(a, b): (f64, f64)| (a - b).abs() / a.abs().max(b.abs());
-        match own.dry.zip(said.dry).map(apart) {
-            Some(by) if by > SAME_DRY && matches!(way, Variation::Surveyed { .. }) => self.crossed.several.push(by),
-            _ => near("dry load factor", own.dry, said.dry, SAME_DRY),
-        }
+        near("dry load factor", own.dry, said.dry, SAME_DRY);
     }
 
     /// On the way to the load factor with dry friction, and at the bound.
