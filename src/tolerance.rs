@@ -183,10 +183,6 @@ pub const AT_REST: f64 = 1e-6;
 /// loose just below is overlooked. Smaller: states that near to their limit neither rest nor move.
 pub const REST_BELOW: f64 = 1e-3;
 
-/// The greatest load factor up to which the state rests is known to this share of it. Larger: fewer digits. Smaller: states that near to their
-/// limit neither rest nor move, and take longest.
-pub const REST_WIDTH: f64 = 1e-4;
-
 /// A state without pre-stress moves when some block is left with at least this much of its load. Larger: slow slides at
 /// the edge of friction are refused (a rock wedge 1e-3 beyond its factor of safety is left with 5e-4). Smaller: what the
 /// regularisation leaves at rest on tall, soft structures could be taken for motion, if it obeyed the law.

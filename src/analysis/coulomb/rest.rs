@@ -38,7 +38,7 @@ const BELOW: [f64; 4] = [tolerance::REST_BELOW, 1e-2, 0.05, 0.2];
 /// Without an end to the load factor: where the state is asked, in multiples of the one at which live and dead load weigh the same.
 const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
 
-/// Most states asked while halving. Fewer: the value is known to fewer digits than [`tolerance::REST_WIDTH`].
+/// Most states asked while halving. Fewer: the value is known to fewer digits than [`tolerance::DRY_CRITICAL_WIDTH`].
 const MOST: usize = 40;
 /// The same for more than [`MANY`] free blocks.
 const MOST_OF_MANY: usize = 8;
@@ -52,7 +52,7 @@ const AT_A_TIME: usize = 4;
 
 /// How near above a load factor up to which the state rests it does so no longer, at most, in shares of one at which it moves.
 pub fn resolution(assembly: &Assembly) -> f64 {
-    if assembly.free().count() > MANY { 1.0 / 64.0 } else { 4.0 * tolerance::REST_WIDTH }
+    if assembly.free().count() > MANY { 1.0 / 64.0 } else { 4.0 * tolerance::DRY_CRITICAL_WIDTH }
 }
 
 /// Whether a state seen at rest at `rests_at` is one just below `value`.
@@ -136,7 +136,8 @@ impl Probe<'_> {
         let rests = self.rests_at();
         let mut above = self.seen_to(StateMotion::Undecided).map(|s| s.0).filter(|open| *open > rests).fold(above, f64::min);
         for _ in 0..most {
-            let (width, rests) = (if self.moves().is_some() { tolerance::REST_WIDTH } else { tolerance::REST_BELOW }, self.rests_at());
+            let width = if self.moves().is_some() { tolerance::DRY_CRITICAL_WIDTH } else { tolerance::REST_BELOW };
+            let rests = self.rests_at();
             if self.is_hopeless() || above - rests <= width * above.abs() {
                 break;
             }
