@@ -356,16 +356,11 @@ pub(super) fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interface
 /// The parts of a scene that move, each in its own units, with its rates: what the others weigh is no matter of its proof.
 fn moving_parts(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Vec<(Part, Vec<Rate>)> {
     let moves = |part: &Part| part.blocks.iter().any(|&i| rates[i] != Rate::zero());
-    let own = |part: &Part| {
-        part.blocks.iter().map(|&i| Rate { velocity: rates[i].velocity, spin: part.units.own_spin(&rates[i].spin) }).collect::<Vec<_>>()
+    let in_its_units = |part: Part| {
+        let own = part.blocks.iter().map(|&i| Rate { velocity: rates[i].velocity, spin: part.units.own_spin(&rates[i].spin) }).collect();
+        (part, own)
     };
-    let parts = interface::parts(assembly, interfaces).into_iter().filter(moves);
-    parts
-        .map(|part| {
-            let own = own(&part);
-            (part, own)
-        })
-        .collect()
+    interface::parts(assembly, interfaces).into_iter().filter(moves).map(in_its_units).collect()
 }
 
 /// The part of a scene that alone moves, with its forces and rates. `None` where several move.
