@@ -36,31 +36,28 @@ fn stages(c: &mut Criterion) {
     group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
     for n in WALLS {
         let scene = wall(n, n, [1.0, 0.0, 0.0]);
-        let model = analysis::prepare(&scene).expect("the bench scene resolves");
-        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let model = &interface::prepare(&scene).expect("the bench scene resolves");
+        let assembly = &model.assembly;
         let blocks = assembly.blocks.len();
         group.bench_function(BenchmarkId::new("resolve", blocks), |b| b.iter(|| assembly::resolve(black_box(&scene))));
         group.bench_function(BenchmarkId::new("detect", blocks), |b| b.iter(|| interface::detect(black_box(assembly))));
         group.bench_function(BenchmarkId::new("build", blocks), |b| {
             b.iter(|| {
                 program::load_factor(
-                    &Statics::new(assembly, interfaces, StaticsOptions { keep_all: false, live: true, ..StaticsOptions::default() }),
+                    &Statics::new(model, StaticsOptions { keep_all: false, live: true, ..StaticsOptions::default() }),
                     1.0,
                     Unknowns::Rates,
                 )
             })
         });
-        group
-            .bench_function(BenchmarkId::new("assess", blocks), |b| b.iter(|| analysis::assess(assembly, interfaces, &Control::default())));
-        group.bench_function(BenchmarkId::new("limit in plane", blocks), |b| {
-            b.iter(|| analysis::limit(assembly, interfaces, &Control::default()))
-        });
-        let answer = analysis::limit(assembly, interfaces, &Control::default());
+        group.bench_function(BenchmarkId::new("assess", blocks), |b| b.iter(|| analysis::assess(model, &Control::default())));
+        group.bench_function(BenchmarkId::new("limit in plane", blocks), |b| b.iter(|| analysis::limit(model, &Control::default())));
+        let answer = analysis::limit(model, &Control::default());
         let claim = check::Claim::LoadFactor { value: answer.value, lower: answer.bracket.lower, upper: answer.bracket.upper };
         group.bench_function(BenchmarkId::new("check", blocks), |b| {
-            b.iter(|| check::verify(assembly, interfaces, &claim, &answer.forces, None, &answer.rates))
+            b.iter(|| check::verify(model, &claim, &answer.forces, None, &answer.rates))
         });
-        group.bench_function(BenchmarkId::new("result file", blocks), |b| b.iter(|| ResultFile::load_factor(&scene, &model, &answer)));
+        group.bench_function(BenchmarkId::new("result file", blocks), |b| b.iter(|| ResultFile::load_factor(&scene, model, &answer)));
     }
     group.finish();
 }
@@ -74,9 +71,9 @@ fn figures(c: &mut Criterion) {
         b.iter(|| interface::detect(black_box(&large)))
     });
     let scene = wall(12, 12, [0.0, 1.0, 0.0]);
-    let model = analysis::prepare(&scene).expect("the bench scene resolves");
+    let model = interface::prepare(&scene).expect("the bench scene resolves");
     group.bench_function(format!("limit out of plane, {} blocks", model.assembly.blocks.len()), |b| {
-        b.iter(|| analysis::limit(&model.assembly, &model.interfaces, &Control::default()))
+        b.iter(|| analysis::limit(&model, &Control::default()))
     });
     let arch = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/semicircular-arch-thick.json");
     group.bench_function("whole process: assess an arch of 27 voussoirs", |b| {
@@ -108,14 +105,11 @@ fn large(c: &mut Criterion) {
         };
         let mut scene = import::import_file(path, &options).expect("the vault is read").scene;
         scene.loads.live = vec![Load { weight: Some([1.0, 0.0, 0.0]), ..Load::default() }];
-        let model = analysis::prepare(&scene).expect("the vault resolves");
-        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let model = &interface::prepare(&scene).expect("the vault resolves");
         let bound = Control { law: Law::Associative, ..Control::default() };
-        group.bench_function("vault of 399 voussoirs: verdict", |b| b.iter(|| analysis::assess(assembly, interfaces, &bound)));
-        group.bench_function("vault of 399 voussoirs: verdict and state", |b| {
-            b.iter(|| analysis::assess(assembly, interfaces, &Control::default()))
-        });
-        group.bench_function("vault of 399 voussoirs: load factor", |b| b.iter(|| analysis::limit(assembly, interfaces, &bound)));
+        group.bench_function("vault of 399 voussoirs: verdict", |b| b.iter(|| analysis::assess(model, &bound)));
+        group.bench_function("vault of 399 voussoirs: verdict and state", |b| b.iter(|| analysis::assess(model, &Control::default())));
+        group.bench_function("vault of 399 voussoirs: load factor", |b| b.iter(|| analysis::limit(model, &bound)));
     } else {
         println!("large: no ../shared/data/compas, the vault of 399 voussoirs is left out");
     }
@@ -124,8 +118,8 @@ fn large(c: &mut Criterion) {
     let scene = read_str("bench", text).expect("the bench scene is well formed").0;
     group.bench_function("column of 100,000 blocks: interfaces and verdict", |b| {
         b.iter(|| {
-            let model = analysis::prepare(black_box(&scene)).expect("the bench scene resolves");
-            analysis::assess(&model.assembly, &model.interfaces, &Control::default())
+            let model = interface::prepare(black_box(&scene)).expect("the bench scene resolves");
+            analysis::assess(&model, &Control::default())
         })
     });
     group.finish();
@@ -138,7 +132,7 @@ fn steps(c: &mut Criterion) {
     group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(3));
     for (courses, length) in [(9, 10), (24, 40)] {
         let scene = wall(courses, length, [1.0, 0.0, 0.0]);
-        let model = analysis::prepare(&scene).expect("the bench scene resolves");
+        let model = interface::prepare(&scene).expect("the bench scene resolves");
         let blocks = model.assembly.blocks.len();
         let unit = (model.assembly.blocks[0].size / model.assembly.gravity.norm()).sqrt();
         for threads in [1, 4] {
@@ -151,7 +145,7 @@ fn steps(c: &mut Criterion) {
             };
             group.throughput(Throughput::Elements(STEPS as u64));
             group.bench_function(BenchmarkId::new(format!("{STEPS} fast steps, {threads} threads"), blocks), |b| {
-                b.iter(|| simulate(&model.assembly, &model.interfaces, &settings, &mut |_| ControlFlow::Continue(())))
+                b.iter(|| simulate(&model, &settings, &mut |_| ControlFlow::Continue(())))
             });
         }
     }
@@ -169,15 +163,12 @@ fn walls(c: &mut Criterion) {
         list.extend([(100, 100, inward), (100, 200, outward), (200, 200, inward)]);
     }
     for (courses, length, push) in list {
-        let model = analysis::prepare(&wall(courses, length, push)).expect("the bench scene resolves");
-        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let model = &interface::prepare(&wall(courses, length, push)).expect("the bench scene resolves");
         let name = format!("{courses} x {length} {} plane", if push == inward { "in" } else { "out of" });
-        group.bench_function(BenchmarkId::new("limit", &name), |b| b.iter(|| analysis::limit(assembly, interfaces, &Control::default())));
+        group.bench_function(BenchmarkId::new("limit", &name), |b| b.iter(|| analysis::limit(model, &Control::default())));
         for law in [Law::Associative, Law::Coulomb] {
             let control = Control { law, ..Control::default() };
-            group.bench_function(BenchmarkId::new(format!("assess, {law:?}"), &name), |b| {
-                b.iter(|| analysis::assess(assembly, interfaces, &control))
-            });
+            group.bench_function(BenchmarkId::new(format!("assess, {law:?}"), &name), |b| b.iter(|| analysis::assess(model, &control)));
         }
     }
     group.finish();

@@ -1,10 +1,7 @@
 //! What the targets have in common.
 
 use libfuzzer_sys::Corpus;
-use voussoir::{
-    analysis::{Model, prepare},
-    scene::{Scene, read_bytes},
-};
+use voussoir::{interface::{Model, prepare}, scene::{Scene, read_bytes}};
 
 /// Scenes beyond this are not prepared: the fuzzer looks for mistakes, not for large inputs.
 const MOST: u64 = 60;

@@ -13,8 +13,8 @@
 //!
 //! ```
 //! let (scene, _) = voussoir::scene::read_file("structures/oppenheim-arch.json".as_ref())?;
-//! let model = voussoir::analysis::prepare(&scene)?;
-//! let answer = voussoir::analysis::limit(&model.assembly, &model.interfaces, &Default::default());
+//! let model = voussoir::interface::prepare(&scene)?;
+//! let answer = voussoir::analysis::limit(&model, &Default::default());
 //! assert!((answer.value - 0.373_611_692).abs() < 1e-8 && answer.bracket.lower <= answer.value);
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
@@ -24,11 +24,11 @@
 //! ```
 //! use voussoir::{analysis, scene, verdict::{Verdict, check}};
 //! let (scene, _) = scene::read_file("structures/semicircular-arch-thin.json".as_ref())?;
-//! let model = analysis::prepare(&scene)?;
-//! let answer = analysis::assess(&model.assembly, &model.interfaces, &Default::default());
+//! let model = interface::prepare(&scene)?;
+//! let answer = analysis::assess(&model, &Default::default());
 //! assert_eq!(answer.verdict, Verdict::Unstable);
 //! let claim = check::Claim::Unstable;
-//! assert!(check::verify(&model.assembly, &model.interfaces, &claim, &answer.forces, None, &answer.rates).proved());
+//! assert!(check::verify(&model, &claim, &answer.forces, None, &answer.rates).proved());
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
 //!
@@ -48,8 +48,8 @@
 //! ```
 //! use voussoir::{analysis, dynamics::{Fate, simulate}, scene};
 //! let (scene, _) = scene::read_file("structures/semicircular-arch-thin.json".as_ref())?;
-//! let model = analysis::prepare(&scene)?;
-//! let outcome = simulate(&model.assembly, &model.interfaces, &Default::default(), &mut |_| std::ops::ControlFlow::Continue(()))?;
+//! let model = interface::prepare(&scene)?;
+//! let outcome = simulate(&model, &Default::default(), &mut |_| std::ops::ControlFlow::Continue(()))?;
 //! assert_eq!(outcome.fate, Fate::Falls);
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```

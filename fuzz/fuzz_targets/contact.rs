@@ -2,10 +2,7 @@
 #![no_main]
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
-use voussoir::{
-    analysis::prepare,
-    scene::{BlockSpec, Friction, Rotation, Scene, Shape},
-};
+use voussoir::{interface::prepare, scene::{BlockSpec, Friction, Rotation, Scene, Shape}};
 
 #[derive(Arbitrary, Debug)]
 enum Kind {

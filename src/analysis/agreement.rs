@@ -5,8 +5,7 @@ use crate::{
     assembly::Assembly,
     dynamics::{Fate, SimulationOutcome},
     error::FindingCode,
-    interface::Interfaces,
-    program,
+    interface::{Model, is_forest},
     verdict::{Forces, Rate, Verdict},
 };
 use nalgebra::Vector3;
@@ -65,12 +64,13 @@ pub fn agree(verdict: Verdict, fate: Fate, left_out: bool) -> Option<bool> {
 }
 
 /// Compares an assessment with a simulation of the same scene.
-pub fn agreement(assembly: &Assembly, interfaces: &Interfaces, assessment: &Assessment, outcome: &SimulationOutcome) -> Agreement {
+pub fn agreement(model: &Model, assessment: &Assessment, outcome: &SimulationOutcome) -> Agreement {
+    let assembly = &model.assembly;
     let (verdict, fate) = (assessment.verdict, outcome.fate);
     let agrees = agree(verdict, fate, outcome.findings.iter().any(|f| f.code == FindingCode::LeftOut));
     let falls = matches!(verdict, Verdict::Unstable | Verdict::Conditional) && fate == Fate::Falls;
     let stands = verdict == Verdict::Stable && fate == Fate::Stands;
-    let determinate = program::is_forest(assembly, interfaces);
+    let determinate = is_forest(model);
     let known = match &assessment.state {
         Some(state) => Some(&state.forces),
         None => determinate.then_some(&assessment.forces),
@@ -80,7 +80,7 @@ pub fn agreement(assembly: &Assembly, interfaces: &Interfaces, assessment: &Asse
         fate,
         agrees,
         motion: falls.then(|| correlation(assembly, outcome, &assessment.rates)).flatten(),
-        forces: known.filter(|_| stands).and_then(|f| forces(assembly, interfaces, f, outcome, determinate)),
+        forces: known.filter(|_| stands).and_then(|f| forces(model, f, outcome, determinate)),
     }
 }
 
@@ -99,13 +99,8 @@ fn correlation(assembly: &Assembly, outcome: &SimulationOutcome, rates: &[Rate])
     (size > 0.0).then(|| (across / size).clamp(-1.0, 1.0))
 }
 
-fn forces(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    computed: &Forces,
-    outcome: &SimulationOutcome,
-    determinate: bool,
-) -> Option<ForceAgreement> {
+fn forces(model: &Model, computed: &Forces, outcome: &SimulationOutcome, determinate: bool) -> Option<ForceAgreement> {
+    let Model { assembly, interfaces, .. } = model;
     // By pairs of blocks: computed, simulated; both on the block with the larger index.
     let mut pairs: BTreeMap<(usize, usize), [Vector3<f64>; 2]> = BTreeMap::new();
     for (face, points) in interfaces.list.iter().zip(computed) {

@@ -8,16 +8,15 @@ use super::{
     mend, parts,
 };
 use crate::{
-    assembly::Assembly,
-    interface::Interfaces,
+    interface::{Model, floating, is_forest},
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate,
         check::{self, Claim},
         exact::existence,
-        law, mechanism,
-        mechanism::Mechanism,
+        law,
+        mechanism::{self, Mechanism},
         no_forces,
     },
 };
@@ -70,19 +69,19 @@ const LADDER: [Rung; 8] = [
 const LARGE: [Rung; 1] = [interior(1.0, 1e-10)];
 
 /// Decides whether an assembly stands under its dead load, part by part.
-pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> Assessment {
-    parts::assess::assess(assembly, interfaces, control)
+pub fn assess(model: &Model, control: &Control) -> Assessment {
+    parts::assess::assess(model, control)
 }
 
 /// The same for one part.
-pub(super) fn of_part(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> Assessment {
-    if let Some(answer) = falls_freely(assembly, interfaces) {
+pub(super) fn of_part(model: &Model, control: &Control) -> Assessment {
+    if let Some(answer) = falls_freely(model) {
         return answer;
     }
-    let mut answer = least_unbalance(assembly, interfaces, LiveLoad::Absent, control);
-    answer.floating = program::floating(assembly, interfaces);
+    let mut answer = least_unbalance(model, LiveLoad::Absent, control);
+    answer.floating = floating(model);
     if answer.verdict == Verdict::Stable && control.law == Law::Coulomb {
-        settle(assembly, interfaces, control, &mut answer);
+        settle(model, control, &mut answer);
     }
     answer
 }
@@ -91,27 +90,28 @@ pub(super) fn of_part(assembly: &Assembly, interfaces: &Interfaces, control: &Co
 pub(super) const NO_STATE_NEEDED: &str = "the state under dry friction";
 
 /// Admissible forces exist: are they such as the loads produce?
-fn settle(assembly: &Assembly, interfaces: &Interfaces, control: &Control, answer: &mut Assessment) {
-    if program::is_forest(assembly, interfaces) {
+fn settle(model: &Model, control: &Control, answer: &mut Assessment) {
+    if is_forest(model) {
         answer.left_out.push(format!("{NO_STATE_NEEDED}: contacts form no closed chain, so statics alone fixes what each one carries"));
         return;
     }
-    let state = state(assembly, interfaces, control);
+    let state = state(model, control);
     answer.verdict = match state.motion {
         StateMotion::Rests => Verdict::Stable,
         StateMotion::Moves => Verdict::Conditional,
         StateMotion::Undecided => Verdict::Undecided,
     };
     if state.motion == StateMotion::Moves {
-        answer.rates = law::motion(assembly, interfaces, &state.forces).rates;
-        answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
+        answer.rates = law::motion(model, &state.forces).rates;
+        answer.mechanism = Some(mechanism::read(model, &answer.rates));
     }
     answer.state = Some(state);
 }
 
 /// Blocks that touch nothing that is held fall with 1 g: no program is needed to see it.
-pub(super) fn falls_freely(assembly: &Assembly, interfaces: &Interfaces) -> Option<Assessment> {
-    let floating = program::floating(assembly, interfaces);
+pub(super) fn falls_freely(model: &Model) -> Option<Assessment> {
+    let Model { assembly, interfaces, .. } = model;
+    let floating = floating(model);
     let mut rates = vec![Rate::zero(); assembly.blocks.len()];
     for group in &floating {
         let force: Vector3<f64> = group.iter().map(|&i| assembly.dead[i].force).sum();
@@ -121,18 +121,18 @@ pub(super) fn falls_freely(assembly: &Assembly, interfaces: &Interfaces) -> Opti
         }
     }
     let forces = no_forces(interfaces);
-    let kinematics = certificate::kinematics(assembly, interfaces, &rates, &forces);
+    let kinematics = certificate::kinematics(model, &rates, &forces);
     if kinematics.norm == 0.0 {
         return None;
     }
-    let statics = certificate::statics(assembly, interfaces, &forces, 0.0);
+    let statics = certificate::statics(model, &forces, 0.0);
     let count: usize = floating.iter().map(Vec::len).sum();
     Some(Assessment {
         verdict: Verdict::Unstable,
         unbalance: Bracket { lower: kinematics.dead_power / kinematics.norm, upper: statics.unbalance },
         threshold: tolerance::UNBALANCE,
         part: None,
-        mechanism: Some(mechanism::read(assembly, interfaces, &rates)),
+        mechanism: Some(mechanism::read(model, &rates)),
         forces,
         load_factor: 0.0,
         rates,
@@ -144,13 +144,14 @@ pub(super) fn falls_freely(assembly: &Assembly, interfaces: &Interfaces) -> Opti
 }
 
 /// Program V down the ladder until its bracket decides.
-pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live: LiveLoad, control: &Control) -> Assessment {
+pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) -> Assessment {
+    let Model { assembly, interfaces, .. } = model;
     let start = Instant::now();
     let options =
         StaticsOptions { keep_all: control.keep_all, live: live != LiveLoad::Absent, symmetry: true, ..StaticsOptions::default() };
-    let mut base = Statics::new(assembly, interfaces, options);
+    let mut base = Statics::new(model, options);
     let zero = no_forces(interfaces);
-    let unloaded = certificate::statics(assembly, interfaces, &zero, 0.0);
+    let unloaded = certificate::statics(model, &zero, 0.0);
     let mut answer = Assessment {
         verdict: Verdict::Undecided,
         unbalance: Bracket { lower: 0.0, upper: unloaded.unbalance },
@@ -178,42 +179,42 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
             break;
         }
         if whole && base.is_part() {
-            base = Statics::new(assembly, interfaces, StaticsOptions { symmetry: false, ..options });
+            base = Statics::new(model, StaticsOptions { symmetry: false, ..options });
             answer.left_out.clone_from(&base.left_out);
         }
         let mut statics = step.scaled(&base);
         statics.sections = std::mem::take(&mut sections);
         let settings = crate::solve::Settings { seconds: left, ..step.settings };
         let build = |statics: &Statics| program::unbalance(statics, live, step.unknowns);
-        let Run { candidate, solution, size } = run(assembly, interfaces, &mut statics, build, &settings);
+        let Run { candidate, solution, size } = run(model, &mut statics, build, &settings);
         let (mut lower, mut upper) = (0.0, f64::INFINITY);
         if let Some(mut c) = candidate {
             mend::cut(interfaces, &mut c.forces);
             let lambda = if live == LiveLoad::AnyMultiple { c.solution.x.last().copied().unwrap_or(0.0) } else { 0.0 };
-            let mut s = certificate::statics(assembly, interfaces, &c.forces, lambda);
+            let mut s = certificate::statics(model, &c.forces, lambda);
             // The mechanism is weighed by the forces that came with it: others hide what its joints close by.
-            let k = certificate::kinematics(assembly, interfaces, &c.rates, &c.forces);
+            let k = certificate::kinematics(model, &c.rates, &c.forces);
             // What the engine's last digits leave may be no more than that.
             if !s.balanced
-                && let Some(mut better) = existence::improved(assembly, interfaces, &c.forces, lambda)
+                && let Some(mut better) = existence::improved(model, &c.forces, lambda)
             {
                 mend::cut(interfaces, &mut better);
-                let left = certificate::statics(assembly, interfaces, &better, lambda);
+                let left = certificate::statics(model, &better, lambda);
                 if left.unbalance < s.unbalance {
                     (s, c.forces) = (left, better);
                 }
             }
             if !s.balanced {
-                s.balanced = existence::exists(assembly, interfaces, &c.forces, lambda);
+                s.balanced = existence::exists(model, &c.forces, lambda);
             }
             upper = if s.is_within_strength() { s.unbalance } else { f64::INFINITY };
             let mut k = k;
             if !k.is_admissible(assembly)
                 && live == LiveLoad::Absent
                 && !s.balanced
-                && let Some(mended) = mend::admissible(assembly, interfaces, &c.rates, (0.0, 0.5 * k.gain()), left)
+                && let Some(mended) = mend::admissible(model, &c.rates, (0.0, 0.5 * k.gain()), left)
             {
-                k = certificate::kinematics(assembly, interfaces, &mended, &c.forces);
+                k = certificate::kinematics(model, &mended, &c.forces);
                 c.rates = mended;
             }
             if k.is_admissible(assembly) {
@@ -244,7 +245,7 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
         sections = statics.sections;
         let b = answer.unbalance;
         // Re-added without rounding, or the next attempt.
-        let holds = |f: &Forces| check::verify(assembly, interfaces, &Claim::Stable, f, None, &[]).proved();
+        let holds = |f: &Forces| check::verify(model, &Claim::Stable, f, None, &[]).proved();
         answer.verdict = if balanced && (live != LiveLoad::Absent || holds(&answer.forces)) {
             Verdict::Stable
         } else if b.lower > tolerance::UNBALANCE {
@@ -258,17 +259,16 @@ pub(super) fn least_unbalance(assembly: &Assembly, interfaces: &Interfaces, live
     }
     if answer.verdict == Verdict::Unstable {
         // Half of the power is left to prove it with.
-        let power = certificate::kinematics(assembly, interfaces, &answer.rates, &no_forces(interfaces));
+        let power = certificate::kinematics(model, &answer.rates, &no_forces(interfaces));
         let most = 0.5 * (power.gain() - tolerance::UNBALANCE * power.norm);
         let with_live = live == LiveLoad::AnyMultiple;
         if let Some(mended) =
-            mend::admissible(assembly, interfaces, &answer.rates, (0.0, most), control.seconds - start.elapsed().as_secs_f64())
-                .filter(|_| !with_live)
+            mend::admissible(model, &answer.rates, (0.0, most), control.seconds - start.elapsed().as_secs_f64()).filter(|_| !with_live)
         {
-            let k = certificate::kinematics(assembly, interfaces, &mended, &no_forces(interfaces));
+            let k = certificate::kinematics(model, &mended, &no_forces(interfaces));
             (answer.unbalance.lower, answer.rates) = (k.gain() / k.norm, mended);
         }
-        answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
+        answer.mechanism = Some(mechanism::read(model, &answer.rates));
     }
     answer
 }

@@ -3,8 +3,7 @@
 //! An attempt's worth is its bracket, recomputed from the scene; the engine's word is recorded and never decides.
 
 use crate::{
-    assembly::Assembly,
-    interface::Interfaces,
+    interface::Model,
     program::{ConicProgram, Positions, Statics, Unknowns},
     solve::{self, Engine, Settings, Solution, Status},
     verdict::{Forces, Rate, certificate},
@@ -163,13 +162,8 @@ pub(super) struct Run {
 
 /// Solves the program that `build` makes, again and again with the bounds on crushing that its forces break, which stay in
 /// `statics`.
-pub(super) fn run(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    statics: &mut Statics,
-    build: impl Fn(&Statics) -> (ConicProgram, Positions),
-    settings: &Settings,
-) -> Run {
+pub(super) fn run(model: &Model, statics: &mut Statics, build: impl Fn(&Statics) -> (ConicProgram, Positions), settings: &Settings) -> Run {
+    let Model { assembly, interfaces, .. } = model;
     let start = Instant::now();
     let mut rounds = 0;
     loop {

@@ -6,8 +6,7 @@ use super::{
     coulomb::{DryLoadFactor, Found},
 };
 use crate::{
-    assembly::Assembly,
-    interface::Interfaces,
+    interface::Model,
     verdict::{
         Forces, Verdict,
         check::{self, Claim},
@@ -37,8 +36,8 @@ impl Assessment {
     }
 
     /// Whether what it claims is proved from the scene alone.
-    pub fn proved(&self, assembly: &Assembly, interfaces: &Interfaces) -> bool {
-        self.claim().is_some_and(|c| check::verify(assembly, interfaces, &c, &self.forces, self.base(), &self.rates).proved())
+    pub fn proved(&self, model: &Model) -> bool {
+        self.claim().is_some_and(|c| check::verify(model, &c, &self.forces, self.base(), &self.rates).proved())
     }
 }
 
@@ -54,9 +53,9 @@ impl LoadFactor {
     }
 
     /// Whether what it claims is proved from the scene alone.
-    pub fn proved(&self, assembly: &Assembly, interfaces: &Interfaces) -> bool {
+    pub fn proved(&self, model: &Model) -> bool {
         let base = self.base.as_ref().map(|b| &b.1);
-        self.claim().is_some_and(|c| check::verify(assembly, interfaces, &c, &self.forces, base, &self.rates).proved())
+        self.claim().is_some_and(|c| check::verify(model, &c, &self.forces, base, &self.rates).proved())
     }
 }
 
@@ -67,7 +66,7 @@ impl DryLoadFactor {
     }
 
     /// Whether what it claims is proved from the scene alone.
-    pub fn proved(&self, assembly: &Assembly, interfaces: &Interfaces) -> bool {
-        self.claim().is_some_and(|c| check::verify(assembly, interfaces, &c, &self.forces, None, &self.rates).proved())
+    pub fn proved(&self, model: &Model) -> bool {
+        self.claim().is_some_and(|c| check::verify(model, &c, &self.forces, None, &self.rates).proved())
     }
 }

@@ -8,10 +8,10 @@
 use super::{
     Control, Law, assess,
     flip::{Flip, Probe, refine},
-    prepare,
 };
 use crate::{
     error::{InputError, JsonPath},
+    interface::prepare,
     scene::Scene,
     tolerance,
     verdict::Verdict,
@@ -181,7 +181,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
 /// There is no scene with this value.
 pub fn probe(scene: &Scene, pointer: &str, value: f64, control: &Control) -> Result<Probe, InputError> {
     let model = prepare(&scene.with_field(pointer, value)?)?;
-    let assessment = assess(&model.assembly, &model.interfaces, control);
+    let assessment = assess(&model, control);
     Ok(Probe { value, model, assessment })
 }
 

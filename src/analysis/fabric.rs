@@ -13,7 +13,12 @@
 //!
 //! M. Satake, *Fabric tensor in granular materials*, IUTAM Symposium on Deformation and Failure of Granular Materials, Delft 1982.
 
-use crate::{assembly::Assembly, interface::Interfaces, scene::Friction, tolerance, verdict::Forces};
+use crate::{
+    interface::{Interfaces, Model},
+    scene::Friction,
+    tolerance,
+    verdict::Forces,
+};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -107,11 +112,12 @@ pub fn contacts(interfaces: &Interfaces, forces: &Forces) -> Vec<Contact> {
 }
 
 /// Averages over a packing with these contact forces.
-pub fn fabric(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Fabric {
+pub fn fabric(model: &Model, forces: &Forces) -> Fabric {
+    let Model { assembly, interfaces, .. } = model;
     let list = contacts(interfaces, forces);
     let free = |i: usize| !assembly.blocks[i].support;
     let grains = assembly.free().count();
-    let rattles = rattlers(assembly, interfaces, forces, &list);
+    let rattles = rattlers(model, forces, &list);
     let rattlers = (0..assembly.blocks.len()).filter(|&i| rattles[i]).count();
     let ends = |c: &Contact| [interfaces.list[c.interface].a, interfaces.list[c.interface].b];
     let degree = |list: &mut dyn Iterator<Item = &Contact>| list.flat_map(ends).filter(|&i| free(i)).count() as f64;
@@ -159,7 +165,8 @@ pub fn fabric(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> 
 }
 
 /// Which free grains carry nothing but themselves: no contact pushes them along gravity.
-fn rattlers(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, list: &[Contact]) -> Vec<bool> {
+fn rattlers(model: &Model, forces: &Forces, list: &[Contact]) -> Vec<bool> {
+    let Model { assembly, interfaces, .. } = model;
     let down = assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
     let mut rattles: Vec<bool> = assembly.blocks.iter().map(|b| !b.support).collect();
     for contact in list {

@@ -5,8 +5,8 @@
 //! and far closer than the two verdicts can be told apart, which needs `t` above the tolerance. Where `t` does not behave (a contact
 //! that is lost at once), the range is halved instead. Both ends of the answer are verdicts with their own evidence.
 
-use super::{Assessment, Model};
-use crate::{error::InputError, tolerance, verdict::Verdict};
+use super::Assessment;
+use crate::{error::InputError, interface::Model, tolerance, verdict::Verdict};
 
 /// A model at one value of what varies, with its verdict.
 #[derive(Clone, Debug)]

@@ -6,11 +6,12 @@
 //! sections that is left is a critical value like any other ([`flip`](super::flip)).
 
 use super::{
-    Control, Law, Model, assess,
+    Control, Law, assess,
     flip::{Flip, Probe, refine},
     parts,
 };
 use crate::{
+    interface::Model,
     tolerance,
     verdict::{Verdict, section::centroid},
 };
@@ -74,6 +75,6 @@ pub fn shrunk_model(model: &Model, by: f64) -> Model {
 
 fn shrunk(model: &Model, by: f64, control: &Control) -> Probe {
     let model = shrunk_model(model, by);
-    let assessment = assess(&model.assembly, &model.interfaces, control);
+    let assessment = assess(&model, control);
     Probe { value: by, model, assessment }
 }

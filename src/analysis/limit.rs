@@ -12,8 +12,8 @@ use super::{
     mend, parts,
 };
 use crate::{
-    assembly::{Assembly, Wrench},
-    interface::Interfaces,
+    assembly::Wrench,
+    interface::Model,
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
     tolerance,
     verdict::{
@@ -22,8 +22,7 @@ use crate::{
             existence,
             motion::{self, MotionProof},
         },
-        mechanism,
-        mechanism::Mechanism,
+        mechanism::{self, Mechanism},
         no_forces,
     },
 };
@@ -96,21 +95,22 @@ const BEFORE_DIAGNOSIS: usize = 2;
 const BEFORE_DIAGNOSIS_LARGE: usize = 1;
 
 /// The greatest multiple of the live load under which admissible contact forces exist, part by part. The live load must not be zero.
-pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
-    parts::limit::limit(assembly, interfaces, control)
+pub fn limit(model: &Model, control: &Control) -> LoadFactor {
+    parts::limit::limit(model, control)
 }
 
 /// The same for one part.
-pub(super) fn of_part(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
+pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
+    let Model { assembly, interfaces, .. } = model;
     let start = Instant::now();
     // The last of many directions may find the time already over: nothing is built for it.
     if control.seconds <= 0.0 {
-        return unknown(assembly, interfaces, Vec::new());
+        return unknown(model, Vec::new());
     }
     let options = StaticsOptions { keep_all: control.keep_all, live: true, symmetry: true, ..StaticsOptions::default() };
-    let mut statics = Statics::new(assembly, interfaces, options);
+    let mut statics = Statics::new(model, options);
     let natural = check::natural_factor(assembly);
-    let mut answer = unknown(assembly, interfaces, statics.left_out.clone());
+    let mut answer = unknown(model, statics.left_out.clone());
     let mut scale = natural;
     let forces_only = statics.in_forces_only();
     let points = !interfaces.list.is_empty() && interfaces.list.iter().all(|f| f.points.len() == 1);
@@ -120,23 +120,23 @@ pub(super) fn of_part(assembly: &Assembly, interfaces: &Interfaces, control: &Co
     let before_diagnosis = if large { BEFORE_DIAGNOSIS_LARGE } else { BEFORE_DIAGNOSIS };
     let mut inside = None;
     for (index, (whole, step)) in steps(&ladder, statics.is_part()).enumerate() {
-        if index == before_diagnosis && !answer.bracket.width().is_finite() && diagnose(assembly, interfaces, control, &mut answer) {
+        if index == before_diagnosis && !answer.bracket.width().is_finite() && diagnose(model, control, &mut answer) {
             return answer;
         }
         if whole && statics.is_part() {
-            statics = Statics::new(assembly, interfaces, StaticsOptions { symmetry: false, ..options });
+            statics = Statics::new(model, StaticsOptions { symmetry: false, ..options });
             answer.left_out.clone_from(&statics.left_out);
         }
         let left = control.seconds - start.elapsed().as_secs_f64();
         if left <= 0.0 {
             break;
         }
-        climb(assembly, interfaces, &mut statics, step, scale, left, &mut answer);
+        climb(model, &mut statics, step, scale, left, &mut answer);
         let value = answer.value.abs();
         if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural) {
             let mut proved = answer.clone();
             let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-            if prove(assembly, interfaces, &control, &mut proved, natural, &mut inside) {
+            if prove(model, &control, &mut proved, natural, &mut inside) {
                 answer = proved;
                 answer.outcome = Outcome::Found;
                 break;
@@ -148,7 +148,7 @@ pub(super) fn of_part(assembly: &Assembly, interfaces: &Interfaces, control: &Co
         }
     }
     if answer.outcome == Outcome::Found {
-        answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
+        answer.mechanism = Some(mechanism::read(model, &answer.rates));
     } else if answer.bracket.width() < 0.0 {
         // Ends that cross enclose nothing: the first-order allowances did not hold.
         answer.bracket = Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
@@ -164,30 +164,22 @@ const INWARDS: [f64; 3] = [0.0, 1e-8, 2e-7];
 /// Makes the evidence of a load factor as exact as it can be, and the bracket what it proves: a mechanism that closes no joint, and forces
 /// at the lower end near which others balance exactly. At the limit itself forces have no room; mixed with a little of those that hold the
 /// scene at another load factor they have (`inside`, sought once). False where the forces leave too much unbalanced for a proof.
-fn prove(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    control: &Control,
-    answer: &mut LoadFactor,
-    natural: f64,
-    inside: &mut Option<(f64, Forces)>,
-) -> bool {
-    let k = certificate::kinematics(assembly, interfaces, &answer.rates, &answer.forces);
+fn prove(model: &Model, control: &Control, answer: &mut LoadFactor, natural: f64, inside: &mut Option<(f64, Forces)>) -> bool {
+    let Model { assembly, interfaces, .. } = model;
+    let k = certificate::kinematics(model, &answer.rates, &answer.forces);
     let width = tolerance::LOAD_FACTOR_WIDTH * answer.value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
     let seconds = control.seconds;
-    let mut moved = motion::motion(assembly, interfaces, &answer.rates);
+    let mut moved = motion::motion(model, &answer.rates);
     let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
     if !moved.as_ref().is_some_and(is_proof)
-        && let Some(mended) = mend::admissible(assembly, interfaces, &answer.rates, (answer.value, 0.1 * width * k.live_power), seconds)
+        && let Some(mended) = mend::admissible(model, &answer.rates, (answer.value, 0.1 * width * k.live_power), seconds)
     {
-        let other = motion::motion(assembly, interfaces, &mended);
+        let other = motion::motion(model, &mended);
         if check::upper_bound(other, || f64::INFINITY).is_finite() {
             (answer.rates, moved) = (mended, other);
         }
     }
-    let upper = |forces: &Forces, rates: &[Rate]| {
-        check::upper_bound(moved, || certificate::kinematics(assembly, interfaces, rates, forces).upper())
-    };
+    let upper = |forces: &Forces, rates: &[Rate]| check::upper_bound(moved, || certificate::kinematics(model, rates, forces).upper());
     answer.bracket.upper = upper(&answer.forces, &answer.rates);
     let start = answer.value.min(answer.bracket.upper);
     let mut best: Option<(f64, f64, Forces)> = None;
@@ -199,7 +191,7 @@ fn prove(
             if assembly.free().count() > existence::MOST_BLOCKS {
                 break;
             }
-            let (other, held) = inside.get_or_insert_with(|| elsewhere(assembly, interfaces, control));
+            let (other, held) = inside.get_or_insert_with(|| elsewhere(model, control));
             if held.is_empty() || *other > start {
                 break;
             }
@@ -212,9 +204,9 @@ fn prove(
             forces = forces.iter().zip(&*held).map(|(a, b)| a.iter().zip(b).map(mix).collect()).collect();
         }
         mend::cut(interfaces, &mut forces);
-        let forces = existence::improved(assembly, interfaces, &forces, lambda).unwrap_or(forces);
-        let left = certificate::statics(assembly, interfaces, &forces, lambda).unbalance;
-        let exact = existence::exists(assembly, interfaces, &forces, lambda);
+        let forces = existence::improved(model, &forces, lambda).unwrap_or(forces);
+        let left = certificate::statics(model, &forces, lambda).unbalance;
+        let exact = existence::exists(model, &forces, lambda);
         if exact || best.as_ref().is_none_or(|(least, ..)| left < *least) {
             best = Some((left, lambda, forces));
         }
@@ -234,9 +226,9 @@ fn prove(
 
 /// A load factor at which the scene stands with room, and forces that hold it there: without the live load where it stands without; no
 /// forces where none are found.
-fn elsewhere(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> (f64, Forces) {
+fn elsewhere(model: &Model, control: &Control) -> (f64, Forces) {
     for live in [LiveLoad::Absent, LiveLoad::AnyMultiple] {
-        let held = least_unbalance(assembly, interfaces, live, control);
+        let held = least_unbalance(model, live, control);
         if held.verdict == Verdict::Stable {
             return (held.load_factor, held.forces);
         }
@@ -245,7 +237,8 @@ fn elsewhere(assembly: &Assembly, interfaces: &Interfaces, control: &Control) ->
 }
 
 /// The answer before anything is known.
-fn unknown(assembly: &Assembly, interfaces: &Interfaces, left_out: Vec<String>) -> LoadFactor {
+fn unknown(model: &Model, left_out: Vec<String>) -> LoadFactor {
+    let Model { assembly, interfaces, .. } = model;
     LoadFactor {
         outcome: Outcome::Undecided,
         value: f64::NAN,
@@ -262,17 +255,18 @@ fn unknown(assembly: &Assembly, interfaces: &Interfaces, left_out: Vec<String>) 
 }
 
 /// One attempt at program L; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
-fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
+fn climb(model: &Model, base: &mut Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
+    let assembly = &model.assembly;
     let mut statics = step.scaled(base);
     let settings = crate::solve::Settings { seconds: left, ..step.settings };
     let build = |statics: &Statics| program::load_factor(statics, scale, step.unknowns);
-    let Run { candidate, solution, size } = run(assembly, interfaces, &mut statics, build, &settings);
+    let Run { candidate, solution, size } = run(model, &mut statics, build, &settings);
     let (mut lower, mut upper, mut engine_value) = (f64::NEG_INFINITY, f64::INFINITY, None);
     if let Some(c) = candidate {
         let lambda = scale * if step.unknowns == Unknowns::Forces { c.solution.x[statics.matrix.columns] } else { -c.solution.z[0] };
         engine_value = Some(lambda);
-        let k = certificate::kinematics(assembly, interfaces, &c.rates, &c.forces);
-        let s = certificate::statics(assembly, interfaces, &c.forces, lambda);
+        let k = certificate::kinematics(model, &c.rates, &c.forces);
+        let s = certificate::statics(model, &c.forces, lambda);
         let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &c.rates[i]).abs()).sum();
         if k.live_power > 0.0 {
             // Rates that are no mechanism bound nothing.
@@ -291,7 +285,7 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step:
         if upper < answer.bracket.upper {
             (answer.bracket.upper, answer.rates) = (upper, c.rates);
         }
-        pair(assembly, interfaces, answer);
+        pair(model, answer);
     }
     answer.attempts.push(Attempt {
         program: format!("load factor in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
@@ -312,13 +306,14 @@ fn climb(assembly: &Assembly, interfaces: &Interfaces, base: &mut Statics, step:
 
 /// The bracket of the best forces and the best mechanism together. Each end is corrected to first order by the other side, and the best
 /// of the other side corrects best: a mechanism weighed by the forces of a poor attempt may seem to fall below the limit.
-fn pair(assembly: &Assembly, interfaces: &Interfaces, answer: &mut LoadFactor) {
+fn pair(model: &Model, answer: &mut LoadFactor) {
+    let assembly = &model.assembly;
     if !answer.bracket.width().is_finite() {
         return;
     }
-    let k = certificate::kinematics(assembly, interfaces, &answer.rates, &answer.forces);
+    let k = certificate::kinematics(model, &answer.rates, &answer.forces);
     let lower = |value: f64| {
-        let s = certificate::statics(assembly, interfaces, &answer.forces, value);
+        let s = certificate::statics(model, &answer.forces, value);
         let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &answer.rates[i]).abs()).sum();
         value - hidden / k.live_power
     };
@@ -333,12 +328,13 @@ fn pair(assembly: &Assembly, interfaces: &Interfaces, answer: &mut LoadFactor) {
 }
 
 /// One attempt at program L with a way of one's own, for studies: nothing is tried again.
-pub fn attempt(assembly: &Assembly, interfaces: &Interfaces, way: &Formulation) -> LoadFactor {
-    let mut statics = Statics::new(assembly, interfaces, StaticsOptions { live: true, ..way.options });
-    let mut answer = unknown(assembly, interfaces, statics.left_out.clone());
+pub fn attempt(model: &Model, way: &Formulation) -> LoadFactor {
+    let assembly = &model.assembly;
+    let mut statics = Statics::new(model, StaticsOptions { live: true, ..way.options });
+    let mut answer = unknown(model, statics.left_out.clone());
     let scale = if way.options.unscaled { 1.0 } else { check::natural_factor(assembly) };
     let step = Rung { unknowns: way.unknowns, unit: way.unit, local: way.local, even: false, settings: way.settings };
-    climb(assembly, interfaces, &mut statics, step, scale, way.settings.seconds, &mut answer);
+    climb(model, &mut statics, step, scale, way.settings.seconds, &mut answer);
     let value = answer.value.abs();
     if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly)) {
         answer.outcome = Outcome::Found;
@@ -370,20 +366,21 @@ impl Formulation {
 }
 
 /// Is there no load factor at all, or no limit to it? Returns true where that is the answer.
-fn diagnose(assembly: &Assembly, interfaces: &Interfaces, control: &Control, answer: &mut LoadFactor) -> bool {
-    let any = least_unbalance(assembly, interfaces, LiveLoad::AnyMultiple, control);
+fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
+    let Model { assembly, interfaces, .. } = model;
+    let any = least_unbalance(model, LiveLoad::AnyMultiple, control);
     answer.attempts.extend(any.attempts.iter().cloned());
     if any.verdict == Verdict::Unstable {
         answer.outcome = Outcome::Impossible;
         answer.bracket = Bracket { lower: f64::NEG_INFINITY, upper: f64::NEG_INFINITY };
-        (answer.forces, answer.rates) = (any.forces, mend::at_rest(assembly, interfaces, &any.rates));
-        answer.mechanism = Some(mechanism::read(assembly, interfaces, &answer.rates));
+        (answer.forces, answer.rates) = (any.forces, mend::at_rest(model, &any.rates));
+        answer.mechanism = Some(mechanism::read(model, &answer.rates));
         return true;
     }
     // The live load in the size of the dead load, so that the same threshold applies.
     let (alone, natural) = check::live_alone(assembly);
     let (unlimited, kept) = interfaces.unlimited();
-    let wedge = least_unbalance(&alone, &unlimited, LiveLoad::Absent, control);
+    let wedge = least_unbalance(&Model::new(alone, unlimited), LiveLoad::Absent, control);
     answer.attempts.extend(wedge.attempts.iter().cloned());
     if wedge.verdict == Verdict::Stable && any.verdict == Verdict::Stable {
         answer.outcome = Outcome::Unbounded;

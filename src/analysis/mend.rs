@@ -10,7 +10,7 @@
 
 use crate::{
     assembly::Assembly,
-    interface::{Interface, Interfaces},
+    interface::{Interface, Interfaces, Model},
     program::{Statics, StaticsOptions, opening},
     scene::Friction,
     solve::{self, Settings},
@@ -66,18 +66,13 @@ const INSIDE: f64 = 1e-14;
 
 /// A motion next to `rates` that closes no joint; `None` where none is found, or where it loses more than `most` of the power of the loads
 /// (the dead load's and `lambda` × the live load's), or none within `seconds`.
-pub(super) fn admissible(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    rates: &[Rate],
-    (lambda, most): (f64, f64),
-    seconds: f64,
-) -> Option<Vec<Rate>> {
+pub(super) fn admissible(model: &Model, rates: &[Rate], (lambda, most): (f64, f64), seconds: f64) -> Option<Vec<Rate>> {
+    let assembly = &model.assembly;
     let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
-    if motion(assembly, interfaces, rates).as_ref().is_some_and(is_proof) {
+    if motion(model, rates).as_ref().is_some_and(is_proof) {
         return Some(rates.to_vec());
     }
-    let closing = closing(assembly, interfaces, rates);
+    let closing = closing(model, rates);
     let power = |q: &[Rate]| -> f64 {
         let of = |i: usize| {
             let (w, l) = (&assembly.dead[i], &assembly.live[i]);
@@ -88,13 +83,13 @@ pub(super) fn admissible(
     let own = power(rates);
     // How much of a motion is added, and the power that it takes.
     let added = |p: &[Rate]| -> Option<(f64, f64)> {
-        let share = share(&closing, &self::closing(assembly, interfaces, p))?;
+        let share = share(&closing, &self::closing(model, p))?;
         Some((share, -share * power(p)))
     };
     let mended = |p: &[Rate], share: f64| -> Option<Vec<Rate>> {
         let mended: Vec<Rate> =
             rates.iter().zip(p).map(|(q, p)| Rate { velocity: q.velocity + p.velocity * share, spin: q.spin + p.spin * share }).collect();
-        let holds = own - power(&mended) <= most && motion(assembly, interfaces, &mended).as_ref().is_some_and(is_proof);
+        let holds = own - power(&mended) <= most && motion(model, &mended).as_ref().is_some_and(is_proof);
         holds.then_some(mended)
     };
     let mut rising: Vec<(f64, f64, Vec<Rate>)> =
@@ -106,22 +101,24 @@ pub(super) fn admissible(
     if assembly.free().count() > MOST_BLOCKS || seconds <= 0.0 {
         return None;
     }
-    let p = sought(assembly, interfaces, seconds)?;
+    let p = sought(model, seconds)?;
     added(&p).and_then(|(share, _)| mended(&p, share))
 }
 
 /// The same motion without the blocks that all but rest in it, where it proves as much: what an engine leaves of a zero has power on large loads.
-pub(super) fn at_rest(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Vec<Rate> {
+pub(super) fn at_rest(model: &Model, rates: &[Rate]) -> Vec<Rate> {
+    let Model { assembly, interfaces, .. } = model;
     let speed = |i: usize| certificate::speed(assembly, i, &rates[i]);
     let fastest = assembly.free().map(speed).fold(0.0, f64::max);
     let rest = |(i, q): (usize, &Rate)| if speed(i) <= tolerance::MECHANISM_REST * fastest { Rate::zero() } else { *q };
     let still: Vec<Rate> = rates.iter().enumerate().map(rest).collect();
-    let k = certificate::kinematics(assembly, interfaces, &still, &no_forces(interfaces));
+    let k = certificate::kinematics(model, &still, &no_forces(interfaces));
     if k.is_admissible(assembly) && k.gain() > tolerance::UNBALANCE * k.norm { still } else { rates.to_vec() }
 }
 
 /// How far each point of each contact closes, and the rounding of that, m/s.
-fn closing(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Vec<(f64, f64)> {
+fn closing(model: &Model, rates: &[Rate]) -> Vec<(f64, f64)> {
+    let Model { assembly, interfaces, .. } = model;
     let mut list = Vec::new();
     for face in &interfaces.list {
         let mu = if let Friction::Coefficient(mu) = face.law.friction { mu } else { 0.0 };
@@ -192,8 +189,9 @@ fn fields(assembly: &Assembly) -> impl Iterator<Item = Vec<Rate>> + '_ {
 
 /// The least motion that opens every contact by one, of the whole scene; `None` where there is none (forces that balance without a load hold
 /// some contact closed) or where joints have strengths.
-fn sought(assembly: &Assembly, interfaces: &Interfaces, seconds: f64) -> Option<Vec<Rate>> {
-    let statics = Statics::new(assembly, interfaces, StaticsOptions::default());
+fn sought(model: &Model, seconds: f64) -> Option<Vec<Rate>> {
+    let assembly = &model.assembly;
+    let statics = Statics::new(model, StaticsOptions::default());
     let program = opening(&statics)?;
     let settings = Settings { seconds, tolerance: 1e-6, ..Settings::default() };
     let solution = solve::solve(&program, &settings);

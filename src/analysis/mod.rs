@@ -13,7 +13,6 @@ pub mod geometric;
 pub mod limit;
 mod mend;
 mod parts;
-mod prepare;
 pub mod repose;
 pub mod reuse;
 pub mod stability;
@@ -27,7 +26,6 @@ pub use critical::{Critical, critical};
 pub use fabric::{Fabric, fabric};
 pub use limit::{LoadFactor, Outcome, limit};
 pub use parts::Deciding;
-pub use prepare::{Model, Timings, prepare};
 pub use stability::{Stability, stability};
 pub use tilt::{Tilt, tilt};
 

@@ -6,7 +6,7 @@
 //! asked for as a cross-check by a method that shares nothing with the dynamics but the places of the grains.
 
 use super::{
-    Control, Model, Outcome, Tilt, prepare,
+    Control, Outcome, Tilt,
     stability::{held, without},
     tilt,
 };
@@ -15,6 +15,7 @@ use crate::{
     dynamics::granular::{Disturbance, Flow, Rest, flow},
     error::{Finding, FindingCode, InputError},
     generate::{Deposit, deposit},
+    interface::{Model, prepare},
     scene::{BlockSpec, Protocol, ProtocolKind, Rotation, Scene},
     tolerance::GRAIN_GAP,
 };
@@ -267,7 +268,7 @@ pub fn margin(heap: &Heap, control: &Control) -> Result<Margin, InputError> {
     let start = Instant::now();
     let down = Vector3::x();
     let (mut scene, mut model, mut unbalanced) = (scene, model, 0);
-    let mut tilt = tilt::tilt(&model.assembly, &model.interfaces, down, control)?;
+    let mut tilt = tilt::tilt(&model, down, control)?;
     for _ in 0..UNBALANCED {
         let moving = tilt.load_factor.mechanism.iter().flat_map(|m| &m.moving);
         let ids: Vec<String> = moving.map(|&i| model.assembly.blocks[i].id.clone()).collect();
@@ -281,7 +282,7 @@ pub fn margin(heap: &Heap, control: &Control) -> Result<Margin, InputError> {
         }
         unbalanced += ids.len() + more.len();
         (scene, model) = (rest, next);
-        tilt = tilt::tilt(&model.assembly, &model.interfaces, down, control)?;
+        tilt = tilt::tilt(&model, down, control)?;
     }
     let model = tilt::tilted(&model, down, tilt.load_factor.value)?;
     Ok(Margin { scene, model, tilt, loose: loose.len(), unbalanced, seconds: [contacts, start.elapsed().as_secs_f64()] })

@@ -4,11 +4,10 @@
 //! change neither. The caller says which scenes are alike by two [`Keys`]; a model made with reuse is the same bit by bit as one
 //! made without.
 
-use super::Model;
 use crate::{
     assembly::{self, Blocks},
     error::InputError,
-    interface::{self, Interfaces},
+    interface::{self, Interfaces, Model},
     scene::Scene,
 };
 use std::{
@@ -49,7 +48,7 @@ impl Reuse {
         let assembly = assembly::resolve_with(scene, (*blocks).clone())?;
         let contacts = self.contacts.get(&keys.shapes, || interface::detect(&assembly))?;
         let interfaces = contacts.with_joints_of(&assembly)?;
-        Ok(Model::new(assembly, interfaces))
+        Ok(Model::detected(assembly, interfaces))
     }
 
     /// How often blocks were resolved and contacts detected.

@@ -6,12 +6,17 @@
 //! What one round finds has the proof of any tilt ([`tilt`](super::tilt())), for the packing that it was asked about.
 
 use super::{
-    Control, Law, Model, Outcome, Tilt,
+    Control, Law, Outcome, Tilt,
     coulomb::DryLoadFactor,
-    prepare, tilt,
+    tilt,
     tilt::{dry, tilted},
 };
-use crate::{error::InputError, generate, program, scene::Scene};
+use crate::{
+    error::InputError,
+    generate,
+    interface::{Model, floating, prepare},
+    scene::Scene,
+};
 use nalgebra::Vector3;
 use std::{collections::HashSet, time::Instant};
 
@@ -48,8 +53,7 @@ pub struct Stability {
 /// # Errors
 /// The scene cannot be prepared once more without them.
 pub fn held(scene: &Scene, model: Model) -> Result<(Scene, Model, Vec<String>), InputError> {
-    let loose: Vec<String> =
-        program::floating(&model.assembly, &model.interfaces).into_iter().flatten().map(|i| model.assembly.blocks[i].id.clone()).collect();
+    let loose: Vec<String> = floating(&model).into_iter().flatten().map(|i| model.assembly.blocks[i].id.clone()).collect();
     if loose.is_empty() {
         return Ok((scene.clone(), model, loose));
     }
@@ -72,7 +76,7 @@ pub fn stability(scene: &Scene, model: &Model, toward: Vector3<f64>, moving_mass
     loop {
         // All rounds share the time.
         let control = &Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-        let tilt = tilt::tilt(&model.assembly, &model.interfaces, toward, control)?;
+        let tilt = tilt::tilt(&model, toward, control)?;
         let turned = tilted(&model, toward, tilt.load_factor.value)?;
         let moving: Vec<usize> = tilt.load_factor.mechanism.iter().flat_map(|m| m.moving.iter().copied()).collect();
         let ids: Vec<String> = moving.iter().map(|&i| model.assembly.blocks[i].id.clone()).collect();
@@ -110,10 +114,10 @@ fn finish(mut rounds: Vec<Round>, level: &[Model], reached: bool, control: &Cont
         Outcome::Found | Outcome::Unbounded => r.tilt.angle_deg(),
     };
     let answer = (0..rounds.len()).max_by(|&i, &j| height(&rounds[i]).total_cmp(&height(&rounds[j])).then(j.cmp(&i))).unwrap_or(0);
-    let Round { tilt, model, .. } = &rounds[answer];
+    let Round { tilt, .. } = &rounds[answer];
     let bounded = matches!(tilt.load_factor.outcome, Outcome::Found | Outcome::Unbounded);
     if bounded && control.law == Law::Coulomb {
-        let dry = dry(&model.assembly, &level[answer].interfaces, &tilt.load_factor, None, control);
+        let dry = dry(&level[answer], tilt, None, control)?;
         rounds[answer].dry = Some((tilted(&level[answer], tilt.toward, dry.value)?, dry));
     }
     Ok(Stability { rounds, answer, reached })

@@ -5,15 +5,14 @@
 //! ([`geometric`](super::geometric)).
 
 use super::{
-    Assessment, Bracket, Control, Model, Outcome, assess,
+    Assessment, Bracket, Control, Outcome, assess,
     attempt::{Attempt, Candidate, Run, Rung, run, rung},
     geometric::{Geometric, geometric_factor},
     parts,
 };
 use crate::{
-    assembly::Assembly,
     error::{InputError, JsonPath},
-    interface::Interfaces,
+    interface::{Interfaces, Model},
     program::{self, Statics, StaticsOptions, Unknowns},
     tolerance,
     verdict::{
@@ -133,10 +132,10 @@ pub fn thrust(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces,
 
 /// The same for one part.
 pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> ThrustEnd {
-    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    let assembly = &model.assembly;
     let start = Instant::now();
     let direction = Vector3::from(at.direction);
-    let build = |keep_all: bool| Statics::new(assembly, interfaces, StaticsOptions { keep_all, ..StaticsOptions::default() });
+    let build = |keep_all: bool| Statics::new(model, StaticsOptions { keep_all, ..StaticsOptions::default() });
     let mut base = build(control.keep_all);
     // A plane scene knows no thrust out of its plane.
     if base.plane.is_some_and(|p| p.axis.dot(&direction).abs() > 1e-9) {
@@ -154,7 +153,7 @@ pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: 
         left_out: base.left_out.clone(),
     };
     let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
-    let problem = Problem { assembly, interfaces, at, extreme, total };
+    let problem = Problem { model, at, extreme, total };
     for (index, step) in LADDER.into_iter().enumerate() {
         let left = || control.seconds - start.elapsed().as_secs_f64();
         if left() <= 0.0 {
@@ -178,8 +177,7 @@ pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: 
 }
 
 struct Problem<'a> {
-    assembly: &'a Assembly,
-    interfaces: &'a Interfaces,
+    model: &'a Model,
     at: &'a ThrustAt,
     extreme: Extreme,
     /// Total load of the free blocks, N: the unit of the objective.
@@ -212,18 +210,19 @@ impl Problem<'_> {
 
     /// One attempt; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
     fn climb(&self, base: &mut Statics, step: Rung, left: f64, answer: &mut ThrustEnd) {
-        let (assembly, interfaces) = (self.assembly, self.interfaces);
+        let model = self.model;
+        let interfaces = &model.interfaces;
         let mut statics = base.clone();
         statics.rescale(step.unit, step.local);
         let settings = crate::solve::Settings { seconds: left, ..step.settings };
         let build = |statics: &Statics| program::thrust(statics, &self.objective(statics, interfaces));
-        let mut done = run(assembly, interfaces, &mut statics, build, &settings);
+        let mut done = run(model, &mut statics, build, &settings);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         if let Some(Candidate { forces, rates, .. }) = done.candidate.take() {
             // Rates come per unit of the objective.
             let rates: Vec<Rate> =
                 rates.into_iter().map(|r| Rate { velocity: r.velocity * self.total, spin: r.spin * self.total }).collect();
-            let p = self.at.bracket(assembly, interfaces, self.extreme, &forces, &rates);
+            let p = self.at.bracket(model, self.extreme, &forces, &rates);
             let balanced = p.statics.unbalance <= tolerance::LOOSE_BALANCE && p.statics.is_within_strength();
             let (bound, reached) = if self.extreme == Extreme::Least { (0, 1) } else { (1, 0) };
             if p.is_admissible(self.total) {
@@ -254,21 +253,22 @@ impl Problem<'_> {
 
     /// Whether forces that need no load push without end; then they are the forces of `answer`.
     fn has_no_end(&self, step: Rung, left: f64, keep_all: bool, answer: &mut ThrustEnd) -> bool {
-        let (unlimited, kept) = self.interfaces.unlimited();
-        let mut statics = Statics::new(self.assembly, &unlimited, StaticsOptions { keep_all, ..StaticsOptions::default() });
+        let (unlimited, kept) = self.model.interfaces.unlimited();
+        let unlimited = self.model.with_interfaces(unlimited);
+        let mut statics = Statics::new(&unlimited, StaticsOptions { keep_all, ..StaticsOptions::default() });
         statics.rescale(step.unit, step.local);
         let settings = crate::solve::Settings { seconds: left, ..step.settings };
-        let build = |statics: &Statics| program::endless_thrust(statics, &self.objective(statics, &unlimited));
-        let mut done = run(self.assembly, &unlimited, &mut statics, build, &settings);
+        let build = |statics: &Statics| program::endless_thrust(statics, &self.objective(statics, &unlimited.interfaces));
+        let mut done = run(&unlimited, &mut statics, build, &settings);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         let mut endless = false;
         if let Some(Candidate { forces, .. }) = done.candidate.take() {
-            let bare = crate::verdict::thrust::unloaded(self.assembly);
-            let s = certificate::statics(&bare, &unlimited, &forces, 0.0);
-            endless = s.balanced && -self.extreme.sigma() * self.at.value(&unlimited, &forces) >= 0.5 * self.total;
+            let bare = Model::new(crate::verdict::thrust::unloaded(&self.model.assembly), unlimited.interfaces);
+            let s = certificate::statics(&bare, &forces, 0.0);
+            endless = s.balanced && -self.extreme.sigma() * self.at.value(&bare.interfaces, &forces) >= 0.5 * self.total;
             if endless {
                 ends = [-self.extreme.sigma() * f64::INFINITY; 2];
-                answer.forces = no_forces(self.interfaces);
+                answer.forces = no_forces(&self.model.interfaces);
                 kept.into_iter().zip(forces).for_each(|(k, forces)| answer.forces[k] = forces);
             }
         }
@@ -295,9 +295,9 @@ pub fn answer(model: &Model, at: ThrustAt, control: &Control) -> Thrust {
     let start = Instant::now();
     // Each question may take as much of the time as those after it.
     let share = |of: f64| Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0) / of, ..*control };
-    let standing = assess(&model.assembly, &model.interfaces, control);
+    let standing = assess(model, control);
     // Whether the loads produce them or not: there are forces.
-    let balanced = certificate::statics(&model.assembly, &model.interfaces, &standing.forces, 0.0).balanced;
+    let balanced = certificate::statics(model, &standing.forces, 0.0).balanced;
     let admissible = balanced && standing.verdict != Verdict::Unstable;
     let end = |extreme, of| thrust(model, &at, extreme, &standing.forces, &share(of));
     let ends = admissible.then(|| [end(Extreme::Least, 3.0), end(Extreme::Greatest, 2.0)]);

@@ -9,20 +9,20 @@
 //! upwards. Joints that hold more than the weight at any tilt have none; that comes out undecided.
 
 use super::{
-    Bracket, Control, LoadFactor, Model, Outcome,
+    Bracket, Control, LoadFactor, Outcome,
     coulomb::{self, DryLoadFactor, Found},
-    limit, parts,
-    parts::limit::Ways,
+    limit,
+    parts::{self, limit::Ways},
 };
 use crate::{
     assembly::{AppliedForce, Assembly, Wrench},
     error::InputError,
-    interface::{Interfaces, Part},
+    interface::{Interfaces, Model, Part},
     tolerance,
     verdict::Verdict,
 };
 use nalgebra::Vector3;
-use std::{borrow::Cow, time::Instant};
+use std::time::Instant;
 
 /// The tilt limit in one direction.
 #[derive(Clone, Debug)]
@@ -107,23 +107,30 @@ fn stressed(interfaces: &Interfaces, load_factor: f64) -> Interfaces {
 ///
 /// # Errors
 /// As [`turned`].
-pub fn tilt(assembly: &Assembly, interfaces: &Interfaces, toward: Vector3<f64>, control: &Control) -> Result<Tilt, InputError> {
-    let (turned, toward) = turned(assembly, toward)?;
-    if interfaces.are_dry() {
-        return Ok(Tilt { toward, load_factor: limit(&turned, interfaces, control) });
+pub fn tilt(model: &Model, toward: Vector3<f64>, control: &Control) -> Result<Tilt, InputError> {
+    let (assembly, toward) = turned(&model.assembly, toward)?;
+    let turned = Model::new(assembly, model.interfaces.clone());
+    if turned.interfaces.are_dry() {
+        return Ok(Tilt { toward, load_factor: limit(&turned, control) });
     }
-    let load_factor = parts::limit::limit_by(&turned, interfaces, control, &Ways { solve: tilted_part, joints: tilted_joints });
+    let load_factor = parts::limit::limit_by(&turned, control, &Ways { solve: tilted_part, at: tilted_under });
     Ok(Tilt { toward, load_factor })
 }
 
-/// The joints of a part at a tilt.
-fn tilted_joints(part: &Part, tilt: f64) -> Cow<'_, Interfaces> {
-    Cow::Owned(stressed(&part.interfaces, tilt))
+/// A part with its joints as they are at a tilt.
+fn tilted_joints(part: &Part, tilt: f64) -> Model {
+    part.model.with_interfaces(stressed(&part.model.interfaces, tilt))
+}
+
+/// A part under its loads at a tilt.
+fn tilted_under(part: &Part, tilt: f64) -> Model {
+    let assembly = part.model.assembly.at_load_factor(part.units.own_load_factor(tilt));
+    Model::new(assembly, stressed(&part.model.interfaces, tilt))
 }
 
 /// The tilt at which a part falls whose joints have strengths, as a load factor in its own units.
 fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
-    let at = |tilt: f64| limit::of_part(&part.assembly, &tilted_joints(part, tilt), control);
+    let at = |tilt: f64| limit::of_part(&tilted_joints(part, tilt), control);
     let found = |l: &LoadFactor| (l.outcome == Outcome::Found).then(|| part.units.load_factor(l.value));
     match own_answer(0.0, at, found) {
         // Joints at the tilt itself differ by what is left of the search from those that it was found with.
@@ -143,22 +150,19 @@ fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
     }
 }
 
-/// The same with dry friction; `turned` is the assembly that [`turned`] gave, `associative` the answer of [`tilt`] for it, `level` the verdict
-/// at level, where it is known.
-pub fn dry(
-    turned: &Assembly,
-    interfaces: &Interfaces,
-    associative: &LoadFactor,
-    level: Option<Verdict>,
-    control: &Control,
-) -> DryLoadFactor {
-    if interfaces.are_dry() {
-        return coulomb::load_factor_from(turned, interfaces, associative, level, control);
+/// The same with dry friction; `tilt` is the answer of [`tilt`](tilt()) for the same model, `level` the verdict at level, where it is known.
+///
+/// # Errors
+/// As [`turned`].
+pub fn dry(model: &Model, tilt: &Tilt, level: Option<Verdict>, control: &Control) -> Result<DryLoadFactor, InputError> {
+    let (associative, turned) = (&tilt.load_factor, tilted(model, tilt.toward, 0.0)?);
+    if turned.interfaces.are_dry() {
+        return Ok(coulomb::load_factor_from(&turned, associative, level, control));
     }
     let dead = level.filter(|&v| v == Verdict::Stable);
     let solve = |part: &Part, bound: Option<&LoadFactor>, control: &Control| {
         let start = Instant::now();
-        let own = |tilt: f64| limit::of_part(&part.assembly, &tilted_joints(part, tilt), control);
+        let own = |tilt: f64| limit::of_part(&tilted_joints(part, tilt), control);
         let computed;
         let bound = match bound {
             Some(bound) => bound,
@@ -167,17 +171,17 @@ pub fn dry(
                 &computed
             }
         };
-        let at = |tilt: f64| coulomb::complementary(&part.assembly, &tilted_joints(part, tilt), &own(tilt), control);
+        let at = |tilt: f64| coulomb::complementary(&tilted_joints(part, tilt), &own(tilt), control);
         let value = |d: &DryLoadFactor| d.value.is_finite().then(|| part.units.load_factor(d.value));
         let answer = match own_answer(part.units.load_factor(bound.value), at, value) {
             Ok(answer) => answer,
             Err(answer) => DryLoadFactor { found: Found::Undecided, value: f64::NAN, ..answer },
         };
         let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-        let model = |lambda: f64| (part.assembly.at_load_factor(lambda), tilted_joints(part, part.units.load_factor(lambda)).into_owned());
-        coulomb::up_to_rest(answer, &part.assembly, bound, dead, &model, &control)
+        let at = |lambda: f64| tilted_under(part, part.units.load_factor(lambda));
+        coulomb::up_to_rest(answer, &part.model.assembly, bound, dead, &at, &control)
     };
-    parts::dry::load_factor_by(turned, interfaces, associative, control, (solve, tilted_joints))
+    Ok(parts::dry::load_factor_by(&turned, associative, control, (solve, tilted_under)))
 }
 
 /// A tilt is its own answer up to this × itself. Larger: a wider bracket. Smaller: the last digits of the engine.

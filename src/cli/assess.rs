@@ -19,7 +19,7 @@ use voussoir::{
 pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     let mut question = Question::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     question.worst(&args.worst, WorstOf::Assess)?;
-    let assessment = assess(&question.model.assembly, &question.model.interfaces, &question.control());
+    let assessment = assess(&question.model, &question.control());
     let doubt = matches!(assessment.verdict, Verdict::Conditional | Verdict::Undecided);
     let mut film = question.report().map(|_| Film::fitting(question.model.assembly.blocks.len()));
     let settings = SimulationSettings { threads: threads(args.threads), every_step: film.is_some(), ..SimulationSettings::default() };

@@ -8,9 +8,10 @@ use serde_json::{Value, json};
 use std::{borrow::Cow, ops::ControlFlow};
 use voussoir::{
     analysis::{
-        Control, Law, prepare,
+        Control, Law,
         repose::{Heap, Margin, heap, margin},
     },
+    interface::prepare,
     keep::Kept,
     parallel,
     report::{

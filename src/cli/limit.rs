@@ -19,14 +19,14 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     let mut question = Question::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     no_live_load(&question)?;
     question.worst(&args.worst, WorstOf::Limit)?;
-    let (assembly, interfaces) = (&question.model.assembly, &question.model.interfaces);
-    let answer = limit(assembly, interfaces, &question.control());
+    let model = &question.model;
+    let answer = limit(model, &question.control());
     // Where the answer itself says that λ = 0 is too much, there is nothing left to ask.
     let settled = answer.outcome == Outcome::Impossible || (answer.outcome == Outcome::Found && answer.bracket.upper < 0.0);
-    let dead = (!settled && !args.skip_dead).then(|| assess(assembly, interfaces, &question.control()));
+    let dead = (!settled && !args.skip_dead).then(|| assess(model, &question.control()));
     let ask_dry = question.control().law == Law::Coulomb && matches!(answer.outcome, Outcome::Found | Outcome::Unbounded);
     let level = dead.as_ref().map(|d| d.verdict);
-    let dry = ask_dry.then(|| coulomb::load_factor_from(assembly, interfaces, &answer, level, &question.control()));
+    let dry = ask_dry.then(|| coulomb::load_factor_from(model, &answer, level, &question.control()));
     let file = question.answer(terminal, &[skip_dead(args.skip_dead), worst(&args.worst)].concat(), || {
         let file = ResultFile::load_factor(&question.scene, &question.model, &answer);
         let file = match &dry {

@@ -13,9 +13,10 @@ use super::{
 use anyhow::bail;
 use std::{path::Path, time::Instant};
 use voussoir::{
-    analysis::{Control, Model, Outcome, coulomb::Found, prepare},
+    analysis::{Control, Outcome, coulomb::Found},
     dynamics::Frame,
     error::{Finding, FindingCode, InputError},
+    interface::{Model, prepare},
     limits,
     report::{
         ResultFile, json, page,

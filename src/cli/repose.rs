@@ -12,7 +12,8 @@ use super::{
 use anyhow::{Context, bail};
 use std::time::Instant;
 use voussoir::{
-    analysis::{Model, assess, fabric, prepare, stability, stability::held, tilt::directions},
+    analysis::{assess, fabric, stability, stability::held, tilt::directions},
+    interface::{Model, prepare},
     report::{
         contacts, json,
         packing::PackingFile,
@@ -53,9 +54,9 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let (mut file, proof) = PackingFile::new(&model, &name, args.moving_mass, answers, &loose).context("no direction to tilt towards")?;
     (file.timings.solve, file.timings.check) = (solve, start.elapsed().as_secs_f64());
     if let Some(forces) = &forces {
-        file.fabric = args.fabric.then(|| fabric(&model.assembly, &model.interfaces, forces));
+        file.fabric = args.fabric.then(|| fabric(&model, forces));
         if let Some(csv) = &csv {
-            let table = contacts::csv(&model.assembly, &model.interfaces, forces).map_err(|e| anyhow::anyhow!("{e}"))?;
+            let table = contacts::csv(&model, forces).map_err(|e| anyhow::anyhow!("{e}"))?;
             csv.write(&table)?;
         }
     }
@@ -84,6 +85,6 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
 
 /// Forces of the packing when level: those that the weights produce where dry friction was computed, else some that balance.
 fn level(question: &Question, model: &Model) -> Forces {
-    let answer = assess(&model.assembly, &model.interfaces, &question.control());
+    let answer = assess(model, &question.control());
     answer.state.map_or(answer.forces, |s| s.forces)
 }

@@ -60,7 +60,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         return Err(e).with_context(|| written(path));
     }
     let model = &question.model;
-    let verdict = (!args.skip_verdict).then(|| assess(&model.assembly, &model.interfaces, &question.control()));
+    let verdict = (!args.skip_verdict).then(|| assess(model, &question.control()));
     let pack = || ResultFile::simulated(&question.scene, model, verdict.as_ref(), &outcome);
     let file = question.answer_seen(terminal, &args.options(), Seen::Scene(film.map(Film::frames).unwrap_or_default()), pack)?;
     Ok(match file.answer.fate {
@@ -79,7 +79,7 @@ pub fn watch(
 ) -> anyhow::Result<SimulationOutcome> {
     let bar = Bar::new(question.shows_progress());
     let model = &question.model;
-    simulate(&model.assembly, &model.interfaces, settings, &mut |progress| {
+    simulate(model, settings, &mut |progress| {
         bar.show(progress);
         report::see(film, progress.moment);
         if question.control().seconds <= 0.0 {

@@ -23,15 +23,15 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     } else {
         args.toward.iter().map(|&d| d.into()).collect()
     };
-    let dead = (!args.skip_dead).then(|| assess(&model.assembly, &model.interfaces, &question.control()));
+    let dead = (!args.skip_dead).then(|| assess(model, &question.control()));
     let level = dead.as_ref().map(|d| d.verdict);
     let mut answers = Vec::with_capacity(toward.len());
     for direction in toward {
-        let tilt = tilt(&model.assembly, &model.interfaces, direction, &question.control())?;
+        let tilt = tilt(model, direction, &question.control())?;
         let turned = tilted(model, direction, tilt.load_factor.value)?;
         let bounded = matches!(tilt.load_factor.outcome, Outcome::Found | Outcome::Unbounded);
         let dry = if bounded && question.control().law == Law::Coulomb {
-            let dry = tilt::dry(&turned.assembly, &model.interfaces, &tilt.load_factor, level, &question.control());
+            let dry = tilt::dry(model, &tilt, level, &question.control())?;
             Some((tilted(model, direction, dry.value)?, dry))
         } else {
             None

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     assembly::{Assembly, Block, JointLaw, Solid},
     error::InputError,
-    interface::{ContactKind, Interfaces},
+    interface::{ContactKind, Model},
     scene::Friction,
     tolerance::{SKIN, SKIN_OF_THICKNESS},
 };
@@ -61,7 +61,8 @@ const GIVEN_BALL: f64 = 0.02;
 const GIVEN_PLATE: f64 = 0.3;
 
 /// The bodies of a scene; polyhedra are smaller by `skin` × their size.
-pub(super) fn bodies(assembly: &Assembly, interfaces: &Interfaces, units: &Units, skin: f64) -> Result<Vec<Body>, InputError> {
+pub(super) fn bodies(model: &Model, units: &Units, skin: f64) -> Result<Vec<Body>, InputError> {
+    let Model { assembly, interfaces, .. } = model;
     let mut bodies = assembly.blocks.iter().map(|b| body(b, units, skin)).collect::<Result<Vec<_>, _>>()?;
     for (index, face) in interfaces.list.iter().enumerate().filter(|(_, f)| f.kind == ContactKind::Given) {
         let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size) / units.length;
@@ -207,7 +208,8 @@ pub(super) struct Resistance {
 const UNLIMITED: f64 = 1e4;
 
 impl<'a> Frictions<'a> {
-    pub fn new(assembly: &'a Assembly, interfaces: &Interfaces, units: &Units) -> Self {
+    pub fn new(model: &'a Model, units: &Units) -> Self {
+        let Model { assembly, interfaces, .. } = model;
         let mut new = Self {
             assembly,
             length: units.length,

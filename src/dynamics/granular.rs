@@ -15,7 +15,7 @@ use super::{
 use crate::{
     assembly::Assembly,
     error::InputError,
-    interface::Interfaces,
+    interface::{Interfaces, Model},
     tolerance::{GRAIN_REST_ENERGY, GRAIN_REST_TIME, GRAIN_SKIN},
 };
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
@@ -104,9 +104,10 @@ pub fn flow(
     if g == 0.0 {
         return Err(refuse("without gravity nothing flows"));
     }
-    let interfaces = Interfaces::default();
-    let bodies = bodies(assembly, &interfaces, &units, GRAIN_SKIN)?;
-    let frictions = Frictions::new(assembly, &interfaces, &units);
+    // Contacts come and go as grains flow: none is given.
+    let model = Model::new(assembly.clone(), Interfaces::default());
+    let bodies = bodies(&model, &units, GRAIN_SKIN)?;
+    let frictions = Frictions::new(&model, &units);
     let natural = (diameter / g).sqrt();
     let dt = natural / STEPS / units.time;
     let round = assembly.free().all(|i| assembly.blocks[i].solid.is_round());

@@ -10,7 +10,7 @@ use super::{
 use crate::{
     assembly::{Assembly, Wrench},
     error::{Finding, FindingCode, InputError},
-    interface::{Interface, Interfaces},
+    interface::{Interface, Interfaces, Model},
     tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE, SKIN},
 };
 use nalgebra::Vector3;
@@ -52,12 +52,12 @@ impl Fidelity {
 /// # Errors
 /// A block that the engine cannot take.
 pub fn simulate(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
+    model: &Model,
     settings: &SimulationSettings,
     watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<SimulationOutcome, InputError> {
-    let loads = Loads::of(assembly, interfaces);
+    let Model { assembly, interfaces, .. } = model;
+    let loads = Loads::of(model);
     let mut outcome = SimulationOutcome {
         fate: Fate::Stands,
         collapse: None,
@@ -69,8 +69,8 @@ pub fn simulate(
         findings: Vec::new(),
     };
     let Some(units) = Units::of(assembly, &loads.total) else { return Ok(outcome) };
-    let bodies = bodies(assembly, interfaces, &units, SKIN)?;
-    let frictions = Frictions::new(assembly, interfaces, &units);
+    let bodies = bodies(model, &units, SKIN)?;
+    let frictions = Frictions::new(model, &units);
     let scene = Stage { assembly, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
     let ladder = match settings.fidelity {
         Some(one) => vec![one],
@@ -120,7 +120,8 @@ struct Loads {
 }
 
 impl Loads {
-    fn of(assembly: &Assembly, interfaces: &Interfaces) -> Self {
+    fn of(model: &Model) -> Self {
+        let Model { assembly, interfaces, .. } = model;
         let turning = assembly.dead_forces.iter().map(|f| (f.block, f.force, f.arm)).collect();
         let mut total = assembly.dead.clone();
         for face in &interfaces.list {

@@ -10,9 +10,11 @@ mod faces;
 mod features;
 mod given;
 mod limits;
+mod model;
 mod overlap;
 mod parts;
 mod plane;
+mod reach;
 mod section;
 mod shrink;
 mod spheres;
@@ -22,7 +24,9 @@ mod tally;
 mod tests;
 
 pub use detect::detect;
+pub use model::{Model, Timings, prepare};
 pub use parts::{Members, Part, Units, members, parts};
+pub use reach::{floating, is_forest};
 pub use section::{Affine, Cut};
 
 use crate::{

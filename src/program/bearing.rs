@@ -1,9 +1,13 @@
 //! Contact points of the program: what each may carry, as columns and a cone.
 
-use super::{Cone, ConicProgram, Pyramid, StaticsOptions, planar, planar::Plane, symmetry::BearingOrbit};
+use super::{
+    Cone, ConicProgram, Pyramid, StaticsOptions,
+    planar::{self, Plane},
+    symmetry::BearingOrbit,
+};
 use crate::{
-    assembly::{Assembly, Wrench},
-    interface::{Interface, Interfaces},
+    assembly::Wrench,
+    interface::{Interface, Interfaces, Model},
     scene::Friction,
 };
 use nalgebra::Vector3;
@@ -200,7 +204,8 @@ impl Limits {
 }
 
 /// The bearings of every interface, in column order.
-pub(super) fn bearings(assembly: &Assembly, interfaces: &Interfaces, plane: Option<Plane>, options: StaticsOptions) -> Vec<Bearing> {
+pub(super) fn bearings(model: &Model, plane: Option<Plane>, options: StaticsOptions) -> Vec<Bearing> {
+    let Model { assembly, interfaces, .. } = model;
     let mut list = Vec::new();
     let mut column = 0;
     for (index, face) in interfaces.list.iter().enumerate() {

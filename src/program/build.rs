@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     assembly::{Assembly, Gyration, Wrench},
-    interface::Interfaces,
+    interface::{Interfaces, Model},
     scene::Friction,
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -23,16 +23,17 @@ const UNIT_SHARE: f64 = 8.0;
 
 impl Statics {
     /// Builds the equilibrium of an assembly.
-    pub fn new(assembly: &Assembly, interfaces: &Interfaces, options: StaticsOptions) -> Self {
-        let (plane, mut list) = plane_and_bearings(assembly, interfaces, options);
+    pub fn new(model: &Model, options: StaticsOptions) -> Self {
+        let Model { assembly, interfaces, .. } = model;
+        let (plane, mut list) = plane_and_bearings(model, options);
         let weight = |block: usize| if options.unscaled { 1.0 } else { assembly.weight(block).max(load_size(assembly, block)) };
-        let unit = set_units(assembly, interfaces, options, &mut list, weight);
-        let dead = with_water(assembly, interfaces);
+        let unit = set_units(model, options, &mut list, weight);
+        let dead = with_water(model);
         let mut left_out = Vec::new();
         if let Some(plane) = plane {
             left_out.push(plane_line(plane, list.len(), interfaces));
         }
-        let part = part(assembly, interfaces, options, plane, &dead, &list);
+        let part = part(model, options, plane, &dead, &list);
         let (orbits, mut blocks) = (part.as_ref().map(|p| p.orbits.clone()), None);
         if let Some(part) = part {
             left_out.push(format!(
@@ -60,7 +61,7 @@ impl Statics {
             left_out,
             orbits,
         };
-        this.fill(assembly, interfaces, &list);
+        this.fill(model, &list);
         for row in 0..this.free.len() {
             let (block, first) = (this.free[row].block, this.free[row].rows.start);
             let (dead, live) = (this.scaled(row, dead[block]), this.scaled(row, assembly.live[block]));
@@ -79,7 +80,8 @@ impl Statics {
     }
 
     /// The entries of the operator.
-    fn fill(&mut self, assembly: &Assembly, interfaces: &Interfaces, list: &[Bearing]) {
+    fn fill(&mut self, model: &Model, list: &[Bearing]) {
+        let Model { assembly, interfaces, .. } = model;
         let mut row_of = vec![None; assembly.blocks.len()];
         self.free.iter().enumerate().for_each(|(row, f)| row_of[f.block] = Some(row));
         for bearing in list {
@@ -116,30 +118,26 @@ fn load_size(assembly: &Assembly, block: usize) -> f64 {
 }
 
 /// The mirror plane that a plane scene is solved in, and its contact points.
-fn plane_and_bearings(assembly: &Assembly, interfaces: &Interfaces, options: StaticsOptions) -> (Option<Plane>, Vec<Bearing>) {
+fn plane_and_bearings(model: &Model, options: StaticsOptions) -> (Option<Plane>, Vec<Bearing>) {
+    let Model { assembly, interfaces, .. } = model;
     let loads: &[&[Wrench]] = if options.live { &[&assembly.dead, &assembly.live] } else { &[&assembly.dead] };
-    let plane = if options.keep_all { None } else { planar::find(assembly, interfaces, loads) };
-    let list = bearings(assembly, interfaces, plane, options);
+    let plane = if options.keep_all { None } else { planar::find(model, loads) };
+    let list = bearings(model, plane, options);
     // What the area resists, and compliance, are shared among all corners, not only the outermost two.
     let shared = options.split || !interfaces.list.iter().all(|f| f.law.is_dry());
     if plane.is_some() && shared && !ends_are_all(&list, interfaces) {
-        return (None, bearings(assembly, interfaces, None, options));
+        return (None, bearings(model, None, options));
     }
     (plane, list)
 }
 
 /// Gives the bearings their force unit, which is returned, and the load that presumably passes there.
-fn set_units(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    options: StaticsOptions,
-    list: &mut [Bearing],
-    weight: impl Fn(usize) -> f64,
-) -> f64 {
+fn set_units(model: &Model, options: StaticsOptions, list: &mut [Bearing], weight: impl Fn(usize) -> f64) -> f64 {
+    let Model { assembly, interfaces, .. } = model;
     let total: f64 = assembly.free().map(&weight).sum();
     let supported = interfaces.list.iter().filter(|f| assembly.blocks[f.a].support || assembly.blocks[f.b].support).count();
     let unit = if options.unscaled { 1.0 } else { UNIT_SHARE * total / supported.max(1) as f64 };
-    let load = carried(assembly, interfaces, weight);
+    let load = carried(model, weight);
     for bearing in list {
         let face = &interfaces.list[bearing.interface];
         bearing.presumed = load[face.a].min(load[face.b]);
@@ -149,7 +147,8 @@ fn set_units(
 }
 
 /// The dead load with the pressure of the water in the joints.
-fn with_water(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Wrench> {
+fn with_water(model: &Model) -> Vec<Wrench> {
+    let Model { assembly, interfaces, .. } = model;
     let mut loads = assembly.dead.clone();
     for face in &interfaces.list {
         for (point, force) in face.points.iter().zip(face.uplift()) {
@@ -163,19 +162,13 @@ fn with_water(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Wrench> {
 }
 
 /// The part that a symmetric scene is reduced to. Bounds on crushing tie the points of a joint together: no symmetry is looked for there.
-fn part(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    options: StaticsOptions,
-    plane: Option<Plane>,
-    dead: &[Wrench],
-    list: &[Bearing],
-) -> Option<Part> {
+fn part(model: &Model, options: StaticsOptions, plane: Option<Plane>, dead: &[Wrench], list: &[Bearing]) -> Option<Part> {
+    let Model { assembly, interfaces, .. } = model;
     if !options.symmetry || options.keep_all || options.unscaled || interfaces.list.iter().any(|f| f.crushes()) {
         return None;
     }
     let loads: &[&[Wrench]] = if options.live { &[dead, &assembly.live] } else { &[dead] };
-    symmetry::part(assembly, interfaces, loads, plane, list)
+    symmetry::part(model, loads, plane, list)
 }
 
 /// The free blocks that have rows: all, or those that stand for their images.

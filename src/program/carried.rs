@@ -4,11 +4,12 @@
 //! wrong (a small keystone between large halves) the scaling is poor and a later rung of the ladder goes without it;
 //! answers never depend on it.
 
-use crate::{assembly::Assembly, interface::Interfaces};
+use crate::interface::Model;
 use std::collections::VecDeque;
 
 /// Load carried by each block, N, in the measure of `own`; infinite for supports.
-pub fn carried(assembly: &Assembly, interfaces: &Interfaces, own: impl Fn(usize) -> f64) -> Vec<f64> {
+pub fn carried(model: &Model, own: impl Fn(usize) -> f64) -> Vec<f64> {
+    let Model { assembly, interfaces, .. } = model;
     let n = assembly.blocks.len();
     let mut neighbours = vec![Vec::new(); n];
     for face in &interfaces.list {

@@ -22,7 +22,7 @@
 //! Ahmed 2006 (sequence of convex programs for non-associative limit analysis).
 
 use super::{BearingCone, Cone, ConicProgram, Disc, Statics, StaticsOptions, unbalance::copy};
-use crate::{assembly::Assembly, interface::Interfaces, scene::Friction};
+use crate::{interface::Model, scene::Friction};
 
 /// A contact point of programs C and D.
 #[derive(Clone, Debug)]
@@ -81,8 +81,9 @@ impl Contacts {
     ///
     /// A plane scene is solved as plane only where every interface is wholly represented by its two ends: the compliance of
     /// inner points would be lost.
-    pub fn new(assembly: &Assembly, interfaces: &Interfaces, options: StaticsOptions) -> Self {
-        let mut statics = Statics::new(assembly, interfaces, StaticsOptions { split: true, ..options });
+    pub fn new(model: &Model, options: StaticsOptions) -> Self {
+        let Model { assembly, interfaces, .. } = model;
+        let mut statics = Statics::new(model, StaticsOptions { split: true, ..options });
         let mean = statics.total_load() / statics.free_count().max(1) as f64;
         statics.rescale(mean / statics.unit, false);
         let share = |b: &super::Bearing| {

@@ -6,7 +6,7 @@
 //! segment with two ends, and the friction cone is two rays: a linear program instead of a second-order one, with exactly
 //! the same answer. Rates in the plane are admissible in space as they stand.
 
-use crate::{assembly::Assembly, interface::Interfaces, tolerance};
+use crate::{assembly::Wrench, interface::Model, tolerance};
 use nalgebra::Vector3;
 
 /// A mirror plane of the scene, with axes in it.
@@ -23,12 +23,13 @@ pub struct Plane {
 }
 
 /// The mirror plane of a scene with its dead and live loads, if it has one with all contact normals in it.
-pub fn find(assembly: &Assembly, interfaces: &Interfaces, loads: &[&[crate::assembly::Wrench]]) -> Option<Plane> {
-    candidates(assembly, interfaces, loads).into_iter().find_map(|axis| mirrored(assembly, interfaces, loads, axis))
+pub fn find(model: &Model, loads: &[&[crate::assembly::Wrench]]) -> Option<Plane> {
+    candidates(model, loads).into_iter().find_map(|axis| mirrored(model, loads, axis))
 }
 
 /// Directions that may be normal to the mirror plane, most likely first.
-fn candidates(assembly: &Assembly, interfaces: &Interfaces, loads: &[&[crate::assembly::Wrench]]) -> Vec<Vector3<f64>> {
+fn candidates(model: &Model, loads: &[&[crate::assembly::Wrench]]) -> Vec<Vector3<f64>> {
+    let Model { assembly, interfaces, .. } = model;
     let mut list = Vec::new();
     let mut add = |v: Vector3<f64>| {
         if v.norm() > 1e-3 {
@@ -67,7 +68,8 @@ fn near(x: f64, size: f64) -> bool {
     x.abs() <= tolerance::MIRROR * size
 }
 
-fn mirrored(assembly: &Assembly, interfaces: &Interfaces, loads: &[&[crate::assembly::Wrench]], axis: Vector3<f64>) -> Option<Plane> {
+fn mirrored(model: &Model, loads: &[&[crate::assembly::Wrench]], axis: Vector3<f64>) -> Option<Plane> {
+    let Model { assembly, interfaces, .. } = model;
     let first = assembly.free().next()?;
     let offset = axis.dot(&assembly.blocks[first].centroid);
     let in_plane = |v: &Vector3<f64>| axis.dot(v).abs() <= tolerance::MIRROR * v.norm();
@@ -97,8 +99,6 @@ fn mirrored(assembly: &Assembly, interfaces: &Interfaces, loads: &[&[crate::asse
     let e2 = -(down - axis * axis.dot(&down)).normalize();
     Some(Plane { axis, offset, e1: e2.cross(&axis), e2 })
 }
-
-use crate::assembly::Wrench;
 
 fn points_mirrored(points: &[Vector3<f64>], axis: Vector3<f64>, offset: f64, size: f64) -> bool {
     points.iter().all(|p| mirror_of(points, *p, axis, offset, size).is_some())

@@ -1,7 +1,7 @@
 //! Contact forces of a packing as CSV, a row for each contact that carries.
 
 use super::cells::Table;
-use crate::{analysis::fabric, assembly::Assembly, interface::Interfaces, verdict::Forces};
+use crate::{analysis::fabric, interface::Model, verdict::Forces};
 
 /// The columns: blocks, centre of pressure (m), unit normal from `a` into `b`, normal and tangential force (N), share of friction used.
 const HEAD: [&str; 11] = ["a", "b", "x", "y", "z", "nx", "ny", "nz", "normal_force", "tangential_force", "mobilised"];
@@ -10,7 +10,8 @@ const HEAD: [&str; 11] = ["a", "b", "x", "y", "z", "nx", "ny", "nz", "normal_for
 ///
 /// # Errors
 /// The table cannot be written.
-pub fn csv(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
+pub fn csv(model: &Model, forces: &Forces) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
+    let Model { assembly, interfaces, .. } = model;
     let mut writer = Table::new();
     writer.write_record(HEAD)?;
     for contact in fabric::contacts(interfaces, forces) {

@@ -5,10 +5,9 @@
 //! block into the second; contact forces act on the second. Indices count `blocks` from 0.
 
 use crate::{
-    analysis::Model,
     assembly::{JointLaw, Wrench},
     error::Finding,
-    interface::ContactKind,
+    interface::{ContactKind, Model},
     scene::Friction,
 };
 use serde::Serialize;
@@ -73,7 +72,7 @@ struct Law<'a> {
 impl<'a> Inspection<'a> {
     /// A model as it stands.
     pub fn new(model: &'a Model) -> Self {
-        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let Model { assembly, interfaces, .. } = model;
         let blocks = assembly.blocks.iter().zip(assembly.dead.iter().zip(&assembly.live)).map(|(b, (dead, live))| Block {
             id: &b.id,
             support: b.support,

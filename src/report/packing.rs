@@ -5,8 +5,9 @@ use super::{
     result::{QuestionKind, Versions},
 };
 use crate::{
-    analysis::{Deciding, Fabric, Model, Outcome, Stability, Timings, coulomb::Found, stability::Round},
+    analysis::{Deciding, Fabric, Outcome, Stability, coulomb::Found, stability::Round},
     error::{Finding, FindingCode},
+    interface::{Model, Timings},
     verdict::mechanism::JointMotion,
 };
 use serde::{Deserialize, Serialize};

@@ -1,15 +1,15 @@
 //! The part of a scene that an answer names: recomputed, like everything else that a result says.
 
 use crate::{
-    analysis::{Deciding, Model},
-    interface::parts,
+    analysis::Deciding,
+    interface::{Model, parts},
     verdict::{Rate, check::Findings},
 };
 
 /// Verifies that there is such a part, and that where anything moves it does.
 pub(super) fn verify(f: &mut Findings, model: &Model, said: Option<&Deciding>, rates: &[Rate]) {
     let Some(said) = said else { return };
-    let parts = parts(&model.assembly, &model.interfaces);
+    let parts = parts(model);
     let Some(index) = (0..parts.len()).find(|&k| Deciding::new(&parts, k).as_ref() == Some(said)) else {
         f.fails.push(format!("the scene has no such part: {said}"));
         return;

@@ -8,9 +8,10 @@ use super::{
     work::Work,
 };
 use crate::{
-    analysis::{Assessment, Attempt, Bracket, Deciding, Law, LoadFactor, Model, Outcome, Tilt, Timings, agreement, coulomb},
+    analysis::{Assessment, Attempt, Bracket, Deciding, Law, LoadFactor, Outcome, Tilt, agreement, coulomb},
     dynamics::{Fate, SimulationOutcome as Simulated},
     error::Finding,
+    interface::{Model, Timings},
     scene::Scene,
     verdict::{
         Forces, Rate, Verdict,
@@ -323,12 +324,12 @@ impl Certificate {
 
 /// Verifies a claim and packs it with its evidence. The findings say whether it holds.
 pub fn certify(model: &Model, claim: Option<Claim>, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> (Certificate, Findings) {
-    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
-    let findings = claim.map(|c| verify(assembly, interfaces, &c, forces, base, rates)).unwrap_or_default();
+    let assembly = &model.assembly;
+    let findings = claim.map(|c| verify(model, &c, forces, base, rates)).unwrap_or_default();
     let certificate = Certificate {
         claim,
-        forces: write_forces(assembly, interfaces, forces),
-        base: base.map(|f| write_forces(assembly, interfaces, f)),
+        forces: write_forces(model, forces),
+        base: base.map(|f| write_forces(model, f)),
         rates: write_rates(assembly, rates),
         verified: findings.holds.clone(),
     };
@@ -462,7 +463,7 @@ impl ResultFile {
     #[must_use]
     pub fn with_simulation(mut self, model: &Model, a: Option<&Assessment>, outcome: &Simulated) -> Self {
         let agreement = a.map(|a| {
-            let mut agreement = agreement(&model.assembly, &model.interfaces, a, outcome);
+            let mut agreement = agreement(model, a, outcome);
             if self.answer.verdict == Some(Verdict::Undecided) {
                 // Also where the verification took the verdict back.
                 (agreement.verdict, agreement.agrees) = (Verdict::Undecided, None);

@@ -1,9 +1,10 @@
 //! A simulation in a result: names instead of indices, and what it says beside the verdict.
 
 use crate::{
-    analysis::{Agreement, Model},
+    analysis::Agreement,
     dynamics::{Fate, Frame, Run, SimulationOutcome},
     error::Finding,
+    interface::Model,
 };
 use serde::{Deserialize, Serialize};
 

@@ -9,9 +9,9 @@ use super::{
     thrust,
 };
 use crate::{
-    analysis::{Law, Model, Outcome, agreement::agree, prepare, tilt::tilted},
+    analysis::{Law, Outcome, agreement::agree, tilt::tilted},
     error::{Finding, FindingCode, InputError},
-    interface::{self, Part},
+    interface::{self, Model, Part, prepare},
     scene::Scene,
     tolerance,
     verdict::{
@@ -207,10 +207,10 @@ pub(super) fn answer(
 ) -> (Findings, Option<Vec<Rate>>) {
     let mut f = Findings::default();
     says_what_is_claimed(&mut f, question, answer, evidence.claim.as_ref());
-    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    let assembly = &model.assembly;
     let read = || -> Result<(Forces, Option<Forces>, Vec<Rate>), String> {
-        let base = evidence.base.as_ref().map(|b| read_forces(assembly, interfaces, b)).transpose()?;
-        Ok((read_forces(assembly, interfaces, &evidence.forces)?, base, read_rates(assembly, &evidence.rates)?))
+        let base = evidence.base.as_ref().map(|b| read_forces(model, b)).transpose()?;
+        Ok((read_forces(model, &evidence.forces)?, base, read_rates(assembly, &evidence.rates)?))
     };
     let (forces, base, rates) = match read() {
         Ok(evidence) => evidence,
@@ -223,7 +223,7 @@ pub(super) fn answer(
         f.fails.push(format!("nothing is claimed, but said to be proved ({said})"));
     }
     if let Some(claim) = &evidence.claim {
-        let claimed = check::verify(assembly, interfaces, claim, &forces, base.as_ref(), &rates);
+        let claimed = check::verify(model, claim, &forces, base.as_ref(), &rates);
         let said = answer.proof.unwrap_or(Grade::ToRounding(f64::INFINITY));
         require(&mut f, is_no_better(said, claimed.grade), format!("the proof is {}, the answer says {said}", claimed.grade));
         f.grade = claimed.grade;
@@ -332,13 +332,13 @@ fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, 
         return;
     };
     // Part by part, in units in which nothing over- or underflows.
-    let parts = interface::parts(&model.assembly, &model.interfaces);
-    let left = |part: &Part| certificate::statics(&part.assembly, &part.interfaces, &part.take_forces(forces), 0.0).unbalance;
+    let parts = interface::parts(model);
+    let left = |part: &Part| certificate::statics(&part.model, &part.take_forces(forces), 0.0).unbalance;
     let upper = parts.iter().map(left).fold(0.0, f64::max);
     let rates = &certificate::at_unit_speed(&model.assembly, rates)[..];
-    let k = match check::moving(&model.assembly, &model.interfaces, forces, rates) {
-        Some((part, own, rates)) => certificate::kinematics(&part.assembly, &part.interfaces, &rates, &own),
-        None => certificate::kinematics(&model.assembly, &model.interfaces, rates, forces),
+    let k = match check::moving(model, forces, rates) {
+        Some((part, own, rates)) => certificate::kinematics(&part.model, &rates, &own),
+        None => certificate::kinematics(model, rates, forces),
     };
     let (lower, slack) = if k.norm > 0.0 { (k.gain().max(0.0) / k.norm, k.slack / k.norm) } else { (0.0, 0.0) };
     // Rates that prove nothing because they part what is pressed together bound nothing: the lower end is then 0.
@@ -372,7 +372,7 @@ fn places_agree(model: &Model, said: &MechanismWords, here: &MechanismWords) -> 
 /// The mechanism in words is the one of the rates.
 pub(super) fn mechanism_words(f: &mut Findings, file: &ResultFile, model: &Model, rates: Option<&[Rate]>) {
     let (Some(said), Some(rates)) = (&file.mechanism, rates) else { return };
-    let here = words(model, &mechanism::read(&model.assembly, &model.interfaces, rates));
+    let here = words(model, &mechanism::read(model, rates));
     let moving = |w: &MechanismWords| w.moving.iter().cloned().collect::<BTreeSet<String>>();
     require(
         f,

@@ -1,7 +1,7 @@
 //! What an answer cost.
 
 use super::ResultFile;
-use crate::analysis::Model;
+use crate::interface::Model;
 use serde::{Deserialize, Serialize};
 
 /// What an answer cost, beside the seconds per stage.

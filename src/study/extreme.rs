@@ -6,8 +6,9 @@
 //! 0.4) friction; values by the five-hinge closed form (class of Makris & Alexakis 2013).
 
 use crate::{
-    analysis::{Control, Law, Outcome, assess, limit, prepare},
+    analysis::{Control, Law, Outcome, assess, limit},
     error::RowsError,
+    interface::prepare,
     keep::Kept,
     parallel,
     scene::{Scene, read_str},
@@ -284,11 +285,11 @@ impl Cell {
             seconds: 0.0,
         };
         let Ok(model) = self.scene().and_then(|s| prepare(&s)) else { return found };
-        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+        let model = &model;
         let control = Control { law: Law::Associative, ..Control::default() };
         match self.ask {
             CellQuestion::Stands(stands, _) => {
-                let a = assess(assembly, interfaces, &control);
+                let a = assess(model, &control);
                 found.iterations = a.attempts.iter().map(|a| a.iterations).sum();
                 let claim = match a.verdict {
                     Verdict::Stable => Some((true, Claim::Stable)),
@@ -297,14 +298,12 @@ impl Cell {
                 };
                 found.grade = match claim {
                     None => CellGrade::Undecided,
-                    Some((said, claim)) if said == stands && verify(assembly, interfaces, &claim, &a.forces, None, &a.rates).proved() => {
-                        CellGrade::Right
-                    }
+                    Some((said, claim)) if said == stands && verify(model, &claim, &a.forces, None, &a.rates).proved() => CellGrade::Right,
                     Some(_) => CellGrade::Wrong,
                 };
             }
             CellQuestion::LoadFactor(truth) => {
-                let l = limit(assembly, interfaces, &control);
+                let l = limit(model, &control);
                 found.iterations = l.attempts.iter().map(|a| a.iterations).sum();
                 if l.value.is_finite() {
                     let inside = l.bracket.lower <= truth * (1.0 + ROUNDING) && truth * (1.0 - ROUNDING) <= l.bracket.upper;
@@ -314,7 +313,7 @@ impl Cell {
                     found.inside = Some(inside);
                 }
                 let claim = Claim::LoadFactor { value: l.value, lower: l.bracket.lower, upper: l.bracket.upper };
-                let right = found.inside == Some(true) && verify(assembly, interfaces, &claim, &l.forces, None, &l.rates).proved();
+                let right = found.inside == Some(true) && verify(model, &claim, &l.forces, None, &l.rates).proved();
                 found.grade = match l.outcome {
                     Outcome::Found if right => CellGrade::Right,
                     // Not proved: the result file gives no number either.

@@ -2,11 +2,9 @@
 
 use super::{Known, StudyPoint};
 use crate::{
-    analysis::{
-        Control, Law, LoadFactor, Model, assess, coulomb,
-        limit::{self, Formulation},
-    },
+    analysis::{Control, Law, LoadFactor, assess, coulomb, limit, limit::Formulation},
     dynamics::{self, Fate, Fidelity},
+    interface::Model,
     program::{Pyramid, Statics, StaticsOptions, Unknowns},
     solve::Settings,
     verdict::Verdict,
@@ -84,8 +82,7 @@ impl StudyMethod {
 
     /// The settings of its knob that make sense for a scene.
     pub(super) fn knobs(self, known: &Known, model: &Model, quick: bool) -> Vec<f64> {
-        let plane =
-            || Statics::new(&model.assembly, &model.interfaces, StaticsOptions { live: true, ..StaticsOptions::default() }).plane.is_some();
+        let plane = || Statics::new(model, StaticsOptions { live: true, ..StaticsOptions::default() }).plane.is_some();
         let thin = |list: Vec<f64>| if quick { list.into_iter().step_by(2).collect() } else { list };
         match self {
             Self::DryFriction | Self::Simulation if known.dry.is_none() => Vec::new(),
@@ -105,9 +102,8 @@ impl StudyMethod {
     /// One run.
     pub(super) fn run(self, known: &Known, model: &Model, knob: f64) -> StudyPoint {
         let start = Instant::now();
-        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
         let tolerance = |way: Formulation| Formulation { settings: Settings { tolerance: knob, ..way.settings }, ..way };
-        let once = |way: Formulation| From::from(limit::attempt(assembly, interfaces, &way));
+        let once = |way: Formulation| From::from(limit::attempt(model, &way));
         let pyramid = |around: bool| {
             let options =
                 StaticsOptions { pyramid: Some(Pyramid { facets: knob as usize, around }), keep_all: true, ..StaticsOptions::default() };
@@ -118,7 +114,7 @@ impl StudyMethod {
         let truth = if dry { known.dry.unwrap_or(f64::NAN) } else { known.truth };
         let got: Got = match self {
             Self::Ladder => {
-                let l = limit::limit(assembly, interfaces, &Control { law: Law::Associative, ..Control::default() });
+                let l = limit::limit(model, &Control { law: Law::Associative, ..Control::default() });
                 Got { value: Some(l.value), ..Got::from(l) }
             }
             Self::Forces => once(tolerance(Formulation::usual(Unknowns::Forces))),
@@ -138,8 +134,8 @@ impl StudyMethod {
             Self::PyramidAround => pyramid(true),
             Self::Bisection => bisection(model, knob as usize, 2.0 * truth),
             Self::DryFriction => {
-                let l = limit::limit(assembly, interfaces, &Control::default());
-                let d = coulomb::load_factor(assembly, interfaces, &l, &Control::default());
+                let l = limit::limit(model, &Control::default());
+                let d = coulomb::load_factor(model, &l, &Control::default());
                 Got { value: Some(d.value), iterations: d.solves, ..Got::default() }
             }
             Self::Simulation => simulated(model, if knob < 500.0 { Fidelity::Fast } else { Fidelity::Fine }, 2.0 * known.truth),
@@ -190,10 +186,8 @@ fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Got {
     let mut low = 0.0;
     for _ in 0..SIMULATIONS {
         let middle = 0.5 * (low + high);
-        match dynamics::simulate(&model.assembly.at_load_factor(middle), &model.interfaces, &settings, &mut |_| {
-            std::ops::ControlFlow::Continue(())
-        })
-        .map(|outcome| outcome.fate)
+        match dynamics::simulate(&model.at_load_factor(middle), &settings, &mut |_| std::ops::ControlFlow::Continue(()))
+            .map(|outcome| outcome.fate)
         {
             Ok(Fate::Stands) => low = middle,
             Ok(Fate::Falls) => high = middle,
@@ -208,8 +202,7 @@ fn bisection(model: &Model, verdicts: usize, mut high: f64) -> Got {
     let (mut low, mut iterations) = (0.0, 0);
     for _ in 0..verdicts {
         let middle = 0.5 * (low + high);
-        let answer =
-            assess(&model.assembly.at_load_factor(middle), &model.interfaces, &Control { law: Law::Associative, ..Control::default() });
+        let answer = assess(&model.at_load_factor(middle), &Control { law: Law::Associative, ..Control::default() });
         iterations += answer.attempts.iter().map(|a| a.iterations).sum::<usize>();
         match answer.verdict {
             Verdict::Stable | Verdict::Conditional => low = middle,

@@ -61,7 +61,7 @@ pub const WRONG: f64 = 1e-3;
 pub fn run(scenes: &[Known], quick: bool, repeat: usize, mut each: impl FnMut(&StudyPoint)) -> Result<Vec<StudyPoint>, InputError> {
     let mut points = Vec::new();
     for known in scenes {
-        let model = crate::analysis::prepare(&known.scene)?;
+        let model = crate::interface::prepare(&known.scene)?;
         for method in StudyMethod::ALL {
             for knob in method.knobs(known, &model, quick) {
                 let mut runs: Vec<StudyPoint> = (0..repeat.max(1)).map(|_| method.run(known, &model, knob)).collect();
@@ -81,7 +81,7 @@ pub fn run(scenes: &[Known], quick: bool, repeat: usize, mut each: impl FnMut(&S
 /// A scene cannot be resolved.
 pub fn count(scenes: &[Known], quick: bool) -> Result<usize, InputError> {
     let of = |known: &Known| {
-        let model = crate::analysis::prepare(&known.scene)?;
+        let model = crate::interface::prepare(&known.scene)?;
         Ok(StudyMethod::ALL.iter().map(|m| m.knobs(known, &model, quick).len()).sum::<usize>())
     };
     scenes.iter().map(of).sum()

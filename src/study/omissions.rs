@@ -2,8 +2,9 @@
 
 use super::Known;
 use crate::{
-    analysis::{Control, Law, limit, prepare},
+    analysis::{Control, Law, limit},
     error::InputError,
+    interface::prepare,
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -47,7 +48,7 @@ pub fn omissions(scenes: &[Known], repeat: usize, mut each: impl FnMut()) -> Res
                 let mut times = Vec::new();
                 for _ in 0..repeat.max(1) {
                     let start = Instant::now();
-                    let answer = limit(&model.assembly, &model.interfaces, &control);
+                    let answer = limit(&model, &control);
                     times.push(start.elapsed().as_secs_f64());
                     one.values[k] = Some(answer.value).filter(|v| v.is_finite());
                     one.unknowns[k] = answer.attempts.iter().map(|a| a.size[0]).max().unwrap_or(0);

@@ -3,9 +3,9 @@
 use super::{Question, ReposeOptions, RowAnswer, RowStatus, SimulateOptions, ThrustOptions, TiltOptions};
 use crate::{
     analysis::{
-        Control, Law, LoadFactor, Model, Outcome, assess,
+        Control, Law, LoadFactor, Outcome, assess,
         coulomb::{self, DryLoadFactor, Found},
-        limit, prepare, stability,
+        limit, stability,
         stability::held,
         thrust, tilt,
         tilt::{directions, tilted},
@@ -13,6 +13,7 @@ use crate::{
     assembly::Wrench,
     dynamics::{self, Fate, Fidelity},
     error::{InputError, JsonPath},
+    interface::{Model, prepare},
     scene::Scene,
     verdict::{
         Verdict,
@@ -49,9 +50,9 @@ fn finite(value: f64) -> Option<f64> {
 
 /// Does it stand under its dead load?
 pub(super) fn assessed(model: &Model, control: &Control) -> RowAnswer {
-    let a = assess(&model.assembly, &model.interfaces, control);
+    let a = assess(model, control);
     let status = match a.verdict {
-        _ if !a.proved(&model.assembly, &model.interfaces) => RowStatus::Undecided,
+        _ if !a.proved(model) => RowStatus::Undecided,
         Verdict::Stable => RowStatus::Stable,
         Verdict::Conditional => RowStatus::Conditional,
         Verdict::Unstable => RowStatus::Unstable,
@@ -65,13 +66,13 @@ pub(super) fn assessed(model: &Model, control: &Control) -> RowAnswer {
 /// # Errors
 /// There is no live load.
 pub(super) fn limited(model: &Model, control: &Control) -> Result<RowAnswer, InputError> {
-    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    let assembly = &model.assembly;
     if assembly.live.iter().all(|w| *w == Wrench::zero()) {
         let path = JsonPath::root().key("loads").key("live");
         return Err(InputError::at(path, "there is no live load on a free block to ask about").hint("give one, or ask \"tilt\""));
     }
-    let bound = limit(assembly, interfaces, control);
-    let dry = (control.law == Law::Coulomb && bounds(bound.outcome)).then(|| coulomb::load_factor(assembly, interfaces, &bound, control));
+    let bound = limit(model, control);
+    let dry = (control.law == Law::Coulomb && bounds(bound.outcome)).then(|| coulomb::load_factor(model, &bound, control));
     Ok(combined(model, &bound, dry.as_ref().map(|d| (model, d)), |lambda| lambda))
 }
 
@@ -82,7 +83,7 @@ fn bounds(outcome: Outcome) -> bool {
 /// The answer by the bound and, where it was asked for, the load factor with dry friction; values are read through `scale`.
 fn combined(model: &Model, bound: &LoadFactor, dry: Option<(&Model, &DryLoadFactor)>, scale: fn(f64) -> f64) -> RowAnswer {
     let status = match bound.outcome {
-        _ if !bound.proved(&model.assembly, &model.interfaces) => RowStatus::Undecided,
+        _ if !bound.proved(model) => RowStatus::Undecided,
         Outcome::Found => RowStatus::Found,
         Outcome::Unbounded => RowStatus::Unbounded,
         Outcome::Impossible => RowStatus::Impossible,
@@ -95,7 +96,7 @@ fn combined(model: &Model, bound: &LoadFactor, dry: Option<(&Model, &DryLoadFact
         ..RowAnswer::of(status)
     };
     let Some((model, dry)) = dry else { return answer };
-    let proved = dry.proved(&model.assembly, &model.interfaces);
+    let proved = dry.proved(model);
     let claims = matches!(dry.found, Found::NothingSlides | Found::FixedPoint);
     let known = proved && coulomb::is_reached(dry.rests_at, dry.value);
     let found = if known || !claims { dry.found } else { Found::Undecided };
@@ -123,13 +124,13 @@ fn least_tilt(options: &TiltOptions, model: &Model) -> Result<RowAnswer, InputEr
     } else {
         options.toward.iter().map(|&d| d.into()).collect()
     };
-    let level = (control.law == Law::Coulomb).then(|| assess(&model.assembly, &model.interfaces, &control).verdict);
+    let level = (control.law == Law::Coulomb).then(|| assess(model, &control).verdict);
     let mut least: Option<RowAnswer> = None;
     for direction in toward {
-        let tilt = tilt(&model.assembly, &model.interfaces, direction, &control)?;
+        let tilt = tilt(model, direction, &control)?;
         let turned = tilted(model, direction, tilt.load_factor.value)?;
         let dry = if control.law == Law::Coulomb && bounds(tilt.load_factor.outcome) {
-            let dry = tilt::dry(&turned.assembly, &model.interfaces, &tilt.load_factor, level, &control);
+            let dry = tilt::dry(model, &tilt, level, &control)?;
             Some((tilted(model, direction, dry.value)?, dry))
         } else {
             None
@@ -156,7 +157,7 @@ fn height(answer: &RowAnswer) -> f64 {
 fn thrust_on(options: &ThrustOptions, model: &Model) -> Result<RowAnswer, InputError> {
     let at = thrust::place(model, options.support.as_deref(), options.direction)?;
     let control = control(options.law);
-    let standing = assess(&model.assembly, &model.interfaces, &control);
+    let standing = assess(model, &control);
     if !matches!(standing.verdict, Verdict::Stable | Verdict::Conditional) {
         return Ok(assessed(model, &control));
     }
@@ -167,7 +168,7 @@ fn thrust_on(options: &ThrustOptions, model: &Model) -> Result<RowAnswer, InputE
         Outcome::Unbounded => Some(Claim::EndlessThrust { at, extreme }),
         Outcome::Impossible | Outcome::Undecided => None,
     };
-    let proved = claim.is_some_and(|c| verify(&model.assembly, &model.interfaces, &c, &end.forces, end.base.as_ref(), &end.rates).proved());
+    let proved = claim.is_some_and(|c| verify(model, &c, &end.forces, end.base.as_ref(), &end.rates).proved());
     Ok(match end.outcome {
         Outcome::Found if proved => RowAnswer {
             value: Some(end.value),
@@ -212,7 +213,7 @@ fn simulated(options: &SimulateOptions, scene: &Scene, model: &Model) -> Result<
     };
     let settings =
         dynamics::SimulationSettings { fidelity: options.fast.then_some(Fidelity::Fast), ..dynamics::SimulationSettings::default() };
-    let outcome = dynamics::simulate(&loaded.assembly, &loaded.interfaces, &settings, &mut |_| std::ops::ControlFlow::Continue(()))?;
+    let outcome = dynamics::simulate(loaded, &settings, &mut |_| std::ops::ControlFlow::Continue(()))?;
     Ok(RowAnswer::of(match outcome.fate {
         Fate::Stands => RowStatus::Stable,
         Fate::Falls => RowStatus::Unstable,

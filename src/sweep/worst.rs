@@ -12,8 +12,9 @@
 
 use super::{RowAnswer, RowStatus, ask, pointer::Pointer};
 use crate::{
-    analysis::{Control, Law, prepare},
+    analysis::{Control, Law},
     error::{InputError, JsonPath},
+    interface::prepare,
     scene::{Friction, Load, Scene},
 };
 use std::{fmt, str::FromStr, time::Instant};

@@ -17,7 +17,7 @@
 use super::{Forces, Rate};
 use crate::{
     assembly::{Assembly, Wrench},
-    interface::{Cut, Interface, Interfaces},
+    interface::{Cut, Interface, Interfaces, Model},
     scene::Friction,
     tolerance,
 };
@@ -86,7 +86,8 @@ impl Residuals {
 }
 
 /// Re-adds the contact forces at load factor `lambda`.
-pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Residuals {
+pub fn statics(model: &Model, forces: &Forces, lambda: f64) -> Residuals {
+    let Model { assembly, interfaces, .. } = model;
     let n = assembly.blocks.len();
     let mut residuals: Vec<Wrench> = (0..n)
         .map(|i| Wrench {
@@ -263,7 +264,8 @@ impl Kinematics {
 }
 
 /// Re-adds powers; `forces` weigh the inadmissibility.
-pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], forces: &Forces) -> Kinematics {
+pub fn kinematics(model: &Model, rates: &[Rate], forces: &Forces) -> Kinematics {
+    let Model { assembly, interfaces, .. } = model;
     let mut k = Kinematics {
         dead_power: 0.0,
         live_power: 0.0,

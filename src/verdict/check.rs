@@ -9,12 +9,12 @@ use super::{
         existence,
         motion::{self, MotionProof},
     },
-    law,
-    thrust::{self, Extreme, ThrustAt},
+    law, thrust,
+    thrust::{Extreme, ThrustAt},
 };
 use crate::{
     assembly::{Assembly, Wrench},
-    interface::{self, Interfaces, Part},
+    interface::{self, Model, Part},
     tolerance,
 };
 use serde::{Deserialize, Serialize};
@@ -106,14 +106,8 @@ impl Findings {
 }
 
 /// Verifies a claim. `base` are the forces at `standing` of [`Claim::Unbounded`].
-pub fn verify(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    claim: &Claim,
-    forces: &Forces,
-    base: Option<&Forces>,
-    rates: &[Rate],
-) -> Findings {
+pub fn verify(model: &Model, claim: &Claim, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> Findings {
+    let assembly = &model.assembly;
     let mut f = Findings::default();
     // How fast a mechanism moves says nothing, but for rates that belong to forces or to a support.
     let unit;
@@ -125,36 +119,37 @@ pub fn verify(
         _ => rates,
     };
     match *claim {
-        Claim::Stable => balanced(&mut f, "", assembly, interfaces, forces, 0.0),
+        Claim::Stable => balanced(&mut f, "", model, forces, 0.0),
         Claim::Conditional => {
-            balanced(&mut f, "", assembly, interfaces, forces, 0.0);
+            balanced(&mut f, "", model, forces, 0.0);
             match base {
-                Some(base) => moves(&mut f, assembly, interfaces, base, rates),
+                Some(base) => moves(&mut f, model, base, rates),
                 None => f.fails.push("the forces without the pre-stress are missing".into()),
             }
         }
-        Claim::Unstable => falls(&mut f, assembly, interfaces, rates, false),
-        Claim::LoadFactor { value, lower, upper } => load_factor(&mut f, assembly, interfaces, forces, rates, [value, lower, upper]),
-        Claim::DryLoadFactor { value } => dry(&mut f, assembly, interfaces, forces, rates, value),
+        Claim::Unstable => falls(&mut f, model, rates, false),
+        Claim::LoadFactor { value, lower, upper } => load_factor(&mut f, model, forces, rates, [value, lower, upper]),
+        Claim::DryLoadFactor { value } => dry(&mut f, model, forces, rates, value),
         Claim::Unbounded { standing } => {
             match base {
-                Some(base) => balanced(&mut f, "at a load factor at which it stands, ", assembly, interfaces, base, standing),
+                Some(base) => balanced(&mut f, "at a load factor at which it stands, ", model, base, standing),
                 None => f.fails.push("forces at a load factor at which the scene stands are missing".into()),
             }
-            live_alone_balances(&mut f, assembly, interfaces, forces);
+            live_alone_balances(&mut f, model, forces);
         }
         Claim::Thrust { at, extreme, value, lower, upper } => {
-            thrust::verify(&mut f, assembly, interfaces, (forces, rates), (&at, extreme), [value, lower, upper]);
+            thrust::verify(&mut f, model, (forces, rates), (&at, extreme), [value, lower, upper]);
         }
-        Claim::EndlessThrust { at, extreme } => thrust::verify_endless(&mut f, assembly, interfaces, forces, base, &at, extreme),
-        Claim::Impossible => falls(&mut f, assembly, interfaces, rates, true),
+        Claim::EndlessThrust { at, extreme } => thrust::verify_endless(&mut f, model, forces, base, &at, extreme),
+        Claim::Impossible => falls(&mut f, model, rates, true),
     }
     f
 }
 
 /// The rates gain no power from the live load, so that no multiple of it stops them.
-fn without_live_power(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) {
-    let Some(m) = motion::motion(assembly, interfaces, rates) else {
+fn without_live_power(f: &mut Findings, model: &Model, rates: &[Rate]) {
+    let assembly = &model.assembly;
+    let Some(m) = motion::motion(model, rates) else {
         return f.fails.push("a joint that can crush closes: that bounds no load factor".into());
     };
     let live = m.live.magnitude();
@@ -174,7 +169,8 @@ fn without_live_power(f: &mut Findings, assembly: &Assembly, interfaces: &Interf
 }
 
 /// Forces that balance the live load alone: added to others as often as wanted, they leave the scene standing.
-fn live_alone_balances(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) {
+fn live_alone_balances(f: &mut Findings, model: &Model, forces: &Forces) {
+    let Model { assembly, interfaces, .. } = model;
     f.require(assembly.free().any(|i| assembly.live[i] != Wrench::zero()), "there is a live load".into());
     // Forces in joints that limit them are not counted: nothing that has a limit wedges.
     let (unlimited, kept) = interfaces.unlimited();
@@ -183,26 +179,27 @@ fn live_alone_balances(f: &mut Findings, assembly: &Assembly, interfaces: &Inter
     for (dead, live) in alone.dead.iter_mut().zip(&mut alone.live) {
         *dead = std::mem::replace(live, Wrench::zero());
     }
-    by_themselves(f, "under the live load alone, ", &alone, &unlimited, &counted);
+    by_themselves(f, "under the live load alone, ", &Model::new(alone, unlimited), &counted);
 }
 
 /// Forces and a mechanism that obey Coulomb's law together.
-fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], value: f64) {
-    let s = certificate::statics(assembly, interfaces, forces, value);
-    cones(f, "", assembly, interfaces, &s);
+fn dry(f: &mut Findings, model: &Model, forces: &Forces, rates: &[Rate], value: f64) {
+    let assembly = &model.assembly;
+    let s = certificate::statics(model, forces, value);
+    cones(f, "", model, &s);
     let allowed = tolerance::DRY_BALANCE;
     f.require(
         s.unbalance <= allowed,
         format!("forces balance every free block at λ = {value}: largest unbalance {:.1e} g, allowed {allowed:.0e}", s.unbalance),
     );
-    let k = certificate::kinematics(assembly, interfaces, rates, forces);
+    let k = certificate::kinematics(model, rates, forces);
     f.require(k.live_power > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));
-    let map = law::natural_map(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY);
+    let map = law::natural_map(model, forces, rates).unwrap_or(f64::INFINITY);
     f.require(
         map <= tolerance::DRY_LAW,
         format!("forces and mechanism obey Coulomb's law: natural map {map:.1e}, allowed {:.0e}", tolerance::DRY_LAW),
     );
-    let in_loads = dry_map(assembly, interfaces, forces, rates);
+    let in_loads = dry_map(model, forces, rates);
     f.require(
         in_loads <= tolerance::NATURAL_MAP,
         format!("with rates as the live load drives them: natural map {in_loads:.1e}, allowed {:.0e}", tolerance::NATURAL_MAP),
@@ -210,21 +207,22 @@ fn dry(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &
     // Where the live load is small beside the dead load, far more of it is no more than rounding of a block's balance.
     let hidden = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum::<f64>() / k.live_power;
     // What stands beside it makes no room.
-    let natural = moving(assembly, interfaces, forces, rates)
-        .map_or_else(|| natural_factor(assembly), |(part, ..)| part.units.load_factor(natural_factor(&part.assembly)));
+    let natural = moving(model, forces, rates)
+        .map_or_else(|| natural_factor(assembly), |(part, ..)| part.units.load_factor(natural_factor(&part.model.assembly)));
     let width = tolerance::DRY_WIDTH * value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
     f.require(hidden <= width, format!("what the forces leave hides at most {hidden:.1e} of λ, allowed {width:.1e}"));
 }
 
 /// The natural map of a mechanism with the rates as the live load drives them.
-pub fn dry_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> f64 {
-    law::natural_map_in_loads(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY)
+pub fn dry_map(model: &Model, forces: &Forces, rates: &[Rate]) -> f64 {
+    law::natural_map_in_loads(model, forces, rates).unwrap_or(f64::INFINITY)
 }
 
 /// Forces from which a motion starts that obeys Coulomb's law with them.
-fn moves(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, base: &Forces, rates: &[Rate]) {
-    cones(f, "without a pre-stress, ", assembly, interfaces, &certificate::statics(assembly, interfaces, base, 0.0));
-    let m = law::motion(assembly, interfaces, base);
+fn moves(f: &mut Findings, model: &Model, base: &Forces, rates: &[Rate]) {
+    let assembly = &model.assembly;
+    cones(f, "without a pre-stress, ", model, &certificate::statics(model, base, 0.0));
+    let m = law::motion(model, base);
     f.require(
         m.acceleration >= tolerance::LEAST_MOTION,
         format!("without a pre-stress a block is left with {:.3e} g, at least {:.0e} needed", m.acceleration, tolerance::LEAST_MOTION),
@@ -273,14 +271,16 @@ pub fn live_alone(assembly: &Assembly) -> (Assembly, f64) {
 }
 
 /// `when` says which of several sets of forces is meant.
-pub(super) fn balanced(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) {
+pub(super) fn balanced(f: &mut Findings, when: &str, model: &Model, forces: &Forces, lambda: f64) {
+    let assembly = &model.assembly;
     let scale = |i: usize| certificate::load_scale(assembly, i).max(lambda.abs() * certificate::size(assembly, i, &assembly.live[i]));
-    balanced_against(f, when, (assembly, interfaces), forces, lambda, &scale);
+    balanced_against(f, when, model, forces, lambda, &scale);
 }
 
 /// Forces that balance without any load, or one that stands in the place of the dead load: each block by its own load, by the contact
 /// forces on it where it has none.
-pub(super) fn by_themselves(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) {
+pub(super) fn by_themselves(f: &mut Findings, when: &str, model: &Model, forces: &Forces) {
+    let Model { assembly, interfaces, .. } = model;
     let mut greatest = vec![0.0_f64; assembly.blocks.len()];
     for (face, forces) in interfaces.list.iter().zip(forces) {
         let most = largest(std::slice::from_ref(forces));
@@ -290,21 +290,15 @@ pub(super) fn by_themselves(f: &mut Findings, when: &str, assembly: &Assembly, i
         0.0 => greatest[i],
         own => own,
     };
-    balanced_against(f, when, (assembly, interfaces), forces, 0.0, &scale);
+    balanced_against(f, when, model, forces, 0.0, &scale);
 }
 
 /// Forces that balance at `lambda`, each block by its own `scale`, N.
-fn balanced_against(
-    f: &mut Findings,
-    when: &str,
-    (assembly, interfaces): (&Assembly, &Interfaces),
-    forces: &Forces,
-    lambda: f64,
-    scale: &dyn Fn(usize) -> f64,
-) {
-    let left = Left::of((assembly, interfaces), forces, lambda, scale);
+fn balanced_against(f: &mut Findings, when: &str, model: &Model, forces: &Forces, lambda: f64, scale: &dyn Fn(usize) -> f64) {
+    let assembly = &model.assembly;
+    let left = Left::of(model, forces, lambda, scale);
     held(f, when, assembly, &left);
-    cones(f, when, assembly, interfaces, &certificate::statics(assembly, interfaces, forces, lambda));
+    cones(f, when, model, &certificate::statics(model, forces, lambda));
 }
 
 /// What forces leave, over the scale of the block.
@@ -316,11 +310,11 @@ struct Left {
 }
 
 impl Left {
-    fn of((assembly, interfaces): (&Assembly, &Interfaces), forces: &Forces, lambda: f64, scale: &dyn Fn(usize) -> f64) -> Self {
-        let covered = existence::covered(assembly, interfaces, forces, lambda);
+    fn of(model: &Model, forces: &Forces, lambda: f64, scale: &dyn Fn(usize) -> f64) -> Self {
+        let covered = existence::covered(model, forces, lambda);
         let exists = covered.iter().all(|held| *held);
         let counted = |i: usize| if covered[i] && !exists { f64::INFINITY } else { scale(i) };
-        Self { greatest: Unbalance::of(assembly, interfaces, forces, lambda, &counted), exists }
+        Self { greatest: Unbalance::of(model, forces, lambda, &counted), exists }
     }
 
     /// Whether that proves that the blocks are held.
@@ -341,31 +335,31 @@ fn held(f: &mut Findings, when: &str, assembly: &Assembly, left: &Left) {
     }
 }
 
-pub(super) fn cones(f: &mut Findings, when: &str, assembly: &Assembly, interfaces: &Interfaces, s: &certificate::Residuals) {
+pub(super) fn cones(f: &mut Findings, when: &str, model: &Model, s: &certificate::Residuals) {
     f.require(
         s.cone_excess <= tolerance::CONE,
         format!("{when}forces lie in their friction cones: largest excess {:.1e} of the force", s.cone_excess),
     );
     if s.crushing > 0.0 {
-        let (used, joint) = (100.0 * s.crushing, joint(assembly, interfaces, s.most_pressed));
+        let (used, joint) = (100.0 * s.crushing, joint(model, s.most_pressed));
         let text = format!("{when}no joint is pressed beyond its compressive strength: at most {used:.4} % of it, in {joint}");
         f.require(s.is_within_strength(), text);
     }
 }
 
 /// The parts of a scene that move, each in its own units, with its rates: what the others weigh is no matter of its proof.
-fn moving_parts(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Vec<(Part, Vec<Rate>)> {
+fn moving_parts(model: &Model, rates: &[Rate]) -> Vec<(Part, Vec<Rate>)> {
     let moves = |part: &Part| part.blocks.iter().any(|&i| rates[i] != Rate::zero());
     let in_its_units = |part: Part| {
         let own = part.blocks.iter().map(|&i| Rate { velocity: rates[i].velocity, spin: part.units.own_spin(&rates[i].spin) }).collect();
         (part, own)
     };
-    interface::parts(assembly, interfaces).into_iter().filter(moves).map(in_its_units).collect()
+    interface::parts(model).into_iter().filter(moves).map(in_its_units).collect()
 }
 
 /// The part of a scene that alone moves, with its forces and rates. `None` where several move.
-pub fn moving(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<(Part, Forces, Vec<Rate>)> {
-    let mut list = moving_parts(assembly, interfaces, rates);
+pub fn moving(model: &Model, forces: &Forces, rates: &[Rate]) -> Option<(Part, Forces, Vec<Rate>)> {
+    let mut list = moving_parts(model, rates);
     let (part, own) = list.pop().filter(|_| list.is_empty())?;
     let forces = part.take_forces(forces);
     Some((part, forces, own))
@@ -373,19 +367,19 @@ pub fn moving(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rat
 
 /// A scene falls where one of its parts does: what moves gains power and closes no joint, each part for itself, whatever the others weigh. Where no
 /// live load may help (`for_good`), it has no power on one of them.
-fn falls(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], for_good: bool) {
-    let meets = |assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]| {
+fn falls(f: &mut Findings, model: &Model, rates: &[Rate], for_good: bool) {
+    let meets = |model: &Model, rates: &[Rate]| {
         let [mut gain, mut live] = [Findings::default(), Findings::default()];
-        gains(&mut gain, assembly, interfaces, rates);
+        gains(&mut gain, model, rates);
         if for_good {
-            without_live_power(&mut live, assembly, interfaces, rates);
+            without_live_power(&mut live, model, rates);
         }
         [gain, live]
     };
-    let parts = moving_parts(assembly, interfaces, rates);
-    let mut list: Vec<[Findings; 2]> = parts.iter().map(|(part, rates)| meets(&part.assembly, &part.interfaces, rates)).collect();
+    let parts = moving_parts(model, rates);
+    let mut list: Vec<[Findings; 2]> = parts.iter().map(|(part, rates)| meets(&part.model, rates)).collect();
     if list.is_empty() {
-        list.push(meets(assembly, interfaces, rates));
+        list.push(meets(model, rates));
     }
     // The part that is proved best speaks for all; of the others only what fails is told.
     let decides = (0..list.len()).min_by_key(|&k| list[k].iter().map(|own| own.fails.len()).sum::<usize>()).unwrap_or(0);
@@ -401,10 +395,11 @@ fn falls(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: 
 }
 
 /// The rates gain power, and close no joint.
-fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) {
+fn gains(f: &mut Findings, model: &Model, rates: &[Rate]) {
+    let Model { assembly, interfaces, .. } = model;
     let none = super::no_forces(interfaces);
-    let k = certificate::kinematics(assembly, interfaces, rates, &none);
-    let exact = motion::motion(assembly, interfaces, rates);
+    let k = certificate::kinematics(model, rates, &none);
+    let exact = motion::motion(model, rates);
     let gain = exact.map_or(k.gain(), |m| m.gain().lower);
     let threshold = tolerance::UNBALANCE;
     f.require(gain > threshold * k.norm, format!("the mechanism gains power: {:.3e} g, at least {threshold:.1e} needed", gain / k.norm));
@@ -425,7 +420,8 @@ fn gains(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, rates: 
 }
 
 /// The two blocks of a joint.
-fn joint(assembly: &Assembly, interfaces: &Interfaces, k: usize) -> String {
+fn joint(model: &Model, k: usize) -> String {
+    let Model { assembly, interfaces, .. } = model;
     let face = &interfaces.list[k];
     format!("{} | {}", assembly.blocks[face.a].id, assembly.blocks[face.b].id)
 }
@@ -436,25 +432,19 @@ fn decade(x: f64, round: fn(f64) -> f64) -> f64 {
 }
 
 /// Forces at `lower` from below and a mechanism from above.
-fn load_factor(
-    f: &mut Findings,
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    forces: &Forces,
-    rates: &[Rate],
-    [value, lower, upper]: [f64; 3],
-) {
-    let (high, natural) = match moving(assembly, interfaces, forces, rates) {
+fn load_factor(f: &mut Findings, model: &Model, forces: &Forces, rates: &[Rate], [value, lower, upper]: [f64; 3]) {
+    let assembly = &model.assembly;
+    let (high, natural) = match moving(model, forces, rates) {
         Some((part, own, rates)) => {
-            let high = upper_end(f, &part.assembly, &part.interfaces, &own, &rates, part.units.own_load_factor(value));
-            (part.units.load_factor(high), part.units.load_factor(natural_factor(&part.assembly)))
+            let high = upper_end(f, &part.model, &own, &rates, part.units.own_load_factor(value));
+            (part.units.load_factor(high), part.units.load_factor(natural_factor(&part.model.assembly)))
         }
-        None => (upper_end(f, assembly, interfaces, forces, rates, value), natural_factor(assembly)),
+        None => (upper_end(f, model, forces, rates, value), natural_factor(assembly)),
     };
     f.require(high <= upper, format!("the mechanism bounds the load factor: recomputed {high:.12}, claimed {upper:.12}"));
     // A bracket may be true and wide; a load factor below the limit is still not the limit. NaN is not narrow.
     let width = tolerance::LOAD_FACTOR_WIDTH * lower.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
-    supported(f, assembly, interfaces, (forces, rates), lower, width);
+    supported(f, model, (forces, rates), lower, width);
     let (open, narrow) = (upper - lower, 2.0 * width);
     if open.is_nan() || open.abs() > narrow {
         f.fails.push(format!("the two sides do not meet: bracket {open:.1e} wide, allowed {narrow:.1e}"));
@@ -464,29 +454,31 @@ fn load_factor(
 
 /// Forces that hold the scene at the lower end of a load factor. What they leave unbalanced counts with the power that it has on the
 /// mechanism, and may be more than elsewhere where that is next to nothing.
-fn supported(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, (forces, rates): (&Forces, &[Rate]), lower: f64, width: f64) {
+fn supported(f: &mut Findings, model: &Model, (forces, rates): (&Forces, &[Rate]), lower: f64, width: f64) {
+    let assembly = &model.assembly;
     let scale = |i: usize| certificate::load_scale(assembly, i).max(lower.abs() * certificate::size(assembly, i, &assembly.live[i]));
     let when = format!("at λ = {lower}, ");
-    let left = Left::of((assembly, interfaces), forces, lower, &scale);
-    let s = certificate::statics(assembly, interfaces, forces, lower);
+    let left = Left::of(model, forces, lower, &scale);
+    let s = certificate::statics(model, forces, lower);
     if left.is_balanced() {
         held(f, &when, assembly, &left);
-        return cones(f, &when, assembly, interfaces, &s);
+        return cones(f, &when, model, &s);
     }
     let left = left.greatest.greatest;
-    let live = certificate::kinematics(assembly, interfaces, rates, forces).live_power;
+    let live = certificate::kinematics(model, rates, forces).live_power;
     let hidden = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum::<f64>() / live;
     let (block, allowed) = (&assembly.blocks[s.worst].id, tolerance::LOOSE_BALANCE);
     let text = format!("{when}forces balance every free block: largest unbalance {left:.1e} g, on {block}, allowed {allowed:.0e}");
     f.require_graded(left <= allowed, Grade::ToRounding(left), text);
     f.require(hidden <= width, format!("what they leave hides at most {hidden:.1e} of λ, allowed {width:.1e}"));
-    cones(f, &when, assembly, interfaces, &s);
+    cones(f, &when, model, &s);
 }
 
 /// The load factor above which a mechanism gains power.
-fn upper_end(f: &mut Findings, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], value: f64) -> f64 {
-    let k = certificate::kinematics(assembly, interfaces, rates, forces);
-    let exact = motion::motion(assembly, interfaces, rates);
+fn upper_end(f: &mut Findings, model: &Model, forces: &Forces, rates: &[Rate], value: f64) -> f64 {
+    let assembly = &model.assembly;
+    let k = certificate::kinematics(model, rates, forces);
+    let exact = motion::motion(model, rates);
     let live = exact.map_or(k.live_power, |m| m.live.lower);
     f.require(live > 0.0, format!("the live load drives the mechanism: power {:.3e}", k.live_power));
     if exact.is_some_and(|m| m.is_admissible()) {

@@ -3,7 +3,7 @@
 use super::{Forces, Rate};
 use crate::{
     assembly::{Assembly, Wrench},
-    interface::Interfaces,
+    interface::Model,
     tolerance,
 };
 use nalgebra::Vector3;
@@ -37,7 +37,8 @@ pub struct BlockRate {
 }
 
 /// Forces as evidence.
-pub fn write_forces(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Vec<ContactForces> {
+pub fn write_forces(model: &Model, forces: &Forces) -> Vec<ContactForces> {
+    let Model { assembly, interfaces, .. } = model;
     interfaces
         .list
         .iter()
@@ -67,7 +68,8 @@ pub fn write_rates(assembly: &Assembly, rates: &[Rate]) -> Vec<BlockRate> {
 ///
 /// # Errors
 /// A contact that the scene does not have, or has at other points; numbers that are not finite.
-pub fn read_forces(assembly: &Assembly, interfaces: &Interfaces, saved: &[ContactForces]) -> Result<Forces, String> {
+pub fn read_forces(model: &Model, saved: &[ContactForces]) -> Result<Forces, String> {
+    let Model { assembly, interfaces, .. } = model;
     let mut forces = super::no_forces(interfaces);
     let mut by_pair: std::collections::HashMap<(&str, &str), Vec<Option<usize>>> = Default::default();
     for (k, face) in interfaces.list.iter().enumerate() {
@@ -90,7 +92,7 @@ pub fn read_forces(assembly: &Assembly, interfaces: &Interfaces, saved: &[Contac
         }
         // The whole contact has to fit: two interfaces of a pair may share corners.
         let candidates = by_pair.get_mut(&(a.as_str(), b.as_str())).into_iter().flatten();
-        let fit = candidates.filter_map(|k| Some((places(assembly, interfaces, (*k)?, &contact.points)?, k))).next();
+        let fit = candidates.filter_map(|k| Some((places(model, (*k)?, &contact.points)?, k))).next();
         let Some((places, slot)) = fit else {
             return Err(format!("contact {a} | {b}: the scene has no such contact, or has it twice in the result"));
         };
@@ -105,7 +107,8 @@ pub fn read_forces(assembly: &Assembly, interfaces: &Interfaces, saved: &[Contac
 }
 
 /// Where each saved point stands among the points of an interface; `None` unless they are the same points.
-fn places(assembly: &Assembly, interfaces: &Interfaces, k: usize, saved: &[[f64; 3]]) -> Option<Vec<usize>> {
+fn places(model: &Model, k: usize, saved: &[[f64; 3]]) -> Option<Vec<usize>> {
+    let Model { assembly, interfaces, .. } = model;
     let face = &interfaces.list[k];
     let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size);
     let mut free = vec![true; face.points.len()];

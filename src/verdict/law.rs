@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     assembly::{Assembly, Wrench},
-    interface::{Interface, Interfaces},
+    interface::{Interface, Model},
     scene::Friction,
     tolerance,
 };
@@ -22,24 +22,26 @@ use nalgebra::Vector3;
 /// Cohesion and tension move and cut the cone `K`; couples of a rolling arm count in the same way, over the arm, against the rates
 /// of rolling and twisting. Where a joint crushes, the normal forces count by what they fall short of the greatest power on the
 /// closing `g`, `√(σ ∫ g⁺ dA − Σ g f_n)`, instead: zero exactly where the pressure is σ on all that closes and nothing on what opens.
-pub fn natural_map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<f64> {
+pub fn natural_map(model: &Model, forces: &Forces, rates: &[Rate]) -> Option<f64> {
+    let Model { assembly, interfaces, .. } = model;
     let speeds = interfaces.list.iter().flat_map(|face| face.points.iter().map(move |p| joint_rate(assembly, rates, face, p).norm()));
     let fastest = speeds.fold(0.0, greatest);
-    (fastest > 0.0).then(|| map(assembly, interfaces, forces, rates, 1.0 / fastest))
+    (fastest > 0.0).then(|| map(model, forces, rates, 1.0 / fastest))
 }
 
 /// The same with rates as the convex program has them, not brought to the size of the forces: in multiples of the joint's own forces, for a
 /// mechanism on which the live load, brought to the size of the dead load, has the power of one mean load; sizes, loads and means are
 /// those of the blocks that the mechanism moves. Less strict than [`natural_map`] where rates are small beside forces; the measure of the
 /// literature. `None` where nothing moves, or the live load does not drive it.
-pub fn natural_map_in_loads(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate]) -> Option<f64> {
+pub fn natural_map_in_loads(model: &Model, forces: &Forces, rates: &[Rate]) -> Option<f64> {
+    let assembly = &model.assembly;
     let fastest = assembly.free().map(|i| speed(assembly, i, &rates[i])).fold(0.0, greatest);
     let moving: Vec<usize> = assembly.free().filter(|&i| speed(assembly, i, &rates[i]) > tolerance::MECHANISM_REST * fastest).collect();
     let sum = |of: &dyn Fn(usize) -> f64| moving.iter().map(|&i| of(i)).sum::<f64>();
     let (dead, live) = (sum(&|i| size(assembly, i, &assembly.dead[i])), sum(&|i| size(assembly, i, &assembly.live[i])));
     let driven = sum(&|i| power(&assembly.live[i], &rates[i])) * dead / live;
     let mean = sum(&|i| load_scale(assembly, i)) / moving.len() as f64;
-    (driven > 0.0).then(|| map(assembly, interfaces, forces, rates, mean / driven))
+    (driven > 0.0).then(|| map(model, forces, rates, mean / driven))
 }
 
 /// The greater of two; a NaN stays.
@@ -54,7 +56,8 @@ fn joint_rate(assembly: &Assembly, rates: &[Rate], face: &Interface, p: &Vector3
 
 /// What breaches at each joint are measured by, N: of its two blocks (supports do not count) the lesser, each by the greatest of its load and
 /// of the forces of its contacts.
-fn measures(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Vec<f64> {
+fn measures(model: &Model, forces: &Forces) -> Vec<f64> {
+    let Model { assembly, interfaces, .. } = model;
     let mut own: Vec<f64> = (0..assembly.blocks.len()).map(|i| load_scale(assembly, i)).collect();
     for (face, forces) in interfaces.list.iter().zip(forces) {
         for block in [face.a, face.b] {
@@ -66,10 +69,11 @@ fn measures(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Ve
 }
 
 /// The greatest breach of a joint over its own forces; rates of `1 / scale` count as much as these.
-fn map(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, rates: &[Rate], scale: f64) -> f64 {
+fn map(model: &Model, forces: &Forces, rates: &[Rate], scale: f64) -> f64 {
+    let Model { assembly, interfaces, .. } = model;
     let spins = |block: usize| rates[block].spin;
     let mut worst = 0.0;
-    for ((face, forces), size) in interfaces.list.iter().zip(forces).zip(measures(assembly, interfaces, forces)) {
+    for ((face, forces), size) in interfaces.list.iter().zip(forces).zip(measures(model, forces)) {
         if !size.is_finite() {
             continue;
         }
@@ -186,8 +190,9 @@ impl Released {
 ///
 /// Each block moves by its own unbalance; a block's mass is taken as its load scale, with its own radii of gyration. The law of contact does
 /// not depend on that choice, only the speeds do.
-pub fn motion(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> Released {
-    let s = statics(assembly, interfaces, forces, 0.0);
+pub fn motion(model: &Model, forces: &Forces) -> Released {
+    let assembly = &model.assembly;
+    let s = statics(model, forces, 0.0);
     let mut rates = vec![Rate::zero(); assembly.blocks.len()];
     let mut accelerations = vec![0.0; assembly.blocks.len()];
     for i in assembly.free() {
@@ -196,8 +201,8 @@ pub fn motion(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces) -> 
         rates[i] = Rate { velocity: s.residuals[i].force / w, spin: spin / w };
         accelerations[i] = size(assembly, i, &s.residuals[i]) / w;
     }
-    let natural_map = natural_map(assembly, interfaces, forces, &rates).unwrap_or(f64::INFINITY);
-    let natural_map_in_loads = map(assembly, interfaces, forces, &rates, 1.0);
+    let natural_map = natural_map(model, forces, &rates).unwrap_or(f64::INFINITY);
+    let natural_map_in_loads = map(model, forces, &rates, 1.0);
     Released { acceleration: s.unbalance, accelerations, natural_map, natural_map_in_loads, rates }
 }
 

@@ -3,7 +3,7 @@
 use super::{Rate, certificate};
 use crate::{
     assembly::Assembly,
-    interface::{Interface, Interfaces},
+    interface::{Interface, Model},
     scene::Friction,
     tolerance,
 };
@@ -47,7 +47,8 @@ pub struct Mechanism {
 }
 
 /// Reads the rates of a mechanism.
-pub fn read(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Mechanism {
+pub fn read(model: &Model, rates: &[Rate]) -> Mechanism {
+    let Model { assembly, interfaces, .. } = model;
     let speed = |i: usize| certificate::speed(assembly, i, &rates[i]);
     let fastest = assembly.free().map(speed).fold(0.0, f64::max);
     let mut moving: Vec<usize> = assembly.free().filter(|&i| speed(i) > tolerance::MECHANISM_REST * fastest).collect();

@@ -8,7 +8,7 @@
 use super::{Forces, Rate, certificate, check::Findings, no_forces};
 use crate::{
     assembly::{Assembly, Wrench},
-    interface::Interfaces,
+    interface::{Interfaces, Model},
     tolerance,
 };
 use nalgebra::Vector3;
@@ -72,11 +72,12 @@ impl ThrustAt {
     }
 
     /// What forces and rates prove about an extreme.
-    pub fn bracket(&self, assembly: &Assembly, interfaces: &Interfaces, extreme: Extreme, forces: &Forces, rates: &[Rate]) -> Proof {
+    pub fn bracket(&self, model: &Model, extreme: Extreme, forces: &Forces, rates: &[Rate]) -> Proof {
+        let Model { assembly, interfaces, .. } = model;
         let sigma = extreme.sigma();
         let rates = self.with_support(rates, sigma);
-        let s = certificate::statics(assembly, interfaces, forces, 0.0);
-        let k = certificate::kinematics(assembly, interfaces, &rates, forces);
+        let s = certificate::statics(model, forces, 0.0);
+        let k = certificate::kinematics(model, &rates, forces);
         let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
         let (value, bound) = (self.value(interfaces, forces), sigma * (k.gain() - k.slack));
         let largest = forces.iter().flatten().map(|f| f.force.norm()).fold(0.0, f64::max);
@@ -126,18 +127,18 @@ pub fn unloaded(assembly: &Assembly) -> Assembly {
 /// Verifies a least or greatest thrust: its value and bracket.
 pub(super) fn verify(
     f: &mut Findings,
-    assembly: &Assembly,
-    interfaces: &Interfaces,
+    model: &Model,
     (forces, rates): (&Forces, &[Rate]),
     (at, extreme): (&ThrustAt, Extreme),
     [value, lower, upper]: [f64; 3],
 ) {
+    let assembly = &model.assembly;
     if !is_support(f, assembly, at) {
         return;
     }
-    let p = at.bracket(assembly, interfaces, extreme, forces, rates);
+    let p = at.bracket(model, extreme, forces, rates);
     let s = &p.statics;
-    super::check::cones(f, "", assembly, interfaces, s);
+    super::check::cones(f, "", model, s);
     let loose = tolerance::LOOSE_BALANCE;
     f.require(
         s.unbalance <= loose,
@@ -162,25 +163,18 @@ pub(super) fn verify(
 }
 
 /// Verifies that a thrust has no end: forces that balance by themselves and push, beside others that balance the loads.
-pub(super) fn verify_endless(
-    f: &mut Findings,
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    forces: &Forces,
-    base: Option<&Forces>,
-    at: &ThrustAt,
-    extreme: Extreme,
-) {
+pub(super) fn verify_endless(f: &mut Findings, model: &Model, forces: &Forces, base: Option<&Forces>, at: &ThrustAt, extreme: Extreme) {
+    let Model { assembly, interfaces, .. } = model;
     if !is_support(f, assembly, at) {
         return;
     }
     match base {
-        Some(base) => super::check::balanced(f, "", assembly, interfaces, base, 0.0),
+        Some(base) => super::check::balanced(f, "", model, base, 0.0),
         None => f.fails.push("forces that balance the loads are missing".into()),
     }
     let (unlimited, kept) = interfaces.unlimited();
     let alone: Forces = kept.iter().map(|&k| forces[k].clone()).collect();
-    super::check::balanced(f, "without loads, ", &unloaded(assembly), &unlimited, &alone, 0.0);
+    super::check::balanced(f, "without loads, ", &Model::new(unloaded(assembly), unlimited), &alone, 0.0);
     // Forces in joints that limit them are not counted.
     let mut counted = no_forces(interfaces);
     kept.iter().zip(alone).for_each(|(&k, forces)| counted[k] = forces);

@@ -49,11 +49,10 @@ fn has_strengths(scene: &Scene) -> bool {
 
 fn compare(scene: &Scene) -> (Agreement, f64) {
     let model = model(scene);
-    let answer = assess(&model.assembly, &model.interfaces, &Control::default());
-    let outcome = simulate(&model.assembly, &model.interfaces, &SimulationSettings::default(), &mut |_| ControlFlow::Continue(()))
-        .expect("a simulation");
+    let answer = assess(&model, &Control::default());
+    let outcome = simulate(&model, &SimulationSettings::default(), &mut |_| ControlFlow::Continue(())).expect("a simulation");
     let seconds = outcome.runs.iter().map(|r| r.seconds).sum();
-    (agreement(&model.assembly, &model.interfaces, &answer, &outcome), seconds)
+    (agreement(&model, &answer, &outcome), seconds)
 }
 
 fn listed(list: &[(&str, &str)], name: &str) -> bool {
@@ -210,8 +209,8 @@ fn simulations_of_the_reference_cases_agree_with_their_verdicts() {
         }
         let scene = crate::reference::scene(case, case, crate::reference::mu_of(case));
         let m = model(&scene);
-        let limit = voussoir::analysis::limit(&m.assembly, &m.interfaces, &Control::default());
-        let dry = voussoir::analysis::coulomb::load_factor(&m.assembly, &m.interfaces, &limit, &Control::default()).value;
+        let limit = voussoir::analysis::limit(&m, &Control::default());
+        let dry = voussoir::analysis::coulomb::load_factor(&m, &limit, &Control::default()).value;
         if dry.is_nan() || dry <= 0.0 || m.assembly.blocks.len() > 80 {
             println!("{id}: no load factor with dry friction, or too large");
             continue;

@@ -3,8 +3,9 @@
 
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, LoadFactor, Model, Outcome, assess, coulomb, limit, prepare, tilt},
+    analysis::{Control, Law, LoadFactor, Outcome, assess, coulomb, limit, tilt},
     import::{Reach, read_meshes},
+    interface::{Model, prepare},
     report::{self, Leaning, ResultFile},
     scene::{Scene, read_file, read_str},
     verdict::Verdict,
@@ -101,7 +102,7 @@ pub fn prove(scene: &Scene, file: &ResultFile) {
 /// The verdict by a law of sliding, with proof.
 pub fn verdict(scene: &Scene, law: Law) -> Verdict {
     let model = model(scene);
-    let answer = assess(&model.assembly, &model.interfaces, &Control { law, ..Control::default() });
+    let answer = assess(&model, &Control { law, ..Control::default() });
     assert_ne!(answer.verdict, Verdict::Undecided, "{}: {:?} {:?}", scene.name, answer.unbalance, answer.state.map(|s| s.steps));
     prove(scene, &ResultFile::assessment(scene, &model, &answer));
     answer.verdict
@@ -115,7 +116,7 @@ pub fn stands(scene: &Scene) -> bool {
 /// The answer about the load factor, with proof.
 fn answer(scene: &Scene) -> LoadFactor {
     let model = model(scene);
-    let answer = limit(&model.assembly, &model.interfaces, &Control::default());
+    let answer = limit(&model, &Control::default());
     prove(scene, &ResultFile::load_factor(scene, &model, &answer));
     answer
 }
@@ -158,7 +159,7 @@ pub fn exact(what: &str, scene: &Scene, want: f64, tolerance: f64) {
 /// The tilt in degrees towards a direction, 90 where it is wedged, with proof.
 pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
     let model = model(scene);
-    let answer = tilt(&model.assembly, &model.interfaces, toward.into(), &Control::default()).expect("a tilt");
+    let answer = tilt(&model, toward.into(), &Control::default()).expect("a tilt");
     let model = tilt::tilted(&model, toward.into(), answer.load_factor.value).expect("a tilt");
     let angle = answer.angle_deg();
     prove(scene, &ResultFile::tilt(scene, &[Leaning { model, tilt: answer, dry: None }]).expect("a direction"));
@@ -168,8 +169,8 @@ pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
 /// The load factor with dry friction, the associative one (NaN where there is no limit) and the number of convex programs, with proof.
 pub fn dry(scene: &Scene) -> (f64, f64, usize) {
     let model = model(scene);
-    let l = limit(&model.assembly, &model.interfaces, &Control::default());
-    let d = coulomb::load_factor(&model.assembly, &model.interfaces, &l, &Control::default());
+    let l = limit(&model, &Control::default());
+    let d = coulomb::load_factor(&model, &l, &Control::default());
     let file = ResultFile::load_factor(scene, &model, &l).with_dry(&model, &d);
     prove(scene, &file);
     assert_eq!(file.dry.and_then(|d| d.value), Some(d.value), "{}: natural map {:.1e}", scene.name, d.natural_map);

@@ -7,8 +7,9 @@ use std::{
     process::{Command, Output, Stdio},
 };
 use voussoir::{
-    analysis::{Control, assess, prepare},
+    analysis::{Control, assess},
     error::FindingCode,
+    interface::prepare,
     report::{self, ResultFile},
     scene::{Scene, read_bytes, read_str},
     verdict::Verdict,
@@ -131,7 +132,7 @@ fn a_floating_block_falls_at_once_and_is_named() {
     assert!(said.contains("falls") && said.contains("block"), "{said}");
     let (scene, _) = read_str("test", text).unwrap();
     let m = prepare(&scene).unwrap();
-    let a = assess(&m.assembly, &m.interfaces, &Control::default());
+    let a = assess(&m, &Control::default());
     assert!(a.attempts.is_empty(), "no program is needed");
     assert_eq!(a.floating, vec![vec![1]]);
 }
@@ -152,7 +153,7 @@ fn slips_of_units_are_told() {
 /// An error, or an answer that verifies from its own file, or undecided.
 fn answered(scene: &Scene) {
     let Ok(m) = prepare(scene) else { return };
-    let a = assess(&m.assembly, &m.interfaces, &Control { seconds: 10.0, ..Control::default() });
+    let a = assess(&m, &Control { seconds: 10.0, ..Control::default() });
     let text = report::json::pretty(&ResultFile::assessment(scene, &m, &a)).unwrap();
     let file = report::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{e}\n{scene:?}"));
     if file.answer.verdict != Some(Verdict::Undecided) {

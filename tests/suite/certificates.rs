@@ -5,8 +5,9 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 use serde_json::json;
 use voussoir::{
-    analysis::{Control, Law, Model, Outcome, assess, limit},
+    analysis::{Control, Law, Outcome, assess, limit},
     assembly::Wrench,
+    interface::Model,
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
     scene::Scene,
     solve::{self, Settings},
@@ -28,7 +29,7 @@ fn zeros(m: &Model) -> Forces {
 }
 
 fn proved(m: &Model, claim: Claim, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> bool {
-    verify(&m.assembly, &m.interfaces, &claim, forces, base, rates).proved()
+    verify(m, &claim, forces, base, rates).proved()
 }
 
 fn scaled(rates: &[Rate], s: f64) -> Vec<Rate> {
@@ -42,7 +43,7 @@ fn associative() -> Control {
 #[test]
 fn a_stable_claim_needs_forces_that_balance_inside_their_cones() {
     let m = model(&arch(0.15));
-    let a = assess(&m.assembly, &m.interfaces, &associative());
+    let a = assess(&m, &associative());
     assert_eq!(a.verdict, Verdict::Stable);
     assert!(proved(&m, Claim::Stable, &a.forces, None, &a.rates));
     assert!(!proved(&m, Claim::Stable, &zeros(&m), None, &a.rates));
@@ -77,7 +78,7 @@ fn a_stable_claim_needs_forces_that_balance_inside_their_cones() {
 #[test]
 fn an_unstable_claim_needs_an_admissible_mechanism_that_gains_power() {
     let m = model(&arch(0.09));
-    let a = assess(&m.assembly, &m.interfaces, &associative());
+    let a = assess(&m, &associative());
     assert_eq!(a.verdict, Verdict::Unstable);
     for s in [1.0, 1e-6, 1e6] {
         assert!(proved(&m, Claim::Unstable, &a.forces, None, &scaled(&a.rates, s)), "scale {s}");
@@ -119,7 +120,7 @@ fn large_forces_are_not_hidden_behind_a_small_inadmissibility() {
 #[test]
 fn load_factors_need_both_sides() {
     let m = model(&arch(0.15));
-    let l = limit(&m.assembly, &m.interfaces, &Control::default());
+    let l = limit(&m, &Control::default());
     assert_eq!(l.outcome, Outcome::Found);
     let claim = |value: f64, lower: f64, upper: f64| Claim::LoadFactor { value, lower, upper };
     let (v, b) = (l.value, l.bracket);
@@ -149,7 +150,7 @@ fn a_mechanism_may_not_close_unloaded_joints() {
     let at = |x: f64| {
         let mut half = m.clone();
         half.assembly.dead[1].force.x += x * m.assembly.weight(1);
-        assess(&half.assembly, &half.interfaces, &associative())
+        assess(&half, &associative())
     };
     let a = at(0.2);
     assert_eq!(a.verdict, Verdict::Stable);
@@ -163,7 +164,7 @@ fn a_mechanism_may_not_close_unloaded_joints() {
         let share = if p.x > 0.0 { 0.3 } else { 0.2 };
         f.force = m.interfaces.list[0].frame.n * (share * m.assembly.weight(1)) - V::x() * (0.2 * share * m.assembly.weight(1));
     }
-    let s = certificate::statics(&m.assembly, &m.interfaces, &forces, 0.2);
+    let s = certificate::statics(&m, &forces, 0.2);
     assert!(s.balanced, "{}", s.unbalance);
     assert!(!proved(&m, Claim::LoadFactor { value: 0.2, lower: 0.2, upper: 0.2 }, &forces, None, &rates));
 }
@@ -179,7 +180,7 @@ fn unbounded_and_impossible_are_proved_and_not_forged() {
         )
     };
     let m = model(&roof(json!({ "weight": [1, 0, 0] })));
-    let l = limit(&m.assembly, &m.interfaces, &Control::default());
+    let l = limit(&m, &Control::default());
     assert_eq!(l.outcome, Outcome::Unbounded);
     let (standing, base) = l.base.clone().unwrap();
     assert!(proved(&m, Claim::Unbounded { standing }, &l.forces, Some(&base), &l.rates));
@@ -194,14 +195,14 @@ fn unbounded_and_impossible_are_proved_and_not_forged() {
         json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [20.4, 0.0, 0.0]), cuboid("other", [1.0, 1.0, 1.0], [0.0; 3])]),
         push([0.0, 1.0, 0.0]),
     ));
-    let l = limit(&m.assembly, &m.interfaces, &Control::default());
+    let l = limit(&m, &Control::default());
     assert_eq!(l.outcome, Outcome::Impossible);
     assert!(proved(&m, Claim::Impossible, &l.forces, None, &l.rates));
     assert!(!proved(&m, Claim::Impossible, &l.forces, None, &scaled(&l.rates, -1.0)));
     assert!(!proved(&m, Claim::Impossible, &l.forces, None, &scaled(&l.rates, 0.0)));
     // Without a live load nothing is unbounded and nothing impossible.
     let still = model(&scene(0.4, json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [0.0; 3])]), json!({})));
-    let a = assess(&still.assembly, &still.interfaces, &associative());
+    let a = assess(&still, &associative());
     assert!(!proved(&still, Claim::Unbounded { standing: 0.0 }, &zeros(&still), Some(&a.forces), &a.rates));
     assert!(!proved(&still, Claim::Impossible, &a.forces, None, &a.rates));
 }
@@ -212,7 +213,7 @@ fn forces_and_rates_forms_of_the_programs_agree() {
         template(0.6, json!({ "wall": { "size": [1, 0.5, 0.4], "courses": 5, "blocks": 5, "base": "course" } }), push([0.8, 0.6, 0.0]));
     for (name, s) in [("arch", arch(0.15)), ("thin arch", arch(0.1)), ("wall", wall)] {
         let m = model(&s);
-        let statics = Statics::new(&m.assembly, &m.interfaces, StaticsOptions { keep_all: false, live: true, ..StaticsOptions::default() });
+        let statics = Statics::new(&m, StaticsOptions { keep_all: false, live: true, ..StaticsOptions::default() });
         let settings = Settings { tolerance: 1e-11, ..Settings::default() };
         let value = |p: &program::ConicProgram| {
             let solution = solve::solve(p, &settings);
@@ -244,12 +245,12 @@ proptest! {
             }
         }
         m.assembly.dead.iter_mut().for_each(|w| *w = Wrench::zero());
-        let left = certificate::statics(&m.assembly, &m.interfaces, &forces, 0.0).residuals;
+        let left = certificate::statics(&m, &forces, 0.0).residuals;
         for (dead, left) in m.assembly.dead.iter_mut().zip(left) {
             *dead = Wrench { force: -left.force, moment: -left.moment };
         }
         prop_assert!(proved(&m, Claim::Stable, &forces, None, &[]));
-        let a = assess(&m.assembly, &m.interfaces, &associative());
+        let a = assess(&m, &associative());
         prop_assert_eq!(a.verdict, Verdict::Stable);
         prop_assert!(proved(&m, Claim::Stable, &a.forces, None, &a.rates));
     }
@@ -259,17 +260,17 @@ proptest! {
 #[test]
 fn a_load_factor_in_a_wide_bracket_is_not_found() {
     let m = model(&arch(0.15));
-    let l = limit(&m.assembly, &m.interfaces, &Control::default());
+    let l = limit(&m, &Control::default());
     let half = 0.5 * l.value;
     let mut at_half = m.clone();
     for i in 0..at_half.assembly.blocks.len() {
         let live = at_half.assembly.live[i];
         at_half.assembly.dead[i] += Wrench { force: live.force * half, moment: live.moment * half };
     }
-    let a = assess(&at_half.assembly, &at_half.interfaces, &associative());
+    let a = assess(&at_half, &associative());
     assert_eq!(a.verdict, Verdict::Stable);
     for (lower, upper) in [(half, l.bracket.upper), (half, f64::INFINITY), (f64::NEG_INFINITY, f64::INFINITY)] {
-        let got = verify(&m.assembly, &m.interfaces, &Claim::LoadFactor { value: half, lower, upper }, &a.forces, None, &l.rates);
+        let got = verify(&m, &Claim::LoadFactor { value: half, lower, upper }, &a.forces, None, &l.rates);
         println!("{lower} {upper}: {got:?}");
         assert!(!got.proved(), "[{lower}, {upper}] passes for {half}; the limit is {}", l.value);
     }
@@ -283,7 +284,7 @@ fn a_huge_squeeze_excuses_no_unbalance() {
         scene(0.0, json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [0.0; 3]), post("left", -1.0), post("right", 1.0)]), json!({}));
     s.gravity = [0.0, 1e-4, -1.0];
     let m = model(&s);
-    let a = assess(&m.assembly, &m.interfaces, &associative());
+    let a = assess(&m, &associative());
     println!("{:?} {:?} threshold {:.1e}", a.verdict, a.unbalance, a.threshold);
     assert_eq!(a.verdict, Verdict::Unstable);
     let (block, w) = (m.assembly.find("block").unwrap(), m.assembly.weight(1));
@@ -294,7 +295,7 @@ fn a_huge_squeeze_excuses_no_unbalance() {
             forces.iter_mut().for_each(|f| f.force = face.frame.n * share);
             assert!(face.a == block || face.b == block);
         }
-        let got = verify(&m.assembly, &m.interfaces, &Claim::Stable, &forces, None, &a.rates);
+        let got = verify(&m, &Claim::Stable, &forces, None, &a.rates);
         println!("squeeze {squeeze:.0e}: {got:?}");
         assert!(!got.proved(), "squeezed by {squeeze:.0e} weights an unstable block is proved stable");
     }

@@ -4,8 +4,9 @@ use crate::ask::{self, cuboid, fixed, prism, sphere, verdict};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, Outcome, assess, coulomb, limit, prepare},
+    analysis::{Control, Law, Outcome, assess, coulomb, limit},
     import::{self, ImportOptions, Up},
+    interface::prepare,
     report::ResultFile,
     scene::{Friction, Scene, read_str},
     tolerance,
@@ -121,11 +122,10 @@ fn samples_of_coupled_rigid_block_analysis() {
 fn conditional_certificates_reject_corruption() {
     let scene = squeezed(0.5, 2400.0);
     let model = prepare(&scene).unwrap();
-    let (a, i) = (&model.assembly, &model.interfaces);
-    let answer = assess(a, i, &Control::default());
+    let answer = assess(&model, &Control::default());
     let state = answer.state.clone().unwrap();
     assert_eq!(state.motion, coulomb::StateMotion::Moves);
-    let proved = |base: Option<&_>, forces: &_, rates: &[_]| verify(a, i, &Claim::Conditional, forces, base, rates).proved();
+    let proved = |base: Option<&_>, forces: &_, rates: &[_]| verify(&model, &Claim::Conditional, forces, base, rates).proved();
     assert!(proved(Some(&state.forces), &answer.forces, &answer.rates));
     assert!(!proved(None, &answer.forces, &answer.rates));
     // Balanced forces leave no motion; half of them leave one that does not obey the law: the joints would slip under their limit.
@@ -153,7 +153,7 @@ proptest! {
             let mut s = scene(mu, json!([block(0), block(1), block(2)]));
             s.gravity = [lean, 0.0, -1.0];
             let model = prepare(&s).unwrap();
-            assess(&model.assembly, &model.interfaces, &Control::default()).verdict
+            assess(&model, &Control::default()).verdict
         };
         prop_assert!(!(tilted(mu) == Verdict::Stable && tilted(mu + more) != Verdict::Stable));
     }
@@ -222,9 +222,9 @@ proptest! {
             "loads": { "live": [{ "weight": [push[0], push[1], 0.0] }] },
         }));
         let model = prepare(&scene).unwrap();
-        let l = limit(&model.assembly, &model.interfaces, &Control::default());
+        let l = limit(&model, &Control::default());
         prop_assume!(matches!(l.outcome, Outcome::Found | Outcome::Unbounded));
-        let d = coulomb::load_factor(&model.assembly, &model.interfaces, &l, &Control::default());
+        let d = coulomb::load_factor(&model, &l, &Control::default());
         // About one in a hundred of these does not settle to 1e-6: then there is no number.
         prop_assert!(d.found != coulomb::Found::Undecided || d.value.is_nan());
         ask::prove(&scene, &ResultFile::load_factor(&scene, &model, &l).with_dry(&model, &d));
@@ -236,9 +236,9 @@ proptest! {
 fn dry_load_factor(scene: &Scene) -> (f64, f64) {
     let model = prepare(scene).unwrap();
     let control = Control::default();
-    let bound = limit(&model.assembly, &model.interfaces, &control);
+    let bound = limit(&model, &control);
     assert_eq!(bound.outcome, Outcome::Found, "{}", scene.name);
-    let dry = coulomb::load_factor(&model.assembly, &model.interfaces, &bound, &control);
+    let dry = coulomb::load_factor(&model, &bound, &control);
     assert_eq!(dry.found, coulomb::Found::FixedPoint, "{}: natural map {:.1e}", scene.name, dry.natural_map);
     assert!(dry.natural_map <= tolerance::DRY_LAW, "{}: {:.1e}", scene.name, dry.natural_map);
     (dry.value, bound.bracket.upper)

@@ -14,7 +14,7 @@ fn answers_repeat_bit_by_bit_on_every_thread() {
     for scene in &scenes {
         let answer = || {
             let m = model(scene);
-            let (a, l) = (assess(&m.assembly, &m.interfaces, &Control::default()), limit(&m.assembly, &m.interfaces, &Control::default()));
+            let (a, l) = (assess(&m, &Control::default()), limit(&m, &Control::default()));
             let numbers = |forces: &voussoir::verdict::Forces| {
                 forces.iter().flatten().flat_map(|w| w.force.iter().map(|x| x.to_bits()).collect::<Vec<_>>()).collect::<Vec<_>>()
             };

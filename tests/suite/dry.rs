@@ -27,9 +27,9 @@ fn scene(value: &Value) -> Scene {
 
 fn dry(scene: &Scene) -> (coulomb::DryLoadFactor, f64) {
     let model = ask::model(scene);
-    let bound = limit(&model.assembly, &model.interfaces, &Control::default());
+    let bound = limit(&model, &Control::default());
     assert_eq!(bound.outcome, Outcome::Found, "{}", scene.name);
-    (coulomb::load_factor(&model.assembly, &model.interfaces, &bound, &Control::default()), bound.bracket.upper)
+    (coulomb::load_factor(&model, &bound, &Control::default()), bound.bracket.upper)
 }
 
 /// All lengths of a scene multiplied.
@@ -83,10 +83,9 @@ fn a_pivot_of_exactly_zero_ends_no_question() {
     let toward = nalgebra::Vector3::x();
     let control = Control::default();
     let model = ask::model(&scene(&file("pivot-of-zero-tilt")));
-    let (turned, _) = tilt::turned(&model.assembly, toward).unwrap();
-    let bound = tilt(&model.assembly, &model.interfaces, toward, &control).unwrap().load_factor;
-    let dry = tilt::dry(&turned, &model.interfaces, &bound, None, &control);
-    assert!(dry.value <= bound.bracket.upper, "{:?} {}", dry.found, dry.value);
+    let bound = tilt(&model, toward, &control).unwrap();
+    let dry = tilt::dry(&model, &bound, None, &control).unwrap();
+    assert!(dry.value <= bound.load_factor.bracket.upper, "{:?} {}", dry.found, dry.value);
     let packing = scene(&file("pivot-of-zero-repose"));
     let found = stability(&packing, &ask::model(&packing), toward, 0.1, &control).unwrap();
     assert!(!found.rounds.is_empty());
@@ -163,9 +162,8 @@ fn the_load_factor_is_one_up_to_which_all_of_the_scene_rests() {
     }
     let model = ask::model(&scene(&file("groove-and-slender-tilted")));
     let toward = nalgebra::Vector3::y();
-    let (turned, _) = tilt::turned(&model.assembly, toward).unwrap();
-    let bound = tilt(&model.assembly, &model.interfaces, toward, &Control::default()).unwrap().load_factor;
-    let dry = tilt::dry(&turned, &model.interfaces, &bound, None, &Control::default());
+    let bound = tilt(&model, toward, &Control::default()).unwrap();
+    let dry = tilt::dry(&model, &bound, None, &Control::default()).unwrap();
     assert!(dry.value <= GROOVE * (1.0 + 1e-6) && dry.value >= GROOVE * (1.0 - 1e-3), "{}", dry.value);
 }
 

@@ -6,13 +6,14 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use voussoir::{
-    analysis::{Control, Model, agreement, assess},
+    analysis::{Control, agreement, assess},
     dynamics::{Fate, Fidelity, SimulationOutcome, SimulationSettings, simulate},
+    interface::Model,
     scene::Scene,
 };
 
 fn run_with(model: &Model, settings: &SimulationSettings) -> SimulationOutcome {
-    simulate(&model.assembly, &model.interfaces, settings, &mut |_| ControlFlow::Continue(())).expect("a simulation")
+    simulate(model, settings, &mut |_| ControlFlow::Continue(())).expect("a simulation")
 }
 
 fn run(scene: &Scene, fidelity: Option<Fidelity>) -> SimulationOutcome {
@@ -271,7 +272,7 @@ fn frames_are_evenly_spread_and_the_watcher_may_stop() {
     assert!((11..=12).contains(&outcome.frames.len()), "{}", outcome.frames.len());
     let gaps: Vec<f64> = outcome.frames.windows(2).map(|f| f[1].time - f[0].time).collect();
     assert!(gaps.iter().all(|g| (g - gaps[0]).abs() < 1e-12 && *g > 0.09), "{gaps:?}");
-    let stopped = simulate(&model.assembly, &model.interfaces, &settings, &mut |_| ControlFlow::Break(())).expect("a simulation");
+    let stopped = simulate(&model, &settings, &mut |_| ControlFlow::Break(())).expect("a simulation");
     assert_eq!(stopped.fate, Fate::Undecided);
     assert!(stopped.runs[0].time < 0.5 * outcome.runs[0].time);
 }
@@ -291,9 +292,9 @@ fn a_block_that_touches_nothing_falls_at_once() {
 fn forces_and_motions_are_those_of_the_verdict() {
     let compare = |scene: &Scene| {
         let model = model(scene);
-        let answer = assess(&model.assembly, &model.interfaces, &Control::default());
+        let answer = assess(&model, &Control::default());
         let outcome = run_with(&model, &SimulationSettings::default());
-        agreement(&model.assembly, &model.interfaces, &answer, &outcome)
+        agreement(&model, &answer, &outcome)
     };
     let standing = compare(&stack(5, [1.0, 1.0, 0.5], |i| 0.03 * i as f64));
     let forces = standing.forces.expect("forces");
@@ -379,8 +380,8 @@ fn strengths_that_are_left_out_are_told_and_not_compared() {
     let outcome = becomes("glued", &scene, Fate::Stands);
     assert!(outcome.findings.iter().any(|f| f.text.contains("cohesion")), "{:?}", outcome.findings);
     let model = model(&scene);
-    let answer = assess(&model.assembly, &model.interfaces, &Control::default());
-    assert_eq!(agreement(&model.assembly, &model.interfaces, &answer, &outcome).agrees, None);
+    let answer = assess(&model, &Control::default());
+    assert_eq!(agreement(&model, &answer, &outcome).agrees, None);
 }
 
 #[test]
@@ -392,13 +393,13 @@ fn many_simulations_in_a_work_stealing_pool_do_not_pile_up_on_one_stack() {
     let text = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.6 } },
         "templates": [{ "column": { "blocks": 2, "size": [1, 1, 0.5] } }] }"#;
     let (scene, _) = voussoir::scene::read_str("test", text).unwrap();
-    let model = voussoir::analysis::prepare(&scene).unwrap();
+    let model = voussoir::interface::prepare(&scene).unwrap();
     let settings = voussoir::dynamics::SimulationSettings { fidelity: Some(voussoir::dynamics::Fidelity::Fast), ..Default::default() };
     let one = |_| {
         DEPTH.set(DEPTH.get() + 1);
         let depth = DEPTH.get();
         let watch = &mut |_: &voussoir::dynamics::Progress| std::ops::ControlFlow::Continue(());
-        assert!(voussoir::dynamics::simulate(&model.assembly, &model.interfaces, &settings, watch).is_ok());
+        assert!(voussoir::dynamics::simulate(&model, &settings, watch).is_ok());
         DEPTH.set(DEPTH.get() - 1);
         depth
     };

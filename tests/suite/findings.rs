@@ -3,7 +3,8 @@
 use crate::ask::open;
 use std::path::PathBuf;
 use voussoir::{
-    analysis::{Control, LoadFactor, Outcome, assess, coulomb, limit, prepare},
+    analysis::{Control, LoadFactor, Outcome, assess, coulomb, limit},
+    interface::prepare,
     report::{ResultFile, verify},
     scene::Scene,
     verdict::Verdict,
@@ -21,7 +22,7 @@ fn scene(name: &str) -> Scene {
 fn verdict(name: &str) -> Verdict {
     let scene = scene(name);
     let model = prepare(&scene).unwrap();
-    let file = ResultFile::assessment(&scene, &model, &assess(&model.assembly, &model.interfaces, &Control::default()));
+    let file = ResultFile::assessment(&scene, &model, &assess(&model, &Control::default()));
     let said = file.answer.verdict.unwrap();
     assert!(said == Verdict::Undecided || verify(&file, &scene).unwrap().proved(), "{name}");
     println!("{name}: {said:?}");
@@ -32,10 +33,10 @@ fn verdict(name: &str) -> Verdict {
 fn limits(name: &str) -> (LoadFactor, ResultFile) {
     let scene = scene(name);
     let model = prepare(&scene).unwrap();
-    let bound = limit(&model.assembly, &model.interfaces, &Control::default());
+    let bound = limit(&model, &Control::default());
     let mut file = ResultFile::load_factor(&scene, &model, &bound);
     if matches!(bound.outcome, Outcome::Found | Outcome::Unbounded) {
-        file = file.with_dry(&model, &coulomb::load_factor(&model.assembly, &model.interfaces, &bound, &Control::default()));
+        file = file.with_dry(&model, &coulomb::load_factor(&model, &bound, &Control::default()));
     }
     println!("{name}: {:?} {} in {:?}, dry {:?}", bound.outcome, bound.value, bound.bracket, file.dry.as_ref().and_then(|d| d.value));
     (bound, file)

@@ -97,7 +97,7 @@ fn clumps_of_spheres_have_exact_limits() {
 fn clumps_that_cannot_be_are_refused_with_their_place() {
     let bad = |spheres: Value| {
         let block = json!([{ "id": "c", "shape": { "clump": { "spheres": spheres } } }]);
-        voussoir::analysis::prepare(&scene(0.5, block, json!({}))).expect_err("a refusal").to_string()
+        voussoir::interface::prepare(&scene(0.5, block, json!({}))).expect_err("a refusal").to_string()
     };
     assert!(bad(json!([])).contains("blocks[0].shape.clump.spheres: a clump needs at least one sphere"), "{}", bad(json!([])));
     assert!(bad(json!([{ "at": [0, 0, 0], "radius": 0 }])).contains("spheres[0].radius"));
@@ -207,7 +207,7 @@ fn grains_that_nothing_holds_are_left_out() {
     let (rest, model, loose) = held(&scene, before).unwrap();
     assert_eq!(loose, ["lost"]);
     assert!(model.assembly.find("lost").is_none() && rest.blocks.iter().all(|b| b.id != "lost"));
-    assert_eq!(assess(&model.assembly, &model.interfaces, &associative()).verdict, voussoir::verdict::Verdict::Stable);
+    assert_eq!(assess(&model, &associative()).verdict, voussoir::verdict::Verdict::Stable);
 }
 
 #[test]
@@ -215,8 +215,8 @@ fn the_averages_of_one_sphere_in_a_pocket() {
     // On three spheres at 54.7° to each other's normals, frictionless: every normal force is W / (3 cos α), cos α = √(2/3).
     let scene = pile("fcc", 1, 0.0);
     let model = model(&scene);
-    let forces = assess(&model.assembly, &model.interfaces, &associative()).forces;
-    let f = fabric(&model.assembly, &model.interfaces, &forces);
+    let forces = assess(&model, &associative()).forces;
+    let f = fabric(&model, &forces);
     let weight = 4.0 / 3.0 * std::f64::consts::PI;
     assert_eq!((f.grains, f.contacts, f.rattlers), (1, 3, 1), "it carries only itself");
     assert_eq!((f.coordination, f.coordination_without_rattlers), (3.0, 0.0));

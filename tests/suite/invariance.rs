@@ -5,8 +5,9 @@ use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 use serde_json::json;
 use voussoir::{
-    analysis::{Control, Outcome, assess, limit, prepare},
+    analysis::{Control, Outcome, assess, limit},
     generate,
+    interface::prepare,
     scene::{BlockSpec, Scene, Shape},
     verdict::Verdict,
 };
@@ -187,7 +188,7 @@ struct Answers {
 fn answers(scene: &Scene, keep_all: bool) -> Answers {
     let m = prepare(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     let control = Control { keep_all, ..Control::default() };
-    let (a, l) = (assess(&m.assembly, &m.interfaces, &control), limit(&m.assembly, &m.interfaces, &control));
+    let (a, l) = (assess(&m, &control), limit(&m, &control));
     Answers {
         verdict: a.verdict,
         outcome: l.outcome,
@@ -248,7 +249,7 @@ proptest! {
     fn verdicts_stay_close_to_the_limit(stands in any::<bool>(), c in change()) {
         let s = arch(CRITICAL * if stands { 1.0 + 1e-6 } else { 1.0 - 1e-6 }, 0.8);
         let m = prepare(&changed(&s, &c)).unwrap();
-        let a = assess(&m.assembly, &m.interfaces, &Control::default());
+        let a = assess(&m, &Control::default());
         prop_assert_eq!(a.verdict, if stands { Verdict::Stable } else { Verdict::Unstable }, "{:?} {:?}", a.unbalance, a.threshold);
     }
 }

@@ -1,7 +1,8 @@
 //! Large programs take the engine that is written for them; what it finds is proved like any other answer.
 
 use voussoir::{
-    analysis::{self, Control, Law, Model, Outcome, limit::Formulation, prepare},
+    analysis::{self, Control, Law, Outcome, limit::Formulation},
+    interface::{Model, prepare},
     program::Unknowns,
     scene::read_str,
     solve::Engine,
@@ -21,14 +22,13 @@ fn wall(courses: usize, length: usize, push: [f64; 3]) -> Model {
 fn load_factors_are_proved_and_agree_with_the_other_engine() {
     // In its plane as a linear program; out of it with round friction cones and an exact answer, thickness over height.
     for (push, exact) in [([1.0, 0.0, 0.0], None), ([0.0, 1.0, 0.0], Some(0.5 / (20.0 * 0.4)))] {
-        let model = wall(20, 20, push);
-        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
-        let answer = analysis::limit(assembly, interfaces, &Control::default());
+        let model = &wall(20, 20, push);
+        let answer = analysis::limit(model, &Control::default());
         assert_eq!(answer.outcome, Outcome::Found);
         assert_eq!(answer.attempts.len(), 1, "{:?}", answer.attempts);
         assert_eq!(answer.attempts[0].engine, Engine::Interior);
-        assert!(answer.proved(assembly, interfaces));
-        let other = exact.unwrap_or_else(|| analysis::limit::attempt(assembly, interfaces, &Formulation::usual(Unknowns::Rates)).value);
+        assert!(answer.proved(model));
+        let other = exact.unwrap_or_else(|| analysis::limit::attempt(model, &Formulation::usual(Unknowns::Rates)).value);
         assert!((answer.value / other - 1.0).abs() < 1e-6, "{} {other}", answer.value);
     }
 }
@@ -37,27 +37,26 @@ fn load_factors_are_proved_and_agree_with_the_other_engine() {
 fn verdicts_are_proved() {
     // Large even as one half of itself.
     let model = wall(30, 30, [1.0, 0.0, 0.0]);
-    let answer = analysis::assess(&model.assembly, &model.interfaces, &Control { law: Law::Associative, ..Control::default() });
+    let answer = analysis::assess(&model, &Control { law: Law::Associative, ..Control::default() });
     assert_eq!(answer.verdict, Verdict::Stable);
     assert_eq!(answer.attempts.len(), 1, "{:?}", answer.attempts);
     assert_eq!(answer.attempts[0].engine, Engine::Interior);
-    assert!(answer.proved(&model.assembly, &model.interfaces));
+    assert!(answer.proved(&model));
 }
 
 #[test]
 fn small_programs_begin_with_the_usual_engine() {
     let model = wall(5, 5, [1.0, 0.0, 0.0]);
-    let answer = analysis::limit(&model.assembly, &model.interfaces, &Control::default());
+    let answer = analysis::limit(&model, &Control::default());
     assert_eq!(answer.attempts[0].engine, Engine::Clarabel);
 }
 
 #[test]
 fn a_time_limit_holds_and_what_is_given_is_true() {
-    let model = wall(20, 20, [1.0, 0.0, 0.0]);
-    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
-    let exact = analysis::limit(assembly, interfaces, &Control::default()).value;
+    let model = &wall(20, 20, [1.0, 0.0, 0.0]);
+    let exact = analysis::limit(model, &Control::default()).value;
     for seconds in [0.0, 0.05, 0.2] {
-        let answer = analysis::limit(assembly, interfaces, &Control { seconds, ..Control::default() });
+        let answer = analysis::limit(model, &Control { seconds, ..Control::default() });
         assert!(matches!(answer.outcome, Outcome::Found | Outcome::Undecided), "{:?}", answer.outcome);
         let room = 2e-6 * exact;
         assert!(answer.bracket.lower <= exact + room && answer.bracket.upper >= exact - room, "{:?} {exact}", answer.bracket);

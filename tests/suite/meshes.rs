@@ -5,9 +5,10 @@
 
 use std::path::{Path, PathBuf};
 use voussoir::{
-    analysis::{Control, assess, prepare},
+    analysis::{Control, assess},
     error::FindingCode,
     import::{ImportOptions, import_bytes},
+    interface::prepare,
     scene::Friction,
 };
 
@@ -60,7 +61,7 @@ fn differences(text: &str) -> Vec<String> {
         }
     }
     // Whatever it is, a question about it has an answer.
-    assess(&model.assembly, &model.interfaces, &Control { seconds: 10.0, ..Control::default() });
+    assess(&model, &Control { seconds: 10.0, ..Control::default() });
     wrong
 }
 

@@ -4,8 +4,9 @@ use data_encoding::BASE64;
 use serde_json::{Value, json};
 use std::{fs, path::PathBuf, process::Command};
 use voussoir::{
-    analysis::{Control, assess, prepare},
+    analysis::{Control, assess},
     dynamics::{Fidelity, Frame, Pose},
+    interface::prepare,
     report::{
         ResultFile, page,
         text::{Asked, Layout, TextOptions, render},
@@ -133,7 +134,7 @@ fn a_picture_does_not_depend_on_units() {
     };
     let view = |scene: &Scene| -> Value {
         let model = prepare(scene).unwrap();
-        let answer = assess(&model.assembly, &model.interfaces, &Control::default());
+        let answer = assess(&model, &Control::default());
         let file = ResultFile::assessment(scene, &model, &answer);
         let view = View::new(&model, &file, Vec::new()).unwrap();
         let text = render(&file, Asked { scene: "s", options: "" }, TextOptions::default(), Layout::default());
@@ -181,7 +182,7 @@ fn a_page_of_5000_blocks_stays_below_10_mb() {
     assert!(count > 5000);
     // No time for an attempt: any forces take the same room.
     let control = Control { seconds: 0.0, ..Control::default() };
-    let mut answer = assess(&model.assembly, &model.interfaces, &control);
+    let mut answer = assess(&model, &control);
     for (face, forces) in model.interfaces.list.iter().zip(&mut answer.forces) {
         forces.iter_mut().for_each(|f| f.force = face.frame.n);
     }

@@ -3,8 +3,8 @@
 use crate::ask::model;
 use nalgebra::Vector3;
 use voussoir::{
-    analysis::{self, Control, Law, Model, Outcome, coulomb, critical::Range, thrust},
-    interface,
+    analysis::{self, Control, Law, Outcome, coulomb, critical::Range, thrust},
+    interface::{self, Model},
     scene::{self, Scene},
     verdict::{
         Rate, Verdict, check,
@@ -137,10 +137,10 @@ fn control() -> Control {
 #[test]
 fn a_stranger_at_rest_changes_no_digit_of_a_verdict() {
     for (k, a) in asked().iter().enumerate() {
-        let alone = analysis::assess(&a.assembly, &a.interfaces, &control());
+        let alone = analysis::assess(a, &control());
         for (s, stranger) in resting().iter().enumerate() {
             for (m, first, contact) in both(a, stranger) {
-                let got = analysis::assess(&m.assembly, &m.interfaces, &control());
+                let got = analysis::assess(&m, &control());
                 assert_eq!(got.verdict, alone.verdict, "{k} {s}");
                 let range = first..first + a.assembly.blocks.len();
                 assert_eq!(bits(&got.rates[range.clone()]), bits(&alone.rates), "{k} {s}");
@@ -181,13 +181,13 @@ fn a_stranger_without_an_exact_proof_takes_none_away() {
     };
     let crushable = r#"0.6, "compression": 1e6"#;
     let strangers = [model(&scene(&row(1600), "0.6", "")), model(&scene(&row(1), crushable, "")), model(&scene(&row(1), "0", ""))];
-    let alone = analysis::assess(&a.assembly, &a.interfaces, &control());
+    let alone = analysis::assess(&a, &control());
     assert_eq!(alone.verdict, Verdict::Stable);
     for stranger in &strangers {
         for (m, ..) in both(&a, stranger) {
-            let got = analysis::assess(&m.assembly, &m.interfaces, &control());
+            let got = analysis::assess(&m, &control());
             assert_eq!(got.verdict, Verdict::Stable);
-            let proof = check::verify(&m.assembly, &m.interfaces, &check::Claim::Stable, &got.forces, None, &got.rates);
+            let proof = check::verify(&m, &check::Claim::Stable, &got.forces, None, &got.rates);
             assert!(proof.proved(), "{:?}", proof.fails);
         }
     }
@@ -199,19 +199,19 @@ fn a_heavy_stranger_keeps_no_proof_from_several_parts_that_fall() {
     let mut a = column(4, 0.45, 0.0, r#""live": [{"weight": [0, 1, 0]}]"#);
     a = union(&a, &loose(30.0));
     let control = Control { law: Law::Associative, ..control() };
-    let alone = analysis::limit(&a.assembly, &a.interfaces, &control);
+    let alone = analysis::limit(&a, &control);
     assert_eq!(alone.outcome, Outcome::Impossible);
     for by in [1.0, 1e6, 1e9, 1e15] {
         for (m, ..) in both(&a, &heavier(column(1, 0.0, 100.0, ""), by)) {
-            let got = analysis::limit(&m.assembly, &m.interfaces, &control);
+            let got = analysis::limit(&m, &control);
             assert_eq!(got.outcome, Outcome::Impossible, "{by}");
-            let proof = check::verify(&m.assembly, &m.interfaces, &check::Claim::Impossible, &got.forces, None, &got.rates);
+            let proof = check::verify(&m, &check::Claim::Impossible, &got.forces, None, &got.rates);
             assert!(proof.proved(), "{by}: {:?}", proof.fails);
             // What moves beside a mechanism that is proved has to be one as well.
             let mut rates = got.rates.clone();
             let still = (0..rates.len()).find(|&i| !m.assembly.blocks[i].support && rates[i] == Rate::zero()).unwrap();
             rates[still].velocity = Vector3::new(0.0, 0.0, -1.0);
-            assert!(!check::verify(&m.assembly, &m.interfaces, &check::Claim::Impossible, &got.forces, None, &rates).proved(), "{by}");
+            assert!(!check::verify(&m, &check::Claim::Impossible, &got.forces, None, &rates).proved(), "{by}");
         }
     }
 }
@@ -221,10 +221,10 @@ fn the_worst_part_decides() {
     let [falls, pre_stress] = [column(4, 0.45, 0.0, ""), squeezed(300.0)];
     for by in [1e-9, 1.0, 1e9] {
         for (m, ..) in both(&falls, &heavier(squeezed(300.0), by)) {
-            assert_eq!(analysis::assess(&m.assembly, &m.interfaces, &control()).verdict, Verdict::Unstable);
+            assert_eq!(analysis::assess(&m, &control()).verdict, Verdict::Unstable);
         }
         for (m, first, _) in both(&pre_stress, &heavier(loose(100.0), by)) {
-            let a = analysis::assess(&m.assembly, &m.interfaces, &control());
+            let a = analysis::assess(&m, &control());
             assert_eq!(a.verdict, Verdict::Unstable);
             // The loose block, not the one between the posts.
             assert!((0..3).all(|i| a.rates[first + i] == Rate::zero()));
@@ -236,16 +236,16 @@ fn the_worst_part_decides() {
 #[test]
 fn a_stranger_changes_no_digit_of_a_load_factor() {
     for (k, a) in asked().iter().enumerate().filter(|(_, a)| a.assembly.live.iter().any(|w| w.force != Vector3::zeros())) {
-        let alone = analysis::limit(&a.assembly, &a.interfaces, &control());
+        let alone = analysis::limit(a, &control());
         assert_eq!(alone.outcome, Outcome::Found, "{k}");
-        let dry = coulomb::load_factor(&a.assembly, &a.interfaces, &alone, &control());
+        let dry = coulomb::load_factor(a, &alone, &control());
         let mut strangers = resting();
         // Bears more, and one on which the live load wedges nothing but presses.
         strangers.push(heavier(column(1, 0.0, 100.0, SIDEWAYS), 1e9));
         strangers.push(column(1, 0.0, 100.0, r#""live": [{"block": "c0", "force": [0, 0, -1e12]}]"#));
         for (s, stranger) in strangers.iter().enumerate() {
             for (m, first, _) in both(a, stranger) {
-                let got = analysis::limit(&m.assembly, &m.interfaces, &control());
+                let got = analysis::limit(&m, &control());
                 assert_eq!(
                     (got.outcome, got.value.to_bits()),
                     (Outcome::Found, alone.value.to_bits()),
@@ -256,14 +256,13 @@ fn a_stranger_changes_no_digit_of_a_load_factor() {
                 assert_eq!(got.bracket, alone.bracket, "{k} {s}");
                 assert_eq!(bits(&got.rates[first..first + a.assembly.blocks.len()]), bits(&alone.rates), "{k} {s}");
                 // The other part is in balance there as well.
-                let parts = interface::parts(&m.assembly, &m.interfaces);
+                let parts = interface::parts(&m);
                 for part in &parts {
                     let loads = part.units.own_load_factor(got.value);
-                    let s =
-                        voussoir::verdict::certificate::statics(&part.assembly, &part.interfaces, &part.take_forces(&got.forces), loads);
+                    let s = voussoir::verdict::certificate::statics(&part.model, &part.take_forces(&got.forces), loads);
                     assert!(s.unbalance < 1e-5 && s.cone_excess < 1e-12, "{k} {s:?}");
                 }
-                let both = coulomb::load_factor(&m.assembly, &m.interfaces, &got, &control());
+                let both = coulomb::load_factor(&m, &got, &control());
                 assert_eq!((both.found, both.value.to_bits()), (dry.found, dry.value.to_bits()), "{k} {s}: {} {}", both.value, dry.value);
             }
         }
@@ -275,7 +274,7 @@ fn parts_without_a_live_load_stand_or_leave_no_load_factor() {
     let a = column(3, 0.15, 0.0, SIDEWAYS);
     for falls in [column(4, 0.45, 100.0, ""), loose(100.0), heavier(loose(100.0), 1e-12)] {
         for (m, first, _) in both(&a, &falls) {
-            let got = analysis::limit(&m.assembly, &m.interfaces, &control());
+            let got = analysis::limit(&m, &control());
             assert_eq!(got.outcome, Outcome::Impossible);
             assert!((0..a.assembly.blocks.len()).all(|i| got.rates[first + i] == Rate::zero()));
         }
@@ -293,11 +292,11 @@ fn parts_that_need_and_refuse_the_live_load_leave_none() {
     // It slides at 0.4 × 19620 N; the other needs 2 × 19620 N, at λ = 9.81.
     for by in [1e-6, 1.0, 1e6] {
         for (m, ..) in both(&hung, &heavier(slides(2000.0), by)) {
-            let got = analysis::limit(&m.assembly, &m.interfaces, &control());
+            let got = analysis::limit(&m, &control());
             assert_eq!(got.outcome, Outcome::Impossible);
         }
         for (m, ..) in both(&hung, &heavier(slides(500.0), by)) {
-            let got = analysis::limit(&m.assembly, &m.interfaces, &control());
+            let got = analysis::limit(&m, &control());
             assert_eq!(got.outcome, Outcome::Found);
             assert!((got.value - 0.4 * 19620.0 / 500.0).abs() < 1e-6, "{}", got.value);
         }
@@ -308,11 +307,11 @@ fn parts_that_need_and_refuse_the_live_load_leave_none() {
 fn a_stranger_changes_no_digit_of_a_tilt_or_a_thrust() {
     for (k, a) in [column(3, 0.15, 0.0, ""), model(&arch(0.2, false))].iter().enumerate() {
         let toward = Vector3::new(1.0, 0.2, 0.0);
-        let alone = analysis::tilt(&a.assembly, &a.interfaces, toward, &control()).unwrap();
+        let alone = analysis::tilt(a, toward, &control()).unwrap();
         let support = thrust::first_support(a).unwrap();
         let ends = |m: &Model, support: usize| {
             let at = ThrustAt { support, direction: [1.0, 0.0, 0.0] };
-            let standing = analysis::assess(&m.assembly, &m.interfaces, &control());
+            let standing = analysis::assess(m, &control());
             [Extreme::Least, Extreme::Greatest].map(|e| {
                 let end = thrust::thrust(m, &at, e, &standing.forces, &control());
                 (end.outcome, end.value.to_bits(), end.bracket.lower.to_bits(), end.bracket.upper.to_bits())
@@ -322,7 +321,7 @@ fn a_stranger_changes_no_digit_of_a_tilt_or_a_thrust() {
         // What is flatter stands longer.
         for (s, stranger) in [1e-9, 1.0, 1e9].map(|by| heavier(column(1, 0.0, 100.0, ""), by)).iter().enumerate() {
             for (m, first, _) in both(a, stranger) {
-                let got = analysis::tilt(&m.assembly, &m.interfaces, toward, &control()).unwrap();
+                let got = analysis::tilt(&m, toward, &control()).unwrap();
                 assert_eq!(got.angle_deg().to_bits(), alone.angle_deg().to_bits(), "{k} {s}: {} {}", got.angle_deg(), alone.angle_deg());
                 assert_eq!(got.load_factor.bracket, alone.load_factor.bracket);
                 assert_eq!(ends(&m, first + support), thrusts, "{k} {s}");
@@ -353,7 +352,7 @@ fn a_stranger_changes_no_digit_of_a_critical_value() {
 
 #[test]
 fn at_survey_coordinates_the_verdicts_are_the_same() {
-    let verdict = |m: &Model| analysis::assess(&m.assembly, &m.interfaces, &control());
+    let verdict = |m: &Model| analysis::assess(m, &control());
     for (k, a) in asked().iter().enumerate() {
         let here = verdict(a);
         for by in [1024.0, 1_048_576.0, 5e6] {
@@ -374,7 +373,7 @@ fn moments_count_in_the_load_of_a_block() {
         list.push(block(&format!("w{k}"), [1.0; 3], at, true));
     }
     let m = model(&scene(&list.join(","), "0.3", r#""dead": [{"block": "key", "moment": [0, 0, 1e11]}]"#));
-    let a = analysis::assess(&m.assembly, &m.interfaces, &Control { law: Law::Associative, ..control() });
+    let a = analysis::assess(&m, &Control { law: Law::Associative, ..control() });
     assert_eq!(a.verdict, Verdict::Stable);
-    assert!(check::verify(&m.assembly, &m.interfaces, &check::Claim::Stable, &a.forces, None, &a.rates).proved());
+    assert!(check::verify(&m, &check::Claim::Stable, &a.forces, None, &a.rates).proved());
 }

@@ -141,7 +141,7 @@ fn the_scene_and_the_library_example_work() {
     let text = readme();
     let block = |kind: &str| text.split(&format!("```{kind}\n")).nth(1).and_then(|t| t.split("```").next()).unwrap().to_string();
     let (scene, _) = voussoir::scene::read_str("README.md", block("json")).unwrap();
-    let model = voussoir::analysis::prepare(&scene).unwrap();
+    let model = voussoir::interface::prepare(&scene).unwrap();
     assert_eq!(model.assembly.blocks.len(), 30);
     let tour = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/lib.rs")).unwrap();
     for line in block("rust").lines() {

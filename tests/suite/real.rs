@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 use voussoir::{
-    analysis::{Control, Law, Model, Outcome, assess, limit, prepare},
+    analysis::{Control, Law, Outcome, assess, limit},
     error::FindingCode,
     import::{self, ImportOptions},
-    interface::ContactKind,
+    interface::{ContactKind, Model, prepare},
     scene::{Friction, Load, Scene},
     verdict::Verdict,
 };
@@ -43,13 +43,13 @@ fn pushed(scene: &Scene, direction: [f64; 3]) -> f64 {
     let mut scene = scene.clone();
     scene.loads.live = vec![Load { weight: Some(direction), ..Load::default() }];
     let m = ready(&scene);
-    let l = limit(&m.assembly, &m.interfaces, &Control::default());
+    let l = limit(&m, &Control::default());
     assert_eq!(l.outcome, Outcome::Found, "{:?}", l.bracket);
     l.value
 }
 
 fn admissible(m: &Model) -> Verdict {
-    assess(&m.assembly, &m.interfaces, &Control { law: Law::Associative, ..Control::default() }).verdict
+    assess(m, &Control { law: Law::Associative, ..Control::default() }).verdict
 }
 
 /// Facts of compas_cra 0.8.0 on its own samples: cubes λx 0.3240, λy 0.3230; bridge λx 0.5672, λy 0.8094 (density 1; 3.51 on
@@ -145,7 +145,7 @@ fn vaults_stand_under_dry_friction_at_any_density() {
         for scene in &scenes {
             scope.spawn(move || {
                 let m = ready(scene);
-                let a = assess(&m.assembly, &m.interfaces, &Control { seconds: 120.0, ..Control::default() });
+                let a = assess(&m, &Control { seconds: 120.0, ..Control::default() });
                 let solves: Vec<usize> = a.state.iter().flat_map(|s| &s.steps).map(|s| s.solves).collect();
                 println!("{}: {:?}, solves {solves:?}", scene.name, a.verdict);
                 assert_eq!(a.verdict, Verdict::Stable, "{}", scene.name);

@@ -4,9 +4,10 @@
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{
-        Control, Law, LoadFactor, Model, Outcome, assess, limit, prepare,
+        Control, Law, LoadFactor, Outcome, assess, limit,
         thrust::{answer, outwards},
     },
+    interface::{Model, prepare},
     scene::{Scene, read_str},
     verdict::{
         Verdict,
@@ -115,18 +116,18 @@ impl Grades {
     }
 
     fn verdict(&mut self, case: &Value, variant: &Value, mu: f64) -> Verdict {
-        let Model { assembly, interfaces, .. } = model(&scene(case, variant, mu));
-        let a = assess(&assembly, &interfaces, &Control { law: Law::Associative, ..Control::default() });
+        let model = model(&scene(case, variant, mu));
+        let a = assess(&model, &Control { law: Law::Associative, ..Control::default() });
         if let Some(claim) = a.claim() {
-            self.add(case, &check::verify(&assembly, &interfaces, &claim, &a.forces, None, &a.rates));
+            self.add(case, &check::verify(&model, &claim, &a.forces, None, &a.rates));
         }
         a.verdict
     }
 
-    fn limit(&mut self, case: &Value, Model { assembly, interfaces, .. }: &Model) -> LoadFactor {
-        let l = limit(assembly, interfaces, &Control::default());
+    fn limit(&mut self, case: &Value, model: &Model) -> LoadFactor {
+        let l = limit(model, &Control::default());
         if let Some(claim) = l.claim() {
-            self.add(case, &check::verify(assembly, interfaces, &claim, &l.forces, l.base.as_ref().map(|b| &b.1), &l.rates));
+            self.add(case, &check::verify(model, &claim, &l.forces, l.base.as_ref().map(|b| &b.1), &l.rates));
         }
         l
     }

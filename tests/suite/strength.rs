@@ -182,14 +182,14 @@ fn crushing_ends_wedging() {
         scene(0.4, blocks, more)
     };
     let m = model(&under_roof(json!({ "friction": 0.4 })));
-    assert_eq!(limit(&m.assembly, &m.interfaces, &Control::default()).outcome, Outcome::Unbounded);
+    assert_eq!(limit(&m, &Control::default()).outcome, Outcome::Unbounded);
     // Squeezed to σ on both faces: λ W = μ σ A (top) + μ σ A (bottom), the weight taken off the top.
     let sigma = 50.0;
     let lambda = load_factor(&under_roof(json!({ "friction": 0.4, "compression": sigma })));
     near(lambda, 0.4 * (2.0 * sigma - 0.5) / 0.5, 1e-6);
     // Cohesion does not make it wedge.
     let m = model(&under_roof(json!({ "friction": 0.0, "cohesion": 0.1 })));
-    let l = limit(&m.assembly, &m.interfaces, &Control::default());
+    let l = limit(&m, &Control::default());
     assert_eq!(l.outcome, Outcome::Found);
     near(l.value, 0.2 / 0.5, 1e-6);
 }
@@ -217,7 +217,7 @@ fn weaker_joints_refute_the_result() {
     let arch =
         |sigma: f64| block(5.0, json!({ "compression": sigma, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.01 }), [0.5, 1.0, 2.0]);
     let (scene, model) = (arch(8.0), model(&arch(8.0)));
-    let file = ResultFile::load_factor(&scene, &model, &limit(&model.assembly, &model.interfaces, &Control::default()));
+    let file = ResultFile::load_factor(&scene, &model, &limit(&model, &Control::default()));
     for other in [
         block(5.0, json!({ "compression": 7.9, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.01 }), [0.5, 1.0, 2.0]),
         block(5.0, json!({ "compression": 8.0, "cohesion": 0.1, "tension": 0.0, "pore_pressure": 0.01 }), [0.5, 1.0, 2.0]),

@@ -86,8 +86,8 @@ fn verdicts_of_the_part_are_those_of_the_whole() {
     for (name, s, want, words) in cases {
         assert_eq!(ask::verdict(&s, Law::Coulomb), want, "{name}");
         let m = model(&s);
-        let part = assess(&m.assembly, &m.interfaces, &Control::default());
-        let whole = assess(&m.assembly, &m.interfaces, &keep_all());
+        let part = assess(&m, &Control::default());
+        let whole = assess(&m, &keep_all());
         let line = line(&part.left_out).unwrap_or_else(|| panic!("{name}: {:?}", part.left_out));
         assert!(line.contains(words), "{name}: {line}");
         assert_eq!(part.verdict, whole.verdict, "{name}");
@@ -108,7 +108,7 @@ fn many_blocks_far_away_are_halved() {
     let mut blocks = vec![fixed(cuboid("floor", [100.0, 100.0, 1.0], [8221.5, 4120.5, -0.5]))];
     blocks.extend((0..3000).map(|k| cuboid(&format!("b{k}"), [0.5, 0.5, 1.0], at(k))));
     let m = model(&scene(0.6, json!(blocks), push([1.0, 0.0, 0.0])));
-    let statics = Statics::new(&m.assembly, &m.interfaces, StaticsOptions { live: true, symmetry: true, ..StaticsOptions::default() });
+    let statics = Statics::new(&m, StaticsOptions { live: true, symmetry: true, ..StaticsOptions::default() });
     assert!(statics.is_part(), "{:?}", statics.left_out);
 }
 
@@ -134,8 +134,8 @@ fn load_factors_of_the_part_are_those_of_the_whole() {
     ];
     for (name, s) in cases {
         let m = model(&s);
-        let part = limit(&m.assembly, &m.interfaces, &Control::default());
-        let whole = limit(&m.assembly, &m.interfaces, &keep_all());
+        let part = limit(&m, &Control::default());
+        let whole = limit(&m, &keep_all());
         assert!(line(&part.left_out).is_some(), "{name}: {:?}", part.left_out);
         assert_eq!((part.outcome, whole.outcome), (whole.outcome, part.outcome), "{name}");
         if part.outcome == Outcome::Found {
@@ -154,8 +154,8 @@ fn dry_load_factors_of_the_part_are_those_of_the_whole() {
     for (name, s) in [("pinwheel", s), ("wall pulled down and out", wall_pushed([0.0, 1.0, -0.3]))] {
         let m = model(&s);
         let value = |control: &Control| {
-            let bound = limit(&m.assembly, &m.interfaces, control);
-            coulomb::load_factor(&m.assembly, &m.interfaces, &bound, control)
+            let bound = limit(&m, control);
+            coulomb::load_factor(&m, &bound, control)
         };
         let (part, whole) = (value(&Control::default()), value(&keep_all()));
         assert_eq!(part.found, whole.found, "{name}");
@@ -167,7 +167,7 @@ fn dry_load_factors_of_the_part_are_those_of_the_whole() {
 fn scenes_that_are_not_quite_symmetric_are_solved_whole() {
     let whole = |name: &str, s: &Scene| {
         let m = model(s);
-        let a = assess(&m.assembly, &m.interfaces, &Control { law: Law::Associative, ..Control::default() });
+        let a = assess(&m, &Control { law: Law::Associative, ..Control::default() });
         assert_eq!(line(&a.left_out), None, "{name}");
     };
     let mut heavier = pinwheel(4, 0.3);
@@ -186,6 +186,6 @@ fn scenes_that_are_not_quite_symmetric_are_solved_whole() {
     whole("joints that crush", &crushing);
     // A load across breaks the symmetry in `limit`, not in `assess`.
     let m = model(&wall_pushed([1.0, 0.0, 0.0]));
-    assert_eq!(line(&limit(&m.assembly, &m.interfaces, &Control::default()).left_out), None);
-    assert!(line(&assess(&m.assembly, &m.interfaces, &Control::default()).left_out).is_some());
+    assert_eq!(line(&limit(&m, &Control::default()).left_out), None);
+    assert!(line(&assess(&m, &Control::default()).left_out).is_some());
 }

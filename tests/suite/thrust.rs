@@ -166,7 +166,7 @@ fn every_equilibrium_lies_in_the_range() {
     let [low, high] = range(&s);
     let support = first_support(&m).unwrap();
     let at = ThrustAt { support, direction: outwards(&m, support).unwrap().into() };
-    let some = voussoir::analysis::assess(&m.assembly, &m.interfaces, &associative());
+    let some = voussoir::analysis::assess(&m, &associative());
     let value = at.value(&m.interfaces, &some.forces);
     assert!(low <= value && value <= high, "{value} in {low} to {high}");
 }

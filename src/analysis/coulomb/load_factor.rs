@@ -16,12 +16,10 @@ use super::{
 };
 use crate::{
     analysis::{Control, Deciding, LoadFactor, Outcome},
-    assembly::Assembly,
-    interface::Interfaces,
+    interface::{Model, is_forest},
     program::{
         StaticsOptions,
         coulomb::{Aim, Contacts, Hold},
-        is_forest,
     },
     solve::Settings,
     tolerance,
@@ -95,27 +93,16 @@ const TOLERANCES: [f64; 2] = [1e-11, 1e-13];
 
 /// The load factor with dry friction of one part, up to which it comes to rest; `associative` is the answer of
 /// [`limit`](crate::analysis::limit()) for the same part, `dead` the verdict under the dead load alone, where it is known.
-pub(in crate::analysis) fn of_part(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    associative: &LoadFactor,
-    dead: Option<Verdict>,
-    control: &Control,
-) -> DryLoadFactor {
+pub(in crate::analysis) fn of_part(model: &Model, associative: &LoadFactor, dead: Option<Verdict>, control: &Control) -> DryLoadFactor {
     let start = Instant::now();
-    let answer = complementary(assembly, interfaces, associative, control);
+    let answer = complementary(model, associative, control);
     let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-    up_to_rest(answer, assembly, associative, dead, &|lambda| (assembly.at_load_factor(lambda), interfaces.clone()), &control)
+    up_to_rest(answer, &model.assembly, associative, dead, &|lambda| model.at_load_factor(lambda), &control)
 }
 
 /// Forces and a mechanism that obey Coulomb's law together at a load factor; nothing is said about what happens below.
-pub(in crate::analysis) fn complementary(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    associative: &LoadFactor,
-    control: &Control,
-) -> DryLoadFactor {
-    let map = |forces: &Forces, rates: &[Rate]| law::natural_map(assembly, interfaces, forces, rates).unwrap_or(f64::INFINITY);
+pub(in crate::analysis) fn complementary(model: &Model, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
+    let map = |forces: &Forces, rates: &[Rate]| law::natural_map(model, forces, rates).unwrap_or(f64::INFINITY);
     let mut answer = DryLoadFactor {
         found: Found::Undecided,
         value: f64::NAN,
@@ -133,24 +120,24 @@ pub(in crate::analysis) fn complementary(
     }
     if associative.outcome == Outcome::Found {
         answer.natural_map = map(&associative.forces, &associative.rates);
-        answer.natural_map_in_loads = check::dry_map(assembly, interfaces, &associative.forces, &associative.rates);
+        answer.natural_map_in_loads = check::dry_map(model, &associative.forces, &associative.rates);
         if answer.natural_map <= tolerance::DRY_LAW && answer.natural_map_in_loads <= tolerance::NATURAL_MAP {
             (answer.found, answer.value) = (Found::NothingSlides, associative.value);
             return answer;
         }
     }
-    if associative.outcome == Outcome::Unbounded && part_rests_alone(assembly, interfaces, control) {
+    if associative.outcome == Outcome::Unbounded && part_rests_alone(model, control) {
         answer.found = Found::Unlimited;
         return answer;
     }
     let start = Instant::now();
     let options = StaticsOptions { keep_all: control.keep_all, live: true, symmetry: true, ..StaticsOptions::default() };
-    let contacts = Contacts::new(assembly, interfaces, options);
+    let contacts = Contacts::new(model, options);
     let is_part = contacts.statics.is_part();
-    let scene = Scene { assembly, interfaces, associative };
+    let scene = Scene { model, associative };
     lowered(&scene, contacts, control, start, &mut answer);
     if answer.found == Found::Undecided && is_part {
-        let whole = Contacts::new(assembly, interfaces, StaticsOptions { symmetry: false, ..options });
+        let whole = Contacts::new(model, StaticsOptions { symmetry: false, ..options });
         lowered(&scene, whole, control, start, &mut answer);
     }
     answer
@@ -158,14 +145,13 @@ pub(in crate::analysis) fn complementary(
 
 /// What a value is asked of.
 struct Scene<'a> {
-    assembly: &'a Assembly,
-    interfaces: &'a Interfaces,
+    model: &'a Model,
     associative: &'a LoadFactor,
 }
 
 /// Lowers δ until the law is obeyed.
 fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, start: Instant, answer: &mut DryLoadFactor) {
-    let Scene { assembly, interfaces, .. } = *scene;
+    let Model { assembly, interfaces, .. } = scene.model;
     let seconds = control.seconds - start.elapsed().as_secs_f64();
     let settings = Settings { seconds, tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
     let scale = check::natural_factor(assembly);
@@ -219,16 +205,20 @@ fn engine(settings: &Settings) -> Means<'_> {
 
 /// Takes a fixed point as the answer if it is more exact than the one before; says whether it is a value.
 fn accept(scene: &Scene, contacts: &Contacts, point: &FixedPoint, answer: &mut DryLoadFactor) -> bool {
-    let Scene { assembly, interfaces, .. } = *scene;
-    let forces = contacts.statics.forces(interfaces, &point.forces);
-    let rates: Vec<Rate> =
-        contacts.statics.rates(assembly.blocks.len(), &point.rates).into_iter().map(|(velocity, spin)| Rate { velocity, spin }).collect();
-    let natural_map = law::natural_map(assembly, interfaces, &forces, &rates).unwrap_or(f64::INFINITY);
-    let natural_map_in_loads = check::dry_map(assembly, interfaces, &forces, &rates);
+    let model = scene.model;
+    let forces = contacts.statics.forces(&model.interfaces, &point.forces);
+    let rates: Vec<Rate> = contacts
+        .statics
+        .rates(model.assembly.blocks.len(), &point.rates)
+        .into_iter()
+        .map(|(velocity, spin)| Rate { velocity, spin })
+        .collect();
+    let natural_map = law::natural_map(model, &forces, &rates).unwrap_or(f64::INFINITY);
+    let natural_map_in_loads = check::dry_map(model, &forces, &rates);
     // The forces as they are, cut to their limits, balance best at this load factor.
     let lambda = contacts.best_factor(point.lambda, &contacts.residual(&point.forces, point.lambda));
     let lambda = lower_end(scene, &forces, &rates, lambda);
-    let s = certificate::statics(assembly, interfaces, &forces, lambda);
+    let s = certificate::statics(model, &forces, lambda);
     let obeys = natural_map <= tolerance::DRY_LAW && natural_map_in_loads <= tolerance::NATURAL_MAP;
     let found = obeys && s.is_within_strength() && s.unbalance <= tolerance::DRY_BALANCE;
     if found {
@@ -241,8 +231,9 @@ fn accept(scene: &Scene, contacts: &Contacts, point: &FixedPoint, answer: &mut D
 
 /// The load factor that these forces prove: what they leave off balance at `lambda` may be worth some of it, as the mechanism tells, and as
 /// that of the associative bound does, which no value passes.
-fn lower_end(Scene { assembly, interfaces, associative }: &Scene, forces: &Forces, rates: &[Rate], lambda: f64) -> f64 {
-    let s = certificate::statics(assembly, interfaces, forces, lambda);
+fn lower_end(Scene { model, associative }: &Scene, forces: &Forces, rates: &[Rate], lambda: f64) -> f64 {
+    let s = certificate::statics(model, forces, lambda);
+    let assembly = &model.assembly;
     let hidden = |rates: &[Rate]| {
         let driven: f64 = assembly.free().map(|i| certificate::power(&assembly.live[i], &rates[i])).sum();
         let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
@@ -255,8 +246,9 @@ fn lower_end(Scene { assembly, interfaces, associative }: &Scene, forces: &Force
 }
 
 /// Whether the live load alone, on joints without any strength, produces the forces that balance it.
-pub(in crate::analysis) fn part_rests_alone(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> bool {
+pub(in crate::analysis) fn part_rests_alone(model: &Model, control: &Control) -> bool {
+    let Model { assembly, interfaces, .. } = model;
     let (alone, _) = check::live_alone(assembly);
-    let (unlimited, _) = interfaces.unlimited();
-    is_forest(&alone, &unlimited) || state(&alone, &unlimited, control).motion == StateMotion::Rests
+    let alone = Model::new(alone, interfaces.unlimited().0);
+    is_forest(&alone) || state(&alone, control).motion == StateMotion::Rests
 }

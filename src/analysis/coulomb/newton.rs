@@ -122,7 +122,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        analysis::prepare,
+        interface::prepare,
         program::{StaticsOptions, coulomb::Aim},
         scene::read_str,
         solve::{self, Settings},
@@ -142,7 +142,7 @@ mod tests {
             {{ "id": "c", "at": [0.3, 0.1, 2.3], "density": 9000, "shape": {{ "box": {{ "size": [0.7, 1.1, 1] }} }} }} ] }}"#
         );
         let model = prepare(&read_str("stack", &text).unwrap().0).unwrap();
-        Contacts::new(&model.assembly, &model.interfaces, StaticsOptions { symmetry: true, ..StaticsOptions::default() })
+        Contacts::new(&model, StaticsOptions { symmetry: true, ..StaticsOptions::default() })
     }
 
     fn scenes() -> Vec<Contacts> {

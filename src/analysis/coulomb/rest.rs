@@ -13,10 +13,8 @@ use super::{
 use crate::{
     analysis::{Control, LoadFactor, Outcome},
     assembly::Assembly,
-    interface::Interfaces,
-    parallel,
-    program::is_forest,
-    tolerance,
+    interface::{Model, is_forest},
+    parallel, tolerance,
     verdict::{Verdict, check, law},
 };
 use std::time::Instant;
@@ -62,7 +60,7 @@ pub fn is_reached(rests_at: f64, value: f64) -> bool {
 
 /// States asked of a scene under load factors.
 struct Probe<'a> {
-    at: &'a (dyn Fn(f64) -> (Assembly, Interfaces) + Sync),
+    at: &'a (dyn Fn(f64) -> Model + Sync),
     control: &'a Control,
     start: Instant,
     /// All that came out, with their load factors.
@@ -76,8 +74,7 @@ impl Probe<'_> {
         if seconds <= 0.0 {
             return None;
         }
-        let (assembly, interfaces) = (self.at)(lambda);
-        Some((lambda, state(&assembly, &interfaces, &Control { seconds, ..*self.control })))
+        Some((lambda, state(&(self.at)(lambda), &Control { seconds, ..*self.control })))
     }
 
     /// What the state does at a load factor; nothing where the time is over.
@@ -159,17 +156,16 @@ pub(in crate::analysis) fn up_to_rest(
     assembly: &Assembly,
     associative: &LoadFactor,
     dead: Option<Verdict>,
-    at: &(dyn Fn(f64) -> (Assembly, Interfaces) + Sync),
+    at: &(dyn Fn(f64) -> Model + Sync),
     control: &Control,
 ) -> DryLoadFactor {
-    let (level, joints) = at(0.0);
     let is_bounded = associative.outcome == Outcome::Found;
     // Where contacts form no closed chain there is nothing that could be wedged, and below zero the dead load falls by itself.
     let negative = answer.value < 0.0 || (is_bounded && associative.value <= 0.0);
     if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) || control.seconds <= 0.0 {
         return answer;
     }
-    if is_forest(&level, &joints) {
+    if is_forest(&at(0.0)) {
         answer.rests_at = answer.value;
         return answer;
     }
@@ -248,7 +244,6 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
     if let Some((_, state)) = probe.rests() {
         answer.forces.clone_from(&state.forces);
     }
-    let (assembly, interfaces) = (probe.at)(*moves_at);
-    answer.rates = law::motion(&assembly, &interfaces, &moving.forces).rates;
+    answer.rates = law::motion(&(probe.at)(*moves_at), &moving.forces).rates;
     (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
 }

@@ -13,8 +13,7 @@ use super::{
 };
 use crate::{
     analysis::attempt::Control,
-    assembly::Assembly,
-    interface::Interfaces,
+    interface::Model,
     program::{
         StaticsOptions,
         coulomb::{Aim, Contacts, Hold},
@@ -98,23 +97,24 @@ const NOISE: f64 = 10.0;
 const STOP: Stop = Stop { change: 1e-5, solves: 25 };
 
 /// Computes the state; of a symmetric scene from one part of it, and where that leaves it open from the whole.
-pub fn state(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> State {
+pub fn state(model: &Model, control: &Control) -> State {
     let begin = Instant::now();
     let options = StaticsOptions { keep_all: control.keep_all, symmetry: true, ..StaticsOptions::default() };
-    let contacts = Contacts::new(assembly, interfaces, options);
+    let contacts = Contacts::new(model, options);
     let is_part = contacts.statics.is_part();
-    let part = continued(assembly, interfaces, contacts, control, begin);
+    let part = continued(model, contacts, control, begin);
     if part.motion != StateMotion::Undecided || !is_part {
         return part;
     }
-    let whole = Contacts::new(assembly, interfaces, StaticsOptions { symmetry: false, ..options });
-    let mut answer = continued(assembly, interfaces, whole, control, begin);
+    let whole = Contacts::new(model, StaticsOptions { symmetry: false, ..options });
+    let mut answer = continued(model, whole, control, begin);
     answer.steps.splice(0..0, part.steps);
     answer
 }
 
 /// The continuation in ε.
-fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contacts, control: &Control, begin: Instant) -> State {
+fn continued(model: &Model, mut contacts: Contacts, control: &Control, begin: Instant) -> State {
+    let interfaces = &model.interfaces;
     let settings = Settings { tolerance: 1e-10, regularization: 1e-8, ..Settings::default() };
     let mut answer = State { motion: StateMotion::Undecided, steps: Vec::new(), forces: Vec::new() };
     let still = vec![0.0; contacts.discs().count()];
@@ -139,7 +139,7 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
         let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, newton.as_mut(), &settings));
         let Some(mut point) = point else { break };
         let mut forces = contacts.statics.forces(interfaces, &point.forces);
-        let mut moved = law::motion(assembly, interfaces, &forces);
+        let mut moved = law::motion(model, &forces);
         let rests = decide(&history, &point, &moved) == StateMotion::Rests;
         if history.len() >= BEFORE_EXACT && point.change > 0.0 && !rests {
             let end = Duration::try_from_secs_f64(left).ok().and_then(|s| start.checked_add(s));
@@ -147,7 +147,7 @@ fn continued(assembly: &Assembly, interfaces: &Interfaces, mut contacts: Contact
             if let Some((solved, change)) = solver.as_mut().and_then(|e| e.near(&contacts, epsilon, &point.rates, end)) {
                 point = FixedPoint { forces: contacts.cut(&solved.forces), rates: solved.rates, change, noise: change, ..point };
                 forces = contacts.statics.forces(interfaces, &point.forces);
-                moved = law::motion(assembly, interfaces, &forces);
+                moved = law::motion(model, &forces);
             }
         }
         let decided = decide(&history, &point, &moved);

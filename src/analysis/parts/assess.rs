@@ -7,43 +7,42 @@ use crate::{
         assess::{falls_freely, of_part},
         coulomb::{State, StateMotion, state},
     },
-    assembly::Assembly,
-    interface::{self, Interfaces, Part},
-    program::is_forest,
+    interface::{self, Model, Part, is_forest},
     verdict::{Rate, Verdict, mechanism},
 };
 
 /// Decides whether an assembly stands under its dead load, part by part.
-pub fn assess(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> Assessment {
-    let parts = interface::parts(assembly, interfaces);
+pub fn assess(model: &Model, control: &Control) -> Assessment {
+    let parts = interface::parts(model);
     if parts.is_empty() {
-        return of_part(assembly, interfaces, control);
+        return of_part(model, control);
     }
-    if let Some(answer) = fall_freely(assembly, interfaces, &parts) {
+    if let Some(answer) = fall_freely(model, &parts) {
         return answer;
     }
     let all: Vec<usize> = (0..parts.len()).collect();
-    let answers = each(&parts, &all, control, |k, control| of_part(&parts[k].assembly, &parts[k].interfaces, control));
-    merged(assembly, interfaces, &parts, &answers)
+    let answers = each(&parts, &all, control, |k, control| of_part(&parts[k].model, control));
+    merged(model, &parts, &answers)
 }
 
 /// What the state under dry friction does: it rests where that of every part does. A part whose contacts form no closed chain has none of its own:
 /// statics alone fixes its forces.
-pub fn motion(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> StateMotion {
-    let parts = interface::parts(assembly, interfaces);
+pub fn motion(model: &Model, control: &Control) -> StateMotion {
+    let parts = interface::parts(model);
     let all: Vec<usize> = (0..parts.len()).collect();
     let own = each(&parts, &all, control, |k, control| {
-        let Part { assembly, interfaces, .. } = &parts[k];
-        if is_forest(assembly, interfaces) { StateMotion::Rests } else { state(assembly, interfaces, control).motion }
+        let part = &parts[k].model;
+        if is_forest(part) { StateMotion::Rests } else { state(part, control).motion }
     });
     let is = |motion| own.contains(&motion);
     [StateMotion::Moves, StateMotion::Undecided].into_iter().find(|&m| is(m)).unwrap_or(StateMotion::Rests)
 }
 
 /// Parts that touch nothing that is held fall with 1 g, which nothing else exceeds: the others are not asked.
-fn fall_freely(assembly: &Assembly, interfaces: &Interfaces, parts: &[Part]) -> Option<Assessment> {
-    let loose = |part: &&Part| part.assembly.blocks.iter().all(|b| !b.support);
-    let falls = |part: &Part| falls_freely(&part.assembly, &part.interfaces);
+fn fall_freely(model: &Model, parts: &[Part]) -> Option<Assessment> {
+    let Model { assembly, interfaces, .. } = model;
+    let loose = |part: &&Part| part.model.assembly.blocks.iter().all(|b| !b.support);
+    let falls = |part: &Part| falls_freely(&part.model);
     let answers: Vec<(usize, Assessment)> =
         parts.iter().enumerate().filter(|(_, p)| loose(p)).filter_map(|(k, p)| falls(p).map(|a| (k, a))).collect();
     let &(decides, ref first) = answers.first()?;
@@ -55,7 +54,7 @@ fn fall_freely(assembly: &Assembly, interfaces: &Interfaces, parts: &[Part]) -> 
         unbalance: first.unbalance,
         part: Deciding::new(parts, decides),
         forces: scene_forces(interfaces, []),
-        mechanism: Some(mechanism::read(assembly, interfaces, &rates)),
+        mechanism: Some(mechanism::read(model, &rates)),
         rates,
         floating,
         left_out: vec![format!("the whole program: {count} free blocks have no contact path to a support")],
@@ -85,7 +84,8 @@ fn worst(answers: &[Assessment]) -> usize {
     (1..answers.len()).fold(0, |best, k| if key(&answers[k]) > key(&answers[best]) { k } else { best })
 }
 
-fn merged(assembly: &Assembly, interfaces: &Interfaces, parts: &[Part], answers: &[Assessment]) -> Assessment {
+fn merged(model: &Model, parts: &[Part], answers: &[Assessment]) -> Assessment {
+    let Model { assembly, interfaces, .. } = model;
     let decides = worst(answers);
     let (part, worst) = (&parts[decides], &answers[decides]);
     let forces = || parts.iter().zip(answers.iter().map(|a| &a.forces));
@@ -116,7 +116,7 @@ fn merged(assembly: &Assembly, interfaces: &Interfaces, parts: &[Part], answers:
         part: Deciding::new(parts, decides).filter(|_| worst.verdict != Verdict::Stable),
         forces: scene_forces(interfaces, forces()),
         load_factor: worst.load_factor,
-        mechanism: worst.mechanism.as_ref().map(|_| mechanism::read(assembly, interfaces, &rates)),
+        mechanism: worst.mechanism.as_ref().map(|_| mechanism::read(model, &rates)),
         rates,
         state,
         floating: parts.iter().zip(answers).flat_map(floating).collect(),

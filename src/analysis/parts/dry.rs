@@ -2,7 +2,7 @@
 
 use super::{
     Deciding, each,
-    limit::{SAME, as_they_are},
+    limit::{SAME, under},
     scene_forces, scene_rates,
 };
 use crate::{
@@ -12,76 +12,62 @@ use crate::{
         coulomb::{self, DryLoadFactor, Found},
         limit::of_part as limit_part,
     },
-    assembly::Assembly,
-    interface::{self, Interfaces, Part},
+    interface::{self, Model, Part},
     verdict::{Forces, Verdict, no_forces},
 };
-use std::{borrow::Cow, time::Instant};
+use std::time::Instant;
 
 /// The load factor with dry friction, up to which every part comes to rest; `associative` is the answer of
 /// [`limit`](crate::analysis::limit()) for the same model.
-pub fn load_factor(assembly: &Assembly, interfaces: &Interfaces, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
-    load_factor_from(assembly, interfaces, associative, None, control)
+pub fn load_factor(model: &Model, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
+    load_factor_from(model, associative, None, control)
 }
 
 /// The same where the verdict under the dead load alone is known.
-pub fn load_factor_from(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    associative: &LoadFactor,
-    dead: Option<Verdict>,
-    control: &Control,
-) -> DryLoadFactor {
+pub fn load_factor_from(model: &Model, associative: &LoadFactor, dead: Option<Verdict>, control: &Control) -> DryLoadFactor {
     // Where all stands, every part does; any other verdict is that of one of them.
     let dead = dead.filter(|&v| v == Verdict::Stable);
     let solve = |part: &Part, bound: Option<&LoadFactor>, control: &Control| match bound {
-        Some(bound) => coulomb::of_part(&part.assembly, &part.interfaces, bound, dead, control),
+        Some(bound) => coulomb::of_part(&part.model, bound, dead, control),
         None => {
-            let bound = limit_part(&part.assembly, &part.interfaces, control);
-            coulomb::of_part(&part.assembly, &part.interfaces, &bound, dead, control)
+            let bound = limit_part(&part.model, control);
+            coulomb::of_part(&part.model, &bound, dead, control)
         }
     };
-    load_factor_by(assembly, interfaces, associative, control, (solve, as_they_are))
+    load_factor_by(model, associative, control, (solve, under))
 }
 
 /// The same with ways of one's own: what is asked of a part that the live load acts on (given its own associative answer, where that is
-/// known), in its own units, and the joints of a part when the scene has this load factor.
-pub fn load_factor_by<S, J>(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    associative: &LoadFactor,
-    control: &Control,
-    (solve, joints): (S, J),
-) -> DryLoadFactor
+/// known), in its own units, and a part by itself when the scene has this load factor.
+pub fn load_factor_by<S, A>(model: &Model, associative: &LoadFactor, control: &Control, (solve, at): (S, A)) -> DryLoadFactor
 where
     S: Fn(&Part, Option<&LoadFactor>, &Control) -> DryLoadFactor + Sync,
-    J: for<'p> Fn(&'p Part, f64) -> Cow<'p, Interfaces> + Sync,
+    A: Fn(&Part, f64) -> Model + Sync,
 {
     let start = Instant::now();
-    let parts = interface::parts(assembly, interfaces);
+    let parts = interface::parts(model);
     if associative.outcome == Outcome::Impossible || control.seconds <= 0.0 || !parts.iter().any(Part::is_driven) {
-        return coulomb::complementary(assembly, interfaces, associative, control);
+        return coulomb::complementary(model, associative, control);
     }
     let known = |k: usize| associative.parts.get(k).filter(|_| associative.parts.len() == parts.len()).and_then(Option::as_ref);
     let driven: Vec<usize> = (0..parts.len()).filter(|&k| parts[k].is_driven()).collect();
     let answers = each(&parts, &driven, control, |k, control| solve(&parts[k], known(k), control));
     let mut own: Vec<Option<DryLoadFactor>> = parts.iter().map(|_| None).collect();
     driven.iter().zip(answers).for_each(|(&k, a)| own[k] = Some(a));
-    let scene = Scene { assembly, interfaces, parts: &parts, own: &own };
-    scene.answer(&Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control }, &joints)
+    let scene = Scene { model, parts: &parts, own: &own };
+    scene.answer(&Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control }, &at)
 }
 
 /// Whether in every part that it acts on the live load alone produces the forces that balance it, so that no multiple of it moves anything.
-pub fn rests_alone(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> bool {
-    let parts = interface::parts(assembly, interfaces);
+pub fn rests_alone(model: &Model, control: &Control) -> bool {
+    let parts = interface::parts(model);
     let driven: Vec<usize> = (0..parts.len()).filter(|&k| parts[k].is_driven()).collect();
-    let rests = each(&parts, &driven, control, |k, control| coulomb::part_rests_alone(&parts[k].assembly, &parts[k].interfaces, control));
+    let rests = each(&parts, &driven, control, |k, control| coulomb::part_rests_alone(&parts[k].model, control));
     !rests.is_empty() && !rests.contains(&false)
 }
 
 struct Scene<'a> {
-    assembly: &'a Assembly,
-    interfaces: &'a Interfaces,
+    model: &'a Model,
     parts: &'a [Part],
     /// The answers of the parts that the live load acts on.
     own: &'a [Option<DryLoadFactor>],
@@ -94,7 +80,7 @@ impl Scene<'_> {
         Some(self.parts[k].units.load_factor(own.value))
     }
 
-    fn answer(&self, control: &Control, joints: &(impl for<'p> Fn(&'p Part, f64) -> Cow<'p, Interfaces> + Sync)) -> DryLoadFactor {
+    fn answer(&self, control: &Control, at: &(impl Fn(&Part, f64) -> Model + Sync)) -> DryLoadFactor {
         let n = self.parts.len();
         let driven: Vec<(usize, &DryLoadFactor)> = self.own.iter().enumerate().filter_map(|(k, a)| Some((k, a.as_ref()?))).collect();
         let values = (0..n).filter_map(|k| self.value(k).map(|v| (k, v)));
@@ -110,7 +96,7 @@ impl Scene<'_> {
         .unwrap_or(&driven[0]);
         let lambda = least.map(|l| l.1);
         let all: Vec<usize> = (0..n).collect();
-        let beside = each(self.parts, &all, control, |k, control| self.beside(k, decides, lambda, control, joints));
+        let beside = each(self.parts, &all, control, |k, control| self.beside(k, decides, lambda, control, at));
         let refused = (0..n).find(|&k| k != decides && !beside[k].1);
         let found = match refused {
             _ if own.found == Found::NotAtRest => Found::NotAtRest,
@@ -128,8 +114,8 @@ impl Scene<'_> {
             natural_map: own.natural_map,
             natural_map_in_loads: own.natural_map_in_loads,
             solves: self.own.iter().flatten().map(|a| a.solves).sum(),
-            forces: scene_forces(self.interfaces, self.parts.iter().zip(beside.iter().map(|b| &b.0))),
-            rates: scene_rates(self.assembly, &self.parts[decides], &own.rates),
+            forces: scene_forces(&self.model.interfaces, self.parts.iter().zip(beside.iter().map(|b| &b.0))),
+            rates: scene_rates(&self.model.assembly, &self.parts[decides], &own.rates),
         }
     }
 
@@ -141,11 +127,12 @@ impl Scene<'_> {
         decides: usize,
         lambda: Option<f64>,
         control: &Control,
-        joints: &impl for<'p> Fn(&'p Part, f64) -> Cow<'p, Interfaces>,
+        at: &impl Fn(&Part, f64) -> Model,
     ) -> (Forces, bool, bool) {
         let part = &self.parts[k];
         let found = self.own[k].as_ref().map(|a| a.found);
-        let own = |bears: bool| (self.own[k].as_ref().map_or_else(|| no_forces(&part.interfaces), |a| a.forces.clone()), bears, false);
+        let own =
+            |bears: bool| (self.own[k].as_ref().map_or_else(|| no_forces(&part.model.interfaces), |a| a.forces.clone()), bears, false);
         let close = self.value(k).zip(lambda).is_some_and(|(v, lambda)| v - lambda <= SAME * lambda.abs());
         if k == decides || close {
             return own(!found.is_some_and(open));
@@ -155,11 +142,7 @@ impl Scene<'_> {
         }
         let lambda = lambda.unwrap_or(0.0);
         let law = if found.is_none_or(open) { Law::Coulomb } else { Law::Associative };
-        let a = assess_part(
-            &part.assembly.at_load_factor(part.units.own_load_factor(lambda)),
-            &joints(part, lambda),
-            &Control { law, ..*control },
-        );
+        let a = assess_part(&at(part, lambda), &Control { law, ..*control });
         (a.forces, a.verdict == Verdict::Stable, matches!(a.verdict, Verdict::Conditional | Verdict::Unstable))
     }
 }

@@ -5,42 +5,42 @@ use crate::{
     analysis::{
         Assessment, Attempt, Bracket, Control, Law, LoadFactor, Outcome, assess::of_part as assess_part, limit::of_part as limit_part,
     },
-    assembly::{Assembly, Wrench},
-    interface::{self, Interfaces, Part},
+    assembly::Wrench,
+    interface::{self, Model, Part},
     verdict::{Forces, Rate, Verdict, certificate, mechanism, no_forces},
 };
-use std::{borrow::Cow, time::Instant};
+use std::time::Instant;
 
 /// How parts are asked.
-pub struct Ways<S, J> {
+pub struct Ways<S, A> {
     /// The load factor of a part, in its own units.
     pub solve: S,
-    /// The joints of a part when the scene has this load factor.
-    pub joints: J,
+    /// A part by itself when the scene has this load factor, which is part of its dead load then.
+    pub at: A,
 }
 
-/// The joints as they are, whatever the load factor.
-pub fn as_they_are(part: &Part, _: f64) -> Cow<'_, Interfaces> {
-    Cow::Borrowed(&part.interfaces)
+/// A part under a load factor of the scene, its joints as they are.
+pub fn under(part: &Part, lambda: f64) -> Model {
+    part.model.at_load_factor(part.units.own_load_factor(lambda))
 }
 
 /// The greatest multiple of the live load under which every part has admissible contact forces.
-pub fn limit(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> LoadFactor {
-    let solve = |part: &Part, control: &Control| limit_part(&part.assembly, &part.interfaces, control);
-    limit_by(assembly, interfaces, control, &Ways { solve, joints: as_they_are })
+pub fn limit(model: &Model, control: &Control) -> LoadFactor {
+    let solve = |part: &Part, control: &Control| limit_part(&part.model, control);
+    limit_by(model, control, &Ways { solve, at: under })
 }
 
 /// The same with ways of one's own.
-pub fn limit_by<S, J>(assembly: &Assembly, interfaces: &Interfaces, control: &Control, ways: &Ways<S, J>) -> LoadFactor
+pub fn limit_by<S, A>(model: &Model, control: &Control, ways: &Ways<S, A>) -> LoadFactor
 where
     S: Fn(&Part, &Control) -> LoadFactor + Sync,
-    J: for<'p> Fn(&'p Part, f64) -> Cow<'p, Interfaces> + Sync,
+    A: Fn(&Part, f64) -> Model + Sync,
 {
     let start = Instant::now();
     // The last of many directions may find the time already over: nothing is built for it.
-    let parts = if control.seconds > 0.0 { interface::parts(assembly, interfaces) } else { Vec::new() };
+    let parts = if control.seconds > 0.0 { interface::parts(model) } else { Vec::new() };
     if !parts.iter().any(Part::is_driven) {
-        return limit_part(assembly, interfaces, control);
+        return limit_part(model, control);
     }
     let all: Vec<usize> = (0..parts.len()).collect();
     let statics = |control: &Control| Control { law: Law::Associative, ..*control };
@@ -49,12 +49,12 @@ where
         if part.is_driven() {
             Asked::Driven((ways.solve)(part, control))
         } else {
-            Asked::Still(assess_part(&part.assembly, &part.interfaces, &statics(control)))
+            Asked::Still(assess_part(&part.model, &statics(control)))
         }
     });
-    let mut scene = Scene { assembly, interfaces, parts: &parts, asked: &asked, more: Vec::new() };
+    let mut scene = Scene { model, parts: &parts, asked: &asked, more: Vec::new() };
     let left = || Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..statics(control) };
-    let mut answer = scene.answer(&left, &ways.joints);
+    let mut answer = scene.answer(&left, &ways.at);
     answer.parts = asked.into_iter().map(Asked::driven).collect();
     answer
 }
@@ -95,8 +95,7 @@ impl Asked {
 }
 
 struct Scene<'a> {
-    assembly: &'a Assembly,
-    interfaces: &'a Interfaces,
+    model: &'a Model,
     parts: &'a [Part],
     asked: &'a [Asked],
     /// What was tried beside.
@@ -107,11 +106,7 @@ struct Scene<'a> {
 pub const SAME: f64 = 1e-9;
 
 impl Scene<'_> {
-    fn answer(
-        &mut self,
-        left: &dyn Fn() -> Control,
-        joints: &(impl for<'p> Fn(&'p Part, f64) -> Cow<'p, Interfaces> + Sync),
-    ) -> LoadFactor {
+    fn answer(&mut self, left: &dyn Fn() -> Control, at: &(impl Fn(&Part, f64) -> Model + Sync)) -> LoadFactor {
         if self.asked.iter().any(Asked::falls) {
             return self.impossible();
         }
@@ -132,7 +127,7 @@ impl Scene<'_> {
             return self.undecided(k);
         }
         match least {
-            Some((k, value)) => self.found(k, value, left, joints),
+            Some((k, value)) => self.found(k, value, left, at),
             None => self.unbounded(),
         }
     }
@@ -153,12 +148,12 @@ impl Scene<'_> {
             value: f64::NAN,
             bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
             part: Deciding::new(self.parts, decides),
-            forces: scene_forces(self.interfaces, self.parts.iter().zip(self.asked.iter().map(Asked::forces))),
+            forces: scene_forces(&self.model.interfaces, self.parts.iter().zip(self.asked.iter().map(Asked::forces))),
             base: None,
-            rates: vec![Rate::zero(); self.assembly.blocks.len()],
+            rates: vec![Rate::zero(); self.model.assembly.blocks.len()],
             mechanism: None,
             attempts: attempts.collect(),
-            left_out: left_out(self.interfaces, lines.iter().map(|l| &l[..]), self.parts.len()),
+            left_out: left_out(&self.model.interfaces, lines.iter().map(|l| &l[..]), self.parts.len()),
             parts: Vec::new(),
         }
     }
@@ -176,7 +171,7 @@ impl Scene<'_> {
             outcome: Outcome::Impossible,
             value: f64::NAN,
             bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::NEG_INFINITY },
-            mechanism: Some(mechanism::read(self.assembly, self.interfaces, &answer.rates)),
+            mechanism: Some(mechanism::read(self.model, &answer.rates)),
             ..answer
         }
     }
@@ -191,7 +186,7 @@ impl Scene<'_> {
                     answer.bracket.lower = answer.bracket.lower.min(lower);
                     if upper < answer.bracket.upper {
                         answer.bracket.upper = upper;
-                        answer.rates = scene_rates(self.assembly, part, &l.rates);
+                        answer.rates = scene_rates(&self.model.assembly, part, &l.rates);
                     }
                 }
                 Asked::Still(a) if a.verdict != Verdict::Stable => answer.bracket.lower = f64::NEG_INFINITY,
@@ -217,7 +212,7 @@ impl Scene<'_> {
         let base = |part: &Part, l: &LoadFactor| l.base.as_ref().map_or(f64::NEG_INFINITY, |b| part.units.load_factor(b.0));
         // From there on all of them stand.
         let standing = driven().map(|(part, l)| base(part, l)).fold(f64::NEG_INFINITY, f64::max);
-        (answer.forces, answer.outcome) = (no_forces(self.interfaces), Outcome::Unbounded);
+        (answer.forces, answer.outcome) = (no_forces(&self.model.interfaces), Outcome::Unbounded);
         answer.bracket = Bracket { lower: f64::INFINITY, upper: f64::INFINITY };
         let mut forces = answer.forces.clone();
         for (part, asked) in self.parts.iter().zip(self.asked) {
@@ -228,20 +223,14 @@ impl Scene<'_> {
             let Some((own, base)) = &l.base else { continue };
             part.put_forces(&combined(base, &l.forces, part.units.own_load_factor(standing) - own), &mut forces);
             // Those of the live load alone: per unit of the scene's load factor.
-            part.put_forces(&combined(&no_forces(&part.interfaces), &l.forces, part.units.own_load_factor(1.0)), &mut answer.forces);
+            part.put_forces(&combined(&no_forces(&part.model.interfaces), &l.forces, part.units.own_load_factor(1.0)), &mut answer.forces);
         }
         answer.base = Some((standing, forces));
         answer
     }
 
     /// The least load factor is that of part `decides`: do the others stand there?
-    fn found(
-        &mut self,
-        decides: usize,
-        value: f64,
-        left: &dyn Fn() -> Control,
-        joints: &(impl for<'p> Fn(&'p Part, f64) -> Cow<'p, Interfaces> + Sync),
-    ) -> LoadFactor {
+    fn found(&mut self, decides: usize, value: f64, left: &dyn Fn() -> Control, at: &(impl Fn(&Part, f64) -> Model + Sync)) -> LoadFactor {
         let mut answer = self.start(decides);
         let (part, Asked::Driven(own)) = (&self.parts[decides], &self.asked[decides]) else { return answer };
         // Forces balance at the lower end; those of the others serve where theirs is the same to the last digit.
@@ -254,16 +243,13 @@ impl Scene<'_> {
             Asked::Still(_) => false,
         };
         let others: Vec<usize> = (0..self.parts.len()).filter(|&k| bears_more(k)).collect();
-        let standing = each(self.parts, &others, &left(), |k, control| {
-            let part = &self.parts[k];
-            assess_part(&part.assembly.at_load_factor(part.units.own_load_factor(standing_at)), &joints(part, standing_at), control)
-        });
+        let standing = each(self.parts, &others, &left(), |k, control| assess_part(&at(&self.parts[k], standing_at), control));
         for (&k, a) in others.iter().zip(&standing) {
             self.parts[k].put_forces(&a.forces, &mut answer.forces);
             self.more.extend(a.attempts.iter().cloned());
         }
         answer.attempts.append(&mut self.more);
-        answer.rates = scene_rates(self.assembly, part, &own.rates);
+        answer.rates = scene_rates(&self.model.assembly, part, &own.rates);
         for (&k, a) in others.iter().zip(&standing).filter(|(_, a)| a.verdict == Verdict::Unstable) {
             if let Some(rates) = self.opposed([(decides, &own.rates), (k, &a.rates)]) {
                 answer.part = Deciding::new(self.parts, k);
@@ -281,18 +267,19 @@ impl Scene<'_> {
             return answer;
         }
         answer.outcome = Outcome::Found;
-        answer.mechanism = Some(mechanism::read(self.assembly, self.interfaces, &answer.rates));
+        answer.mechanism = Some(mechanism::read(self.model, &answer.rates));
         self.say(&mut answer, others.len());
         answer
     }
 
     /// Two mechanisms, of which the live load drives one and holds back the other, each at the speed at which these powers cancel.
     fn opposed(&self, pair: [(usize, &Vec<Rate>); 2]) -> Option<Vec<Rate>> {
-        let mut rates = vec![Rate::zero(); self.assembly.blocks.len()];
+        let mut rates = vec![Rate::zero(); self.model.assembly.blocks.len()];
         let mut powers = [0.0; 2];
         for ((k, own), power) in pair.iter().zip(&mut powers) {
             let part = &self.parts[*k];
-            *power = part.assembly.free().map(|i| certificate::power(&part.assembly.live[i], &own[i])).sum::<f64>() * part.units.live;
+            *power = part.model.assembly.free().map(|i| certificate::power(&part.model.assembly.live[i], &own[i])).sum::<f64>()
+                * part.units.live;
             put_rates(part, own, 1.0 / power.abs(), &mut rates);
         }
         (powers[0] > 0.0 && powers[1] < 0.0).then_some(rates)

@@ -68,7 +68,7 @@ const WORTH_THREADS: usize = 400;
 fn each<R: Send>(parts: &[Part], which: &[usize], control: &Control, ask: impl Fn(usize, &Control) -> R + Sync) -> Vec<R> {
     let start = Instant::now();
     let one = |k: usize| ask(k, &Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control });
-    let points = |k: usize| parts[k].interfaces.list.iter().map(|f| f.points.len()).sum::<usize>();
+    let points = |k: usize| parts[k].model.interfaces.list.iter().map(|f| f.points.len()).sum::<usize>();
     if which.len() > 1 && which.iter().map(|&k| points(k)).sum::<usize>() >= WORTH_THREADS {
         // The largest first: it should not be begun when everything else is done.
         let mut order = which.to_vec();

@@ -3,13 +3,12 @@
 use super::{left_out, put_rates, scene_forces};
 use crate::{
     analysis::{
-        Bracket, Control, Model, Outcome,
+        Bracket, Control, Outcome,
         flip::Flip,
-        geometric,
-        geometric::Geometric,
+        geometric::{self, Geometric},
         thrust::{ThrustEnd, of_part},
     },
-    interface::{self, Part},
+    interface::{self, Model, Part},
     verdict::{
         Forces, Rate,
         thrust::{Extreme, ThrustAt},
@@ -17,15 +16,10 @@ use crate::{
 };
 use std::time::Instant;
 
-/// A part by itself.
-fn model(part: &Part, of: &Model) -> Model {
-    Model { assembly: part.assembly.clone(), interfaces: part.interfaces.clone(), timings: of.timings }
-}
-
 /// The least or greatest thrust of a scene that stands; `standing` are forces that balance its loads.
 pub fn thrust(scene: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> ThrustEnd {
-    let (assembly, interfaces) = (&scene.assembly, &scene.interfaces);
-    let parts = interface::parts(assembly, interfaces);
+    let Model { assembly, interfaces, .. } = scene;
+    let parts = interface::parts(scene);
     let touching: Vec<(&Part, usize)> = parts.iter().filter_map(|p| p.find(at.support).map(|s| (p, s))).collect();
     if touching.is_empty() {
         return of_part(scene, at, extreme, standing, control);
@@ -33,7 +27,7 @@ pub fn thrust(scene: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces,
     let start = Instant::now();
     let ask = |&(part, support): &(&Part, usize)| {
         let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-        of_part(&model(part, scene), &ThrustAt { support, ..*at }, extreme, &part.take_forces(standing), &control)
+        of_part(&part.model, &ThrustAt { support, ..*at }, extreme, &part.take_forces(standing), &control)
     };
     let ends: Vec<ThrustEnd> = touching.iter().map(ask).collect();
     let any = |outcome: Outcome| ends.iter().any(|e| e.outcome == outcome);
@@ -82,14 +76,14 @@ pub fn thrust(scene: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces,
 /// The geometric safety factor of a scene that stands: the least of those of its parts, with verdicts on the whole scene.
 pub fn geometric_factor(scene: &Model, control: &Control) -> Geometric {
     let start = Instant::now();
-    let parts = interface::parts(&scene.assembly, &scene.interfaces);
+    let parts = interface::parts(scene);
     if parts.len() <= 1 {
         return geometric::of_part(scene, control);
     }
     let left = || Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0), ..*control };
     let mut worst: Option<Flip> = None;
     for part in &parts {
-        match geometric::of_part(&model(part, scene), &left()) {
+        match geometric::of_part(&part.model, &left()) {
             Geometric::Found(flip) if worst.as_ref().is_none_or(|w| flip.value > w.value) => worst = Some(*flip),
             Geometric::Found(_) | Geometric::Beyond(_) => {}
             Geometric::Open(why) => return Geometric::Open(why),

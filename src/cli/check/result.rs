@@ -8,7 +8,7 @@ use crate::cli::{
     terminal::{self, Terminal},
 };
 use voussoir::{
-    analysis::prepare,
+    interface::prepare,
     report::{self, ResultFile, VerificationFile, text, verify, view::View},
 };
 

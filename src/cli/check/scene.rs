@@ -7,8 +7,8 @@ use crate::cli::{
     terminal::{self, Terminal},
 };
 use voussoir::{
-    analysis::prepare,
     error::{Finding, FindingCode},
+    interface::prepare,
     report::{self, Inspection, text, view::View},
     scene::{Scene, Source},
 };

@@ -9,6 +9,7 @@ pub use units::Units;
 use super::{Interface, Interfaces};
 use crate::{
     assembly::{AppliedForce, Assembly, Block, JointLaw, JointRules, Solid, Wrench},
+    interface::Model,
     plane::Sets,
 };
 use nalgebra::Vector3;
@@ -22,25 +23,24 @@ pub struct Part {
     pub contacts: Vec<usize>,
     /// What its numbers count.
     pub units: Units,
-    /// The blocks and loads, in these units. Shapes stay behind (a solid has its volume and nothing else), and so do findings and whatever
-    /// contacts are detected by.
-    pub assembly: Assembly,
-    /// The contacts, in these units.
-    pub interfaces: Interfaces,
+    /// The blocks, loads and contacts, in these units. Shapes stay behind (a solid has its volume and nothing else), and so do findings and
+    /// whatever contacts are detected by.
+    pub model: Model,
 }
 
 /// The independent parts of a scene, in the order of their first free blocks. Each free block is in one of them; a support is in as many
 /// as it touches, and in none where it touches nothing.
-pub fn parts(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Part> {
-    let members = members(assembly, interfaces);
+pub fn parts(model: &Model) -> Vec<Part> {
+    let Model { assembly, interfaces, .. } = model;
+    let members = members(model);
     let mut place = vec![usize::MAX; assembly.blocks.len()];
     let whole = members.len() == 1;
     members
         .into_iter()
         .map(|members| {
-            let mut part = Part::new(assembly, interfaces, members, &mut place);
+            let mut part = Part::new(model, members, &mut place);
             if whole {
-                part.interfaces.support_pairs = interfaces.support_pairs;
+                part.model.interfaces.support_pairs = interfaces.support_pairs;
             }
             part
         })
@@ -48,7 +48,8 @@ pub fn parts(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Part> {
 }
 
 /// What belongs to each part, in the order of [`parts`], as it stands in the scene.
-pub fn members(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Members> {
+pub fn members(model: &Model) -> Vec<Members> {
+    let Model { assembly, interfaces, .. } = model;
     let n = assembly.blocks.len();
     let free = |i: usize| !assembly.blocks[i].support;
     let mut sets = Sets::new(n);
@@ -93,7 +94,8 @@ pub struct Members {
 
 impl Part {
     /// `place` is room for the number that each block has in the part.
-    fn new(assembly: &Assembly, interfaces: &Interfaces, members: Members, place: &mut [usize]) -> Self {
+    fn new(model: &Model, members: Members, place: &mut [usize]) -> Self {
+        let Model { assembly, interfaces, .. } = model;
         let Members { free, contacts, dead_forces, live_forces } = members;
         let faces = || contacts.iter().map(|&k| &interfaces.list[k]);
         let units = Units::of(assembly, &free, faces().flat_map(|f| f.points.iter().copied()));
@@ -118,22 +120,23 @@ impl Part {
             contact: assembly.contact.clone(),
             findings: Vec::new(),
         };
-        Self { blocks, contacts, units, assembly, interfaces: Interfaces { list, support_pairs: 0, findings: Vec::new() } }
+        let interfaces = Interfaces { list, support_pairs: 0, findings: Vec::new() };
+        Self { blocks, contacts, units, model: Model::new(assembly, interfaces) }
     }
 
     /// The name of the part: that of its first free block.
     pub fn name(&self) -> &str {
-        self.assembly.free().next().map_or("", |i| &self.assembly.blocks[i].id)
+        self.model.assembly.free().next().map_or("", |i| &self.model.assembly.blocks[i].id)
     }
 
     /// How many free blocks it has.
     pub fn free_count(&self) -> usize {
-        self.assembly.free().count()
+        self.model.assembly.free().count()
     }
 
     /// Whether a live load acts on it.
     pub fn is_driven(&self) -> bool {
-        self.assembly.live.iter().any(|w| *w != Wrench::zero())
+        self.model.assembly.live.iter().any(|w| *w != Wrench::zero())
     }
 
     /// The number that a block of the scene has in the part.

@@ -1,11 +1,7 @@
 //! The symmetries of a scene: a turn about the vertical, a mirror that contains it, and what they make together.
 
 use super::matching::{Images, Matcher};
-use crate::{
-    assembly::{Assembly, Wrench},
-    interface::Interfaces,
-    program::Plane,
-};
+use crate::{assembly::Wrench, interface::Model, program::Plane};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use std::f64::consts::TAU;
 
@@ -65,7 +61,8 @@ impl Symmetry {
 const MOST_TRIED: usize = 720;
 
 /// The symmetries of a scene with its loads; in a plane scene those within the plane.
-pub fn find(assembly: &Assembly, interfaces: &Interfaces, loads: &[&[Wrench]], plane: Option<Plane>) -> Option<Symmetry> {
+pub fn find(model: &Model, loads: &[&[Wrench]], plane: Option<Plane>) -> Option<Symmetry> {
+    let assembly = &model.assembly;
     let up = Unit::try_new(-assembly.gravity, 0.0)?;
     let mass: f64 = assembly.free().map(|i| assembly.blocks[i].mass).sum();
     let mean = |from: Vector3<f64>| {
@@ -73,7 +70,7 @@ pub fn find(assembly: &Assembly, interfaces: &Interfaces, loads: &[&[Wrench]], p
     };
     // Sums over thousands of blocks err by as many roundings of what is summed: from the centre itself that is nothing.
     let center = mean(mean(Vector3::zeros()));
-    let matcher = Matcher::new(assembly, interfaces, loads, center);
+    let matcher = Matcher::new(model, loads, center);
     let reflection = |n: Vector3<f64>| Matrix3::identity() - n * n.transpose() * 2.0;
     let mut symmetry = Symmetry { up, turn: None, mirror: None };
     if let Some(plane) = plane {
@@ -81,7 +78,7 @@ pub fn find(assembly: &Assembly, interfaces: &Interfaces, loads: &[&[Wrench]], p
         symmetry.mirror = Some((mirror, matcher.images(&mirror)?));
         return Some(symmetry);
     }
-    let angles = angles_of_like(assembly, interfaces, center, up)?;
+    let angles = angles_of_like(model, center, up)?;
     let mut orders: Vec<usize> = angles.iter().filter_map(|&a| order(a - angles[0])).collect();
     orders.sort_unstable_by(|a, b| b.cmp(a));
     orders.dedup();
@@ -115,7 +112,8 @@ fn horizontal(up: Unit<Vector3<f64>>) -> (Vector3<f64>, Vector3<f64>) {
 
 /// Angles about the vertical through `center` of a set of blocks that every symmetry carries into itself: those of one mass, height
 /// and distance from the axis, the fewest of all; or of contact points where all blocks are on the axis.
-fn angles_of_like(assembly: &Assembly, interfaces: &Interfaces, center: Vector3<f64>, up: Unit<Vector3<f64>>) -> Option<Vec<f64>> {
+fn angles_of_like(model: &Model, center: Vector3<f64>, up: Unit<Vector3<f64>>) -> Option<Vec<f64>> {
+    let Model { assembly, interfaces, .. } = model;
     let (east, north) = horizontal(up);
     let extent = assembly.free().map(|i| (assembly.blocks[i].centroid - center).norm() + assembly.blocks[i].size).fold(0.0, f64::max);
     let grid = COARSE * extent;

@@ -1,8 +1,8 @@
 //! Where an isometry takes blocks and contact points: itself, or nothing.
 
 use crate::{
-    assembly::{Assembly, Block, Wrench},
-    interface::{Interface, Interfaces},
+    assembly::{Block, Wrench},
+    interface::{Interface, Model},
     tolerance,
 };
 use nalgebra::{Matrix3, Vector3};
@@ -28,8 +28,7 @@ impl Images {
 
 /// A scene made ready to be compared with its images.
 pub struct Matcher<'a> {
-    assembly: &'a Assembly,
-    interfaces: &'a Interfaces,
+    model: &'a Model,
     loads: &'a [&'a [Wrench]],
     /// Free blocks by the cell their centre lies in.
     cells: HashMap<[i64; 3], Vec<usize>>,
@@ -43,9 +42,10 @@ pub struct Matcher<'a> {
 const GROUND: usize = usize::MAX;
 
 impl<'a> Matcher<'a> {
-    pub fn new(assembly: &'a Assembly, interfaces: &'a Interfaces, loads: &'a [&'a [Wrench]], center: Vector3<f64>) -> Self {
+    pub fn new(model: &'a Model, loads: &'a [&'a [Wrench]], center: Vector3<f64>) -> Self {
+        let Model { assembly, interfaces, .. } = model;
         let cell = assembly.free().map(|i| assembly.blocks[i].size).fold(f64::INFINITY, f64::min).max(f64::MIN_POSITIVE);
-        let mut this = Self { assembly, interfaces, loads, cells: HashMap::new(), cell, pairs: HashMap::new(), center };
+        let mut this = Self { model, loads, cells: HashMap::new(), cell, pairs: HashMap::new(), center };
         for i in assembly.free() {
             let key = (assembly.blocks[i].centroid - center).map(|v| (v / cell).floor() as i64);
             this.cells.entry(key.into()).or_default().push(i);
@@ -57,24 +57,24 @@ impl<'a> Matcher<'a> {
     }
 
     fn node(&self, block: usize) -> usize {
-        if self.assembly.blocks[block].support { GROUND } else { block }
+        if self.model.assembly.blocks[block].support { GROUND } else { block }
     }
 
     /// The images under `turn`, if the scene with its loads is its own.
     pub fn images(&self, turn: &Matrix3<f64>) -> Option<Images> {
-        let mut blocks = vec![GROUND; self.assembly.blocks.len()];
+        let mut blocks = vec![GROUND; self.model.assembly.blocks.len()];
         let mut taken = vec![false; blocks.len()];
-        for i in self.assembly.free() {
+        for i in self.model.assembly.free() {
             let j = self.block(i, turn).filter(|&j| !taken[j])?;
             taken[j] = true;
             blocks[i] = j;
         }
-        let list = &self.interfaces.list;
+        let list = &self.model.interfaces.list;
         let mut first = Vec::with_capacity(list.len());
         let mut points = Vec::with_capacity(list.iter().map(|f| f.points.len()).sum());
         for face in list {
             first.push(points.len());
-            let ends = [face.a, face.b].map(|i| if self.assembly.blocks[i].support { GROUND } else { blocks[i] });
+            let ends = [face.a, face.b].map(|i| if self.model.assembly.blocks[i].support { GROUND } else { blocks[i] });
             let candidates = self.pairs.get(&pair(ends[0], ends[1]))?;
             let found = candidates.iter().find_map(|&f| self.face(face, ends, f, turn));
             points.extend(found?);
@@ -87,7 +87,7 @@ impl<'a> Matcher<'a> {
     }
 
     fn block(&self, i: usize, turn: &Matrix3<f64>) -> Option<usize> {
-        let block = &self.assembly.blocks[i];
+        let block = &self.model.assembly.blocks[i];
         let image = self.moved(&block.centroid, turn);
         let near = tolerance::SYMMETRY * block.size;
         let range = (image - self.center).map(|v| [((v - near) / self.cell).floor() as i64, ((v + near) / self.cell).floor() as i64]);
@@ -96,7 +96,7 @@ impl<'a> Matcher<'a> {
             for y in span(1) {
                 for z in span(2) {
                     let Some(list) = self.cells.get(&[x, y, z]) else { continue };
-                    let same = |&&j: &&usize| (self.assembly.blocks[j].centroid - image).norm() <= near && self.alike(i, j, turn);
+                    let same = |&&j: &&usize| (self.model.assembly.blocks[j].centroid - image).norm() <= near && self.alike(i, j, turn);
                     if let Some(&j) = list.iter().find(same) {
                         return Some(j);
                     }
@@ -108,7 +108,7 @@ impl<'a> Matcher<'a> {
 
     /// Whether block `j` has the mass, its distribution and the loads of block `i`, turned.
     fn alike(&self, i: usize, j: usize, turn: &Matrix3<f64>) -> bool {
-        let (a, b): (&Block, &Block) = (&self.assembly.blocks[i], &self.assembly.blocks[j]);
+        let (a, b): (&Block, &Block) = (&self.model.assembly.blocks[i], &self.model.assembly.blocks[j]);
         let near = |x: f64, y: f64| (x - y).abs() <= tolerance::SYMMETRY * y.abs();
         let turned = |w: &Wrench| Wrench { force: turn * w.force, moment: turn * w.moment * turn.determinant() };
         near(a.mass, b.mass)
@@ -125,7 +125,7 @@ impl<'a> Matcher<'a> {
 
     /// The images of the points of `face` among those of interface `f`, between the blocks `ends`.
     fn face(&self, face: &Interface, ends: [usize; 2], f: usize, turn: &Matrix3<f64>) -> Option<Vec<(usize, usize, bool)>> {
-        let other = &self.interfaces.list[f];
+        let other = &self.model.interfaces.list[f];
         let swapped = ends != [self.node(other.a), self.node(other.b)];
         let n = turn * face.frame.n * if swapped { -1.0 } else { 1.0 };
         let same = |x: f64, y: f64| (x - y).abs() <= tolerance::SYMMETRY * y.abs().max(x.abs());
@@ -137,7 +137,7 @@ impl<'a> Matcher<'a> {
         {
             return None;
         }
-        let size = self.assembly.blocks[face.a].size.min(self.assembly.blocks[face.b].size);
+        let size = self.model.assembly.blocks[face.a].size.min(self.model.assembly.blocks[face.b].size);
         let mut taken = vec![false; other.points.len()];
         face.points
             .iter()

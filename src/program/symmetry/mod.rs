@@ -20,19 +20,11 @@ mod orbits;
 pub use orbits::{BearingOrbit, BlockOrbit, Orbits, Part};
 
 use super::{Bearing, Plane};
-use crate::{
-    assembly::{Assembly, Wrench},
-    interface::Interfaces,
-};
+use crate::{assembly::Wrench, interface::Model};
 
 /// The part that stands for a whole scene with its loads; `None` where there is no symmetry.
-pub(super) fn part(
-    assembly: &Assembly,
-    interfaces: &Interfaces,
-    loads: &[&[Wrench]],
-    plane: Option<Plane>,
-    bearings: &[Bearing],
-) -> Option<Part> {
-    let symmetry = find::find(assembly, interfaces, loads, plane)?;
+pub(super) fn part(model: &Model, loads: &[&[Wrench]], plane: Option<Plane>, bearings: &[Bearing]) -> Option<Part> {
+    let assembly = &model.assembly;
+    let symmetry = find::find(model, loads, plane)?;
     Part::new(&symmetry, assembly.free(), bearings, plane)
 }

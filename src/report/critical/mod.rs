@@ -7,10 +7,11 @@ pub(super) use verify::verify;
 use super::result::{Answer, Certificate, QuestionKind, ResultFile, assessment};
 use crate::{
     analysis::{
-        Critical, Law, Model,
+        Critical, Law,
         critical::{Method, Scanned},
         flip::Probe,
     },
+    interface::Model,
     scene::Scene,
     tolerance,
     verdict::{Verdict, check::Findings},

@@ -2,7 +2,8 @@
 
 use super::{CriticalResult, FlipResult, ScanPoint, Side, exhausted};
 use crate::{
-    analysis::{Control, critical::probe, prepare},
+    analysis::{Control, critical::probe},
+    interface::prepare,
     report::{
         result::{QuestionKind, ResultFile},
         verify::{SAME, Verification, answer, failure, require},

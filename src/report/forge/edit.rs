@@ -50,7 +50,7 @@ impl Draft {
     /// Puts forces into the certificate at a pointer, under a key of it.
     #[must_use]
     pub fn forces(self, honest: &Honest, pointer: &str, forces: &Forces) -> Self {
-        let saved = write_forces(&honest.model.assembly, &honest.model.interfaces, forces);
+        let saved = write_forces(&honest.model, forces);
         // Numbers that are not finite have no JSON; `null` is refused, which is right but tells nothing.
         self.set(pointer, json!(saved))
     }
@@ -64,7 +64,7 @@ impl Draft {
     /// Says of the unbalance what the check will find with these forces, so that nothing else gives the forgery away.
     #[must_use]
     pub fn unbalance(self, honest: &Honest, forces: &Forces) -> Self {
-        let upper = certificate::statics(&honest.model.assembly, &honest.model.interfaces, forces, 0.0).unbalance;
+        let upper = certificate::statics(&honest.model, forces, 0.0).unbalance;
         self.set("/answer/unbalance", json!({ "lower": 0.0, "upper": upper }))
     }
 

@@ -2,17 +2,18 @@
 
 use crate::{
     analysis::{
-        Assessment, Control, Law, LoadFactor, Model, Outcome, assess, coulomb,
-        coulomb::DryLoadFactor,
+        Assessment, Control, Law, LoadFactor, Outcome, assess,
+        coulomb::{self, DryLoadFactor},
         critical,
         critical::Range,
         flip::Probe,
-        limit, prepare,
-        thrust::{self, first_support, outwards},
+        limit, thrust,
+        thrust::{first_support, outwards},
         tilt,
         tilt::tilted,
     },
     error::InputError,
+    interface::{Model, prepare},
     report::{Leaning, ResultFile, critical::Side, result::assessment, verify::verify_model},
     scene::Scene,
     verdict::{Verdict, thrust::ThrustAt},
@@ -46,7 +47,7 @@ const CRITICAL: usize = 6;
 pub(super) fn results(scene: &Scene, turn: usize) -> Result<Vec<Honest>, InputError> {
     let control = Control { law: Law::Coulomb, seconds: SECONDS, ..Control::default() };
     let model = prepare(scene)?;
-    let standing = assess(&model.assembly, &model.interfaces, &control);
+    let standing = assess(&model, &control);
     let mut list = Vec::new();
     let mut add = |name, file: ResultFile, limit, ends| {
         if verify_model(&file, scene, &model).proved()
@@ -56,9 +57,9 @@ pub(super) fn results(scene: &Scene, turn: usize) -> Result<Vec<Honest>, InputEr
         }
     };
     add("assess", ResultFile::assessment(scene, &model, &standing), None, Vec::new());
-    let bound = limit(&model.assembly, &model.interfaces, &control);
+    let bound = limit(&model, &control);
     let dry = matches!(bound.outcome, Outcome::Found | Outcome::Unbounded)
-        .then(|| coulomb::load_factor_from(&model.assembly, &model.interfaces, &bound, Some(standing.verdict), &control));
+        .then(|| coulomb::load_factor_from(&model, &bound, Some(standing.verdict), &control));
     let mut file = ResultFile::load_factor(scene, &model, &bound);
     if let Some(dry) = &dry {
         file = file.with_dry(&model, dry);
@@ -91,11 +92,11 @@ fn leaning(model: &Model, level: Verdict, control: &Control) -> Result<Vec<Leani
     [Vector3::x(), Vector3::y()]
         .into_iter()
         .map(|direction| {
-            let tilt = tilt(&model.assembly, &model.interfaces, direction, control)?;
+            let tilt = tilt(model, direction, control)?;
             let turned = tilted(model, direction, tilt.load_factor.value)?;
             let dry = match tilt.load_factor.outcome {
                 Outcome::Found | Outcome::Unbounded => {
-                    let dry = tilt::dry(&turned.assembly, &model.interfaces, &tilt.load_factor, Some(level), control);
+                    let dry = tilt::dry(model, &tilt, Some(level), control)?;
                     Some((tilted(model, direction, dry.value)?, dry))
                 }
                 _ => None,

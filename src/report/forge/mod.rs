@@ -170,7 +170,7 @@ fn honest(seed: u64, index: usize) -> Result<Vec<Honest>, crate::error::InputErr
     let scene = match stranger {
         None => own,
         Some(stranger) => {
-            let model = crate::analysis::prepare(&own)?;
+            let model = crate::interface::prepare(&own)?;
             let masses: Vec<f64> = model.assembly.free().map(|i| model.assembly.blocks[i].mass).collect();
             beside(&own, &masses, stranger, turn.is_multiple_of(2))
         }

@@ -2,8 +2,8 @@
 
 use super::{Forgery, Honest, edit::Draft};
 use crate::{
-    assembly::{Assembly, Wrench},
-    interface::Interfaces,
+    assembly::Wrench,
+    interface::{Interfaces, Model},
     scene::Friction,
     study::random::Random,
     verdict::{Forces, Rate, Verdict, law, no_forces},
@@ -77,16 +77,17 @@ fn falls(honest: &Honest, random: &mut Random) -> Vec<Option<Forgery>> {
 
 /// That it stands, by forces in whose rounding the loads disappear, or that pull.
 fn stands(honest: &Honest, random: &mut Random) -> Vec<Option<Forgery>> {
-    let (assembly, interfaces) = (&honest.model.assembly, &honest.model.interfaces);
+    let model = &honest.model;
+    let Model { assembly, interfaces, .. } = model;
     let total: f64 = assembly.free().map(|i| assembly.dead[i].force.norm()).sum();
     let best = &honest.standing.forces;
     let mut all: Vec<(String, Forces)> = vec![("no forces".into(), no_forces(interfaces)), ("the best there are".into(), best.clone())];
     for by in SQUEEZES {
         let size = by * total;
-        all.push((format!("squeezed by {by:e}"), squeezed(assembly, interfaces, best, |n| n * size)));
-        all.push((format!("pulled by {by:e}"), squeezed(assembly, interfaces, best, |n| n * -size)));
+        all.push((format!("squeezed by {by:e}"), squeezed(model, best, |n| n * size)));
+        all.push((format!("pulled by {by:e}"), squeezed(model, best, |n| n * -size)));
         let aside = random.vector();
-        all.push((format!("sheared by {by:e}"), squeezed(assembly, interfaces, best, |n| n.cross(&aside) * size)));
+        all.push((format!("sheared by {by:e}"), squeezed(model, best, |n| n.cross(&aside) * size)));
         all.push((format!("× {by:e}"), scaled(best, by)));
         all.push((format!("pairs of {by:e} within each joint"), paired(interfaces, best, size)));
         all.push((format!("pairs of {by:e} along the normals"), tilted_pairs(interfaces, best, size)));
@@ -101,7 +102,8 @@ fn stands(honest: &Honest, random: &mut Random) -> Vec<Option<Forgery>> {
 
 /// That it stands only with a pre-stress: forces without one that leave a motion, which is claimed as well.
 fn needs_a_pre_stress(honest: &Honest, random: &mut Random) -> Vec<Option<Forgery>> {
-    let (assembly, interfaces) = (&honest.model.assembly, &honest.model.interfaces);
+    let model = &honest.model;
+    let interfaces = &model.interfaces;
     let good = &honest.standing.forces;
     let mut bases: Vec<(String, Forces)> =
         vec![("no forces".into(), no_forces(interfaces)), ("the forces themselves".into(), good.clone())];
@@ -128,7 +130,7 @@ fn needs_a_pre_stress(honest: &Honest, random: &mut Random) -> Vec<Option<Forger
     bases
         .into_iter()
         .map(|(what, base)| {
-            let rates = law::motion(assembly, interfaces, &base).rates;
+            let rates = law::motion(model, &base).rates;
             let draft = claim(honest, "conditional").forces(honest, "/certificate/forces", good);
             let draft = draft.forces(honest, "/certificate/base", &base).rates(honest, "/certificate/rates", &rates);
             draft.unbalance(honest, good).done(honest, "needs a pre-stress", what)
@@ -137,7 +139,8 @@ fn needs_a_pre_stress(honest: &Honest, random: &mut Random) -> Vec<Option<Forger
 }
 
 /// Forces with one added at every point, alternately one way and the other between the contacts of each block, as far as they come in pairs.
-fn squeezed(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, force: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Forces {
+fn squeezed(model: &Model, forces: &Forces, force: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Forces {
+    let Model { assembly, interfaces, .. } = model;
     let mut forces = forces.clone();
     for i in assembly.free() {
         let own: Vec<usize> = (0..interfaces.list.len()).filter(|&k| interfaces.list[k].a == i || interfaces.list[k].b == i).collect();

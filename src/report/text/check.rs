@@ -5,8 +5,9 @@ use super::{
     page::{Layout, Page, Role},
 };
 use crate::{
-    analysis::{Law, Model},
+    analysis::Law,
     error::Finding,
+    interface::Model,
     report::{result::ResultFile, verify::Verification},
 };
 

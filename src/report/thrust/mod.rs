@@ -10,11 +10,12 @@ use super::{
 };
 use crate::{
     analysis::{
-        Model, Outcome,
+        Outcome,
         flip::Probe,
         geometric::Geometric,
         thrust::{Thrust, ThrustEnd},
     },
+    interface::Model,
     scene::Scene,
     tolerance,
     verdict::{

@@ -2,7 +2,8 @@
 
 use super::{ThrustSection, ThrustValue, factor, table};
 use crate::{
-    analysis::{Model, Outcome, geometric::shrunk_model},
+    analysis::{Outcome, geometric::shrunk_model},
+    interface::Model,
     report::{
         result::{Certificate, QuestionKind, ResultFile},
         verify::{SAME, Verification, answer, failure, mechanism_words, require},
@@ -91,14 +92,14 @@ fn end(model: &Model, here: ThrustAt, wanted: Extreme, said: &ThrustValue, evide
         _ => false,
     };
     require(&mut f, agrees, "the answer says what the certificate claims");
-    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    let assembly = &model.assembly;
     let read = || -> Result<(Forces, Option<Forces>, Vec<Rate>), String> {
-        let base = evidence.base.as_ref().map(|b| read_forces(assembly, interfaces, b)).transpose()?;
-        Ok((read_forces(assembly, interfaces, &evidence.forces)?, base, read_rates(assembly, &evidence.rates)?))
+        let base = evidence.base.as_ref().map(|b| read_forces(model, b)).transpose()?;
+        Ok((read_forces(model, &evidence.forces)?, base, read_rates(assembly, &evidence.rates)?))
     };
     match (read(), &evidence.claim) {
         (Ok((forces, base, rates)), Some(claim)) => {
-            let claimed = check::verify(assembly, interfaces, claim, &forces, base.as_ref(), &rates);
+            let claimed = check::verify(model, claim, &forces, base.as_ref(), &rates);
             f.holds.extend(claimed.holds);
             f.fails.extend(claimed.fails);
             (f, Some(forces))

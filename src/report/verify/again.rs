@@ -6,11 +6,11 @@
 use super::{failure, require};
 use crate::{
     analysis::{
-        Control, Law, Model, Outcome,
+        Control, Law, Outcome,
         coulomb::{self, Found, StateMotion},
     },
     error::InputError,
-    program::is_forest,
+    interface::{Model, is_forest},
     report::result::{Answer, Certificate, DryResult},
     verdict::{
         check::{self, Claim, Findings},
@@ -26,10 +26,10 @@ pub(super) fn stands(f: &mut Findings, model: &Model, law: Option<Law>) {
     if law == Some(Law::Associative) {
         return f.holds.push("whether the loads produce such forces by themselves was not asked: they may need a pre-stress".into());
     }
-    if is_forest(&model.assembly, &model.interfaces) {
+    if is_forest(model) {
         f.holds.push("contacts form no closed chain: the loads fix the forces".into());
     } else if f.fails.is_empty() {
-        let motion = coulomb::motion(&model.assembly, &model.interfaces, &Control::default());
+        let motion = coulomb::motion(model, &Control::default());
         computed(
             f,
             motion == StateMotion::Rests,
@@ -86,10 +86,9 @@ fn words(found: Found) -> &'static str {
 
 /// Forces and a mechanism that obey Coulomb's law.
 fn evidence(model: &Model, claim: &Claim, dry: &DryResult) -> Result<Findings, String> {
-    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
-    let forces = read_forces(assembly, interfaces, &dry.certificate.forces)?;
-    let rates = read_rates(assembly, &dry.certificate.rates)?;
-    Ok(check::verify(assembly, interfaces, claim, &forces, None, &rates))
+    let forces = read_forces(model, &dry.certificate.forces)?;
+    let rates = read_rates(&model.assembly, &dry.certificate.rates)?;
+    Ok(check::verify(model, claim, &forces, None, &rates))
 }
 
 /// The states that are spoken of.
@@ -97,7 +96,7 @@ fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
     let control = Control::default();
     let motion = |lambda: f64| -> Result<StateMotion, InputError> {
         let model = at(lambda)?;
-        Ok(coulomb::motion(&model.assembly.at_load_factor(lambda), &model.interfaces, &control))
+        Ok(coulomb::motion(&model.at_load_factor(lambda), &control))
     };
     let order = [dry.rests_at, dry.value, dry.moves_at].into_iter().flatten().collect::<Vec<f64>>();
     let rising = order.windows(2).all(|w| w[0] <= w[1]);
@@ -121,7 +120,7 @@ fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
         }
         (Found::Unlimited, ..) => {
             let model = at(0.0)?;
-            let rests = coulomb::rests_alone(&model.assembly, &model.interfaces, &control);
+            let rests = coulomb::rests_alone(&model, &control);
             computed(f, rests, "the live load alone produces the forces that balance it: no limit".into());
         }
         (Found::Rests, Some(value), moves_at) => {

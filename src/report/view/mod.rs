@@ -18,7 +18,12 @@ use super::{
     result::{QuestionKind, ResultFile},
     text::number::short,
 };
-use crate::{analysis::Model, assembly::JointLaw, dynamics::Frame, interface::ContactKind, verdict::section::centroid};
+use crate::{
+    assembly::JointLaw,
+    dynamics::Frame,
+    interface::{ContactKind, Model},
+    verdict::section::centroid,
+};
 use nalgebra::Vector3;
 
 /// A certificate that does not fit the scene it is shown with.

@@ -9,7 +9,8 @@
 
 use super::{Body, ViewPart};
 use crate::{
-    analysis::{Model, coulomb::Found},
+    analysis::coulomb::Found,
+    interface::Model,
     report::{
         result::{Certificate, ResultFile},
         view::ViewShape,
@@ -64,7 +65,7 @@ impl ViewMotion {
         if !(reach.is_finite() && reach > 0.0) {
             return None;
         }
-        let read = mechanism::read(&model.assembly, &model.interfaces, &rates);
+        let read = mechanism::read(model, &rates);
         let marks = read.joints.iter().map(|j| Mark { joint: j.interface, kind: j.motion, at: j.at }).collect();
         Some(Self { part, name: name.into(), rates, reach, marks })
     }

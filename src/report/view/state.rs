@@ -1,7 +1,8 @@
 //! Systems of contact forces: resultants, use of the sections, lines of thrust.
 
 use crate::{
-    analysis::{Model, Outcome, coulomb::Found},
+    analysis::{Outcome, coulomb::Found},
+    interface::Model,
     report::{
         result::{Certificate, QuestionKind, ResultFile},
         text::number::short,
@@ -225,7 +226,7 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         _ => 0.0,
     };
     let state = |(part, name, saved): (ViewPart, String, &[_])| {
-        let mut forces = read_forces(&model.assembly, &model.interfaces, saved)?;
+        let mut forces = read_forces(model, saved)?;
         // Forces of a tilt are divided by its cosine, so that gravity keeps its part across the ground.
         let tangent = tangent(part);
         forces.iter_mut().flatten().for_each(|w| *w = *w * (1.0 / 1f64.hypot(tangent)));

@@ -2,8 +2,7 @@
 
 use super::*;
 use crate::{
-    assembly::{self, Assembly},
-    interface::{self, Interfaces},
+    interface::{Model, prepare},
     program::{
         LiveLoad, Statics, StaticsOptions, Unknowns,
         coulomb::{Aim, Contacts, Hold},
@@ -14,15 +13,13 @@ use crate::{
 };
 
 /// A running-bond wall of blocks 1 × 0.5 × 0.4 m on a fixed course.
-fn wall(courses: usize, length: usize, push: [f64; 3]) -> (Assembly, Interfaces) {
+fn wall(courses: usize, length: usize, push: [f64; 3]) -> Model {
     let text = format!(
         r#"{{ "format": "voussoir-scene/1", "joints": {{ "default": {{ "friction": 0.6 }} }},
         "templates": [ {{ "wall": {{ "size": [1, 0.5, 0.4], "courses": {courses}, "blocks": {length}, "first": "half", "base": "course" }} }} ],
         "loads": {{ "live": [ {{ "weight": {push:?} }} ] }} }}"#
     );
-    let assembly = assembly::resolve(&read_str("wall", text).unwrap().0).unwrap();
-    let interfaces = interface::detect(&assembly).unwrap();
-    (assembly, interfaces)
+    prepare(&read_str("wall", text).unwrap().0).unwrap()
 }
 
 fn settings(engine: Engine) -> Settings {
@@ -35,8 +32,8 @@ fn own(program: &ConicProgram, settings: &Settings) -> Solution {
 }
 
 fn pushed(courses: usize, length: usize, push: [f64; 3]) -> ConicProgram {
-    let (assembly, interfaces) = wall(courses, length, push);
-    let statics = Statics::new(&assembly, &interfaces, StaticsOptions { live: true, ..StaticsOptions::default() });
+    let model = wall(courses, length, push);
+    let statics = Statics::new(&model, StaticsOptions { live: true, ..StaticsOptions::default() });
     load_factor(&statics, 1.0, Unknowns::Forces).0
 }
 
@@ -71,9 +68,8 @@ fn both_engines_find_the_same_least_unbalance() {
             r#"{{ "format": "voussoir-scene/1", "gravity": {down}, "joints": {{ "default": {{ "friction": 0.6 }} }},
             "templates": [ {{ "wall": {{ "size": [1, 0.5, 0.4], "courses": 6, "blocks": 6, "base": "course" }} }} ] }}"#
         );
-        let assembly = assembly::resolve(&read_str("wall", text).unwrap().0).unwrap();
-        let interfaces = interface::detect(&assembly).unwrap();
-        let statics = Statics::new(&assembly, &interfaces, StaticsOptions::default());
+        let model = prepare(&read_str("wall", text).unwrap().0).unwrap();
+        let statics = Statics::new(&model, StaticsOptions::default());
         let (program, layout) = unbalance(&statics, LiveLoad::Absent, Unknowns::Forces);
         let [a, b] = [own(&program, &settings(Engine::Interior)), solve(&program, &settings(Engine::Clarabel))];
         assert_eq!(a.status, Status::Solved, "{:?}", a.trace.last());
@@ -86,8 +82,8 @@ fn both_engines_find_the_same_least_unbalance() {
 
 #[test]
 fn both_engines_find_the_same_state_again_and_again() {
-    let (assembly, interfaces) = wall(6, 6, [1.0, 0.0, 0.0]);
-    let contacts = Contacts::new(&assembly, &interfaces, StaticsOptions { keep_all: true, ..StaticsOptions::default() });
+    let model = wall(6, 6, [1.0, 0.0, 0.0]);
+    let contacts = Contacts::new(&model, StaticsOptions { keep_all: true, ..StaticsOptions::default() });
     let limit = vec![0.7; contacts.discs().count()];
     let mut program = contacts.program(Aim::State(1e-2), Hold::Limits, &limit);
     let mut session = Session::new(&program, &settings(Engine::Interior)).unwrap();
@@ -133,8 +129,8 @@ fn what_has_no_answer_ends_without_one() {
 fn other_programs_are_left_to_the_other_engine() {
     let mut program = pushed(6, 6, [1.0, 0.0, 0.0]);
     // In rates every block is tied to its neighbours by their contacts.
-    let (assembly, interfaces) = wall(6, 6, [1.0, 0.0, 0.0]);
-    let statics = Statics::new(&assembly, &interfaces, StaticsOptions { live: true, ..StaticsOptions::default() });
+    let model = wall(6, 6, [1.0, 0.0, 0.0]);
+    let statics = Statics::new(&model, StaticsOptions { live: true, ..StaticsOptions::default() });
     let (rates, _) = load_factor(&statics, 1.0, Unknowns::Rates);
     assert!(Session::new(&rates, &settings(Engine::Interior)).is_none());
     assert_eq!(solve(&rates, &settings(Engine::Interior)).status, Status::Solved);

@@ -2,12 +2,11 @@
 
 use crate::{
     analysis::{
-        Control, Law, Model, Outcome, assess, coulomb,
-        coulomb::{DryLoadFactor, Found},
+        Control, Law, Outcome, assess,
+        coulomb::{self, DryLoadFactor, Found},
         limit,
     },
-    assembly::Assembly,
-    interface::Interfaces,
+    interface::Model,
     verdict::Verdict,
 };
 
@@ -35,23 +34,22 @@ pub struct Answers {
 }
 
 /// The verdict of an assembly.
-pub fn verdict(assembly: &Assembly, interfaces: &Interfaces) -> Verdict {
-    let answer = assess(assembly, interfaces, &control());
-    if answer.proved(assembly, interfaces) { answer.verdict } else { Verdict::Undecided }
+pub fn verdict(model: &Model) -> Verdict {
+    let answer = assess(model, &control());
+    if answer.proved(model) { answer.verdict } else { Verdict::Undecided }
 }
 
 impl Answers {
     /// Asks a model.
     pub fn of(model: &Model) -> Self {
-        let (assembly, interfaces) = (&model.assembly, &model.interfaces);
-        let verdict = verdict(assembly, interfaces);
-        let bound = limit(assembly, interfaces, &control());
-        let outcome = if bound.proved(assembly, interfaces) { bound.outcome } else { Outcome::Undecided };
+        let verdict = verdict(model);
+        let bound = limit(model, &control());
+        let outcome = if bound.proved(model) { bound.outcome } else { Outcome::Undecided };
         let has_limit = matches!(bound.outcome, Outcome::Found | Outcome::Unbounded);
-        let dry = has_limit.then(|| coulomb::load_factor_from(assembly, interfaces, &bound, Some(verdict), &control()));
+        let dry = has_limit.then(|| coulomb::load_factor_from(model, &bound, Some(verdict), &control()));
         // A value that is proved and up to which the state was seen to rest, or one that was seen only.
         let is_known = |d: &DryLoadFactor| match d.found {
-            Found::NothingSlides | Found::FixedPoint => d.proved(assembly, interfaces) && coulomb::is_reached(d.rests_at, d.value),
+            Found::NothingSlides | Found::FixedPoint => d.proved(model) && coulomb::is_reached(d.rests_at, d.value),
             Found::Rests => true,
             Found::Unlimited | Found::NotAtRest | Found::Undecided => false,
         };

@@ -185,7 +185,7 @@ fn squeezed(random: &mut Random) -> Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::prepare;
+    use crate::interface::prepare;
 
     #[test]
     fn a_scene_depends_on_its_number_alone_and_can_be_asked() {

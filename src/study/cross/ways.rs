@@ -6,9 +6,10 @@ use super::{
     stranger::{STRANGERS, Stranger, beside, moved, rough},
 };
 use crate::{
-    analysis::{Agreement, Model, Outcome, agreement, assess, prepare},
+    analysis::{Agreement, Outcome, agreement, assess},
     dynamics::{self, Fate},
     error::InputError,
+    interface::{Model, prepare},
     scene::Scene,
     verdict::{Verdict, check},
 };
@@ -171,7 +172,7 @@ impl Asked<'_> {
         let there = prepare(&way.scene(scene))?;
         if nothing_slides {
             let here = prepare(&rough(scene))?;
-            let (here, there) = (verdict(&here.assembly, &here.interfaces), verdict(&there.assembly, &there.interfaces));
+            let (here, there) = (verdict(&here), verdict(&there));
             self.crossed.ways += 1;
             self.verdicts(way, here, there);
         } else {
@@ -224,7 +225,7 @@ impl Asked<'_> {
         let mut fell: Option<f64> = None;
         for factor in factors {
             let way = Variation::Loaded { factor };
-            let said = verdict(&model.assembly.at_load_factor(factor), &model.interfaces);
+            let said = verdict(&model.at_load_factor(factor));
             self.crossed.ways += 1;
             if dry.is_some_and(|dry| factor < dry * (1.0 - 1e-6)) {
                 self.verdicts(way, Verdict::Stable, said);
@@ -252,17 +253,15 @@ impl Asked<'_> {
         let has_one = |d: &f64| *d > NONE * check::natural_factor(&model.assembly) && self.own.verdict != Verdict::Unstable;
         let Some(dry) = self.own.dry.filter(|d| has_one(d) && model.interfaces.list.iter().all(|f| f.law.is_dry())) else { return };
         for (share, expected) in SIMULATED.into_iter().zip([Fate::Stands, Fate::Falls]) {
-            let assembly = model.assembly.at_load_factor(share * dry);
-            let run = dynamics::simulate(&assembly, &model.interfaces, &dynamics::SimulationSettings::default(), &mut |_| {
-                ControlFlow::Continue(())
-            });
+            let loaded = model.at_load_factor(share * dry);
+            let run = dynamics::simulate(&loaded, &dynamics::SimulationSettings::default(), &mut |_| ControlFlow::Continue(()));
             let Ok(outcome) = run else { continue };
             self.crossed.simulated[0] += 1;
             if outcome.fate == expected {
                 self.crossed.simulated[1] += 1;
             } else if outcome.fate != Fate::Undecided {
-                let answer = assess(&assembly, &model.interfaces, &control());
-                let Agreement { verdict, .. } = agreement(&assembly, &model.interfaces, &answer, &outcome);
+                let answer = assess(&loaded, &control());
+                let Agreement { verdict, .. } = agreement(&loaded, &answer, &outcome);
                 let what = format!("at {share} of the dry load factor {dry} the simulation {:?}, the verdict is {verdict:?}", outcome.fate);
                 self.crossed.apart.push(Differs { way: Variation::Loaded { factor: share * dry }, what });
             }

@@ -9,9 +9,10 @@ mod scenes;
 pub use scenes::{FAMILIES, scene};
 
 use crate::{
-    analysis::{Assessment, Control, Law, agreement, assess, prepare},
+    analysis::{Assessment, Control, Law, agreement, assess},
     dynamics::{self, Fate},
     error::{FindingCode, RowsError},
+    interface::{Model, prepare},
     keep::{Kept, Numbered, numbered},
     verdict::Verdict,
 };
@@ -162,27 +163,26 @@ fn ask(seed: u64, index: usize, soaked: &mut Soaked) {
         Ok(model) => model,
         Err(e) => return soaked.error = Some(e.to_string()),
     };
-    let (assembly, interfaces) = (&model.assembly, &model.interfaces);
+    let (model, assembly) = (&model, &model.assembly);
     let control = Control { law: Law::Coulomb, seconds: SECONDS, ..Control::default() };
-    let said = |a: &Assessment| if a.proved(assembly, interfaces) { a.verdict } else { Verdict::Undecided };
-    let answer = assess(assembly, interfaces, &control);
+    let said = |a: &Assessment| if a.proved(model) { a.verdict } else { Verdict::Undecided };
+    let answer = assess(model, &control);
     soaked.blocks = assembly.blocks.len();
     soaked.verdict = Some(said(&answer));
     soaked.unproved = Some(answer.verdict).filter(|v| *v != said(&answer));
     if index.is_multiple_of(EVERY_KEPT) {
-        soaked.kept = Some(said(&assess(assembly, interfaces, &Control { keep_all: true, ..control })));
+        soaked.kept = Some(said(&assess(model, &Control { keep_all: true, ..control })));
     }
     if index.is_multiple_of(EVERY_SIMULATED)
-        && let Ok(outcome) =
-            dynamics::simulate(assembly, interfaces, &dynamics::SimulationSettings::default(), &mut |_| ControlFlow::Continue(()))
+        && let Ok(outcome) = dynamics::simulate(model, &dynamics::SimulationSettings::default(), &mut |_| ControlFlow::Continue(()))
     {
-        let found = agreement(assembly, interfaces, &answer, &outcome);
+        let found = agreement(model, &answer, &outcome);
         (soaked.fate, soaked.agrees) = (Some(outcome.fate), found.agrees);
         if found.agrees == Some(false) {
             let apart = |code| matches!(code, FindingCode::Overlap | FindingCode::NearMiss);
             soaked.difference = Some(match () {
                 () if model.findings().any(|f| apart(f.code)) => Difference::ContactLeftOut,
-                () if is_near_a_flip(&model, answer.verdict, &control) => Difference::NearAFlip,
+                () if is_near_a_flip(model, answer.verdict, &control) => Difference::NearAFlip,
                 () => Difference::Unexplained,
             });
         }
@@ -190,7 +190,7 @@ fn ask(seed: u64, index: usize, soaked: &mut Soaked) {
 }
 
 /// Whether the verdict is another with [`NEAR`] × the weight added sideways, one way or another.
-fn is_near_a_flip(model: &crate::analysis::Model, verdict: Verdict, control: &Control) -> bool {
+fn is_near_a_flip(model: &Model, verdict: Verdict, control: &Control) -> bool {
     let assembly = &model.assembly;
     let down = assembly.gravity.normalize();
     crate::analysis::tilt::directions(assembly.gravity, 8).into_iter().any(|d| {
@@ -200,7 +200,7 @@ fn is_near_a_flip(model: &crate::analysis::Model, verdict: Verdict, control: &Co
             // Less weight as well: what falls because it is pushed may stand without.
             pushed.dead[i].force += (d - 0.1 * down) * (NEAR * weight);
         }
-        assess(&pushed, &model.interfaces, control).verdict != verdict
+        assess(&Model::new(pushed, model.interfaces.clone()), control).verdict != verdict
     })
 }
 

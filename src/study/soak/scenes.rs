@@ -225,10 +225,13 @@ mod tests {
     #[test]
     fn moving_a_scene_keeps_its_verdict() {
         // A stack turned, moved and grown as a whole is the same stack.
-        use crate::analysis::{Control, assess, prepare};
+        use crate::{
+            analysis::{Control, assess},
+            interface::prepare,
+        };
         let verdict = |scene: &Scene| {
             let m = prepare(scene).unwrap();
-            assess(&m.assembly, &m.interfaces, &Control::default()).verdict
+            assess(&m, &Control::default()).verdict
         };
         let mut compared = 0;
         for index in 0..140 {

@@ -7,7 +7,7 @@
 use super::interval::{Interval, Sum, difference, two_product};
 use crate::{
     assembly::{Assembly, Block, Wrench},
-    interface::{Interface, Interfaces},
+    interface::{Interface, Model},
     scene::Friction,
     verdict::{Forces, certificate::Strength},
 };
@@ -48,7 +48,8 @@ pub struct Balance<'a> {
 
 impl<'a> Balance<'a> {
     /// Loads alone: the dead load, `lambda` × the live load and the water in the joints.
-    pub fn loads(assembly: &'a Assembly, interfaces: &Interfaces, lambda: f64) -> Self {
+    pub fn loads(model: &'a Model, lambda: f64) -> Self {
+        let Model { assembly, interfaces, .. } = model;
         let mut totals = vec![[Sum::ZERO; 6]; assembly.blocks.len()];
         for i in assembly.free() {
             let (dead, live) = (&assembly.dead[i], &assembly.live[i]);
@@ -122,8 +123,9 @@ pub struct Unbalance {
 
 impl Unbalance {
     /// Of forces at load factor `lambda`, each block by its own `scale`, N.
-    pub fn of(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64, scale: &dyn Fn(usize) -> f64) -> Self {
-        let mut balance = Balance::loads(assembly, interfaces, lambda);
+    pub fn of(model: &Model, forces: &Forces, lambda: f64, scale: &dyn Fn(usize) -> f64) -> Self {
+        let Model { assembly, interfaces, .. } = model;
+        let mut balance = Balance::loads(model, lambda);
         let mut outside = vec![0.0_f64; assembly.blocks.len()];
         for (face, forces) in interfaces.list.iter().zip(forces) {
             let strength = Strength::of(face);

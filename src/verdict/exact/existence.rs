@@ -13,8 +13,7 @@
 
 use super::balance::{Balance, ENLARGED, Pair, REDUCED, Room, exactly, multiple, room};
 use crate::{
-    assembly::Assembly,
-    interface::{Interfaces, Members, members},
+    interface::{Interfaces, Members, Model, members},
     solve::{Cholesky, Pattern},
     tolerance,
     verdict::{
@@ -70,27 +69,29 @@ impl Column {
 
 /// Which blocks are held by forces that balance exactly, in their cones and near the given ones, at load factor `lambda`: all of a part or none,
 /// each part by itself, so that what one is too large or too poor for is no matter of another. Supports count as held.
-pub fn covered(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Vec<bool> {
-    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda);
+pub fn covered(model: &Model, forces: &Forces, lambda: f64) -> Vec<bool> {
+    let assembly = &model.assembly;
+    let (rooms, mut balance) = rooms(model, forces, lambda);
     let mut covered = vec![true; assembly.blocks.len()];
-    for part in members(assembly, interfaces) {
+    for part in members(model) {
         let held = part.has_room(&rooms)
-            && part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::NEAR_BALANCE)
-            && part.exists(assembly, interfaces, &rooms, &mut balance);
+            && part.is_near(model, forces, lambda, &balance, tolerance::NEAR_BALANCE)
+            && part.exists(model, &rooms, &mut balance);
         part.free.iter().for_each(|&i| covered[i] = held);
     }
     covered
 }
 
 /// Whether all free blocks are [`covered`].
-pub fn exists(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> bool {
-    covered(assembly, interfaces, forces, lambda).into_iter().all(|held| held)
+pub fn exists(model: &Model, forces: &Forces, lambda: f64) -> bool {
+    covered(model, forces, lambda).into_iter().all(|held| held)
 }
 
 /// The room of every force, and what all of them leave; no rooms in a contact where a force lies outside its cone, nor where a joint can crush:
 /// its corners share one bound.
-fn rooms<'a>(assembly: &'a Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> (Vec<Option<Vec<Room>>>, Balance<'a>) {
-    let mut balance = Balance::loads(assembly, interfaces, lambda);
+fn rooms<'a>(model: &'a Model, forces: &Forces, lambda: f64) -> (Vec<Option<Vec<Room>>>, Balance<'a>) {
+    let interfaces = &model.interfaces;
+    let mut balance = Balance::loads(model, lambda);
     let rooms = interfaces.list.iter().zip(forces).map(|(face, forces)| {
         let strength = Strength::of(face);
         let list: Vec<Room> = forces.iter().enumerate().map(|(k, f)| room(face, k, f, &strength)).collect();
@@ -105,14 +106,15 @@ fn rooms<'a>(assembly: &'a Assembly, interfaces: &Interfaces, forces: &Forces, l
 }
 
 /// Forces near the given ones that leave no more than rounding, in their cones; `None` where there is no room for them.
-pub fn improved(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64) -> Option<Forces> {
-    let (rooms, mut balance) = rooms(assembly, interfaces, forces, lambda);
+pub fn improved(model: &Model, forces: &Forces, lambda: f64) -> Option<Forces> {
+    let interfaces = &model.interfaces;
+    let (rooms, mut balance) = rooms(model, forces, lambda);
     let mut improved = forces.clone();
-    for part in members(assembly, interfaces) {
-        if !part.has_room(&rooms) || !part.is_near(assembly, interfaces, forces, lambda, &balance, tolerance::LOOSE_BALANCE) {
+    for part in members(model) {
+        if !part.has_room(&rooms) || !part.is_near(model, forces, lambda, &balance, tolerance::LOOSE_BALANCE) {
             return None;
         }
-        let columns = part.columns(assembly, interfaces, &rooms);
+        let columns = part.columns(model, &rooms);
         let changes = POWERS.into_iter().find_map(|power| {
             let mut stiffness = Stiffness::new(&columns, part.free.len(), power)?;
             let changes = stiffness.changes(&columns, &balance, &part)?;
@@ -138,7 +140,8 @@ impl Members {
     /// that no doubles balance any better. Forces far larger than all loads together hold nothing
     /// ([`COARSE_FORCE_CAP`](tolerance::COARSE_FORCE_CAP)): at survey coordinates, without a limit to friction, the rounding of the
     /// coordinates alone would bear what falls.
-    fn is_near(&self, assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, lambda: f64, balance: &Balance, most: f64) -> bool {
+    fn is_near(&self, model: &Model, forces: &Forces, lambda: f64, balance: &Balance, most: f64) -> bool {
+        let Model { assembly, interfaces, .. } = model;
         let own = |i: usize| certificate::load_scale(assembly, i).max(lambda.abs() * certificate::size(assembly, i, &assembly.live[i]));
         let total: f64 = self.free.iter().map(|&i| own(i)).sum();
         let cap = if total > 0.0 { tolerance::COARSE_FORCE_CAP * total } else { f64::INFINITY };
@@ -156,12 +159,13 @@ impl Members {
         self.free.iter().all(|i| balance.size(*i) <= most * own(*i).max(greatest.get(i).copied().unwrap_or(0.0)))
     }
 
-    fn exists(&self, assembly: &Assembly, interfaces: &Interfaces, rooms: &[Option<Vec<Room>>], balance: &mut Balance) -> bool {
+    fn exists(&self, model: &Model, rooms: &[Option<Vec<Room>>], balance: &mut Balance) -> bool {
+        let interfaces = &model.interfaces;
         let is_zero = |i: &usize| balance.left(*i).iter().all(|c| c.lower == 0.0 && c.upper == 0.0);
         if self.free.iter().all(is_zero) {
             return true;
         }
-        let columns = self.columns(assembly, interfaces, rooms);
+        let columns = self.columns(model, rooms);
         POWERS.into_iter().any(|power| {
             let mut balance = balance.clone();
             Stiffness::new(&columns, self.free.len(), power).is_some_and(|mut s| s.covers(&columns, interfaces, &mut balance, self))
@@ -169,7 +173,8 @@ impl Members {
     }
 
     /// The forces that have room.
-    fn columns(&self, assembly: &Assembly, interfaces: &Interfaces, rooms: &[Option<Vec<Room>>]) -> Vec<Column> {
+    fn columns(&self, model: &Model, rooms: &[Option<Vec<Room>>]) -> Vec<Column> {
+        let Model { assembly, interfaces, .. } = model;
         let row_of: HashMap<usize, usize> = self.free.iter().enumerate().map(|(row, &i)| (i, row)).collect();
         let mut list = Vec::new();
         for &k in &self.contacts {

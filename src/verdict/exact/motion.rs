@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     assembly::{Assembly, Wrench},
-    interface::{Interface, Interfaces},
+    interface::{Interface, Model},
     scene::Friction,
     verdict::{Rate, certificate::Strength},
 };
@@ -73,7 +73,8 @@ pub fn split(n: &Vector3<f64>, v: &[Interval; 3]) -> (Interval, Interval) {
 }
 
 /// What a motion proves; joints that can crush are no matter of this ([`certificate`](crate::verdict::certificate)): `None` where one closes.
-pub fn motion(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> Option<MotionProof> {
+pub fn motion(model: &Model, rates: &[Rate]) -> Option<MotionProof> {
+    let Model { assembly, interfaces, .. } = model;
     let mut m = MotionProof { dead: Interval::ZERO, live: Interval::ZERO, dissipation: 0.0, excess: 0.0, greatest: 0.0 };
     let (mut dead, mut live) = (Sum::ZERO, Sum::ZERO);
     for i in assembly.free() {

@@ -8,7 +8,8 @@ use crate::ask::{cuboid, ground, model, push, scene, sphere, template};
 use roxmltree::{Document, Node};
 use serde_json::json;
 use voussoir::{
-    analysis::{Control, Law, Model, assess, limit},
+    analysis::{Control, Law, assess, limit},
+    interface::Model,
     report::{ResultFile, view::View},
     scene::Scene,
 };
@@ -27,14 +28,14 @@ fn arch(thickness: f64, size: f64, more: serde_json::Value) -> Scene {
 
 fn assessed(scene: &Scene) -> (Model, View) {
     let m = model(scene);
-    let file = ResultFile::assessment(scene, &m, &assess(&m.assembly, &m.interfaces, &control()));
+    let file = ResultFile::assessment(scene, &m, &assess(&m, &control()));
     let view = View::new(&m, &file, Vec::new()).unwrap();
     (m, view)
 }
 
 fn limited(scene: &Scene) -> (Model, View) {
     let m = model(scene);
-    let file = ResultFile::load_factor(scene, &m, &limit(&m.assembly, &m.interfaces, &control()));
+    let file = ResultFile::load_factor(scene, &m, &limit(&m, &control()));
     let view = View::new(&m, &file, Vec::new()).unwrap();
     (m, view)
 }

@@ -6,7 +6,7 @@ use roxmltree::Node;
 use serde_json::json;
 use std::path::Path;
 use voussoir::{
-    analysis::Model,
+    interface::Model,
     report::{
         drawing::{Aspect, svg},
         view::View,

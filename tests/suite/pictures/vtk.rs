@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 use roxmltree::Document;
 use std::{ops::ControlFlow, process::Command};
 use voussoir::{
-    analysis::Model,
     dynamics::{Fidelity, SimulationSettings, simulate},
+    interface::Model,
     report::{
         ResultFile,
         view::{Film, View},
@@ -107,7 +107,7 @@ fn forces_in_the_file_balance_every_block() {
     let file = File(parsed(&text));
     is_sound(&file, &view);
     surfaces_are_closed(&file, &m, 1.0);
-    let lambda = voussoir::analysis::limit(&m.assembly, &m.interfaces, &super::control()).value;
+    let lambda = voussoir::analysis::limit(&m, &super::control()).value;
     forces_balance(&file, &view, |i| m.assembly.dead[i].force + m.assembly.live[i].force * lambda);
     let way = file.vectors("PointData", "displacement (").iter().map(|v| v.norm()).fold(0.0, f64::max);
     assert!(way > 0.01 * view.size() && way < 0.2 * view.size(), "{way}");
@@ -132,7 +132,7 @@ fn falling() -> (Model, View) {
     let mut film = Film::new(8);
     let settings =
         SimulationSettings { fidelity: Some(Fidelity::Fast), every_step: true, keep_frames: false, ..SimulationSettings::default() };
-    let outcome = simulate(&m.assembly, &m.interfaces, &settings, &mut |p| {
+    let outcome = simulate(&m, &settings, &mut |p| {
         p.moment.iter().for_each(|m| film.see(m));
         ControlFlow::Continue(())
     });

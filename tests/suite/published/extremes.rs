@@ -93,7 +93,7 @@ fn a_floating_block_falls_and_is_named() {
     let scene = scene(0.5, json!([ground(), cuboid("block", [1.0; 3], [0.0; 3]), cuboid("float", [1.0; 3], [3.0, 0.0, 2.0])]), json!({}));
     assert!(!stands(&scene));
     let model = model(&scene);
-    let answer = voussoir::analysis::assess(&model.assembly, &model.interfaces, &Default::default());
+    let answer = voussoir::analysis::assess(&model, &Default::default());
     let mechanism = answer.mechanism.expect("a mechanism");
     assert_eq!(mechanism.moving.iter().map(|&i| model.assembly.blocks[i].id.as_str()).collect::<Vec<_>>(), ["float"]);
 }

@@ -4,7 +4,7 @@ use super::{arch, block, sweep};
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, fs, path::Path};
 use voussoir::{
-    analysis::prepare,
+    interface::prepare,
     sweep::{Event, Row, RowStatus, RowsFile, RunOptions, Shard, Sweep, ask, merge, read_rows, run},
 };
 

@@ -3,7 +3,8 @@
 use super::{arch, block};
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, assess, limit, prepare},
+    analysis::{Control, assess, limit},
+    interface::prepare,
     scene::{Friction, Scene},
     sweep::{Between, Worst, WorstOf, worst},
     verdict::Verdict,
@@ -20,7 +21,7 @@ fn ask(value: &Value, ranges: &[&str], of: WorstOf) -> Result<Worst, String> {
 
 fn factor(scene: &Scene) -> f64 {
     let model = prepare(scene).unwrap();
-    limit(&model.assembly, &model.interfaces, &Control::default()).value
+    limit(&model, &Control::default()).value
 }
 
 #[test]
@@ -84,7 +85,7 @@ fn one_corner_that_falls_is_the_verdict() {
     // 7534 N m at 2400. Of the corners only the greater load with the lesser density falls.
     let verdict = |scene: &Scene| {
         let model = prepare(scene).unwrap();
-        assess(&model.assembly, &model.interfaces, &Control::default()).verdict
+        assess(&model, &Control::default()).verdict
     };
     for (load, density) in [(5.0, 2000.0), (5.0, 2400.0), (7.0, 2000.0), (7.0, 2400.0)] {
         let falls = load * 1000.0 > 0.8 * 0.4 * density * 9.81;
@@ -106,7 +107,7 @@ fn of_corners_that_all_fall_the_fastest_is_named() {
     // the ground's edge at x = 0.5, 0.5 W_inner against 0.2 W_outer and 1.4 P, which is slower.
     let w = ask(&value, &["load=0.5..6", "density:inner=2000..2400"], WorstOf::Assess).unwrap();
     let model = prepare(&w.scene).unwrap();
-    let a = assess(&model.assembly, &model.interfaces, &Control::default());
+    let a = assess(&model, &Control::default());
     let moment = 0.5 * 2000.0 * 9.81 - 0.2 * 2.4 * 2200.0 * 9.81 - 1.4 * 6000.0;
     assert!(moment < 0.0);
     assert_eq!((w.corners, a.verdict), (4, Verdict::Unstable));

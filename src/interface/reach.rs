@@ -1,10 +1,12 @@
 //! Which free blocks have a contact path to a support. The others need no program.
 
-use crate::{assembly::Assembly, interface::Interfaces, plane::Sets};
+use super::Model;
+use crate::plane::Sets;
 
 /// Whether the contacts form no closed chain, all supports taken as one: then the resultant of every contact follows from
 /// statics alone and there is nothing that could be wedged.
-pub fn is_forest(assembly: &Assembly, interfaces: &Interfaces) -> bool {
+pub fn is_forest(model: &Model) -> bool {
+    let Model { assembly, interfaces, .. } = model;
     let n = assembly.blocks.len();
     let ground = n;
     let mut sets = Sets::new(n + 1);
@@ -13,7 +15,8 @@ pub fn is_forest(assembly: &Assembly, interfaces: &Interfaces) -> bool {
 }
 
 /// Groups of free blocks connected to each other but not to any support, each group sorted, in block order.
-pub fn floating(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Vec<usize>> {
+pub fn floating(model: &Model) -> Vec<Vec<usize>> {
+    let Model { assembly, interfaces, .. } = model;
     let n = assembly.blocks.len();
     let mut sets = Sets::new(n);
     for face in &interfaces.list {

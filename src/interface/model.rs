@@ -1,10 +1,9 @@
 //! Scene → assembly → interfaces, timed.
 
+use super::{Interface, Interfaces, detect, floating};
 use crate::{
     assembly::{self, Assembly},
     error::{Finding, FindingCode, InputError},
-    interface::{self, Interface, Interfaces},
-    program,
     scene::Scene,
 };
 use serde::{Deserialize, Serialize};
@@ -40,11 +39,29 @@ pub struct Model {
 }
 
 impl Model {
-    /// An assembly with its interfaces as they were detected; adds what they say together.
-    pub fn new(assembly: Assembly, mut interfaces: Interfaces) -> Self {
-        interfaces.findings.extend(floating(&assembly, &interfaces));
-        interfaces.findings.extend(without_effect(&interfaces));
+    /// An assembly with its interfaces, as they are.
+    pub fn new(assembly: Assembly, interfaces: Interfaces) -> Self {
         Self { assembly, interfaces, timings: Timings::default() }
+    }
+
+    /// An assembly with its interfaces as they were detected; adds what they say together.
+    pub fn detected(assembly: Assembly, interfaces: Interfaces) -> Self {
+        let mut model = Self::new(assembly, interfaces);
+        let said = unheld(&model).into_iter().chain(without_effect(&model.interfaces)).collect::<Vec<_>>();
+        model.interfaces.findings.extend(said);
+        model
+    }
+
+    /// The same contacts under the dead load and this multiple of the live load, which no longer varies.
+    #[must_use]
+    pub fn at_load_factor(&self, lambda: f64) -> Self {
+        Self::new(self.assembly.at_load_factor(lambda), self.interfaces.clone())
+    }
+
+    /// The same blocks and loads, with other contacts.
+    #[must_use]
+    pub fn with_interfaces(&self, interfaces: Interfaces) -> Self {
+        Self { interfaces, ..Self::new(self.assembly.clone(), Interfaces::default()) }
     }
 
     /// Findings of every stage so far.
@@ -67,16 +84,16 @@ pub fn prepare(scene: &Scene) -> Result<Model, InputError> {
     let assembly = assembly::resolve(scene)?;
     let resolve = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let interfaces = interface::detect(&assembly)?;
-    let mut model = Model::new(assembly, interfaces);
+    let interfaces = detect(&assembly)?;
+    let mut model = Model::detected(assembly, interfaces);
     model.timings = Timings { resolve, detect: start.elapsed().as_secs_f64(), ..Timings::default() };
     Ok(model)
 }
 
 /// Says which free blocks nothing holds.
-fn floating(assembly: &Assembly, interfaces: &Interfaces) -> Option<Finding> {
+fn unheld(model: &Model) -> Option<Finding> {
     const NAMED: usize = 8;
-    let loose: Vec<&str> = program::floating(assembly, interfaces).into_iter().flatten().map(|i| assembly.blocks[i].id.as_str()).collect();
+    let loose: Vec<&str> = floating(model).into_iter().flatten().map(|i| model.assembly.blocks[i].id.as_str()).collect();
     let more = loose.len().saturating_sub(NAMED);
     let names = loose[..loose.len() - more].join(", ");
     let text = match (loose.len(), more) {
