@@ -7,15 +7,15 @@
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use std::{hint::black_box, ops::ControlFlow, process::Command, time::Duration};
 use voussoir::{
-    analysis::{self, Control, Law},
+    analysis::{self, Control, Law, Limited},
     assembly,
     dynamics::{Fidelity, SimulationSettings, simulate},
     import, interface,
     program::{self, Statics, StaticsOptions, Unknowns},
-    report::ResultFile,
+    proof::ResultFile,
     scene::{Friction, Load, Scene, read_str},
     sweep,
-    verdict::check,
+    verdict::{Evidence, check},
 };
 
 /// A wall of `courses` free courses of `length` blocks of 1 × 0.5 × 0.4 m on a fixed course, pushed along x or y.
@@ -55,9 +55,10 @@ fn stages(c: &mut Criterion) {
         let answer = analysis::limit(model, &Control::default());
         let claim = check::Claim::LoadFactor { value: answer.value, lower: answer.bracket.lower, upper: answer.bracket.upper };
         group.bench_function(BenchmarkId::new("check", blocks), |b| {
-            b.iter(|| check::verify(model, &claim, &answer.forces, None, &answer.rates))
+            b.iter(|| check::verify(model, &claim, Evidence::new(&answer.forces, &answer.rates)))
         });
-        group.bench_function(BenchmarkId::new("result file", blocks), |b| b.iter(|| ResultFile::load_factor(&scene, model, &answer)));
+        let limited = Limited { bound: answer, dry: None, dead: None };
+        group.bench_function(BenchmarkId::new("result file", blocks), |b| b.iter(|| ResultFile::load_factor(&scene, model, &limited)));
     }
     group.finish();
 }

@@ -28,7 +28,7 @@
 //! let answer = analysis::assess(&model, &Default::default());
 //! assert_eq!(answer.verdict, Verdict::Unstable);
 //! let claim = check::Claim::Unstable;
-//! assert!(check::verify(&model, &claim, &answer.forces, None, &answer.rates).proved());
+//! assert!(check::verify(&model, &claim, Evidence::new(&answer.forces, &answer.rates)).proved());
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
 //!
@@ -72,7 +72,11 @@
 pub mod error;
 pub mod tolerance;
 
+pub mod deadline;
+
 pub mod plain;
+
+pub mod number;
 
 pub mod plane;
 
@@ -103,6 +107,8 @@ pub mod verdict;
 pub mod dynamics;
 
 pub mod analysis;
+
+pub mod proof;
 
 pub mod sweep;
 

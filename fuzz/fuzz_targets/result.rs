@@ -2,7 +2,7 @@
 //! it must do so without a panic.
 #![no_main]
 use libfuzzer_sys::fuzz_target;
-use voussoir::report::{read, verify};
+use voussoir::proof::{read, verify};
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(text) = std::str::from_utf8(bytes) else { return };

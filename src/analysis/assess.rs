@@ -2,7 +2,7 @@
 //! and contacts form closed chains that could hold a pre-stress, the state under dry friction (program C).
 
 use super::{
-    Bracket, Deciding,
+    Bracket, Deciding, Proved,
     attempt::{Attempt, Control, Law, Run, Rung, even, interior, is_large, run, rung, steps},
     coulomb::{State, StateMotion, state},
     mend, parts,
@@ -12,7 +12,7 @@ use crate::{
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
     tolerance,
     verdict::{
-        Forces, Rate, Verdict, certificate,
+        Evidence, Forces, Rate, Verdict, certificate,
         check::{self, Claim},
         exact::existence,
         law,
@@ -21,7 +21,6 @@ use crate::{
     },
 };
 use nalgebra::Vector3;
-use std::time::Instant;
 
 /// The answer of [`assess`], with its evidence.
 #[derive(Clone, Debug)]
@@ -69,7 +68,12 @@ const LADDER: [Rung; 8] = [
 const LARGE: [Rung; 1] = [interior(1.0, 1e-10)];
 
 /// Decides whether an assembly stands under its dead load, part by part.
-pub fn assess(model: &Model, control: &Control) -> Assessment {
+pub fn assess(model: &Model, control: &Control) -> Proved<Assessment> {
+    Proved::new(model, unproved(model, control))
+}
+
+/// The same without the check, for searches that keep few of their verdicts.
+pub(super) fn unproved(model: &Model, control: &Control) -> Assessment {
     parts::assess::assess(model, control)
 }
 
@@ -146,7 +150,6 @@ pub(super) fn falls_freely(model: &Model) -> Option<Assessment> {
 /// Program V down the ladder until its bracket decides.
 pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) -> Assessment {
     let Model { assembly, interfaces, .. } = model;
-    let start = Instant::now();
     let options =
         StaticsOptions { keep_all: control.keep_all, live: live != LiveLoad::Absent, symmetry: true, ..StaticsOptions::default() };
     let mut base = Statics::new(model, options);
@@ -174,8 +177,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
     let forces_only = live == LiveLoad::AnyMultiple || base.in_forces_only();
     let ladder: Vec<Rung> = large.iter().copied().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates)).collect();
     for (whole, step) in steps(&ladder, base.is_part()) {
-        let left = control.seconds - start.elapsed().as_secs_f64();
-        if left <= 0.0 {
+        if control.deadline.is_over() {
             break;
         }
         if whole && base.is_part() {
@@ -184,7 +186,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         }
         let mut statics = step.scaled(&base);
         statics.sections = std::mem::take(&mut sections);
-        let settings = crate::solve::Settings { seconds: left, ..step.settings };
+        let settings = crate::solve::Settings { deadline: control.deadline, ..step.settings };
         let build = |statics: &Statics| program::unbalance(statics, live, step.unknowns);
         let Run { candidate, solution, size } = run(model, &mut statics, build, &settings);
         let (mut lower, mut upper) = (0.0, f64::INFINITY);
@@ -212,7 +214,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
             if !k.is_admissible(assembly)
                 && live == LiveLoad::Absent
                 && !s.balanced
-                && let Some(mended) = mend::admissible(model, &c.rates, (0.0, 0.5 * k.gain()), left)
+                && let Some(mended) = mend::admissible(model, &c.rates, (0.0, 0.5 * k.gain()), control.deadline)
             {
                 k = certificate::kinematics(model, &mended, &c.forces);
                 c.rates = mended;
@@ -245,7 +247,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         sections = statics.sections;
         let b = answer.unbalance;
         // Re-added without rounding, or the next attempt.
-        let holds = |f: &Forces| check::verify(model, &Claim::Stable, f, None, &[]).proved();
+        let holds = |f: &Forces| check::verify(model, &Claim::Stable, Evidence::new(f, &[])).proved();
         answer.verdict = if balanced && (live != LiveLoad::Absent || holds(&answer.forces)) {
             Verdict::Stable
         } else if b.lower > tolerance::UNBALANCE {
@@ -262,9 +264,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         let power = certificate::kinematics(model, &answer.rates, &no_forces(interfaces));
         let most = 0.5 * (power.gain() - tolerance::UNBALANCE * power.norm);
         let with_live = live == LiveLoad::AnyMultiple;
-        if let Some(mended) =
-            mend::admissible(model, &answer.rates, (0.0, most), control.seconds - start.elapsed().as_secs_f64()).filter(|_| !with_live)
-        {
+        if let Some(mended) = mend::admissible(model, &answer.rates, (0.0, most), control.deadline).filter(|_| !with_live) {
             let k = certificate::kinematics(model, &mended, &no_forces(interfaces));
             (answer.unbalance.lower, answer.rates) = (k.gain() / k.norm, mended);
         }

@@ -3,6 +3,7 @@
 //! An attempt's worth is its bracket, recomputed from the scene; the engine's word is recorded and never decides.
 
 use crate::{
+    deadline::Deadline,
     interface::Model,
     program::{ConicProgram, Positions, Statics, Unknowns},
     solve::{self, Engine, Settings, Solution, Status},
@@ -10,7 +11,6 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
 
 /// How a joint slides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -30,13 +30,13 @@ pub struct Control {
     pub law: Law,
     /// Leave nothing out, for comparison.
     pub keep_all: bool,
-    /// Stop trying after this many seconds and return the best bracket so far.
-    pub seconds: f64,
+    /// When to stop trying and return the best bracket so far.
+    pub deadline: Deadline,
 }
 
 impl Default for Control {
     fn default() -> Self {
-        Self { law: Law::Coulomb, keep_all: false, seconds: f64::INFINITY }
+        Self { law: Law::Coulomb, keep_all: false, deadline: Deadline::NEVER }
     }
 }
 
@@ -103,14 +103,20 @@ pub(super) const fn rung(unknowns: Unknowns, unit: f64, local: bool, tolerance: 
         unit,
         local,
         even: false,
-        settings: Settings { engine: Engine::Clarabel, tolerance, regularization, equilibrate, iterations: 200, seconds: f64::INFINITY },
+        settings: Settings { engine: Engine::Clarabel, tolerance, regularization, equilibrate, iterations: 200, deadline: Deadline::NEVER },
     }
 }
 
 /// A rung for large programs, in forces on the stiffness matrix of the blocks.
 pub(super) const fn interior(unit: f64, tolerance: f64) -> Rung {
-    let settings =
-        Settings { engine: Engine::Interior, tolerance, regularization: 0.0, equilibrate: false, iterations: 200, seconds: f64::INFINITY };
+    let settings = Settings {
+        engine: Engine::Interior,
+        tolerance,
+        regularization: 0.0,
+        equilibrate: false,
+        iterations: 200,
+        deadline: Deadline::NEVER,
+    };
     Rung { unknowns: Unknowns::Forces, unit, local: true, even: false, settings }
 }
 
@@ -164,20 +170,18 @@ pub(super) struct Run {
 /// `statics`.
 pub(super) fn run(model: &Model, statics: &mut Statics, build: impl Fn(&Statics) -> (ConicProgram, Positions), settings: &Settings) -> Run {
     let Model { assembly, interfaces, .. } = model;
-    let start = Instant::now();
     let mut rounds = 0;
     loop {
         rounds += 1;
         let (program, layout) = build(statics);
-        let settings = Settings { seconds: settings.seconds - start.elapsed().as_secs_f64(), ..*settings };
-        let solution = solve::solve(&program, &settings);
+        let solution = solve::solve(&program, settings);
         let size = [program.matrix.columns, program.matrix.rows];
         if !solution.is_finite() {
             return Run { candidate: None, solution, size };
         }
         let forces = statics.forces(interfaces, layout.forces(&solution.x, &solution.z));
         let broken = certificate::crushed(interfaces, &forces);
-        if !broken.is_empty() && rounds < MOST_ROUNDS && settings.seconds > 0.0 {
+        if !broken.is_empty() && rounds < MOST_ROUNDS && !settings.deadline.is_over() {
             statics.bound(&broken);
             continue;
         }

@@ -6,7 +6,7 @@
 //! it falls, between two values at which it stands, has no such trace; only a finer scan finds it.
 
 use super::{
-    Control, Law, assess,
+    Assessment, Control, Law, Proved, assess,
     flip::{Flip, Probe, refine},
 };
 use crate::{
@@ -16,7 +16,6 @@ use crate::{
     tolerance,
     verdict::Verdict,
 };
-use std::time::Instant;
 
 /// What is varied, and how the range is scanned.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,9 +47,9 @@ pub struct Change {
     /// How the value was found.
     pub method: Method,
     /// The nearest value below with its verdict and evidence.
-    pub below: Probe,
+    pub below: Probe<Proved<Assessment>>,
     /// The nearest value above.
-    pub above: Probe,
+    pub above: Probe<Proved<Assessment>>,
 }
 
 /// How a critical value was found.
@@ -78,8 +77,8 @@ pub struct Critical {
     pub scan: Vec<Scanned>,
     /// The changes of verdict, in the order of the scan.
     pub changes: Vec<Change>,
-    /// Both ends of the range with their evidence, where there are scenes.
-    pub ends: Vec<Probe>,
+    /// Without a flip: both ends of the range with their evidence, where there are scenes.
+    pub ends: Vec<Probe<Proved<Assessment>>>,
     /// What the reader should know.
     pub notes: Vec<String>,
     /// Scenes asked.
@@ -93,12 +92,10 @@ pub struct Critical {
 pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Critical, InputError> {
     scene.with_field(&range.pointer, range.from).or_else(|e| scene.with_field(&range.pointer, range.to).map_err(|_| e))?;
     let whole = is_whole(scene, range);
-    let start = Instant::now();
-    let control_now = || Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0), ..*control };
-    let statics = || Control { law: Law::Associative, ..control_now() };
+    let statics = Control { law: Law::Associative, ..*control };
     let mut probes = 0;
     let mut ask = |value: f64, control: Control| {
-        if probes > 0 && control.seconds <= 0.0 {
+        if probes > 0 && control.deadline.is_over() {
             return Err(InputError::at(JsonPath::root(), "the time is up"));
         }
         probes += 1;
@@ -113,11 +110,11 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     let count = values.len();
     let mut notes = Vec::new();
     for (k, value) in values.into_iter().enumerate() {
-        if k > 0 && control_now().seconds <= 0.0 {
+        if k > 0 && control.deadline.is_over() {
             notes.push(format!("the time was up after {k} of {count} values of the scan: the rest of the range is not known"));
             break;
         }
-        let answer = ask(value, control_now());
+        let answer = ask(value, *control);
         let outcome = answer.as_ref().map(|p| (p.assessment.verdict, p.unbalance())).map_err(Clone::clone);
         scan.push(Scanned { value, outcome });
         if let Ok(probe) = answer {
@@ -127,7 +124,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             if probe.assessment.verdict != Verdict::Undecided {
                 found.push(probe);
             } else if control.law == Law::Coulomb
-                && let Ok(probe) = ask(value, statics())
+                && let Ok(probe) = ask(value, statics)
                 && probe.assessment.verdict != Verdict::Undecided
             {
                 open.push(value);
@@ -139,8 +136,8 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
         return Err(error.clone());
     }
     if !whole {
-        for (at, window) in windows(&found, &mut |v| ask(v, statics())).into_iter().rev() {
-            let with_law = ask(window.value, control_now()).unwrap_or(window);
+        for (at, window) in windows(&found, &mut |v| ask(v, statics)).into_iter().rev() {
+            let with_law = ask(window.value, *control).unwrap_or(window);
             notes.push(format!("a window between neighbours of the scan, found by following the least unbalance: {}", with_law.value));
             found.insert(at, with_law);
         }
@@ -156,8 +153,8 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
         }
         let narrowed = match (whole, a.admissible() == b.admissible()) {
             (true, _) => Ok((0.5 * (a.value + b.value), Method::Scan, a.clone(), b.clone())),
-            (false, true) => halve(&mut |v| ask(v, control_now()), a.clone(), b.clone(), least),
-            (false, false) => by_margin(&mut ask, &statics, &control_now, a, b, least),
+            (false, true) => halve(&mut |v| ask(v, *control), a.clone(), b.clone(), least),
+            (false, false) => by_margin(&mut ask, [statics, *control], a, b, least),
         };
         let (value, method, one, other) = narrowed.unwrap_or_else(|e| {
             notes.push(format!("the range from {} to {} could not be narrowed: {e}", a.value, b.value));
@@ -170,8 +167,10 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             ));
         }
         let (below, above) = if one.value <= other.value { (one, other) } else { (other, one) };
-        changes.push(Change { value, method, below, above });
+        changes.push(Change { value, method, below: below.proved(), above: above.proved() });
     }
+    // Where there are flips, they say it all.
+    let ends = if changes.is_empty() { ends.into_iter().map(Probe::proved).collect() } else { Vec::new() };
     Ok(Critical { range: range.clone(), whole, law: control.law, scan, changes, ends, notes, probes })
 }
 
@@ -181,7 +180,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
 /// There is no scene with this value.
 pub fn probe(scene: &Scene, pointer: &str, value: f64, control: &Control) -> Result<Probe, InputError> {
     let model = prepare(&scene.with_field(pointer, value)?)?;
-    let assessment = assess(&model, control);
+    let assessment = assess::unproved(&model, control);
     Ok(Probe { value, model, assessment })
 }
 
@@ -215,17 +214,16 @@ type Narrowed = (f64, Method, Probe, Probe);
 
 fn by_margin(
     ask: &mut dyn FnMut(f64, Control) -> Result<Probe, InputError>,
-    statics: &dyn Fn() -> Control,
-    full: &dyn Fn() -> Control,
+    [statics, full]: [Control; 2],
     a: &Probe,
     b: &Probe,
     least: f64,
 ) -> Result<Narrowed, InputError> {
     let (falls, stands) = if a.admissible() == Some(false) { (a, b) } else { (b, a) };
-    let Flip { value, falls, mut stands, linear, .. } = refine(&mut |v| ask(v, statics()), falls.clone(), stands.clone(), least)?;
+    let Flip { value, falls, mut stands, linear, .. } = refine(&mut |v| ask(v, statics), falls.clone(), stands.clone(), least)?;
     // With dry friction what stands by statics may be no more than wedged.
-    if full().law == Law::Coulomb
-        && let Ok(dry) = ask(stands.value, full())
+    if full.law == Law::Coulomb
+        && let Ok(dry) = ask(stands.value, full)
         && dry.assessment.verdict != Verdict::Undecided
     {
         stands = dry;

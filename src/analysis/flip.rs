@@ -5,21 +5,28 @@
 //! and far closer than the two verdicts can be told apart, which needs `t` above the tolerance. Where `t` does not behave (a contact
 //! that is lost at once), the range is halved instead. Both ends of the answer are verdicts with their own evidence.
 
-use super::Assessment;
+use super::{Assessment, Proved};
 use crate::{error::InputError, interface::Model, tolerance, verdict::Verdict};
 
-/// A model at one value of what varies, with its verdict.
+/// A model at one value of what varies, with its verdict: as it was computed on the way of a search, or proved.
 #[derive(Clone, Debug)]
-pub struct Probe {
+pub struct Probe<A = Assessment> {
     /// The value.
     pub value: f64,
     /// The model there.
     pub model: Model,
     /// Its verdict, with the evidence.
-    pub assessment: Assessment,
+    pub assessment: A,
 }
 
 impl Probe {
+    /// The same, its verdict checked.
+    pub fn proved(self) -> Probe<Proved<Assessment>> {
+        let Self { value, model, assessment } = self;
+        let assessment = Proved::new(&model, assessment);
+        Probe { value, model, assessment }
+    }
+
     /// The least unbalance as its mechanism proves it. The attempts at a verdict end as soon as that is enough, so that the upper end may
     /// still be far away; measured near the flip, the lower one holds to 1e-11 g.
     pub fn unbalance(&self) -> f64 {
@@ -38,13 +45,13 @@ impl Probe {
 
 /// A flip between two verdicts.
 #[derive(Clone, Debug)]
-pub struct Flip {
+pub struct Flip<A = Assessment> {
     /// The value at which the verdict flips.
     pub value: f64,
     /// The last value at which it falls, on one side.
-    pub falls: Probe,
+    pub falls: Probe<A>,
     /// The last value at which it stands, on the other.
-    pub stands: Probe,
+    pub stands: Probe<A>,
     /// Whether the value is the zero of the least unbalance; the middle of the two ends otherwise.
     pub linear: bool,
     /// Scenes asked.

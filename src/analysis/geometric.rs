@@ -6,7 +6,7 @@
 //! sections that is left is a critical value like any other ([`flip`](super::flip)).
 
 use super::{
-    Control, Law, assess,
+    Assessment, Control, Law, Proved, assess,
     flip::{Flip, Probe, refine},
     parts,
 };
@@ -15,22 +15,28 @@ use crate::{
     tolerance,
     verdict::{Verdict, section::centroid},
 };
-use std::time::Instant;
 
 /// What is known of the geometric safety factor.
 #[derive(Clone, Debug)]
-pub enum Geometric {
+pub enum Geometric<A = Assessment> {
     /// Its reciprocal, with the verdicts on both sides.
-    Found(Box<Flip>),
+    Found(Box<Flip<A>>),
     /// Greater than 1 / [`tolerance::LEAST_SHRINK`]: it stands with sections shrunk that far.
-    Beyond(Box<Probe>),
+    Beyond(Box<Probe<A>>),
     /// Why there is none.
     Open(String),
 }
 
 /// The geometric safety factor of a scene that stands, the least of those of its parts.
-pub fn geometric_factor(model: &Model, control: &Control) -> Geometric {
-    parts::thrust::geometric_factor(model, control)
+pub fn geometric_factor(model: &Model, control: &Control) -> Geometric<Proved<Assessment>> {
+    match parts::thrust::geometric_factor(model, control) {
+        Geometric::Found(flip) => {
+            let Flip { value, falls, stands, linear, probes } = *flip;
+            Geometric::Found(Box::new(Flip { value, falls: falls.proved(), stands: stands.proved(), linear, probes }))
+        }
+        Geometric::Beyond(probe) => Geometric::Beyond(Box::new(probe.proved())),
+        Geometric::Open(why) => Geometric::Open(why),
+    }
 }
 
 /// The flip that one part gave, with the verdicts on the whole scene; none of them has one where there is no flip.
@@ -52,11 +58,7 @@ pub(super) fn of_part(model: &Model, control: &Control) -> Geometric {
     if !model.interfaces.are_dry() {
         return Geometric::Open("joints have strengths or water, which shrinking sections would change".into());
     }
-    let start = Instant::now();
-    let ask = |by: f64| {
-        let seconds = (control.seconds - start.elapsed().as_secs_f64()).max(0.0);
-        shrunk(model, by, &Control { law: Law::Associative, seconds, ..*control })
-    };
+    let ask = |by: f64| shrunk(model, by, &Control { law: Law::Associative, ..*control });
     let (least, whole) = (ask(tolerance::LEAST_SHRINK), ask(1.0));
     match (least.assessment.verdict, whole.assessment.verdict) {
         (Verdict::Stable, _) => Geometric::Beyond(Box::new(least)),
@@ -75,6 +77,6 @@ pub fn shrunk_model(model: &Model, by: f64) -> Model {
 
 fn shrunk(model: &Model, by: f64, control: &Control) -> Probe {
     let model = shrunk_model(model, by);
-    let assessment = assess(&model, control);
+    let assessment = assess::unproved(&model, control);
     Probe { value: by, model, assessment }
 }

@@ -6,13 +6,14 @@
 //! the number that the proof rests on.
 
 use super::{
-    Bracket, Deciding,
+    Bracket, Deciding, Proved,
     assess::least_unbalance,
     attempt::{Attempt, Control, Run, Rung, even, interior, is_large, run, rung, steps},
     mend, parts,
 };
 use crate::{
     assembly::Wrench,
+    deadline::Deadline,
     interface::Model,
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
     tolerance,
@@ -27,7 +28,6 @@ use crate::{
     },
 };
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
 
 /// What became of the load factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -95,16 +95,20 @@ const BEFORE_DIAGNOSIS: usize = 2;
 const BEFORE_DIAGNOSIS_LARGE: usize = 1;
 
 /// The greatest multiple of the live load under which admissible contact forces exist, part by part. The live load must not be zero.
-pub fn limit(model: &Model, control: &Control) -> LoadFactor {
+pub fn limit(model: &Model, control: &Control) -> Proved<LoadFactor> {
+    Proved::new(model, unproved(model, control))
+}
+
+/// The same without the check.
+pub(super) fn unproved(model: &Model, control: &Control) -> LoadFactor {
     parts::limit::limit(model, control)
 }
 
 /// The same for one part.
 pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
     let Model { assembly, interfaces, .. } = model;
-    let start = Instant::now();
     // The last of many directions may find the time already over: nothing is built for it.
-    if control.seconds <= 0.0 {
+    if control.deadline.is_over() {
         return unknown(model, Vec::new());
     }
     let options = StaticsOptions { keep_all: control.keep_all, live: true, symmetry: true, ..StaticsOptions::default() };
@@ -127,16 +131,14 @@ pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
             statics = Statics::new(model, StaticsOptions { symmetry: false, ..options });
             answer.left_out.clone_from(&statics.left_out);
         }
-        let left = control.seconds - start.elapsed().as_secs_f64();
-        if left <= 0.0 {
+        if control.deadline.is_over() {
             break;
         }
-        climb(model, &mut statics, step, scale, left, &mut answer);
+        climb(model, &mut statics, step, scale, control.deadline, &mut answer);
         let value = answer.value.abs();
         if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural) {
             let mut proved = answer.clone();
-            let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-            if prove(model, &control, &mut proved, natural, &mut inside) {
+            if prove(model, control, &mut proved, natural, &mut inside) {
                 answer = proved;
                 answer.outcome = Outcome::Found;
                 break;
@@ -168,11 +170,10 @@ fn prove(model: &Model, control: &Control, answer: &mut LoadFactor, natural: f64
     let Model { assembly, interfaces, .. } = model;
     let k = certificate::kinematics(model, &answer.rates, &answer.forces);
     let width = tolerance::LOAD_FACTOR_WIDTH * answer.value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
-    let seconds = control.seconds;
     let mut moved = motion::motion(model, &answer.rates);
     let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
     if !moved.as_ref().is_some_and(is_proof)
-        && let Some(mended) = mend::admissible(model, &answer.rates, (answer.value, 0.1 * width * k.live_power), seconds)
+        && let Some(mended) = mend::admissible(model, &answer.rates, (answer.value, 0.1 * width * k.live_power), control.deadline)
     {
         let other = motion::motion(model, &mended);
         if check::upper_bound(other, || f64::INFINITY).is_finite() {
@@ -255,10 +256,10 @@ fn unknown(model: &Model, left_out: Vec<String>) -> LoadFactor {
 }
 
 /// One attempt at program L; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
-fn climb(model: &Model, base: &mut Statics, step: Rung, scale: f64, left: f64, answer: &mut LoadFactor) {
+fn climb(model: &Model, base: &mut Statics, step: Rung, scale: f64, deadline: Deadline, answer: &mut LoadFactor) {
     let assembly = &model.assembly;
     let mut statics = step.scaled(base);
-    let settings = crate::solve::Settings { seconds: left, ..step.settings };
+    let settings = crate::solve::Settings { deadline, ..step.settings };
     let build = |statics: &Statics| program::load_factor(statics, scale, step.unknowns);
     let Run { candidate, solution, size } = run(model, &mut statics, build, &settings);
     let (mut lower, mut upper, mut engine_value) = (f64::NEG_INFINITY, f64::INFINITY, None);
@@ -334,7 +335,7 @@ pub fn attempt(model: &Model, way: &Formulation) -> LoadFactor {
     let mut answer = unknown(model, statics.left_out.clone());
     let scale = if way.options.unscaled { 1.0 } else { check::natural_factor(assembly) };
     let step = Rung { unknowns: way.unknowns, unit: way.unit, local: way.local, even: false, settings: way.settings };
-    climb(model, &mut statics, step, scale, way.settings.seconds, &mut answer);
+    climb(model, &mut statics, step, scale, way.settings.deadline, &mut answer);
     let value = answer.value.abs();
     if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly)) {
         answer.outcome = Outcome::Found;

@@ -10,6 +10,7 @@
 
 use crate::{
     assembly::Assembly,
+    deadline::Deadline,
     interface::{Interface, Interfaces, Model},
     program::{Statics, StaticsOptions, opening},
     scene::Friction,
@@ -65,8 +66,8 @@ const MOST_BLOCKS: usize = 1500;
 const INSIDE: f64 = 1e-14;
 
 /// A motion next to `rates` that closes no joint; `None` where none is found, or where it loses more than `most` of the power of the loads
-/// (the dead load's and `lambda` × the live load's), or none within `seconds`.
-pub(super) fn admissible(model: &Model, rates: &[Rate], (lambda, most): (f64, f64), seconds: f64) -> Option<Vec<Rate>> {
+/// (the dead load's and `lambda` × the live load's), or none before the `deadline`.
+pub(super) fn admissible(model: &Model, rates: &[Rate], (lambda, most): (f64, f64), deadline: Deadline) -> Option<Vec<Rate>> {
     let assembly = &model.assembly;
     let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
     if motion(model, rates).as_ref().is_some_and(is_proof) {
@@ -98,10 +99,10 @@ pub(super) fn admissible(model: &Model, rates: &[Rate], (lambda, most): (f64, f6
     if let Some(mended) = rising.iter().find_map(|(_, share, p)| mended(p, *share)) {
         return Some(mended);
     }
-    if assembly.free().count() > MOST_BLOCKS || seconds <= 0.0 {
+    if assembly.free().count() > MOST_BLOCKS || deadline.is_over() {
         return None;
     }
-    let p = sought(model, seconds)?;
+    let p = sought(model, deadline)?;
     added(&p).and_then(|(share, _)| mended(&p, share))
 }
 
@@ -189,11 +190,11 @@ fn fields(assembly: &Assembly) -> impl Iterator<Item = Vec<Rate>> + '_ {
 
 /// The least motion that opens every contact by one, of the whole scene; `None` where there is none (forces that balance without a load hold
 /// some contact closed) or where joints have strengths.
-fn sought(model: &Model, seconds: f64) -> Option<Vec<Rate>> {
+fn sought(model: &Model, deadline: Deadline) -> Option<Vec<Rate>> {
     let assembly = &model.assembly;
     let statics = Statics::new(model, StaticsOptions::default());
     let program = opening(&statics)?;
-    let settings = Settings { seconds, tolerance: 1e-6, ..Settings::default() };
+    let settings = Settings { deadline, tolerance: 1e-6, ..Settings::default() };
     let solution = solve::solve(&program, &settings);
     if !solution.is_finite() {
         return None;

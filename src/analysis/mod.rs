@@ -1,9 +1,9 @@
 //! Questions and answers: the only place where the stages are composed.
 
 pub mod agreement;
+pub mod ask;
 pub mod assess;
 mod attempt;
-mod claim;
 pub mod coulomb;
 pub mod critical;
 mod ends;
@@ -13,6 +13,8 @@ pub mod geometric;
 pub mod limit;
 mod mend;
 mod parts;
+mod proved;
+pub mod question;
 pub mod repose;
 pub mod reuse;
 pub mod stability;
@@ -20,13 +22,16 @@ pub mod thrust;
 pub mod tilt;
 
 pub use agreement::{Agreement, ForceAgreement, agreement};
+pub use ask::{Answer, Limited, Tilted, Watch, ask, ask_watched};
 pub use assess::{Assessment, assess};
 pub use attempt::{Attempt, Control, Law};
 pub use critical::{Critical, critical};
 pub use fabric::{Fabric, fabric};
 pub use limit::{LoadFactor, Outcome, limit};
 pub use parts::Deciding;
-pub use stability::{Stability, stability};
+pub use proved::{Claims, Proved};
+pub use question::{AssessOptions, CriticalOptions, LimitOptions, Question, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions};
+pub use stability::{Packing, Stability, stability};
 pub use tilt::{Tilt, tilt};
 
 use serde::{Deserialize, Serialize};

@@ -15,7 +15,7 @@ use crate::{
     dynamics::granular::{Disturbance, Flow, Rest, flow},
     error::{Finding, FindingCode, InputError},
     generate::{Deposit, deposit},
-    interface::{Model, prepare},
+    interface::prepare,
     scene::{BlockSpec, Protocol, ProtocolKind, Rotation, Scene},
     tolerance::GRAIN_GAP,
 };
@@ -81,8 +81,6 @@ pub struct Heap {
 pub struct Margin {
     /// The heap without grains that nothing holds.
     pub scene: Scene,
-    /// The model at the tilt.
-    pub model: Model,
     /// The tilt downhill that it still bears, at most.
     pub tilt: Tilt,
     /// Grains that nothing held.
@@ -262,30 +260,28 @@ fn fit(cells: &[(f64, f64)], d: f64, turned: f64) -> Option<Slope> {
 /// The heap cannot be prepared.
 pub fn margin(heap: &Heap, control: &Control) -> Result<Margin, InputError> {
     let start = Instant::now();
-    let model = prepare(&heap.scene)?;
-    let (scene, model, loose) = held(&heap.scene, model)?;
+    let (mut model, loose) = held(&prepare(&heap.scene)?);
     let contacts = start.elapsed().as_secs_f64();
     let start = Instant::now();
     let down = Vector3::x();
-    let (mut scene, mut model, mut unbalanced) = (scene, model, 0);
-    let mut tilt = tilt::tilt(&model, down, control)?;
+    let (mut gone, mut unbalanced) = (loose.clone(), 0);
+    let mut tilt = tilt(&model, down, control)?;
     for _ in 0..UNBALANCED {
-        let moving = tilt.load_factor.mechanism.iter().flat_map(|m| &m.moving);
-        let ids: Vec<String> = moving.map(|&i| model.assembly.blocks[i].id.clone()).collect();
-        if tilt.load_factor.outcome != Outcome::Impossible || ids.is_empty() {
+        let moving: Vec<usize> = tilt.load_factor.mechanism.iter().flat_map(|m| m.moving.iter().copied()).collect();
+        if tilt.load_factor.outcome != Outcome::Impossible || moving.is_empty() {
             break;
         }
-        let rest = without(&scene, &ids)?;
-        let (rest, next, more) = held(&rest, prepare(&rest)?)?;
-        if next.assembly.free().next().is_none() {
+        let (rest, more) = held(&model.without(&moving));
+        if rest.assembly.free().next().is_none() {
             break;
         }
-        unbalanced += ids.len() + more.len();
-        (scene, model) = (rest, next);
-        tilt = tilt::tilt(&model, down, control)?;
+        unbalanced += moving.len() + more.len();
+        gone.extend(model.ids(&moving).into_iter().chain(more));
+        model = rest;
+        tilt = self::tilt(&model, down, control)?;
     }
-    let model = tilt::tilted(&model, down, tilt.load_factor.value)?;
-    Ok(Margin { scene, model, tilt, loose: loose.len(), unbalanced, seconds: [contacts, start.elapsed().as_secs_f64()] })
+    let scene = without(&heap.scene, &gone)?;
+    Ok(Margin { scene, tilt, loose: loose.len(), unbalanced, seconds: [contacts, start.elapsed().as_secs_f64()] })
 }
 
 impl Margin {

@@ -5,32 +5,34 @@
 //! grains, or nothing is left. Grains without a contact path to a support are no part of the packing and are taken away before.
 //! What one round finds has the proof of any tilt ([`tilt`](super::tilt())), for the packing that it was asked about.
 
-use super::{
-    Control, Law, Outcome, Tilt,
-    coulomb::DryLoadFactor,
-    tilt,
-    tilt::{dry, tilted},
-};
+use super::{Control, Outcome, Tilt, tilt};
 use crate::{
     error::InputError,
     generate,
-    interface::{Model, floating, prepare},
+    interface::{Model, floating},
     scene::Scene,
 };
 use nalgebra::Vector3;
-use std::{collections::HashSet, time::Instant};
+use std::collections::HashSet;
+
+/// A packing tipped towards several directions.
+#[derive(Clone, Debug)]
+pub struct Packing {
+    /// The packing that was asked about: what a support holds.
+    pub model: Model,
+    /// Ids of the grains that nothing held.
+    pub loose: Vec<String>,
+    /// One answer a direction, in the order in which they were asked.
+    pub directions: Vec<Stability>,
+}
 
 /// One round: a packing and the tilt at which its first grains lose balance.
 #[derive(Clone, Debug)]
 pub struct Round {
-    /// The packing as it was asked about.
-    pub scene: Scene,
-    /// The model at the tilt of the bound.
-    pub model: Model,
-    /// The bound.
+    /// Ids of the grains that were gone before.
+    pub gone: Vec<String>,
+    /// The bound; in the round with the answer with dry friction too, where that was asked for.
     pub tilt: Tilt,
-    /// The model at the tilt with dry friction, and that, where it was asked for.
-    pub dry: Option<(Model, DryLoadFactor)>,
     /// Ids of the grains that the mechanism moves, the fastest first.
     pub moving: Vec<String>,
     /// Their share of the mass of all free grains, with the grains of earlier rounds.
@@ -49,37 +51,41 @@ pub struct Stability {
 }
 
 /// The packing without the grains that nothing holds, and their ids.
-///
-/// # Errors
-/// The scene cannot be prepared once more without them.
-pub fn held(scene: &Scene, model: Model) -> Result<(Scene, Model, Vec<String>), InputError> {
-    let loose: Vec<String> = floating(&model).into_iter().flatten().map(|i| model.assembly.blocks[i].id.clone()).collect();
-    if loose.is_empty() {
-        return Ok((scene.clone(), model, loose));
-    }
-    let rest = without(scene, &loose)?;
-    let again = prepare(&rest)?;
-    Ok((rest, again, loose))
+pub fn held(model: &Model) -> (Model, Vec<String>) {
+    let loose: Vec<usize> = floating(model).into_iter().flatten().collect();
+    (if loose.is_empty() { model.clone() } else { model.without(&loose) }, model.ids(&loose))
 }
 
-/// The tilt towards `toward` at which at least `moving_mass` (a share of the mass of the free grains) has moved. With [`Law::Coulomb`] the
-/// round with the answer has the value with dry friction as well.
+/// What is held of a packing, tipped towards each of these directions ([`stability`]).
 ///
 /// # Errors
-/// As [`turned`](super::tilt::turned), or a packing cannot be prepared once more.
-pub fn stability(scene: &Scene, model: &Model, toward: Vector3<f64>, moving_mass: f64, control: &Control) -> Result<Stability, InputError> {
+/// As [`stability`].
+pub fn packing(model: &Model, toward: &[Vector3<f64>], moving_mass: f64, control: &Control) -> Result<Packing, InputError> {
+    let (model, loose) = held(model);
+    let directions = toward.iter().map(|&d| stability(&model, &loose, d, moving_mass, control)).collect::<Result<Vec<_>, InputError>>()?;
+    Ok(Packing { model, loose, directions })
+}
+
+/// The tilt towards `toward` at which at least `moving_mass` (a share of the mass of the free grains) has moved; `loose` are the ids of the grains
+/// that are gone already. With dry friction asked for, the round with the answer has the value with dry friction as well.
+///
+/// # Errors
+/// As [`turned`](super::tilt::turned).
+pub fn stability(
+    model: &Model,
+    loose: &[String],
+    toward: Vector3<f64>,
+    moving_mass: f64,
+    control: &Control,
+) -> Result<Stability, InputError> {
     let mass = |model: &Model| model.assembly.free().map(|i| model.assembly.blocks[i].mass).sum::<f64>();
     let all = mass(model);
-    let (mut scene, mut model) = (scene.clone(), model.clone());
+    let (mut model, mut gone) = (model.clone(), loose.to_vec());
     let (mut rounds, mut level): (Vec<Round>, Vec<Model>) = Default::default();
-    let start = Instant::now();
     loop {
-        // All rounds share the time.
-        let control = &Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-        let tilt = tilt::tilt(&model, toward, control)?;
-        let turned = tilted(&model, toward, tilt.load_factor.value)?;
+        let tilt = tilt(&model, toward, control)?;
         let moving: Vec<usize> = tilt.load_factor.mechanism.iter().flat_map(|m| m.moving.iter().copied()).collect();
-        let ids: Vec<String> = moving.iter().map(|&i| model.assembly.blocks[i].id.clone()).collect();
+        let ids = model.ids(&moving);
         let left = mass(&model) - moving.iter().map(|&i| model.assembly.blocks[i].mass).sum::<f64>();
         let moved = if all > 0.0 { 1.0 - left / all } else { 0.0 };
         // What stood on the grains that fell may fall however it is tilted: it fell with them.
@@ -89,17 +95,14 @@ pub fn stability(scene: &Scene, model: &Model, toward: Vector3<f64>, moving_mass
             Outcome::Unbounded | Outcome::Undecided => false,
         };
         let reached = fell && moved >= moving_mass;
-        let rest = if fell && !reached && !ids.is_empty() && moving.len() < model.assembly.free().count() {
-            let rest = without(&scene, &ids)?;
-            let (rest, next, _) = held(&rest, prepare(&rest)?)?;
-            Some((rest, next)).filter(|(_, next)| next.assembly.free().next().is_some())
-        } else {
-            None
-        };
-        rounds.push(Round { scene, model: turned, tilt, dry: None, moving: ids, moved });
+        let rest = (fell && !reached && !ids.is_empty()).then(|| held(&model.without(&moving)));
+        rounds.push(Round { gone: gone.clone(), tilt, moving: ids.clone(), moved });
         level.push(model);
-        match rest {
-            Some(rest) => (scene, model) = rest,
+        match rest.filter(|(rest, _)| rest.assembly.free().next().is_some()) {
+            Some((rest, fallen)) => {
+                gone.extend(ids.into_iter().chain(fallen));
+                model = rest;
+            }
             None => return finish(rounds, &level, reached, control),
         }
     }
@@ -114,17 +117,18 @@ fn finish(mut rounds: Vec<Round>, level: &[Model], reached: bool, control: &Cont
         Outcome::Found | Outcome::Unbounded => r.tilt.angle_deg(),
     };
     let answer = (0..rounds.len()).max_by(|&i, &j| height(&rounds[i]).total_cmp(&height(&rounds[j])).then(j.cmp(&i))).unwrap_or(0);
-    let Round { tilt, .. } = &rounds[answer];
-    let bounded = matches!(tilt.load_factor.outcome, Outcome::Found | Outcome::Unbounded);
-    if bounded && control.law == Law::Coulomb {
-        let dry = dry(&level[answer], tilt, None, control)?;
-        rounds[answer].dry = Some((tilted(&level[answer], tilt.toward, dry.value)?, dry));
-    }
+    rounds[answer].tilt.add_dry(&level[answer], None, control)?;
     Ok(Stability { rounds, answer, reached })
 }
 
-/// The scene without some blocks and all that names them; templates become blocks.
-pub(super) fn without(scene: &Scene, ids: &[String]) -> Result<Scene, InputError> {
+/// The scene without some blocks and all that names them; templates become blocks. Nothing changes where there are none.
+///
+/// # Errors
+/// A template cannot be expanded.
+pub fn without(scene: &Scene, ids: &[String]) -> Result<Scene, InputError> {
+    if ids.is_empty() {
+        return Ok(scene.clone());
+    }
     let gone: HashSet<&str> = ids.iter().map(String::as_str).collect();
     let mut rest = scene.clone();
     for template in std::mem::take(&mut rest.templates) {

@@ -5,12 +5,13 @@
 //! ([`geometric`](super::geometric)).
 
 use super::{
-    Assessment, Bracket, Control, Outcome, assess,
+    Assessment, Bracket, Control, Outcome, Proved, assess,
     attempt::{Attempt, Candidate, Run, Rung, run, rung},
     geometric::{Geometric, geometric_factor},
     parts,
 };
 use crate::{
+    deadline::Deadline,
     error::{InputError, JsonPath},
     interface::{Interfaces, Model},
     program::{self, Statics, StaticsOptions, Unknowns},
@@ -22,11 +23,12 @@ use crate::{
     },
 };
 use nalgebra::Vector3;
-use std::time::Instant;
 
 /// One end of the range of thrusts.
 #[derive(Clone, Debug)]
 pub struct ThrustEnd {
+    /// Where, and in which direction.
+    pub at: ThrustAt,
     /// Which one.
     pub extreme: Extreme,
     /// What became of it ([`Outcome::Impossible`] does not occur).
@@ -126,14 +128,13 @@ pub fn level(gravity: &Vector3<f64>, direction: Vector3<f64>, size: f64) -> Opti
 }
 
 /// The least or greatest thrust of a scene that stands, summed over its parts; `standing` are forces that balance its loads.
-pub fn thrust(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> ThrustEnd {
-    parts::thrust::thrust(model, at, extreme, standing, control)
+pub fn thrust(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> Proved<ThrustEnd> {
+    Proved::new(model, parts::thrust::thrust(model, at, extreme, standing, control))
 }
 
 /// The same for one part.
 pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> ThrustEnd {
     let assembly = &model.assembly;
-    let start = Instant::now();
     let direction = Vector3::from(at.direction);
     let build = |keep_all: bool| Statics::new(model, StaticsOptions { keep_all, ..StaticsOptions::default() });
     let mut base = build(control.keep_all);
@@ -142,6 +143,7 @@ pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: 
         base = build(true);
     }
     let mut answer = ThrustEnd {
+        at: *at,
         extreme,
         outcome: Outcome::Undecided,
         value: f64::NAN,
@@ -155,16 +157,15 @@ pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: 
     let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
     let problem = Problem { model, at, extreme, total };
     for (index, step) in LADDER.into_iter().enumerate() {
-        let left = || control.seconds - start.elapsed().as_secs_f64();
-        if left() <= 0.0 {
+        if control.deadline.is_over() {
             break;
         }
-        problem.climb(&mut base, step, left(), &mut answer);
+        problem.climb(&mut base, step, control.deadline, &mut answer);
         if answer.bracket.width() <= width(assembly, answer.value) {
             answer.outcome = Outcome::Found;
             break;
         }
-        if index == 0 && problem.has_no_end(step, left(), control.keep_all || base.plane.is_none(), &mut answer) {
+        if index == 0 && problem.has_no_end(step, control.deadline, control.keep_all || base.plane.is_none(), &mut answer) {
             answer.outcome = Outcome::Unbounded;
             answer.value = f64::NAN;
             let end = -extreme.sigma() * f64::INFINITY;
@@ -209,12 +210,12 @@ impl Problem<'_> {
     }
 
     /// One attempt; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
-    fn climb(&self, base: &mut Statics, step: Rung, left: f64, answer: &mut ThrustEnd) {
+    fn climb(&self, base: &mut Statics, step: Rung, deadline: Deadline, answer: &mut ThrustEnd) {
         let model = self.model;
         let interfaces = &model.interfaces;
         let mut statics = base.clone();
         statics.rescale(step.unit, step.local);
-        let settings = crate::solve::Settings { seconds: left, ..step.settings };
+        let settings = crate::solve::Settings { deadline, ..step.settings };
         let build = |statics: &Statics| program::thrust(statics, &self.objective(statics, interfaces));
         let mut done = run(model, &mut statics, build, &settings);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
@@ -252,12 +253,12 @@ impl Problem<'_> {
     }
 
     /// Whether forces that need no load push without end; then they are the forces of `answer`.
-    fn has_no_end(&self, step: Rung, left: f64, keep_all: bool, answer: &mut ThrustEnd) -> bool {
+    fn has_no_end(&self, step: Rung, deadline: Deadline, keep_all: bool, answer: &mut ThrustEnd) -> bool {
         let (unlimited, kept) = self.model.interfaces.unlimited();
         let unlimited = self.model.with_interfaces(unlimited);
         let mut statics = Statics::new(&unlimited, StaticsOptions { keep_all, ..StaticsOptions::default() });
         statics.rescale(step.unit, step.local);
-        let settings = crate::solve::Settings { seconds: left, ..step.settings };
+        let settings = crate::solve::Settings { deadline, ..step.settings };
         let build = |statics: &Statics| program::endless_thrust(statics, &self.objective(statics, &unlimited.interfaces));
         let mut done = run(&unlimited, &mut statics, build, &settings);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
@@ -277,30 +278,45 @@ impl Problem<'_> {
     }
 }
 
+/// Which ends of the range are asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// The least thrust alone.
+    Least,
+    /// The greatest alone.
+    Greatest,
+    /// Both, and the geometric safety factor.
+    Both,
+}
+
 /// The answer about the thrust on a support.
 #[derive(Clone, Debug)]
 pub struct Thrust {
     /// Where, and in which direction.
     pub at: ThrustAt,
     /// Whether it stands at all.
-    pub standing: Assessment,
-    /// Least and greatest; `None` where no forces balance the loads, or that is undecided.
-    pub ends: Option<[ThrustEnd; 2]>,
+    pub standing: Proved<Assessment>,
+    /// Least and greatest, as far as they were asked; none where no forces balance the loads, or that is undecided.
+    pub ends: Vec<Proved<ThrustEnd>>,
     /// The geometric safety factor.
-    pub factor: Option<Geometric>,
+    pub factor: Option<Geometric<Proved<Assessment>>>,
 }
 
 /// Least and greatest thrust and the geometric safety factor.
-pub fn answer(model: &Model, at: ThrustAt, control: &Control) -> Thrust {
-    let start = Instant::now();
+pub fn answer(model: &Model, at: ThrustAt, ends: Ends, control: &Control) -> Thrust {
     // Each question may take as much of the time as those after it.
-    let share = |of: f64| Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0) / of, ..*control };
+    let share = |of: f64| Control { deadline: control.deadline.share(1.0 / of), ..*control };
     let standing = assess(model, control);
     // Whether the loads produce them or not: there are forces.
     let balanced = certificate::statics(model, &standing.forces, 0.0).balanced;
     let admissible = balanced && standing.verdict != Verdict::Unstable;
     let end = |extreme, of| thrust(model, &at, extreme, &standing.forces, &share(of));
-    let ends = admissible.then(|| [end(Extreme::Least, 3.0), end(Extreme::Greatest, 2.0)]);
-    let factor = admissible.then(|| geometric_factor(model, &share(1.0)));
-    Thrust { at, standing, ends, factor }
+    let found = match ends {
+        _ if !admissible => Vec::new(),
+        Ends::Least => vec![end(Extreme::Least, 1.0)],
+        Ends::Greatest => vec![end(Extreme::Greatest, 1.0)],
+        Ends::Both => vec![end(Extreme::Least, 3.0), end(Extreme::Greatest, 2.0)],
+    };
+    let factor = (admissible && ends == Ends::Both).then(|| geometric_factor(model, &share(1.0)));
+    Thrust { at, standing, ends: found, factor }
 }

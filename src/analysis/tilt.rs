@@ -9,7 +9,7 @@
 //! upwards. Joints that hold more than the weight at any tilt have none; that comes out undecided.
 
 use super::{
-    Bracket, Control, LoadFactor, Outcome,
+    Bracket, Control, Law, LoadFactor, Outcome, Proved,
     coulomb::{self, DryLoadFactor, Found},
     limit,
     parts::{self, limit::Ways},
@@ -22,15 +22,27 @@ use crate::{
     verdict::Verdict,
 };
 use nalgebra::Vector3;
-use std::time::Instant;
 
 /// The tilt limit in one direction.
 #[derive(Clone, Debug)]
 pub struct Tilt {
     /// Unit direction perpendicular to gravity towards which the ground tips.
     pub toward: Vector3<f64>,
+    /// The model at the tilt of the bound ([`tilted`]).
+    pub model: Model,
+    /// `tan θ` as a load factor, with joints that open as they slide: a bound.
+    pub load_factor: Proved<LoadFactor>,
+    /// With dry friction, where that was asked and the bound has a value or no limit.
+    pub dry: Option<DryTilt>,
+}
+
+/// The tilt limit with dry friction.
+#[derive(Clone, Debug)]
+pub struct DryTilt {
+    /// The model at that tilt.
+    pub model: Model,
     /// `tan θ` as a load factor.
-    pub load_factor: LoadFactor,
+    pub load_factor: Proved<DryLoadFactor>,
 }
 
 impl Tilt {
@@ -110,11 +122,13 @@ fn stressed(interfaces: &Interfaces, load_factor: f64) -> Interfaces {
 pub fn tilt(model: &Model, toward: Vector3<f64>, control: &Control) -> Result<Tilt, InputError> {
     let (assembly, toward) = turned(&model.assembly, toward)?;
     let turned = Model::new(assembly, model.interfaces.clone());
-    if turned.interfaces.are_dry() {
-        return Ok(Tilt { toward, load_factor: limit(&turned, control) });
-    }
-    let load_factor = parts::limit::limit_by(&turned, control, &Ways { solve: tilted_part, at: tilted_under });
-    Ok(Tilt { toward, load_factor })
+    let load_factor = if turned.interfaces.are_dry() {
+        limit::unproved(&turned, control)
+    } else {
+        parts::limit::limit_by(&turned, control, &Ways { solve: tilted_part, at: tilted_under })
+    };
+    let model = tilted(model, toward, load_factor.value)?;
+    Ok(Tilt { toward, load_factor: Proved::new(&model, load_factor), model, dry: None })
 }
 
 /// A part with its joints as they are at a tilt.
@@ -150,18 +164,40 @@ fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
     }
 }
 
-/// The same with dry friction; `tilt` is the answer of [`tilt`](tilt()) for the same model, `level` the verdict at level, where it is known.
+/// The same, and with dry friction where that is asked for and the bound leaves something to ask; `level` is the verdict at level, where it is
+/// known.
 ///
 /// # Errors
 /// As [`turned`].
-pub fn dry(model: &Model, tilt: &Tilt, level: Option<Verdict>, control: &Control) -> Result<DryLoadFactor, InputError> {
+pub fn with_dry(model: &Model, toward: Vector3<f64>, level: Option<Verdict>, control: &Control) -> Result<Tilt, InputError> {
+    let mut tilt = tilt(model, toward, control)?;
+    tilt.add_dry(model, level, control)?;
+    Ok(tilt)
+}
+
+impl Tilt {
+    /// Adds dry friction to the answer of [`tilt`](tilt()) for the same model, as [`with_dry`] does.
+    ///
+    /// # Errors
+    /// As [`turned`].
+    pub fn add_dry(&mut self, model: &Model, level: Option<Verdict>, control: &Control) -> Result<(), InputError> {
+        if control.law == Law::Coulomb && matches!(self.load_factor.outcome, Outcome::Found | Outcome::Unbounded) {
+            let load_factor = dry(model, self, level, control)?;
+            let model = tilted(model, self.toward, load_factor.value)?;
+            self.dry = Some(DryTilt { load_factor: Proved::new(&model, load_factor), model });
+        }
+        Ok(())
+    }
+}
+
+/// The load factor with dry friction.
+fn dry(model: &Model, tilt: &Tilt, level: Option<Verdict>, control: &Control) -> Result<DryLoadFactor, InputError> {
     let (associative, turned) = (&tilt.load_factor, tilted(model, tilt.toward, 0.0)?);
     if turned.interfaces.are_dry() {
-        return Ok(coulomb::load_factor_from(&turned, associative, level, control));
+        return Ok(parts::dry::unproved(&turned, associative, level, control));
     }
     let dead = level.filter(|&v| v == Verdict::Stable);
     let solve = |part: &Part, bound: Option<&LoadFactor>, control: &Control| {
-        let start = Instant::now();
         let own = |tilt: f64| limit::of_part(&tilted_joints(part, tilt), control);
         let computed;
         let bound = match bound {
@@ -177,9 +213,8 @@ pub fn dry(model: &Model, tilt: &Tilt, level: Option<Verdict>, control: &Control
             Ok(answer) => answer,
             Err(answer) => DryLoadFactor { found: Found::Undecided, value: f64::NAN, ..answer },
         };
-        let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
         let at = |lambda: f64| tilted_under(part, part.units.load_factor(lambda));
-        coulomb::up_to_rest(answer, &part.model.assembly, bound, dead, &at, &control)
+        coulomb::up_to_rest(answer, &part.model.assembly, bound, dead, &at, control)
     };
     Ok(parts::dry::load_factor_by(&turned, associative, control, (solve, tilted_under)))
 }

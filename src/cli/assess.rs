@@ -3,37 +3,32 @@
 use super::{
     args::Assess,
     exit::Exit,
-    question::{Question, Seen, verdict},
-    simulate::{threads, watch},
+    question::{Seen, Session, verdict},
+    simulate::Camera,
     terminal::Terminal,
 };
 use std::ops::ControlFlow;
 use voussoir::{
-    analysis::assess,
-    dynamics::SimulationSettings,
-    report::{ResultFile, view::Film},
-    sweep::WorstOf,
+    analysis::{Answer, AssessOptions, Question, SimulateOptions},
+    proof::ResultFile,
     verdict::Verdict,
 };
 
 pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let mut question = Question::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
-    question.worst(&args.worst, WorstOf::Assess)?;
-    let assessment = assess(&question.model, &question.control());
-    let doubt = matches!(assessment.verdict, Verdict::Conditional | Verdict::Undecided);
-    let mut film = question.report().map(|_| Film::fitting(question.model.assembly.blocks.len()));
-    let settings = SimulationSettings { threads: threads(args.threads), every_step: film.is_some(), ..SimulationSettings::default() };
-    let outcome = match args.simulate || (args.thorough && doubt) {
-        true => Some(watch(&question, &settings, &mut film, &mut |_| ControlFlow::Continue(()))?),
-        false => None,
-    };
-    let frames = film.map(Film::frames).unwrap_or_default();
-    let file = question.answer_seen(terminal, &args.options(), Seen::Scene(frames), || {
-        let file = ResultFile::assessment(&question.scene, &question.model, &assessment);
-        match &outcome {
-            Some(outcome) => file.with_simulation(&question.model, Some(&assessment), outcome),
-            None => file,
+    let mut session = Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
+    let question = Question::Assess(AssessOptions { law: session.law() });
+    session.worst(&args.worst, &question)?;
+    let answer = session.ask(&question)?;
+    let mut file = session.result(&answer)?;
+    let doubt = matches!(file.answer.verdict, Some(Verdict::Conditional | Verdict::Undecided));
+    let mut film = Vec::new();
+    if let (true, Answer::Assess(assessment)) = (args.simulate || (args.thorough && doubt), &answer) {
+        let mut camera = Camera::new(&session, args.threads, session.report().is_some());
+        if let Answer::Simulate(outcome) = camera.ask(&session, SimulateOptions::default(), &mut |_| ControlFlow::Continue(()))? {
+            file = file.with_simulation(&session.model, Some(assessment), &outcome);
         }
-    })?;
+        film = camera.frames();
+    }
+    let file: ResultFile = session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
     Ok(verdict(file.answer.verdict))
 }

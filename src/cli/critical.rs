@@ -1,15 +1,17 @@
 //! `voussoir critical`
 
 use super::{
-    args::Critical,
+    args::Critical as Arguments,
     exit::Exit,
-    question::{Question, Seen},
+    question::{Seen, Session},
     terminal::Terminal,
 };
 use anyhow::bail;
 use voussoir::{
-    analysis::{Critical as Answer, critical, critical::Range},
-    report::{ResultFile, critical::exhausted, text::number::fixed, view::View},
+    analysis::{Answer, Critical, CriticalOptions, Question},
+    number::fixed,
+    proof::{ResultFile, critical::exhausted},
+    report::view::View,
     verdict::Verdict,
 };
 
@@ -19,7 +21,7 @@ const DIGITS: usize = 10;
 /// More steps than this are taken for a slip.
 const MOST: f64 = 100_000.0;
 
-pub fn run(args: &Critical, terminal: &Terminal) -> anyhow::Result<Exit> {
+pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let [from, to] = args.between[..] else { bail!("--between takes two numbers: --between 0.05 0.2") };
     if from == to {
         bail!("--between {from} {to}: the range is empty");
@@ -29,14 +31,14 @@ pub fn run(args: &Critical, terminal: &Terminal) -> anyhow::Result<Exit> {
         Some(count) if count <= MOST => Some(count as usize),
         Some(count) => bail!("--step {}: the range would take {count:.0} steps, at most {MOST} are taken", args.step.unwrap_or(0.0)),
     };
-    let question = Question::open(&args.common)?;
-    let range = Range { pointer: args.vary.clone(), from, to, scan };
-    let answer = critical(&question.scene, &range, &question.control()).map_err(|e| question.refuse(e))?;
-    let seen = match question.report() {
-        Some(_) => picture(&question, &answer)?,
-        None => Seen::Scene(Vec::new()),
+    let session = Session::open(&args.common)?;
+    let question = Question::Critical(CriticalOptions { law: session.law(), vary: args.vary.clone(), between: [from, to], scan });
+    let answer = session.ask(&question)?;
+    let seen = match (&answer, session.report()) {
+        (Answer::Critical(flips), Some(_)) => picture(&session, flips)?,
+        _ => Seen::Scene(Vec::new()),
     };
-    let file = question.answer_seen(terminal, &args.options(), seen, || ResultFile::critical(&question.scene, &question.model, &answer))?;
+    let file = session.answer_seen(terminal, &args.options(), seen, session.result(&answer)?)?;
     Ok(match &file.answer.critical {
         Some(values) if !values.is_empty() => Exit::Yes,
         _ if exhausted(&file).is_some() => Exit::No,
@@ -45,10 +47,10 @@ pub fn run(args: &Critical, terminal: &Terminal) -> anyhow::Result<Exit> {
 }
 
 /// The scene beside the first flip, on the side where it falls; as it is where there is none.
-fn picture(question: &Question, answer: &Answer) -> anyhow::Result<Seen> {
+fn picture(session: &Session, answer: &Critical) -> anyhow::Result<Seen> {
     let sides = answer.changes.iter().flat_map(|c| [&c.below, &c.above]);
     let Some(side) = sides.into_iter().find(|s| s.assessment.verdict == Verdict::Unstable) else { return Ok(Seen::Scene(Vec::new())) };
-    let file = ResultFile::assessment(&question.scene, &side.model, &side.assessment);
+    let file = ResultFile::assessment(&session.scene, &side.model, &side.assessment);
     let mut view = View::new(&side.model, &file, Vec::new())?;
     view.caption = format!("falls with {} at {}", answer.range.pointer, fixed(side.value, DIGITS));
     Ok(Seen::Other(Box::new(view)))

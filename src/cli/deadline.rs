@@ -3,6 +3,7 @@
 
 use super::{exit::Exit, terminal};
 use std::time::Duration;
+use voussoir::deadline::Deadline;
 
 /// Time that is left for packing and checking an answer, as a share of the limit and in seconds. More: the limit means little.
 /// Less: answers with a bracket are cut off while they are written down.
@@ -13,14 +14,10 @@ const SECONDS: f64 = 2.0;
 /// a tenth beyond the limit. More: answers come late. Less: answers that would still have been found are not.
 const PROGRAMS: f64 = 0.9;
 
-/// Seconds for programs within a limit.
-pub fn for_programs(limit: f64) -> f64 {
-    PROGRAMS * limit
-}
-
-/// Ends the program once the limit is well past.
-pub fn watch(limit: f64) {
-    let Ok(patience) = Duration::try_from_secs_f64(limit * (1.0 + SHARE) + SECONDS) else { return };
+/// When programs have to end within a limit that begins now; ends the process once the limit is well past.
+pub fn watch(limit: f64) -> Deadline {
+    let deadline = Deadline::within(PROGRAMS * limit);
+    let Ok(patience) = Duration::try_from_secs_f64(limit * (1.0 + SHARE) + SECONDS) else { return deadline };
     // Without a thread there is no last resort, and the stages still watch the time.
     let _ = std::thread::Builder::new().name("time limit".into()).spawn(move || {
         std::thread::sleep(patience);
@@ -29,4 +26,5 @@ pub fn watch(limit: f64) {
         ));
         std::process::exit(Exit::Undecided as i32);
     });
+    deadline
 }

@@ -8,14 +8,15 @@ use serde_json::{Value, json};
 use std::{borrow::Cow, ops::ControlFlow};
 use voussoir::{
     analysis::{
-        Control, Law,
+        Control, Law, Tilted,
         repose::{Heap, Margin, heap, margin},
     },
+    deadline::Deadline,
     interface::prepare,
     keep::Kept,
     parallel,
+    proof::ResultFile,
     report::{
-        Leaning, ResultFile,
         heaps::{HeapResult, MarginResult, ReposeFile},
         json, page,
         text::{self, TextOptions},
@@ -59,10 +60,9 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
         bar.set_style(style);
     }
-    let start = std::time::Instant::now();
-    let left = || args.common.time_limit.map_or(f64::INFINITY, |limit| limit - start.elapsed().as_secs_f64());
+    let deadline = args.common.time_limit.map_or(Deadline::NEVER, Deadline::within);
     // Cut off by the time limit, a heap or a margin is an answer, but not the one that the next run wants.
-    let in_time = || left() > 0.0;
+    let in_time = || !deadline.is_over();
     let one = |(k, output): &(usize, Option<Sink>)| -> anyhow::Result<(HeapResult, Option<View>)> {
         let seed = args.seed + *k as u64;
         let old = there().find_map(|p| match p {
@@ -98,7 +98,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
             Piece::Margin { seed: of, keep_all, margin } if (*of, *keep_all) == (seed, args.common.keep_all) => Some(margin),
             _ => None,
         });
-        let control = Control { law: Law::Associative, keep_all: args.common.keep_all, seconds: left().max(0.0) };
+        let control = Control { law: Law::Associative, keep_all: args.common.keep_all, deadline };
         let fresh = (wanted && (shown || known.is_none())).then(|| margin(&heap, &control)).transpose()?;
         let result = known.filter(|_| wanted).cloned().or_else(|| fresh.as_ref().map(MarginResult::from));
         if let (Some(margin), None, true) = (&result, known, in_time()) {
@@ -146,8 +146,8 @@ fn kept(path: &std::path::Path, protocol: &Protocol, args: &Repose) -> anyhow::R
 
 /// A heap at rest, with the forces and the mechanism of its static margin where that was asked for.
 fn picture(heap: &Heap, margin: Option<&Margin>) -> anyhow::Result<View> {
-    let leaning = margin.map(|m| (m, Leaning { model: m.model.clone(), tilt: m.tilt.clone(), dry: None }));
-    let proof = leaning.and_then(|(m, leaning)| Some((m, ResultFile::tilt(&m.scene, &[leaning])?)));
+    let tilted = margin.map(|m| (m, Tilted { directions: vec![m.tilt.clone()], level: None }));
+    let proof = tilted.and_then(|(m, tilted)| Some((m, ResultFile::tilt(&m.scene, &m.tilt.model, &tilted)?)));
     let mut view = match proof {
         Some((margin, file)) => View::new(&prepare(&margin.scene)?, &file, Vec::new())?,
         None => View::bare(&prepare(&heap.scene)?),

@@ -1,4 +1,4 @@
-//! What the three questions have in common: the scene in, the answer out.
+//! What all questions have in common: the scene in, the answer out.
 
 use super::{
     args::{self, Common},
@@ -10,23 +10,23 @@ use super::{
     report, terminal,
     terminal::Terminal,
 };
-use anyhow::bail;
+use anyhow::{Context, bail};
 use std::{path::Path, time::Instant};
 use voussoir::{
-    analysis::{Control, Outcome, coulomb::Found},
+    analysis::{Answer, Control, Law, Outcome, Question, Watch, ask, ask_watched, coulomb::Found},
+    deadline::Deadline,
     dynamics::Frame,
     error::{Finding, FindingCode, InputError},
     interface::{Model, prepare},
     limits,
+    proof::{ResultFile, result::QuestionKind as Kind, work::Work},
     report::{
-        ResultFile, json, page,
-        result::QuestionKind as Kind,
+        json, page,
         text::{self, Asked, TextOptions},
         view::View,
-        work::Work,
     },
     scene::{Scene, Source},
-    sweep::{self, Between, WorstOf},
+    sweep::{self, Between},
     verdict::Verdict,
 };
 
@@ -39,7 +39,7 @@ pub enum Seen {
 }
 
 /// A scene that is ready for a question.
-pub struct Question<'a> {
+pub struct Session<'a> {
     common: &'a Common,
     save: Option<Sink>,
     report: Option<Sink>,
@@ -47,8 +47,8 @@ pub struct Question<'a> {
     source: Source,
     /// What was said when its meshes were read.
     said: Vec<Finding>,
-    /// When the work began, for the time limit.
-    begin: Instant,
+    /// When programs have to end.
+    deadline: Deadline,
     /// When the scene was ready.
     start: Instant,
     /// The scene as read.
@@ -57,7 +57,7 @@ pub struct Question<'a> {
     pub model: Model,
 }
 
-impl<'a> Question<'a> {
+impl<'a> Session<'a> {
     /// Opens what will be written, then reads and prepares the scene.
     pub fn open(common: &'a Common) -> anyhow::Result<Self> {
         Self::open_changed(common, |scene| scene)
@@ -80,7 +80,7 @@ impl<'a> Question<'a> {
         let save = common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let report = common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let start = Instant::now();
-        common.time_limit.into_iter().for_each(deadline::watch);
+        let deadline = common.time_limit.map_or(Deadline::NEVER, deadline::watch);
         let (scene, source, said) = input::scene(&common.scene, common.outside.reach())?;
         let scene = change(scene);
         let read = start.elapsed().as_secs_f64();
@@ -89,7 +89,7 @@ impl<'a> Question<'a> {
         model.assembly.findings.splice(0..0, said.iter().cloned());
         let points = model.contact_points() as u64;
         limits::afford(&format!("solving for {points} contact points"), points, limits::PER_CONTACT_POINT)?;
-        Ok(Self { common, save, report, pictures: Pictures::default(), source, said, begin: start, start: Instant::now(), scene, model })
+        Ok(Self { common, save, report, pictures: Pictures::default(), source, said, deadline, start: Instant::now(), scene, model })
     }
 
     /// Opens the pictures that are wanted, and the tables.
@@ -122,7 +122,7 @@ impl<'a> Question<'a> {
     }
 
     /// Puts the worst case within ranges in the place of the scene, and the argument among what the user should know.
-    pub fn worst(&mut self, ranges: &[Between], asked: WorstOf) -> anyhow::Result<()> {
+    pub fn worst(&mut self, ranges: &[Between], asked: &Question) -> anyhow::Result<()> {
         if ranges.is_empty() {
             return Ok(());
         }
@@ -137,13 +137,29 @@ impl<'a> Question<'a> {
         Ok(())
     }
 
-    /// What is left of the time for programs.
+    /// How programs are run; how joints slide is for the question to say.
     pub fn control(&self) -> Control {
-        let seconds = self
-            .common
-            .time_limit
-            .map_or(f64::INFINITY, |limit| (deadline::for_programs(limit) - self.begin.elapsed().as_secs_f64()).max(0.0));
-        Control { law: self.common.law.into(), keep_all: self.common.keep_all, seconds }
+        Control { keep_all: self.common.keep_all, deadline: self.deadline, ..Control::default() }
+    }
+
+    /// The law of sliding that was asked for.
+    pub fn law(&self) -> Law {
+        self.common.law.into()
+    }
+
+    /// Asks a question about the scene.
+    pub fn ask(&self, question: &Question) -> anyhow::Result<Answer> {
+        ask(question, &self.scene, &self.model, &self.control()).map_err(|e| self.refuse(e))
+    }
+
+    /// The same, of what happens in time: with somebody who watches.
+    pub fn ask_watched(&self, question: &Question, watch: Watch) -> anyhow::Result<Answer> {
+        ask_watched(question, &self.scene, &self.model, &self.control(), watch).map_err(|e| self.refuse(e))
+    }
+
+    /// The result that proves an answer.
+    pub fn result(&self, answer: &Answer) -> anyhow::Result<ResultFile> {
+        ResultFile::of(&self.scene, &self.model, answer).context("there is no answer to write down")
     }
 
     /// Whether a bar may show how far long work is.
@@ -181,26 +197,15 @@ impl<'a> Question<'a> {
         report::is_printed(&self.common.report) || self.pictures.printed()
     }
 
-    /// Packs the answer with its proof, saves it and prints it. `pack` verifies, which is timed apart from solving; `own` are the
-    /// verb's own options that change the answer.
-    pub fn answer(&self, terminal: &Terminal, own: &[String], pack: impl FnOnce() -> ResultFile) -> anyhow::Result<ResultFile> {
-        self.answer_seen(terminal, own, Seen::Scene(Vec::new()), pack)
+    /// Saves a result and prints it; `own` are the verb's own options that change the answer.
+    pub fn answer(&self, terminal: &Terminal, own: &[String], file: ResultFile) -> anyhow::Result<ResultFile> {
+        self.answer_seen(terminal, own, Seen::Scene(Vec::new()), file)
     }
 
     /// As [`Self::answer`], and says what a page shows.
-    pub fn answer_seen(
-        &self,
-        terminal: &Terminal,
-        own: &[String],
-        seen: Seen,
-        pack: impl FnOnce() -> ResultFile,
-    ) -> anyhow::Result<ResultFile> {
-        let solve = self.start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        let mut file = pack();
+    pub fn answer_seen(&self, terminal: &Terminal, own: &[String], seen: Seen, mut file: ResultFile) -> anyhow::Result<ResultFile> {
         file.timings.simulate = file.simulation.iter().flat_map(|s| &s.runs).map(|r| r.seconds).sum();
-        file.timings.solve = (solve - file.timings.simulate).max(0.0);
-        file.timings.check = start.elapsed().as_secs_f64();
+        file.timings.solve = (self.start.elapsed().as_secs_f64() - file.timings.simulate - file.timings.check).max(0.0);
         file.work = Some(Work::of(&file, &self.model));
         let scene = match self.common.scene.to_string_lossy() {
             name if name == "-" => "SCENE".into(),

@@ -5,19 +5,18 @@ use super::{
     exit::Exit,
     heap,
     output::Sink,
-    question::Question,
+    question::Session,
     report,
     terminal::{self, Terminal},
 };
 use anyhow::{Context, bail};
 use std::time::Instant;
 use voussoir::{
-    analysis::{assess, fabric, stability, stability::held, tilt::directions},
+    analysis::{Answer, AssessOptions, Question, ReposeOptions, ask, fabric},
     interface::{Model, prepare},
+    proof::packing::PackingFile,
     report::{
-        contacts, json,
-        packing::PackingFile,
-        page,
+        contacts, json, page,
         text::{self, TextOptions},
         view::View,
     },
@@ -35,47 +34,45 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         bail!("--keep, --heaps and --skip-margin are about heaps in time: they go with --question repose");
     }
     let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
-    let question = Question::open(&args.common)?.drawn(&args.pictures, None)?;
-    let name = question.scene.name.clone();
+    let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
+    let question = Question::Repose(ReposeOptions {
+        law: session.law(),
+        require: None,
+        toward: args.toward.clone(),
+        all: args.toward.is_empty().then_some(args.all),
+        moving_mass: args.moving_mass,
+    });
     let start = Instant::now();
-    let (scene, model, loose) = held(&question.scene, question.model.clone()).map_err(|e| question.refuse(e))?;
-    let toward = if args.toward.is_empty() {
-        directions(model.assembly.gravity, args.all.into())
-    } else {
-        args.toward.iter().map(|&d| d.into()).collect()
-    };
-    let mut answers = Vec::with_capacity(toward.len());
-    for direction in toward {
-        answers.push(stability(&scene, &model, direction, args.moving_mass, &question.control()).map_err(|e| question.refuse(e))?);
-    }
-    let forces = (args.fabric || csv.is_some()).then(|| level(&question, &model));
+    let Answer::Repose(packing) = session.ask(&question)? else { bail!("there is no packing") };
+    let model = &packing.model;
+    let forces = (args.fabric || csv.is_some()).then(|| level(&session, model)).transpose()?;
     let solve = start.elapsed().as_secs_f64();
-    let start = Instant::now();
-    let (mut file, proof) = PackingFile::new(&model, &name, args.moving_mass, answers, &loose).context("no direction to tilt towards")?;
-    (file.timings.solve, file.timings.check) = (solve, start.elapsed().as_secs_f64());
+    let packed = PackingFile::new(&session.scene, args.moving_mass, &packing).map_err(|e| session.refuse(e))?;
+    let (mut file, proof) = packed.context("no direction to tilt towards")?;
+    (file.timings.check, file.timings.solve) = (proof.timings.check, (solve - proof.timings.check).max(0.0));
     if let Some(forces) = &forces {
-        file.fabric = args.fabric.then(|| fabric(&model, forces));
+        file.fabric = args.fabric.then(|| fabric(model, forces));
         if let Some(csv) = &csv {
-            let table = contacts::csv(&model, forces).map_err(|e| anyhow::anyhow!("{e}"))?;
+            let table = contacts::csv(model, forces).map_err(|e| anyhow::anyhow!("{e}"))?;
             csv.write(&table)?;
         }
     }
-    if let Some(save) = question.save() {
+    if let Some(save) = session.save() {
         save.write(&json::pretty(&proof)?)?;
     }
     let layout = terminal.layout(&args.common.scene);
     // The round with the answer: grains that fell earlier are gone.
-    let seen = question.is_filmed().then(|| anyhow::Ok(View::new(&prepare(&proof.scene.input)?, &proof, Vec::new())?)).transpose()?;
+    let seen = session.is_filmed().then(|| anyhow::Ok(View::new(&prepare(&proof.scene.input)?, &proof, Vec::new())?)).transpose()?;
     if let Some(view) = &seen {
-        question.pictures().write(view)?;
+        session.pictures().write(view)?;
     }
-    if let (Some(report), Some(view)) = (question.report(), &seen) {
+    if let (Some(report), Some(view)) = (session.report(), &seen) {
         let words = text::packing(&file, report::EVERYTHING, report::layout(layout));
         report.write(&page::page(&words, view, page::attempts(&proof).as_slice())?)?;
     }
     if args.common.json {
         terminal::print(&json::pretty(&file)?)?;
-    } else if !question.is_printed() {
+    } else if !session.is_printed() {
         let options = TextOptions { verbose: args.common.verbose, brief: args.common.quiet };
         terminal.page(&text::packing(&file, options, layout))?;
     }
@@ -84,7 +81,10 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
 }
 
 /// Forces of the packing when level: those that the weights produce where dry friction was computed, else some that balance.
-fn level(question: &Question, model: &Model) -> Forces {
-    let answer = assess(model, &question.control());
-    answer.state.map_or(answer.forces, |s| s.forces)
+fn level(session: &Session, model: &Model) -> anyhow::Result<Forces> {
+    let question = Question::Assess(AssessOptions { law: session.law() });
+    match ask(&question, &session.scene, model, &session.control()).map_err(|e| session.refuse(e))? {
+        Answer::Assess(a) => Ok(a.state.as_ref().map_or_else(|| a.forces.clone(), |s| s.forces.clone())),
+        _ => bail!("there is no verdict"),
+    }
 }

@@ -5,16 +5,17 @@ use super::{
     claim,
     exit::Exit,
     progress::Bar,
-    question::{Question, Seen},
+    question::{Seen, Session},
     report,
     terminal::Terminal,
 };
-use anyhow::Context;
+use anyhow::{Context, bail};
 use std::{fs::File, ops::ControlFlow};
 use voussoir::{
-    analysis::assess,
-    dynamics::{Fate, Fidelity, SimulationOutcome, SimulationSettings, simulate},
-    report::{ResultFile, trajectory::TrajectoryWriter, view::Film},
+    analysis::{Answer, AssessOptions, Question, SimulateOptions, Watch},
+    dynamics::{Fate, Frame, Progress},
+    proof::ResultFile,
+    report::{trajectory::TrajectoryWriter, view::Film},
 };
 
 /// So many times are written to --csv where nothing is said.
@@ -22,7 +23,7 @@ const FRAMES: usize = 100;
 
 pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     let written = |path: &std::path::PathBuf| format!("{}: cannot be written", path.display());
-    let question = Question::open_changed(&args.common, |mut scene| {
+    let session = Session::open_changed(&args.common, |mut scene| {
         if args.load_factor != 0.0 {
             scene.loads = scene.loads.fixed(args.load_factor);
         }
@@ -37,32 +38,32 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         None => None,
     };
-    let settings = SimulationSettings {
-        fidelity: if args.fast { Some(Fidelity::Fast) } else { args.fine.then_some(Fidelity::Fine) },
-        seconds: args.seconds,
-        threads: threads(args.threads),
-        frames: args.frames.map_or(if csv.is_some() { FRAMES } else { 0 }, |n| n as usize),
-        keep_frames: args.frames.is_some(),
-        to_the_end: args.to_the_end,
-        every_step: question.is_filmed(),
-    };
-    let mut film = question.is_filmed().then(|| Film::fitting(question.model.assembly.blocks.len()));
+    let frames = args.frames.map_or(if csv.is_some() { FRAMES } else { 0 }, |n| n as usize);
+    let mut camera = Camera { frames, keep_frames: args.frames.is_some(), ..Camera::new(&session, args.threads, session.is_filmed()) };
     let mut failure = None;
-    let mut keep = |frame: &_| match csv.as_mut().map(|csv| csv.frame(&question.model.assembly, frame)) {
+    let mut keep = |frame: &Frame| match csv.as_mut().map(|csv| csv.frame(&session.model.assembly, frame)) {
         Some(Err(e)) => {
             failure = Some(e);
             ControlFlow::Break(())
         }
         _ => ControlFlow::Continue(()),
     };
-    let outcome = watch(&question, &settings, &mut film, &mut keep)?;
+    let options =
+        SimulateOptions { fast: args.fast, fine: args.fine, seconds: args.seconds, to_the_end: args.to_the_end, load_factor: None };
+    let answer = camera.ask(&session, options, &mut keep)?;
+    let film = camera.frames();
     if let (Some(e), Some(path)) = (failure, &args.csv) {
         return Err(e).with_context(|| written(path));
     }
-    let model = &question.model;
-    let verdict = (!args.skip_verdict).then(|| assess(model, &question.control()));
-    let pack = || ResultFile::simulated(&question.scene, model, verdict.as_ref(), &outcome);
-    let file = question.answer_seen(terminal, &args.options(), Seen::Scene(film.map(Film::frames).unwrap_or_default()), pack)?;
+    let Answer::Simulate(outcome) = &answer else { bail!("there is no simulation") };
+    let law = session.law();
+    let verdict = (!args.skip_verdict).then(|| session.ask(&Question::Assess(AssessOptions { law }))).transpose()?;
+    let assessment = match &verdict {
+        Some(Answer::Assess(a)) => Some(a),
+        _ => None,
+    };
+    let file = ResultFile::simulated(&session.scene, &session.model, assessment, outcome);
+    let file = session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
     Ok(match file.answer.fate {
         Some(Fate::Stands) => Exit::Yes,
         Some(Fate::Falls) => Exit::No,
@@ -70,30 +71,49 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     })
 }
 
-/// Simulates under a bar until the time limit, and films it where there is a film.
-pub fn watch(
-    question: &Question,
-    settings: &SimulationSettings,
-    film: &mut Option<Film>,
-    keep: &mut dyn FnMut(&voussoir::dynamics::Frame) -> ControlFlow<()>,
-) -> anyhow::Result<SimulationOutcome> {
-    let bar = Bar::new(question.shows_progress());
-    let model = &question.model;
-    simulate(model, settings, &mut |progress| {
-        bar.show(progress);
-        report::see(film, progress.moment);
-        if question.control().seconds <= 0.0 {
-            return ControlFlow::Break(());
-        }
-        progress.frame.map_or(ControlFlow::Continue(()), &mut *keep)
-    })
-    .map_err(|e| question.refuse(e))
+/// Who watches a simulation: under a bar, until the time limit, with a film where there is to be one.
+pub struct Camera {
+    threads: usize,
+    frames: usize,
+    keep_frames: bool,
+    film: Option<Film>,
 }
 
-/// The number of threads asked for.
-pub fn threads(asked: u16) -> usize {
-    match asked {
-        0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
-        n => n.into(),
+impl Camera {
+    pub fn new(session: &Session, threads: u16, is_filmed: bool) -> Self {
+        let threads = match threads {
+            0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
+            n => n.into(),
+        };
+        let film = is_filmed.then(|| Film::fitting(session.model.assembly.blocks.len()));
+        Self { threads, frames: 0, keep_frames: true, film }
+    }
+
+    /// Runs the scene in time; `keep` hears of every frame.
+    pub fn ask(
+        &mut self,
+        session: &Session,
+        options: SimulateOptions,
+        keep: &mut dyn FnMut(&Frame) -> ControlFlow<()>,
+    ) -> anyhow::Result<Answer> {
+        let bar = Bar::new(session.shows_progress());
+        let deadline = session.control().deadline;
+        let Self { threads, frames, keep_frames, film } = self;
+        let every_step = film.is_some();
+        let mut each = |progress: &Progress| {
+            bar.show(progress);
+            report::see(film, progress.moment);
+            if deadline.is_over() {
+                return ControlFlow::Break(());
+            }
+            progress.frame.map_or(ControlFlow::Continue(()), &mut *keep)
+        };
+        let watch = Watch { threads: *threads, frames: *frames, keep_frames: *keep_frames, every_step, each: &mut each };
+        session.ask_watched(&Question::Simulate(options), watch)
+    }
+
+    /// What was filmed.
+    pub fn frames(&mut self) -> Vec<Frame> {
+        self.film.take().map(Film::frames).unwrap_or_default()
     }
 }

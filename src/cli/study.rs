@@ -5,8 +5,8 @@ use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{io::IsTerminal, path::Path};
 use voussoir::{
-    report::{forge, json, page, study as report},
-    study::{self, Known, cross, extreme, soak},
+    report::{json, page, study as report},
+    study::{self, Known, cross, extreme, forge, soak},
 };
 
 pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {

@@ -2,7 +2,7 @@
 
 use super::{Interface, Interfaces, detect, floating};
 use crate::{
-    assembly::{self, Assembly},
+    assembly::{self, AppliedForce, Assembly},
     error::{Finding, FindingCode, InputError},
     scene::Scene,
 };
@@ -62,6 +62,44 @@ impl Model {
     #[must_use]
     pub fn with_interfaces(&self, interfaces: Interfaces) -> Self {
         Self { interfaces, ..Self::new(self.assembly.clone(), Interfaces::default()) }
+    }
+
+    /// The model without these blocks (as indices, in any order), their contacts and their loads. What is left touches as it did.
+    #[must_use]
+    pub fn without(&self, gone: &[usize]) -> Self {
+        let blocks = self.assembly.blocks.len();
+        let mut stays = vec![true; blocks];
+        gone.iter().for_each(|&i| stays[i] = false);
+        let mut place = vec![usize::MAX; blocks];
+        let kept: Vec<usize> = (0..blocks).filter(|&i| stays[i]).collect();
+        kept.iter().enumerate().for_each(|(own, &i)| place[i] = own);
+        let of = &self.assembly;
+        let forces = |list: &[AppliedForce]| -> Vec<AppliedForce> {
+            list.iter().filter(|a| stays[a.block]).map(|a| AppliedForce { block: place[a.block], ..*a }).collect()
+        };
+        let assembly = Assembly {
+            blocks: kept.iter().map(|&i| of.blocks[i].clone()).collect(),
+            dead: kept.iter().map(|&i| of.dead[i]).collect(),
+            live: kept.iter().map(|&i| of.live[i]).collect(),
+            dead_forces: forces(&of.dead_forces),
+            live_forces: forces(&of.live_forces),
+            // Contacts given by hand are among the interfaces already.
+            given: Vec::new(),
+            name: of.name.clone(),
+            gravity: of.gravity,
+            joints: of.joints.clone(),
+            contact: of.contact.clone(),
+            findings: of.findings.clone(),
+        };
+        let list = self.interfaces.list.iter().filter(|f| stays[f.a] && stays[f.b]);
+        let list = list.map(|f| Interface { a: place[f.a], b: place[f.b], ..f.clone() }).collect();
+        let interfaces = Interfaces { list, support_pairs: self.interfaces.support_pairs, findings: self.interfaces.findings.clone() };
+        Self { timings: self.timings, ..Self::new(assembly, interfaces) }
+    }
+
+    /// Ids of these blocks.
+    pub fn ids(&self, blocks: &[usize]) -> Vec<String> {
+        blocks.iter().map(|&i| self.assembly.blocks[i].id.clone()).collect()
     }
 
     /// Findings of every stage so far.

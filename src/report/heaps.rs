@@ -1,6 +1,6 @@
 //! The angle of repose of one protocol over several seeds as a result.
 
-use super::result::Versions;
+use crate::proof::result::Versions;
 use crate::{
     analysis::{
         Outcome,
@@ -108,7 +108,7 @@ impl From<&Margin> for MarginResult {
         Self {
             status: m.tilt.load_factor.outcome,
             margin_deg: m.degrees(),
-            contacts: m.model.interfaces.list.len(),
+            contacts: m.tilt.model.interfaces.list.len(),
             loose: m.loose,
             unbalanced: m.unbalanced,
             seconds: m.seconds,

@@ -8,7 +8,7 @@ use clarabel::{
 };
 use std::{
     sync::{Arc, Mutex},
-    time::{Duration, Instant},
+    time::Instant,
 };
 
 /// A program that is solved several times with changed right-hand sides and objectives by clarabel's interior-point method (Goulart & Chen
@@ -23,8 +23,8 @@ impl Session {
     /// Sets a program up; `None` where the engine refuses it.
     pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
         let start = Arc::new(Mutex::new(Instant::now()));
-        // The engine counts the seconds of each solve anew.
-        let end = Duration::try_from_secs_f64(settings.seconds.max(0.0)).ok().and_then(|d| Instant::now().checked_add(d));
+        // The engine counts the seconds of each solve anew: the callback knows better.
+        let deadline = settings.deadline;
         let m = &program.matrix;
         let matrix = CscMatrix::new_from_triplets(m.rows, m.columns, m.i.clone(), m.j.clone(), m.v.clone());
         let n = m.columns;
@@ -44,7 +44,6 @@ impl Session {
             .collect();
         let engine_settings = DefaultSettings {
             max_iter: settings.iterations,
-            time_limit: settings.seconds,
             tol_gap_abs: settings.tolerance,
             tol_gap_rel: settings.tolerance,
             tol_feas: settings.tolerance,
@@ -71,7 +70,7 @@ impl Session {
                     dual_residual: info.res_dual,
                 });
             }
-            end.is_some_and(|end| Instant::now() >= end)
+            deadline.is_over()
         });
         Some(Self { engine, trace, start })
     }

@@ -1,5 +1,6 @@
 //! Solving a conic program. What comes back is a candidate, never an answer: every verdict is recomputed from the scene.
 
+use crate::deadline::Deadline;
 mod cholesky;
 mod clarabel;
 mod engine;
@@ -54,7 +55,7 @@ impl Engine {
 }
 
 /// Settings of one solve.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// What solves it.
     pub engine: Engine,
@@ -66,8 +67,8 @@ pub struct Settings {
     pub equilibrate: bool,
     /// Most iterations.
     pub iterations: u32,
-    /// Most seconds, of all solves of a session together.
-    pub seconds: f64,
+    /// When all solves of a session together have to end.
+    pub deadline: Deadline,
 }
 
 impl Default for Settings {
@@ -78,7 +79,7 @@ impl Default for Settings {
             regularization: 1e-8,
             equilibrate: true,
             iterations: 200,
-            seconds: f64::INFINITY,
+            deadline: Deadline::NEVER,
         }
     }
 }

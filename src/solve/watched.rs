@@ -3,16 +3,18 @@
 //! what was found before is not lost then.
 
 use super::{Settings, Solution, Status, engine};
-use crate::program::ConicProgram;
+use crate::{deadline::Deadline, program::ConicProgram};
 use std::{
-    sync::mpsc::{Receiver, Sender, channel},
-    time::{Duration, Instant},
+    sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel},
+    time::Duration,
 };
 
 /// How long the engine is waited for once its time is past, as a share of it and in seconds. Longer: the limit means less.
 /// Shorter: the last iterate, which may close a bracket, is lost with the iteration under way.
 const PATIENCE: f64 = 0.05;
 const LEAST_PATIENCE: f64 = 0.1;
+/// Seconds between two looks whether it was cancelled.
+const STEP: f64 = 0.05;
 
 /// Solves a program.
 pub fn solve(program: &ConicProgram, settings: &Settings) -> Solution {
@@ -25,7 +27,7 @@ pub struct Session(Way);
 
 enum Way {
     Here(Box<engine::Session>),
-    Apart { orders: Sender<Order>, answers: Receiver<Answer>, end: Option<Instant> },
+    Apart { orders: Sender<Order>, answers: Receiver<Answer>, deadline: Deadline },
 }
 
 enum Order {
@@ -43,15 +45,15 @@ impl Session {
     /// Sets a program up; `None` where the engine refuses it.
     pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
         let own = || engine::Session::new(program, settings).map(|s| Self(Way::Here(Box::new(s))));
-        let seconds = settings.seconds.max(0.0);
-        let Ok(patience) = Duration::try_from_secs_f64(seconds * (1.0 + PATIENCE) + LEAST_PATIENCE) else { return own() };
-        let end = Instant::now().checked_add(patience);
+        if !settings.deadline.is_set() {
+            return own();
+        }
         let (orders, inbox) = channel();
         let (outbox, answers) = channel();
-        let (program, settings) = (program.clone(), *settings);
-        let spawned = std::thread::Builder::new().name("engine".into()).spawn(move || serve(&program, &settings, &inbox, &outbox));
+        let (program, own) = (program.clone(), *settings);
+        let spawned = std::thread::Builder::new().name("engine".into()).spawn(move || serve(&program, &own, &inbox, &outbox));
         match spawned {
-            Ok(_) => Some(Self(Way::Apart { orders, answers, end })),
+            Ok(_) => Some(Self(Way::Apart { orders, answers, deadline: settings.deadline })),
             Err(_) => None,
         }
     }
@@ -85,11 +87,20 @@ impl Session {
 
     /// The answer to an order; `None` where it does not come in time.
     fn ask(&self, order: Order) -> Option<Answer> {
-        let Way::Apart { orders, answers, end } = &self.0 else { return None };
+        let Way::Apart { orders, answers, deadline } = &self.0 else { return None };
         orders.send(order).ok()?;
-        match end {
-            Some(end) => answers.recv_timeout(end.saturating_duration_since(Instant::now())).ok(),
-            None => answers.recv().ok(),
+        // In steps, to hear that it is cancelled.
+        loop {
+            let left = deadline.left();
+            let patience = left * PATIENCE + LEAST_PATIENCE;
+            match answers.recv_timeout(Duration::from_secs_f64((left + patience).min(STEP))) {
+                Ok(answer) => return Some(answer),
+                Err(RecvTimeoutError::Disconnected) => return None,
+                Err(RecvTimeoutError::Timeout) if deadline.is_over() => {
+                    return answers.recv_timeout(Duration::from_secs_f64(LEAST_PATIENCE)).ok();
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+            }
         }
     }
 }
@@ -119,6 +130,7 @@ fn none(status: Status) -> Solution {
 mod tests {
     use super::*;
     use crate::program::{Cone, ConicProgram, Sparse};
+    use std::time::Instant;
 
     /// min x subject to x ≥ 2.
     fn program() -> ConicProgram {
@@ -129,20 +141,20 @@ mod tests {
 
     #[test]
     fn answers_are_the_same_with_and_without_a_time_limit() {
-        let solve = |seconds: f64| {
-            let mut session = Session::new(&program(), &Settings { seconds, ..Settings::default() }).unwrap();
+        let solve = |deadline: Deadline| {
+            let mut session = Session::new(&program(), &Settings { deadline, ..Settings::default() }).unwrap();
             let first = session.solve();
             assert!(session.set_rhs(&[-3.0]) && session.set_objective(&[2.0]));
             [first, session.solve()].map(|s| (s.status, s.x[0].to_bits(), s.z[0].to_bits()))
         };
-        assert_eq!(solve(f64::INFINITY), solve(1e3));
-        assert!((f64::from_bits(solve(1e3)[1].1) - 3.0).abs() < 1e-8);
+        assert_eq!(solve(Deadline::NEVER), solve(Deadline::within(1e3)));
+        assert!((f64::from_bits(solve(Deadline::within(1e3))[1].1) - 3.0).abs() < 1e-8);
     }
 
     #[test]
     fn without_time_there_is_no_answer_and_no_waiting() {
         let start = Instant::now();
-        let mut session = Session::new(&program(), &Settings { seconds: -1.0, ..Settings::default() }).unwrap();
+        let mut session = Session::new(&program(), &Settings { deadline: Deadline::within(0.0), ..Settings::default() }).unwrap();
         for _ in 0..3 {
             let solution = session.solve();
             assert!(matches!(solution.status, Status::Limit | Status::Solved), "{:?}", solution.status);

@@ -13,10 +13,7 @@ use crate::{
     parallel,
     scene::{Scene, read_str},
     tolerance,
-    verdict::{
-        Verdict,
-        check::{Claim, verify},
-    },
+    verdict::Verdict,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -291,15 +288,12 @@ impl Cell {
             CellQuestion::Stands(stands, _) => {
                 let a = assess(model, &control);
                 found.iterations = a.attempts.iter().map(|a| a.iterations).sum();
-                let claim = match a.verdict {
-                    Verdict::Stable => Some((true, Claim::Stable)),
-                    Verdict::Unstable => Some((false, Claim::Unstable)),
-                    Verdict::Conditional | Verdict::Undecided => None,
-                };
-                found.grade = match claim {
-                    None => CellGrade::Undecided,
-                    Some((said, claim)) if said == stands && verify(model, &claim, &a.forces, None, &a.rates).proved() => CellGrade::Right,
-                    Some(_) => CellGrade::Wrong,
+                found.grade = match a.verdict {
+                    Verdict::Stable if stands => CellGrade::Right,
+                    Verdict::Unstable if !stands => CellGrade::Right,
+                    // What was said and could not be proved is wrong, even where it is true.
+                    Verdict::Conditional | Verdict::Undecided if a.refused().is_none() => CellGrade::Undecided,
+                    _ => CellGrade::Wrong,
                 };
             }
             CellQuestion::LoadFactor(truth) => {
@@ -312,13 +306,11 @@ impl Cell {
                     found.bracket = Some(l.bracket.width() / truth).filter(|b| b.is_finite());
                     found.inside = Some(inside);
                 }
-                let claim = Claim::LoadFactor { value: l.value, lower: l.bracket.lower, upper: l.bracket.upper };
-                let right = found.inside == Some(true) && verify(model, &claim, &l.forces, None, &l.rates).proved();
+                let inside = found.inside == Some(true);
                 found.grade = match l.outcome {
-                    Outcome::Found if right => CellGrade::Right,
+                    Outcome::Found if inside => CellGrade::Right,
                     // Not proved: the result file gives no number either.
-                    Outcome::Found if found.inside == Some(true) => CellGrade::Undecided,
-                    Outcome::Undecided => CellGrade::Undecided,
+                    Outcome::Undecided if inside || l.refused().is_none() => CellGrade::Undecided,
                     _ => CellGrade::Wrong,
                 };
             }

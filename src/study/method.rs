@@ -103,7 +103,7 @@ impl StudyMethod {
     pub(super) fn run(self, known: &Known, model: &Model, knob: f64) -> StudyPoint {
         let start = Instant::now();
         let tolerance = |way: Formulation| Formulation { settings: Settings { tolerance: knob, ..way.settings }, ..way };
-        let once = |way: Formulation| From::from(limit::attempt(model, &way));
+        let once = |way: Formulation| Got::from(&limit::attempt(model, &way));
         let pyramid = |around: bool| {
             let options =
                 StaticsOptions { pyramid: Some(Pyramid { facets: knob as usize, around }), keep_all: true, ..StaticsOptions::default() };
@@ -115,7 +115,7 @@ impl StudyMethod {
         let got: Got = match self {
             Self::Ladder => {
                 let l = limit::limit(model, &Control { law: Law::Associative, ..Control::default() });
-                Got { value: Some(l.value), ..Got::from(l) }
+                Got { value: Some(l.value), ..Got::from(&*l) }
             }
             Self::Forces => once(tolerance(Formulation::usual(Unknowns::Forces))),
             Self::Rates => once(tolerance(Formulation::usual(Unknowns::Rates))),
@@ -164,8 +164,8 @@ struct Got {
     status: Option<crate::solve::Status>,
 }
 
-impl From<LoadFactor> for Got {
-    fn from(l: LoadFactor) -> Self {
+impl From<&LoadFactor> for Got {
+    fn from(l: &LoadFactor) -> Self {
         Self {
             value: l.attempts.last().and_then(|a| a.engine_value),
             bracket: Some(l.bracket.width()),

@@ -53,7 +53,7 @@ pub fn omissions(scenes: &[Known], repeat: usize, mut each: impl FnMut()) -> Res
                     one.values[k] = Some(answer.value).filter(|v| v.is_finite());
                     one.unknowns[k] = answer.attempts.iter().map(|a| a.size[0]).max().unwrap_or(0);
                     if !keep_all {
-                        one.left_out = answer.left_out;
+                        one.left_out.clone_from(&answer.left_out);
                     }
                 }
                 times.sort_by(f64::total_cmp);

@@ -1,6 +1,7 @@
 //! The probability of failure against a demand or a parameter, with the uncertainty of a finite sample.
 
-use super::{Header, Question, Row, RowAnswer, RowStatus, Sampling, influence::groups};
+use super::{Header, Row, RowAnswer, RowStatus, Sampling, influence::groups};
+use crate::analysis::Question;
 use serde::Serialize;
 
 /// A share of a sample, with its Wilson interval.

@@ -17,7 +17,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod ask;
 mod distribution;
 mod file;
 mod folder;
@@ -36,19 +35,15 @@ mod sum;
 mod summary;
 mod worst;
 
-pub use ask::ask;
 pub use file::{Opened, RowsFile, parse_rows, read_rows};
 pub use folder::{Folder, Gathered, Tally};
 pub use fragility::{Fragility, Proportion, wilson};
 pub use influence::{Influence, groups, influence};
 pub use merge::{Merged, merge};
 pub use open::{MOST_ROWS, Sweep, open, open_bytes, read_plan};
-pub use plan::{
-    AssessOptions, LimitOptions, Lognormal, Normal, Plan, Question, ReposeOptions, Sampling, SimulateOptions, ThrustOptions, TiltOptions,
-    Vary, schema,
-};
+pub use plan::{Lognormal, Normal, Plan, Sampling, Vary, schema};
 pub use row::{Header, Row, RowAnswer, RowStatus};
 pub use run::{Done, Event, RunOptions, measure, run, run_in};
 pub use shard::Shard;
 pub use summary::{Quantiles, Summary, summarize, value_of};
-pub use worst::{Between, Worst, WorstOf, worst};
+pub use worst::{Between, Worst, worst};

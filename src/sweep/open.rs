@@ -1,13 +1,13 @@
 //! Plan file → [`Sweep`]: everything that can be wrong before the first row is refused here, with its place in the plan.
 
 use super::{
-    Header, Plan, Question, Sampling, Shard,
+    Header, Plan, Sampling, Shard,
     distribution::Axis,
     pointer::{Pointer, Touches},
     sampling::{SOBOL, Sampler},
 };
 use crate::{
-    analysis::reuse::Keys,
+    analysis::{Question, reuse::Keys},
     assembly::{self, Wrench},
     error::{Finding, InputError, JsonPath},
     import::{Reach, read_meshes},
@@ -93,7 +93,7 @@ impl Sweep {
                 InputError::at(root.key("vary"), "nothing varies").hint("add { \"pointer\": …, \"from\": …, \"to\": …, \"count\": … }")
             );
         }
-        question(&plan.question, &root.key("question"))?;
+        plan.question.check().map_err(|e| e.under(&root.key("question")))?;
         let (mut pointers, mut axes) = (Vec::new(), Vec::new());
         for (k, vary) in plan.vary.iter().enumerate() {
             let path = root.key("vary").index(k);
@@ -197,27 +197,6 @@ fn fits(pointer: &Pointer, axis: &Axis, scene: &Value) -> Result<(), InputError>
         return Err(InputError::at(JsonPath::root(), message).hint("add \"round\": true"));
     }
     Ok(())
-}
-
-/// What the command line refuses as an argument.
-fn question(question: &Question, path: &JsonPath) -> Result<(), InputError> {
-    let (path, toward, all) = match question {
-        Question::Tilt(tilt) => (path.key("tilt"), &tilt.toward, tilt.all),
-        Question::Repose(repose) => {
-            let path = path.key("repose");
-            let share = repose.moving_mass;
-            if !(0.0..=1.0).contains(&share) {
-                return Err(InputError::at(path.key("moving_mass"), format!("must be a share from 0 to 1, got {share}")));
-            }
-            (path, &repose.toward, repose.all)
-        }
-        Question::Assess(_) | Question::Limit(_) | Question::Thrust(_) | Question::Simulate(_) => return Ok(()),
-    };
-    match (all, toward.is_empty()) {
-        (Some(_), false) => Err(InputError::at(path.key("all"), "\"toward\" and \"all\" are both given").hint("keep one of them")),
-        (Some(n), true) if !(1..=3600).contains(&n) => Err(InputError::at(path.key("all"), format!("must be from 1 to 3600, got {n}"))),
-        _ => Ok(()),
-    }
 }
 
 fn rows(plan: &Plan, axes: &[Axis]) -> Result<usize, InputError> {

@@ -1,6 +1,6 @@
 //! What a plan file says, and nothing more (`"format": "voussoir-sweep/1"`). [`open`](super::open()) checks it.
 
-use crate::analysis::Law;
+use crate::analysis::Question;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -34,108 +34,6 @@ pub struct Plan {
     /// Start of the random numbers of samples; a grid has none.
     #[serde(default)]
     pub seed: u64,
-}
-
-/// A question of the command line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Question {
-    /// Does it stand under its dead load?
-    Assess(AssessOptions),
-    /// How large may the live load grow?
-    Limit(LimitOptions),
-    /// At what tilt does it fall? In several directions the least.
-    Tilt(TiltOptions),
-    /// Least or greatest thrust on a support.
-    Thrust(ThrustOptions),
-    /// The angle of maximum stability of a packing of grains; in several directions the least.
-    Repose(ReposeOptions),
-    /// Does it stand in time, by the rigid-body engine? A second opinion, not a proof.
-    Simulate(SimulateOptions),
-}
-
-/// Options of `assess`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct AssessOptions {
-    /// How joints slide.
-    pub law: Law,
-}
-
-/// Options of `limit`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct LimitOptions {
-    /// How joints slide.
-    pub law: Law,
-    /// A load factor below this counts as failure.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub require: Option<f64>,
-}
-
-/// Options of `tilt`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct TiltOptions {
-    /// How joints slide.
-    pub law: Law,
-    /// A tilt below this, in degrees, counts as failure.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub require: Option<f64>,
-    /// Tip towards these directions.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub toward: Vec<[f64; 3]>,
-    /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub all: Option<u16>,
-}
-
-/// Options of `thrust`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct ThrustOptions {
-    /// Whether there must be forces only, or such as the loads produce.
-    pub law: Law,
-    /// The support; the first that touches a free block where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub support: Option<String>,
-    /// Direction of the thrust; outwards where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub direction: Option<[f64; 3]>,
-    /// The greatest thrust instead of the least.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub greatest: bool,
-}
-
-/// Options of `repose`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct ReposeOptions {
-    /// How grains slide.
-    pub law: Law,
-    /// An angle below this, in degrees, counts as failure.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub require: Option<f64>,
-    /// Tip towards these directions.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub toward: Vec<[f64; 3]>,
-    /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub all: Option<u16>,
-    /// The share of the grains' mass that has to move; 0, the first grain, where nothing is said.
-    pub moving_mass: f64,
-}
-
-/// Options of `simulate`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SimulateOptions {
-    /// Fast steps only: to be trusted 3 % away from a limit.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub fast: bool,
-    /// This factor × the live loads is added.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load_factor: Option<f64>,
 }
 
 /// One number of the scene, and what it takes. Exactly one of `from` and `to`, `values`, `normal`, `lognormal`.
@@ -222,42 +120,6 @@ pub enum Sampling {
 impl Default for Sampling {
     fn default() -> Self {
         Self::Grid {}
-    }
-}
-
-impl Question {
-    /// How joints slide.
-    pub fn law(&self) -> Law {
-        match self {
-            Self::Assess(o) => o.law,
-            Self::Limit(o) => o.law,
-            Self::Tilt(o) => o.law,
-            Self::Thrust(o) => o.law,
-            Self::Repose(o) => o.law,
-            // What slides in time does not open.
-            Self::Simulate(_) => Law::Coulomb,
-        }
-    }
-
-    /// The value below which an answer counts as failure.
-    pub fn require(&self) -> Option<f64> {
-        match self {
-            Self::Assess(_) | Self::Thrust(_) | Self::Simulate(_) => None,
-            Self::Limit(o) => o.require,
-            Self::Tilt(o) => o.require,
-            Self::Repose(o) => o.require,
-        }
-    }
-
-    /// What the value of a row is, with its unit; nothing where the answer is a verdict.
-    pub fn quantity(&self) -> Option<&'static str> {
-        match self {
-            Self::Assess(_) | Self::Simulate(_) => None,
-            Self::Thrust(o) => Some(if o.greatest { "greatest thrust in N" } else { "least thrust in N" }),
-            Self::Limit(_) => Some("load factor"),
-            Self::Tilt(_) => Some("tilt in degrees"),
-            Self::Repose(_) => Some("angle of maximum stability in degrees"),
-        }
     }
 }
 

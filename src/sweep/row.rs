@@ -1,7 +1,15 @@
 //! The file of rows (`"format": "voussoir-rows/1"`): a header, then one row a line.
 
 use super::{Plan, Shard, Sweep};
-use crate::analysis::coulomb::Found;
+use crate::{
+    analysis::{
+        Answer, Assessment, Critical, LoadFactor, Outcome, Proved, Tilt,
+        coulomb::{DryLoadFactor, Found},
+        thrust::ThrustEnd,
+    },
+    dynamics::Fate,
+    verdict::Verdict,
+};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -104,6 +112,21 @@ impl RowStatus {
     }
 }
 
+impl From<Outcome> for RowStatus {
+    fn from(outcome: Outcome) -> Self {
+        match outcome {
+            Outcome::Found => Self::Found,
+            Outcome::Unbounded => Self::Unbounded,
+            Outcome::Impossible => Self::Impossible,
+            Outcome::Undecided => Self::Undecided,
+        }
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
 /// An answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RowAnswer {
@@ -127,6 +150,92 @@ pub struct RowAnswer {
 }
 
 impl RowAnswer {
+    /// What a row shows of an answer.
+    pub fn of_answer(answer: &Answer) -> Self {
+        let degrees = |lambda: f64| lambda.atan().to_degrees();
+        let tilt = |t: &Tilt| Self {
+            toward: Some(t.toward.into()),
+            ..Self::of_load_factor(&t.load_factor, t.dry.as_ref().map(|d| &d.load_factor), degrees)
+        };
+        let least = |all: &mut dyn Iterator<Item = Self>| {
+            all.min_by(|a, b| a.governing().total_cmp(&b.governing())).unwrap_or(Self::of(RowStatus::Undecided))
+        };
+        match answer {
+            Answer::Assess(a) => Self::of_assessment(a),
+            Answer::Limit(l) => Self::of_load_factor(&l.bound, l.dry.as_ref(), |lambda| lambda),
+            Answer::Tilt(t) => least(&mut t.directions.iter().map(tilt)),
+            Answer::Repose(p) => least(&mut p.directions.iter().filter_map(|d| d.rounds.get(d.answer)).map(|r| tilt(&r.tilt))),
+            Answer::Critical(c) => Self::of_flips(c),
+            Answer::Thrust(t) => t.ends.first().map_or_else(|| Self::of_assessment(&t.standing), Self::of_thrust),
+            Answer::Simulate(outcome) => Self::of(match outcome.fate {
+                Fate::Stands => RowStatus::Stable,
+                Fate::Falls => RowStatus::Unstable,
+                Fate::Undecided => RowStatus::Undecided,
+            }),
+        }
+    }
+
+    fn of_assessment(a: &Assessment) -> Self {
+        let status = match a.verdict {
+            Verdict::Stable => RowStatus::Stable,
+            Verdict::Conditional => RowStatus::Conditional,
+            Verdict::Unstable => RowStatus::Unstable,
+            Verdict::Undecided => RowStatus::Undecided,
+        };
+        Self { lower: finite(a.unbalance.lower), upper: finite(a.unbalance.upper), ..Self::of(status) }
+    }
+
+    /// The bound and, where it was asked for, the load factor with dry friction; values are read through `scale`.
+    fn of_load_factor(bound: &LoadFactor, dry: Option<&Proved<DryLoadFactor>>, scale: fn(f64) -> f64) -> Self {
+        let answer = Self {
+            value: (bound.outcome == Outcome::Found).then(|| scale(bound.value)),
+            lower: finite(bound.bracket.lower).map(scale),
+            upper: finite(bound.bracket.upper).map(scale),
+            ..Self::of(bound.outcome.into())
+        };
+        let Some(dry) = dry else { return answer };
+        // A value is one only up to which the state was seen at rest.
+        let claims = matches!(dry.found, Found::NothingSlides | Found::FixedPoint);
+        let found = if claims && !dry.is_reached() { Found::Undecided } else { dry.found };
+        let value = Some(scale(dry.value));
+        match found {
+            // The bound itself is the answer, with its bracket.
+            Found::NothingSlides | Found::Unlimited => Self { dry: Some(found), ..answer },
+            Found::FixedPoint => Self { status: RowStatus::Found, value, lower: None, dry: Some(found), ..answer },
+            Found::Rests => Self { status: RowStatus::Found, value, lower: Some(scale(dry.rests_at)), dry: Some(found), ..answer },
+            Found::NotAtRest => Self { dry: Some(found), ..Self::of(RowStatus::Conditional) },
+            Found::Undecided => Self { status: RowStatus::Undecided, value: None, lower: None, dry: Some(found), ..answer },
+        }
+    }
+
+    /// The first flip of the range; without one the verdict throughout it.
+    fn of_flips(c: &Critical) -> Self {
+        let Some(flip) = c.changes.first() else {
+            return c.ends.first().map_or(Self::of(RowStatus::Undecided), |end| Self::of_assessment(&end.assessment));
+        };
+        Self { value: Some(flip.value), lower: Some(flip.below.value), upper: Some(flip.above.value), ..Self::of(RowStatus::Found) }
+    }
+
+    fn of_thrust(end: &Proved<ThrustEnd>) -> Self {
+        match end.outcome {
+            Outcome::Found => Self {
+                value: Some(end.value),
+                lower: finite(end.bracket.lower),
+                upper: finite(end.bracket.upper),
+                ..Self::of(RowStatus::Found)
+            },
+            other => Self::of(other.into()),
+        }
+    }
+
+    /// Which direction governs: one without an answer must not hide behind the others.
+    fn governing(&self) -> f64 {
+        match self.status {
+            RowStatus::Unbounded => 90.0,
+            _ => self.value.unwrap_or(f64::NEG_INFINITY),
+        }
+    }
+
     /// An answer that is only a word.
     pub fn of(status: RowStatus) -> Self {
         Self { status, value: None, lower: None, upper: None, dry: None, toward: None }

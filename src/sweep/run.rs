@@ -1,7 +1,11 @@
 //! Rows → answers, on as many threads as wanted, each written as it ends.
 
-use super::{Folder, Header, Opened, Row, RowAnswer, RowStatus, RowsFile, Shard, Sweep, ask};
-use crate::{analysis::reuse::Reuse, error::RowsError, parallel};
+use super::{Folder, Header, Opened, Row, RowAnswer, RowStatus, RowsFile, Shard, Sweep};
+use crate::{
+    analysis::{Control, ask, reuse::Reuse},
+    error::RowsError,
+    parallel,
+};
 use std::{
     collections::HashSet,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -140,7 +144,9 @@ pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize) -> Row {
     let parameters = sweep.parameters(number);
     let asked = || -> Result<RowAnswer, crate::error::InputError> {
         let scene = sweep.scene_with(&parameters)?;
-        ask(&sweep.plan.question, &scene, &reuse.prepare(&scene, &sweep.keys(&parameters))?)
+        let model = reuse.prepare(&scene, &sweep.keys(&parameters))?;
+        let answer = ask(&sweep.plan.question.for_one_number(), &scene, &model, &Control::default())?;
+        Ok(RowAnswer::of_answer(&answer))
     };
     // A mistake in the program costs one row, not the sweep.
     let (answer, error) = match catch_unwind(AssertUnwindSafe(asked)) {

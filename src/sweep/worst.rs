@@ -10,14 +10,14 @@
 //!
 //! The argument is about the existence of forces. The state under dry friction is computed at the corners alone.
 
-use super::{RowAnswer, RowStatus, ask, pointer::Pointer};
+use super::{RowAnswer, RowStatus, pointer::Pointer};
 use crate::{
-    analysis::{Control, Law},
+    analysis::{Control, Law, Question, ask},
     error::{InputError, JsonPath},
     interface::prepare,
     scene::{Friction, Load, Scene},
 };
-use std::{fmt, str::FromStr, time::Instant};
+use std::{fmt, str::FromStr};
 
 /// A number that lies between two ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,15 +51,6 @@ impl fmt::Display for Between {
     }
 }
 
-/// What is asked at every corner.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WorstOf {
-    /// Does it stand?
-    Assess,
-    /// How large may the live load grow?
-    Limit,
-}
-
 /// The worst case.
 #[derive(Clone, Debug)]
 pub struct Worst {
@@ -89,11 +80,11 @@ enum What {
     Pointer(Pointer),
 }
 
-/// The worst case of a scene whose numbers lie within `ranges`.
+/// The worst case for a verdict or a load factor of a scene whose numbers lie within `ranges`.
 ///
 /// # Errors
 /// A range names nothing in the scene, or a corner is no scene that can be asked about.
-pub fn worst(scene: &Scene, ranges: &[Between], asked: WorstOf, control: &Control) -> Result<Worst, InputError> {
+pub fn worst(scene: &Scene, ranges: &[Between], asked: &Question, control: &Control) -> Result<Worst, InputError> {
     let mut base = scene.clone();
     let mut argument = Vec::new();
     let mut ends = Vec::new();
@@ -102,7 +93,7 @@ pub fn worst(scene: &Scene, ranges: &[Between], asked: WorstOf, control: &Contro
             return Err(refuse(range, "is given twice").hint("keep one of them"));
         }
         match range.name.as_str() {
-            "friction" => argument.push(lowest_friction(&mut base, range, control.law)?),
+            "friction" => argument.push(lowest_friction(&mut base, range, asked.law())?),
             _ => ends.extend(numbers(scene, range)?),
         }
     }
@@ -110,7 +101,6 @@ pub fn worst(scene: &Scene, ranges: &[Between], asked: WorstOf, control: &Contro
         let message = format!("--worst: {} numbers have 2^{} corners, more than 2^{MOST_NUMBERS}", ends.len(), ends.len());
         return Err(InputError::at(JsonPath::root(), message).hint("name single materials: density:NAME=LOW..HIGH"));
     }
-    let start = Instant::now();
     let corners = 1_usize << ends.len();
     let mut worst: Option<(Scene, RowAnswer, usize)> = None;
     for corner in 0..corners {
@@ -118,12 +108,8 @@ pub fn worst(scene: &Scene, ranges: &[Between], asked: WorstOf, control: &Contro
         if corners == 1 {
             return Ok(Worst { scene, argument, corners });
         }
-        let control = Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0), ..*control };
         let model = prepare(&scene)?;
-        let answer = match asked {
-            WorstOf::Assess => ask::assessed(&model, &control),
-            WorstOf::Limit => ask::limited(&model, &control)?,
-        };
+        let answer = RowAnswer::of_answer(&ask(&asked.for_one_number(), &scene, &model, control)?);
         if worst.as_ref().is_none_or(|(_, least, _)| height(&answer) < height(least)) {
             worst = Some((scene, answer, corner));
         }
@@ -131,7 +117,7 @@ pub fn worst(scene: &Scene, ranges: &[Between], asked: WorstOf, control: &Contro
     let Some((worst, _, corner)) = worst else { return Ok(Worst { scene: base, argument, corners }) };
     let values: Vec<String> = ends.iter().enumerate().map(|(k, e)| format!("{} {}", e.label, e.at(corner, k))).collect();
     argument.push(format!("the worst of {corners} corners, each of them asked: {}", values.join(", ")));
-    argument.push(between(scene, &ends, asked, control.law));
+    argument.push(between(scene, &ends, asked));
     Ok(Worst { scene: worst, argument, corners })
 }
 
@@ -257,17 +243,19 @@ fn height(answer: &RowAnswer) -> f64 {
     }
 }
 
-fn between(scene: &Scene, ends: &[Ends], asked: WorstOf, law: Law) -> String {
+fn between(scene: &Scene, ends: &[Ends], asked: &Question) -> String {
     let body = |l: &Load| l.weight.is_some() || l.acceleration.is_some();
     let linear = ends.iter().all(|e| !matches!(e.what, What::Pointer(_)));
-    let moving = asked == WorstOf::Limit && scene.loads.live.iter().any(body);
+    let is_limit = matches!(asked, Question::Limit(_));
+    let moving = is_limit && scene.loads.live.iter().any(body);
     if !linear || moving {
         return "found by search over the corners: values between them were not asked".into();
     }
-    let what = match asked {
-        WorstOf::Assess => "forces that balance the corners mix into forces that balance every value between them",
-        WorstOf::Limit => "the bound is a concave function of densities and loads, least at a corner",
+    let what = if is_limit {
+        "the bound is a concave function of densities and loads, least at a corner"
+    } else {
+        "forces that balance the corners mix into forces that balance every value between them"
     };
-    let dry = if law == Law::Coulomb { "; dry friction was asked at the corners alone" } else { "" };
+    let dry = if asked.law() == Law::Coulomb { "; dry friction was asked at the corners alone" } else { "" };
     format!("found by search over the corners; nothing between them is worse: {what}{dry}")
 }

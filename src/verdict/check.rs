@@ -2,7 +2,7 @@
 //! but the forces and the rates themselves.
 
 use super::{
-    Forces, Rate, certificate,
+    Evidence, Forces, Rate, Verdict, certificate,
     exact::{
         Grade,
         balance::Unbalance,
@@ -75,6 +75,18 @@ pub enum Claim {
     },
 }
 
+impl Claim {
+    /// The verdict that it is; nothing where it is about a number.
+    pub fn verdict(&self) -> Option<Verdict> {
+        match self {
+            Self::Stable => Some(Verdict::Stable),
+            Self::Conditional => Some(Verdict::Conditional),
+            Self::Unstable => Some(Verdict::Unstable),
+            _ => None,
+        }
+    }
+}
+
 /// What the recomputation gave, one line of text each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
@@ -105,8 +117,9 @@ impl Findings {
     }
 }
 
-/// Verifies a claim. `base` are the forces at `standing` of [`Claim::Unbounded`].
-pub fn verify(model: &Model, claim: &Claim, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> Findings {
+/// Verifies a claim.
+pub fn verify(model: &Model, claim: &Claim, evidence: Evidence) -> Findings {
+    let Evidence { forces, base, rates } = evidence;
     let assembly = &model.assembly;
     let mut f = Findings::default();
     // How fast a mechanism moves says nothing, but for rates that belong to forces or to a support.

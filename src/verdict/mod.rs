@@ -38,6 +38,25 @@ pub fn no_forces(interfaces: &Interfaces) -> Forces {
     interfaces.list.iter().map(|face| vec![Wrench::zero(); face.points.len()]).collect()
 }
 
+/// What a claim is proved by.
+#[derive(Clone, Copy, Debug)]
+pub struct Evidence<'a> {
+    /// Contact forces: the static side.
+    pub forces: &'a Forces,
+    /// Unbounded: forces at a load factor at which the scene stands, beside those of the live load alone. Conditional: the forces without the
+    /// pre-stress.
+    pub base: Option<&'a Forces>,
+    /// Rates of all blocks: the kinematic side.
+    pub rates: &'a [Rate],
+}
+
+impl<'a> Evidence<'a> {
+    /// Forces and rates.
+    pub fn new(forces: &'a Forces, rates: &'a [Rate]) -> Self {
+        Self { forces, base: None, rates }
+    }
+}
+
 /// The rate of motion of a block; the scale is arbitrary, common to all blocks of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rate {

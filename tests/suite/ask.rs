@@ -3,10 +3,11 @@
 
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, LoadFactor, Outcome, assess, coulomb, limit, tilt},
+    analysis::{Control, Law, Limited, LoadFactor, Outcome, Proved, Tilted, assess, coulomb, limit, tilt},
     import::{Reach, read_meshes},
     interface::{Model, prepare},
-    report::{self, Leaning, ResultFile},
+    proof::{self, ResultFile},
+    report,
     scene::{Scene, read_file, read_str},
     verdict::Verdict,
 };
@@ -93,8 +94,8 @@ pub fn model(scene: &Scene) -> Model {
 /// Writes a result, reads it back and proves it from the scene alone.
 pub fn prove(scene: &Scene, file: &ResultFile) {
     let text = report::json::pretty(file).expect("JSON");
-    let read = report::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
-    let found = report::verify(&read, scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let read = proof::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let found = proof::verify(&read, scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     let fails: Vec<_> = found.parts.iter().flat_map(|(part, f)| f.fails.iter().map(move |text| format!("{part}: {text}"))).collect();
     assert!(found.proved(), "{}: not proved: {fails:#?}\nwarnings {:#?}\ntrace {:#?}", scene.name, file.warnings, file.trace);
 }
@@ -103,7 +104,8 @@ pub fn prove(scene: &Scene, file: &ResultFile) {
 pub fn verdict(scene: &Scene, law: Law) -> Verdict {
     let model = model(scene);
     let answer = assess(&model, &Control { law, ..Control::default() });
-    assert_ne!(answer.verdict, Verdict::Undecided, "{}: {:?} {:?}", scene.name, answer.unbalance, answer.state.map(|s| s.steps));
+    let steps = answer.state.as_ref().map(|s| &s.steps);
+    assert_ne!(answer.verdict, Verdict::Undecided, "{}: {:?} {steps:?}", scene.name, answer.unbalance);
     prove(scene, &ResultFile::assessment(scene, &model, &answer));
     answer.verdict
 }
@@ -114,11 +116,11 @@ pub fn stands(scene: &Scene) -> bool {
 }
 
 /// The answer about the load factor, with proof.
-fn answer(scene: &Scene) -> LoadFactor {
+fn answer(scene: &Scene) -> Proved<LoadFactor> {
     let model = model(scene);
-    let answer = limit(&model, &Control::default());
-    prove(scene, &ResultFile::load_factor(scene, &model, &answer));
-    answer
+    let limited = Limited { bound: limit(&model, &Control::default()), dry: None, dead: None };
+    prove(scene, &ResultFile::load_factor(scene, &model, &limited));
+    limited.bound
 }
 
 /// What becomes of the load factor, with its value where there is one, with proof.
@@ -138,7 +140,8 @@ pub fn load_factor(scene: &Scene) -> f64 {
 /// `want`, or of the coordinates).
 #[track_caller]
 pub fn bracketed(what: &str, scene: &Scene, want: f64, tolerance: f64, rounding: f64) {
-    let LoadFactor { outcome, value, bracket, .. } = answer(scene);
+    let answer = answer(scene);
+    let LoadFactor { outcome, value, bracket, .. } = *answer;
     assert_eq!(outcome, Outcome::Found, "{what}");
     close(what, value, want, tolerance);
     let slack = rounding * want.abs();
@@ -160,9 +163,9 @@ pub fn exact(what: &str, scene: &Scene, want: f64, tolerance: f64) {
 pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
     let model = model(scene);
     let answer = tilt(&model, toward.into(), &Control::default()).expect("a tilt");
-    let model = tilt::tilted(&model, toward.into(), answer.load_factor.value).expect("a tilt");
     let angle = answer.angle_deg();
-    prove(scene, &ResultFile::tilt(scene, &[Leaning { model, tilt: answer, dry: None }]).expect("a direction"));
+    let tilted = Tilted { directions: vec![answer], level: None };
+    prove(scene, &ResultFile::tilt(scene, &model, &tilted).expect("a direction"));
     angle
 }
 
@@ -171,7 +174,8 @@ pub fn dry(scene: &Scene) -> (f64, f64, usize) {
     let model = model(scene);
     let l = limit(&model, &Control::default());
     let d = coulomb::load_factor(&model, &l, &Control::default());
-    let file = ResultFile::load_factor(scene, &model, &l).with_dry(&model, &d);
+    let limited = Limited { bound: l.clone(), dry: Some(d.clone()), dead: None };
+    let file = ResultFile::load_factor(scene, &model, &limited);
     prove(scene, &file);
     assert_eq!(file.dry.and_then(|d| d.value), Some(d.value), "{}: natural map {:.1e}", scene.name, d.natural_map);
     assert!(l.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.value.abs(), "{}: {} above {}", scene.name, d.value, l.value);

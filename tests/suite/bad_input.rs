@@ -10,7 +10,8 @@ use voussoir::{
     analysis::{Control, assess},
     error::FindingCode,
     interface::prepare,
-    report::{self, ResultFile},
+    proof::{self, ResultFile},
+    report,
     scene::{Scene, read_bytes, read_str},
     verdict::Verdict,
 };
@@ -153,11 +154,11 @@ fn slips_of_units_are_told() {
 /// An error, or an answer that verifies from its own file, or undecided.
 fn answered(scene: &Scene) {
     let Ok(m) = prepare(scene) else { return };
-    let a = assess(&m, &Control { seconds: 10.0, ..Control::default() });
+    let a = assess(&m, &Control { deadline: voussoir::deadline::Deadline::within(10.0), ..Control::default() });
     let text = report::json::pretty(&ResultFile::assessment(scene, &m, &a)).unwrap();
-    let file = report::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{e}\n{scene:?}"));
+    let file = proof::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{e}\n{scene:?}"));
     if file.answer.verdict != Some(Verdict::Undecided) {
-        let found = report::verify(&file, scene).unwrap();
+        let found = proof::verify(&file, scene).unwrap();
         assert!(found.proved(), "{scene:?}: {:?}", found.parts);
     }
 }

@@ -12,7 +12,7 @@ use voussoir::{
     scene::Scene,
     solve::{self, Settings},
     verdict::{
-        Forces, Rate, Verdict, certificate,
+        Evidence, Forces, Rate, Verdict, certificate,
         check::{Claim, verify},
         no_forces,
     },
@@ -29,7 +29,7 @@ fn zeros(m: &Model) -> Forces {
 }
 
 fn proved(m: &Model, claim: Claim, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> bool {
-    verify(m, &claim, forces, base, rates).proved()
+    verify(m, &claim, Evidence { forces, base, rates }).proved()
 }
 
 fn scaled(rates: &[Rate], s: f64) -> Vec<Rate> {
@@ -270,7 +270,7 @@ fn a_load_factor_in_a_wide_bracket_is_not_found() {
     let a = assess(&at_half, &associative());
     assert_eq!(a.verdict, Verdict::Stable);
     for (lower, upper) in [(half, l.bracket.upper), (half, f64::INFINITY), (f64::NEG_INFINITY, f64::INFINITY)] {
-        let got = verify(&m, &Claim::LoadFactor { value: half, lower, upper }, &a.forces, None, &l.rates);
+        let got = verify(&m, &Claim::LoadFactor { value: half, lower, upper }, Evidence::new(&a.forces, &l.rates));
         println!("{lower} {upper}: {got:?}");
         assert!(!got.proved(), "[{lower}, {upper}] passes for {half}; the limit is {}", l.value);
     }
@@ -295,7 +295,7 @@ fn a_huge_squeeze_excuses_no_unbalance() {
             forces.iter_mut().for_each(|f| f.force = face.frame.n * share);
             assert!(face.a == block || face.b == block);
         }
-        let got = verify(&m, &Claim::Stable, &forces, None, &a.rates);
+        let got = verify(&m, &Claim::Stable, Evidence::new(&forces, &a.rates));
         println!("squeeze {squeeze:.0e}: {got:?}");
         assert!(!got.proved(), "squeezed by {squeeze:.0e} weights an unstable block is proved stable");
     }

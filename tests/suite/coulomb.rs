@@ -4,14 +4,14 @@ use crate::ask::{self, cuboid, fixed, prism, sphere, verdict};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, Outcome, assess, coulomb, limit},
+    analysis::{Control, Law, Limited, Outcome, assess, coulomb, limit},
     import::{self, ImportOptions, Up},
     interface::prepare,
-    report::ResultFile,
+    proof::ResultFile,
     scene::{Friction, Scene, read_str},
     tolerance,
     verdict::{
-        Verdict,
+        Evidence, Verdict,
         check::{Claim, verify},
     },
 };
@@ -125,7 +125,7 @@ fn conditional_certificates_reject_corruption() {
     let answer = assess(&model, &Control::default());
     let state = answer.state.clone().unwrap();
     assert_eq!(state.motion, coulomb::StateMotion::Moves);
-    let proved = |base: Option<&_>, forces: &_, rates: &[_]| verify(&model, &Claim::Conditional, forces, base, rates).proved();
+    let proved = |base: Option<&_>, forces: &_, rates: &[_]| verify(&model, &Claim::Conditional, Evidence { forces, base, rates }).proved();
     assert!(proved(Some(&state.forces), &answer.forces, &answer.rates));
     assert!(!proved(None, &answer.forces, &answer.rates));
     // Balanced forces leave no motion; half of them leave one that does not obey the law: the joints would slip under their limit.
@@ -227,7 +227,7 @@ proptest! {
         let d = coulomb::load_factor(&model, &l, &Control::default());
         // About one in a hundred of these does not settle to 1e-6: then there is no number.
         prop_assert!(d.found != coulomb::Found::Undecided || d.value.is_nan());
-        ask::prove(&scene, &ResultFile::load_factor(&scene, &model, &l).with_dry(&model, &d));
+        ask::prove(&scene, &ResultFile::load_factor(&scene, &model, &Limited { dry: Some(d.clone()), ..l.clone().into() }));
         prop_assert!(d.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.bracket.upper.abs(), "{} above {}", d.value, l.bracket.upper);
     }
 }

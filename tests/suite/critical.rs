@@ -7,7 +7,7 @@ use voussoir::{
         Control, Critical, Law, critical,
         critical::{Method, Range},
     },
-    report::ResultFile,
+    proof::ResultFile,
     scene::Scene,
     verdict::Verdict,
 };
@@ -213,7 +213,7 @@ fn without_a_flip_both_ends_are_proved() {
     let scene = arch(NO_SLIDING, json!({ "voussoirs": 16 }));
     let (_, file) = ask(&scene, THICKNESS, 0.12, 0.2, 3);
     assert_eq!(file.answer.critical.as_deref(), Some(&[][..]));
-    assert_eq!(voussoir::report::critical::exhausted(&file), Some(Verdict::Stable));
+    assert_eq!(voussoir::proof::critical::exhausted(&file), Some(Verdict::Stable));
 }
 
 #[test]
@@ -251,9 +251,9 @@ fn forged_critical_values_are_refused() {
     for (what, forge) in forgeries {
         let mut forged = file.clone();
         forge(&mut forged);
-        let proved = voussoir::report::verify(&forged, &scene).is_ok_and(|v| v.proved());
+        let proved = voussoir::proof::verify(&forged, &scene).is_ok_and(|v| v.proved());
         assert!(!proved, "{what}");
     }
     let other = arch(NO_SLIDING, json!({ "voussoirs": 16 }));
-    assert!(!voussoir::report::verify(&file, &other).unwrap().proved());
+    assert!(!voussoir::proof::verify(&file, &other).unwrap().proved());
 }

@@ -5,7 +5,11 @@ use crate::ask;
 use serde_json::{Value, json};
 use std::process::Command;
 use voussoir::{
-    analysis::{Control, Law, Outcome, coulomb, coulomb::Found, limit, stability, tilt},
+    analysis::{
+        Control, Law, Outcome, Proved,
+        coulomb::{self, Found},
+        limit, stability, tilt,
+    },
     scene::{Scene, read_str},
     verdict::Verdict,
 };
@@ -25,7 +29,7 @@ fn scene(value: &Value) -> Scene {
     read_str("test", value.to_string()).unwrap().0
 }
 
-fn dry(scene: &Scene) -> (coulomb::DryLoadFactor, f64) {
+fn dry(scene: &Scene) -> (Proved<coulomb::DryLoadFactor>, f64) {
     let model = ask::model(scene);
     let bound = limit(&model, &Control::default());
     assert_eq!(bound.outcome, Outcome::Found, "{}", scene.name);
@@ -83,11 +87,11 @@ fn a_pivot_of_exactly_zero_ends_no_question() {
     let toward = nalgebra::Vector3::x();
     let control = Control::default();
     let model = ask::model(&scene(&file("pivot-of-zero-tilt")));
-    let bound = tilt(&model, toward, &control).unwrap();
-    let dry = tilt::dry(&model, &bound, None, &control).unwrap();
+    let bound = tilt::with_dry(&model, toward, None, &control).unwrap();
+    let dry = bound.dry.unwrap().load_factor;
     assert!(dry.value <= bound.load_factor.bracket.upper, "{:?} {}", dry.found, dry.value);
-    let packing = scene(&file("pivot-of-zero-repose"));
-    let found = stability(&packing, &ask::model(&packing), toward, 0.1, &control).unwrap();
+    let packing = ask::model(&scene(&file("pivot-of-zero-repose")));
+    let found = stability(&packing, &[], toward, 0.1, &control).unwrap();
     assert!(!found.rounds.is_empty());
 }
 
@@ -162,8 +166,7 @@ fn the_load_factor_is_one_up_to_which_all_of_the_scene_rests() {
     }
     let model = ask::model(&scene(&file("groove-and-slender-tilted")));
     let toward = nalgebra::Vector3::y();
-    let bound = tilt(&model, toward, &Control::default()).unwrap();
-    let dry = tilt::dry(&model, &bound, None, &Control::default()).unwrap();
+    let dry = tilt::with_dry(&model, toward, None, &Control::default()).unwrap().dry.unwrap().load_factor;
     assert!(dry.value <= GROOVE * (1.0 + 1e-6) && dry.value >= GROOVE * (1.0 - 1e-3), "{}", dry.value);
 }
 

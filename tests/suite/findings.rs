@@ -3,9 +3,9 @@
 use crate::ask::open;
 use std::path::PathBuf;
 use voussoir::{
-    analysis::{Control, LoadFactor, Outcome, assess, coulomb, limit},
+    analysis::{Control, Limited, LoadFactor, Outcome, Proved, assess, coulomb, limit},
     interface::prepare,
-    report::{ResultFile, verify},
+    proof::{ResultFile, verify},
     scene::Scene,
     verdict::Verdict,
 };
@@ -30,14 +30,13 @@ fn verdict(name: &str) -> Verdict {
 }
 
 /// The bound and the load factor with dry friction, as a result has them.
-fn limits(name: &str) -> (LoadFactor, ResultFile) {
+fn limits(name: &str) -> (Proved<LoadFactor>, ResultFile) {
     let scene = scene(name);
     let model = prepare(&scene).unwrap();
     let bound = limit(&model, &Control::default());
-    let mut file = ResultFile::load_factor(&scene, &model, &bound);
-    if matches!(bound.outcome, Outcome::Found | Outcome::Unbounded) {
-        file = file.with_dry(&model, &coulomb::load_factor(&model, &bound, &Control::default()));
-    }
+    let has_dry = matches!(bound.outcome, Outcome::Found | Outcome::Unbounded);
+    let dry = has_dry.then(|| coulomb::load_factor(&model, &bound, &Control::default()));
+    let file = ResultFile::load_factor(&scene, &model, &Limited { dry, ..bound.clone().into() });
     println!("{name}: {:?} {} in {:?}, dry {:?}", bound.outcome, bound.value, bound.bracket, file.dry.as_ref().and_then(|d| d.value));
     (bound, file)
 }

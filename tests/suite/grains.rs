@@ -5,10 +5,14 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use voussoir::{
-    analysis::{Control, Law, Outcome, assess, fabric, repose, stability, stability::held},
+    analysis::{
+        Control, Law, Outcome, Packing, Tilted, assess, fabric, repose, stability,
+        stability::{held, without},
+    },
     error::FindingCode,
     generate::deposit,
-    report::{Leaning, ResultFile, json as text, packing::PackingFile},
+    proof::{ResultFile, packing::PackingFile},
+    report::json as text,
     scene::{GrainKind, Protocol, ProtocolKind, Scene, read_str},
 };
 
@@ -23,13 +27,12 @@ fn associative() -> Control {
 /// The tilt in degrees, proved, and how many grains there are.
 fn falls_at(scene: &Scene, toward: [f64; 3]) -> (f64, usize) {
     let model = model(scene);
-    let answer = stability(scene, &model, toward.into(), 0.0, &associative()).expect("a direction");
+    let answer = stability(&model, &[], toward.into(), 0.0, &associative()).expect("a direction");
     let round = answer.rounds.into_iter().next_back().expect("a round");
     let angle = round.tilt.angle_deg();
-    prove(
-        &round.scene,
-        &ResultFile::tilt(&round.scene, &[Leaning { model: round.model, tilt: round.tilt, dry: None }]).expect("a direction"),
-    );
+    let rest = without(scene, &round.gone).expect("a scene");
+    let tilted = Tilted { directions: vec![round.tilt], level: None };
+    prove(&rest, &ResultFile::tilt(&rest, &model, &tilted).expect("a direction"));
     (angle, model.assembly.free().count())
 }
 
@@ -129,7 +132,7 @@ fn heaps_of_clumps_and_hulls_rest_reload_and_are_asked_about() {
         let written = text::pretty(&heap.scene).unwrap();
         assert_eq!(read_str("heap", written.as_str()).unwrap().0, heap.scene, "written and read back");
         let margin = repose::margin(&heap, &associative()).unwrap();
-        assert!(margin.model.interfaces.list.len() > heap.grains[0], "{grain:?} at rest touch");
+        assert!(margin.tilt.model.interfaces.list.len() > heap.grains[0], "{grain:?} at rest touch");
         assert_ne!(margin.tilt.load_factor.outcome, Outcome::Undecided, "{grain:?}");
         if grain == GrainKind::Clump {
             assert!(margin.degrees().is_some_and(|d| d > 0.0) && margin.loose + margin.unbalanced == 0, "{:?}", margin.degrees());
@@ -177,19 +180,20 @@ fn loose_grains_are_taken_away_until_enough_moves() {
     let scene = one_loose_grain();
     let model = model(&scene);
     let toward = Vector3::x();
-    let first = stability(&scene, &model, toward, 0.0, &associative()).unwrap();
+    let first = stability(&model, &[], toward, 0.0, &associative()).unwrap();
     let ball = (0.2f64 / (0.49f64 - 0.04).sqrt()).atan().to_degrees();
     assert!(first.reached && first.rounds.len() == 1);
     assert!((first.rounds[0].tilt.angle_deg() - ball).abs() < 1e-6, "{} and not {ball}", first.rounds[0].tilt.angle_deg());
     assert_eq!(first.rounds[0].moving, ["ball"]);
-    let half = stability(&scene, &model, toward, 0.5, &associative()).unwrap();
+    let half = stability(&model, &[], toward, 0.5, &associative()).unwrap();
     let last = &half.rounds[half.answer];
     // The two blocks are parts of their own that slide at the same tilt: a round moves one of them.
     assert!(half.reached && half.rounds.len() == 2 && last.moved > 0.5, "{:?}", half.rounds.iter().map(|r| &r.moving).collect::<Vec<_>>());
     assert!((last.tilt.angle_deg() - 0.5f64.atan().to_degrees()).abs() < 1e-6, "{}", last.tilt.angle_deg());
-    assert!(last.scene.blocks.iter().all(|b| b.id != "ball"), "what fell is gone");
+    assert_eq!(last.gone, ["ball"], "what fell is gone");
+    assert!(last.tilt.model.assembly.find("ball").is_none());
     // As a result, with the grains that fell and a proof of the last round.
-    let (file, proof) = PackingFile::new(&model, "test", 0.5, vec![half], &[]).unwrap();
+    let (file, proof) = PackingFile::new(&scene, 0.5, &Packing { model, loose: Vec::new(), directions: vec![half] }).unwrap().unwrap();
     assert_eq!(file.directions[0].removed[0].grains, ["ball"]);
     assert_eq!(file.directions[0].status, Outcome::Found);
     prove(&proof.scene.input, &proof);
@@ -204,7 +208,8 @@ fn grains_that_nothing_holds_are_left_out() {
     (lost.id, lost.at) = ("lost".into(), [0.0, 0.0, 50.0]);
     scene.blocks.push(lost);
     let before = model(&scene);
-    let (rest, model, loose) = held(&scene, before).unwrap();
+    let (model, loose) = held(&before);
+    let rest = without(&scene, &loose).unwrap();
     assert_eq!(loose, ["lost"]);
     assert!(model.assembly.find("lost").is_none() && rest.blocks.iter().all(|b| b.id != "lost"));
     assert_eq!(assess(&model, &associative()).verdict, voussoir::verdict::Verdict::Stable);
@@ -215,7 +220,7 @@ fn the_averages_of_one_sphere_in_a_pocket() {
     // On three spheres at 54.7° to each other's normals, frictionless: every normal force is W / (3 cos α), cos α = √(2/3).
     let scene = pile("fcc", 1, 0.0);
     let model = model(&scene);
-    let forces = assess(&model, &associative()).forces;
+    let forces = assess(&model, &associative()).forces.clone();
     let f = fabric(&model, &forces);
     let weight = 4.0 / 3.0 * std::f64::consts::PI;
     assert_eq!((f.grains, f.contacts, f.rattlers), (1, 3, 1), "it carries only itself");

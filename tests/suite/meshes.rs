@@ -61,7 +61,7 @@ fn differences(text: &str) -> Vec<String> {
         }
     }
     // Whatever it is, a question about it has an answer.
-    assess(&model, &Control { seconds: 10.0, ..Control::default() });
+    assess(&model, &Control { deadline: voussoir::deadline::Deadline::within(10.0), ..Control::default() });
     wrong
 }
 

@@ -7,7 +7,7 @@ use voussoir::{
     interface::{self, Model},
     scene::{self, Scene},
     verdict::{
-        Rate, Verdict, check,
+        Evidence, Rate, Verdict, check,
         thrust::{Extreme, ThrustAt},
     },
 };
@@ -148,7 +148,7 @@ fn a_stranger_at_rest_changes_no_digit_of_a_verdict() {
                 assert_eq!(got.forces[contact..contact + a.interfaces.list.len()], alone.forces, "{k} {s}");
                 if alone.verdict != Verdict::Stable {
                     assert_eq!(got.unbalance, alone.unbalance, "{k} {s}");
-                    let name = got.part.unwrap();
+                    let name = got.part.clone().unwrap();
                     let own = first + a.assembly.free().next().unwrap();
                     assert_eq!((name.first, name.of_parts), (m.assembly.blocks[own].id.clone(), 2));
                 } else {
@@ -187,7 +187,7 @@ fn a_stranger_without_an_exact_proof_takes_none_away() {
         for (m, ..) in both(&a, stranger) {
             let got = analysis::assess(&m, &control());
             assert_eq!(got.verdict, Verdict::Stable);
-            let proof = check::verify(&m, &check::Claim::Stable, &got.forces, None, &got.rates);
+            let proof = check::verify(&m, &check::Claim::Stable, Evidence::new(&got.forces, &got.rates));
             assert!(proof.proved(), "{:?}", proof.fails);
         }
     }
@@ -205,13 +205,13 @@ fn a_heavy_stranger_keeps_no_proof_from_several_parts_that_fall() {
         for (m, ..) in both(&a, &heavier(column(1, 0.0, 100.0, ""), by)) {
             let got = analysis::limit(&m, &control);
             assert_eq!(got.outcome, Outcome::Impossible, "{by}");
-            let proof = check::verify(&m, &check::Claim::Impossible, &got.forces, None, &got.rates);
+            let proof = check::verify(&m, &check::Claim::Impossible, Evidence::new(&got.forces, &got.rates));
             assert!(proof.proved(), "{by}: {:?}", proof.fails);
             // What moves beside a mechanism that is proved has to be one as well.
             let mut rates = got.rates.clone();
             let still = (0..rates.len()).find(|&i| !m.assembly.blocks[i].support && rates[i] == Rate::zero()).unwrap();
             rates[still].velocity = Vector3::new(0.0, 0.0, -1.0);
-            assert!(!check::verify(&m, &check::Claim::Impossible, &got.forces, None, &rates).proved(), "{by}");
+            assert!(!check::verify(&m, &check::Claim::Impossible, Evidence::new(&got.forces, &rates)).proved(), "{by}");
         }
     }
 }
@@ -375,5 +375,5 @@ fn moments_count_in_the_load_of_a_block() {
     let m = model(&scene(&list.join(","), "0.3", r#""dead": [{"block": "key", "moment": [0, 0, 1e11]}]"#));
     let a = analysis::assess(&m, &Control { law: Law::Associative, ..control() });
     assert_eq!(a.verdict, Verdict::Stable);
-    assert!(check::verify(&m, &check::Claim::Stable, &a.forces, None, &a.rates).proved());
+    assert!(check::verify(&m, &check::Claim::Stable, Evidence::new(&a.forces, &a.rates)).proved());
 }

@@ -145,7 +145,7 @@ fn vaults_stand_under_dry_friction_at_any_density() {
         for scene in &scenes {
             scope.spawn(move || {
                 let m = ready(scene);
-                let a = assess(&m, &Control { seconds: 120.0, ..Control::default() });
+                let a = assess(&m, &Control { deadline: voussoir::deadline::Deadline::within(120.0), ..Control::default() });
                 let solves: Vec<usize> = a.state.iter().flat_map(|s| &s.steps).map(|s| s.solves).collect();
                 println!("{}: {:?}, solves {solves:?}", scene.name, a.verdict);
                 assert_eq!(a.verdict, Verdict::Stable, "{}", scene.name);

@@ -4,17 +4,12 @@
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{
-        Control, Law, LoadFactor, Outcome, assess, limit,
-        thrust::{answer, outwards},
+        Control, Law, LoadFactor, Outcome, Proved, assess, limit,
+        thrust::{Ends, answer, outwards},
     },
     interface::{Model, prepare},
     scene::{Scene, read_str},
-    verdict::{
-        Verdict,
-        check::{self, Findings},
-        exact::Grade,
-        thrust::ThrustAt,
-    },
+    verdict::{Verdict, check::Findings, exact::Grade, thrust::ThrustAt},
 };
 
 /// Friction for "infinite (no sliding)".
@@ -118,16 +113,16 @@ impl Grades {
     fn verdict(&mut self, case: &Value, variant: &Value, mu: f64) -> Verdict {
         let model = model(&scene(case, variant, mu));
         let a = assess(&model, &Control { law: Law::Associative, ..Control::default() });
-        if let Some(claim) = a.claim() {
-            self.add(case, &check::verify(&model, &claim, &a.forces, None, &a.rates));
+        if a.claim().or(a.refused()).is_some() {
+            self.add(case, a.findings());
         }
         a.verdict
     }
 
-    fn limit(&mut self, case: &Value, model: &Model) -> LoadFactor {
+    fn limit(&mut self, case: &Value, model: &Model) -> Proved<LoadFactor> {
         let l = limit(model, &Control::default());
-        if let Some(claim) = l.claim() {
-            self.add(case, &check::verify(model, &claim, &l.forces, l.base.as_ref().map(|b| &b.1), &l.rates));
+        if l.claim().or(l.refused()).is_some() {
+            self.add(case, l.findings());
         }
         l
     }
@@ -258,8 +253,8 @@ fn masonry_cases() {
                 let m = model(&scene(case, case, mu));
                 let support = m.assembly.find(query["support"].as_str().unwrap()).unwrap();
                 let direction = outwards(&m, support).unwrap().into();
-                let t = answer(&m, ThrustAt { support, direction }, &Control { law: Law::Associative, ..Control::default() });
-                let [least, greatest] = t.ends.unwrap().map(|e| e.value);
+                let t = answer(&m, ThrustAt { support, direction }, Ends::Both, &Control { law: Law::Associative, ..Control::default() });
+                let [least, greatest] = [0, 1].map(|k| t.ends[k].value);
                 close(case, least, e["value"].as_f64().or(e["min"].as_f64()).unwrap(), &mut failures);
                 match kind {
                     "thrust_unique" => close(case, greatest, e["value"].as_f64().unwrap(), &mut failures),

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Law, Outcome, limit},
-    report::ResultFile,
+    proof::ResultFile,
     scene::Scene,
     verdict::Verdict,
 };
@@ -217,15 +217,15 @@ fn weaker_joints_refute_the_result() {
     let arch =
         |sigma: f64| block(5.0, json!({ "compression": sigma, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.01 }), [0.5, 1.0, 2.0]);
     let (scene, model) = (arch(8.0), model(&arch(8.0)));
-    let file = ResultFile::load_factor(&scene, &model, &limit(&model, &Control::default()));
+    let file = ResultFile::load_factor(&scene, &model, &limit(&model, &Control::default()).into());
     for other in [
         block(5.0, json!({ "compression": 7.9, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.01 }), [0.5, 1.0, 2.0]),
         block(5.0, json!({ "compression": 8.0, "cohesion": 0.1, "tension": 0.0, "pore_pressure": 0.01 }), [0.5, 1.0, 2.0]),
         block(5.0, json!({ "compression": 8.0, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.02 }), [0.5, 1.0, 2.0]),
     ] {
-        assert!(voussoir::report::verify(&file, &other).unwrap().refuted());
+        assert!(voussoir::proof::verify(&file, &other).unwrap().refuted());
     }
-    assert!(voussoir::report::verify(&file, &arch(8.0)).unwrap().proved());
+    assert!(voussoir::proof::verify(&file, &arch(8.0)).unwrap().proved());
 }
 
 proptest! {

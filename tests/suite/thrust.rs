@@ -5,9 +5,10 @@ use serde_json::{Value, json};
 use voussoir::{
     analysis::{
         Control, Law, Outcome,
-        thrust::{answer, first_support, outwards},
+        thrust::{Ends, answer, first_support, outwards},
     },
-    report::{ResultFile, drawing, thrust::ThrustAnswer, view::View},
+    proof::{ResultFile, thrust::ThrustAnswer},
+    report::{drawing, view::View},
     scene::Scene,
     verdict::{Verdict, thrust::ThrustAt},
 };
@@ -23,7 +24,7 @@ fn ask_at(scene: &Scene, support: Option<&str>, direction: Option<[f64; 3]>, con
     let m = model(scene);
     let support = support.map_or_else(|| first_support(&m), |id| m.assembly.find(id)).expect("a support");
     let direction = direction.unwrap_or_else(|| outwards(&m, support).expect("a direction").into());
-    let file = ResultFile::thrust(scene, &m, &answer(&m, ThrustAt { support, direction }, control));
+    let file = ResultFile::thrust(scene, &m, &answer(&m, ThrustAt { support, direction }, Ends::Both, control));
     prove(scene, &file);
     file
 }
@@ -224,9 +225,9 @@ fn forged_thrusts_are_refused() {
     for (what, forge) in forgeries {
         let mut forged = file.clone();
         forge(&mut forged);
-        assert!(!voussoir::report::verify(&forged, &s).unwrap().proved(), "{what}");
+        assert!(!voussoir::proof::verify(&forged, &s).unwrap().proved(), "{what}");
     }
-    assert!(voussoir::report::verify(&file, &s).unwrap().proved());
+    assert!(voussoir::proof::verify(&file, &s).unwrap().proved());
 }
 
 #[test]
@@ -236,7 +237,7 @@ fn drawings_hold_every_block_and_both_lines() {
     let m = model(&s);
     let support = first_support(&m).unwrap();
     let at = ThrustAt { support, direction: outwards(&m, support).unwrap().into() };
-    let file = ResultFile::thrust(&s, &m, &answer(&m, at, &associative()));
+    let file = ResultFile::thrust(&s, &m, &answer(&m, at, Ends::Both, &associative()));
     let text = drawing::svg(&View::new(&m, &file, Vec::new()).unwrap(), Default::default());
     assert_eq!(text.matches("<g class=\"block\">").count(), 8);
     assert_eq!(text.matches("<g class=\"support\">").count(), 2);

@@ -7,13 +7,13 @@
 
 use super::newton::Solved;
 use crate::{
+    deadline::Deadline,
     program::{
         coulomb::Contacts,
         response::{FrictionLimits, Response},
     },
     solve::{Lu, Pattern},
 };
-use std::time::Instant;
 
 /// Most steps. Fewer: states of many joints that stick and slip by turns go back to the fixed point. More: time lost where it leads nowhere.
 const STEPS: usize = 20;
@@ -50,7 +50,7 @@ impl Exact {
 
     /// The state at ε near `rates`, and the imbalance it leaves, in the loads that pass the blocks; `None` where it does not get there, or not
     /// before `end`.
-    pub fn near(&mut self, contacts: &Contacts, epsilon: f64, rates: &[f64], end: Option<Instant>) -> Option<(Solved, f64)> {
+    pub fn near(&mut self, contacts: &Contacts, epsilon: f64, rates: &[f64], end: Deadline) -> Option<(Solved, f64)> {
         let mut q = rates.to_vec();
         let (mut forces, mut imbalance) = self.response.forces(contacts, epsilon, FrictionLimits::Law, &q);
         for _ in 0..STEPS {
@@ -59,7 +59,7 @@ impl Exact {
             if size <= allowed {
                 return Some((Solved { forces, rates: q }, size));
             }
-            if !size.is_finite() || end.is_some_and(|end| Instant::now() >= end) {
+            if !size.is_finite() || end.is_over() {
                 return None;
             }
             let [lower, upper] =

@@ -10,7 +10,6 @@ use crate::{
     solve::{Session, Settings, Solution},
     verdict::certificate,
 };
-use std::time::{Duration, Instant};
 
 /// Where an iteration ended.
 #[derive(Clone, Debug)]
@@ -52,7 +51,7 @@ pub(super) struct Means<'a> {
 /// Iterates from the limits or sliding rates `start`. `None` where the engine refuses the program or leaves no numbers.
 pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>, stop: Stop, means: Means) -> Option<FixedPoint> {
     let Means { mut newton, mut law, settings } = means;
-    let end = Duration::try_from_secs_f64(settings.seconds.max(0.0)).ok().and_then(|s| Instant::now().checked_add(s));
+    let end = settings.deadline;
     let mut rates = newton.as_ref().map_or_else(Vec::new, |(_, rates)| rates.to_vec());
     let mut held = start;
     let mut engine: Option<Engine> = None;
@@ -75,14 +74,9 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
         } else {
             // Once is enough to know that Newton's method does not get there.
             newton = None;
-            let left = end.map_or(f64::INFINITY, |end| end.saturating_duration_since(Instant::now()).as_secs_f64());
             let solution = match &mut engine {
                 Some(engine) => engine.again(contacts, hold, &held),
-                None => engine
-                    .insert(Engine::new(contacts, (aim, hold, &held), &Settings { seconds: left, ..*settings })?)
-                    .session
-                    .solve()
-                    .into(),
+                None => engine.insert(Engine::new(contacts, (aim, hold, &held), settings)?).session.solve().into(),
             };
             let Some(solution) = solution.filter(Solution::is_finite) else { break };
             (forces, rates, lambda) = read(contacts, aim, &solution);

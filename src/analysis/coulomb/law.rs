@@ -9,13 +9,13 @@
 
 use super::fixed_point::FixedPoint;
 use crate::{
+    deadline::Deadline,
     program::{
         coulomb::Contacts,
         response::{FrictionLimits, Response},
     },
     solve::{Lu, Pattern},
 };
-use std::time::Instant;
 
 /// Most steps to one way. Fewer: walls go back to the limits. More: time lost from afar.
 const STEPS: usize = 12;
@@ -61,14 +61,14 @@ impl Law {
     }
 
     /// The fixed point at δ near rates and load factor (over the scale) of one of its programs.
-    pub fn near(&mut self, contacts: &Contacts, delta: f64, rates: &[f64], lambda: f64, end: Option<Instant>) -> Option<FixedPoint> {
+    pub fn near(&mut self, contacts: &Contacts, delta: f64, rates: &[f64], lambda: f64, end: Deadline) -> Option<FixedPoint> {
         let start = Place { z: rates.iter().map(|y| y / delta).collect(), lambda, way: 1.0 / delta };
         let way = start.way;
         self.to(contacts, start, way, end)
     }
 
     /// The fixed point at a smaller δ than the last, pushed there from it.
-    pub fn on(&mut self, contacts: &Contacts, delta: f64, end: Option<Instant>) -> Option<FixedPoint> {
+    pub fn on(&mut self, contacts: &Contacts, delta: f64, end: Deadline) -> Option<FixedPoint> {
         let goal = 1.0 / delta;
         let mut growth = goal / self.last.as_ref()?.way;
         if growth <= 1.0 {
@@ -90,14 +90,14 @@ impl Law {
     }
 
     /// Newton's method from a place to a way.
-    fn to(&mut self, contacts: &Contacts, start: Place, way: f64, end: Option<Instant>) -> Option<FixedPoint> {
+    fn to(&mut self, contacts: &Contacts, start: Place, way: f64, end: Deadline) -> Option<FixedPoint> {
         let Place { mut z, mut lambda, .. } = start;
         let (mut forces, mut imbalance) = self.look(contacts, &z, lambda);
         // The first step goes all the way, whatever it leaves.
         let mut size = f64::INFINITY;
         let mut spring = SPRINGS[0];
         for _ in 0..STEPS {
-            if end.is_some_and(|end| Instant::now() >= end) {
+            if end.is_over() {
                 return None;
             }
             let step = self.step(contacts, &z, &imbalance, way, spring);

@@ -26,7 +26,6 @@ use crate::{
     verdict::{Forces, Rate, Verdict, certificate, check, law},
 };
 use serde::{Deserialize, Serialize};
-use std::time::{Duration, Instant};
 
 /// How a load factor with dry friction was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -72,6 +71,13 @@ pub struct DryLoadFactor {
     pub rates: Vec<Rate>,
 }
 
+impl DryLoadFactor {
+    /// Whether the state was seen at rest just below the value.
+    pub fn is_reached(&self) -> bool {
+        super::is_reached(self.rests_at, self.value)
+    }
+}
+
 /// δ, and the change of the friction limits (mean block loads) at which the next one is taken up. The error of the law falls with δ,
 /// the engine's noise in the forces grows with its tolerance / δ: the last stage, for what is not exact enough by then, has a
 /// larger δ than the one before and the engine at its finest.
@@ -94,10 +100,8 @@ const TOLERANCES: [f64; 2] = [1e-11, 1e-13];
 /// The load factor with dry friction of one part, up to which it comes to rest; `associative` is the answer of
 /// [`limit`](crate::analysis::limit()) for the same part, `dead` the verdict under the dead load alone, where it is known.
 pub(in crate::analysis) fn of_part(model: &Model, associative: &LoadFactor, dead: Option<Verdict>, control: &Control) -> DryLoadFactor {
-    let start = Instant::now();
     let answer = complementary(model, associative, control);
-    let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-    up_to_rest(answer, &model.assembly, associative, dead, &|lambda| model.at_load_factor(lambda), &control)
+    up_to_rest(answer, &model.assembly, associative, dead, &|lambda| model.at_load_factor(lambda), control)
 }
 
 /// Forces and a mechanism that obey Coulomb's law together at a load factor; nothing is said about what happens below.
@@ -115,7 +119,7 @@ pub(in crate::analysis) fn complementary(model: &Model, associative: &LoadFactor
         forces: associative.forces.clone(),
         rates: associative.rates.clone(),
     };
-    if associative.outcome == Outcome::Impossible || control.seconds <= 0.0 {
+    if associative.outcome == Outcome::Impossible || control.deadline.is_over() {
         return answer;
     }
     if associative.outcome == Outcome::Found {
@@ -130,15 +134,14 @@ pub(in crate::analysis) fn complementary(model: &Model, associative: &LoadFactor
         answer.found = Found::Unlimited;
         return answer;
     }
-    let start = Instant::now();
     let options = StaticsOptions { keep_all: control.keep_all, live: true, symmetry: true, ..StaticsOptions::default() };
     let contacts = Contacts::new(model, options);
     let is_part = contacts.statics.is_part();
     let scene = Scene { model, associative };
-    lowered(&scene, contacts, control, start, &mut answer);
+    lowered(&scene, contacts, control, &mut answer);
     if answer.found == Found::Undecided && is_part {
         let whole = Contacts::new(model, StaticsOptions { symmetry: false, ..options });
-        lowered(&scene, whole, control, start, &mut answer);
+        lowered(&scene, whole, control, &mut answer);
     }
     answer
 }
@@ -150,10 +153,9 @@ struct Scene<'a> {
 }
 
 /// Lowers δ until the law is obeyed.
-fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, start: Instant, answer: &mut DryLoadFactor) {
+fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mut DryLoadFactor) {
     let Model { assembly, interfaces, .. } = scene.model;
-    let seconds = control.seconds - start.elapsed().as_secs_f64();
-    let settings = Settings { seconds, tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
+    let settings = Settings { deadline: control.deadline, tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
     let scale = check::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
     let first = Stop { change: 0.0, solves: 1 };
@@ -164,11 +166,10 @@ fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, start: Inst
     answer.solves += from.solves;
     let mut law = Law::new(&contacts, scale);
     for (stage, (delta, stop)) in STAGES.into_iter().enumerate() {
-        let left = control.seconds - start.elapsed().as_secs_f64();
-        if left <= 0.0 {
+        if control.deadline.is_over() {
             break;
         }
-        let settings = Settings { seconds: left, tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
+        let settings = Settings { tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| {
             let means = Means { law: law.as_mut(), ..engine(&settings) };
             iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, means)
@@ -180,9 +181,7 @@ fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, start: Inst
         }
         let settled = point.change == 0.0 && stage + 1 >= LEAST_STAGES;
         if let Some(law) = law.as_mut().filter(|_| settled) {
-            let left = (control.seconds - start.elapsed().as_secs_f64()).max(0.0);
-            let end = Duration::try_from_secs_f64(left).ok().and_then(|s| Instant::now().checked_add(s));
-            let further = |by: &f64| law.on(&contacts, by * delta, end).map(|p| FixedPoint { lambda: scale * p.lambda, ..p });
+            let further = |by: &f64| law.on(&contacts, by * delta, control.deadline).map(|p| FixedPoint { lambda: scale * p.lambda, ..p });
             if FURTHER.iter().map_while(further).any(|p| accept(scene, &contacts, &p, answer)) {
                 break;
             }

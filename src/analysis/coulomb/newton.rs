@@ -3,13 +3,13 @@
 //! which differs by a little friction, it takes two to five steps, where the interior-point engine starts from scratch each time.
 
 use crate::{
+    deadline::Deadline,
     program::{
         coulomb::{Contacts, Hold},
         response::{FrictionLimits, Response},
     },
     solve::{Cholesky, Pattern},
 };
-use std::time::Instant;
 
 /// Most steps. Fewer: scenes of which many contacts open and close at the first ε go back to the engine. More: the engine, whose twelve to
 /// twenty iterations cost two to four steps each, would have been there before.
@@ -63,7 +63,7 @@ impl Newton {
         contacts: &Contacts,
         (epsilon, hold, held): (f64, Hold, &[f64]),
         start: &[f64],
-        end: Option<Instant>,
+        end: Deadline,
     ) -> Option<Solved> {
         if !Response::is_explicit(contacts, hold) {
             return None;
@@ -78,7 +78,7 @@ impl Newton {
             if size <= EXACT * epsilon {
                 return Some(Solved { forces, rates });
             }
-            if !size.is_finite() || end.is_some_and(|end| Instant::now() >= end) {
+            if !size.is_finite() || end.is_over() {
                 return None;
             }
             if !self.cholesky.factorize(&self.response.derivative(contacts, epsilon, friction, &rates, false)) {
@@ -200,7 +200,7 @@ mod tests {
             let start = vec![0.0; contacts.statics.matrix.rows];
             for (hold, epsilon) in [(Hold::Limits, 1e-3), (Hold::Limits, 1e-6), (Hold::SlidingRates, 1e-3)] {
                 let held: Vec<f64> = numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
-                let found = newton.solve(contacts, (epsilon, hold, &held), &start, None).unwrap();
+                let found = newton.solve(contacts, (epsilon, hold, &held), &start, Deadline::NEVER).unwrap();
                 let settings = Settings { tolerance: 1e-12, ..Settings::default() };
                 let engine = solve::solve(&contacts.program(Aim::State(epsilon), hold, &held), &settings);
                 let size = norm(&found.forces);
@@ -216,7 +216,7 @@ mod tests {
         let contacts = contacts(r#"{ "friction": 0.5 }"#, "");
         let start = vec![0.0; contacts.statics.matrix.rows];
         let held = vec![0.1; contacts.discs().count()];
-        let solved = Newton::new(&contacts).unwrap().solve(&contacts, (1e-3, Hold::Limits, &held), &start, Some(Instant::now()));
+        let solved = Newton::new(&contacts).unwrap().solve(&contacts, (1e-3, Hold::Limits, &held), &start, Deadline::within(0.0));
         assert!(solved.is_none());
     }
 }

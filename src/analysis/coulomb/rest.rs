@@ -17,7 +17,6 @@ use crate::{
     parallel, tolerance,
     verdict::{Verdict, check, law},
 };
-use std::time::Instant;
 
 /// Where the state is asked on the way to a value, in shares of it. Fewer: what comes loose on the way and wedges again is not seen.
 const ON_THE_WAY: [f64; 3] = [0.25, 0.5, 0.75];
@@ -62,7 +61,6 @@ pub fn is_reached(rests_at: f64, value: f64) -> bool {
 struct Probe<'a> {
     at: &'a (dyn Fn(f64) -> Model + Sync),
     control: &'a Control,
-    start: Instant,
     /// All that came out, with their load factors.
     seen: Vec<(f64, State)>,
 }
@@ -70,11 +68,10 @@ struct Probe<'a> {
 impl Probe<'_> {
     /// The state at a load factor; nothing where the time is over.
     fn state(&self, lambda: f64) -> Option<(f64, State)> {
-        let seconds = self.control.seconds - self.start.elapsed().as_secs_f64();
-        if seconds <= 0.0 {
+        if self.control.deadline.is_over() {
             return None;
         }
-        Some((lambda, state(&(self.at)(lambda), &Control { seconds, ..*self.control })))
+        Some((lambda, state(&(self.at)(lambda), self.control)))
     }
 
     /// What the state does at a load factor; nothing where the time is over.
@@ -162,7 +159,7 @@ pub(in crate::analysis) fn up_to_rest(
     let is_bounded = associative.outcome == Outcome::Found;
     // Where contacts form no closed chain there is nothing that could be wedged, and below zero the dead load falls by itself.
     let negative = answer.value < 0.0 || (is_bounded && associative.value <= 0.0);
-    if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) || control.seconds <= 0.0 {
+    if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) || control.deadline.is_over() {
         return answer;
     }
     if is_forest(&at(0.0)) {
@@ -172,7 +169,7 @@ pub(in crate::analysis) fn up_to_rest(
     if negative {
         return answer;
     }
-    let mut probe = Probe { at, control, start: Instant::now(), seen: Vec::new() };
+    let mut probe = Probe { at, control, seen: Vec::new() };
     let rests = match dead {
         Some(Verdict::Stable) => Some(StateMotion::Rests),
         Some(Verdict::Conditional | Verdict::Unstable) => Some(StateMotion::Moves),

@@ -26,7 +26,7 @@ use crate::{
     },
 };
 use serde::{Deserialize, Serialize};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// What the state does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -98,24 +98,23 @@ const STOP: Stop = Stop { change: 1e-5, solves: 25 };
 
 /// Computes the state; of a symmetric scene from one part of it, and where that leaves it open from the whole.
 pub fn state(model: &Model, control: &Control) -> State {
-    let begin = Instant::now();
     let options = StaticsOptions { keep_all: control.keep_all, symmetry: true, ..StaticsOptions::default() };
     let contacts = Contacts::new(model, options);
     let is_part = contacts.statics.is_part();
-    let part = continued(model, contacts, control, begin);
+    let part = continued(model, contacts, control);
     if part.motion != StateMotion::Undecided || !is_part {
         return part;
     }
     let whole = Contacts::new(model, StaticsOptions { symmetry: false, ..options });
-    let mut answer = continued(model, whole, control, begin);
+    let mut answer = continued(model, whole, control);
     answer.steps.splice(0..0, part.steps);
     answer
 }
 
 /// The continuation in ε.
-fn continued(model: &Model, mut contacts: Contacts, control: &Control, begin: Instant) -> State {
+fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State {
     let interfaces = &model.interfaces;
-    let settings = Settings { tolerance: 1e-10, regularization: 1e-8, ..Settings::default() };
+    let settings = Settings { tolerance: 1e-10, regularization: 1e-8, deadline: control.deadline, ..Settings::default() };
     let mut answer = State { motion: StateMotion::Undecided, steps: Vec::new(), forces: Vec::new() };
     let still = vec![0.0; contacts.discs().count()];
     let once = Stop { solves: 1, ..STOP };
@@ -127,24 +126,21 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, begin: In
     let mut hopeless = 0;
     let rest = vec![0.0; contacts.statics.matrix.rows];
     // The associative state is the first guess of the friction limits.
-    let first = Settings { seconds: control.seconds - begin.elapsed().as_secs_f64(), ..settings };
-    let means = Means { newton: newton.as_mut().map(|n| (n, &rest[..])), law: None, settings: &first };
+    let means = Means { newton: newton.as_mut().map(|n| (n, &rest[..])), law: None, settings: &settings };
     let mut last = iterate(&contacts, Aim::State(EPSILONS[0]), Hold::SlidingRates, still, once, means);
     for epsilon in EPSILONS {
-        let left = control.seconds - begin.elapsed().as_secs_f64();
-        let Some(from) = last.take().filter(|_| left > 0.0) else { break };
+        let Some(from) = last.take().filter(|_| !control.deadline.is_over()) else { break };
         let start = Instant::now();
         let tolerance = (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE);
-        let settings = Settings { seconds: left, tolerance, ..settings };
+        let settings = Settings { tolerance, ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, newton.as_mut(), &settings));
         let Some(mut point) = point else { break };
         let mut forces = contacts.statics.forces(interfaces, &point.forces);
         let mut moved = law::motion(model, &forces);
         let rests = decide(&history, &point, &moved) == StateMotion::Rests;
         if history.len() >= BEFORE_EXACT && point.change > 0.0 && !rests {
-            let end = Duration::try_from_secs_f64(left).ok().and_then(|s| start.checked_add(s));
             let solver = exactly.get_or_insert_with(|| Exact::new(&contacts));
-            if let Some((solved, change)) = solver.as_mut().and_then(|e| e.near(&contacts, epsilon, &point.rates, end)) {
+            if let Some((solved, change)) = solver.as_mut().and_then(|e| e.near(&contacts, epsilon, &point.rates, control.deadline)) {
                 point = FixedPoint { forces: contacts.cut(&solved.forces), rates: solved.rates, change, noise: change, ..point };
                 forces = contacts.statics.forces(interfaces, &point.forces);
                 moved = law::motion(model, &forces);
@@ -180,15 +176,13 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, begin: In
 
 /// The fixed point on the limits; where it does not settle, the twin on the sliding rates has a try.
 fn settled(contacts: &Contacts, aim: Aim, from: &FixedPoint, mut newton: Option<&mut Newton>, settings: &Settings) -> Option<FixedPoint> {
-    let start = Instant::now();
     let means = Means { newton: newton.as_deref_mut().map(|n| (n, &from.rates[..])), law: None, settings };
     let by_limits = iterate(contacts, aim, Hold::Limits, contacts.limits(&from.forces), STOP, means)?;
     if by_limits.change <= tolerance::COULOMB_SETTLED {
         return Some(by_limits);
     }
     let sliding = contacts.sliding(&contacts.joint_rates(&by_limits.rates));
-    let settings = Settings { seconds: settings.seconds - start.elapsed().as_secs_f64(), ..*settings };
-    let means = Means { newton: newton.map(|n| (n, &by_limits.rates[..])), law: None, settings: &settings };
+    let means = Means { newton: newton.map(|n| (n, &by_limits.rates[..])), law: None, settings };
     let by_rates = iterate(contacts, aim, Hold::SlidingRates, sliding, STOP, means);
     match by_rates {
         Some(twin) if twin.change <= STOP.change => Some(FixedPoint { solves: twin.solves + by_limits.solves, ..twin }),

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     analysis::{
-        Control, Law, LoadFactor, Outcome,
+        Control, Law, LoadFactor, Outcome, Proved,
         assess::of_part as assess_part,
         coulomb::{self, DryLoadFactor, Found},
         limit::of_part as limit_part,
@@ -15,16 +15,20 @@ use crate::{
     interface::{self, Model, Part},
     verdict::{Forces, Verdict, no_forces},
 };
-use std::time::Instant;
 
 /// The load factor with dry friction, up to which every part comes to rest; `associative` is the answer of
 /// [`limit`](crate::analysis::limit()) for the same model.
-pub fn load_factor(model: &Model, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
+pub fn load_factor(model: &Model, associative: &LoadFactor, control: &Control) -> Proved<DryLoadFactor> {
     load_factor_from(model, associative, None, control)
 }
 
 /// The same where the verdict under the dead load alone is known.
-pub fn load_factor_from(model: &Model, associative: &LoadFactor, dead: Option<Verdict>, control: &Control) -> DryLoadFactor {
+pub fn load_factor_from(model: &Model, associative: &LoadFactor, dead: Option<Verdict>, control: &Control) -> Proved<DryLoadFactor> {
+    Proved::new(model, unproved(model, associative, dead, control))
+}
+
+/// The same without the check.
+pub fn unproved(model: &Model, associative: &LoadFactor, dead: Option<Verdict>, control: &Control) -> DryLoadFactor {
     // Where all stands, every part does; any other verdict is that of one of them.
     let dead = dead.filter(|&v| v == Verdict::Stable);
     let solve = |part: &Part, bound: Option<&LoadFactor>, control: &Control| match bound {
@@ -44,9 +48,8 @@ where
     S: Fn(&Part, Option<&LoadFactor>, &Control) -> DryLoadFactor + Sync,
     A: Fn(&Part, f64) -> Model + Sync,
 {
-    let start = Instant::now();
     let parts = interface::parts(model);
-    if associative.outcome == Outcome::Impossible || control.seconds <= 0.0 || !parts.iter().any(Part::is_driven) {
+    if associative.outcome == Outcome::Impossible || control.deadline.is_over() || !parts.iter().any(Part::is_driven) {
         return coulomb::complementary(model, associative, control);
     }
     let known = |k: usize| associative.parts.get(k).filter(|_| associative.parts.len() == parts.len()).and_then(Option::as_ref);
@@ -55,7 +58,7 @@ where
     let mut own: Vec<Option<DryLoadFactor>> = parts.iter().map(|_| None).collect();
     driven.iter().zip(answers).for_each(|(&k, a)| own[k] = Some(a));
     let scene = Scene { model, parts: &parts, own: &own };
-    scene.answer(&Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control }, &at)
+    scene.answer(control, &at)
 }
 
 /// Whether in every part that it acts on the live load alone produces the forces that balance it, so that no multiple of it moves anything.

@@ -9,7 +9,6 @@ use crate::{
     interface::{self, Model, Part},
     verdict::{Forces, Rate, Verdict, certificate, mechanism, no_forces},
 };
-use std::time::Instant;
 
 /// How parts are asked.
 pub struct Ways<S, A> {
@@ -36,9 +35,8 @@ where
     S: Fn(&Part, &Control) -> LoadFactor + Sync,
     A: Fn(&Part, f64) -> Model + Sync,
 {
-    let start = Instant::now();
     // The last of many directions may find the time already over: nothing is built for it.
-    let parts = if control.seconds > 0.0 { interface::parts(model) } else { Vec::new() };
+    let parts = if !control.deadline.is_over() { interface::parts(model) } else { Vec::new() };
     if !parts.iter().any(Part::is_driven) {
         return limit_part(model, control);
     }
@@ -53,8 +51,7 @@ where
         }
     });
     let mut scene = Scene { model, parts: &parts, asked: &asked, more: Vec::new() };
-    let left = || Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..statics(control) };
-    let mut answer = scene.answer(&left, &ways.at);
+    let mut answer = scene.answer(&statics(control), &ways.at);
     answer.parts = asked.into_iter().map(Asked::driven).collect();
     answer
 }
@@ -106,7 +103,7 @@ struct Scene<'a> {
 pub const SAME: f64 = 1e-9;
 
 impl Scene<'_> {
-    fn answer(&mut self, left: &dyn Fn() -> Control, at: &(impl Fn(&Part, f64) -> Model + Sync)) -> LoadFactor {
+    fn answer(&mut self, control: &Control, at: &(impl Fn(&Part, f64) -> Model + Sync)) -> LoadFactor {
         if self.asked.iter().any(Asked::falls) {
             return self.impossible();
         }
@@ -127,7 +124,7 @@ impl Scene<'_> {
             return self.undecided(k);
         }
         match least {
-            Some((k, value)) => self.found(k, value, left, at),
+            Some((k, value)) => self.found(k, value, control, at),
             None => self.unbounded(),
         }
     }
@@ -230,7 +227,7 @@ impl Scene<'_> {
     }
 
     /// The least load factor is that of part `decides`: do the others stand there?
-    fn found(&mut self, decides: usize, value: f64, left: &dyn Fn() -> Control, at: &(impl Fn(&Part, f64) -> Model + Sync)) -> LoadFactor {
+    fn found(&mut self, decides: usize, value: f64, control: &Control, at: &(impl Fn(&Part, f64) -> Model + Sync)) -> LoadFactor {
         let mut answer = self.start(decides);
         let (part, Asked::Driven(own)) = (&self.parts[decides], &self.asked[decides]) else { return answer };
         // Forces balance at the lower end; those of the others serve where theirs is the same to the last digit.
@@ -243,7 +240,7 @@ impl Scene<'_> {
             Asked::Still(_) => false,
         };
         let others: Vec<usize> = (0..self.parts.len()).filter(|&k| bears_more(k)).collect();
-        let standing = each(self.parts, &others, &left(), |k, control| assess_part(&at(&self.parts[k], standing_at), control));
+        let standing = each(self.parts, &others, control, |k, control| assess_part(&at(&self.parts[k], standing_at), control));
         for (&k, a) in others.iter().zip(&standing) {
             self.parts[k].put_forces(&a.forces, &mut answer.forces);
             self.more.extend(a.attempts.iter().cloned());

@@ -24,7 +24,7 @@ use crate::{
     verdict::{Forces, Rate, no_forces},
 };
 use serde::{Deserialize, Serialize};
-use std::{fmt, time::Instant};
+use std::fmt;
 
 /// The part of a scene that decided an answer, where there are several.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -66,8 +66,7 @@ const WORTH_THREADS: usize = 400;
 
 /// The answers of the parts `which`, in their order; all share the time.
 fn each<R: Send>(parts: &[Part], which: &[usize], control: &Control, ask: impl Fn(usize, &Control) -> R + Sync) -> Vec<R> {
-    let start = Instant::now();
-    let one = |k: usize| ask(k, &Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control });
+    let one = |k: usize| ask(k, control);
     let points = |k: usize| parts[k].model.interfaces.list.iter().map(|f| f.points.len()).sum::<usize>();
     if which.len() > 1 && which.iter().map(|&k| points(k)).sum::<usize>() >= WORTH_THREADS {
         // The largest first: it should not be begun when everything else is done.

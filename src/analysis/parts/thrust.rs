@@ -14,7 +14,6 @@ use crate::{
         thrust::{Extreme, ThrustAt},
     },
 };
-use std::time::Instant;
 
 /// The least or greatest thrust of a scene that stands; `standing` are forces that balance its loads.
 pub fn thrust(scene: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> ThrustEnd {
@@ -24,10 +23,8 @@ pub fn thrust(scene: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces,
     if touching.is_empty() {
         return of_part(scene, at, extreme, standing, control);
     }
-    let start = Instant::now();
     let ask = |&(part, support): &(&Part, usize)| {
-        let control = Control { seconds: control.seconds - start.elapsed().as_secs_f64(), ..*control };
-        of_part(&part.model, &ThrustAt { support, ..*at }, extreme, &part.take_forces(standing), &control)
+        of_part(&part.model, &ThrustAt { support, ..*at }, extreme, &part.take_forces(standing), control)
     };
     let ends: Vec<ThrustEnd> = touching.iter().map(ask).collect();
     let any = |outcome: Outcome| ends.iter().any(|e| e.outcome == outcome);
@@ -61,6 +58,7 @@ pub fn thrust(scene: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces,
         e.attempts.iter().map(move |a| super::Attempt { lower: end(a.lower), upper: end(a.upper), ..a.clone() })
     });
     ThrustEnd {
+        at: *at,
         extreme,
         outcome,
         value: if outcome == Outcome::Unbounded { f64::NAN } else { sum(|e| e.value) },
@@ -75,19 +73,17 @@ pub fn thrust(scene: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces,
 
 /// The geometric safety factor of a scene that stands: the least of those of its parts, with verdicts on the whole scene.
 pub fn geometric_factor(scene: &Model, control: &Control) -> Geometric {
-    let start = Instant::now();
     let parts = interface::parts(scene);
     if parts.len() <= 1 {
         return geometric::of_part(scene, control);
     }
-    let left = || Control { seconds: (control.seconds - start.elapsed().as_secs_f64()).max(0.0), ..*control };
     let mut worst: Option<Flip> = None;
     for part in &parts {
-        match geometric::of_part(&part.model, &left()) {
+        match geometric::of_part(&part.model, control) {
             Geometric::Found(flip) if worst.as_ref().is_none_or(|w| flip.value > w.value) => worst = Some(*flip),
             Geometric::Found(_) | Geometric::Beyond(_) => {}
             Geometric::Open(why) => return Geometric::Open(why),
         }
     }
-    geometric::on_scene(scene, worst, &left())
+    geometric::on_scene(scene, worst, control)
 }

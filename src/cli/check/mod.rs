@@ -7,7 +7,7 @@ use super::{args::Check, claim, exit::Exit, input, pictures::Pictures, terminal:
 use anyhow::bail;
 use voussoir::{
     error::{InputError, JsonPath},
-    report::read,
+    proof::read,
 };
 
 pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {

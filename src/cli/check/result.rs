@@ -9,7 +9,8 @@ use crate::cli::{
 };
 use voussoir::{
     interface::prepare,
-    report::{self, ResultFile, VerificationFile, text, verify, view::View},
+    proof::{ResultFile, VerificationFile, verify},
+    report::{self, text, view::View},
 };
 
 pub fn run(file: &ResultFile, args: &Check, pictures: &Pictures, terminal: &Terminal) -> anyhow::Result<Exit> {

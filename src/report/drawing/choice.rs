@@ -1,11 +1,11 @@
 //! Which forces and which motion stand on a drawing: those of the answer that is told first.
 
 use super::body::{Solid, posed};
-use crate::report::{
-    text::number::seconds,
-    view::{Body, Mark, View, ViewMotion, ViewPart, ViewPose, ViewShape, ViewState},
+use crate::{
+    number::seconds,
+    report::view::{Body, Mark, View, ViewMotion, ViewPart, ViewPose, ViewShape, ViewState},
+    tolerance::MECHANISM_REST,
 };
-use crate::tolerance::MECHANISM_REST;
 use nalgebra::{Matrix3, Vector3};
 
 /// The greatest way of a corner that is shown of a mechanism, over the size of the structure.

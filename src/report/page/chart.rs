@@ -2,11 +2,9 @@
 
 use crate::{
     analysis::Attempt,
-    report::{
-        ResultFile,
-        heaps::ReposeFile,
-        text::number::{seconds, short},
-    },
+    number::{seconds, short},
+    proof::ResultFile,
+    report::heaps::ReposeFile,
 };
 use serde::Serialize;
 

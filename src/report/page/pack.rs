@@ -162,7 +162,7 @@ fn joints(view: &View, units: &Units) -> Value {
 
 /// How a joint resists, in words.
 fn law(law: &crate::assembly::JointLaw) -> String {
-    use crate::report::text::number::short;
+    use crate::number::short;
     let mu = law.friction.mu();
     let mut words = vec![if mu.is_finite() { format!("friction {}", short(mu)) } else { "no sliding".into() }];
     for (name, value, unit) in [

@@ -2,13 +2,8 @@
 
 use super::{Axis, Chart, Series, tables};
 use crate::{
-    report::{
-        study::ANSWER,
-        text::{
-            Page,
-            number::{seconds, short},
-        },
-    },
+    number::{seconds, short},
+    report::{study::ANSWER, text::Page},
     study::{
         Omission, StudyMethod, StudyPoint,
         extreme::{CellAnswer, CellQuestion},

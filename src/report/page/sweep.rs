@@ -2,9 +2,10 @@
 
 use super::{Axis, Chart, Series, tables};
 use crate::{
+    number::short,
     report::{
         sweep::group::{bands, cells},
-        text::{Page, number::short},
+        text::Page,
     },
     sweep::{Fragility, Header, Row, Summary, value_of},
 };
@@ -99,7 +100,7 @@ fn heat(header: &Header, known: &[(&Row, f64)], [a, b]: [usize; 2]) -> Chart {
             .iter()
             .map(|c| {
                 let (x, y) = (short(middle(c.x)), short(middle(c.y)));
-                let rows = crate::report::text::number::count(c.rows, "row");
+                let rows = crate::number::count(c.rows, "row");
                 format!("{} {x}, {} {y}: {} {} ({rows})", label(header, a), label(header, b), what(header), short(c.mean))
             })
             .collect(),
@@ -158,7 +159,7 @@ fn table(header: &Header, rows: &[Row]) -> Value {
         let mut cells: Vec<Value> = vec![json!(r.row)];
         cells.extend(r.parameters.iter().map(|v| json!(v)));
         cells.extend([json!(a.status.word()), json!(a.value), json!(a.lower), json!(a.upper)]);
-        cells.extend(directions.then(|| json!(a.toward.map(crate::report::text::number::point))));
+        cells.extend(directions.then(|| json!(a.toward.map(crate::number::point))));
         cells.extend(errors.then(|| json!(r.error)));
         cells.push(json!(r.seconds));
         cells

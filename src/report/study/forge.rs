@@ -2,9 +2,9 @@
 
 use super::super::{
     cells::Table,
-    forge::Forged,
     text::{Layout, Page, Role},
 };
+use crate::study::forge::Forged;
 use std::collections::BTreeMap;
 
 /// How many forgeries are named where not all are asked for.

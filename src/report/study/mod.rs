@@ -106,9 +106,9 @@ pub fn text(points: &[StudyPoint], layout: Layout) -> Page {
                 let at = if method.knob().is_empty() {
                     String::new()
                 } else {
-                    format!(", {} {}", method.knob(), super::text::number::short(best.knob))
+                    format!(", {} {}", method.knob(), crate::number::short(best.knob))
                 };
-                Some(format!("{:<28} {:>8}  {}{at}", method.label(), shown(best.error), super::text::number::seconds(best.seconds)))
+                Some(format!("{:<28} {:>8}  {}{at}", method.label(), shown(best.error), crate::number::seconds(best.seconds)))
             })
             .collect();
         page.row(scene, lines);
@@ -116,14 +116,7 @@ pub fn text(points: &[StudyPoint], layout: Layout) -> Page {
     page.row(
         "wrong",
         wrong.iter().map(|p| {
-            format!(
-                "{}: {}, {} {}: error {}",
-                p.scene,
-                p.method.label(),
-                p.method.knob(),
-                super::text::number::short(p.knob),
-                shown(p.error)
-            )
+            format!("{}: {}, {} {}: error {}", p.scene, p.method.label(), p.method.knob(), crate::number::short(p.knob), shown(p.error))
         }),
     );
     page
@@ -138,7 +131,7 @@ pub fn omissions_text(list: &[Omission], layout: Layout) -> Page {
     page.title("What omissions save", title, Role::Value);
     page.blank();
     for o in list {
-        let seconds = o.seconds.map(super::text::number::seconds);
+        let seconds = o.seconds.map(crate::number::seconds);
         let same = o.difference().map_or("one of them did not come out".into(), |d| format!("answers differ by {d:.0e}"));
         let line = format!("{} unknowns in {} instead of {} in {}; {same}", o.unknowns[0], seconds[0], o.unknowns[1], seconds[1]);
         page.row(&o.scene, std::iter::once(line).chain(o.left_out.iter().cloned()));

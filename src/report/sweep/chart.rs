@@ -2,8 +2,8 @@
 
 use super::group::{Cell, bands, cells};
 use crate::{
+    number::short,
     plain::document,
-    report::text::number::short,
     sweep::{Fragility, Header, Plan, Row, Sampling, Summary, value_of},
 };
 use plotters::{

@@ -6,7 +6,10 @@ mod progress;
 mod table;
 mod text;
 
-use crate::sweep::{Header, Question, Summary};
+use crate::{
+    analysis::Question,
+    sweep::{Header, Summary},
+};
 use serde::Serialize;
 
 pub use chart::{ChartError, Kind, chart};

@@ -1,7 +1,8 @@
 //! How far a sweep is, as a page and as JSON (`"format": "voussoir-progress/1"`).
 
 use crate::{
-    report::text::{Layout, Page, Role, number::count},
+    number::count,
+    report::text::{Layout, Page, Role},
     sweep::{Header, Row},
 };
 use serde::Serialize;

@@ -1,10 +1,8 @@
 //! The summary of a sweep as a page.
 
 use crate::{
-    report::text::{
-        Layout, Page, Role,
-        number::{count, seconds, short},
-    },
+    number::{count, seconds, short},
+    report::text::{Layout, Page, Role},
     sweep::{Header, Proportion, Summary},
 };
 

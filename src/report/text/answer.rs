@@ -2,13 +2,13 @@
 
 use super::{
     SHOWN, TextOptions, cut,
-    number::{bracketed, decimals, ends, fixed, point},
     page::{Page, Role},
     simulation,
 };
 use crate::{
     analysis::{Outcome, coulomb::Found},
-    report::result::{Answer, DryResult, LoadFactorAnswer, QuestionKind, ResultFile},
+    number::{bracketed, decimals, ends, fixed, point},
+    proof::result::{Answer, DryResult, LoadFactorAnswer, QuestionKind, ResultFile},
     tolerance,
     verdict::{Verdict, check::Claim},
 };

@@ -1,14 +1,12 @@
 //! What `check` found, for people.
 
-use super::{
-    number::count,
-    page::{Layout, Page, Role},
-};
+use super::page::{Layout, Page, Role};
 use crate::{
     analysis::Law,
     error::Finding,
     interface::Model,
-    report::{result::ResultFile, verify::Verification},
+    number::count,
+    proof::{result::ResultFile, verify::Verification},
 };
 
 /// The verification of a result: what holds and what fails, part by part.

@@ -2,12 +2,12 @@
 
 use super::{
     SHOWN, TextOptions, cut,
-    number::{bracketed, count, ends, short},
     page::{Page, Role},
 };
 use crate::{
     analysis::critical::Method,
-    report::{
+    number::{bracketed, count, ends, short},
+    proof::{
         critical::{CriticalResult, CriticalValue, exhausted},
         result::ResultFile,
     },

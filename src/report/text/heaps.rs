@@ -1,11 +1,10 @@
 //! Angles of repose for people.
 
-use super::{
-    Layout, Page, TextOptions,
+use super::{Layout, Page, TextOptions, page::Role};
+use crate::{
     number::{count, seconds, short},
-    page::Role,
+    report::heaps::{HeapResult, ReposeFile},
 };
-use crate::report::heaps::{HeapResult, ReposeFile};
 
 /// The answer about heaps as a page.
 pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {

@@ -1,12 +1,9 @@
 //! The mechanism in words.
 
-use super::{
-    SHOWN, TextOptions, cut,
-    number::{count, point},
-    page::Page,
-};
+use super::{SHOWN, TextOptions, cut, page::Page};
 use crate::{
-    report::result::{JointWords, ResultFile},
+    number::{count, point},
+    proof::result::{JointWords, ResultFile},
     verdict::mechanism::JointMotion,
 };
 

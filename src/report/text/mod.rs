@@ -5,7 +5,6 @@ mod check;
 mod critical;
 mod heaps;
 mod mechanism;
-pub mod number;
 mod packing;
 mod page;
 mod simulation;
@@ -16,12 +15,16 @@ pub use heaps::heaps;
 pub use packing::packing;
 pub use page::{Layout, Page, Role, Span};
 
-use super::{
+use crate::proof::{
     result::{QuestionKind, ResultFile},
     work::Work,
 };
-use crate::{analysis::Attempt, solve::Engine, verdict::Verdict};
-use number::{count, seconds};
+use crate::{
+    analysis::Attempt,
+    number::{count, seconds},
+    solve::Engine,
+    verdict::Verdict,
+};
 
 /// How much is said.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

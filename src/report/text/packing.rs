@@ -1,17 +1,14 @@
 //! Packings for people: the least tilt, every direction, and how the packing carries its load.
 
-use super::{
-    Layout, Page, SHOWN, TextOptions, cut,
-    number::{bracketed, count, point, seconds, short},
-    page::Role,
-};
+use super::{Layout, Page, SHOWN, TextOptions, cut, page::Role};
 use crate::{
     analysis::{
         Fabric, Outcome,
         coulomb::Found,
         fabric::{FORCE_BIN, FORCE_BINS},
     },
-    report::packing::{PackingDirection, PackingFile},
+    number::{bracketed, count, point, seconds, short},
+    proof::packing::{PackingDirection, PackingFile},
 };
 
 /// The answer about a packing as a page.

@@ -2,13 +2,13 @@
 
 use super::{
     TextOptions, cut,
-    number::{count, point, seconds, short},
     page::{Page, Role},
 };
 use crate::{
     analysis::Agreement,
     dynamics::{Fate, Fidelity, Run, Stop},
-    report::{Simulation, result::ResultFile},
+    number::{count, point, seconds, short},
+    proof::{Simulation, result::ResultFile},
     verdict::Verdict,
 };
 

@@ -2,12 +2,12 @@
 
 use super::{
     TextOptions, cut,
-    number::{bracketed, ends, fixed, point, short},
     page::{Page, Role},
 };
 use crate::{
     analysis::Outcome,
-    report::{
+    number::{bracketed, ends, fixed, point, short},
+    proof::{
         result::ResultFile,
         thrust::{Line, ThrustAnswer, ThrustSection, ThrustValue},
     },
@@ -71,7 +71,7 @@ fn factor(t: &ThrustAnswer, file: &ResultFile) -> String {
         (Some(f), _) => match (f.value, f.upper) {
             (Some(v), Some(upper)) => format!(
                 "Geometric safety factor {}: all sections can be shrunk about their centroids by this and still hold a line of thrust (Heyman 1982).",
-                fixed(v, super::number::decimals(v, f.lower, upper).min(6))
+                fixed(v, crate::number::decimals(v, f.lower, upper).min(6))
             ),
             _ => format!(
                 "Geometric safety factor above {}: lines of thrust pass as close to the middle of every section as one likes.",

@@ -14,14 +14,12 @@ pub use motion::{Mark, ViewMotion, ViewPose};
 pub use state::{Resultant, Segment, ViewPart, ViewState};
 pub use surface::{Surface, ViewShape};
 
-use super::{
-    result::{QuestionKind, ResultFile},
-    text::number::short,
-};
+use crate::proof::result::{QuestionKind, ResultFile};
 use crate::{
     assembly::JointLaw,
     dynamics::Frame,
     interface::{ContactKind, Model},
+    number::short,
     verdict::section::centroid,
 };
 use nalgebra::Vector3;

@@ -11,10 +11,8 @@ use super::{Body, ViewPart};
 use crate::{
     analysis::coulomb::Found,
     interface::Model,
-    report::{
-        result::{Certificate, ResultFile},
-        view::ViewShape,
-    },
+    proof::result::{Certificate, ResultFile},
+    report::view::ViewShape,
     verdict::{
         Rate,
         check::Claim,

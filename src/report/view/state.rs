@@ -3,10 +3,8 @@
 use crate::{
     analysis::{Outcome, coulomb::Found},
     interface::Model,
-    report::{
-        result::{Certificate, QuestionKind, ResultFile},
-        text::number::short,
-    },
+    number::short,
+    proof::result::{Certificate, QuestionKind, ResultFile},
     scene::Friction,
     tolerance,
     verdict::{

@@ -28,8 +28,6 @@ pub struct Session {
     objective: Vec<f64>,
     settings: Settings,
     start: Instant,
-    /// The clock of all solves together.
-    begin: Instant,
     /// A point well inside that the last solve passed, where the next may begin.
     warm: Option<(Point, Vec<f64>)>,
 }
@@ -50,7 +48,6 @@ impl Session {
             objective: program.objective.clone(),
             settings: *settings,
             start,
-            begin: start,
             warm: None,
         })
     }
@@ -83,8 +80,7 @@ impl Session {
             b: pick(&self.rhs, &s.equalities),
             h: pick(&self.rhs, &s.cone_rows),
         };
-        let clock = (self.start, self.begin);
-        let (found, status) = path::follow(s, &mut self.reduced, &data, &self.settings, clock, &mut self.warm, &mut trace);
+        let (found, status) = path::follow(s, &mut self.reduced, &data, &self.settings, self.start, &mut self.warm, &mut trace);
         let (mut x, mut z) = (Vec::new(), Vec::new());
         if let Some(p) = found {
             (x, z) = (vec![0.0; self.objective.len()], vec![0.0; self.rhs.len()]);

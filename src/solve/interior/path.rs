@@ -106,13 +106,13 @@ fn begin(st: &Structure, reduced: &mut Reduced, cones: &mut Cones, data: &Data) 
     Some((Point { x: primal.x, t: primal.t, y: dual.y, z: inside(dual.z) }, s))
 }
 
-/// Solves the program from the warm point, if there is one. The clocks are those of this solve and of all solves of the session.
+/// Solves the program from the warm point, if there is one. `start` is when this solve began.
 pub(super) fn follow(
     st: &Structure,
     reduced: &mut Reduced,
     data: &Data,
     settings: &Settings,
-    (start, clock): (Instant, Instant),
+    start: Instant,
     warm: &mut Option<(Point, Vec<f64>)>,
     trace: &mut Vec<Iteration>,
 ) -> (Option<Point>, Status) {
@@ -155,7 +155,7 @@ pub(super) fn follow(
         if since > if almost(&best) { 1 } else { PATIENCE } {
             return give(best, Status::Stalled);
         }
-        if clock.elapsed().as_secs_f64() >= settings.seconds {
+        if settings.deadline.is_over() {
             // The point to start from is no answer: its rates are far from admissible, and a bound corrected to first order would be untrue.
             return give(best.filter(|_| step > 0), Status::Limit);
         }

@@ -118,7 +118,10 @@ fn what_has_no_answer_ends_without_one() {
     assert_ne!(solution.status, Status::Solved);
     // No time.
     let program = pushed(6, 6, [1.0, 0.0, 0.0]);
-    assert_eq!(own(&program, &Settings { seconds: 0.0, ..settings(Engine::Interior) }).status, Status::Limit);
+    assert_eq!(
+        own(&program, &Settings { deadline: crate::deadline::Deadline::within(0.0), ..settings(Engine::Interior) }).status,
+        Status::Limit
+    );
     // Numbers that are none.
     let mut program = program;
     program.rhs[0] = f64::NAN;

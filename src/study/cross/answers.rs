@@ -6,6 +6,7 @@ use crate::{
         coulomb::{self, DryLoadFactor, Found},
         limit,
     },
+    deadline::Deadline,
     interface::Model,
     verdict::Verdict,
 };
@@ -15,7 +16,7 @@ const SECONDS: f64 = 2.0;
 
 /// How all questions are asked.
 pub fn control() -> Control {
-    Control { law: Law::Coulomb, seconds: SECONDS, ..Control::default() }
+    Control { law: Law::Coulomb, deadline: Deadline::within(SECONDS), ..Control::default() }
 }
 
 /// The answers of a scene. What its certificate does not prove is undecided.
@@ -35,8 +36,7 @@ pub struct Answers {
 
 /// The verdict of an assembly.
 pub fn verdict(model: &Model) -> Verdict {
-    let answer = assess(model, &control());
-    if answer.proved(model) { answer.verdict } else { Verdict::Undecided }
+    assess(model, &control()).verdict
 }
 
 impl Answers {
@@ -44,12 +44,12 @@ impl Answers {
     pub fn of(model: &Model) -> Self {
         let verdict = verdict(model);
         let bound = limit(model, &control());
-        let outcome = if bound.proved(model) { bound.outcome } else { Outcome::Undecided };
-        let has_limit = matches!(bound.outcome, Outcome::Found | Outcome::Unbounded);
+        let outcome = bound.outcome;
+        let has_limit = matches!(outcome, Outcome::Found | Outcome::Unbounded);
         let dry = has_limit.then(|| coulomb::load_factor_from(model, &bound, Some(verdict), &control()));
         // A value that is proved and up to which the state was seen to rest, or one that was seen only.
         let is_known = |d: &DryLoadFactor| match d.found {
-            Found::NothingSlides | Found::FixedPoint => d.proved(model) && coulomb::is_reached(d.rests_at, d.value),
+            Found::NothingSlides | Found::FixedPoint => d.is_reached(),
             Found::Rests => true,
             Found::Unlimited | Found::NotAtRest | Found::Undecided => false,
         };

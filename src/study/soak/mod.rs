@@ -9,7 +9,8 @@ mod scenes;
 pub use scenes::{FAMILIES, scene};
 
 use crate::{
-    analysis::{Assessment, Control, Law, agreement, assess},
+    analysis::{Control, Law, agreement, assess},
+    deadline::Deadline,
     dynamics::{self, Fate},
     error::{FindingCode, RowsError},
     interface::{Model, prepare},
@@ -164,14 +165,13 @@ fn ask(seed: u64, index: usize, soaked: &mut Soaked) {
         Err(e) => return soaked.error = Some(e.to_string()),
     };
     let (model, assembly) = (&model, &model.assembly);
-    let control = Control { law: Law::Coulomb, seconds: SECONDS, ..Control::default() };
-    let said = |a: &Assessment| if a.proved(model) { a.verdict } else { Verdict::Undecided };
+    let control = Control { law: Law::Coulomb, deadline: Deadline::within(SECONDS), ..Control::default() };
     let answer = assess(model, &control);
     soaked.blocks = assembly.blocks.len();
-    soaked.verdict = Some(said(&answer));
-    soaked.unproved = Some(answer.verdict).filter(|v| *v != said(&answer));
+    soaked.verdict = Some(answer.verdict);
+    soaked.unproved = answer.refused().and_then(|claim| claim.verdict());
     if index.is_multiple_of(EVERY_KEPT) {
-        soaked.kept = Some(said(&assess(model, &Control { keep_all: true, ..control })));
+        soaked.kept = Some(assess(model, &Control { keep_all: true, ..control }).verdict);
     }
     if index.is_multiple_of(EVERY_SIMULATED)
         && let Ok(outcome) = dynamics::simulate(model, &dynamics::SimulationSettings::default(), &mut |_| ControlFlow::Continue(()))

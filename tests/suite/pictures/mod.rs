@@ -10,7 +10,8 @@ use serde_json::json;
 use voussoir::{
     analysis::{Control, Law, assess, limit},
     interface::Model,
-    report::{ResultFile, view::View},
+    proof::ResultFile,
+    report::view::View,
     scene::Scene,
 };
 
@@ -35,7 +36,7 @@ fn assessed(scene: &Scene) -> (Model, View) {
 
 fn limited(scene: &Scene) -> (Model, View) {
     let m = model(scene);
-    let file = ResultFile::load_factor(scene, &m, &limit(&m, &control()));
+    let file = ResultFile::load_factor(scene, &m, &limit(&m, &control()).into());
     let view = View::new(&m, &file, Vec::new()).unwrap();
     (m, view)
 }

@@ -8,8 +8,8 @@ use std::{ops::ControlFlow, process::Command};
 use voussoir::{
     dynamics::{Fidelity, SimulationSettings, simulate},
     interface::Model,
+    proof::ResultFile,
     report::{
-        ResultFile,
         view::{Film, View},
         vtk::{collection, moment, vtp},
     },

@@ -94,6 +94,6 @@ fn a_floating_block_falls_and_is_named() {
     assert!(!stands(&scene));
     let model = model(&scene);
     let answer = voussoir::analysis::assess(&model, &Default::default());
-    let mechanism = answer.mechanism.expect("a mechanism");
+    let mechanism = answer.mechanism.as_ref().expect("a mechanism");
     assert_eq!(mechanism.moving.iter().map(|&i| model.assembly.blocks[i].id.as_str()).collect::<Vec<_>>(), ["float"]);
 }

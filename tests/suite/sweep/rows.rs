@@ -4,12 +4,20 @@ use super::{arch, block, sweep};
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, fs, path::Path};
 use voussoir::{
+    analysis::{Control, ask},
     interface::prepare,
-    sweep::{Event, Row, RowStatus, RowsFile, RunOptions, Shard, Sweep, ask, merge, read_rows, run},
+    scene::Scene,
+    sweep::{Event, Row, RowAnswer, RowStatus, RowsFile, RunOptions, Shard, Sweep, merge, read_rows, run},
 };
 
 fn options(threads: usize, shard: Shard) -> RunOptions {
     RunOptions { threads: Some(threads), shard, restart: false }
+}
+
+/// The answer of a row, asked without any sweep.
+fn by_itself(sweep: &Sweep, scene: &Scene) -> RowAnswer {
+    let question = sweep.plan.question.for_one_number();
+    RowAnswer::of_answer(&ask(&question, scene, &prepare(scene).unwrap(), &Control::default()).unwrap())
 }
 
 fn done(sweep: &Sweep, path: &Path, threads: usize) -> Vec<Row> {
@@ -90,7 +98,7 @@ fn shared_work_is_done_once_and_changes_no_answer() {
     assert_eq!((done.rows.len(), done.computed), (24, [4, 2]));
     for row in &done.rows {
         let scene = sweep.scene_with(&row.parameters).unwrap();
-        assert_eq!(row.answer, ask(&sweep.plan.question, &scene, &prepare(&scene).unwrap()).unwrap(), "row {}", row.row);
+        assert_eq!(row.answer, by_itself(&sweep, &scene), "row {}", row.row);
     }
 }
 
@@ -109,7 +117,7 @@ fn interfaces_given_by_hand_are_never_shared() {
     assert_eq!(done.computed, [2, 2]);
     for row in &done.rows {
         let scene = sweep.scene_with(&row.parameters).unwrap();
-        assert_eq!(row.answer, ask(&sweep.plan.question, &scene, &prepare(&scene).unwrap()).unwrap());
+        assert_eq!(row.answer, by_itself(&sweep, &scene));
     }
 }
 

@@ -3,10 +3,10 @@
 use super::{arch, block};
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, assess, limit},
+    analysis::{Control, Question, assess, limit},
     interface::prepare,
     scene::{Friction, Scene},
-    sweep::{Between, Worst, WorstOf, worst},
+    sweep::{Between, Worst, worst},
     verdict::Verdict,
 };
 
@@ -14,9 +14,17 @@ fn scene(value: &Value) -> Scene {
     serde_json::from_value(value.clone()).unwrap()
 }
 
-fn ask(value: &Value, ranges: &[&str], of: WorstOf) -> Result<Worst, String> {
+fn limits() -> Question {
+    Question::Limit(Default::default())
+}
+
+fn stands() -> Question {
+    Question::Assess(Default::default())
+}
+
+fn ask(value: &Value, ranges: &[&str], of: Question) -> Result<Worst, String> {
     let ranges: Vec<Between> = ranges.iter().map(|r| r.parse().unwrap()).collect();
-    worst(&scene(value), &ranges, of, &Control::default()).map_err(|e| e.to_string())
+    worst(&scene(value), &ranges, &of, &Control::default()).map_err(|e| e.to_string())
 }
 
 fn factor(scene: &Scene) -> f64 {
@@ -26,7 +34,7 @@ fn factor(scene: &Scene) -> f64 {
 
 #[test]
 fn the_lowest_friction_is_the_worst() {
-    let w = ask(&block(), &["friction=0.2..0.7"], WorstOf::Limit).unwrap();
+    let w = ask(&block(), &["friction=0.2..0.7"], limits()).unwrap();
     assert_eq!((w.corners, w.scene.joints.default.friction), (1, Some(Friction::Coefficient(0.2))));
     assert!((factor(&w.scene) - 0.2).abs() < 1e-6);
     assert!(w.argument[0].contains("0.2, the lowest"), "{:?}", w.argument);
@@ -50,7 +58,7 @@ fn counterweight() -> Value {
 #[test]
 fn the_worst_densities_are_opposite_ends_where_one_weight_holds_the_other() {
     let ranges = ["density=2000..2400"];
-    let w = ask(&counterweight(), &ranges, WorstOf::Limit).unwrap();
+    let w = ask(&counterweight(), &ranges, limits()).unwrap();
     assert_eq!(w.corners, 4);
     assert_eq!((w.scene.materials["inner"].density, w.scene.materials["outer"].density), (2000.0, 2400.0));
     assert!(w.argument[1].contains("nothing between them is worse"), "{:?}", w.argument);
@@ -93,7 +101,7 @@ fn one_corner_that_falls_is_the_verdict() {
         let want = if falls { Verdict::Unstable } else { Verdict::Stable };
         assert_eq!(verdict(&scene(&lever(load, density))), want, "{load} {density}");
     }
-    let w = ask(&lever(1.0, 2200.0), &["load=5..7", "density:stone=2000..2400"], WorstOf::Assess).unwrap();
+    let w = ask(&lever(1.0, 2200.0), &["load=5..7", "density:stone=2000..2400"], stands()).unwrap();
     assert_eq!((w.corners, verdict(&w.scene)), (4, Verdict::Unstable));
     assert_eq!((w.scene.loads.dead[0].force, w.scene.materials["stone"].density), (Some([0.0, 0.0, -7000.0]), 2000.0));
     assert_eq!(w.scene.materials["plank"].density, 1000.0);
@@ -105,7 +113,7 @@ fn of_corners_that_all_fall_the_fastest_is_named() {
     value["loads"] = json!({ "dead": [{ "block": "outer", "force": [0, 0, -1000], "at": [1.9, 0, 2] }] });
     // Outer turns about the edge of inner, whatever inner weighs: every load falls, the greatest fastest. Together the two turn about
     // the ground's edge at x = 0.5, 0.5 W_inner against 0.2 W_outer and 1.4 P, which is slower.
-    let w = ask(&value, &["load=0.5..6", "density:inner=2000..2400"], WorstOf::Assess).unwrap();
+    let w = ask(&value, &["load=0.5..6", "density:inner=2000..2400"], stands()).unwrap();
     let model = prepare(&w.scene).unwrap();
     let a = assess(&model, &Control::default());
     let moment = 0.5 * 2000.0 * 9.81 - 0.2 * 2.4 * 2200.0 * 9.81 - 1.4 * 6000.0;
@@ -116,12 +124,12 @@ fn of_corners_that_all_fall_the_fastest_is_named() {
 
 #[test]
 fn other_numbers_are_searched_and_nothing_more_is_claimed() {
-    let w = ask(&arch(), &["/templates/0/arch/thickness=0.15..0.2", "friction=0.6..0.7"], WorstOf::Limit).unwrap();
+    let w = ask(&arch(), &["/templates/0/arch/thickness=0.15..0.2", "friction=0.6..0.7"], limits()).unwrap();
     assert!(w.argument.iter().any(|a| a.contains("values between them were not asked")), "{:?}", w.argument);
     let thin: Value = serde_json::to_value(&w.scene).unwrap();
     assert_eq!(thin.pointer("/templates/0/arch/thickness"), Some(&json!(0.15)));
     // The live load is a weight, which densities change as well: no claim about what lies between.
-    let w = ask(&arch(), &["density=2000..2400"], WorstOf::Limit).unwrap();
+    let w = ask(&arch(), &["density=2000..2400"], limits()).unwrap();
     assert!(w.argument[1].contains("values between them were not asked"), "{:?}", w.argument);
 }
 
@@ -135,10 +143,10 @@ fn ranges_that_name_nothing_are_refused() {
         ("load=1..2", "no dead load"),
         ("/blocks/9/density=1..2", "leads nowhere"),
     ] {
-        let error = ask(&block(), &[range], WorstOf::Assess).expect_err("refused");
+        let error = ask(&block(), &[range], stands()).expect_err("refused");
         assert!(error.contains(word), "{error}");
     }
-    assert!(ask(&block(), &["friction=0..1", "friction=0..1"], WorstOf::Assess).is_err());
+    assert!(ask(&block(), &["friction=0..1", "friction=0..1"], stands()).is_err());
     for text in ["friction", "friction=1", "friction=2..1", "friction=a..b", "friction=0..inf"] {
         assert!(text.parse::<Between>().is_err(), "{text}");
     }

@@ -8,14 +8,17 @@ use super::{
     work::Work,
 };
 use crate::{
-    analysis::{Assessment, Attempt, Bracket, Deciding, Law, LoadFactor, Outcome, Tilt, agreement, coulomb},
+    analysis::{
+        Answer as Answered, Assessment, Attempt, Bracket, Claims, Deciding, Law, Limited, LoadFactor, Outcome, Proved, Tilt, Tilted,
+        agreement, coulomb,
+    },
     dynamics::{Fate, SimulationOutcome as Simulated},
     error::Finding,
     interface::{Model, Timings},
     scene::Scene,
     verdict::{
-        Forces, Rate, Verdict,
-        check::{Claim, Findings, verify},
+        Evidence, Verdict,
+        check::Claim,
         evidence::{BlockRate, ContactForces, write_forces, write_rates},
         exact::Grade,
         mechanism::{JointMotion, Mechanism},
@@ -224,17 +227,6 @@ impl Direction {
     }
 }
 
-/// One direction of a tilt as it was computed, with the models at the tilts that were found ([`tilted`](crate::analysis::tilt::tilted)).
-#[derive(Clone, Debug)]
-pub struct Leaning {
-    /// The model at the tilt of the bound.
-    pub model: Model,
-    /// The bound.
-    pub tilt: Tilt,
-    /// The model at the tilt with dry friction, and that.
-    pub dry: Option<(Model, coulomb::DryLoadFactor)>,
-}
-
 /// The state under dry friction (program C). Where it rests it is computed, not proved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -322,18 +314,16 @@ impl Certificate {
     }
 }
 
-/// Verifies a claim and packs it with its evidence. The findings say whether it holds.
-pub fn certify(model: &Model, claim: Option<Claim>, forces: &Forces, base: Option<&Forces>, rates: &[Rate]) -> (Certificate, Findings) {
-    let assembly = &model.assembly;
-    let findings = claim.map(|c| verify(model, &c, forces, base, rates)).unwrap_or_default();
-    let certificate = Certificate {
-        claim,
+/// Packs a proof.
+pub fn certificate<T: Claims>(model: &Model, proved: &Proved<T>) -> Certificate {
+    let Evidence { forces, base, rates } = proved.evidence();
+    Certificate {
+        claim: proved.claim(),
         forces: write_forces(model, forces),
         base: base.map(|f| write_forces(model, f)),
-        rates: write_rates(assembly, rates),
-        verified: findings.holds.clone(),
-    };
-    (certificate, findings)
+        rates: write_rates(&model.assembly, rates),
+        verified: proved.findings().holds.clone(),
+    }
 }
 
 impl ResultFile {
@@ -368,91 +358,86 @@ impl ResultFile {
         }
     }
 
-    /// The result of `assess`; where its verification fails the verdict becomes undecided and the failures become warnings.
-    pub fn assessment(scene: &Scene, model: &Model, a: &Assessment) -> Self {
-        let (answer, certificate, findings) = assessment(model, a);
-        let mut file = Self::new(QuestionKind::Assess, scene, model, answer, certificate);
+    /// The result of a question; packings have one of their own ([`PackingFile`](super::PackingFile)).
+    pub fn of(scene: &Scene, model: &Model, answer: &Answered) -> Option<Self> {
+        Some(match answer {
+            Answered::Assess(a) => Self::assessment(scene, model, a),
+            Answered::Limit(l) => Self::load_factor(scene, model, l),
+            Answered::Tilt(t) => return Self::tilt(scene, model, t),
+            Answered::Critical(c) => Self::critical(scene, model, c),
+            Answered::Thrust(t) => Self::thrust(scene, model, t),
+            Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
+            Answered::Repose(_) => return None,
+        })
+    }
+
+    /// The result of `assess`. What its check refused is undecided, and the reasons are warnings.
+    pub fn assessment(scene: &Scene, model: &Model, a: &Proved<Assessment>) -> Self {
+        let mut file = Self::new(QuestionKind::Assess, scene, model, assessment(a), certificate(model, a));
         file.mechanism = a.mechanism.as_ref().map(|m| words(model, m));
         file.coulomb_state = a.state.as_ref().map(|s| CoulombState { motion: s.motion, steps: s.steps.clone() });
         file.left_out.clone_from(&a.left_out);
         file.trace.clone_from(&a.attempts);
-        file.warn(&findings);
+        file.warn(a);
         file
     }
 
     /// The result of `limit`.
-    pub fn load_factor(scene: &Scene, model: &Model, l: &LoadFactor) -> Self {
-        let (answer, certificate, findings) = load_factor(model, l);
-        let mut file = Self::new(QuestionKind::Limit, scene, model, answer, certificate);
+    pub fn load_factor(scene: &Scene, model: &Model, limited: &Limited) -> Self {
+        let l = &limited.bound;
+        let mut file = Self::new(QuestionKind::Limit, scene, model, load_factor(l), certificate(model, l));
         file.mechanism = l.mechanism.as_ref().map(|m| words(model, m));
         file.left_out.clone_from(&l.left_out);
         file.trace.clone_from(&l.attempts);
-        file.warn(&findings);
+        file.warn(l);
+        if let Some(dead) = &limited.dead {
+            file = file.with_dead_load(model, dead);
+        }
+        if let Some(dry) = &limited.dry {
+            file.dry = Some(dry_result(model, dry));
+            file.warn(dry);
+        }
         file
     }
 
-    /// The result of `tilt`, one entry per direction. The least tilt is the answer.
-    pub fn tilt(scene: &Scene, leaning: &[Leaning]) -> Option<Self> {
-        let mut all = Findings::default();
-        let directions: Vec<Direction> = leaning
-            .iter()
-            .map(|Leaning { model, tilt, dry }| {
-                let (mut answer, certificate, findings) = load_factor(model, &tilt.load_factor);
-                all.fails.extend(findings.fails);
-                answer.toward = Some(tilt.toward.into());
-                let status = answer.load_factor.as_ref().map(|l| l.status);
-                answer.tilt_deg = match status {
-                    Some(Outcome::Found) => Some(tilt.angle_deg()),
-                    Some(Outcome::Unbounded) => Some(90.0),
-                    _ => None,
-                };
-                let dry = dry.as_ref().map(|(model, d)| {
-                    let (dry, findings) = dry_result(model, d);
-                    all.fails.extend(findings.fails);
-                    dry
-                });
-                Direction { answer, certificate, dry }
-            })
-            .collect();
+    /// The result of `tilt`, one entry per direction; `model` is the scene level. The least tilt is the answer.
+    pub fn tilt(scene: &Scene, model: &Model, tilted: &Tilted) -> Option<Self> {
+        let list = &tilted.directions;
+        let directions: Vec<Direction> = list.iter().map(direction).collect();
         let least = (0..directions.len()).min_by(|&i, &j| directions[i].governing().total_cmp(&directions[j].governing()))?;
-        let (Leaning { model, tilt, .. }, direction) = (&leaning[least], directions[least].clone());
-        let mut file = Self::new(QuestionKind::Tilt, scene, model, direction.answer, direction.certificate);
+        let (tilt, direction) = (&list[least], directions[least].clone());
+        let mut file = Self::new(QuestionKind::Tilt, scene, &tilt.model, direction.answer, direction.certificate);
         file.dry = direction.dry;
-        file.timings.solve = leaning.iter().map(|l| l.model.timings.solve).sum();
-        file.mechanism = tilt.load_factor.mechanism.as_ref().map(|m| words(model, m));
+        file.mechanism = tilt.load_factor.mechanism.as_ref().map(|m| words(&tilt.model, m));
         file.left_out.clone_from(&tilt.load_factor.left_out);
-        file.trace = leaning.iter().flat_map(|l| l.tilt.load_factor.attempts.iter().cloned()).collect();
+        file.trace = list.iter().flat_map(|t| t.load_factor.attempts.iter().cloned()).collect();
         if directions.len() > 1 {
             file.directions = directions;
         }
-        file.warn(&all);
-        Some(file)
+        for tilt in list {
+            file.warn(&tilt.load_factor);
+            tilt.dry.iter().for_each(|dry| file.warn(&dry.load_factor));
+        }
+        Some(match &tilted.level {
+            Some(level) => file.with_dead_load(model, level),
+            None => file,
+        })
     }
 
-    /// Adds whether it stands under its dead load alone to a result of `limit` or `tilt`.
+    /// Adds whether it stands under its dead load alone to a result of `limit`, `tilt` or `thrust`.
     #[must_use]
-    pub fn with_dead_load(mut self, model: &Model, a: &Assessment) -> Self {
-        let (answer, certificate, findings) = assessment(model, a);
-        self.dead_load = Some(Direction { answer, certificate, dry: None });
+    pub(super) fn with_dead_load(mut self, model: &Model, a: &Proved<Assessment>) -> Self {
+        self.dead_load = Some(Direction { answer: assessment(a), certificate: certificate(model, a), dry: None });
         self.trace.extend(a.attempts.iter().cloned());
-        self.warn(&findings);
-        self
-    }
-
-    /// Adds the load factor with dry friction; undecided where its verification fails.
-    #[must_use]
-    pub fn with_dry(mut self, model: &Model, d: &coulomb::DryLoadFactor) -> Self {
-        let (dry, findings) = dry_result(model, d);
-        self.dry = Some(dry);
-        self.warn(&findings);
+        self.warn(a);
         self
     }
 
     /// The result of `simulate`, beside the verdict where there is one.
-    pub fn simulated(scene: &Scene, model: &Model, a: Option<&Assessment>, outcome: &Simulated) -> Self {
+    pub fn simulated(scene: &Scene, model: &Model, a: Option<&Proved<Assessment>>, outcome: &Simulated) -> Self {
         let mut file = match a {
             Some(a) => Self::assessment(scene, model, a),
-            None => Self::new(QuestionKind::Simulate, scene, model, Answer::default(), certify(model, None, &Vec::new(), None, &[]).0),
+            None => Self::new(QuestionKind::Simulate, scene, model, Answer::default(), Certificate::none()),
         };
         file.question = QuestionKind::Simulate;
         file.answer.fate = Some(outcome.fate);
@@ -461,80 +446,68 @@ impl ResultFile {
 
     /// Adds what happened in time to a result of `assess`.
     #[must_use]
-    pub fn with_simulation(mut self, model: &Model, a: Option<&Assessment>, outcome: &Simulated) -> Self {
-        let agreement = a.map(|a| {
-            let mut agreement = agreement(model, a, outcome);
-            if self.answer.verdict == Some(Verdict::Undecided) {
-                // Also where the verification took the verdict back.
-                (agreement.verdict, agreement.agrees) = (Verdict::Undecided, None);
-            }
-            agreement
-        });
+    pub fn with_simulation(mut self, model: &Model, a: Option<&Proved<Assessment>>, outcome: &Simulated) -> Self {
+        let agreement = a.map(|a| agreement(model, a, outcome));
         self.warnings.extend(outcome.findings.iter().cloned());
         self.simulation = Some(Simulation::new(model, outcome, agreement));
         self
     }
 
-    pub(super) fn warn(&mut self, findings: &Findings) {
+    /// Takes over what the check of an answer took, and why it took the answer back.
+    pub(super) fn warn<T>(&mut self, proved: &Proved<T>) {
+        self.timings.check += proved.seconds();
         let code = crate::error::FindingCode::Numerics;
-        self.warnings.extend(findings.fails.iter().map(|f| Finding::new(code, format!("certificate refused: {f}"))));
+        self.warnings.extend(proved.findings().fails.iter().map(|f| Finding::new(code, format!("certificate refused: {f}"))));
     }
 }
 
-fn dry_result(model: &Model, d: &coulomb::DryLoadFactor) -> (DryResult, Findings) {
-    let claim = d.claim();
-    let (mut certificate, findings) = certify(model, claim, &d.forces, None, &d.rates);
-    let proved = claim.is_some() && findings.fails.is_empty();
-    if !proved {
-        certificate.claim = None;
+/// One direction of a tilt.
+fn direction(tilt: &Tilt) -> Direction {
+    let mut answer = load_factor(&tilt.load_factor);
+    answer.toward = Some(tilt.toward.into());
+    answer.tilt_deg = Some(tilt.angle_deg()).filter(|a| a.is_finite());
+    Direction {
+        answer,
+        certificate: certificate(&tilt.model, &tilt.load_factor),
+        dry: tilt.dry.as_ref().map(|d| dry_result(&d.model, &d.load_factor)),
     }
-    let is_computed = claim.is_none() && d.value.is_finite();
-    let finite = |v: f64| v.is_finite().then_some(v);
-    let dry = DryResult {
-        found: if proved || claim.is_none() { d.found } else { coulomb::Found::Undecided },
-        value: (proved || is_computed).then_some(d.value),
+}
+
+fn finite(v: f64) -> Option<f64> {
+    v.is_finite().then_some(v)
+}
+
+fn dry_result(model: &Model, d: &Proved<coulomb::DryLoadFactor>) -> DryResult {
+    DryResult {
+        found: d.found,
+        value: finite(d.value),
         rests_at: finite(d.rests_at),
         moves_at: finite(d.moves_at),
         part: d.part.clone(),
-        natural_map: d.natural_map.is_finite().then_some(d.natural_map),
+        natural_map: finite(d.natural_map),
         solves: d.solves,
-        certificate,
-    };
-    (dry, findings)
+        certificate: certificate(model, d),
+    }
 }
 
-pub(super) fn assessment(model: &Model, a: &Assessment) -> (Answer, Certificate, Findings) {
-    let (mut certificate, findings) = certify(model, a.claim(), &a.forces, a.base(), &a.rates);
-    let mut verdict = a.verdict;
-    if !findings.fails.is_empty() {
-        (verdict, certificate.claim) = (Verdict::Undecided, None);
-    }
-    let proof = certificate.claim.map(|_| findings.grade);
-    let law = (verdict == Verdict::Stable).then_some(if a.rests_on_statics() { Law::Associative } else { Law::Coulomb });
-    let answer = Answer { verdict: Some(verdict), law, unbalance: Some(a.unbalance), part: a.part.clone(), proof, ..Answer::default() };
-    (answer, certificate, findings)
+pub(super) fn assessment(a: &Proved<Assessment>) -> Answer {
+    let law = (a.verdict == Verdict::Stable).then_some(if a.rests_on_statics() { Law::Associative } else { Law::Coulomb });
+    Answer { verdict: Some(a.verdict), law, unbalance: Some(a.unbalance), part: a.part.clone(), proof: a.grade(), ..Answer::default() }
 }
 
-fn load_factor(model: &Model, l: &LoadFactor) -> (Answer, Certificate, Findings) {
-    let (mut certificate, findings) = certify(model, l.claim(), &l.forces, l.base.as_ref().map(|b| &b.1), &l.rates);
-    let mut status = l.outcome;
-    if !findings.fails.is_empty() {
-        (status, certificate.claim) = (Outcome::Undecided, None);
-    }
-    let finite = |v: f64| v.is_finite().then_some(v);
-    let answer = Answer {
-        proof: certificate.claim.map(|_| findings.grade),
+fn load_factor(l: &Proved<LoadFactor>) -> Answer {
+    Answer {
+        proof: l.grade(),
         load_factor: Some(LoadFactorAnswer {
-            status,
+            status: l.outcome,
             law: Law::Associative,
-            value: (status == Outcome::Found).then_some(l.value),
+            value: (l.outcome == Outcome::Found).then_some(l.value),
             lower: finite(l.bracket.lower),
             upper: finite(l.bracket.upper),
         }),
         part: l.part.clone(),
         ..Answer::default()
-    };
-    (answer, certificate, findings)
+    }
 }
 
 pub(super) fn words(model: &Model, m: &Mechanism) -> MechanismWords {

@@ -4,12 +4,12 @@ use super::{ThrustSection, ThrustValue, factor, table};
 use crate::{
     analysis::{Outcome, geometric::shrunk_model},
     interface::Model,
-    report::{
+    proof::{
         result::{Certificate, QuestionKind, ResultFile},
         verify::{SAME, Verification, answer, failure, mechanism_words, require},
     },
     verdict::{
-        Forces, Rate,
+        Evidence, Forces, Rate,
         check::{self, Claim, Findings},
         evidence::{read_forces, read_rates},
         thrust::{Extreme, ThrustAt},
@@ -99,7 +99,7 @@ fn end(model: &Model, here: ThrustAt, wanted: Extreme, said: &ThrustValue, evide
     };
     match (read(), &evidence.claim) {
         (Ok((forces, base, rates)), Some(claim)) => {
-            let claimed = check::verify(model, claim, &forces, base.as_ref(), &rates);
+            let claimed = check::verify(model, claim, Evidence { forces: &forces, base: base.as_ref(), rates: &rates });
             f.holds.extend(claimed.holds);
             f.fails.extend(claimed.fails);
             (f, Some(forces))

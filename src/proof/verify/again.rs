@@ -11,8 +11,9 @@ use crate::{
     },
     error::InputError,
     interface::{Model, is_forest},
-    report::result::{Answer, Certificate, DryResult},
+    proof::result::{Answer, Certificate, DryResult},
     verdict::{
+        Evidence,
         check::{self, Claim, Findings},
         evidence::{read_forces, read_rates},
     },
@@ -88,7 +89,7 @@ fn words(found: Found) -> &'static str {
 fn evidence(model: &Model, claim: &Claim, dry: &DryResult) -> Result<Findings, String> {
     let forces = read_forces(model, &dry.certificate.forces)?;
     let rates = read_rates(&model.assembly, &dry.certificate.rates)?;
-    Ok(check::verify(model, claim, &forces, None, &rates))
+    Ok(check::verify(model, claim, Evidence::new(&forces, &rates)))
 }
 
 /// The states that are spoken of.

@@ -4,7 +4,7 @@ use super::{CriticalResult, FlipResult, ScanPoint, Side, exhausted};
 use crate::{
     analysis::{Control, critical::probe},
     interface::prepare,
-    report::{
+    proof::{
         result::{QuestionKind, ResultFile},
         verify::{SAME, Verification, answer, failure, require},
     },

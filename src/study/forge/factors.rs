@@ -2,7 +2,7 @@
 
 use super::{Forgery, Honest, edit::Draft};
 use crate::{
-    analysis::Outcome,
+    analysis::{Limited, Outcome},
     assembly::Wrench,
     study::random::Random,
     verdict::{Forces, Rate, Verdict},
@@ -18,7 +18,7 @@ const NONE: f64 = 1e-5;
 
 /// False load factors.
 pub(super) fn forge(honest: &Honest, random: &mut Random) -> Vec<Forgery> {
-    let Some((bound, dry)) = &honest.limit else { return Vec::new() };
+    let Some(Limited { bound, dry, .. }) = &honest.limit else { return Vec::new() };
     let mut made: Vec<Option<Forgery>> = Vec::new();
     let dead = matches!(honest.standing.verdict, Verdict::Stable | Verdict::Conditional).then_some(&honest.standing.forces);
     if bound.outcome == Outcome::Found && bound.value.abs() > NONE {
@@ -86,7 +86,7 @@ fn brackets(honest: &Honest, value: f64) -> Vec<Option<Forgery>> {
 /// That the load has no limit, or that nothing helps.
 fn ends(honest: &Honest, dead: Option<&Forces>, value: f64) -> Vec<Option<Forgery>> {
     let mut said = honest.file["answer"]["load_factor"].clone();
-    let bound = honest.limit.as_ref().map(|l| &l.0.forces);
+    let bound = honest.limit.as_ref().map(|l| &l.bound.forces);
     if let Some(map) = said.as_object_mut() {
         ["value", "lower", "upper"].into_iter().for_each(|key| drop(map.remove(key)));
     }

@@ -4,17 +4,17 @@ mod verify;
 
 pub(super) use verify::verify;
 
-use super::result::{Answer, Certificate, QuestionKind, ResultFile, assessment};
+use super::result::{Answer, Certificate, QuestionKind, ResultFile, assessment, certificate};
 use crate::{
     analysis::{
-        Critical, Law,
+        Assessment, Critical, Law, Proved,
         critical::{Method, Scanned},
         flip::Probe,
     },
     interface::Model,
     scene::Scene,
     tolerance,
-    verdict::{Verdict, check::Findings},
+    verdict::Verdict,
 };
 use serde::{Deserialize, Serialize};
 
@@ -105,6 +105,12 @@ pub struct Side {
 }
 
 impl Side {
+    /// A probe with its proof.
+    pub fn of(probe: &Probe<Proved<Assessment>>) -> Self {
+        let (answer, certificate) = (assessment(&probe.assessment), certificate(&probe.model, &probe.assessment));
+        Self { value: probe.value, answer, certificate }
+    }
+
     /// Its verdict, where it is proved.
     pub fn verdict(&self) -> Option<Verdict> {
         self.answer.verdict.filter(|v| *v != Verdict::Undecided && self.certificate.claim.is_some())
@@ -145,12 +151,6 @@ pub fn exhausted(file: &ResultFile) -> Option<Verdict> {
 impl ResultFile {
     /// The result of `critical`; `model` is that of the scene as it was given.
     pub fn critical(scene: &Scene, model: &Model, c: &Critical) -> Self {
-        let mut refused = Findings::default();
-        let mut side = |probe: &Probe| {
-            let (answer, certificate, findings) = assessment(&probe.model, &probe.assessment);
-            refused.fails.extend(findings.fails);
-            Side { value: probe.value, answer, certificate }
-        };
         let flips: Vec<FlipResult> = c
             .changes
             .iter()
@@ -158,10 +158,9 @@ impl ResultFile {
                 // Ends that are far apart prove no more than that there is a flip between them.
                 let known = f.method != Method::Scan && is_narrow(f.below.value, f.above.value);
                 let (value, method) = if known { (f.value, f.method) } else { (middle(f.below.value, f.above.value), Method::Scan) };
-                FlipResult { value, method, below: side(&f.below), above: side(&f.above) }
+                FlipResult { value, method, below: Side::of(&f.below), above: Side::of(&f.above) }
             })
             .collect();
-        let ends = if flips.is_empty() { c.ends.iter().map(&mut side).collect() } else { Vec::new() };
         let values = flips.iter().filter_map(FlipResult::proved).collect();
         let answer = Answer { critical: Some(values), ..Answer::default() };
         let mut file = Self::new(QuestionKind::Critical, scene, model, answer, Certificate::none());
@@ -172,11 +171,13 @@ impl ResultFile {
             law: c.law,
             scan: c.scan.iter().map(scan_point).collect(),
             flips,
-            ends,
+            ends: c.ends.iter().map(Side::of).collect(),
             notes: c.notes.clone(),
             scenes: c.probes,
         });
-        file.warn(&refused);
+        for probe in c.changes.iter().flat_map(|f| [&f.below, &f.above]).chain(&c.ends) {
+            file.warn(&probe.assessment);
+        }
         file
     }
 }

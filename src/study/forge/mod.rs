@@ -10,10 +10,10 @@ mod numbers;
 mod opposite;
 mod words;
 
-use super::{ResultFile, verify::verify_model};
 use crate::{
     error::RowsError,
     keep::{Kept, Numbered, numbered},
+    proof::{ResultFile, verify::verify_model},
     study::{
         cross::{FAMILIES, Stranger, beside, scene},
         random::Random,

@@ -6,23 +6,18 @@ pub(super) use verify::verify;
 
 use super::{
     critical::Side,
-    result::{Answer, Certificate, QuestionKind, ResultFile, assessment, certify},
+    result::{Answer, Certificate, QuestionKind, ResultFile, assessment, certificate},
 };
 use crate::{
     analysis::{
-        Outcome,
-        flip::Probe,
+        Outcome, Proved,
         geometric::Geometric,
         thrust::{Thrust, ThrustEnd},
     },
     interface::Model,
     scene::Scene,
     tolerance,
-    verdict::{
-        check::{Claim, Findings},
-        section::{SectionForce, sections},
-        thrust::ThrustAt,
-    },
+    verdict::section::{SectionForce, sections},
 };
 use serde::{Deserialize, Serialize};
 
@@ -143,43 +138,46 @@ impl From<&SectionForce> for Line {
 impl ResultFile {
     /// The result of `thrust`. Where the scene does not stand, it is the verdict.
     pub fn thrust(scene: &Scene, model: &Model, t: &Thrust) -> Self {
-        let (answer, certificate, findings) = assessment(model, &t.standing);
-        let Some([least, greatest]) = &t.ends else {
-            let mut file = Self::new(QuestionKind::Thrust, scene, model, answer, certificate);
+        let [least, greatest] = &t.ends[..] else {
+            let mut file = Self::new(QuestionKind::Thrust, scene, model, assessment(&t.standing), certificate(model, &t.standing));
             file.mechanism = t.standing.mechanism.as_ref().map(|m| super::result::words(model, m));
             file.trace.clone_from(&t.standing.attempts);
-            file.warn(&findings);
+            file.warn(&t.standing);
             return file;
         };
-        let mut refused = Findings::default();
-        let (low, low_proof) = end(model, t.at, least, &mut refused);
-        let (high, high_proof) = end(model, t.at, greatest, &mut refused);
-        let mut side = |probe: &Probe| {
-            let (answer, certificate, findings) = assessment(&probe.model, &probe.assessment);
-            refused.fails.extend(findings.fails);
-            Side { value: probe.value, answer, certificate }
-        };
         let (shrunk, without_factor, value) = match &t.factor {
-            Some(Geometric::Found(flip)) => (vec![side(&flip.stands), side(&flip.falls)], None, Some(1.0 / flip.value)),
-            Some(Geometric::Beyond(probe)) => (vec![side(probe)], None, None),
+            Some(Geometric::Found(flip)) => (vec![&flip.stands, &flip.falls], None, Some(1.0 / flip.value)),
+            Some(Geometric::Beyond(probe)) => (vec![&**probe], None, None),
             Some(Geometric::Open(why)) => (Vec::new(), Some(why.clone()), None),
             None => (Vec::new(), None, None),
         };
+        let refused: Vec<_> = shrunk.iter().map(|probe| &probe.assessment).collect();
+        let shrunk: Vec<Side> = shrunk.iter().map(|probe| Side::of(probe)).collect();
         let answer = ThrustAnswer {
             support: model.assembly.blocks[t.at.support].id.clone(),
             direction: t.at.direction,
-            least: low,
-            greatest: high,
+            least: least.into(),
+            greatest: greatest.into(),
             geometric_factor: factor(&shrunk, value),
         };
         let mut file =
             Self::new(QuestionKind::Thrust, scene, model, Answer { thrust: Some(answer), ..Answer::default() }, Certificate::none());
         let lines = table(model, [least, greatest].map(|e| (e.outcome == Outcome::Found).then_some(&e.forces)));
-        file.thrust = Some(ThrustResult { least: low_proof, greatest: high_proof, shrunk, without_factor, sections: lines });
+        let [low, high] = [least, greatest].map(|end| certificate(model, end));
+        file.thrust = Some(ThrustResult { least: low, greatest: high, shrunk, without_factor, sections: lines });
         file.left_out.clone_from(&least.left_out);
         file.trace = least.attempts.iter().chain(&greatest.attempts).cloned().collect();
-        file.warn(&refused);
+        [least, greatest].into_iter().for_each(|end| file.warn(end));
+        refused.into_iter().for_each(|assessment| file.warn(assessment));
         file.with_dead_load(model, &t.standing)
+    }
+}
+
+impl From<&Proved<ThrustEnd>> for ThrustValue {
+    fn from(e: &Proved<ThrustEnd>) -> Self {
+        let finite = |v: f64| v.is_finite().then_some(v);
+        let value = (e.outcome == Outcome::Found).then_some(e.value);
+        Self { status: e.outcome, value, lower: finite(e.bracket.lower), upper: finite(e.bracket.upper) }
     }
 }
 
@@ -189,23 +187,6 @@ fn factor(shrunk: &[Side], value: Option<f64>) -> Option<Factor> {
     let (lower, upper) = (1.0 / shrunk.first().filter(proved)?.value, shrunk.get(1).filter(proved).map(|s| 1.0 / s.value));
     let is_known = |v: &f64| upper.is_some_and(|u| lower <= *v && *v <= u && u - lower <= tolerance::CRITICAL_BRACKET * u);
     Some(Factor { value: value.filter(is_known), lower, upper })
-}
-
-fn end(model: &Model, at: ThrustAt, e: &ThrustEnd, refused: &mut Findings) -> (ThrustValue, Certificate) {
-    let claim = match e.outcome {
-        Outcome::Found => Some(Claim::Thrust { at, extreme: e.extreme, value: e.value, lower: e.bracket.lower, upper: e.bracket.upper }),
-        Outcome::Unbounded => Some(Claim::EndlessThrust { at, extreme: e.extreme }),
-        Outcome::Impossible | Outcome::Undecided => None,
-    };
-    let (mut certificate, findings) = certify(model, claim, &e.forces, e.base.as_ref(), &e.rates);
-    let mut status = e.outcome;
-    if !findings.fails.is_empty() {
-        (status, certificate.claim) = (Outcome::Undecided, None);
-    }
-    refused.fails.extend(findings.fails);
-    let finite = |v: f64| v.is_finite().then_some(v);
-    let value = (status == Outcome::Found).then_some(e.value);
-    (ThrustValue { status, value, lower: finite(e.bracket.lower), upper: finite(e.bracket.upper) }, certificate)
 }
 
 /// The line of thrust for up to two sets of forces.

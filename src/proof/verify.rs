@@ -15,7 +15,7 @@ use crate::{
     scene::Scene,
     tolerance,
     verdict::{
-        Forces, Rate, Verdict, certificate,
+        Evidence, Forces, Rate, Verdict, certificate,
         check::{self, Claim, Findings},
         evidence::{read_forces, read_rates},
         exact::Grade,
@@ -75,7 +75,7 @@ pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputErr
 }
 
 /// The same against a scene that is prepared already as `model`.
-pub(super) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> Verification {
+pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> Verification {
     let mut all = Verification {
         claimed: file.certificate.claim.is_some(),
         parts: vec![("scene".into(), counts(file, model))],
@@ -177,7 +177,7 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
     }
     for (index, direction) in list.iter().enumerate() {
         let toward = direction.answer.toward.unwrap_or_default();
-        let title = format!("tilt towards {}", super::text::number::point(toward));
+        let title = format!("tilt towards {}", crate::number::point(toward));
         let load_factor = direction.answer.load_factor.and_then(|l| l.value).unwrap_or(0.0);
         match tilted(model, Vector3::from(toward), load_factor) {
             Err(e) => all.part(title.clone(), failure(e.to_string())),
@@ -223,7 +223,7 @@ pub(super) fn answer(
         f.fails.push(format!("nothing is claimed, but said to be proved ({said})"));
     }
     if let Some(claim) = &evidence.claim {
-        let claimed = check::verify(model, claim, &forces, base.as_ref(), &rates);
+        let claimed = check::verify(model, claim, Evidence { forces: &forces, base: base.as_ref(), rates: &rates });
         let said = answer.proof.unwrap_or(Grade::ToRounding(f64::INFINITY));
         require(&mut f, is_no_better(said, claimed.grade), format!("the proof is {}, the answer says {said}", claimed.grade));
         f.grade = claimed.grade;

@@ -1,13 +1,18 @@
 //! The angle of maximum stability of a packing as a result: every round verified, names instead of indices.
 
 use super::{
-    Leaning, ResultFile,
+    ResultFile,
     result::{QuestionKind, Versions},
 };
 use crate::{
-    analysis::{Deciding, Fabric, Outcome, Stability, coulomb::Found, stability::Round},
-    error::{Finding, FindingCode},
-    interface::{Model, Timings},
+    analysis::{
+        Deciding, Fabric, Outcome, Packing, Stability, Tilted,
+        coulomb::Found,
+        stability::{Round, without},
+    },
+    error::{Finding, FindingCode, InputError},
+    interface::Timings,
+    scene::Scene,
     verdict::mechanism::JointMotion,
 };
 use serde::{Deserialize, Serialize};
@@ -110,37 +115,38 @@ impl PackingDirection {
 }
 
 impl PackingFile {
-    /// Packs the answers of all directions; `model` is the packing when level, `loose` what nothing held. Also gives the result of the
-    /// least direction in full, which `voussoir check` proves. `None` without any direction.
-    pub fn new(model: &Model, name: &str, moving_mass: f64, answers: Vec<Stability>, loose: &[String]) -> Option<(Self, ResultFile)> {
+    /// Packs the answers of all directions about the packing of `scene`. Also gives the result of the least direction in full, which
+    /// `voussoir check` proves. `None` without any direction.
+    ///
+    /// # Errors
+    /// The scene cannot be written without the grains that fell first.
+    pub fn new(scene: &Scene, moving_mass: f64, packing: &Packing) -> Result<Option<(Self, ResultFile)>, InputError> {
+        let Packing { model, loose, directions: answers } = packing;
         let mut directions = Vec::new();
         let mut files: Vec<ResultFile> = Vec::new();
         let mut warnings: Vec<Finding> = model.findings().cloned().collect();
-        for answer in answers {
-            let Stability { rounds, answer, reached } = answer;
-            let many = rounds.len() > 1;
-            let total = rounds.last()?.moved;
-            let (mut removed, mut chosen) = (Vec::new(), None);
-            for (index, round) in rounds.into_iter().enumerate() {
-                let Round { scene, model, tilt, dry, moving, .. } = round;
-                let file = ResultFile::tilt(&scene, &[Leaning { model, tilt, dry }])?;
-                // The first round has the findings of the packing itself; later ones only what was refused.
-                let fresh = |w: &&Finding| w.code == FindingCode::Numerics && !warnings.contains(w);
-                let fresh: Vec<Finding> = file.warnings.iter().filter(fresh).cloned().collect();
-                warnings.extend(fresh);
-                if many {
-                    removed.push(Removed { tilt_deg: file.answer.tilt_deg, grains: moving.clone() });
-                }
-                if index == answer {
-                    chosen = Some((file, moving));
+        for Stability { rounds, answer, reached } in answers {
+            let Some((round, total)) = rounds.get(*answer).zip(rounds.last().map(|r| r.moved)) else { continue };
+            let refused = rounds.iter().flat_map(|r| &r.tilt.load_factor.findings().fails);
+            for text in refused {
+                let warning = Finding::new(FindingCode::Numerics, format!("certificate refused: {text}"));
+                if !warnings.contains(&warning) {
+                    warnings.push(warning);
                 }
             }
-            let (file, moving) = chosen?;
-            let factor = file.answer.load_factor?;
+            let tilt_deg = |r: &Round| Some(r.tilt.angle_deg()).filter(|a| a.is_finite());
+            let removed = if rounds.len() > 1 {
+                rounds.iter().map(|r| Removed { tilt_deg: tilt_deg(r), grains: r.moving.clone() }).collect()
+            } else {
+                Vec::new()
+            };
+            let one = Tilted { directions: vec![round.tilt.clone()], level: None };
+            let Some(file) = ResultFile::tilt(&without(scene, &round.gone)?, model, &one) else { continue };
+            let Some(factor) = file.answer.load_factor else { continue };
             let degrees = |v: f64| v.atan().to_degrees();
             let count = |kinds: &[JointMotion]| file.mechanism.iter().flat_map(|m| &m.joints).filter(|j| kinds.contains(&j.motion)).count();
             directions.push(PackingDirection {
-                toward: file.answer.toward?,
+                toward: round.tilt.toward.into(),
                 status: factor.status,
                 tilt_deg: file.answer.tilt_deg,
                 bracket_deg: factor
@@ -151,8 +157,8 @@ impl PackingFile {
                 dry: file.dry.as_ref().map(|d| d.found),
                 dry_deg: file.dry.as_ref().and_then(|d| d.value).map(degrees),
                 moved: total,
-                reached: reached && factor.status == Outcome::Found,
-                moving,
+                reached: *reached && factor.status == Outcome::Found,
+                moving: round.moving.clone(),
                 part: file.answer.part.clone(),
                 joints: [
                     count(&[JointMotion::Hinge]),
@@ -163,7 +169,8 @@ impl PackingFile {
             });
             files.push(file);
         }
-        let least = (0..directions.len()).min_by(|&i, &j| directions[i].governing().total_cmp(&directions[j].governing()))?;
+        let by_tilt = |&i: &usize, &j: &usize| directions[i].governing().total_cmp(&directions[j].governing());
+        let Some(least) = (0..directions.len()).min_by(by_tilt) else { return Ok(None) };
         let file = files.swap_remove(least);
         debug_assert_eq!(file.question, QuestionKind::Tilt);
         let mut left_out = file.left_out.clone();
@@ -172,7 +179,7 @@ impl PackingFile {
         }
         let packing = Self {
             format: PackingFormat::V1,
-            name: name.to_string(),
+            name: scene.name.clone(),
             grains: model.assembly.free().count(),
             contacts: model.interfaces.list.len(),
             moving_mass,
@@ -184,6 +191,6 @@ impl PackingFile {
             timings: model.timings,
             versions: Versions::default(),
         };
-        Some((packing, file))
+        Ok(Some((packing, file)))
     }
 }

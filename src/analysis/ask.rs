@@ -1,0 +1,172 @@
+//! The one door: every question goes through [`ask`], whoever asks it, and every answer that comes out of it was checked on the scene
+//! ([`Proved`]). A further question is a further arm here, a variant of [`Question`] and one of [`Answer`].
+
+use super::{
+    Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt, assess, coulomb,
+    coulomb::DryLoadFactor,
+    critical, limit,
+    question::{CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions, directions},
+    stability,
+    stability::Packing,
+    thrust,
+    thrust::Thrust,
+    tilt,
+};
+use crate::{
+    assembly::Wrench,
+    dynamics::{self, Fidelity, Progress, SimulationOutcome, SimulationSettings},
+    error::{InputError, JsonPath},
+    interface::{Model, prepare},
+    scene::Scene,
+};
+use std::ops::ControlFlow;
+
+/// An answer.
+#[derive(Clone, Debug)]
+pub enum Answer {
+    /// Does it stand?
+    Assess(Proved<Assessment>),
+    /// How large may the live load grow?
+    Limit(Box<Limited>),
+    /// At what tilt does it fall?
+    Tilt(Tilted),
+    /// Where does the verdict flip?
+    Critical(Box<Critical>),
+    /// How hard does it push a support?
+    Thrust(Box<Thrust>),
+    /// How steep may a packing be?
+    Repose(Packing),
+    /// What happens in time?
+    Simulate(Box<SimulationOutcome>),
+}
+
+/// The answer about a live load.
+#[derive(Clone, Debug)]
+pub struct Limited {
+    /// The bound: joints open as they slide.
+    pub bound: Proved<LoadFactor>,
+    /// With dry friction, where that was asked and the bound has a value or no limit.
+    pub dry: Option<Proved<DryLoadFactor>>,
+    /// Whether it stands under its dead load alone, where that was asked and is not settled by the bound.
+    pub dead: Option<Proved<Assessment>>,
+}
+
+impl From<Proved<LoadFactor>> for Limited {
+    /// The bound alone.
+    fn from(bound: Proved<LoadFactor>) -> Self {
+        Self { bound, dry: None, dead: None }
+    }
+}
+
+/// The answer about tilts.
+#[derive(Clone, Debug)]
+pub struct Tilted {
+    /// One a direction, in the order in which they were asked; at least one.
+    pub directions: Vec<Tilt>,
+    /// Whether it stands level, where that was asked.
+    pub level: Option<Proved<Assessment>>,
+}
+
+/// How a simulation is shown while it runs; none of it changes an answer.
+pub struct Watch<'a> {
+    /// Threads of the engine.
+    pub threads: usize,
+    /// As [`SimulationSettings::frames`].
+    pub frames: usize,
+    /// As [`SimulationSettings::keep_frames`].
+    pub keep_frames: bool,
+    /// As [`SimulationSettings::every_step`].
+    pub every_step: bool,
+    /// Who watches.
+    pub each: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
+}
+
+/// Answers a question about a scene, prepared as `model`.
+///
+/// # Errors
+/// The question has no meaning, or none for this scene.
+pub fn ask(question: &Question, scene: &Scene, model: &Model, control: &Control) -> Result<Answer, InputError> {
+    let mut each = |_: &Progress| ControlFlow::Continue(());
+    ask_watched(question, scene, model, control, Watch { threads: 1, frames: 0, keep_frames: false, every_step: false, each: &mut each })
+}
+
+/// The same, with somebody who watches what happens in time.
+///
+/// # Errors
+/// As [`ask`].
+pub fn ask_watched(question: &Question, scene: &Scene, model: &Model, control: &Control, watch: Watch) -> Result<Answer, InputError> {
+    question.check()?;
+    let control = &question.control(control);
+    Ok(match question {
+        Question::Assess(_) => Answer::Assess(assess(model, control)),
+        Question::Limit(options) => Answer::Limit(Box::new(limited(options, model, control)?)),
+        Question::Tilt(options) => Answer::Tilt(tilted(options, model, control)?),
+        Question::Critical(CriticalOptions { vary, between: [from, to], scan, .. }) => {
+            let range = critical::Range { pointer: vary.clone(), from: *from, to: *to, scan: *scan };
+            Answer::Critical(Box::new(critical(scene, &range, control)?))
+        }
+        Question::Thrust(options) => Answer::Thrust(Box::new(pushed(options, model, control)?)),
+        Question::Repose(ReposeOptions { toward, all, moving_mass, .. }) => {
+            let toward = directions(model.assembly.gravity, toward, *all);
+            Answer::Repose(stability::packing(model, &toward, *moving_mass, control)?)
+        }
+        Question::Simulate(options) => Answer::Simulate(Box::new(simulated(options, scene, model, watch)?)),
+    })
+}
+
+/// Whether a bound leaves something to ask with dry friction.
+fn bounds(outcome: Outcome) -> bool {
+    matches!(outcome, Outcome::Found | Outcome::Unbounded)
+}
+
+fn limited(options: &LimitOptions, model: &Model, control: &Control) -> Result<Limited, InputError> {
+    if model.assembly.live.iter().all(|w| *w == Wrench::zero()) {
+        let path = JsonPath::root().key("loads").key("live");
+        return Err(InputError::at(path, "there is no live load on a free block to ask about")
+            .hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene, or ask `tilt`"));
+    }
+    let bound = limit(model, control);
+    // Where the answer itself says that λ = 0 is too much, there is nothing left to ask.
+    let settled = bound.outcome == Outcome::Impossible || (bound.outcome == Outcome::Found && bound.bracket.upper < 0.0);
+    let dead = (!settled && !options.skip_dead).then(|| assess(model, control));
+    let ask_dry = control.law == Law::Coulomb && bounds(bound.outcome);
+    let level = dead.as_ref().map(|d| d.verdict);
+    let dry = ask_dry.then(|| coulomb::load_factor_from(model, &bound, level, control));
+    Ok(Limited { bound, dry, dead })
+}
+
+fn tilted(options: &TiltOptions, model: &Model, control: &Control) -> Result<Tilted, InputError> {
+    let level = (!options.skip_dead).then(|| assess(model, control));
+    let verdict = level.as_ref().map(|l| l.verdict);
+    let toward = directions(model.assembly.gravity, &options.toward, options.all);
+    let directions = toward.into_iter().map(|d| tilt::with_dry(model, d, verdict, control)).collect::<Result<Vec<_>, InputError>>()?;
+    Ok(Tilted { directions, level })
+}
+
+fn pushed(options: &ThrustOptions, model: &Model, control: &Control) -> Result<Thrust, InputError> {
+    let at = thrust::place(model, options.support.as_deref(), options.direction)?;
+    let ends = match options {
+        ThrustOptions { range: true, .. } => thrust::Ends::Both,
+        ThrustOptions { greatest: true, .. } => thrust::Ends::Greatest,
+        _ => thrust::Ends::Least,
+    };
+    Ok(thrust::answer(model, at, ends, control))
+}
+
+fn simulated(options: &SimulateOptions, scene: &Scene, model: &Model, watch: Watch) -> Result<SimulationOutcome, InputError> {
+    // In the scene, whose live loads may act off the centre of mass and turn with their blocks.
+    let loaded = match options.load_factor {
+        Some(factor) if factor != 0.0 => &prepare(&Scene { loads: scene.loads.fixed(factor), ..scene.clone() })?,
+        _ => model,
+    };
+    let settings = SimulationSettings {
+        fidelity: if options.fast { Some(Fidelity::Fast) } else { options.fine.then_some(Fidelity::Fine) },
+        seconds: options.seconds,
+        threads: watch.threads,
+        frames: watch.frames,
+        keep_frames: watch.keep_frames,
+        to_the_end: options.to_the_end,
+        every_step: watch.every_step,
+    };
+    dynamics::simulate(loaded, &settings, watch.each)
+}

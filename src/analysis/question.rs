@@ -1,0 +1,259 @@
+//! What can be asked: one type for verbs, plans, result files and the library, checked where it is made ([`Question::check`]).
+
+use super::{Control, Law};
+use crate::error::{InputError, JsonPath};
+use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A question with its options.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Question {
+    /// Does it stand under its dead load?
+    Assess(AssessOptions),
+    /// How large may the live load grow?
+    Limit(LimitOptions),
+    /// At what tilt does it fall? In several directions the least.
+    Tilt(TiltOptions),
+    /// At what value of a number in the scene does the verdict flip?
+    Critical(CriticalOptions),
+    /// Least or greatest thrust on a support.
+    Thrust(ThrustOptions),
+    /// The angle of maximum stability of a packing of grains; in several directions the least.
+    Repose(ReposeOptions),
+    /// Does it stand in time, by the rigid-body engine? A second opinion, not a proof.
+    Simulate(SimulateOptions),
+}
+
+/// Options of `assess`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct AssessOptions {
+    /// How joints slide.
+    pub law: Law,
+}
+
+/// Options of `limit`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LimitOptions {
+    /// How joints slide.
+    pub law: Law,
+    /// A load factor below this counts as failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub require: Option<f64>,
+    /// Whether it stands under its dead load alone is not asked as well. Rows of a sweep never ask it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub skip_dead: bool,
+}
+
+/// Options of `tilt`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct TiltOptions {
+    /// How joints slide.
+    pub law: Law,
+    /// A tilt below this, in degrees, counts as failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub require: Option<f64>,
+    /// Tip towards these directions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub toward: Vec<[f64; 3]>,
+    /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub all: Option<u16>,
+    /// Whether it stands level is not asked as well. Rows of a sweep ask it with dry friction only.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub skip_dead: bool,
+}
+
+/// Options of `critical`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CriticalOptions {
+    /// How joints slide.
+    #[serde(default)]
+    pub law: Law,
+    /// JSON pointer of the number that varies.
+    pub vary: String,
+    /// Both ends of the range.
+    pub between: [f64; 2],
+    /// Values scanned, both ends among them: 33 where nothing is said, or every whole number up to 1000 of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scan: Option<usize>,
+}
+
+/// Options of `thrust`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ThrustOptions {
+    /// Whether there must be forces only, or such as the loads produce.
+    pub law: Law,
+    /// The support; the first that touches a free block where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support: Option<String>,
+    /// Direction of the thrust; outwards where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 3]>,
+    /// The greatest thrust instead of the least.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub greatest: bool,
+    /// Both ends, and the geometric safety factor. Rows of a sweep ask one end only.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub range: bool,
+}
+
+/// Options of `repose`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ReposeOptions {
+    /// How grains slide.
+    pub law: Law,
+    /// An angle below this, in degrees, counts as failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub require: Option<f64>,
+    /// Tip towards these directions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub toward: Vec<[f64; 3]>,
+    /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub all: Option<u16>,
+    /// The share of the grains' mass that has to move; 0, the first grain, where nothing is said.
+    pub moving_mass: f64,
+}
+
+/// Options of `simulate`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SimulateOptions {
+    /// Fast steps only: to be trusted 3 % away from a limit.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub fast: bool,
+    /// Fine steps from the start.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub fine: bool,
+    /// Time to simulate at most, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+    /// Simulate until then although the outcome is clear.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub to_the_end: bool,
+    /// This factor × the live loads is added.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_factor: Option<f64>,
+}
+
+/// Directions of a tilt where nothing is said.
+pub const DIRECTIONS: u16 = 8;
+/// Most directions of a tilt: every tenth of a degree.
+const MOST_DIRECTIONS: u16 = 3600;
+
+impl Question {
+    /// Refuses options that mean nothing, whatever the scene. Paths are relative to the question.
+    ///
+    /// # Errors
+    /// The first option that means nothing, with its place.
+    pub fn check(&self) -> Result<(), InputError> {
+        let path = JsonPath::root().key(self.word());
+        let refuse = |key: &str, text: String| Err(InputError::at(path.key(key), text));
+        match self {
+            Self::Assess(_) | Self::Limit(_) | Self::Thrust(_) => Ok(()),
+            Self::Tilt(o) => check_directions(&path, &o.toward, o.all),
+            Self::Repose(o) if !(0.0..=1.0).contains(&o.moving_mass) => {
+                refuse("moving_mass", format!("must be a share from 0 to 1, got {}", o.moving_mass))
+            }
+            Self::Repose(o) => check_directions(&path, &o.toward, o.all),
+            Self::Critical(o) if o.between[0] == o.between[1] => refuse("between", "the range is empty".into()),
+            Self::Critical(o) if o.scan.is_some_and(|n| n < 2) => refuse("scan", "must be at least 2: both ends of the range".into()),
+            Self::Critical(_) => Ok(()),
+            Self::Simulate(o) if o.fast && o.fine => refuse("fine", "\"fast\" and \"fine\" are both given".into()),
+            Self::Simulate(o) if o.seconds.is_some_and(|s| s.is_nan() || s <= 0.0) => refuse("seconds", "must be > 0".into()),
+            Self::Simulate(_) => Ok(()),
+        }
+    }
+
+    /// As files and the command line call it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Assess(_) => "assess",
+            Self::Limit(_) => "limit",
+            Self::Tilt(_) => "tilt",
+            Self::Critical(_) => "critical",
+            Self::Thrust(_) => "thrust",
+            Self::Repose(_) => "repose",
+            Self::Simulate(_) => "simulate",
+        }
+    }
+
+    /// How joints slide.
+    pub fn law(&self) -> Law {
+        match self {
+            Self::Assess(o) => o.law,
+            Self::Limit(o) => o.law,
+            Self::Tilt(o) => o.law,
+            Self::Critical(o) => o.law,
+            Self::Thrust(o) => o.law,
+            Self::Repose(o) => o.law,
+            // What slides in time does not open.
+            Self::Simulate(_) => Law::Coulomb,
+        }
+    }
+
+    /// The value below which an answer counts as failure.
+    pub fn require(&self) -> Option<f64> {
+        match self {
+            Self::Assess(_) | Self::Critical(_) | Self::Thrust(_) | Self::Simulate(_) => None,
+            Self::Limit(o) => o.require,
+            Self::Tilt(o) => o.require,
+            Self::Repose(o) => o.require,
+        }
+    }
+
+    /// What the value of an answer is, with its unit; nothing where the answer is a verdict.
+    pub fn quantity(&self) -> Option<&'static str> {
+        match self {
+            Self::Assess(_) | Self::Simulate(_) => None,
+            Self::Thrust(o) => Some(if o.greatest { "greatest thrust in N" } else { "least thrust in N" }),
+            Self::Limit(_) => Some("load factor"),
+            Self::Tilt(_) => Some("tilt in degrees"),
+            Self::Critical(_) => Some("value at which the verdict flips"),
+            Self::Repose(_) => Some("angle of maximum stability in degrees"),
+        }
+    }
+
+    /// The same without what one number cannot show: the verdict beside a load factor, the other end of a range.
+    #[must_use]
+    pub fn for_one_number(&self) -> Self {
+        match self.clone() {
+            Self::Limit(o) => Self::Limit(LimitOptions { skip_dead: true, ..o }),
+            // With dry friction all directions share it.
+            Self::Tilt(o) => Self::Tilt(TiltOptions { skip_dead: o.law == Law::Associative, ..o }),
+            Self::Thrust(o) => Self::Thrust(ThrustOptions { range: false, ..o }),
+            other => other,
+        }
+    }
+
+    /// What programs are told.
+    pub(super) fn control(&self, control: &Control) -> Control {
+        Control { law: self.law(), ..*control }
+    }
+}
+
+fn check_directions(path: &JsonPath, toward: &[[f64; 3]], all: Option<u16>) -> Result<(), InputError> {
+    match (all, toward.is_empty()) {
+        (Some(_), false) => Err(InputError::at(path.key("all"), "\"toward\" and \"all\" are both given").hint("keep one of them")),
+        (Some(n), true) if !(1..=MOST_DIRECTIONS).contains(&n) => {
+            Err(InputError::at(path.key("all"), format!("must be from 1 to {MOST_DIRECTIONS}, got {n}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The directions that are asked about.
+pub(super) fn directions(gravity: Vector3<f64>, toward: &[[f64; 3]], all: Option<u16>) -> Vec<Vector3<f64>> {
+    if toward.is_empty() {
+        return super::tilt::directions(gravity, all.unwrap_or(DIRECTIONS).into());
+    }
+    toward.iter().map(|&d| d.into()).collect()
+}

@@ -1,0 +1,19 @@
+//! Results as files, and what proves them: an answer with its evidence, complete enough to be checked from the scene alone
+//! ([`verify`]). No ink here; that is what reports are for.
+
+pub mod critical;
+pub mod packing;
+mod part;
+pub mod read;
+pub mod result;
+pub mod simulation;
+pub mod thrust;
+pub mod verification;
+pub mod verify;
+pub mod work;
+
+pub use packing::PackingFile;
+pub use result::ResultFile;
+pub use simulation::Simulation;
+pub use verification::VerificationFile;
+pub use verify::verify;
