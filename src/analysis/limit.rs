@@ -15,6 +15,7 @@ use crate::{
     assembly::{Assembly, Wrench},
     interface::Interfaces,
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
+    strength::laws::unlimited,
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate, check,
@@ -382,7 +383,7 @@ fn diagnose(assembly: &Assembly, interfaces: &Interfaces, control: &Control, ans
     }
     // The live load in the size of the dead load, so that the same threshold applies.
     let (alone, natural) = check::live_alone(assembly);
-    let (unlimited, kept) = interfaces.unlimited();
+    let (unlimited, kept) = unlimited(interfaces);
     let wedge = least_unbalance(&alone, &unlimited, LiveLoad::Absent, control);
     answer.attempts.extend(wedge.attempts.iter().cloned());
     if wedge.verdict == Verdict::Stable && any.verdict == Verdict::Stable {

@@ -6,6 +6,7 @@ use crate::{
     interface::{self, Interface, Interfaces},
     program,
     scene::Scene,
+    strength,
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -91,7 +92,7 @@ fn floating(assembly: &Assembly, interfaces: &Interfaces) -> Option<Finding> {
 /// Says what joints are given that their contacts cannot use: stresses need an area, a rolling arm an edge or a point.
 fn without_effect(interfaces: &Interfaces) -> Vec<Finding> {
     let count = |unused: &dyn Fn(&Interface) -> bool| interfaces.list.iter().filter(|f| unused(f)).count();
-    let faces = count(&|f| f.law.rolling_arm > 0.0 && f.rolling_arm() == 0.0);
+    let faces = count(&|f| f.law.rolling_arm > 0.0 && strength::rolling_arm(f) == 0.0);
     let lines = count(&|f| f.points.len() < 3 && !f.law.friction_only());
     let mut findings = Vec::new();
     if faces > 0 {

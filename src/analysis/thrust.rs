@@ -15,6 +15,7 @@ use crate::{
     error::{InputError, JsonPath},
     interface::Interfaces,
     program::{self, Statics, StaticsOptions, Unknowns},
+    strength::laws::unlimited,
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate, no_forces,
@@ -254,7 +255,7 @@ impl Problem<'_> {
 
     /// Whether forces that need no load push without end; then they are the forces of `answer`.
     fn has_no_end(&self, step: Rung, left: f64, keep_all: bool, answer: &mut ThrustEnd) -> bool {
-        let (unlimited, kept) = self.interfaces.unlimited();
+        let (unlimited, kept) = unlimited(self.interfaces);
         let mut statics = Statics::new(self.assembly, &unlimited, StaticsOptions { keep_all, ..StaticsOptions::default() });
         statics.rescale(step.unit, step.local);
         let settings = crate::solve::Settings { seconds: left, ..step.settings };

@@ -18,6 +18,7 @@ use crate::{
     assembly::{AppliedForce, Assembly, Wrench},
     error::InputError,
     interface::{Interfaces, Part},
+    strength::laws::{are_dry, with_stresses},
     tolerance,
     verdict::Verdict,
 };
@@ -100,7 +101,7 @@ pub fn tilted(model: &Model, toward: Vector3<f64>, load_factor: f64) -> Result<M
 /// The joints where all forces are divided by cos θ.
 fn stressed(interfaces: &Interfaces, load_factor: f64) -> Interfaces {
     let by = 1f64.hypot(if load_factor.is_finite() { load_factor } else { 0.0 });
-    if interfaces.are_dry() { interfaces.clone() } else { interfaces.with_stresses(by) }
+    if are_dry(interfaces) { interfaces.clone() } else { with_stresses(interfaces, by) }
 }
 
 /// The tilt at which the scene falls.
@@ -109,7 +110,7 @@ fn stressed(interfaces: &Interfaces, load_factor: f64) -> Interfaces {
 /// As [`turned`].
 pub fn tilt(assembly: &Assembly, interfaces: &Interfaces, toward: Vector3<f64>, control: &Control) -> Result<Tilt, InputError> {
     let (turned, toward) = turned(assembly, toward)?;
-    if interfaces.are_dry() {
+    if are_dry(interfaces) {
         return Ok(Tilt { toward, load_factor: limit(&turned, interfaces, control) });
     }
     let load_factor = parts::limit::limit_by(&turned, interfaces, control, &Ways { solve: tilted_part, joints: tilted_joints });
@@ -152,7 +153,7 @@ pub fn dry(
     level: Option<Verdict>,
     control: &Control,
 ) -> DryLoadFactor {
-    if interfaces.are_dry() {
+    if are_dry(interfaces) {
         return coulomb::load_factor_from(turned, interfaces, associative, level, control);
     }
     let dead = level.filter(|&v| v == Verdict::Stable);

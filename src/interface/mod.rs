@@ -13,17 +13,15 @@ mod limits;
 mod overlap;
 mod parts;
 mod plane;
-mod section;
 mod shrink;
 mod spheres;
-mod strength;
 mod tally;
 #[cfg(test)]
 mod tests;
 
 pub use detect::detect;
 pub use parts::{Members, Part, Units, members, parts};
-pub use section::{Affine, Cut};
+pub(crate) use plane::Plane;
 
 use crate::{
     assembly::JointLaw,

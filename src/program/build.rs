@@ -13,6 +13,7 @@ use crate::{
     assembly::{Assembly, Gyration, Wrench},
     interface::Interfaces,
     scene::Friction,
+    strength::{crushing::crushes, uplift},
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use std::collections::HashMap;
@@ -152,7 +153,7 @@ fn set_units(
 fn with_water(assembly: &Assembly, interfaces: &Interfaces) -> Vec<Wrench> {
     let mut loads = assembly.dead.clone();
     for face in &interfaces.list {
-        for (point, force) in face.points.iter().zip(face.uplift()) {
+        for (point, force) in face.points.iter().zip(uplift(face)) {
             for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
                 let moment = (point - assembly.blocks[block].centroid).cross(&force);
                 loads[block] += Wrench { force, moment } * sign;
@@ -171,7 +172,7 @@ fn part(
     dead: &[Wrench],
     list: &[Bearing],
 ) -> Option<Part> {
-    if !options.symmetry || options.keep_all || options.unscaled || interfaces.list.iter().any(|f| f.crushes()) {
+    if !options.symmetry || options.keep_all || options.unscaled || interfaces.list.iter().any(crushes) {
         return None;
     }
     let loads: &[&[Wrench]] = if options.live { &[dead, &assembly.live] } else { &[dead] };

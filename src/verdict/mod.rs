@@ -5,6 +5,7 @@ pub mod certificate;
 pub mod check;
 pub mod evidence;
 pub mod exact;
+pub mod joint;
 pub mod law;
 pub mod mechanism;
 pub mod section;

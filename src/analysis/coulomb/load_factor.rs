@@ -24,6 +24,7 @@ use crate::{
         is_forest,
     },
     solve::Settings,
+    strength::laws::unlimited,
     tolerance,
     verdict::{Forces, Rate, Verdict, certificate, check, law},
 };
@@ -257,6 +258,6 @@ fn lower_end(Scene { assembly, interfaces, associative }: &Scene, forces: &Force
 /// Whether the live load alone, on joints without any strength, produces the forces that balance it.
 pub(in crate::analysis) fn part_rests_alone(assembly: &Assembly, interfaces: &Interfaces, control: &Control) -> bool {
     let (alone, _) = check::live_alone(assembly);
-    let (unlimited, _) = interfaces.unlimited();
+    let (unlimited, _) = unlimited(interfaces);
     is_forest(&alone, &unlimited) || state(&alone, &unlimited, control).motion == StateMotion::Rests
 }

@@ -16,11 +16,9 @@ use crate::{
     assembly::Assembly,
     interface::{Interfaces, Members, members},
     solve::{Cholesky, Pattern},
+    strength::crushing::crushes,
     tolerance,
-    verdict::{
-        Forces,
-        certificate::{self, Strength},
-    },
+    verdict::{Forces, certificate, joint::Strength},
 };
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::collections::{BTreeMap, HashMap};
@@ -98,7 +96,7 @@ fn rooms<'a>(assembly: &'a Assembly, interfaces: &Interfaces, forces: &Forces, l
             balance.add(face, point, &r.force);
             balance.add_couple(face, &f.moment);
         }
-        let inside = !face.crushes() && list.iter().all(|r| r.margin >= 0.0);
+        let inside = !crushes(face) && list.iter().all(|r| r.margin >= 0.0);
         inside.then_some(list)
     });
     (rooms.collect(), balance)

@@ -12,7 +12,11 @@ use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interface, Interfaces},
     scene::Friction,
-    verdict::{Rate, certificate::Strength},
+    strength::crushing::crushes,
+    verdict::{
+        Rate,
+        joint::{Strength, rolling_arm, water},
+    },
 };
 use nalgebra::Vector3;
 
@@ -90,7 +94,7 @@ pub fn motion(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> O
         let strength = Strength::of(face);
         let n = &face.frame.n;
         let rolling = rolling(face, rates);
-        for ((place, point), uplift) in face.points.iter().enumerate().zip(uplifts(face)) {
+        for (place, point) in face.points.iter().enumerate() {
             let v = velocity(assembly, face, rates, point);
             let (normal, sliding) = split(n, &v);
             let [cohesion, tension] = strength.at(place);
@@ -99,7 +103,7 @@ pub fn motion(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> O
                 Friction::Infinite => (0.0, sliding.upper),
             };
             let closing = Interval::exactly(mu) * sliding + rolling - normal;
-            if closing.upper > 0.0 && face.crushes() {
+            if closing.upper > 0.0 && crushes(face) {
                 return None;
             }
             if cohesion > 0.0 {
@@ -108,11 +112,6 @@ pub fn motion(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> O
             if tension > 0.0 {
                 m.dissipation = (Interval::exactly(m.dissipation) + Interval::exactly(tension) * (-closing).positive()).upper;
             }
-            if let Some(force) = uplift {
-                for k in 0..3 {
-                    m.dead += Interval::exactly(force[k]) * v[k];
-                }
-            }
             let mut inadmissible = closing.upper.max(0.0);
             if cohesion == 0.0 && tension == 0.0 && inadmissible > 0.0 {
                 inadmissible = inadmissible.min((hidden(mu, normal.lower, sliding.upper) + rolling.upper) * ENLARGED);
@@ -120,6 +119,10 @@ pub fn motion(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> O
             let all = if closing.upper.is_nan() || slips.is_nan() { f64::INFINITY } else { inadmissible + slips };
             m.excess += all;
             m.greatest = m.greatest.max(all);
+        }
+        if let Some((force, at)) = water(face) {
+            let v = velocity(assembly, face, rates, &at);
+            (0..3).for_each(|k| m.dead += Interval::exactly(force[k]) * v[k]);
         }
     }
     m.excess *= ENLARGED;
@@ -132,14 +135,9 @@ fn hidden(mu: f64, normal: f64, sliding: f64) -> f64 {
     if sliding <= -mu * normal { normal.hypot(sliding) } else { (mu * sliding - normal).max(0.0) / mu.hypot(1.0) }
 }
 
-/// Water at each corner, where there is any.
-fn uplifts(face: &Interface) -> impl Iterator<Item = Option<Vector3<f64>>> {
-    face.uplift().into_iter().map(Some).chain(std::iter::repeat(None))
-}
-
 /// What couples can take up per newton of normal force.
 fn rolling(face: &Interface, rates: &[Rate]) -> Interval {
-    let arm = face.rolling_arm();
+    let arm = rolling_arm(face);
     if arm == 0.0 {
         return Interval::ZERO;
     }
