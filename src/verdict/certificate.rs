@@ -117,8 +117,8 @@ pub fn statics(assembly: &Assembly, interfaces: &Interfaces, forces: &Forces, la
             }
             act(&mut residuals, face, point, force, moment);
         }
-        if let Some((force, at)) = water(face) {
-            act(&mut residuals, face, &at, &force, &Vector3::zeros());
+        if let Some(Wrench { force, moment }) = water(face) {
+            act(&mut residuals, face, &face.points[0], &force, &moment);
         }
         if let Some(used) = strength.crushing(face, forces) {
             let used = if used.is_nan() { f64::INFINITY } else { used };
@@ -302,8 +302,8 @@ pub fn kinematics(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate], 
             }
             worst = worst.max(size);
         }
-        if let Some((force, p)) = water(face) {
-            k.dead_power += force.dot(&(at(assembly, rates, face.b, &p) - at(assembly, rates, face.a, &p)));
+        if let Some(push) = water(face) {
+            k.dead_power += power(&push, &Rate { velocity: joint[0], spin });
         }
     }
     k.inadmissibility = if fastest > 0.0 { worst / fastest } else { 0.0 };

@@ -71,20 +71,21 @@ pub fn rolling_arm(face: &Interface) -> f64 {
     if face.points.len() > 2 { 0.0 } else { face.law.rolling_arm }
 }
 
-/// The push of the water in the joint on block `b`, N, and where it acts; its opposite acts on `a`. `None` where there is no water.
-pub fn water(face: &Interface) -> Option<(Vector3<f64>, Vector3<f64>)> {
+/// The push of the water in the joint on block `b`, N, N·m about the first contact point; its opposite acts on `a`. `None` where there is no water.
+pub fn water(face: &Interface) -> Option<Wrench> {
     if face.law.pore_pressure == 0.0 {
         return None;
     }
     let (area, centroid) = touching(face)?;
-    Some((face.frame.n * (face.law.pore_pressure * area), centroid))
+    let force = face.frame.n * (face.law.pore_pressure * area);
+    Some(Wrench { force, moment: centroid.cross(&force) })
 }
 
 /// Share of the area at each corner, m²; zero where there is no area.
 fn shares(face: &Interface) -> Vec<f64> {
     let (count, n) = (face.points.len(), face.frame.n);
     let Some((area, centroid)) = touching(face) else { return vec![0.0; count] };
-    let rim: Vec<Vector3<f64>> = face.points.iter().map(|p| p - centroid).collect();
+    let rim: Vec<Vector3<f64>> = face.points.iter().map(|p| p - face.points[0] - centroid).collect();
     // Corners of the dual, turned by a right angle: along a side, as far out as the side is near.
     let dual: Vec<Vector3<f64>> = sides(&rim).map(|(p, q)| (q - p) / n.dot(&p.cross(&q))).collect();
     let sector = |k: usize| n.dot(&dual[(k + count - 1) % count].cross(&dual[k]));
@@ -92,7 +93,7 @@ fn shares(face: &Interface) -> Vec<f64> {
     (0..count).map(|k| area * (sector(k) / whole)).collect()
 }
 
-/// The area that touches, m², and its centroid; `None` where there is none.
+/// The area that touches, m², and the way from the first contact point to its centroid, m; `None` where there is no area.
 fn touching(face: &Interface) -> Option<(f64, Vector3<f64>)> {
     let origin = *face.points.first()?;
     let whole = std::slice::from_ref(&face.points);
@@ -109,7 +110,7 @@ fn touching(face: &Interface) -> Option<(f64, Vector3<f64>)> {
         area += own.abs();
         moment += first * own.signum();
     }
-    (face.area > 0.0 && area > 0.0).then(|| (area, origin + moment / area))
+    (face.area > 0.0 && area > 0.0).then(|| (area, moment / area))
 }
 
 /// The sides of a closed loop.
@@ -143,7 +144,7 @@ mod tests {
     }
 
     fn moment(face: &Interface, shares: &[f64]) -> Vector3<f64> {
-        face.points.iter().zip(shares).map(|(p, a)| p * *a).sum()
+        face.points.iter().zip(shares).map(|(p, a)| (p - face.points[0]) * *a).sum()
     }
 
     proptest! {
@@ -166,11 +167,11 @@ mod tests {
         /// One force at the centroid does what the program's forces at the corners do.
         #[test]
         fn the_water_of_the_program_is_found_again(face in contact()) {
-            let (force, at) = water(&face).unwrap();
+            let Wrench { force, moment } = water(&face).unwrap();
             let corners = strength::uplift(&face);
-            let about: Vector3<f64> = face.points.iter().zip(&corners).map(|(p, f)| p.cross(f)).sum();
+            let about: Vector3<f64> = face.points.iter().zip(&corners).map(|(p, f)| (p - face.points[0]).cross(f)).sum();
             prop_assert!((force - corners.iter().sum::<Vector3<f64>>()).norm() < 1e-11);
-            prop_assert!((at.cross(&force) - about).norm() < 1e-10);
+            prop_assert!((moment - about).norm() < 1e-10);
         }
 
         /// Were the program to give a corner some of the share of another, forces that use it would be outside their cones here, and

@@ -56,7 +56,7 @@ impl ThrustAt {
         for (face, forces) in interfaces.list.iter().zip(forces) {
             let sign = f64::from(u8::from(face.b == self.support)) - f64::from(u8::from(face.a == self.support));
             if sign != 0.0 {
-                let total = forces.iter().map(|f| f.force).chain(water(face).map(|w| w.0)).sum::<Vector3<f64>>();
+                let total = forces.iter().map(|f| f.force).chain(water(face).map(|w| w.force)).sum::<Vector3<f64>>();
                 sum += sign * self.d().dot(&total);
             }
         }

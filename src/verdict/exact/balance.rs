@@ -63,8 +63,9 @@ impl<'a> Balance<'a> {
         }
         let mut this = Self { assembly, totals };
         for face in &interfaces.list {
-            if let Some((force, at)) = water(face) {
-                this.add(face, &at, &exactly(&force));
+            if let Some(Wrench { force, moment }) = water(face) {
+                this.add(face, &face.points[0], &exactly(&force));
+                this.add_couple(face, &moment);
             }
         }
         this

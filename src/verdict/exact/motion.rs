@@ -120,9 +120,9 @@ pub fn motion(assembly: &Assembly, interfaces: &Interfaces, rates: &[Rate]) -> O
             m.excess += all;
             m.greatest = m.greatest.max(all);
         }
-        if let Some((force, at)) = water(face) {
-            let v = velocity(assembly, face, rates, &at);
-            (0..3).for_each(|k| m.dead += Interval::exactly(force[k]) * v[k]);
+        if let Some(Wrench { force, moment }) = water(face) {
+            let (v, spin) = (velocity(assembly, face, rates, &face.points[0]), spin(face, rates));
+            (0..3).for_each(|k| m.dead += Interval::exactly(force[k]) * v[k] + Interval::exactly(moment[k]) * spin[k]);
         }
     }
     m.excess *= ENLARGED;
@@ -135,14 +135,18 @@ fn hidden(mu: f64, normal: f64, sliding: f64) -> f64 {
     if sliding <= -mu * normal { normal.hypot(sliding) } else { (mu * sliding - normal).max(0.0) / mu.hypot(1.0) }
 }
 
+/// Spin of block `b` against `a`.
+fn spin(face: &Interface, rates: &[Rate]) -> [Interval; 3] {
+    [0, 1, 2].map(|k| Interval::exactly(rates[face.b].spin[k]) - Interval::exactly(rates[face.a].spin[k]))
+}
+
 /// What couples can take up per newton of normal force.
 fn rolling(face: &Interface, rates: &[Rate]) -> Interval {
     let arm = rolling_arm(face);
     if arm == 0.0 {
         return Interval::ZERO;
     }
-    let spin = [0, 1, 2].map(|k| Interval::exactly(rates[face.b].spin[k]) - Interval::exactly(rates[face.a].spin[k]));
-    let (twist, roll) = split(&face.frame.n, &spin);
+    let (twist, roll) = split(&face.frame.n, &spin(face, rates));
     Interval::exactly(arm) * (roll + twist.max(-twist))
 }
 
