@@ -98,6 +98,8 @@ pub mod assembly;
 
 pub mod interface;
 
+pub mod strength;
+
 pub mod program;
 
 pub mod solve;

@@ -12,6 +12,7 @@ use super::{
 };
 use crate::{
     interface::Model,
+    strength::laws::are_dry,
     tolerance,
     verdict::{Verdict, section::centroid},
 };
@@ -55,7 +56,7 @@ pub(super) fn on_scene(scene: &Model, flip: Option<Flip>, control: &Control) -> 
 
 /// The same for one part.
 pub(super) fn of_part(model: &Model, control: &Control) -> Geometric {
-    if !model.interfaces.are_dry() {
+    if !are_dry(&model.interfaces) {
         return Geometric::Open("joints have strengths or water, which shrinking sections would change".into());
     }
     let ask = |by: f64| shrunk(model, by, &Control { law: Law::Associative, ..*control });

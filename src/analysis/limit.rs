@@ -16,6 +16,7 @@ use crate::{
     deadline::Deadline,
     interface::Model,
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
+    strength::laws::unlimited,
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate, check,
@@ -380,7 +381,7 @@ fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
     }
     // The live load in the size of the dead load, so that the same threshold applies.
     let (alone, natural) = check::live_alone(assembly);
-    let (unlimited, kept) = interfaces.unlimited();
+    let (unlimited, kept) = unlimited(interfaces);
     let wedge = least_unbalance(&Model::new(alone, unlimited), LiveLoad::Absent, control);
     answer.attempts.extend(wedge.attempts.iter().cloned());
     if wedge.verdict == Verdict::Stable && any.verdict == Verdict::Stable {

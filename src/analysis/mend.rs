@@ -18,8 +18,9 @@ use crate::{
     tolerance,
     verdict::{
         Forces, Rate,
-        certificate::{self, Strength, at},
+        certificate::{self, at},
         exact::motion::{MotionProof, motion},
+        joint::{Strength, rolling_arm},
         no_forces,
     },
 };
@@ -48,7 +49,7 @@ pub(super) fn cut(interfaces: &Interfaces, forces: &mut Forces) {
             if normal != along || shear != wrench.force - n * along {
                 wrench.force = if normal == 0.0 && shear.norm() == 0.0 { Vector3::zeros() } else { n * normal + shear };
             }
-            let arm = face.rolling_arm();
+            let arm = rolling_arm(face);
             let (most, twist) = (normal.max(0.0) * arm * (1.0 - CUT), n.dot(&wrench.moment));
             let roll = wrench.moment - n * twist;
             if roll.norm() > most || twist.abs() > most {
@@ -140,7 +141,7 @@ fn closing(model: &Model, rates: &[Rate]) -> Vec<(f64, f64)> {
 }
 
 fn rolling(face: &Interface, rates: &[Rate]) -> f64 {
-    let arm = face.rolling_arm();
+    let arm = rolling_arm(face);
     if arm == 0.0 {
         return 0.0;
     }

@@ -15,6 +15,7 @@ use crate::{
     error::{InputError, JsonPath},
     interface::{Interfaces, Model},
     program::{self, Statics, StaticsOptions, Unknowns},
+    strength::laws::unlimited,
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate, no_forces,
@@ -254,7 +255,7 @@ impl Problem<'_> {
 
     /// Whether forces that need no load push without end; then they are the forces of `answer`.
     fn has_no_end(&self, step: Rung, deadline: Deadline, keep_all: bool, answer: &mut ThrustEnd) -> bool {
-        let (unlimited, kept) = self.model.interfaces.unlimited();
+        let (unlimited, kept) = unlimited(&self.model.interfaces);
         let unlimited = self.model.with_interfaces(unlimited);
         let mut statics = Statics::new(&unlimited, StaticsOptions { keep_all, ..StaticsOptions::default() });
         statics.rescale(step.unit, step.local);

@@ -18,6 +18,7 @@ use crate::{
     assembly::{AppliedForce, Assembly, Wrench},
     error::InputError,
     interface::{Interfaces, Model, Part},
+    strength::laws::{are_dry, with_stresses},
     tolerance,
     verdict::Verdict,
 };
@@ -112,7 +113,7 @@ pub fn tilted(model: &Model, toward: Vector3<f64>, load_factor: f64) -> Result<M
 /// The joints where all forces are divided by cos θ.
 fn stressed(interfaces: &Interfaces, load_factor: f64) -> Interfaces {
     let by = 1f64.hypot(if load_factor.is_finite() { load_factor } else { 0.0 });
-    if interfaces.are_dry() { interfaces.clone() } else { interfaces.with_stresses(by) }
+    if are_dry(interfaces) { interfaces.clone() } else { with_stresses(interfaces, by) }
 }
 
 /// The tilt at which the scene falls.
@@ -122,7 +123,7 @@ fn stressed(interfaces: &Interfaces, load_factor: f64) -> Interfaces {
 pub fn tilt(model: &Model, toward: Vector3<f64>, control: &Control) -> Result<Tilt, InputError> {
     let (assembly, toward) = turned(&model.assembly, toward)?;
     let turned = Model::new(assembly, model.interfaces.clone());
-    let load_factor = if turned.interfaces.are_dry() {
+    let load_factor = if are_dry(&turned.interfaces) {
         limit::unproved(&turned, control)
     } else {
         parts::limit::limit_by(&turned, control, &Ways { solve: tilted_part, at: tilted_under })
@@ -193,7 +194,7 @@ impl Tilt {
 /// The load factor with dry friction.
 fn dry(model: &Model, tilt: &Tilt, level: Option<Verdict>, control: &Control) -> Result<DryLoadFactor, InputError> {
     let (associative, turned) = (&tilt.load_factor, tilted(model, tilt.toward, 0.0)?);
-    if turned.interfaces.are_dry() {
+    if are_dry(&turned.interfaces) {
         return Ok(parts::dry::unproved(&turned, associative, level, control));
     }
     let dead = level.filter(|&v| v == Verdict::Stable);

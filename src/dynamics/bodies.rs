@@ -9,6 +9,7 @@ use crate::{
     error::InputError,
     interface::{ContactKind, Model},
     scene::Friction,
+    strength::rolling_arm,
     tolerance::{SKIN, SKIN_OF_THICKNESS},
 };
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
@@ -225,7 +226,7 @@ impl<'a> Frictions<'a> {
                 new.given.insert(index as u32, friction);
                 new.apart.insert(pair);
             }
-            let arm = face.rolling_arm() / units.length;
+            let arm = rolling_arm(face) / units.length;
             let known = new.known.entry(pair).or_insert(Resistance { friction, arm });
             known.arm = known.arm.max(arm);
         }

@@ -11,6 +11,7 @@ use crate::{
     assembly::{Assembly, Wrench},
     error::{Finding, FindingCode, InputError},
     interface::{Interface, Interfaces, Model},
+    strength::{crushing::crushes, uplift},
     tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE, SKIN},
 };
 use nalgebra::Vector3;
@@ -105,7 +106,7 @@ fn broken(runs: &[Run]) -> Option<Finding> {
 }
 
 fn strengths(interfaces: &Interfaces) -> Option<Finding> {
-    let strong = |f: &&Interface| f.law.cohesion > 0.0 || f.law.tension > 0.0 || f.crushes();
+    let strong = |f: &&Interface| f.law.cohesion > 0.0 || f.law.tension > 0.0 || crushes(f);
     let count = interfaces.list.iter().filter(strong).count();
     let text = format!("{count} joints have cohesion, tensile or compressive strength: the simulation leaves it out and has friction only");
     (count > 0).then(|| Finding::new(FindingCode::LeftOut, text))
@@ -125,7 +126,7 @@ impl Loads {
         let turning = assembly.dead_forces.iter().map(|f| (f.block, f.force, f.arm)).collect();
         let mut total = assembly.dead.clone();
         for face in &interfaces.list {
-            for (point, force) in face.points.iter().zip(face.uplift()) {
+            for (point, force) in face.points.iter().zip(uplift(face)) {
                 for (block, force) in [(face.a, -force), (face.b, force)] {
                     let moment = (point - assembly.blocks[block].centroid).cross(&force);
                     total[block] += Wrench { force, moment };

@@ -15,10 +15,8 @@ mod overlap;
 mod parts;
 mod plane;
 mod reach;
-mod section;
 mod shrink;
 mod spheres;
-mod strength;
 mod tally;
 #[cfg(test)]
 mod tests;
@@ -26,8 +24,8 @@ mod tests;
 pub use detect::detect;
 pub use model::{Model, Timings, prepare};
 pub use parts::{Members, Part, Units, members, parts};
+pub(crate) use plane::Plane;
 pub use reach::{floating, is_forest};
-pub use section::{Affine, Cut};
 
 use crate::{
     assembly::JointLaw,

@@ -146,7 +146,7 @@ fn unheld(model: &Model) -> Option<Finding> {
 /// Says what joints are given that their contacts cannot use: stresses need an area, a rolling arm an edge or a point.
 fn without_effect(interfaces: &Interfaces) -> Vec<Finding> {
     let count = |unused: &dyn Fn(&Interface) -> bool| interfaces.list.iter().filter(|f| unused(f)).count();
-    let faces = count(&|f| f.law.rolling_arm > 0.0 && f.rolling_arm() == 0.0);
+    let faces = count(&|f| f.law.rolling_arm > 0.0 && f.points.len() >= 3);
     let lines = count(&|f| f.points.len() < 3 && !f.law.friction_only());
     let mut findings = Vec::new();
     if faces > 0 {

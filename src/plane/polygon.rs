@@ -17,16 +17,19 @@ pub fn area(polygon: &[P2]) -> f64 {
     polygon.windows(2).skip(1).map(|w| cross(polygon[0], w[0], w[1])).sum::<f64>() / 2.0
 }
 
+/// Signed area, m², and its first moment about the first corner, m³.
+pub fn area_and_moment(polygon: &[P2]) -> (f64, P2) {
+    polygon.windows(2).skip(1).fold((0.0, P2::zeros()), |(area, moment), w| {
+        let c = cross(polygon[0], w[0], w[1]) / 2.0;
+        (area + c, moment + (w[0] + w[1] - polygon[0] * 2.0) * (c / 3.0))
+    })
+}
+
 /// Centroid of the area; the mean of the corners where there is no area.
 pub fn centroid(polygon: &[P2]) -> P2 {
     let Some(&origin) = polygon.first() else { return P2::zeros() };
-    let (mut twice, mut moment) = (0.0, P2::zeros());
-    for w in polygon.windows(2).skip(1) {
-        let c = cross(origin, w[0], w[1]);
-        twice += c;
-        moment += (w[0] + w[1] - origin * 2.0) * (c / 3.0);
-    }
-    if twice == 0.0 { polygon.iter().sum::<P2>() / polygon.len() as f64 } else { origin + moment / twice }
+    let (area, moment) = area_and_moment(polygon);
+    if area == 0.0 { polygon.iter().sum::<P2>() / polygon.len() as f64 } else { origin + moment / area }
 }
 
 /// Length of the closed loop, m.

@@ -9,6 +9,7 @@ use crate::{
     assembly::Wrench,
     interface::{Interface, Interfaces, Model},
     scene::Friction,
+    strength,
 };
 use nalgebra::Vector3;
 
@@ -210,12 +211,12 @@ pub(super) fn bearings(model: &Model, plane: Option<Plane>, options: StaticsOpti
     let mut column = 0;
     for (index, face) in interfaces.list.iter().enumerate() {
         let n = face.frame.n;
-        let shares = if face.law.is_dry() { Vec::new() } else { face.shares() };
+        let shares = if face.law.is_dry() { Vec::new() } else { strength::shares(face) };
         let (directions, cone) = friction_columns(face, plane, options);
         let mut basis: Vec<Wrench> = directions.into_iter().map(|force| Wrench { force, moment: Vector3::zeros() }).collect();
-        if !face.law.is_dry() && face.rolling_arm() > 0.0 {
+        if !face.law.is_dry() && strength::rolling_arm(face) > 0.0 {
             let axes = plane.map_or_else(|| vec![face.frame.t1, face.frame.t2, n], |p| vec![p.axis]);
-            basis.extend(axes.into_iter().map(|axis| Wrench { force: Vector3::zeros(), moment: axis * face.rolling_arm() }));
+            basis.extend(axes.into_iter().map(|axis| Wrench { force: Vector3::zeros(), moment: axis * strength::rolling_arm(face) }));
         }
         let points: Vec<[usize; 2]> = match plane {
             None => (0..face.points.len()).map(|k| [k, k]).collect(),
@@ -239,7 +240,7 @@ pub(super) fn bearings(model: &Model, plane: Option<Plane>, options: StaticsOpti
                     continue;
                 }
                 let share: f64 = shares[points[0]] + if points[0] == points[1] { 0.0 } else { shares[points[1]] };
-                (limits.cohesion, limits.tension) = (face.law.cohesion * share, face.tension() * share);
+                (limits.cohesion, limits.tension) = (face.law.cohesion * share, strength::tension(face) * share);
             }
             column += basis.len();
             list.push(bearing);
@@ -259,7 +260,7 @@ fn friction_columns(face: &Interface, plane: Option<Plane>, options: StaticsOpti
     let split = || std::iter::once(n).chain(tangents.iter().copied()).collect::<Vec<_>>();
     let steep = !options.split && options.pyramid.is_none() && matches!(face.law.friction, Friction::Coefficient(mu) if mu > STEEP);
     if !face.law.is_dry() || steep {
-        let couples = match (face.rolling_arm() > 0.0, plane) {
+        let couples = match (strength::rolling_arm(face) > 0.0, plane) {
             (false, _) => 0,
             (true, Some(_)) => 1,
             (true, None) => 3,

@@ -13,6 +13,7 @@ use crate::{
     assembly::{Assembly, Gyration, Wrench},
     interface::{Interfaces, Model},
     scene::Friction,
+    strength::{crushing::crushes, uplift},
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use std::collections::HashMap;
@@ -151,7 +152,7 @@ fn with_water(model: &Model) -> Vec<Wrench> {
     let Model { assembly, interfaces, .. } = model;
     let mut loads = assembly.dead.clone();
     for face in &interfaces.list {
-        for (point, force) in face.points.iter().zip(face.uplift()) {
+        for (point, force) in face.points.iter().zip(uplift(face)) {
             for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
                 let moment = (point - assembly.blocks[block].centroid).cross(&force);
                 loads[block] += Wrench { force, moment } * sign;
@@ -164,7 +165,7 @@ fn with_water(model: &Model) -> Vec<Wrench> {
 /// The part that a symmetric scene is reduced to. Bounds on crushing tie the points of a joint together: no symmetry is looked for there.
 fn part(model: &Model, options: StaticsOptions, plane: Option<Plane>, dead: &[Wrench], list: &[Bearing]) -> Option<Part> {
     let Model { assembly, interfaces, .. } = model;
-    if !options.symmetry || options.keep_all || options.unscaled || interfaces.list.iter().any(|f| f.crushes()) {
+    if !options.symmetry || options.keep_all || options.unscaled || interfaces.list.iter().any(crushes) {
         return None;
     }
     let loads: &[&[Wrench]] = if options.live { &[dead, &assembly.live] } else { &[dead] };

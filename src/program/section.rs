@@ -1,12 +1,16 @@
 //! Crushing in a program: bounds on the normal forces of one joint.
 //!
 //! The bounds along the edges are second-order cones and exact where a rectangle is bent about one axis; what else the strength
-//! excludes is added as linear bounds, one by one, where forces break it ([`Interface::crushing`]).
-//!
-//! [`Interface::crushing`]: crate::interface::Interface::crushing
+//! excludes is added as linear bounds, one by one, where forces break it ([`crushing`](crate::strength::crushing::crushing)).
 
 use super::{Cone, ConicProgram, Statics, bearing::Bearing};
-use crate::interface::{Cut, Interfaces};
+use crate::{
+    interface::Interfaces,
+    strength::{
+        crushing::{Cut, crushes, edge_bounds},
+        tension,
+    },
+};
 
 /// A joint with a compressive strength.
 #[derive(Clone, Debug)]
@@ -41,12 +45,12 @@ pub(super) fn sections(interfaces: &Interfaces, bearings: &[Bearing]) -> Vec<Cru
         let count = bearings[first..].iter().take_while(|b| b.interface == interface).count();
         let own = first..first + count;
         first += count;
-        if !face.crushes() {
+        if !crushes(face) {
             continue;
         }
-        let edges = face.edge_bounds().into_iter();
+        let edges = edge_bounds(face).into_iter();
         let edges = edges.map(|(width, d)| (width, bearings[own.clone()].iter().map(|b| b.mean(&d)).collect())).collect();
-        let strength = face.law.compression + face.tension();
+        let strength = face.law.compression + tension(face);
         sections.push(CrushingJoint { interface, strength, area: face.area, bearings: own, edges, cuts: Vec::new() });
     }
     sections

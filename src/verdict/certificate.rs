@@ -10,15 +10,19 @@
 //!
 //! *Strength.* With cohesion c and tensile strength T on the corner's share a of the area, `‖f_t‖ ≤ μ f_n + c a`, `f_n ≥ −T a`;
 //! a mechanism then dissipates `c a ‖v_t‖ + T a (v_n − μ‖v_t‖)⁺` there. With a compressive strength σ, joints may close: a joint
-//! that closes at the rate g, affine over its area, dissipates at least `(σ + T) ∫ g⁺ dA` (see [`Interface::crushing`]).
+//! that closes at the rate g, affine over its area, dissipates at least `(σ + T) ∫ g⁺ dA` (see [`crushing`]).
 //! A rolling arm r adds couples `‖m_t‖ ≤ r f_n`, `|m_n| ≤ r f_n`, which count in `e` with the rates of rolling and twisting.
 //! Water in the joint is a load. Sources: Drucker, Prager & Greenberg 1952 (both theorems), Drucker & Prager 1952 (cohesion).
 
-use super::{Forces, Rate};
+use super::{
+    Forces, Rate,
+    joint::{Strength, rolling_arm, tension, water},
+};
 use crate::{
     assembly::{Assembly, Wrench},
-    interface::{Cut, Interface, Interfaces, Model},
+    interface::{Interface, Interfaces, Model},
     scene::Friction,
+    strength::crushing::{Cut, closing_volume, crushes, crushing},
     tolerance,
 };
 use nalgebra::Vector3;
@@ -95,10 +99,15 @@ pub fn statics(model: &Model, forces: &Forces, lambda: f64) -> Residuals {
             moment: assembly.dead[i].moment + assembly.live[i].moment * lambda,
         })
         .collect();
+    let act = |residuals: &mut [Wrench], face: &Interface, point: &Vector3<f64>, force: &Vector3<f64>, couple: &Vector3<f64>| {
+        for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
+            let arm = point - assembly.blocks[block].centroid;
+            residuals[block] += Wrench { force: force * sign, moment: (arm.cross(force) + couple) * sign };
+        }
+    };
     let (mut excess, mut crushing, mut most_pressed) = (0.0_f64, 0.0_f64, 0);
     for (index, (face, forces)) in interfaces.list.iter().zip(forces).enumerate() {
         let strength = Strength::of(face);
-        let uplift = face.uplift();
         for (k, (point, Wrench { force, moment })) in face.points.iter().zip(forces).enumerate() {
             let outside = outside(face, force, moment, strength.at(k));
             // A NaN is as far outside as can be.
@@ -107,11 +116,10 @@ pub fn statics(model: &Model, forces: &Forces, lambda: f64) -> Residuals {
             } else if outside > 0.0 {
                 excess = excess.max(outside / force.norm());
             }
-            let total = uplift.get(k).map_or(*force, |u| force + u);
-            for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
-                let arm = point - assembly.blocks[block].centroid;
-                residuals[block] += Wrench { force: total * sign, moment: (arm.cross(&total) + moment) * sign };
-            }
+            act(&mut residuals, face, point, force, moment);
+        }
+        if let Some(Wrench { force, moment }) = water(face) {
+            act(&mut residuals, face, &face.points[0], &force, &moment);
         }
         if let Some(used) = strength.crushing(face, forces) {
             let used = if used.is_nan() { f64::INFINITY } else { used };
@@ -136,50 +144,12 @@ pub fn statics(model: &Model, forces: &Forces, lambda: f64) -> Residuals {
     Residuals { residuals, unbalance, worst, cone_excess: excess, crushing, most_pressed, balanced: unbalance <= tolerance::UNBALANCE }
 }
 
-/// What the corners of a joint carry beside friction, N.
-#[derive(Clone, Debug, Default)]
-pub struct Strength {
-    /// Cohesion and tension at each corner; empty where there are none.
-    corners: Vec<[f64; 2]>,
-}
-
-impl Strength {
-    /// The strength of an interface.
-    pub fn of(face: &Interface) -> Self {
-        let tension = face.tension();
-        if face.law.cohesion == 0.0 && tension == 0.0 {
-            return Self::default();
-        }
-        Self { corners: face.shares().into_iter().map(|a| [face.law.cohesion * a, tension * a]).collect() }
-    }
-
-    /// Cohesion and tension of a corner, N.
-    pub fn at(&self, corner: usize) -> [f64; 2] {
-        self.corners.get(corner).copied().unwrap_or_default()
-    }
-
-    /// The use of the compressive strength, where there is one.
-    pub fn crushing(&self, face: &Interface, forces: &[Wrench]) -> Option<f64> {
-        let (normal, sigma) = self.pressed(face, forces)?;
-        Some(face.crushing(&normal, sigma).0)
-    }
-
-    /// Normal forces from the tensile strength on, and the strength from there; where there is a compressive strength.
-    pub fn pressed(&self, face: &Interface, forces: &[Wrench]) -> Option<(Vec<f64>, f64)> {
-        if !face.crushes() {
-            return None;
-        }
-        let normal = forces.iter().enumerate().map(|(k, f)| (face.frame.n.dot(&f.force) + self.at(k)[1]).max(0.0)).collect();
-        Some((normal, face.law.compression + face.tension()))
-    }
-}
-
 /// The bounds on crushing that forces break, with their interfaces.
 pub fn crushed(interfaces: &Interfaces, forces: &Forces) -> Vec<(usize, Cut)> {
     let mut broken = Vec::new();
     for (k, (face, forces)) in interfaces.list.iter().zip(forces).enumerate() {
         let Some((normal, sigma)) = Strength::of(face).pressed(face, forces) else { continue };
-        if let (used, Some(cut)) = face.crushing(&normal, sigma)
+        if let (used, Some(cut)) = crushing(face, &normal, sigma)
             && used > 1.0 + 0.5 * tolerance::CRUSHING
         {
             broken.push((k, cut));
@@ -201,7 +171,7 @@ fn outside(face: &Interface, force: &Vector3<f64>, couple: &Vector3<f64>, [cohes
         let twist = n.dot(couple);
         let rolling = (couple - n * twist).norm().max(twist.abs());
         // Without an arm any couple is infinitely far outside.
-        outside = outside.max(rolling / face.rolling_arm() - normal);
+        outside = outside.max(rolling / rolling_arm(face) - normal);
     }
     outside
 }
@@ -289,7 +259,7 @@ pub fn kinematics(model: &Model, rates: &[Rate], forces: &Forces) -> Kinematics 
     for (face, forces) in interfaces.list.iter().zip(forces) {
         let strength = Strength::of(face);
         let n = face.frame.n;
-        let (arm, spin) = (face.rolling_arm(), rates[face.b].spin - rates[face.a].spin);
+        let (arm, spin) = (rolling_arm(face), rates[face.b].spin - rates[face.a].spin);
         let twist = n.dot(&spin);
         // Of the couples, per newton of normal force.
         let rolling = if arm > 0.0 { arm * ((spin - n * twist).norm() + twist.abs()) } else { 0.0 };
@@ -302,9 +272,9 @@ pub fn kinematics(model: &Model, rates: &[Rate], forces: &Forces) -> Kinematics 
         let sliding: Vec<f64> = joint.iter().map(|v| (v - n * n.dot(v)).norm()).collect();
         let closing: Vec<f64> = joint.iter().zip(&sliding).map(|(v, vt)| mu * vt + rolling - n.dot(v)).collect();
         // Joints that close by rounding alone do not crush: a large strength would make much of nothing.
-        let crushes = face.crushes() && closing.iter().any(|&e| e > tolerance::ADMISSIBLE * fastest);
+        let crushes = crushes(face) && closing.iter().any(|&e| e > tolerance::ADMISSIBLE * fastest);
         if crushes {
-            k.dissipation += (face.law.compression + face.tension()) * face.integral_of_positive_part(&face.lifted(&closing));
+            k.dissipation += (face.law.compression + tension(face)) * closing_volume(face, &closing);
         }
         for (place, (point, Wrench { force, .. })) in face.points.iter().zip(forces).enumerate() {
             let [cohesion, tension] = strength.at(place);
@@ -334,8 +304,8 @@ pub fn kinematics(model: &Model, rates: &[Rate], forces: &Forces) -> Kinematics 
             }
             worst = worst.max(size);
         }
-        for (v, force) in joint.iter().zip(face.uplift()) {
-            k.dead_power += force.dot(v);
+        if let Some(push) = water(face) {
+            k.dead_power += power(&push, &Rate { velocity: joint[0], spin });
         }
     }
     k.inadmissibility = if fastest > 0.0 { worst / fastest } else { 0.0 };

@@ -15,6 +15,7 @@ use super::{
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{self, Model, Part},
+    strength::laws::unlimited,
     tolerance,
 };
 use serde::{Deserialize, Serialize};
@@ -186,7 +187,7 @@ fn live_alone_balances(f: &mut Findings, model: &Model, forces: &Forces) {
     let Model { assembly, interfaces, .. } = model;
     f.require(assembly.free().any(|i| assembly.live[i] != Wrench::zero()), "there is a live load".into());
     // Forces in joints that limit them are not counted: nothing that has a limit wedges.
-    let (unlimited, kept) = interfaces.unlimited();
+    let (unlimited, kept) = unlimited(interfaces);
     let counted = kept.iter().map(|&k| forces[k].clone()).collect();
     let mut alone = assembly.clone();
     for (dead, live) in alone.dead.iter_mut().zip(&mut alone.live) {

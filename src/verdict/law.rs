@@ -2,12 +2,14 @@
 
 use super::{
     Forces, Rate,
-    certificate::{Strength, at, load_scale, power, size, speed, statics},
+    certificate::{at, load_scale, power, size, speed, statics},
+    joint::{Strength, rolling_arm},
 };
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interface, Model},
     scene::Friction,
+    strength::crushing::{closing_volume, crushes},
     tolerance,
 };
 use nalgebra::Vector3;
@@ -86,10 +88,10 @@ fn map(model: &Model, forces: &Forces, rates: &[Rate], scale: f64) -> f64 {
             breach += contact_breach(face, force, u, cohesion, tension);
             tangential += sliding_breach(face, force, u, cohesion);
         }
-        if face.crushes() {
+        if crushes(face) {
             breach = breach.min(tangential + crushing_breach(face, &strength, forces, &rates) / size);
         }
-        let (n, arm) = (face.frame.n, face.rolling_arm());
+        let (n, arm) = (face.frame.n, rolling_arm(face));
         if arm > 0.0 {
             let spin = (spins(face.b) - spins(face.a)) * scale;
             for Wrench { force, moment } in &own {
@@ -131,7 +133,7 @@ fn sliding_breach(face: &Interface, force: &Vector3<f64>, u: &Vector3<f64>, cohe
 fn crushing_breach(face: &Interface, strength: &Strength, forces: &[Wrench], rates: &[Vector3<f64>]) -> f64 {
     let Some((normal, sigma)) = strength.pressed(face, forces) else { return f64::INFINITY };
     let closing: Vec<f64> = rates.iter().map(|u| -face.frame.n.dot(u)).collect();
-    let greatest = sigma * face.integral_of_positive_part(&face.lifted(&closing));
+    let greatest = sigma * closing_volume(face, &closing);
     let power: f64 = closing.iter().zip(&normal).map(|(g, f)| g * f).sum();
     (greatest - power).abs()
 }

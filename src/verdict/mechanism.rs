@@ -5,6 +5,7 @@ use crate::{
     assembly::Assembly,
     interface::{Interface, Model},
     scene::Friction,
+    strength::crushing::crushes,
     tolerance,
 };
 use nalgebra::Vector3;
@@ -82,7 +83,7 @@ fn joint(assembly: &Assembly, face: &Interface, rates: &[Rate], fastest: f64) ->
     let kept: Vec<_> = corners.iter().filter(|c| c.1).collect();
     let crushed: Vec<_> = corners.iter().filter(|c| c.3 < -rest).collect();
     let mean = |points: &mut dyn Iterator<Item = Vector3<f64>>, n: usize| points.sum::<Vector3<f64>>() / n as f64;
-    if face.crushes() && !crushed.is_empty() {
+    if crushes(face) && !crushed.is_empty() {
         return Some((JointMotion::Crush, mean(&mut crushed.iter().map(|c| c.0), crushed.len())));
     }
     if kept.is_empty() {

@@ -1,10 +1,12 @@
 //! Verdicts and the evidence for them, recomputed from [`Assembly`](crate::assembly::Assembly) and
-//! [`Interfaces`] alone. Nothing here knows the program or the solver.
+//! [`Interfaces`] alone. Nothing here knows the program or the solver. What joints carry beside friction is derived here a second
+//! time ([`joint`]), all but the bound on crushing.
 
 pub mod certificate;
 pub mod check;
 pub mod evidence;
 pub mod exact;
+pub mod joint;
 pub mod law;
 pub mod mechanism;
 pub mod section;

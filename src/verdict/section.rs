@@ -6,10 +6,11 @@
 //! distribution of pressure with that resultant presses everywhere (e ≤ t / 6 on a rectangle: the middle third).
 
 use super::Forces;
-use crate::interface::{Interface, Interfaces};
-use nalgebra::{Matrix2, Vector2, Vector3};
-
-type P2 = Vector2<f64>;
+use crate::{
+    interface::{Interface, Interfaces},
+    plane::polygon::{self, P2, edges},
+};
+use nalgebra::{Matrix2, Vector3};
 
 /// The resultant at one interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,8 +43,7 @@ pub fn sections(interfaces: &Interfaces, forces: &Forces) -> Vec<SectionForce> {
             let total: Vector3<f64> = forces.iter().map(|f| f.force).sum();
             let normal = n.dot(&total);
             let outline = Outline::new(face);
-            let flat = |p: &Vector3<f64>| outline.flat(face, p);
-            let moment: P2 = face.points.iter().zip(forces).map(|(p, f)| (flat(p) - outline.centroid) * n.dot(&f.force)).sum();
+            let moment: P2 = face.points.iter().zip(forces).map(|(p, f)| (flat(face, p) - outline.centroid) * n.dot(&f.force)).sum();
             let e = if normal == 0.0 { P2::zeros() } else { moment / normal };
             let shift = face.frame.t1 * e.x + face.frame.t2 * e.y;
             SectionForce {
@@ -64,7 +64,13 @@ pub fn centroid(face: &Interface) -> Vector3<f64> {
     Outline::new(face).middle(face)
 }
 
-/// The hull of a contact in coordinates `(t1, t2)` about its first corner.
+/// Coordinates `(t1, t2)` in a contact about its first corner.
+fn flat(face: &Interface, p: &Vector3<f64>) -> P2 {
+    let d = p - face.points[0];
+    P2::new(face.frame.t1.dot(&d), face.frame.t2.dot(&d))
+}
+
+/// The hull of a contact in its plane.
 struct Outline {
     corners: Vec<P2>,
     area: f64,
@@ -73,34 +79,15 @@ struct Outline {
 
 impl Outline {
     fn new(face: &Interface) -> Self {
-        let mut outline = Self { corners: Vec::new(), area: 0.0, centroid: P2::zeros() };
-        outline.corners = face.points.iter().map(|p| outline.flat(face, p)).collect();
-        let n = outline.corners.len();
-        outline.centroid = outline.corners.iter().sum::<P2>() / n.max(1) as f64;
-        let mut moment = P2::zeros();
-        for (a, b) in outline.edges() {
-            let cross = a.perp(&b);
-            outline.area += 0.5 * cross;
-            moment += (a + b) * (cross / 6.0);
-        }
-        if n > 2 && outline.area != 0.0 {
-            outline.centroid = moment / outline.area;
-        }
-        outline
+        Self::of(face.points.iter().map(|p| flat(face, p)).collect())
     }
 
-    fn flat(&self, face: &Interface, p: &Vector3<f64>) -> P2 {
-        let d = p - face.points[0];
-        P2::new(face.frame.t1.dot(&d), face.frame.t2.dot(&d))
+    fn of(corners: Vec<P2>) -> Self {
+        Self { area: polygon::area(&corners), centroid: polygon::centroid(&corners), corners }
     }
 
     fn middle(&self, face: &Interface) -> Vector3<f64> {
         face.points[0] + face.frame.t1 * self.centroid.x + face.frame.t2 * self.centroid.y
-    }
-
-    fn edges(&self) -> Vec<(P2, P2)> {
-        let n = self.corners.len();
-        (0..n).map(|k| (self.corners[k], self.corners[(k + 1) % n])).collect()
     }
 
     /// The factor by which the hull, about its centroid, reaches `e`.
@@ -114,7 +101,7 @@ impl Outline {
                     let distance = out.dot(&(a - self.centroid));
                     if distance == 0.0 { 0.0 } else { out.dot(&e) / distance }
                 };
-                self.edges().into_iter().map(reach).fold(0.0, f64::max)
+                edges(&self.corners).map(reach).fold(0.0, f64::max)
             }
         }
     }
@@ -126,7 +113,7 @@ impl Outline {
             [] | [_] => true,
             [a, b] => e.norm() <= (b - a).norm() / 6.0 * (1.0 - ROUNDING),
             _ => {
-                let inertia = self.edges().into_iter().fold(Matrix2::zeros(), |sum, (a, b)| {
+                let inertia = edges(&self.corners).fold(Matrix2::zeros(), |sum, (a, b)| {
                     let (a, b) = (a - self.centroid, b - self.centroid);
                     let s = a + b;
                     sum + (a * a.transpose() + b * b.transpose() + s * s.transpose()) * (a.perp(&b) / 24.0)
@@ -144,11 +131,7 @@ mod tests {
     use super::*;
 
     fn outline(corners: &[[f64; 2]]) -> Outline {
-        let mut o = Outline { corners: corners.iter().map(|&c| c.into()).collect(), area: 0.0, centroid: P2::zeros() };
-        let n = corners.len() as f64;
-        o.centroid = o.corners.iter().sum::<P2>() / n;
-        o.area = o.edges().into_iter().map(|(a, b)| 0.5 * a.perp(&b)).sum();
-        o
+        Outline::of(corners.iter().map(|&c| c.into()).collect())
     }
 
     #[test]

@@ -5,10 +5,11 @@
 //! (see [`certificate`]). Virtual work gives for all admissible forces in equilibrium `σ T = w·q + Σ f·v ≥ w·q − D − Σ e f_n`, with `D` the
 //! dissipation of cohesion, tension and crushing: a bound from below (σ = 1, the support yields) or above (σ = −1, it is pushed in).
 
-use super::{Forces, Rate, certificate, check::Findings, no_forces};
+use super::{Forces, Rate, certificate, check::Findings, joint::water, no_forces};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interfaces, Model},
+    strength::laws::unlimited,
     tolerance,
 };
 use nalgebra::Vector3;
@@ -55,7 +56,7 @@ impl ThrustAt {
         for (face, forces) in interfaces.list.iter().zip(forces) {
             let sign = f64::from(u8::from(face.b == self.support)) - f64::from(u8::from(face.a == self.support));
             if sign != 0.0 {
-                let total = forces.iter().map(|f| f.force).chain(face.uplift()).sum::<Vector3<f64>>();
+                let total = forces.iter().map(|f| f.force).chain(water(face).map(|w| w.force)).sum::<Vector3<f64>>();
                 sum += sign * self.d().dot(&total);
             }
         }
@@ -172,7 +173,7 @@ pub(super) fn verify_endless(f: &mut Findings, model: &Model, forces: &Forces, b
         Some(base) => super::check::balanced(f, "", model, base, 0.0),
         None => f.fails.push("forces that balance the loads are missing".into()),
     }
-    let (unlimited, kept) = interfaces.unlimited();
+    let (unlimited, kept) = unlimited(interfaces);
     let alone: Forces = kept.iter().map(|&k| forces[k].clone()).collect();
     super::check::balanced(f, "without loads, ", &Model::new(unloaded(assembly), unlimited), &alone, 0.0);
     // Forces in joints that limit them are not counted.

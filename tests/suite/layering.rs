@@ -39,11 +39,11 @@ fn module(path: &Path) -> String {
     part.trim_end_matches(".rs").to_string()
 }
 
-/// Modules named after `crate::`, in paths and in grouped imports.
-fn used(text: &str, order: &[String]) -> Vec<String> {
+/// What is named after a prefix such as `crate::`, in paths and in grouped imports, with all that follows in the path.
+fn named_after(text: &str, prefix: &str) -> Vec<String> {
     let mut found = Vec::new();
-    for (at, _) in text.match_indices("crate::") {
-        let rest = &text[at + "crate::".len()..];
+    for (at, _) in text.match_indices(prefix) {
+        let rest = &text[at + prefix.len()..];
         let group = if let Some(inner) = rest.strip_prefix('{') {
             let mut depth = 1;
             let end = inner.find(|c| {
@@ -52,7 +52,7 @@ fn used(text: &str, order: &[String]) -> Vec<String> {
             });
             &inner[..end.unwrap_or(inner.len())]
         } else {
-            rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default()
+            rest.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':').next().unwrap_or_default()
         };
         let mut depth = 0;
         let mut names = vec![String::new()];
@@ -63,14 +63,19 @@ fn used(text: &str, order: &[String]) -> Vec<String> {
                 _ => names.last_mut().unwrap().push(c),
             }
         }
-        for name in names {
-            let first = name.trim().split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default().to_string();
-            if order.contains(&first) {
-                found.push(first);
-            }
-        }
+        found.extend(names.iter().map(|name| name.trim().to_string()));
     }
     found
+}
+
+/// The first word of a path.
+fn first(path: &str) -> &str {
+    path.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default()
+}
+
+/// Modules named after `crate::`.
+fn used(text: &str, order: &[String]) -> Vec<String> {
+    named_after(text, "crate::").iter().map(|path| first(path).to_string()).filter(|name| order.contains(name)).collect()
 }
 
 #[test]
@@ -100,12 +105,24 @@ fn certificates_never_see_the_program() {
     }
 }
 
+/// The numbers that forces are judged by are derived a second time (`verdict::joint`), not asked of the room that the program has them from.
+#[test]
+fn certificates_derive_shares_and_uplift_themselves() {
+    for (path, text) in sources("src/verdict") {
+        for name in named_after(&text, "strength::") {
+            assert!(["crushing", "laws"].contains(&first(&name)), "{} names strength::{name}", path.display());
+        }
+        let whole = named_after(&text, "crate::").into_iter().find(|name| first(name) == "strength" && !name.contains("::"));
+        assert_eq!(whole, None, "{} uses the whole room", path.display());
+    }
+}
+
 /// A second opinion that knew the first would be none.
 #[test]
 fn dynamics_never_sees_program_solver_or_verdict() {
     for (path, text) in sources("src/dynamics") {
         for word in used(&text, &order()) {
-            let known = ["error", "tolerance", "plane", "scene", "assembly", "interface", "dynamics"].contains(&word.as_str());
+            let known = ["error", "tolerance", "plane", "scene", "assembly", "interface", "strength", "dynamics"].contains(&word.as_str());
             assert!(known, "{} uses {word}", path.display());
         }
     }

@@ -22,6 +22,7 @@ use crate::{
         coulomb::{Aim, Contacts, Hold},
     },
     solve::Settings,
+    strength::laws::unlimited,
     tolerance,
     verdict::{Forces, Rate, Verdict, certificate, check, law},
 };
@@ -248,6 +249,6 @@ fn lower_end(Scene { model, associative }: &Scene, forces: &Forces, rates: &[Rat
 pub(in crate::analysis) fn part_rests_alone(model: &Model, control: &Control) -> bool {
     let Model { assembly, interfaces, .. } = model;
     let (alone, _) = check::live_alone(assembly);
-    let alone = Model::new(alone, interfaces.unlimited().0);
+    let alone = Model::new(alone, unlimited(interfaces).0);
     is_forest(&alone) || state(&alone, control).motion == StateMotion::Rests
 }

@@ -4,6 +4,7 @@ use super::{
     Mend, ShapeError,
     surface::{Face, HalfEdge, Surface, edges},
 };
+use crate::plane::Sets;
 use nalgebra::Vector3;
 use std::{collections::HashMap, f64::consts::PI};
 
@@ -17,31 +18,31 @@ pub(super) fn orient(surface: &mut Surface, list: &[HalfEdge], mends: &mut Vec<M
     refuse_odd(surface, list)?;
 
     let count = surface.faces.len();
-    let mut patches = Classes::new(count);
+    let mut patches = Sets::new(count);
     for edge in edges(list) {
         if let [a, b] = edge
-            && !patches.join(a.face, b.face, a.forward == b.forward)
+            && !patches.relate(a.face as usize, b.face as usize, a.forward == b.forward)
         {
             return Err(ShapeError::OneSided { face: surface.faces[a.face as usize].source });
         }
     }
-    let patch: Vec<(u32, bool)> = (0..count as u32).map(|f| patches.find(f)).collect();
+    let patch: Vec<(usize, bool)> = (0..count).map(|f| patches.side(f)).collect();
 
     // Wind each patch as most of its faces are wound.
     let mut balance = vec![0i64; count];
     for &(root, against) in &patch {
-        balance[root as usize] += if against { -1 } else { 1 };
+        balance[root] += if against { -1 } else { 1 };
     }
-    let mut turn: Vec<bool> = patch.iter().map(|&(root, against)| against != (balance[root as usize] < 0)).collect();
+    let mut turn: Vec<bool> = patch.iter().map(|&(root, against)| against != (balance[root] < 0)).collect();
 
-    let mut shells = Classes::new(count);
+    let mut shells = Sets::new(count);
     for (f, &(root, _)) in patch.iter().enumerate() {
-        shells.join(f as u32, root, false);
+        shells.join(f, root);
     }
     for edge in edges(list).filter(|e| e.len() > 2) {
         pair_up(surface, edge, &patch, &turn, &mut shells)?;
     }
-    let (shell, shells) = shells.number();
+    let (shell, shells) = numbered(&mut shells, count);
     turn_outward(surface, &shell, shells, &mut turn, mends)?;
 
     let turned = turn.iter().filter(|t| **t).count();
@@ -100,9 +101,9 @@ fn refuse_duplicates(faces: &[Face]) -> Result<(), ShapeError> {
 }
 
 /// At an edge with four or more faces as many must run one way as the other; patches that close only together become one shell.
-fn pair_up(surface: &Surface, edge: &[HalfEdge], patch: &[(u32, bool)], turn: &[bool], shells: &mut Classes) -> Result<(), ShapeError> {
+fn pair_up(surface: &Surface, edge: &[HalfEdge], patch: &[(usize, bool)], turn: &[bool], shells: &mut Sets) -> Result<(), ShapeError> {
     let sign = |h: &HalfEdge| if h.forward != turn[h.face as usize] { 1i64 } else { -1 };
-    let mut sums: Vec<(u32, i64)> = Vec::with_capacity(edge.len());
+    let mut sums: Vec<(usize, i64)> = Vec::with_capacity(edge.len());
     for h in edge {
         let root = patch[h.face as usize].0;
         match sums.iter_mut().find(|(r, _)| *r == root) {
@@ -115,7 +116,7 @@ fn pair_up(surface: &Surface, edge: &[HalfEdge], patch: &[(u32, bool)], turn: &[
         return Err(branching(surface, edge));
     }
     for pair in sums.windows(2) {
-        shells.join(pair[0].0, pair[1].0, false);
+        shells.join(pair[0].0, pair[1].0);
     }
     Ok(())
 }
@@ -131,12 +132,12 @@ struct Shell {
 }
 
 /// Turns whole shells: outer ones outward, inner ones against the shell around them.
-fn turn_outward(surface: &Surface, shell: &[u32], count: usize, turn: &mut [bool], mends: &mut Vec<Mend>) -> Result<(), ShapeError> {
+fn turn_outward(surface: &Surface, shell: &[usize], count: usize, turn: &mut [bool], mends: &mut Vec<Mend>) -> Result<(), ShapeError> {
     let mut shells: Vec<Shell> = (0..count)
         .map(|_| Shell { volume: 0.0, low: Vector3::repeat(f64::INFINITY), high: Vector3::repeat(f64::NEG_INFINITY), faces: Vec::new() })
         .collect();
     for (f, face) in surface.faces.iter().enumerate() {
-        let shell = &mut shells[shell[f] as usize];
+        let shell = &mut shells[shell[f]];
         shell.faces.push(f as u32);
         let mut volume = 0.0;
         surface.fan(face, |a, b, c| volume += a.dot(&b.cross(&c)) / 6.0);
@@ -210,64 +211,13 @@ fn winding(surface: &Surface, shell: &Shell, point: Vector3<f64>) -> f64 {
     (angle / (4.0 * PI)).abs()
 }
 
-/// Disjoint sets whose members each agree or disagree with their representative (Tarjan 1975, with parity).
-struct Classes {
-    parent: Vec<u32>,
-    /// Whether a member disagrees with its parent.
-    against: Vec<bool>,
-}
-
-impl Classes {
-    fn new(count: usize) -> Self {
-        Self { parent: (0..count as u32).collect(), against: vec![false; count] }
+/// The number of each face's shell, counted from 0 in order of first faces, and how many shells there are.
+fn numbered(shells: &mut Sets, count: usize) -> (Vec<usize>, usize) {
+    let (mut numbers, mut next) = (vec![0; count], 0);
+    for f in 0..count {
+        let first = shells.find(f);
+        numbers[f] = if first == f { next } else { numbers[first] };
+        next += usize::from(first == f);
     }
-
-    /// The representative, and whether `member` disagrees with it.
-    fn find(&mut self, member: u32) -> (u32, bool) {
-        let (mut root, mut against) = (member, false);
-        while self.parent[root as usize] != root {
-            against ^= self.against[root as usize];
-            root = self.parent[root as usize];
-        }
-        // Shorten the way for the next time.
-        let (mut at, mut rest) = (member, against);
-        while self.parent[at as usize] != root {
-            let next = self.parent[at as usize];
-            let step = self.against[at as usize];
-            self.parent[at as usize] = root;
-            self.against[at as usize] = rest;
-            rest ^= step;
-            at = next;
-        }
-        (root, against)
-    }
-
-    /// States that two members disagree (or agree); false where that contradicts what was stated before.
-    fn join(&mut self, a: u32, b: u32, disagree: bool) -> bool {
-        let ((ra, aa), (rb, ab)) = (self.find(a), self.find(b));
-        if ra == rb {
-            return (aa != ab) == disagree;
-        }
-        self.parent[rb as usize] = ra;
-        self.against[rb as usize] = aa ^ ab ^ disagree;
-        true
-    }
-
-    /// The number of each member's class, counted from 0 in order of first members, and how many classes there are.
-    fn number(&mut self) -> (Vec<u32>, usize) {
-        let count = self.parent.len();
-        let mut numbers = vec![u32::MAX; count];
-        let mut next = 0;
-        let classes = (0..count as u32)
-            .map(|m| {
-                let root = self.find(m).0 as usize;
-                if numbers[root] == u32::MAX {
-                    numbers[root] = next;
-                    next += 1;
-                }
-                numbers[root]
-            })
-            .collect();
-        (classes, next as usize)
-    }
+    (numbers, next)
 }

@@ -9,7 +9,10 @@ use crate::{
     assembly::{Assembly, Block, Wrench},
     interface::{Interface, Model},
     scene::Friction,
-    verdict::{Forces, certificate::Strength},
+    verdict::{
+        Forces,
+        joint::{Strength, rolling_arm, water},
+    },
 };
 use nalgebra::Vector3;
 
@@ -61,8 +64,9 @@ impl<'a> Balance<'a> {
         }
         let mut this = Self { assembly, totals };
         for face in &interfaces.list {
-            for (point, force) in face.points.iter().zip(face.uplift()) {
-                this.add(face, point, &exactly(&force));
+            if let Some(Wrench { force, moment }) = water(face) {
+                this.add(face, &face.points[0], &exactly(&force));
+                this.add_couple(face, &moment);
             }
         }
         this
@@ -204,7 +208,7 @@ fn couples(face: &Interface, moment: &Vector3<f64>, normal: Interval) -> Option<
         return None;
     }
     let n = &face.frame.n;
-    let arm = Interval::exactly(face.rolling_arm());
+    let arm = Interval::exactly(rolling_arm(face));
     let most = cross_size(moment, n).max(Interval::exactly(dot(n, moment).magnitude()));
     Some(shy((normal - most.over(arm)).lower))
 }

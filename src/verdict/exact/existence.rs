@@ -15,11 +15,9 @@ use super::balance::{Balance, ENLARGED, Pair, REDUCED, Room, exactly, multiple, 
 use crate::{
     interface::{Interfaces, Members, Model, members},
     solve::{Cholesky, Pattern},
+    strength::crushing::crushes,
     tolerance,
-    verdict::{
-        Forces,
-        certificate::{self, Strength},
-    },
+    verdict::{Forces, certificate, joint::Strength},
 };
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::collections::{BTreeMap, HashMap};
@@ -99,7 +97,7 @@ fn rooms<'a>(model: &'a Model, forces: &Forces, lambda: f64) -> (Vec<Option<Vec<
             balance.add(face, point, &r.force);
             balance.add_couple(face, &f.moment);
         }
-        let inside = !face.crushes() && list.iter().all(|r| r.margin >= 0.0);
+        let inside = !crushes(face) && list.iter().all(|r| r.margin >= 0.0);
         inside.then_some(list)
     });
     (rooms.collect(), balance)

@@ -12,7 +12,11 @@ use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interface, Model},
     scene::Friction,
-    verdict::{Rate, certificate::Strength},
+    strength::crushing::crushes,
+    verdict::{
+        Rate,
+        joint::{Strength, rolling_arm, water},
+    },
 };
 use nalgebra::Vector3;
 
@@ -91,7 +95,7 @@ pub fn motion(model: &Model, rates: &[Rate]) -> Option<MotionProof> {
         let strength = Strength::of(face);
         let n = &face.frame.n;
         let rolling = rolling(face, rates);
-        for ((place, point), uplift) in face.points.iter().enumerate().zip(uplifts(face)) {
+        for (place, point) in face.points.iter().enumerate() {
             let v = velocity(assembly, face, rates, point);
             let (normal, sliding) = split(n, &v);
             let [cohesion, tension] = strength.at(place);
@@ -100,7 +104,7 @@ pub fn motion(model: &Model, rates: &[Rate]) -> Option<MotionProof> {
                 Friction::Infinite => (0.0, sliding.upper),
             };
             let closing = Interval::exactly(mu) * sliding + rolling - normal;
-            if closing.upper > 0.0 && face.crushes() {
+            if closing.upper > 0.0 && crushes(face) {
                 return None;
             }
             if cohesion > 0.0 {
@@ -109,11 +113,6 @@ pub fn motion(model: &Model, rates: &[Rate]) -> Option<MotionProof> {
             if tension > 0.0 {
                 m.dissipation = (Interval::exactly(m.dissipation) + Interval::exactly(tension) * (-closing).positive()).upper;
             }
-            if let Some(force) = uplift {
-                for k in 0..3 {
-                    m.dead += Interval::exactly(force[k]) * v[k];
-                }
-            }
             let mut inadmissible = closing.upper.max(0.0);
             if cohesion == 0.0 && tension == 0.0 && inadmissible > 0.0 {
                 inadmissible = inadmissible.min((hidden(mu, normal.lower, sliding.upper) + rolling.upper) * ENLARGED);
@@ -121,6 +120,10 @@ pub fn motion(model: &Model, rates: &[Rate]) -> Option<MotionProof> {
             let all = if closing.upper.is_nan() || slips.is_nan() { f64::INFINITY } else { inadmissible + slips };
             m.excess += all;
             m.greatest = m.greatest.max(all);
+        }
+        if let Some(Wrench { force, moment }) = water(face) {
+            let (v, spin) = (velocity(assembly, face, rates, &face.points[0]), spin(face, rates));
+            (0..3).for_each(|k| m.dead += Interval::exactly(force[k]) * v[k] + Interval::exactly(moment[k]) * spin[k]);
         }
     }
     m.excess *= ENLARGED;
@@ -133,19 +136,18 @@ fn hidden(mu: f64, normal: f64, sliding: f64) -> f64 {
     if sliding <= -mu * normal { normal.hypot(sliding) } else { (mu * sliding - normal).max(0.0) / mu.hypot(1.0) }
 }
 
-/// Water at each corner, where there is any.
-fn uplifts(face: &Interface) -> impl Iterator<Item = Option<Vector3<f64>>> {
-    face.uplift().into_iter().map(Some).chain(std::iter::repeat(None))
+/// Spin of block `b` against `a`.
+fn spin(face: &Interface, rates: &[Rate]) -> [Interval; 3] {
+    [0, 1, 2].map(|k| Interval::exactly(rates[face.b].spin[k]) - Interval::exactly(rates[face.a].spin[k]))
 }
 
 /// What couples can take up per newton of normal force.
 fn rolling(face: &Interface, rates: &[Rate]) -> Interval {
-    let arm = face.rolling_arm();
+    let arm = rolling_arm(face);
     if arm == 0.0 {
         return Interval::ZERO;
     }
-    let spin = [0, 1, 2].map(|k| Interval::exactly(rates[face.b].spin[k]) - Interval::exactly(rates[face.a].spin[k]));
-    let (twist, roll) = split(&face.frame.n, &spin);
+    let (twist, roll) = split(&face.frame.n, &spin(face, rates));
     Interval::exactly(arm) * (roll + twist.max(-twist))
 }
 
