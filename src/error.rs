@@ -122,7 +122,7 @@ impl fmt::Display for InputError {
 }
 
 /// Something the user should know although the work went on: a repair, a near miss, an assumption.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Finding {
     /// What kind of thing it is, for programs.
     pub code: FindingCode,
@@ -131,7 +131,7 @@ pub struct Finding {
 }
 
 /// The kinds of [`Finding`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FindingCode {
     /// A value nobody gave was assumed.

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 const SMALL: f64 = 1e-6;
 
 /// How far a verdict and a simulation agree.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Agreement {
     /// The verdict.
@@ -38,7 +38,7 @@ pub struct Agreement {
 }
 
 /// The forces between blocks, simulated against computed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ForceAgreement {
     /// Largest difference between the two resultants of a pair of blocks, over the largest resultant.

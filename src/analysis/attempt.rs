@@ -41,7 +41,7 @@ impl Default for Control {
 }
 
 /// A record of one attempt.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Attempt {
     /// Which program, in which unknowns.
     pub program: String,
@@ -67,9 +67,11 @@ pub struct Attempt {
     pub engine_value: Option<f64>,
     /// Recomputed lower end.
     #[serde(deserialize_with = "super::ends::lower")]
+    #[schemars(with = "Option<f64>")]
     pub lower: f64,
     /// Recomputed upper end.
     #[serde(deserialize_with = "super::ends::upper")]
+    #[schemars(with = "Option<f64>")]
     pub upper: f64,
 }
 

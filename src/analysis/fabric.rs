@@ -45,7 +45,7 @@ pub struct Contact {
 }
 
 /// Averages over a packing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fabric {
     /// Free grains.

@@ -31,7 +31,7 @@ use crate::{
 use serde::{Deserialize, Serialize};
 
 /// What became of the load factor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// The greatest load factor, in a narrow bracket.

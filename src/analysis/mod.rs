@@ -37,13 +37,15 @@ pub use tilt::{Tilt, tilt};
 use serde::{Deserialize, Serialize};
 
 /// Two ends that enclose a value.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Bracket {
     /// Lower end.
     #[serde(deserialize_with = "ends::lower")]
+    #[schemars(with = "Option<f64>")]
     pub lower: f64,
     /// Upper end.
     #[serde(deserialize_with = "ends::upper")]
+    #[schemars(with = "Option<f64>")]
     pub upper: f64,
 }
 

@@ -39,7 +39,7 @@ const UNBALANCED: usize = 4;
 const TOE: f64 = 1.0;
 
 /// A straight line through the free surface.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Slope {
     /// Degrees; positive where the surface falls towards the edge.
     pub angle_deg: f64,
@@ -50,7 +50,7 @@ pub struct Slope {
 }
 
 /// A heap and its slope.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Heap {
     /// Its seed.
     pub seed: u64,

@@ -20,7 +20,7 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     session.worst(&args.worst, &question)?;
     let answer = session.ask(&question)?;
     let mut file = session.result(&answer)?;
-    let doubt = matches!(file.answer.verdict, Some(Verdict::Conditional | Verdict::Undecided));
+    let doubt = matches!(file.answer.verdict(), Some(Verdict::Conditional | Verdict::Undecided));
     let mut film = Vec::new();
     if let (true, Answer::Assess(assessment)) = (args.simulate || (args.thorough && doubt), &answer) {
         let mut camera = Camera::new(&session, args.threads, session.report().is_some());
@@ -30,5 +30,5 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
         film = camera.frames();
     }
     let file: ResultFile = session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
-    Ok(verdict(file.answer.verdict))
+    Ok(verdict(file.answer.verdict()))
 }

@@ -39,7 +39,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         _ => Seen::Scene(Vec::new()),
     };
     let file = session.answer_seen(terminal, &args.options(), seen, session.result(&answer)?)?;
-    Ok(match &file.answer.critical {
+    Ok(match file.answer.critical() {
         Some(values) if !values.is_empty() => Exit::Yes,
         _ if exhausted(&file).is_some() => Exit::No,
         _ => Exit::Undecided,

@@ -13,13 +13,13 @@ use super::{
 use anyhow::{Context, bail};
 use std::{path::Path, time::Instant};
 use voussoir::{
-    analysis::{Answer, Control, Law, Outcome, Question, Watch, ask, ask_watched, coulomb::Found},
+    analysis::{Answer, Control, Law, Question, Watch, ask, ask_watched, coulomb::Found},
     deadline::Deadline,
     dynamics::Frame,
     error::{Finding, FindingCode, InputError},
     interface::{Model, prepare},
     limits,
-    proof::{ResultFile, result::QuestionKind as Kind, work::Work},
+    proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, work::Work},
     report::{
         json, page,
         text::{self, Asked, TextOptions},
@@ -266,29 +266,27 @@ pub fn verdict(verdict: Option<Verdict>) -> Exit {
 /// The exit code of a load factor, read through `scale`, against what is required of it. A requirement inside the bracket is not
 /// decided. Where dry friction was asked for, the bound alone meets no requirement.
 pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f64) -> Exit {
-    let Some(l) = file.answer.load_factor else { return Exit::Undecided };
-    let (lower, upper) = (l.lower.map(scale), l.upper.map(scale));
-    let bound = match (l.status, require) {
-        (Outcome::Undecided, _) => Exit::Undecided,
-        (Outcome::Impossible, _) => Exit::No,
-        (Outcome::Unbounded, _) | (Outcome::Found, None) => Exit::Yes,
-        (Outcome::Found, Some(r)) if lower.is_some_and(|l| l >= r) => Exit::Yes,
-        (Outcome::Found, Some(r)) if upper.is_some_and(|u| u < r) => Exit::No,
-        (Outcome::Found, Some(_)) => Exit::Undecided,
-    };
-    let Some(dry) = &file.dry else { return bound };
-    let rests_at = dry.rests_at.map(scale);
-    match (&bound, dry.found, require) {
-        (_, Found::NotAtRest, _) => Exit::No,
-        (Exit::Yes, Found::Unlimited, _) | (Exit::Yes, _, None) => bound,
+    let Some(said) = file.answer.load_factor() else { return Exit::Undecided };
+    // A scene that needs a pre-stress already without its live load, or falls, is no yes.
+    let dead = matches!(file.answer.verdict(), Some(Verdict::Conditional | Verdict::Unstable));
+    let (lower, upper) = (said.lower.map(scale), said.upper.map(scale));
+    let value = said.value.map(scale);
+    match (said.status, require) {
+        (FactorStatus::Impossible | FactorStatus::NotAtRest, _) => Exit::No,
+        (_, Some(r)) if said.associative.upper.map(scale).is_some_and(|u| u < r) => Exit::No,
+        (FactorStatus::Found | FactorStatus::Unbounded, None) if dead => Exit::No,
+        (FactorStatus::Found | FactorStatus::Unbounded, None) | (FactorStatus::Unbounded, Some(_)) => Exit::Yes,
         // Seen at rest there, whatever is known beyond.
-        (Exit::Yes, _, Some(r)) if rests_at.is_some_and(|rests| rests >= r) => Exit::Yes,
-        (Exit::Yes, found, Some(r)) => match dry.value.map(scale) {
-            // Where nothing slides it is the bound itself, and its bracket has decided.
-            Some(value) if value < r && found != Found::NothingSlides => Exit::No,
-            Some(_) if dry.is_reached() => Exit::Yes,
-            Some(_) | None => Exit::Undecided,
-        },
-        _ => bound,
+        (_, Some(r)) if lower.is_some_and(|l| l >= r) => Exit::Yes,
+        (FactorStatus::Found, Some(r)) if upper.is_some_and(|u| u < r) => Exit::No,
+        // Of a value with dry friction that slides, the ends are what was seen beside it.
+        (FactorStatus::Found, Some(r)) if matches!(said.found, Some(Found::FixedPoint | Found::Rests)) => {
+            if value.is_some_and(|v| v < r) {
+                Exit::No
+            } else {
+                Exit::Yes
+            }
+        }
+        (FactorStatus::Found | FactorStatus::Undecided, _) => Exit::Undecided,
     }
 }

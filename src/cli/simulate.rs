@@ -64,7 +64,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     };
     let file = ResultFile::simulated(&session.scene, &session.model, assessment, outcome);
     let file = session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
-    Ok(match file.answer.fate {
+    Ok(match file.answer.fate() {
         Some(Fate::Stands) => Exit::Yes,
         Some(Fate::Falls) => Exit::No,
         Some(Fate::Undecided) | None => Exit::Undecided,

@@ -13,7 +13,7 @@ pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
     let (law, support, direction) = (session.law(), args.support.clone(), args.direction);
     let answer = session.ask(&Question::Thrust(ThrustOptions { law, support, direction, greatest: false, range: true }))?;
     let file = session.answer(terminal, &args.options(), session.result(&answer)?)?;
-    let Some(found) = &file.answer.thrust else { return Ok(verdict(file.answer.verdict)) };
+    let Some(found) = file.answer.thrust() else { return Ok(verdict(file.answer.verdict())) };
     let open = [found.least.status, found.greatest.status].contains(&Outcome::Undecided);
     Ok(if open { Exit::Undecided } else { Exit::Yes })
 }

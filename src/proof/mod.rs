@@ -1,6 +1,7 @@
 //! Results as files, and what proves them: an answer with its evidence, complete enough to be checked from the scene alone
 //! ([`verify`]). No ink here; that is what reports are for.
 
+pub mod answer;
 pub mod critical;
 pub mod packing;
 mod part;
@@ -12,6 +13,7 @@ pub mod verification;
 pub mod verify;
 pub mod work;
 
+pub use answer::Answer;
 pub use packing::PackingFile;
 pub use result::ResultFile;
 pub use simulation::Simulation;

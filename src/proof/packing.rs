@@ -18,7 +18,7 @@ use crate::{
 use serde::{Deserialize, Serialize};
 
 /// The version of the format.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub enum PackingFormat {
     /// Version 1.
     #[default]
@@ -27,7 +27,7 @@ pub enum PackingFormat {
 }
 
 /// The answer about a packing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PackingFile {
     /// The format and its version.
@@ -58,7 +58,7 @@ pub struct PackingFile {
 }
 
 /// One direction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PackingDirection {
     /// Unit direction towards which the ground tips.
@@ -94,7 +94,7 @@ pub struct PackingDirection {
 }
 
 /// One round.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Removed {
     /// Degrees; absent where they fell with those before, or the verification failed.
@@ -142,13 +142,13 @@ impl PackingFile {
             };
             let one = Tilted { directions: vec![round.tilt.clone()], level: None };
             let Some(file) = ResultFile::tilt(&without(scene, &round.gone)?, model, &one) else { continue };
-            let Some(factor) = file.answer.load_factor else { continue };
+            let Some(&factor) = file.answer.bound() else { continue };
             let degrees = |v: f64| v.atan().to_degrees();
             let count = |kinds: &[JointMotion]| file.mechanism.iter().flat_map(|m| &m.joints).filter(|j| kinds.contains(&j.motion)).count();
             directions.push(PackingDirection {
                 toward: round.tilt.toward.into(),
                 status: factor.status,
-                tilt_deg: file.answer.tilt_deg,
+                tilt_deg: tilt_deg(round),
                 bracket_deg: factor
                     .lower
                     .zip(factor.upper)
@@ -159,7 +159,7 @@ impl PackingFile {
                 moved: total,
                 reached: *reached && factor.status == Outcome::Found,
                 moving: round.moving.clone(),
-                part: file.answer.part.clone(),
+                part: file.answer.part().cloned(),
                 joints: [
                     count(&[JointMotion::Hinge]),
                     count(&[JointMotion::Slide, JointMotion::HingeAndSlide]),

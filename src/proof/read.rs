@@ -9,11 +9,17 @@ use serde::Deserialize;
 
 /// Whether a text calls itself a result, whatever its version.
 pub fn is_result(text: &str) -> bool {
+    version(text).is_some()
+}
+
+/// The version of a text that calls itself a result.
+fn version(text: &str) -> Option<String> {
     #[derive(Deserialize)]
     struct Head {
         format: String,
     }
-    serde_json::from_str::<Head>(text).is_ok_and(|head| head.format.starts_with("voussoir-result/"))
+    let head = serde_json::from_str::<Head>(text).ok()?;
+    head.format.strip_prefix("voussoir-result/").map(str::to_string)
 }
 
 /// Reads a result from text; `name` stands for the file in messages.
@@ -22,6 +28,11 @@ pub fn is_result(text: &str) -> bool {
 /// The text is not JSON, or is not a result of a version this program knows.
 pub fn read_str(name: impl Into<String>, text: impl Into<String>) -> Result<ResultFile, InputError> {
     let source = Source::new(name, text);
+    if let Some(version) = version(&source.text).filter(|v| v != "2") {
+        let message = format!("this is a result of version {version}; this program reads version 2");
+        let hint = "ask the question again with --save: the scene is in the file under scene.input";
+        return Err(InputError { file: Some(source.name), ..InputError::at(JsonPath::root(), message).hint(hint) });
+    }
     let mut deserializer = serde_json::Deserializer::from_str(&source.text);
     serde_path_to_error::deserialize(&mut deserializer)
         .map_err(|e| (e.path().to_string(), e.into_inner()))

@@ -1,18 +1,18 @@
-//! The result file (`"format": "voussoir-result/1"`): the question, the answer and its evidence, complete enough to be
+//! The result file (`"format": "voussoir-result/2"`): the question, the answer and its evidence, complete enough to be
 //! verified from the scene: what is proved without a solver, states under dry friction by computing them again.
 
 use super::{
-    critical::{CriticalResult, CriticalValue},
+    answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
+    critical::CriticalResult,
     simulation::Simulation,
-    thrust::{ThrustAnswer, ThrustResult},
+    thrust::ThrustResult,
     work::Work,
 };
 use crate::{
     analysis::{
-        Answer as Answered, Assessment, Attempt, Bracket, Claims, Deciding, Law, Limited, LoadFactor, Outcome, Proved, Tilt, Tilted,
-        agreement, coulomb,
+        Answer as Answered, Assessment, Attempt, Claims, Deciding, Law, Limited, Outcome, Proved, Tilt, Tilted, agreement, coulomb,
     },
-    dynamics::{Fate, SimulationOutcome as Simulated},
+    dynamics::SimulationOutcome as Simulated,
     error::Finding,
     interface::{Model, Timings},
     scene::Scene,
@@ -20,23 +20,22 @@ use crate::{
         Evidence, Verdict,
         check::Claim,
         evidence::{BlockRate, ContactForces, write_forces, write_rates},
-        exact::Grade,
         mechanism::{JointMotion, Mechanism},
     },
 };
 use serde::{Deserialize, Serialize};
 
 /// The version of the format.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub enum ResultFormat {
-    /// Version 1.
+    /// Version 2.
     #[default]
-    #[serde(rename = "voussoir-result/1")]
-    V1,
+    #[serde(rename = "voussoir-result/2")]
+    V2,
 }
 
 /// A saved answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResultFile {
     /// The format and its version.
@@ -89,7 +88,7 @@ pub struct ResultFile {
 }
 
 /// What was asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum QuestionKind {
     /// Does it stand?
@@ -107,7 +106,7 @@ pub enum QuestionKind {
 }
 
 /// The scene a result is about.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SceneSummary {
     /// Its name.
@@ -124,67 +123,8 @@ pub struct SceneSummary {
     pub input: Scene,
 }
 
-/// An answer. Of the fields only those that belong to the question are present.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Answer {
-    /// Does it stand?
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub verdict: Option<Verdict>,
-    /// It stands: for which law of sliding. With `associative` forces exist, and whether the loads produce them was not asked; dry friction
-    /// where nothing is said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub law: Option<Law>,
-    /// Simulate: what became of it in time.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub fate: Option<Fate>,
-    /// Bracket of the least unbalance, in multiples of gravity.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub unbalance: Option<Bracket>,
-    /// The part of the scene that decides, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub part: Option<Deciding>,
-    /// How exactly what is claimed is proved.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub proof: Option<Grade>,
-    /// The load factor.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub load_factor: Option<LoadFactorAnswer>,
-    /// The tilt at which it falls, degrees.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tilt_deg: Option<f64>,
-    /// The direction of the tilt.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub toward: Option<[f64; 3]>,
-    /// The values at which the verdict flips.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub critical: Option<Vec<CriticalValue>>,
-    /// The range of the thrust on a support, and the geometric safety factor.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub thrust: Option<ThrustAnswer>,
-}
-
-/// A load factor.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LoadFactorAnswer {
-    /// What became of it.
-    pub status: Outcome,
-    /// The law of sliding it holds for: `associative` is an upper bound for the others.
-    pub law: Law,
-    /// The value, where found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub value: Option<f64>,
-    /// Lower end of its bracket.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lower: Option<f64>,
-    /// Upper end of its bracket.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub upper: Option<f64>,
-}
-
 /// The evidence for an answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
     /// What is claimed; absent where the question stayed undecided.
@@ -203,7 +143,7 @@ pub struct Certificate {
 }
 
 /// An answer beside the main one, with the evidence for it: one direction of a tilt, or the dead load alone.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Direction {
     /// The answer.
@@ -223,12 +163,16 @@ impl Direction {
             return f64::NEG_INFINITY;
         }
         let dry = self.dry.as_ref().and_then(|d| d.value).map(|v| v.atan().to_degrees());
-        dry.or(self.answer.tilt_deg).unwrap_or(f64::NEG_INFINITY)
+        let bound = self.answer.bound().and_then(|b| match b.status {
+            Outcome::Unbounded => Some(90.0),
+            _ => b.value.map(|v| v.atan().to_degrees()),
+        });
+        dry.or(bound).unwrap_or(f64::NEG_INFINITY)
     }
 }
 
 /// The state under dry friction (program C). Where it rests it is computed, not proved.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CoulombState {
     /// What it does.
@@ -238,7 +182,7 @@ pub struct CoulombState {
 }
 
 /// A load factor with dry friction (program D).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DryResult {
     /// How it was found.
@@ -273,7 +217,7 @@ impl DryResult {
 }
 
 /// A mechanism with names.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MechanismWords {
     /// Moving blocks, the fastest first.
@@ -283,7 +227,7 @@ pub struct MechanismWords {
 }
 
 /// A joint of a mechanism with names.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointWords {
     /// The blocks.
@@ -295,7 +239,7 @@ pub struct JointWords {
 }
 
 /// Versions of what made a result.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Versions {
     /// This program.
     pub voussoir: String,
@@ -329,7 +273,7 @@ pub fn certificate<T: Claims>(model: &Model, proved: &Proved<T>) -> Certificate 
 impl ResultFile {
     pub(super) fn new(question: QuestionKind, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
         Self {
-            format: ResultFormat::V1,
+            format: ResultFormat::V2,
             question,
             scene: SceneSummary {
                 name: scene.name.clone(),
@@ -373,7 +317,7 @@ impl ResultFile {
 
     /// The result of `assess`. What its check refused is undecided, and the reasons are warnings.
     pub fn assessment(scene: &Scene, model: &Model, a: &Proved<Assessment>) -> Self {
-        let mut file = Self::new(QuestionKind::Assess, scene, model, assessment(a), certificate(model, a));
+        let mut file = Self::new(QuestionKind::Assess, scene, model, Answer::Verdict(assessment(a)), certificate(model, a));
         file.mechanism = a.mechanism.as_ref().map(|m| words(model, m));
         file.coulomb_state = a.state.as_ref().map(|s| CoulombState { motion: s.motion, steps: s.steps.clone() });
         file.left_out.clone_from(&a.left_out);
@@ -385,7 +329,14 @@ impl ResultFile {
     /// The result of `limit`.
     pub fn load_factor(scene: &Scene, model: &Model, limited: &Limited) -> Self {
         let l = &limited.bound;
-        let mut file = Self::new(QuestionKind::Limit, scene, model, load_factor(l), certificate(model, l));
+        let dry = limited.dry.as_ref().map(|dry| dry_result(model, dry));
+        let answer = LimitAnswer {
+            load_factor: LoadFactorAnswer::new(Bound::of(l), dry.as_ref()),
+            verdict: limited.dead.as_ref().map(|a| a.verdict),
+            part: l.part.clone(),
+            proof: l.grade(),
+        };
+        let mut file = Self::new(QuestionKind::Limit, scene, model, Answer::Limit(answer), certificate(model, l));
         file.mechanism = l.mechanism.as_ref().map(|m| words(model, m));
         file.left_out.clone_from(&l.left_out);
         file.trace.clone_from(&l.attempts);
@@ -393,17 +344,16 @@ impl ResultFile {
         if let Some(dead) = &limited.dead {
             file = file.with_dead_load(model, dead);
         }
-        if let Some(dry) = &limited.dry {
-            file.dry = Some(dry_result(model, dry));
-            file.warn(dry);
-        }
+        limited.dry.iter().for_each(|dry| file.warn(dry));
+        file.dry = dry;
         file
     }
 
     /// The result of `tilt`, one entry per direction; `model` is the scene level. The least tilt is the answer.
     pub fn tilt(scene: &Scene, model: &Model, tilted: &Tilted) -> Option<Self> {
         let list = &tilted.directions;
-        let directions: Vec<Direction> = list.iter().map(direction).collect();
+        let level = tilted.level.as_ref().map(|a| a.verdict);
+        let directions: Vec<Direction> = list.iter().map(|tilt| direction(tilt, level)).collect();
         let least = (0..directions.len()).min_by(|&i, &j| directions[i].governing().total_cmp(&directions[j].governing()))?;
         let (tilt, direction) = (&list[least], directions[least].clone());
         let mut file = Self::new(QuestionKind::Tilt, scene, &tilt.model, direction.answer, direction.certificate);
@@ -427,7 +377,7 @@ impl ResultFile {
     /// Adds whether it stands under its dead load alone to a result of `limit`, `tilt` or `thrust`.
     #[must_use]
     pub(super) fn with_dead_load(mut self, model: &Model, a: &Proved<Assessment>) -> Self {
-        self.dead_load = Some(Direction { answer: assessment(a), certificate: certificate(model, a), dry: None });
+        self.dead_load = Some(Direction { answer: Answer::Verdict(assessment(a)), certificate: certificate(model, a), dry: None });
         self.trace.extend(a.attempts.iter().cloned());
         self.warn(a);
         self
@@ -435,12 +385,11 @@ impl ResultFile {
 
     /// The result of `simulate`, beside the verdict where there is one.
     pub fn simulated(scene: &Scene, model: &Model, a: Option<&Proved<Assessment>>, outcome: &Simulated) -> Self {
-        let mut file = match a {
-            Some(a) => Self::assessment(scene, model, a),
-            None => Self::new(QuestionKind::Simulate, scene, model, Answer::default(), Certificate::none()),
+        let answer = Answer::Simulation(outcome.fate, a.map(assessment));
+        let file = match a {
+            Some(a) => Self { question: QuestionKind::Simulate, answer, ..Self::assessment(scene, model, a) },
+            None => Self::new(QuestionKind::Simulate, scene, model, answer, Certificate::none()),
         };
-        file.question = QuestionKind::Simulate;
-        file.answer.fate = Some(outcome.fate);
         file.with_simulation(model, a, outcome)
     }
 
@@ -461,16 +410,19 @@ impl ResultFile {
     }
 }
 
-/// One direction of a tilt.
-fn direction(tilt: &Tilt) -> Direction {
-    let mut answer = load_factor(&tilt.load_factor);
-    answer.toward = Some(tilt.toward.into());
-    answer.tilt_deg = Some(tilt.angle_deg()).filter(|a| a.is_finite());
-    Direction {
-        answer,
-        certificate: certificate(&tilt.model, &tilt.load_factor),
-        dry: tilt.dry.as_ref().map(|d| dry_result(&d.model, &d.load_factor)),
-    }
+/// One direction of a tilt; `level` is the verdict at level, where it was asked.
+fn direction(tilt: &Tilt, level: Option<Verdict>) -> Direction {
+    let dry = tilt.dry.as_ref().map(|d| dry_result(&d.model, &d.load_factor));
+    let tan_tilt = LoadFactorAnswer::new(Bound::of(&tilt.load_factor), dry.as_ref());
+    let answer = TiltAnswer {
+        toward: tilt.toward.into(),
+        tan_tilt,
+        tilt_deg: tan_tilt.degrees(),
+        verdict: level,
+        part: tilt.load_factor.part.clone(),
+        proof: tilt.load_factor.grade(),
+    };
+    Direction { answer: Answer::Tilt(answer), certificate: certificate(&tilt.model, &tilt.load_factor), dry }
 }
 
 fn finite(v: f64) -> Option<f64> {
@@ -490,24 +442,9 @@ fn dry_result(model: &Model, d: &Proved<coulomb::DryLoadFactor>) -> DryResult {
     }
 }
 
-pub(super) fn assessment(a: &Proved<Assessment>) -> Answer {
+pub(super) fn assessment(a: &Proved<Assessment>) -> VerdictAnswer {
     let law = (a.verdict == Verdict::Stable).then_some(if a.rests_on_statics() { Law::Associative } else { Law::Coulomb });
-    Answer { verdict: Some(a.verdict), law, unbalance: Some(a.unbalance), part: a.part.clone(), proof: a.grade(), ..Answer::default() }
-}
-
-fn load_factor(l: &Proved<LoadFactor>) -> Answer {
-    Answer {
-        proof: l.grade(),
-        load_factor: Some(LoadFactorAnswer {
-            status: l.outcome,
-            law: Law::Associative,
-            value: (l.outcome == Outcome::Found).then_some(l.value),
-            lower: finite(l.bracket.lower),
-            upper: finite(l.bracket.upper),
-        }),
-        part: l.part.clone(),
-        ..Answer::default()
-    }
+    VerdictAnswer { verdict: a.verdict, law, unbalance: a.unbalance, part: a.part.clone(), proof: a.grade() }
 }
 
 pub(super) fn words(model: &Model, m: &Mechanism) -> MechanismWords {

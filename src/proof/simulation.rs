@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 const MOVED: usize = 1000;
 
 /// What happened in time. Observed, not proved.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Simulation {
     /// What became of it.
@@ -40,7 +40,7 @@ pub struct Simulation {
 }
 
 /// How a block began to move.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlockMotion {
     /// The block.
@@ -52,7 +52,7 @@ pub struct BlockMotion {
 }
 
 /// The contact force between two blocks.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PairForce {
     /// The blocks.
@@ -62,7 +62,7 @@ pub struct PairForce {
 }
 
 /// One time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FrameResult {
     /// s.

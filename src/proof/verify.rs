@@ -4,12 +4,14 @@
 mod again;
 
 use super::{
-    ResultFile, critical, part,
-    result::{Answer, Certificate, Direction, JointWords, LoadFactorAnswer, MechanismWords, QuestionKind, words},
+    ResultFile,
+    answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
+    critical, part,
+    result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind, words},
     thrust,
 };
 use crate::{
-    analysis::{Law, Outcome, agreement::agree, tilt::tilted},
+    analysis::{Outcome, agreement::agree, tilt::tilted},
     error::{Finding, FindingCode, InputError},
     interface::{self, Model, Part, prepare},
     scene::Scene,
@@ -85,6 +87,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         QuestionKind::Assess | QuestionKind::Limit | QuestionKind::Simulate => {
             let (mut f, rates) = answer(model, file.question, &file.answer, &file.certificate, all.refuted());
             mechanism_words(&mut f, file, model, rates.as_deref());
+            follows(&mut f, &file.answer, file.dry.as_ref());
             all.part("answer", f);
             let stray = !file.directions.is_empty() || (file.question != QuestionKind::Limit && file.dead_load.is_some());
             if stray {
@@ -104,6 +107,12 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
     }
     if let Some(dead) = &file.dead_load {
         all.part("dead load alone", answer(model, QuestionKind::Assess, &dead.answer, &dead.certificate, all.refuted()).0);
+    }
+    if matches!(file.question, QuestionKind::Limit | QuestionKind::Tilt) {
+        let (dead, mut f) = (file.dead_load.as_ref().and_then(|d| d.answer.verdict()), Findings::default());
+        let said = file.directions.iter().map(|d| &d.answer).chain([&file.answer]).all(|a| a.verdict() == dead);
+        require(&mut f, said, "the verdict beside it is that of the dead load alone");
+        all.part("dead load alone", f);
     }
     if let Some(dry) = file.dry.as_ref().filter(|_| file.question != QuestionKind::Tilt) {
         let findings = match file.question {
@@ -127,13 +136,13 @@ fn simulation(file: &ResultFile) -> Findings {
     let last = s.runs.last().map(|r| r.fate);
     require(
         &mut f,
-        last.is_none_or(|fate| fate == s.fate) && file.answer.fate.is_none_or(|fate| fate == s.fate),
+        last.is_none_or(|fate| fate == s.fate) && file.answer.fate().is_none_or(|fate| fate == s.fate),
         "the outcome is that of the last run",
     );
     if let Some(a) = &s.agreement {
         let left_out = s.findings.iter().any(|f| f.code == FindingCode::LeftOut);
         require(&mut f, a.agrees == agree(a.verdict, a.fate, left_out), "whether they agree follows from the two");
-        require(&mut f, a.fate == s.fate && Some(a.verdict) == file.answer.verdict, "it is compared with the verdict of this result");
+        require(&mut f, a.fate == s.fate && Some(a.verdict) == file.answer.verdict(), "it is compared with the verdict of this result");
     }
     f.holds.push("observed, not proved: `voussoir simulate` on the scene repeats it".into());
     f
@@ -176,13 +185,14 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
         all.part("answer", f);
     }
     for (index, direction) in list.iter().enumerate() {
-        let toward = direction.answer.toward.unwrap_or_default();
+        let toward = direction.answer.toward().unwrap_or_default();
         let title = format!("tilt towards {}", crate::number::point(toward));
-        let load_factor = direction.answer.load_factor.and_then(|l| l.value).unwrap_or(0.0);
+        let load_factor = direction.answer.bound().and_then(|b| b.value).unwrap_or(0.0);
         match tilted(model, Vector3::from(toward), load_factor) {
             Err(e) => all.part(title.clone(), failure(e.to_string())),
             Ok(turned) => {
                 let (mut f, rates) = answer(&turned, QuestionKind::Tilt, &direction.answer, &direction.certificate, all.refuted());
+                follows(&mut f, &direction.answer, direction.dry.as_ref());
                 if index == least {
                     mechanism_words(&mut f, file, &turned, rates.as_deref());
                 }
@@ -219,12 +229,12 @@ pub(super) fn answer(
             return (f, None);
         }
     };
-    if let Some(said) = answer.proof.filter(|_| evidence.claim.is_none()) {
+    if let Some(said) = answer.proof().filter(|_| evidence.claim.is_none()) {
         f.fails.push(format!("nothing is claimed, but said to be proved ({said})"));
     }
     if let Some(claim) = &evidence.claim {
         let claimed = check::verify(model, claim, Evidence { forces: &forces, base: base.as_ref(), rates: &rates });
-        let said = answer.proof.unwrap_or(Grade::ToRounding(f64::INFINITY));
+        let said = answer.proof().unwrap_or(Grade::ToRounding(f64::INFINITY));
         require(&mut f, is_no_better(said, claimed.grade), format!("the proof is {}, the answer says {said}", claimed.grade));
         f.grade = claimed.grade;
         f.holds.extend(claimed.holds);
@@ -232,9 +242,9 @@ pub(super) fn answer(
         if matches!(claim, Claim::Stable | Claim::Conditional | Claim::Unstable) {
             unbalance(&mut f, model, answer, &forces, &rates);
         }
-        part::verify(&mut f, model, answer.part.as_ref(), &rates);
+        part::verify(&mut f, model, answer.part(), &rates);
         if matches!(claim, Claim::Stable) && !refuted {
-            again::stands(&mut f, model, answer.law);
+            again::stands(&mut f, model, answer.as_verdict().and_then(|a| a.law));
         }
     }
     (f, Some(rates))
@@ -252,48 +262,36 @@ fn is_no_better(said: Grade, here: Grade) -> bool {
 
 /// The words and numbers of an answer are those of its claim.
 fn says_what_is_claimed(f: &mut Findings, question: QuestionKind, answer: &Answer, claim: Option<&Claim>) {
-    let form = match question {
-        QuestionKind::Assess => answer.verdict.is_some() && answer.load_factor.is_none() && answer.fate.is_none(),
-        QuestionKind::Simulate => answer.fate.is_some() && answer.load_factor.is_none(),
-        QuestionKind::Limit | QuestionKind::Tilt => {
-            answer.verdict.is_none() && answer.unbalance.is_none() && answer.load_factor.is_some() && answer.fate.is_none()
+    let agrees = match (question, answer, claim) {
+        (QuestionKind::Assess, Answer::Verdict(a), claim) | (QuestionKind::Simulate, Answer::Simulation(_, Some(a)), claim) => {
+            if a.law.is_some() && claim != Some(&Claim::Stable) {
+                f.fails.push("a law of sliding is named beside an answer that does not depend on it".into());
+            }
+            Some(a.verdict).filter(|v| *v != Verdict::Undecided) == claim.and_then(Claim::verdict)
+                && claim.is_none_or(|c| c.verdict().is_some())
         }
-        QuestionKind::Critical | QuestionKind::Thrust => false,
-    } && answer.critical.is_none()
-        && answer.thrust.is_none()
-        && (question == QuestionKind::Tilt || answer.tilt_deg.is_none() && answer.toward.is_none());
-    if !form {
-        f.fails.push("the answer is not one to its question".into());
-        return;
-    }
-    if answer.law.is_some() && claim != Some(&Claim::Stable) {
-        f.fails.push("a law of sliding is named beside an answer that does not depend on it".into());
-    }
-    let said = answer.load_factor.as_ref();
-    if said.is_some_and(|l| l.law != Law::Associative) {
-        f.fails.push("the bound is said to hold for dry friction: it is one for associative sliding".into());
-    }
-    let numbers = |l: &LoadFactorAnswer| (l.value, l.lower, l.upper);
-    let agrees = match (answer.verdict, said.map(|l| l.status), claim) {
-        (Some(Verdict::Stable), None, Some(Claim::Stable))
-        | (Some(Verdict::Conditional), None, Some(Claim::Conditional))
-        | (Some(Verdict::Unstable), None, Some(Claim::Unstable)) => true,
-        (None, None, None) => {
-            f.holds.push("no verdict was asked for: nothing is claimed".into());
-            return;
+        (QuestionKind::Simulate, Answer::Simulation(_, None), None) => {
+            return f.holds.push("no verdict was asked for: nothing is claimed".into());
         }
-        (Some(Verdict::Undecided), None, None) | (None, Some(Outcome::Undecided), None) => {
-            f.holds.push("undecided: nothing is claimed".into());
-            return;
+        (QuestionKind::Limit, Answer::Limit(LimitAnswer { load_factor: l, .. }), claim)
+        | (QuestionKind::Tilt, Answer::Tilt(TiltAnswer { tan_tilt: l, .. }), claim) => {
+            let Bound { status, value: said, lower: low, upper: high } = l.associative;
+            match (status, claim) {
+                (Outcome::Undecided, None) => true,
+                (Outcome::Found, Some(&Claim::LoadFactor { value, lower, upper })) => {
+                    (said, low, high) == (Some(value), Some(lower), Some(upper))
+                }
+                (Outcome::Unbounded, Some(Claim::Unbounded { .. })) | (Outcome::Impossible, Some(Claim::Impossible)) => {
+                    (said, low, high) == (None, None, None)
+                }
+                _ => false,
+            }
         }
-        (None, Some(Outcome::Found), Some(&Claim::LoadFactor { value, lower, upper })) => {
-            said.map(numbers) == Some((Some(value), Some(lower), Some(upper)))
-        }
-        (None, Some(Outcome::Unbounded), Some(Claim::Unbounded { .. })) | (None, Some(Outcome::Impossible), Some(Claim::Impossible)) => {
-            said.map(numbers) == Some((None, None, None))
-        }
-        _ => false,
+        _ => return f.fails.push("the answer is not one to its question".into()),
     };
+    if claim.is_none() && agrees {
+        return f.holds.push("undecided: nothing is claimed".into());
+    }
     let claim_words = match claim {
         None => "nothing".into(),
         Some(Claim::Stable) => "that it stands".into(),
@@ -311,26 +309,31 @@ fn says_what_is_claimed(f: &mut Findings, question: QuestionKind, answer: &Answe
     } else {
         f.fails.push(format!("the answer does not say what the certificate claims: {claim_words}"));
     }
-    if question == QuestionKind::Tilt {
-        let angle = match claim {
-            Some(&Claim::LoadFactor { value, .. }) => Some(value.atan().to_degrees()),
-            Some(Claim::Unbounded { .. }) => Some(90.0),
-            _ => None,
-        };
-        let same = match (angle, answer.tilt_deg) {
-            (Some(a), Some(b)) => (a - b).abs() <= 1e-9,
-            (a, b) => a == b,
-        };
+}
+
+/// The load factor to use follows from the bound and what is known with dry friction; a tilt in degrees is its arc tangent.
+fn follows(f: &mut Findings, answer: &Answer, dry: Option<&DryResult>) {
+    let Some(said) = answer.load_factor() else { return };
+    require(
+        f,
+        *said == LoadFactorAnswer::new(said.associative, dry),
+        "the load factor to use follows from the bound and from dry friction",
+    );
+    if let Answer::Tilt(TiltAnswer { tan_tilt, tilt_deg, .. }) = answer {
+        let (angle, numbers) = (tan_tilt.degrees(), |l: &LoadFactorAnswer| {
+            let b = l.associative;
+            [l.value, l.lower, l.upper, b.value, b.lower, b.upper]
+        });
+        let near = |(a, b): (Option<f64>, Option<f64>)| a == b || a.zip(b).is_some_and(|(a, b)| (a - b).abs() <= 1e-9);
+        let rest = |l: &LoadFactorAnswer| (l.status, l.law, l.found, l.associative.status);
+        let same = numbers(&angle).into_iter().zip(numbers(tilt_deg)).all(near) && rest(&angle) == rest(tilt_deg);
         require(f, same, "the tilt is the arc tangent of the load factor");
     }
 }
 
 /// The bracket of the unbalance is the one that the evidence gives.
 fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, rates: &[Rate]) {
-    let Some(said) = answer.unbalance else {
-        f.fails.push("the answer does not say how far it is out of balance".into());
-        return;
-    };
+    let Some(VerdictAnswer { unbalance: said, .. }) = answer.as_verdict() else { return };
     // Part by part, in units in which nothing over- or underflows.
     let parts = interface::parts(model);
     let left = |part: &Part| certificate::statics(&part.model, &part.take_forces(forces), 0.0).unbalance;

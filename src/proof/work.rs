@@ -5,7 +5,7 @@ use crate::interface::Model;
 use serde::{Deserialize, Serialize};
 
 /// What an answer cost, beside the seconds per stage.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Work {
     /// Attempts at a program that stand in the trace.
@@ -31,8 +31,8 @@ impl Work {
     pub fn of(file: &ResultFile, model: &Model) -> Self {
         let points = model.contact_points();
         let largest = file.trace.iter().map(|a| a.size).max_by_key(|size| size[0]).unwrap_or_default();
-        let ends = file.answer.load_factor.and_then(|l| Some((l.lower?, l.upper?)));
-        let bracket = ends.or(file.answer.unbalance.map(|b| (b.lower, b.upper))).map(|(lower, upper)| upper - lower);
+        let ends = file.answer.bound().and_then(|l| Some((l.lower?, l.upper?)));
+        let bracket = ends.or(file.answer.as_verdict().map(|a| (a.unbalance.lower, a.unbalance.upper))).map(|(lower, upper)| upper - lower);
         let states = file.coulomb_state.iter().flat_map(|s| &s.steps).map(|s| s.solves).sum::<usize>();
         let dry = file.dry.iter().chain(file.directions.iter().filter_map(|d| d.dry.as_ref())).map(|d| d.solves).sum::<usize>();
         Self {

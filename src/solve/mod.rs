@@ -17,7 +17,7 @@ pub use self::{
 use serde::{Deserialize, Serialize};
 
 /// What the engine said. Only ever reported, never decided on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// Within its own tolerances.
@@ -37,7 +37,7 @@ pub enum Status {
 }
 
 /// What solves a program.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Engine {
     /// Clarabel: any conic program.
@@ -85,7 +85,7 @@ impl Default for Settings {
 }
 
 /// One interior-point iteration.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Iteration {
     /// Seconds since the start of the solve.
     pub seconds: f64,

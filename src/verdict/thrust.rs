@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// Which end of the range of thrusts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Extreme {
     /// The least: the support yields.
@@ -36,7 +36,7 @@ impl Extreme {
 }
 
 /// The support and the direction a thrust is about.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThrustAt {
     /// Index of the support in the scene.

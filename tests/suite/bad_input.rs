@@ -157,7 +157,7 @@ fn answered(scene: &Scene) {
     let a = assess(&m, &Control { deadline: voussoir::deadline::Deadline::within(10.0), ..Control::default() });
     let text = report::json::pretty(&ResultFile::assessment(scene, &m, &a)).unwrap();
     let file = proof::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{e}\n{scene:?}"));
-    if file.answer.verdict != Some(Verdict::Undecided) {
+    if file.answer.verdict() != Some(Verdict::Undecided) {
         let found = proof::verify(&file, scene).unwrap();
         assert!(found.proved(), "{scene:?}: {:?}", found.parts);
     }

@@ -23,7 +23,7 @@ fn verdict(name: &str) -> Verdict {
     let scene = scene(name);
     let model = prepare(&scene).unwrap();
     let file = ResultFile::assessment(&scene, &model, &assess(&model, &Control::default()));
-    let said = file.answer.verdict.unwrap();
+    let said = file.answer.verdict().unwrap();
     assert!(said == Verdict::Undecided || verify(&file, &scene).unwrap().proved(), "{name}");
     println!("{name}: {said:?}");
     said

@@ -29,7 +29,7 @@ use crate::{
 use serde::{Deserialize, Serialize};
 
 /// How a load factor with dry friction was found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Found {
     /// The associative mechanism slides nowhere.

@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
 /// What the state does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StateMotion {
     /// It rests: the acceleration vanishes with ε.
@@ -41,7 +41,7 @@ pub enum StateMotion {
 }
 
 /// One ε of the continuation.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct StateStep {
     /// Regularisation ε.
     pub epsilon: f64,

@@ -4,7 +4,8 @@ mod verify;
 
 pub(super) use verify::verify;
 
-use super::result::{Answer, Certificate, QuestionKind, ResultFile, assessment, certificate};
+use super::answer::Answer;
+use super::result::{Certificate, QuestionKind, ResultFile, assessment, certificate};
 use crate::{
     analysis::{
         Assessment, Critical, Law, Proved,
@@ -19,7 +20,7 @@ use crate::{
 use serde::{Deserialize, Serialize};
 
 /// A value at which the verdict flips.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriticalValue {
     /// The value.
@@ -35,7 +36,7 @@ pub struct CriticalValue {
 }
 
 /// The scan and the flips.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriticalResult {
     /// JSON pointer of the number that varies.
@@ -62,7 +63,7 @@ pub struct CriticalResult {
 }
 
 /// A value of the scan.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ScanPoint {
     /// The value.
@@ -79,7 +80,7 @@ pub struct ScanPoint {
 }
 
 /// A flip.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlipResult {
     /// The value.
@@ -93,7 +94,7 @@ pub struct FlipResult {
 }
 
 /// One value with its verdict and the evidence for it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Side {
     /// The value.
@@ -107,13 +108,14 @@ pub struct Side {
 impl Side {
     /// A probe with its proof.
     pub fn of(probe: &Probe<Proved<Assessment>>) -> Self {
-        let (answer, certificate) = (assessment(&probe.assessment), certificate(&probe.model, &probe.assessment));
+        let answer = Answer::Verdict(assessment(&probe.assessment));
+        let certificate = certificate(&probe.model, &probe.assessment);
         Self { value: probe.value, answer, certificate }
     }
 
     /// Its verdict, where it is proved.
     pub fn verdict(&self) -> Option<Verdict> {
-        self.answer.verdict.filter(|v| *v != Verdict::Undecided && self.certificate.claim.is_some())
+        self.answer.verdict().filter(|v| *v != Verdict::Undecided && self.certificate.claim.is_some())
     }
 }
 
@@ -162,7 +164,7 @@ impl ResultFile {
             })
             .collect();
         let values = flips.iter().filter_map(FlipResult::proved).collect();
-        let answer = Answer { critical: Some(values), ..Answer::default() };
+        let answer = Answer::Critical(values);
         let mut file = Self::new(QuestionKind::Critical, scene, model, answer, Certificate::none());
         file.critical = Some(CriticalResult {
             vary: c.range.pointer.clone(),

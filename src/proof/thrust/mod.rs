@@ -5,8 +5,9 @@ mod verify;
 pub(super) use verify::verify;
 
 use super::{
+    answer::Answer,
     critical::Side,
-    result::{Answer, Certificate, QuestionKind, ResultFile, assessment, certificate},
+    result::{Certificate, QuestionKind, ResultFile, assessment, certificate},
 };
 use crate::{
     analysis::{
@@ -22,7 +23,7 @@ use crate::{
 use serde::{Deserialize, Serialize};
 
 /// The range of the thrust on a support.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThrustAnswer {
     /// The support.
@@ -39,7 +40,7 @@ pub struct ThrustAnswer {
 }
 
 /// One end of the range, N.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThrustValue {
     /// What became of it.
@@ -56,7 +57,7 @@ pub struct ThrustValue {
 }
 
 /// A geometric safety factor.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Factor {
     /// The factor, where there is one; it is beyond `lower` otherwise.
@@ -70,7 +71,7 @@ pub struct Factor {
 }
 
 /// The evidence, and the line of thrust.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThrustResult {
     /// For the least thrust.
@@ -88,7 +89,7 @@ pub struct ThrustResult {
 }
 
 /// A section with the lines of thrust through it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThrustSection {
     /// The two blocks.
@@ -102,7 +103,7 @@ pub struct ThrustSection {
 }
 
 /// The line of thrust at a section.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Line {
     /// Normal force, N; compression > 0.
@@ -139,7 +140,8 @@ impl ResultFile {
     /// The result of `thrust`. Where the scene does not stand, it is the verdict.
     pub fn thrust(scene: &Scene, model: &Model, t: &Thrust) -> Self {
         let [least, greatest] = &t.ends[..] else {
-            let mut file = Self::new(QuestionKind::Thrust, scene, model, assessment(&t.standing), certificate(model, &t.standing));
+            let mut file =
+                Self::new(QuestionKind::Thrust, scene, model, Answer::Verdict(assessment(&t.standing)), certificate(model, &t.standing));
             file.mechanism = t.standing.mechanism.as_ref().map(|m| super::result::words(model, m));
             file.trace.clone_from(&t.standing.attempts);
             file.warn(&t.standing);
@@ -160,8 +162,7 @@ impl ResultFile {
             greatest: greatest.into(),
             geometric_factor: factor(&shrunk, value),
         };
-        let mut file =
-            Self::new(QuestionKind::Thrust, scene, model, Answer { thrust: Some(answer), ..Answer::default() }, Certificate::none());
+        let mut file = Self::new(QuestionKind::Thrust, scene, model, Answer::Thrust(Box::new(answer)), Certificate::none());
         let lines = table(model, [least, greatest].map(|e| (e.outcome == Outcome::Found).then_some(&e.forces)));
         let [low, high] = [least, greatest].map(|end| certificate(model, end));
         file.thrust = Some(ThrustResult { least: low, greatest: high, shrunk, without_factor, sections: lines });

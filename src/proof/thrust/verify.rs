@@ -18,7 +18,7 @@ use crate::{
 
 /// Adds the parts of a result of `thrust`.
 pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
-    let (said, proof) = match (&file.answer.thrust, &file.thrust) {
+    let (said, proof) = match (file.answer.thrust(), &file.thrust) {
         (None, None) => {
             let (mut f, rates) = answer(model, QuestionKind::Assess, &file.answer, &file.certificate, all.refuted());
             mechanism_words(&mut f, file, model, rates.as_deref());
@@ -28,8 +28,7 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
         _ => return all.part("answer", failure("the answer is not one to its question")),
     };
     let mut form = Findings::default();
-    let others = [file.answer.verdict.is_some(), file.answer.load_factor.is_some(), file.certificate.claim.is_some()];
-    require(&mut form, !others.contains(&true), "nothing else is claimed");
+    require(&mut form, file.certificate.claim.is_none(), "nothing else is claimed");
     let Some(support) = model.assembly.find(&said.support) else {
         return all.part("answer", failure(format!("the scene has no block {}", said.support)));
     };

@@ -11,7 +11,10 @@ use crate::{
     },
     error::InputError,
     interface::{Model, is_forest},
-    proof::result::{Answer, Certificate, DryResult},
+    proof::{
+        answer::Answer,
+        result::{Certificate, DryResult},
+    },
     verdict::{
         Evidence,
         check::{self, Claim, Findings},
@@ -47,7 +50,7 @@ pub(super) fn dry_friction(at: At, bound: (&Answer, &Certificate), dry: &DryResu
         (Some(claim @ Claim::DryLoadFactor { value }), Some(said))
             if *value == said && matches!(dry.found, Found::NothingSlides | Found::FixedPoint) =>
         {
-            let is_bound = bound.0.load_factor.and_then(|l| l.value) == Some(said) && bound.1.rates == dry.certificate.rates;
+            let is_bound = bound.0.bound().and_then(|b| b.value) == Some(said) && bound.1.rates == dry.certificate.rates;
             match at(said).map_err(|e| e.to_string()).and_then(|model| evidence(&model, claim, dry)) {
                 Ok(mut f) => {
                     require(&mut f, is_bound == (dry.found == Found::NothingSlides), words(dry.found));
@@ -58,7 +61,7 @@ pub(super) fn dry_friction(at: At, bound: (&Answer, &Certificate), dry: &DryResu
         }
         _ => return failure("the load factor with dry friction is not the one its certificate claims"),
     };
-    let status = bound.0.load_factor.map(|l| l.status);
+    let status = bound.0.bound().map(|b| b.status);
     require(&mut f, dry.found != Found::Unlimited || status == Some(Outcome::Unbounded), "where there is no limit, the bound has none");
     if f.fails.is_empty() && dry.found == Found::Undecided {
         f.holds.push("undecided: nothing is claimed".into());

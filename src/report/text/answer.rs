@@ -8,7 +8,10 @@ use super::{
 use crate::{
     analysis::{Outcome, coulomb::Found},
     number::{bracketed, decimals, ends, fixed, point},
-    proof::result::{Answer, DryResult, LoadFactorAnswer, QuestionKind, ResultFile},
+    proof::{
+        answer::Answer,
+        result::{DryResult, QuestionKind, ResultFile},
+    },
     tolerance,
     verdict::{Verdict, check::Claim},
 };
@@ -24,7 +27,7 @@ pub(super) fn under(file: &ResultFile, text: impl std::fmt::Display) -> String {
 /// The answer in one line.
 pub(super) fn title(page: &mut Page, file: &ResultFile) {
     let (text, role) = match file.question {
-        QuestionKind::Assess => match file.answer.verdict {
+        QuestionKind::Assess => match file.answer.verdict() {
             Some(Verdict::Stable) => ("stands".to_string(), Role::Good),
             Some(Verdict::Conditional) => ("stands only with a pre-stress".to_string(), Role::Bad),
             Some(Verdict::Unstable) => ("falls".to_string(), Role::Bad),
@@ -62,7 +65,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
             _ => ("undecided".to_string(), Role::Unsure),
         },
         QuestionKind::Tilt => {
-            let toward = file.answer.toward.map(|d| format!(" towards {}", point(d))).unwrap_or_default();
+            let toward = file.answer.toward().map(|d| format!(" towards {}", point(d))).unwrap_or_default();
             match (status(&file.answer), found(&file.answer)) {
                 (Outcome::Found, Some((_, _, upper))) if upper < 0.0 => ("falls even when level".to_string(), Role::Bad),
                 (Outcome::Found, Some(l)) => {
@@ -154,7 +157,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         ),
         _ if file.trace.is_empty() => page.paragraph("The time limit left no time for an attempt."),
         _ => {
-            let l = file.answer.load_factor.as_ref();
+            let l = file.answer.bound();
             let end = |e: Option<f64>| e.map_or("unknown".to_string(), |v| format!("{v:.9}"));
             page.paragraph(&format!(
                 "No attempt closed the bracket of the load factor, and none showed that there is no limit or no answer. Lower end {}, upper end {}.",
@@ -169,8 +172,8 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
 
 pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
     let answer = &file.answer;
-    let (lower, upper) = answer.unbalance.map_or((0.0, f64::NAN), |b| (b.lower, b.upper));
-    match answer.verdict {
+    let (lower, upper) = answer.as_verdict().map_or((0.0, f64::NAN), |a| (a.unbalance.lower, a.unbalance.upper));
+    match answer.verdict() {
         Some(Verdict::Stable) => {
             page.paragraph(&format!(
                 "Contact forces inside every friction cone balance every block, up to {upper:.1e} of its weight."
@@ -310,7 +313,7 @@ fn dry_value(file: &ResultFile) -> Option<f64> {
 fn dead_load(page: &mut Page, file: &ResultFile) {
     let place = if file.question == QuestionKind::Tilt { "When level" } else { "Without its live load" };
     let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);
-    let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict) {
+    let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict()) {
         Some(Verdict::Stable) => format!("{place} it stands."),
         Some(Verdict::Conditional) => format!("{place} it stands only with a pre-stress that nobody applied."),
         Some(Verdict::Unstable) => format!("{place} it falls."),
@@ -326,12 +329,12 @@ fn dead_load(page: &mut Page, file: &ResultFile) {
 pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOptions) {
     // Eight directions are what is asked for by default: they are shown in full.
     let options = TextOptions { verbose: options.verbose || file.directions.len() <= 8, ..options };
-    let width = file.directions.iter().filter_map(|d| d.answer.toward).map(|d| point(d).chars().count()).max().unwrap_or(0);
+    let width = file.directions.iter().filter_map(|d| d.answer.toward()).map(|d| point(d).chars().count()).max().unwrap_or(0);
     let lines: Vec<String> = file
         .directions
         .iter()
         .map(|d| {
-            let toward = d.answer.toward.map(point).unwrap_or_default();
+            let toward = d.answer.toward().map(point).unwrap_or_default();
             let dry = d.dry.as_ref().map(|dry| (dry.found, dry.value.map(|v| v.atan().to_degrees())));
             let dry = match dry {
                 Some((Found::FixedPoint | Found::Rests, Some(angle))) => format!(", with dry friction {angle:.4}°"),
@@ -354,7 +357,7 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOption
 /// The part of the scene that decides.
 pub(super) fn part(page: &mut Page, file: &ResultFile) {
     let dry = file.dry.as_ref().filter(|_| !matches!(dry_of(file), Dry::Same)).and_then(|d| d.part.as_ref());
-    let lines = match (file.answer.part.as_ref(), dry) {
+    let lines = match (file.answer.part(), dry) {
         (Some(bound), Some(dry)) if bound != dry => vec![format!("{bound}"), format!("with dry friction {dry}")],
         (bound, dry) => bound.or(dry).map(ToString::to_string).into_iter().collect(),
     };
@@ -362,15 +365,12 @@ pub(super) fn part(page: &mut Page, file: &ResultFile) {
 }
 
 fn status(answer: &Answer) -> Outcome {
-    answer.load_factor.map_or(Outcome::Undecided, |l| l.status)
+    answer.bound().map_or(Outcome::Undecided, |b| b.status)
 }
 
 /// Value and bracket where a load factor was found.
 fn found(answer: &Answer) -> Option<(f64, f64, f64)> {
-    match answer.load_factor? {
-        LoadFactorAnswer { status: Outcome::Found, value: Some(v), lower: Some(l), upper: Some(u), .. } => Some((v, l, u)),
-        _ => None,
-    }
+    answer.bound()?.found()
 }
 
 /// The angle of a load factor, with the digits its bracket supports.

@@ -18,7 +18,7 @@ pub fn verification(file: &ResultFile, verification: &Verification, layout: Layo
         (false, false) => ("claims nothing", Role::Unsure),
     };
     let text = if verification.refuted() || !verification.claimed { text.into() } else { format!("{text}, {}", verification.grade()) };
-    let text = match file.answer.law {
+    let text = match file.answer.as_verdict().and_then(|a| a.law) {
         Some(Law::Associative) if !verification.refuted() => format!("{text}; whether a pre-stress is needed was not asked"),
         _ if verification.computed() => format!("{text}; that states under dry friction rest or move is computed, not proved"),
         _ => text,

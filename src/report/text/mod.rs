@@ -169,7 +169,7 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
     }
     let mut list = Vec::new();
     if file.question == QuestionKind::Assess {
-        let falls = matches!(file.answer.verdict, Some(Verdict::Unstable | Verdict::Conditional));
+        let falls = matches!(file.answer.verdict(), Some(Verdict::Unstable | Verdict::Conditional));
         list.push(match (falls, file.scene.input.loads.live.is_empty()) {
             (true, _) => look,
             (false, true) => (format!("voussoir tilt {scene}"), "at what tilt it falls"),

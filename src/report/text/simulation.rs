@@ -20,7 +20,7 @@ const NO_TURN: f64 = 1e-6;
 
 /// The answer in a line.
 pub(super) fn title(file: &ResultFile) -> (String, Role) {
-    match (&file.simulation, file.answer.fate) {
+    match (&file.simulation, file.answer.fate()) {
         (Some(s), Some(Fate::Falls)) => {
             (format!("falls: the first block has fallen after {}", seconds(s.collapse.unwrap_or(f64::NAN))), Role::Bad)
         }
@@ -128,7 +128,7 @@ fn run(r: &Run) -> String {
 /// What may come next.
 pub(super) fn next(file: &ResultFile, scene: &str, again: &str) -> Vec<(String, &'static str)> {
     let mut list = Vec::new();
-    if file.answer.fate == Some(Fate::Undecided) {
+    if file.answer.fate() == Some(Fate::Undecided) {
         list.push((format!("{again} --fine --seconds T"), "with fine steps, for T seconds"));
     }
     if !again.contains("--load-factor") {

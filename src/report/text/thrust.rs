@@ -28,8 +28,8 @@ fn resolution(file: &ResultFile) -> f64 {
 
 /// The first line.
 pub(super) fn title(file: &ResultFile) -> (String, Role) {
-    let Some(t) = &file.answer.thrust else {
-        return match file.answer.verdict {
+    let Some(t) = file.answer.thrust() else {
+        return match file.answer.verdict() {
             Some(Verdict::Unstable) => ("falls, so there is no thrust".into(), Role::Bad),
             _ => ("undecided".into(), Role::Unsure),
         };
@@ -47,7 +47,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
 
 /// The sentences below it.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
-    let Some(t) = &file.answer.thrust else { return super::answer::verdict(page, file) };
+    let Some(t) = file.answer.thrust() else { return super::answer::verdict(page, file) };
     page.paragraph(&format!(
         "The thrust is the horizontal force of the blocks on {} towards {}. Contact forces inside the friction cones reach its least value when the support yields and its greatest when it is pushed in; the mechanisms of the two movements prove that no others go further.",
         t.support,
@@ -57,7 +57,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         page.paragraph("Where it has no end, the blocks are wedged between supports: they hold any push of one against the other.");
     }
     page.paragraph(&factor(t, file));
-    let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict) {
+    let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict()) {
         Some(Verdict::Conditional) => "It stands only with a pre-stress that nobody applied: the loads do not produce such forces.",
         Some(Verdict::Undecided) => "Whether the loads produce such forces with dry friction stayed undecided.",
         _ => return,
@@ -88,7 +88,7 @@ const SECTIONS: usize = 4;
 
 /// Both ends, their proofs and the sections.
 pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
-    let (Some(t), Some(proof)) = (&file.answer.thrust, &file.thrust) else { return };
+    let (Some(t), Some(proof)) = (file.answer.thrust(), &file.thrust) else { return };
     for (label, v, certificate) in [("least", &t.least, &proof.least), ("greatest", &t.greatest, &proof.greatest)] {
         let text = match (v.status, v.value, v.lower, v.upper) {
             (Outcome::Found, Some(value), Some(lower), Some(upper)) => {

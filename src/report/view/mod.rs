@@ -189,7 +189,7 @@ impl View {
 
 /// The ground of a tilt as it is tipped when the answer says that it falls.
 fn tipped(up: Vector3<f64>, file: &ResultFile) -> Option<Vector3<f64>> {
-    match (file.question, file.answer.toward, file.answer.load_factor.and_then(|l| l.value)) {
+    match (file.question, file.answer.toward(), file.answer.bound().and_then(|b| b.value)) {
         (QuestionKind::Tilt, Some(toward), Some(tangent)) => Some((up - Vector3::from(toward) * tangent).normalize()),
         _ => None,
     }

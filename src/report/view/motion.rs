@@ -96,7 +96,7 @@ fn speed(body: &Body, rate: &Rate) -> f64 {
 pub(super) fn of(model: &Model, file: &ResultFile, bodies: &[Body]) -> Result<Vec<ViewMotion>, String> {
     let mut list: Vec<(ViewPart, &str, &Certificate)> = Vec::new();
     let moves = |c: &Certificate| !matches!(c.claim, None | Some(Claim::Stable | Claim::Unbounded { .. }));
-    list.push((ViewPart::Answer, if file.answer.verdict.is_some() { "how it moves" } else { "how it fails" }, &file.certificate));
+    list.push((ViewPart::Answer, if file.answer.as_verdict().is_some() { "how it moves" } else { "how it fails" }, &file.certificate));
     if let Some(dry) = file.dry.as_ref().filter(|d| d.found != Found::NothingSlides) {
         list.push((ViewPart::Dry, "how it fails with dry friction", &dry.certificate));
     }

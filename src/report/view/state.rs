@@ -179,7 +179,7 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
     let tilt = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at {}°", short(v.atan().to_degrees())));
     let at = |v: Option<f64>| if file.question == QuestionKind::Tilt { tilt(v) } else { lambda(v) };
     if own(&file.certificate) {
-        let name = match (file.answer.verdict, file.answer.load_factor) {
+        let name = match (file.answer.verdict(), file.answer.bound()) {
             (_, Some(l)) => match l.status {
                 Outcome::Found => format!("forces that balance it{}", at(l.value)),
                 Outcome::Unbounded => "forces that balance the live load alone".into(),
@@ -192,7 +192,7 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         list.push((ViewPart::Answer, name, &file.certificate.forces));
     }
     if let Some(base) = &file.certificate.base {
-        let name = if file.answer.verdict == Some(Verdict::Conditional) {
+        let name = if file.answer.verdict() == Some(Verdict::Conditional) {
             "forces without a pre-stress"
         } else {
             "forces that balance the dead load"
@@ -203,7 +203,7 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
     if let Some(dry) = file.dry.as_ref().filter(|d| own(&d.certificate) && d.value.is_some() && d.found != Found::NothingSlides) {
         list.push((ViewPart::Dry, format!("forces with dry friction{}", at(dry.value)), &dry.certificate.forces));
     }
-    if let (Some(thrust), Some(answer)) = (&file.thrust, &file.answer.thrust) {
+    if let (Some(thrust), Some(answer)) = (&file.thrust, file.answer.thrust()) {
         let ends = [
             (ViewPart::Least, "forces of the least thrust", &thrust.least, &answer.least),
             (ViewPart::Greatest, "forces of the greatest thrust", &thrust.greatest, &answer.greatest),
@@ -214,12 +214,12 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         }
     }
     if let Some(dead) = file.dead_load.as_ref().filter(|d| own(&d.certificate)) {
-        let stands = matches!(dead.answer.verdict, Some(Verdict::Stable));
+        let stands = matches!(dead.answer.verdict(), Some(Verdict::Stable));
         let name = if stands { "forces under the dead load" } else { "forces that come closest under the dead load" };
         list.push((ViewPart::Dead, name.into(), &dead.certificate.forces));
     }
     let tangent = |part: ViewPart| match (file.question, part) {
-        (QuestionKind::Tilt, ViewPart::Answer) => file.answer.load_factor.and_then(|l| l.value).unwrap_or(0.0),
+        (QuestionKind::Tilt, ViewPart::Answer) => file.answer.bound().and_then(|b| b.value).unwrap_or(0.0),
         (QuestionKind::Tilt, ViewPart::Dry) => file.dry.as_ref().and_then(|d| d.value).unwrap_or(0.0),
         _ => 0.0,
     };
@@ -231,7 +231,7 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         let mut state = ViewState::new(model, part, name, &forces);
         state.balances = !state.name.contains(CLOSEST);
         state.live = file.question == QuestionKind::Limit && part != ViewPart::Dead;
-        if let Some(toward) = file.answer.toward {
+        if let Some(toward) = file.answer.toward() {
             state.up = (state.up - Vector3::from(toward) * tangent).normalize();
         }
         Ok(state)

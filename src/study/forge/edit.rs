@@ -1,10 +1,17 @@
 //! Changing a result as JSON.
 
 use super::{Forgery, Honest};
-use crate::verdict::{
-    Forces, Rate, certificate,
-    evidence::{write_forces, write_rates},
+use crate::{
+    proof::{
+        answer::{Bound, LoadFactorAnswer},
+        result::DryResult,
+    },
+    verdict::{
+        Forces, Rate, certificate,
+        evidence::{write_forces, write_rates},
+    },
 };
+use serde::Deserialize;
 use serde_json::{Value, json};
 
 /// A forged result in the making.
@@ -68,9 +75,38 @@ impl Draft {
         self.set("/answer/unbalance", json!({ "lower": 0.0, "upper": upper }))
     }
 
+    /// Makes what follows from what was changed follow again, so that nothing but the proof gives the forgery away: the load factor to use, the
+    /// tilt in degrees, the verdict without the live load.
+    fn consistent(mut self, honest: &Honest) -> Self {
+        let untouched = |file: &Value, pointer: &str| file.pointer(pointer) == honest.file.pointer(pointer);
+        let dry = self.file.get("dry").and_then(|dry| DryResult::deserialize(dry).ok());
+        for (key, degrees) in [("load_factor", None), ("tan_tilt", Some("tilt_deg"))] {
+            let pointer = format!("/answer/{key}");
+            let numbers = ["status", "value", "lower", "upper", "found", "law"].map(|k| format!("{pointer}/{k}"));
+            let Some(bound) = self.file.pointer(&format!("{pointer}/associative")).and_then(|b| Bound::deserialize(b).ok()) else {
+                continue;
+            };
+            if !numbers.iter().all(|pointer| untouched(&self.file, pointer)) {
+                continue;
+            }
+            let said = LoadFactorAnswer::new(bound, dry.as_ref());
+            self.file["answer"][key] = json!(said);
+            if let Some(key) = degrees.filter(|key| untouched(&self.file, &format!("/answer/{key}"))) {
+                self.file["answer"][key] = json!(said.degrees());
+            }
+        }
+        if let Some(dead) = self.file.pointer("/dead_load/answer/verdict").filter(|_| untouched(&self.file, "/answer/verdict")).cloned()
+            && self.file.pointer("/answer/verdict").is_some()
+        {
+            self.file["answer"]["verdict"] = dead;
+        }
+        self
+    }
+
     /// The forgery; none where the result did not hold what was to be changed, or the change changed nothing.
     pub fn done(self, honest: &Honest, kind: &'static str, what: impl Into<String>) -> Option<Forgery> {
-        let changed = self.complete && self.file != honest.file;
-        changed.then(|| Forgery { kind, what: what.into(), file: self.file })
+        let this = self.consistent(honest);
+        let changed = this.complete && this.file != honest.file;
+        changed.then(|| Forgery { kind, what: what.into(), file: this.file })
     }
 }

@@ -65,10 +65,10 @@ fn narrow(honest: &Honest, value: f64) -> Draft {
 }
 
 fn bracket(honest: &Honest, value: f64, lower: f64, upper: f64) -> Draft {
-    let mut said = honest.file["answer"]["load_factor"].clone();
+    let mut said = honest.file["answer"]["load_factor"]["associative"].clone();
     (said["value"], said["lower"], said["upper"]) = (json!(value), json!(lower), json!(upper));
     let claim = json!({ "load_factor": { "value": value, "lower": lower, "upper": upper } });
-    Draft::of(honest).set("/answer/load_factor", said).set("/certificate/claim", claim)
+    Draft::of(honest).set("/answer/load_factor/associative", said).set("/certificate/claim", claim)
 }
 
 /// Wider and shifted brackets around the true value and beside it.
@@ -85,7 +85,7 @@ fn brackets(honest: &Honest, value: f64) -> Vec<Option<Forgery>> {
 
 /// That the load has no limit, or that nothing helps.
 fn ends(honest: &Honest, dead: Option<&Forces>, value: f64) -> Vec<Option<Forgery>> {
-    let mut said = honest.file["answer"]["load_factor"].clone();
+    let mut said = honest.file["answer"]["load_factor"]["associative"].clone();
     let bound = honest.limit.as_ref().map(|l| &l.bound.forces);
     if let Some(map) = said.as_object_mut() {
         ["value", "lower", "upper"].into_iter().for_each(|key| drop(map.remove(key)));
@@ -94,7 +94,11 @@ fn ends(honest: &Honest, dead: Option<&Forces>, value: f64) -> Vec<Option<Forger
     let with = |status: &str, claim: Value| {
         let mut said = said.clone();
         said["status"] = json!(status);
-        Draft::of(honest).set("/answer/load_factor", said).set("/certificate/claim", claim).without("/mechanism").without("/dry")
+        Draft::of(honest)
+            .set("/answer/load_factor/associative", said)
+            .set("/certificate/claim", claim)
+            .without("/mechanism")
+            .without("/dry")
     };
     made.push(with("impossible", json!("impossible")).done(honest, "status", format!("impossible instead of {value}")));
     if let (Some(dead), Some(bound)) = (dead, bound) {

@@ -5,8 +5,9 @@ use crate::study::random::Random;
 use serde_json::{Value, json};
 
 /// Where claimed numbers are.
-const CLAIMED: [&str; 8] = [
+const CLAIMED: [&str; 9] = [
     "/answer/load_factor",
+    "/answer/tan_tilt",
     "/answer/tilt_deg",
     "/answer/critical",
     "/certificate/claim",

@@ -104,9 +104,9 @@ fn dry(honest: &Honest) -> Vec<Option<Forgery>> {
         let bare = bare.clone().set("/dry/found", "rests").set("/dry/value", other).set("/dry/rests_at", other);
         made.push(bare.done(honest, "dry, nothing claimed", format!("rests up to {other} instead of {value}, without a claim")));
     }
-    let bound = honest.file.pointer("/answer/load_factor/value").and_then(Value::as_f64);
+    let bound = honest.file.pointer("/answer/load_factor/associative/value").and_then(Value::as_f64);
     if bound.is_some_and(|b| (b - value).abs() > 1e-3 * b.abs()) {
-        let draft = Draft::of(honest).set("/answer/load_factor/law", "coulomb");
+        let draft = Draft::of(honest).set("/answer/load_factor/value", bound);
         made.push(draft.done(honest, "law", format!("the bound {bound:?} is said to hold with dry friction, where it is {value}")));
     }
     made
@@ -116,10 +116,10 @@ fn dry(honest: &Honest) -> Vec<Option<Forgery>> {
 fn tilts(honest: &Honest) -> Vec<Option<Forgery>> {
     let mut made = Vec::new();
     let draft = || Draft::of(honest);
-    if let Some(angle) = honest.file["answer"]["tilt_deg"].as_f64().filter(|angle| *angle > 1e-3) {
+    if let Some(angle) = honest.file["answer"]["tilt_deg"]["value"].as_f64().filter(|angle| *angle > 1e-3) {
         for by in [0.5, 0.999, 1.001, -1.0] {
-            made.push(draft().set("/answer/tilt_deg", by * angle).done(honest, "tilt", format!("{by} × the angle")));
-            let first = draft().set("/answer/tilt_deg", by * angle).set("/directions/0/answer/tilt_deg", by * angle);
+            made.push(draft().set("/answer/tilt_deg/value", by * angle).done(honest, "tilt", format!("{by} × the angle")));
+            let first = draft().set("/answer/tilt_deg/value", by * angle).set("/directions/0/answer/tilt_deg/value", by * angle);
             made.push(first.done(honest, "tilt", format!("{by} × the angle, twice")));
         }
     }
@@ -128,7 +128,7 @@ fn tilts(honest: &Honest) -> Vec<Option<Forgery>> {
             return f64::NEG_INFINITY;
         }
         let dry = d.pointer("/dry/value").and_then(Value::as_f64).map(|v| v.atan().to_degrees());
-        dry.or(d.pointer("/answer/tilt_deg").and_then(Value::as_f64)).unwrap_or(f64::NEG_INFINITY)
+        dry.or(d.pointer("/answer/tilt_deg/associative/value").and_then(Value::as_f64)).unwrap_or(f64::NEG_INFINITY)
     };
     let list: Vec<&Value> = honest.file["directions"].as_array().into_iter().flatten().collect();
     let least = list.iter().map(|d| governing(d)).fold(f64::INFINITY, f64::min);

@@ -13,7 +13,7 @@ pub mod motion;
 use serde::{Deserialize, Serialize};
 
 /// How exactly a claim is proved.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Grade {
     /// A theorem about the resolved numbers of the scene: no rounding is excused.

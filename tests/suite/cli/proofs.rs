@@ -41,8 +41,6 @@ fn a_stable_result_is_refused_after_any_change() {
         ("the claim", Box::new(|r| r["certificate"]["claim"] = json!("unstable"))),
         ("verdict and claim", Box::new(|r| (r["answer"]["verdict"], r["certificate"]["claim"]) = (json!("unstable"), json!("unstable")))),
         ("no claim", Box::new(|r| drop(r["certificate"].as_object_mut().unwrap().remove("claim")))),
-        ("no verdict", Box::new(|r| drop(r["answer"].as_object_mut().unwrap().remove("verdict")))),
-        ("no unbalance", Box::new(|r| drop(r["answer"].as_object_mut().unwrap().remove("unbalance")))),
         ("the unbalance", Box::new(|r| r["answer"]["unbalance"]["upper"] = json!(1e-3))),
         ("a count", Box::new(|r| r["scene"]["contact_points"] = json!(1))),
         ("another question", Box::new(|r| r["question"] = json!("limit"))),
@@ -56,6 +54,12 @@ fn a_stable_result_is_refused_after_any_change() {
         assert_ne!(bad, good, "{what}");
         let text = desk.checked(NO, &bad);
         assert!(text.starts_with("Arch: refuted\n") && text.contains("fails"), "{what}: {text}");
+    }
+    // An answer with half of its keys is no result at all.
+    for key in ["verdict", "unbalance"] {
+        let mut bad = good.clone();
+        drop(bad["answer"].as_object_mut().unwrap().remove(key));
+        desk.checked(USAGE, &bad);
     }
 }
 
@@ -96,10 +100,12 @@ fn a_load_factor_is_refused_after_any_change() {
     };
     let more = |v: &mut Value| *v = json!(v.as_f64().unwrap() * 1.001);
     changed(&|r| more(&mut r["answer"]["load_factor"]["value"]));
+    changed(&|r| more(&mut r["answer"]["load_factor"]["associative"]["value"]));
     changed(&|r| more(&mut r["certificate"]["claim"]["load_factor"]["value"]));
     changed(&|r| {
         for end in ["value", "lower", "upper"] {
             more(&mut r["answer"]["load_factor"][end]);
+            more(&mut r["answer"]["load_factor"]["associative"][end]);
             more(&mut r["certificate"]["claim"]["load_factor"][end]);
         }
     });
@@ -111,7 +117,11 @@ fn a_load_factor_is_refused_after_any_change() {
     changed(&|r| r["scene"]["input"]["loads"]["live"][0]["weight"] = json!([1.01, 0, 0]));
     changed(&|r| r["dead_load"]["answer"]["verdict"] = json!("unstable"));
     changed(&|r| drop(r["dead_load"]["certificate"].as_object_mut().unwrap().remove("claim")));
-    changed(&|r| r["answer"]["tilt_deg"] = json!(10));
+    changed(&|r| (r["answer"]["verdict"], r["dead_load"]["answer"]["verdict"]) = (json!("unstable"), json!("unstable")));
+    // Keys of two questions in one answer are no result at all.
+    let mut mixed = good.clone();
+    mixed["answer"]["tilt_deg"] = mixed["answer"]["load_factor"].clone();
+    desk.checked(USAGE, &mixed);
 }
 
 #[test]
@@ -151,18 +161,20 @@ fn a_tilt_is_refused_after_any_change() {
         assert_ne!(bad, good);
         desk.checked(NO, &bad);
     };
-    changed(&|r| r["answer"]["tilt_deg"] = json!(r["answer"]["tilt_deg"].as_f64().unwrap() + 1e-6));
+    changed(&|r| r["answer"]["tilt_deg"]["value"] = json!(r["answer"]["tilt_deg"]["value"].as_f64().unwrap() + 1e-6));
     changed(&|r| {
         // The strongest direction in place of the weakest.
         let list = r["directions"].as_array().unwrap();
-        let angle = |d: &Value| d["answer"]["tilt_deg"].as_f64().unwrap();
+        let angle = |d: &Value| d["answer"]["tilt_deg"]["associative"]["value"].as_f64().unwrap();
         let strongest = list.iter().max_by(|a, b| angle(a).total_cmp(&angle(b))).unwrap().clone();
         r["answer"] = strongest["answer"].clone();
         r["certificate"] = strongest["certificate"].clone();
     });
     changed(&|r| r["directions"][1]["answer"]["toward"] = json!([0.6, 0.8, 0.0]));
     changed(&|r| r["directions"][1]["answer"]["toward"] = json!([0.0, 0.0, 1.0]));
-    changed(&|r| drop(r["directions"][1]["answer"].as_object_mut().unwrap().remove("toward")));
+    let mut nowhere = good.clone();
+    drop(nowhere["directions"][1]["answer"].as_object_mut().unwrap().remove("toward"));
+    desk.checked(USAGE, &nowhere);
     changed(&|r| scale(&mut r["directions"][2]["certificate"]["rates"][0]["velocity"], 1.1));
     let one = desk.saved(YES, &["tilt", &desk.at("arch.json"), "--toward", "1,1", "--skip-dead"]);
     assert!(one.get("directions").is_none() && one.get("dead_load").is_none());
