@@ -5,12 +5,18 @@ use super::{
     exit::Exit,
     terminal,
 };
-use voussoir::{report::json, scene, sweep};
+use voussoir::{
+    proof::result,
+    report::{inspection, json},
+    scene, sweep,
+};
 
 pub fn run(args: &Schema) -> anyhow::Result<Exit> {
     let schema = match args.of {
         FileFormat::Scene => scene::schema(),
         FileFormat::Plan => sweep::schema(),
+        FileFormat::Result => result::schema(),
+        FileFormat::Model => inspection::schema(),
     };
     terminal::print(&json::pretty(&schema)?)?;
     Ok(Exit::Yes)

@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// An answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Flat", into = "Flat")]
 pub enum Answer {
     /// Does it stand?
@@ -278,7 +278,6 @@ impl Answer {
 /// How an answer stands in JSON. Of the keys only those that belong to the question are present.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-#[schemars(rename = "Answer")]
 pub(super) struct Flat {
     /// Does it stand? Beside a load factor or a tilt: without the live load, where that was asked.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -316,6 +315,16 @@ pub(super) struct Flat {
     /// The range of the thrust on a support, and the geometric safety factor.
     #[serde(skip_serializing_if = "Option::is_none")]
     thrust: Option<Box<ThrustAnswer>>,
+}
+
+impl JsonSchema for Answer {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Answer".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        Flat::json_schema(generator)
+    }
 }
 
 impl From<Answer> for Flat {

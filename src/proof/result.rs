@@ -461,3 +461,10 @@ pub(super) fn words(model: &Model, m: &Mechanism) -> MechanismWords {
             .collect(),
     }
 }
+
+/// The JSON Schema (draft 2020-12) of a result file.
+pub fn schema() -> serde_json::Value {
+    let mut schema = schemars::schema_for!(ResultFile);
+    schema.insert("title".into(), "voussoir result, version 2".into());
+    schema.to_value()
+}

@@ -10,10 +10,11 @@ use crate::{
     interface::{ContactKind, Model},
     scene::Friction,
 };
+use schemars::{JsonSchema, generate::SchemaSettings};
 use serde::Serialize;
 
 /// The resolved scene.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Inspection<'a> {
     format: &'static str,
     name: &'a str,
@@ -23,7 +24,7 @@ pub struct Inspection<'a> {
     findings: Vec<&'a Finding>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 struct Block<'a> {
     id: &'a str,
     support: bool,
@@ -33,13 +34,13 @@ struct Block<'a> {
     live: Load,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 struct Load {
     force: [f64; 3],
     moment: [f64; 3],
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 struct Contact<'a> {
     between: [usize; 2],
     kind: ContactKind,
@@ -54,7 +55,7 @@ struct Contact<'a> {
 }
 
 /// Strengths that a joint does not have are left out.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 struct Law<'a> {
     friction: &'a Friction,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -121,4 +122,12 @@ impl<'a> From<&'a JointLaw> for Law<'a> {
             rolling_arm: some(law.rolling_arm),
         }
     }
+}
+
+/// The JSON Schema (draft 2020-12) of a resolved scene, as it is written.
+pub fn schema() -> serde_json::Value {
+    let generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
+    let mut schema = generator.into_root_schema_for::<Inspection>();
+    schema.insert("title".into(), "voussoir resolved scene, version 1".into());
+    schema.to_value()
 }

@@ -380,7 +380,7 @@ pub fn moving(model: &Model, forces: &Forces, rates: &[Rate]) -> Option<(Part, F
 }
 
 /// A scene falls where one of its parts does: what moves gains power and closes no joint, each part for itself, whatever the others weigh. Where no
-/// live load may help (`for_good`), it has no power on one of them.
+/// live load may help (`for_good`), it has no power on one of them, or none on all of them together.
 fn falls(f: &mut Findings, model: &Model, rates: &[Rate], for_good: bool) {
     let meets = |model: &Model, rates: &[Rate]| {
         let [mut gain, mut live] = [Findings::default(), Findings::default()];
@@ -392,8 +392,10 @@ fn falls(f: &mut Findings, model: &Model, rates: &[Rate], for_good: bool) {
     };
     let parts = moving_parts(model, rates);
     let mut list: Vec<[Findings; 2]> = parts.iter().map(|(part, rates)| meets(&part.model, rates)).collect();
-    if list.is_empty() {
-        list.push(meets(model, rates));
+    // Of two parts the live load may drive one and hold back the other: then they prove together what neither does by itself.
+    let proves = |own: &[Findings; 2]| own.iter().all(|f| f.fails.is_empty());
+    if list.is_empty() || (for_good && !list.iter().any(proves)) {
+        list = vec![meets(model, rates)];
     }
     // The part that is proved best speaks for all; of the others only what fails is told.
     let decides = (0..list.len()).min_by_key(|&k| list[k].iter().map(|own| own.fails.len()).sum::<usize>()).unwrap_or(0);

@@ -10,7 +10,7 @@ use voussoir::{import::Up, scene::Friction};
 
 #[derive(Debug, Args)]
 pub struct Schema {
-    /// Of what: `scene` or `plan`.
+    /// Of what: `scene`, `plan`, `result` (what --json and --save give) or `model` (what `check SCENE --json` gives).
     #[arg(value_enum, default_value_t = FileFormat::Scene, hide_possible_values = true)]
     pub of: FileFormat,
 }
@@ -19,6 +19,8 @@ pub struct Schema {
 pub enum FileFormat {
     Scene,
     Plan,
+    Result,
+    Model,
 }
 
 #[derive(Debug, Args)]
