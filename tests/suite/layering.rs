@@ -117,6 +117,23 @@ fn certificates_derive_shares_and_uplift_themselves() {
     }
 }
 
+/// Who holds an answer holds its check: claims are checked where answers are made and where results are read, and nowhere else.
+#[test]
+fn claims_are_checked_in_one_place() {
+    for (path, text) in sources("src") {
+        let name = path.to_string_lossy().replace('\\', "/");
+        let known = ["src/verdict/", "src/proof/", "src/analysis/proved.rs"].iter().any(|home| name.starts_with(home));
+        // The ladder of verdicts goes on until the forces of one prove it.
+        let known = known || name == "src/analysis/assess.rs";
+        assert!(known || !text.contains("check::verify("), "{name} checks a claim by itself: answers come checked (Proved)");
+    }
+    for (path, text) in sources("src/cli") {
+        for stage in ["program", "solve", "verdict::check", "analysis::assess", "analysis::limit", "analysis::thrust"] {
+            assert!(!text.contains(&format!("{stage}::")), "{} composes stages: that is what `ask` is for", path.display());
+        }
+    }
+}
+
 /// A second opinion that knew the first would be none.
 #[test]
 fn dynamics_never_sees_program_solver_or_verdict() {
