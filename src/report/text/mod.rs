@@ -9,12 +9,14 @@ pub mod number;
 mod packing;
 mod page;
 mod simulation;
+mod template;
 mod thrust;
 
 pub use check::{inspection, verification};
 pub use heaps::heaps;
 pub use packing::packing;
 pub use page::{Layout, Page, Role, Span};
+pub use template::template;
 
 use super::{
     result::{QuestionKind, ResultFile},
