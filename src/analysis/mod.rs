@@ -3,6 +3,7 @@
 pub mod agreement;
 pub mod assess;
 mod attempt;
+pub mod axes;
 mod claim;
 pub mod coulomb;
 pub mod critical;

@@ -1,5 +1,6 @@
 //! Scene → assembly → interfaces, timed.
 
+use super::axes;
 use crate::{
     assembly::{self, Assembly},
     error::{Finding, FindingCode, InputError},
@@ -44,6 +45,7 @@ impl Model {
     pub fn new(assembly: Assembly, mut interfaces: Interfaces) -> Self {
         interfaces.findings.extend(floating(&assembly, &interfaces));
         interfaces.findings.extend(without_effect(&interfaces));
+        interfaces.findings.extend(axes::slip(&assembly, &interfaces));
         Self { assembly, interfaces, timings: Timings::default() }
     }
 

@@ -6,6 +6,7 @@ pub mod critical;
 pub mod drawing;
 pub mod forge;
 pub mod heaps;
+pub mod imported;
 pub mod inspection;
 pub mod json;
 pub mod packing;

@@ -37,6 +37,7 @@ mod real;
 mod reference;
 mod same;
 mod scenes;
+mod slips;
 mod strength;
 mod sweep;
 mod symmetry;
