@@ -58,7 +58,7 @@ pub const DENSITY_UNITS: [DensityUnit; 8] = [
 pub const SIZE: RangeInclusive<f64> = 1e-6..=1e4;
 
 /// Free blocks larger than this, m, are in millimetres, where the median is meant. Larger: bricks of 250 mm pass. Smaller: a wedge of rock of 100 m is
-/// reported (the Hoek & Bray wedge of `structures/` measures 60 m).
+/// reported (the Hoek & Bray wedge of `structures/` measures 79 m).
 pub const LARGE: f64 = 200.0;
 
 /// The same where there are [`MANY`] blocks or more: nobody models a slope by so many blocks as large as towers, but hewn stones of 100 mm in millimetres are.

@@ -1,6 +1,6 @@
 //! Friction and strengths of joints, as the scene gives them.
 
-use super::{Weights, bounds, free, short};
+use super::{Told, Weights, bounds, free, short};
 use crate::{
     assembly::Assembly,
     error::JsonPath,
@@ -12,33 +12,35 @@ pub(super) fn slips(scene: &Scene, assembly: &Assembly) -> Vec<String> {
     let path = JsonPath::root().key("joints");
     let weights = Weights::of(assembly);
     let largest = free(assembly).map(|b| b.size).fold(0.0, f64::max);
-    let mut texts = of(&scene.joints.default, &path.key("default"), weights.as_ref(), largest);
+    let mut told = Told::default();
+    look(&scene.joints.default, &path.key("default"), weights.as_ref(), largest, &mut told);
     for (i, rule) in scene.joints.overrides.iter().enumerate() {
-        texts.extend(of(&rule.spec(), &path.key("overrides").index(i), weights.as_ref(), largest));
+        look(&rule.spec(), &path.key("overrides").index(i), weights.as_ref(), largest, &mut told);
     }
-    texts
+    told.texts("joint rules")
 }
 
-fn of(spec: &JointSpec, path: &JsonPath, weights: Option<&Weights>, largest: f64) -> Vec<String> {
-    let mut texts = Vec::new();
-    texts.extend(spec.friction.and_then(|f| coefficient(f, path)));
-    texts.extend(spec.friction_angle_deg.and_then(|a| angle(a, path)));
+fn look(spec: &JointSpec, path: &JsonPath, weights: Option<&Weights>, largest: f64, told: &mut Told) {
+    let mut tell = |kind: &'static str, text: Option<String>| {
+        if let Some(text) = text {
+            told.add(kind, || text);
+        }
+    };
+    tell("friction", spec.friction.and_then(|f| coefficient(f, path)));
+    tell("friction_angle_deg", spec.friction_angle_deg.and_then(|a| angle(a, path)));
     if let Some(weights) = weights {
-        texts.extend(spec.compression.and_then(|s| compression(s, path, weights)));
-        texts.extend(spec.cohesion.and_then(|s| bond("cohesion", s, path, weights)));
-        texts.extend(spec.tension.and_then(|s| bond("tension", s, path, weights)));
-        texts.extend(spec.pore_pressure.and_then(|p| pressure(p, path, weights)));
+        tell("compression", spec.compression.and_then(|s| compression(s, path, weights)));
+        tell("cohesion", spec.cohesion.and_then(|s| bond("cohesion", s, path, weights)));
+        tell("tension", spec.tension.and_then(|s| bond("tension", s, path, weights)));
+        tell("pore_pressure", spec.pore_pressure.and_then(|p| pressure(p, path, weights)));
     }
     // An arm longer than the block itself would hold a ball on a wall.
-    texts.extend(spec.rolling_arm.filter(|&arm| arm > largest).map(|arm| {
+    let arm = spec.rolling_arm.filter(|&arm| arm > largest).map(|arm| {
         let path = path.key("rolling_arm");
-        format!(
-            "{path} is {} m, more than the largest block measures ({} m). It looks like millimetres: it is a length in m",
-            short(arm),
-            short(largest)
-        )
-    }));
-    texts
+        let (arm, largest) = (short(arm), short(largest));
+        format!("{path} is {arm} m, more than the largest block measures ({largest} m). It looks like millimetres: it is a length in m")
+    });
+    tell("rolling_arm", arm);
 }
 
 fn coefficient(friction: Friction, path: &JsonPath) -> Option<String> {

@@ -1,81 +1,95 @@
 //! Loads: where they act, and whether they say what somebody meant.
 
-use super::{Weights, bounds, short};
+use super::{Told, Weights, bounds, short};
 use crate::{
     assembly::{Assembly, Block},
     error::{InputError, JsonPath},
     scene::{At, Load, Scene},
 };
 use nalgebra::Vector3;
+use std::collections::HashMap;
 
 /// What looks like a slip in the loads of a resolved scene.
 pub(super) fn slips(scene: &Scene, assembly: &Assembly) -> Vec<String> {
     let path = JsonPath::root().key("loads");
-    let mut texts = Vec::new();
-    for (i, load) in scene.loads.dead.iter().enumerate() {
-        let path = path.key("dead").index(i);
-        texts.extend(off(load, assembly).map(|off| off.told(&path)));
-        texts.extend(again(load, assembly, &path));
-        texts.extend(weight(load, &path));
-        texts.extend(force(load, assembly, &path));
+    let index: HashMap<&str, usize> = assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
+    let on_earth = Weights::of(assembly).is_some();
+    let mut told = Told::default();
+    for (key, loads) in [("dead", &scene.loads.dead), ("live", &scene.loads.live)] {
+        for (i, load) in loads.iter().enumerate() {
+            let path = path.key(key).index(i);
+            let block = load.block.as_deref().and_then(|id| index.get(id)).map(|&i| &assembly.blocks[i]);
+            if let Some((block, off)) = block.and_then(|block| Some((block, Off::of(load, block)?))) {
+                told.add("off", || off.told(block, assembly, &path));
+            }
+            if let Some(text) = weight(load, &path) {
+                told.add("weight", || text);
+            }
+            if key == "live" {
+                continue;
+            }
+            if let Some(text) = again(load, assembly, &path) {
+                told.add("again", || text);
+            }
+            if let Some(text) = block.filter(|_| on_earth).and_then(|block| force(load, block, assembly, &path)) {
+                told.add("force", || text);
+            }
+        }
     }
-    for (i, load) in scene.loads.live.iter().enumerate() {
-        let path = path.key("live").index(i);
-        texts.extend(off(load, assembly).map(|off| off.told(&path)));
-        texts.extend(weight(load, &path));
-    }
-    texts
-}
-
-/// A force that acts off its block.
-struct Off {
-    /// How far.
-    what: String,
-    /// What may have been meant.
-    meant: Option<String>,
-    /// Distance over the block's size.
-    far: f64,
+    told.texts("loads")
 }
 
 /// Refuses a force that acts far off its block, where no arm is said to carry it; `path` is that of the load.
 ///
 /// # Errors
 /// It does.
-pub(in crate::assembly) fn place(load: &Load, assembly: &Assembly, path: &JsonPath) -> Result<(), InputError> {
-    match off(load, assembly) {
-        Some(off) if off.far > bounds::FAR_OFF => {
-            let meant = off.meant.map_or(String::new(), |meant| format!("{meant}; "));
-            Err(InputError::at(path.key("at"), off.what).hint(format!("{meant}where an arm carries it that far, say \"arm\": true")))
+pub(in crate::assembly) fn place(load: &Load, block: &Block, assembly: &Assembly, path: &JsonPath) -> Result<(), InputError> {
+    match Off::of(load, block) {
+        Some(off) if off.distance > bounds::FAR_OFF * block.size => {
+            let meant = off.meant(block, assembly).map_or(String::new(), |meant| format!("{meant}; "));
+            let hint = format!("{meant}where an arm carries it that far, say \"arm\": true");
+            Err(InputError::at(path.key("at"), off.words(block)).hint(hint))
         }
         _ => Ok(()),
     }
 }
 
-fn off(load: &Load, assembly: &Assembly) -> Option<Off> {
-    let (Some(id), Some(At::Point(point)), false) = (&load.block, load.at, load.arm) else { return None };
-    let block = &assembly.blocks[assembly.find(id)?];
-    let point = Vector3::from(point);
-    let distance = block.solid.distance(point);
-    let on = |b: &Block, p: Vector3<f64>| b.solid.distance(p) <= bounds::ON_THE_BLOCK * b.size;
-    if distance <= bounds::ON_THE_BLOCK * block.size {
-        return None;
-    }
-    // A point near the origin is near it in any unit.
-    let meant = if distance > bounds::FAR_OFF * block.size && on(block, point / 1e3) {
-        Some("in millimetres the point would lie on it: lengths are in m".to_string())
-    } else {
-        let other = assembly.blocks.iter().find(|b| on(b, point));
-        other.map(|b| format!("the point lies on block {:?}: is that the one that is meant?", b.id))
-    };
-    let what = format!("the force acts {} m off block {id:?}, which measures {} m", short(distance), short(block.size));
-    Some(Off { what, meant, far: distance / block.size })
+/// A force that acts off its block.
+struct Off {
+    /// Where, m.
+    point: Vector3<f64>,
+    /// How far off, m.
+    distance: f64,
 }
 
 impl Off {
-    fn told(self, path: &JsonPath) -> String {
-        let remedy =
-            self.meant.unwrap_or_else(|| "\"at\" is a point of the scene, in m; where an arm carries the load, say \"arm\": true".into());
-        format!("{path}: {}; {remedy}", self.what)
+    fn of(load: &Load, block: &Block) -> Option<Self> {
+        let (Some(At::Point(point)), false) = (load.at, load.arm) else { return None };
+        let point = Vector3::from(point);
+        let distance = block.solid.distance(point);
+        (distance > bounds::ON_THE_BLOCK * block.size).then_some(Self { point, distance })
+    }
+
+    fn words(&self, block: &Block) -> String {
+        format!("the force acts {} m off block {:?}, which measures {} m", short(self.distance), block.id, short(block.size))
+    }
+
+    /// What may have been meant.
+    fn meant(&self, block: &Block, assembly: &Assembly) -> Option<String> {
+        let on = |b: &Block, p: Vector3<f64>| b.solid.distance(p) <= bounds::ON_THE_BLOCK * b.size;
+        // A point near the origin is near it in any unit.
+        if self.distance > bounds::FAR_OFF * block.size && on(block, self.point / 1e3) {
+            return Some("in millimetres the point would lie on it: lengths are in m".into());
+        }
+        let other = assembly.blocks.iter().find(|b| on(b, self.point));
+        other.map(|b| format!("the point lies on block {:?}: is that the one that is meant?", b.id))
+    }
+
+    fn told(&self, block: &Block, assembly: &Assembly, path: &JsonPath) -> String {
+        let remedy = self
+            .meant(block, assembly)
+            .unwrap_or_else(|| "\"at\" is a point of the scene, in m; where an arm carries the load, say \"arm\": true".into());
+        format!("{path}: {}; {remedy}", self.words(block))
     }
 }
 
@@ -102,11 +116,9 @@ fn weight(load: &Load, path: &JsonPath) -> Option<String> {
 }
 
 /// A dead force that does nothing.
-fn force(load: &Load, assembly: &Assembly, path: &JsonPath) -> Option<String> {
-    Weights::of(assembly)?;
+fn force(load: &Load, block: &Block, assembly: &Assembly, path: &JsonPath) -> Option<String> {
     let force = Vector3::from(load.force?).norm();
-    let block = assembly.find(load.block.as_ref()?)?;
-    let weight = assembly.weight(block);
+    let weight = block.mass * assembly.gravity.norm();
     (bounds::FORCE_IN_KILONEWTONS.contains(&force) && force < bounds::LEAST_DEAD_FORCE * weight).then(|| {
         format!(
             "{} is {} N on a block that weighs {} N: it does next to nothing. It looks like kN: forces are in N, write {:e}",

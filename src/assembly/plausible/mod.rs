@@ -25,6 +25,24 @@ pub(super) fn slips(scene: &Scene, assembly: &Assembly) -> Vec<Finding> {
     units.chain(loads::slips(scene, assembly).into_iter().map(|text| Finding::new(FindingCode::Loads, text))).collect()
 }
 
+/// Slips of several kinds, each with the first place where it is: ten thousand loads in another unit are one finding.
+#[derive(Default)]
+struct Told(Vec<(&'static str, String, usize)>);
+
+impl Told {
+    fn add(&mut self, kind: &'static str, text: impl FnOnce() -> String) {
+        match self.0.iter_mut().find(|told| told.0 == kind) {
+            Some(told) => told.2 += 1,
+            None => self.0.push((kind, text(), 0)),
+        }
+    }
+
+    fn texts(self, noun: &str) -> Vec<String> {
+        let text = |(_, text, more): (_, String, usize)| if more > 0 { format!("{text} (and {more} more {noun})") } else { text };
+        self.0.into_iter().map(text).collect()
+    }
+}
+
 /// Density of a block, kg/m³.
 fn density(block: &Block) -> f64 {
     block.mass / block.solid.volume()

@@ -90,7 +90,7 @@ fn add(load: &Load, assembly: &Assembly, names: &Names, sum: &mut [Wrench], path
             None | Some(At::Centroid(_)) => Vector3::zeros(),
             Some(At::Point(point)) => {
                 let point = check::vector(point, &path.key("at"))?;
-                plausible::place(load, assembly, path)?;
+                plausible::place(load, &assembly.blocks[i], assembly, path)?;
                 point - assembly.blocks[i].centroid
             }
         };
