@@ -207,3 +207,14 @@ fn what_is_expected_of_a_slip_is_really_compared() {
     assert_eq!(missed(&slip("kN/m³")), [""; 0]);
     assert_eq!(missed(&slip("ounces")).len(), 3);
 }
+
+#[test]
+fn a_thousand_slips_of_one_kind_are_one_finding() {
+    let path = root().join("tests/slips/load-beside-the-block.json");
+    let (mut scene, _) = read_file(&path).unwrap();
+    let load = scene.loads.live[0].clone();
+    scene.loads.live = vec![load.clone(); 1000];
+    scene.loads.dead = vec![load];
+    let found = false_slips("loads", &scene);
+    assert!(found.len() == 1 && found[0].contains("loads.dead[0]") && found[0].ends_with("(and 1000 more loads)"), "{found:?}");
+}
