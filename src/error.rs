@@ -154,6 +154,10 @@ pub enum FindingCode {
     Orientation,
     /// Numbers that look like a slip of units.
     Units,
+    /// Supports face another way than gravity pulls: a slip of axes.
+    Axes,
+    /// A load that acts off its block, or does not say what it seems to.
+    Loads,
     /// Something about the way the numbers were found.
     Numerics,
     /// Something that is needed later was not given.
@@ -166,6 +170,23 @@ pub enum FindingCode {
     Converted,
     /// Which values of a range are the worst, and why.
     WorstCase,
+}
+
+impl FindingCode {
+    /// Whether the scene is then likely not the one that is meant: its numbers, axes or loads look like slips. Such findings reach everybody who asks.
+    pub fn is_implausible(self) -> bool {
+        matches!(self, Self::Units | Self::Axes | Self::Loads)
+    }
+
+    /// Whether it is likely a mistake in the scene, and not only worth knowing.
+    pub fn is_slip(self) -> bool {
+        match self {
+            Self::Units | Self::Axes | Self::Loads | Self::NearMiss | Self::Overlap | Self::Floating => true,
+            Self::Orientation | Self::Missing | Self::WithoutEffect => true,
+            Self::Assumed | Self::Mended | Self::Warped | Self::GapClosed | Self::ContactIgnored => false,
+            Self::Numerics | Self::LeftOut | Self::Converted | Self::WorstCase => false,
+        }
+    }
 }
 
 impl Finding {

@@ -110,23 +110,6 @@ pub const CONTACT_ROUNDING_ANGLE: f64 = 1e-6;
 /// Density of a block for which the scene gives none, kg/m³: common limestone and concrete.
 pub const DEFAULT_DENSITY: f64 = 2400.0;
 
-/// Densities outside this range, kg/m³, are reported as a likely slip of units. Below lie numbers in t/m³ or g/cm³ other than the 1 of
-/// unit problems (aerogel, the lightest solid, has about 1); above, numbers in g/m³ or lengths in mm (osmium has 22,600).
-/// Wider: a slip by a thousand passes. Narrower: cork, lead or scaled test problems are reported.
-pub const SLIP_DENSITY: std::ops::RangeInclusive<f64> = 0.999_999..=3e4;
-
-/// Strengths of gravity outside this range, m/s², are reported as a likely slip of units (9810 is mm/s², 0.00981 is km/s²).
-/// Narrower: unit gravity, the Moon (1.6) or a centrifuge (1000) are reported.
-pub const SLIP_GRAVITY: std::ops::RangeInclusive<f64> = 0.05..=5e3;
-
-/// Block sizes outside this range, m, are reported as a likely slip of units.
-/// Narrower: clay grains or mountains are reported.
-pub const SLIP_SIZE: std::ops::RangeInclusive<f64> = 1e-6..=1e4;
-
-/// A block this many times larger or smaller than the median block is reported as a likely slip of units.
-/// Larger: a slip by a million on one block passes where the block was small. Smaller: the ground slab under a heap of sand is reported.
-pub const SLIP_SIZE_RATIO: f64 = 1e5;
-
 /// Points of an interface given by hand that lie further than this × the block's size outside its bounding box are reported.
 /// Larger: a slip of units passes on small contacts. Smaller: curved blocks discretised coarsely are reported.
 pub const GIVEN_APART: f64 = 0.5;

@@ -2,8 +2,10 @@
 //! positive masses, every default applied, every name resolved.
 
 mod clump;
+mod distance;
 mod gyration;
 mod joint;
+mod plausible;
 mod polyhedron;
 mod resolve;
 

@@ -1,12 +1,18 @@
 //! `voussoir generate`
 
-use super::{args::Generate, exit::Exit, output::Sink, terminal};
+use super::{
+    args::{Cli, Generate},
+    exit::Exit,
+    output::Sink,
+    terminal,
+};
 use anyhow::{Context, bail};
+use clap::CommandFactory;
 use serde_json::{Map, Value};
 use voussoir::{
     error::InputError,
-    generate::{default_template, expand, template_names},
-    report::json,
+    generate::{default_template, expand, make_room, template_names},
+    report::{json, text},
     scene::{self, Material, Scene},
 };
 
@@ -16,6 +22,12 @@ const DEPTH: usize = 8;
 const MATERIAL: &str = "stone";
 
 pub fn run(args: &Generate) -> anyhow::Result<Exit> {
+    if args.help && args.template.is_none() {
+        let mut whole = Cli::command();
+        let verb = whole.find_subcommand_mut("generate").context("the verb was lost")?;
+        terminal::print(&verb.render_long_help().to_string())?;
+        return Ok(Exit::Yes);
+    }
     let Some(name) = &args.template else {
         terminal::print(&list())?;
         return Ok(Exit::Yes);
@@ -26,10 +38,18 @@ pub fn run(args: &Generate) -> anyhow::Result<Exit> {
                 .hint(format!("the templates are {}", template_names().join(", ")))
         );
     };
+    if args.help {
+        terminal::print(&text::template(name, &template))?;
+        return Ok(Exit::Yes);
+    }
     let sink = Sink::open(args.output.as_deref())?;
     let values = template.get_mut(name).context("the template has no values")?;
     if args.density.is_some() {
         set(values, "material", Value::from(MATERIAL))?;
+    }
+    if let Value::Object(values) = &mut *values {
+        let chosen: Vec<_> = args.set.iter().map(|(key, text)| (key.as_str(), text.trim_matches('"'))).collect();
+        make_room(values, &chosen);
     }
     for (key, text) in &args.set {
         // What is no JSON is text, so that words need no quotes.

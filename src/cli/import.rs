@@ -3,7 +3,7 @@
 use super::{args::Import, claim, exit::Exit, output::Sink, terminal};
 use voussoir::{
     import::{ImportOptions, import_files},
-    report::json,
+    report::{imported::examine, json},
 };
 
 pub fn run(args: &Import) -> anyhow::Result<Exit> {
@@ -18,11 +18,17 @@ pub fn run(args: &Import) -> anyhow::Result<Exit> {
         scale: args.scale,
         up: args.up,
         gap: args.gap,
+        angle_deg: args.angle,
         stored_interfaces: !args.no_stored_interfaces,
         ..ImportOptions::default()
     };
     let imported = import_files(&args.files, &options)?;
+    let examined = examine(&imported, &options);
+    terminal::say(&examined.summary);
     terminal::notes(&imported.findings);
+    examined.findings.iter().for_each(|f| terminal::say(&format!("warning: {}", f.text)));
+    examined.broken.iter().for_each(|text| terminal::say(&format!("warning: {text}")));
     sink.write(&json::pretty(&imported.scene)?)?;
-    Ok(Exit::Yes)
+    // The scene is there to be looked at, but no question about it has an answer.
+    Ok(if examined.broken.is_empty() { Exit::Yes } else { Exit::No })
 }

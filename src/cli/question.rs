@@ -87,6 +87,7 @@ impl<'a> Session<'a> {
         let mut model = prepare(&scene).map_err(|e| e.located(&source))?;
         model.timings.read = read;
         model.assembly.findings.splice(0..0, said.iter().cloned());
+        terminal::warnings(model.findings());
         let points = model.contact_points() as u64;
         limits::afford(&format!("solving for {points} contact points"), points, limits::PER_CONTACT_POINT)?;
         Ok(Self { common, save, report, pictures: Pictures::default(), source, said, deadline, start: Instant::now(), scene, model })
@@ -174,7 +175,8 @@ impl<'a> Session<'a> {
 
     /// An error in the scene, with its place.
     pub fn refuse(&self, error: InputError) -> anyhow::Error {
-        error.located(&self.source).into()
+        // What has no place in the scene is about the command line.
+        if error.path.0.is_empty() { error.into() } else { error.located(&self.source).into() }
     }
 
     /// Where the page goes, where there is to be one.

@@ -13,6 +13,7 @@ use anyhow::{Context, bail};
 use std::time::Instant;
 use voussoir::{
     analysis::{Answer, AssessOptions, Question, ReposeOptions, ask, fabric},
+    error::InputError,
     interface::{Model, prepare},
     proof::packing::PackingFile,
     report::{
@@ -23,9 +24,18 @@ use voussoir::{
     verdict::Forces,
 };
 
+/// What --question repose takes in place of a scene.
+const PROTOCOLS: [&str; 4] = ["drain", "funnel", "cylinder", "tilt"];
+
 pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.question == Asked::Repose {
         return heap::run(args, terminal);
+    }
+    if let Some(word) = args.common.scene.to_str().filter(|w| PROTOCOLS.contains(w) && !args.common.scene.exists()) {
+        bail!(
+            InputError::at(Default::default(), format!("`{word}` is a protocol that makes a heap, and there is no scene of that name"))
+                .hint(format!("ask for the slope of heaps with `voussoir repose {word} --question repose`"))
+        );
     }
     if let Some((key, _)) = args.set.first() {
         bail!("{key}=…: only the protocols of --question repose take values");

@@ -16,7 +16,9 @@ use std::{
     path::{Path, PathBuf},
 };
 use voussoir::{
+    interface::prepare,
     report::{json, page, sweep as report},
+    scene::Scene,
     sweep::{self, Event, Header, Row, RunOptions},
 };
 
@@ -35,6 +37,10 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     let folder = if plan.as_os_str() == "-" { Path::new("") } else { plan.parent().unwrap_or(Path::new("")) };
     let sweep = sweep::open_bytes(name, bytes, folder, args.outside.reach())?;
     terminal::notes(&sweep.findings);
+    // The scene as the file has it, where that can be resolved before a row gives it its numbers.
+    if let Some(model) = serde_json::from_value::<Scene>(sweep.scene.clone()).ok().and_then(|scene| prepare(&scene).ok()) {
+        terminal::warnings(model.findings());
+    }
     args.summary.chart.map_or(Ok(()), |kind| report::Kind::from(kind).fits(&sweep.plan))?;
     claim::read(&folder.join(&sweep.plan.scene))?;
     let output = rows_file(args, plan)?;

@@ -92,6 +92,11 @@ pub fn notes<'a>(findings: impl IntoIterator<Item = &'a Finding>) {
     findings.into_iter().for_each(|f| say(&format!("note: {}", f.text)));
 }
 
+/// Prints the findings that make it likely that another scene is meant, on standard error, however little else is asked for.
+pub fn warnings<'a>(findings: impl IntoIterator<Item = &'a Finding>) {
+    findings.into_iter().filter(|f| f.code.is_implausible()).for_each(|f| say(&format!("warning: {}", f.text)));
+}
+
 /// Prints an error: what is wrong and where, then what to do about it.
 pub fn error(error: &anyhow::Error) {
     let hint = error.downcast_ref::<InputError>().and_then(|e| e.hint.clone());

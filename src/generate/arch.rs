@@ -30,6 +30,10 @@ pub struct Section {
 
 pub fn blocks(arch: &Arch) -> Result<Vec<BlockSpec>, InputError> {
     let place = Place::template("arch");
+    let along = arch.thickness_along.unwrap_or(match arch.joints {
+        JointDirection::Radial => ThicknessAlong::Normal,
+        JointDirection::Vertical => ThicknessAlong::Vertical,
+    });
     let fields = Fields {
         profile: arch.profile,
         radius: arch.radius,
@@ -37,14 +41,14 @@ pub fn blocks(arch: &Arch) -> Result<Vec<BlockSpec>, InputError> {
         eccentricity: arch.eccentricity,
         span: arch.span,
         rise: arch.rise,
+        intrados_span: arch.intrados_span,
+        intrados_rise: arch.intrados_rise,
+        thickness: arch.thickness,
+        sheared: along == ThicknessAlong::Vertical,
     };
     place.length("depth", arch.depth)?;
     place.total("voussoirs", &[arch.voussoirs])?;
-    let along = arch.thickness_along.unwrap_or(match arch.joints {
-        JointDirection::Radial => ThicknessAlong::Normal,
-        JointDirection::Vertical => ThicknessAlong::Vertical,
-    });
-    let midline = check(&place, &fields, arch.thickness, arch.voussoirs)?;
+    let midline = check(&place, &fields, arch.voussoirs)?;
     let section = match (arch.joints, along) {
         (JointDirection::Radial, ThicknessAlong::Normal) => radial(&place, &midline, arch.thickness, arch.voussoirs)?,
         (JointDirection::Radial, ThicknessAlong::Vertical) => {
@@ -91,13 +95,14 @@ pub fn blocks(arch: &Arch) -> Result<Vec<BlockSpec>, InputError> {
 }
 
 /// The voussoirs and springers of an arch with radial joints; also the section of a barrel vault.
-pub fn radial_section(place: &Place, fields: &Fields, thickness: f64, voussoirs: usize) -> Result<Section, InputError> {
-    let midline = check(place, fields, thickness, voussoirs)?;
-    radial(place, &midline, thickness, voussoirs)
+pub fn radial_section(place: &Place, fields: &Fields, voussoirs: usize) -> Result<Section, InputError> {
+    let midline = check(place, fields, voussoirs)?;
+    radial(place, &midline, fields.thickness, voussoirs)
 }
 
 /// What holds for every direction of the joints.
-fn check(place: &Place, fields: &Fields, thickness: f64, voussoirs: usize) -> Result<Midline, InputError> {
+fn check(place: &Place, fields: &Fields, voussoirs: usize) -> Result<Midline, InputError> {
+    let thickness = fields.thickness;
     let midline = fields.resolve(place)?;
     place.length("thickness", thickness)?;
     match midline {

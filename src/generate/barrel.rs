@@ -18,8 +18,12 @@ pub fn blocks(barrel: &Barrel) -> Result<Vec<BlockSpec>, InputError> {
         eccentricity: barrel.eccentricity,
         span: barrel.span,
         rise: barrel.rise,
+        intrados_span: barrel.intrados_span,
+        intrados_rise: barrel.intrados_rise,
+        thickness: barrel.thickness,
+        sheared: false,
     };
-    let section = radial_section(&place, &fields, barrel.thickness, barrel.voussoirs)?;
+    let section = radial_section(&place, &fields, barrel.voussoirs)?;
     let (across, along) = (digits(barrel.voussoirs), digits(barrel.courses + 1));
     let mut blocks = Vec::new();
     for (i, polygon) in section.voussoirs.iter().enumerate() {

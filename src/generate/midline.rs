@@ -23,6 +23,12 @@ pub struct Fields {
     pub eccentricity: Option<f64>,
     pub span: Option<f64>,
     pub rise: Option<f64>,
+    pub intrados_span: Option<f64>,
+    pub intrados_rise: Option<f64>,
+    /// Between intrados and extrados, m.
+    pub thickness: f64,
+    /// Whether intrados and extrados are the mid-line moved down and up; otherwise they run along its normals.
+    pub sheared: bool,
 }
 
 /// A mid-line with its numbers checked.
@@ -41,10 +47,20 @@ pub enum Midline {
 impl Fields {
     /// Checks which fields are there and their ranges.
     pub fn resolve(&self, place: &Place) -> Result<Midline, InputError> {
-        for (field, value) in [("radius", self.radius), ("span", self.span), ("rise", self.rise)] {
+        let lengths = [
+            ("radius", self.radius),
+            ("span", self.span),
+            ("rise", self.rise),
+            ("intrados_span", self.intrados_span),
+            ("intrados_rise", self.intrados_rise),
+        ];
+        for (field, value) in lengths {
             if let Some(value) = value {
                 place.length(field, value)?;
             }
+        }
+        if self.intrados_span.or(self.intrados_rise).is_some() {
+            return self.of_intrados(place);
         }
         if self.profile != Profile::Circular {
             self.refuse(place, "embrace_deg", self.embrace_deg)?;
@@ -89,6 +105,33 @@ impl Fields {
         }
     }
 
+    /// The mid-line half the thickness outside a given intrados.
+    fn of_intrados(&self, place: &Place) -> Result<Midline, InputError> {
+        let (Some(span), Some(rise)) = (self.intrados_span, self.intrados_rise) else {
+            let field = if self.intrados_span.is_none() { "intrados_span" } else { "intrados_rise" };
+            return Err(place.error(field, "missing", format!("{} is given by both span and rise of its intrados", self.called())));
+        };
+        for (field, value) in [("radius", self.radius), ("span", self.span), ("rise", self.rise)] {
+            if value.is_some() {
+                let text = "is that of the mid-line, which intrados_span and intrados_rise already give";
+                return Err(place.error(field, text, format!("leave {field} out, or both of the intrados")));
+            }
+        }
+        place.length("thickness", self.thickness)?;
+        let own = Self { span: Some(span), rise: Some(rise), intrados_span: None, intrados_rise: None, ..*self };
+        let intrados = own.resolve(place)?;
+        let half = self.thickness / 2.0;
+        Ok(match intrados {
+            same if self.sheared => same,
+            // Circles keep their centres.
+            Midline::Circular { radius, half_deg } => Midline::Circular { radius: radius + half, half_deg },
+            Midline::Pointed { radius, eccentricity } => Midline::Pointed { radius: radius + half, eccentricity },
+            // The joints at the ends are level, the one at the crown is upright.
+            Midline::Elliptical { half_span, rise } => Midline::Elliptical { half_span: half_span + half, rise: rise + half },
+            Midline::Parabolic { half_span, rise } => parabola_over(half_span, rise, half),
+        })
+    }
+
     fn circle(&self, place: &Place) -> Result<Midline, InputError> {
         let radius = self.radius.unwrap_or_default();
         let embrace = self.embrace_deg.unwrap_or(180.0);
@@ -114,8 +157,12 @@ impl Fields {
     /// Whether a circular or pointed arch is given by its radius; otherwise it is by span and rise.
     fn by_radius(&self, place: &Place) -> Result<bool, InputError> {
         match (self.radius, self.span.or(self.rise)) {
-            (Some(_), Some(_)) => Err(place.error("radius", "excludes span and rise", "give the radius, or span and rise, not both")),
-            (None, None) => Err(place.error("radius", "missing", "give radius, or span and rise of the mid-line")),
+            (Some(_), Some(_)) => {
+                Err(place.error("radius", "excludes span and rise", "give the radius, or span and rise of the mid-line, not both"))
+            }
+            (None, None) => {
+                Err(place.error("radius", "missing", "give radius, or span and rise of the mid-line, or intrados_span and intrados_rise"))
+            }
             (radius, _) => Ok(radius.is_some()),
         }
     }
@@ -126,7 +173,7 @@ impl Fields {
             (span, _) => Err(place.error(
                 if span.is_none() { "span" } else { "rise" },
                 "missing",
-                format!("{} needs span and rise of the mid-line", self.called()),
+                format!("{} needs span and rise of the mid-line (or intrados_span and intrados_rise)", self.called()),
             )),
         }
     }
@@ -219,6 +266,19 @@ impl Midline {
             Midline::Parabolic { half_span: a, rise } => along([a * u, rise * (1.0 - u * u)], [2.0 * rise * u, a], out),
         }
     }
+}
+
+/// The parabola whose points, moved inwards by `half` along its normals, have their ends `half_span` from the axis and their crown `rise` above them: at the ends
+/// the normal leans by the slope of the parabola that is sought, so that its numbers are found by turns.
+fn parabola_over(half_span: f64, rise: f64, half: f64) -> Midline {
+    /// Each turn gains some digits: the normal turns by less than the ends move.
+    const TURNS: usize = 100;
+    let (mut a, mut b) = (half_span, rise);
+    for _ in 0..TURNS {
+        let length = (2.0 * b).hypot(a);
+        (a, b) = (half_span + half * 2.0 * b / length, rise + half * (1.0 - a / length));
+    }
+    Midline::Parabolic { half_span: a, rise: b }
 }
 
 /// `point` moved by `distance` in a direction of any length.

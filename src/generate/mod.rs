@@ -70,6 +70,20 @@ pub fn default_template(name: &str) -> Option<serde_json::Value> {
     examples().iter().find(|t| t.name() == name).and_then(|t| serde_json::to_value(t).ok())
 }
 
+/// Takes out of the values of a template what excludes the keys that somebody chose, unless that was chosen as well: a span is no mistake
+/// because the template's own values have a radius.
+pub fn make_room(values: &mut serde_json::Map<String, serde_json::Value>, chosen: &[(&str, &str)]) {
+    let is_chosen = |key: &str| chosen.iter().any(|(k, _)| *k == key);
+    let by_span = ["span", "rise", "intrados_span", "intrados_rise"].into_iter().any(is_chosen)
+        || chosen.iter().any(|(key, value)| *key == "profile" && ["elliptical", "parabolic"].contains(value));
+    for (own, excluded) in [("radius", by_span), ("shift", is_chosen("harmonic"))] {
+        // A flat arch has a span of its own and no radius.
+        if excluded && !is_chosen(own) {
+            values.remove(own);
+        }
+    }
+}
+
 /// One template of each kind, of about the proportions of real ones; all of them stand with a friction of 0.7.
 pub fn examples() -> Vec<Template> {
     vec![

@@ -1,7 +1,7 @@
 //! Files → one scene: scale and rotation, supports, friction, density, and what is still missing.
 
 use super::{
-    ImportOptions, Imported, Up,
+    ImportOptions, Imported, Origin, Up,
     raw::{Raw, list, tally},
 };
 use crate::{
@@ -24,12 +24,17 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
     if let Some(gap) = options.gap {
         scene.contact.gap = gap;
     }
+    if let Some(angle) = options.angle_deg {
+        scene.contact.angle_deg = angle;
+    }
     let (mut unwanted, mut with_forces) = (0, 0);
+    let mut origins = Vec::new();
     for file in files {
         findings.extend(file.findings);
         scene.materials.extend(file.materials);
         for mut block in file.blocks {
             place(&mut block.vertices, options).map_err(|v| beyond(&file.origin, &block.id, v, options))?;
+            origins.push(Origin { file: file.name.clone(), line: block.line, lines: block.lines });
             let shape = Shape::Polyhedron { vertices: block.vertices, faces: block.faces };
             scene.blocks.push(BlockSpec { support: block.support, material: block.material, ..BlockSpec::new(block.id, shape) });
         }
@@ -57,7 +62,7 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
              import with `--friction MU` or set joints.default.friction",
         ));
     }
-    Ok(Imported { scene, findings })
+    Ok(Imported { scene, findings, origins })
 }
 
 /// Puts the file's name before its ids where two files use the same one.

@@ -48,6 +48,27 @@ pub struct Imported {
     pub scene: Scene,
     /// What was read how, what was left out, what is still missing.
     pub findings: Vec<Finding>,
+    /// Where each block of the scene comes from.
+    pub origins: Vec<Origin>,
+}
+
+/// Where a block comes from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// The file, as the user gave it.
+    pub file: String,
+    /// Where the block begins there: a line, counted from 1; none in files without lines.
+    pub line: Option<usize>,
+    /// The line of each of its faces, where faces have lines.
+    pub lines: Vec<usize>,
+}
+
+impl Origin {
+    /// The place of a face, or of the block: `vault.obj:41`.
+    pub fn place(&self, face: Option<usize>) -> String {
+        let line = face.and_then(|f| self.lines.get(f)).or(self.line.as_ref());
+        line.map_or_else(|| self.file.clone(), |line| format!("{}:{line}", self.file))
+    }
 }
 
 /// Imports one file (and the files of [`ImportOptions::support_files`]).
@@ -111,6 +132,7 @@ fn read(name: &str, bytes: &[u8], is_support: bool, options: &ImportOptions) -> 
                 .hint("export the blocks as closed meshes, and check that this is the right file"));
         }
         raw.stem = stem;
+        raw.name = name.into();
         raw.origin = format!("{} ({format})", path.file_name().map_or_else(|| name.into(), |f| f.to_string_lossy()));
         raw.blocks.iter_mut().for_each(|b| b.support |= is_support);
         Ok(raw)

@@ -107,11 +107,14 @@ fn corner(line: usize, word: &str, so_far: usize) -> Result<usize, InputError> {
 
 /// One block per object (or group) that has faces.
 fn gather(vertices: &[[f64; 3]], faces: Vec<Face>, names: &[String], of: impl Fn(&Face) -> usize) -> Vec<Solid> {
-    let mut sorted: Vec<Vec<Vec<usize>>> = names.iter().map(|_| Vec::new()).collect();
+    let mut sorted: Vec<(Vec<usize>, Vec<Vec<usize>>)> = names.iter().map(|_| Default::default()).collect();
     for face in faces {
-        sorted[of(&face)].push(face.corners);
+        let (lines, loops) = &mut sorted[of(&face)];
+        lines.push(face.line);
+        loops.push(face.corners);
     }
-    names.iter().zip(sorted).filter(|(_, faces)| !faces.is_empty()).map(|(name, faces)| compact(name.clone(), vertices, faces)).collect()
+    let some = names.iter().zip(sorted).filter(|(_, (_, faces))| !faces.is_empty());
+    some.map(|(name, (lines, faces))| compact(name.clone(), lines, vertices, faces)).collect()
 }
 
 /// A file without names: its connected parts are the blocks.
@@ -121,23 +124,22 @@ fn split(vertices: &[[f64; 3]], faces: Vec<Face>, stem: &str, raw: &mut Raw) -> 
     let part = parts(vertices.len(), &corners);
     let count = part.iter().copied().max().map_or(0, |m| m + 1);
     let mut sorted: Vec<Vec<Vec<usize>>> = vec![Vec::new(); count];
-    let mut first = vec![0; count];
+    let mut places: Vec<Vec<usize>> = vec![Vec::new(); count];
     for ((face, &p), &line) in corners.into_iter().zip(&part).zip(&lines) {
-        if sorted[p].is_empty() {
-            first[p] = line;
-        }
+        places[p].push(line);
         sorted[p].push(face);
     }
     if let Some(p) = sorted.iter().position(|faces| faces.len() < 4) {
         let (n, message) = (sorted[p].len(), "the file names no objects, and the faces do not hang together by their corners");
-        return Err(text::error(first[p], format!("{message}: here is a part of {n} faces, a solid has at least 4"))
+        return Err(text::error(places[p][0], format!("{message}: here is a part of {n} faces, a solid has at least 4"))
             .hint("export one object (`o NAME`) per block, or let faces share their corners (weld)"));
     }
     let digits = count.saturating_sub(1).to_string().len();
     raw.blocks = sorted
         .into_iter()
+        .zip(places)
         .enumerate()
-        .map(|(i, faces)| compact(if count == 1 { stem.into() } else { format!("{stem}-{i:0digits$}") }, vertices, faces))
+        .map(|(i, (faces, lines))| compact(if count == 1 { stem.into() } else { format!("{stem}-{i:0digits$}") }, lines, vertices, faces))
         .collect();
     raw.say(FindingCode::Converted, format!("no objects in the file: its connected parts are the blocks, {count} in all"));
     Ok(())

@@ -28,6 +28,8 @@ pub struct ImportOptions {
     pub format: Option<Format>,
     /// `contact.gap` of the scene: how far apart touching faces may be, relative to the smaller block's size.
     pub gap: Option<f64>,
+    /// `contact.angle_deg` of the scene: how far from parallel touching faces may be, degrees.
+    pub angle_deg: Option<f64>,
     /// Keep the interfaces stored in the file; contacts are then detected between the other pairs only.
     pub stored_interfaces: bool,
 }
@@ -44,6 +46,7 @@ impl Default for ImportOptions {
             up: Up::Z,
             format: None,
             gap: None,
+            angle_deg: None,
             stored_interfaces: true,
         }
     }
@@ -98,6 +101,9 @@ impl ImportOptions {
         }
         if let Some(gap) = self.gap.filter(|&g| !(g.is_finite() && g >= 0.0)) {
             return refuse("gap", gap, "finite and >= 0", "relative to the smaller block's size, 1e-4 by default");
+        }
+        if let Some(angle) = self.angle_deg.filter(|&a| !(a > 0.0 && a < 45.0)) {
+            return refuse("angle", angle, "> 0 and < 45", "degrees from parallel, 1 by default");
         }
         if let Some(z) = self.support_below.filter(|z| !z.is_finite()) {
             return refuse("support below", z, "finite", "a height in m, in the scene (after scale and rotation)");

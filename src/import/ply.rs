@@ -112,6 +112,10 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
             })?,
         );
     }
+    if ascii {
+        let before: usize = header.elements.values().take_while(|e| e.name != "face").map(|e| e.count).sum();
+        solid.lines = (0..solid.faces.len()).map(|i| first_line + before + i).collect();
+    }
     let mut raw = Raw { blocks: vec![solid], ..Raw::default() };
     raw.say_parts();
     Ok(raw)

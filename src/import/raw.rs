@@ -12,6 +12,8 @@ use std::collections::{BTreeMap, HashSet};
 pub(super) struct Raw {
     /// File name without folder and extension.
     pub stem: String,
+    /// The file as the user gave it.
+    pub name: String,
     /// File name and format, for `source`.
     pub origin: String,
     pub blocks: Vec<Solid>,
@@ -30,6 +32,10 @@ pub(super) struct Solid {
     pub faces: Vec<Vec<usize>>,
     pub support: bool,
     pub material: Option<String>,
+    /// Where it begins in the file: a line, counted from 1.
+    pub line: Option<usize>,
+    /// The line of each face, where faces have lines.
+    pub lines: Vec<usize>,
 }
 
 impl Raw {
@@ -121,7 +127,8 @@ pub(super) fn parts(vertices: usize, faces: &[Vec<usize>]) -> Vec<usize> {
 }
 
 /// A solid of the given faces that keeps only the corners they use, in their old order.
-pub(super) fn compact(id: String, all: &[[f64; 3]], mut faces: Vec<Vec<usize>>) -> Solid {
+/// `lines` are those of the faces.
+pub(super) fn compact(id: String, lines: Vec<usize>, all: &[[f64; 3]], mut faces: Vec<Vec<usize>>) -> Solid {
     let mut used: Vec<usize> = faces.iter().flatten().copied().collect();
     used.sort_unstable();
     used.dedup();
@@ -130,5 +137,5 @@ pub(super) fn compact(id: String, all: &[[f64; 3]], mut faces: Vec<Vec<usize>>) 
         *corner = used.partition_point(|&u| u < *corner);
     }
     let vertices = used.iter().map(|&i| all[i]).collect();
-    Solid { id, vertices, faces, ..Solid::default() }
+    Solid { id, vertices, faces, line: lines.first().copied(), lines, ..Solid::default() }
 }

@@ -115,7 +115,7 @@ fn ascii(bytes: &[u8]) -> Result<Raw, InputError> {
         match (word.as_str(), &mut open, &mut face) {
             ("solid", None, _) => {
                 let id = words.collect::<Vec<_>>().join(" ");
-                open = Some(Builder { solid: Solid { id, ..Solid::default() }, ..Builder::default() });
+                open = Some(Builder { solid: Solid { id, line: Some(line), ..Solid::default() }, ..Builder::default() });
             }
             ("facet" | "endloop", Some(_), _) => {}
             ("outer", Some(_), None) => face = Some(Vec::with_capacity(3)),
@@ -125,6 +125,7 @@ fn ascii(bytes: &[u8]) -> Result<Raw, InputError> {
                     return Err(text::error(line, format!("a facet with {} corners", corners.len())).hint("STL facets are triangles"));
                 }
                 builder.solid.faces.push(std::mem::take(corners));
+                builder.solid.lines.push(line);
                 face = None;
             }
             ("endsolid", Some(_), None) => raw.blocks.extend(open.take().map(|b| b.solid)),

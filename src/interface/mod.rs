@@ -3,6 +3,7 @@
 //! Convention: the unit normal `n` points from block `a` into block `b`; contact forces are the forces **on b**;
 //! compression is `f_n ≥ 0`; the frame `(t1, t2, n)` is right-handed.
 
+mod axes;
 mod body;
 mod detect;
 mod detect_candidates;
@@ -21,6 +22,7 @@ mod tally;
 #[cfg(test)]
 mod tests;
 
+pub use axes::on_its_side;
 pub use detect::detect;
 pub use model::{Model, Timings, prepare};
 pub use parts::{Members, Part, Units, members, parts};

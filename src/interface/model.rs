@@ -1,6 +1,6 @@
 //! Scene → assembly → interfaces, timed.
 
-use super::{Interface, Interfaces, detect, floating};
+use super::{Interface, Interfaces, axes, detect, floating};
 use crate::{
     assembly::{self, AppliedForce, Assembly},
     error::{Finding, FindingCode, InputError},
@@ -47,7 +47,7 @@ impl Model {
     /// An assembly with its interfaces as they were detected; adds what they say together.
     pub fn detected(assembly: Assembly, interfaces: Interfaces) -> Self {
         let mut model = Self::new(assembly, interfaces);
-        let said = unheld(&model).into_iter().chain(without_effect(&model.interfaces)).collect::<Vec<_>>();
+        let said: Vec<Finding> = unheld(&model).into_iter().chain(without_effect(&model.interfaces)).chain(axes::slip(&model)).collect();
         model.interfaces.findings.extend(said);
         model
     }

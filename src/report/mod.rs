@@ -4,6 +4,7 @@ mod cells;
 pub mod contacts;
 pub mod drawing;
 pub mod heaps;
+pub mod imported;
 pub mod inspection;
 pub mod json;
 pub mod page;

@@ -5,6 +5,11 @@ pub(crate) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     const LIST_AT_MOST: usize = 12;
     let mut known: Vec<&str> = known.into_iter().collect();
     known.dedup();
+    // Numbers are padded with zeros so that names sort: r1_6 is r01_06.
+    let mut alike = known.iter().filter(|k| without_zeros(k) == without_zeros(word));
+    if let (Some(name), None) = (alike.next(), alike.next()) {
+        return Some(format!("did you mean {name:?}?"));
+    }
     // One slip in three letters is still the same word; more, and the guess is noise.
     let slips = (word.chars().count() / 3).max(1);
     let nearest = known.iter().map(|k| (strsim::damerau_levenshtein(&word.to_lowercase(), &k.to_lowercase()), *k)).min();
@@ -23,6 +28,21 @@ pub(crate) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     }
 }
 
+/// A name in small letters, its numbers without the zeros before them.
+fn without_zeros(name: &str) -> String {
+    let mut short = String::with_capacity(name.len());
+    let mut letters = name.chars().peekable();
+    let mut before = None;
+    while let Some(letter) = letters.next() {
+        let leads = letter == '0' && !before.is_some_and(|b: char| b.is_ascii_digit()) && letters.peek().is_some_and(char::is_ascii_digit);
+        if !leads {
+            short.extend(letter.to_lowercase());
+            before = Some(letter);
+        }
+    }
+    short
+}
+
 #[cfg(test)]
 mod tests {
     use super::suggest;
@@ -35,6 +55,8 @@ mod tests {
         assert_eq!(suggest("colour", known).unwrap(), "known are \"density\", \"shape\", \"support\"");
         assert_eq!(suggest("colour", ["a"]).unwrap(), "the only one known is \"a\"");
         assert_eq!(suggest("colour", []), None);
+        assert_eq!(suggest("R1_6", ["r01_06", "r10_06", "r01_16"]).unwrap(), "did you mean \"r01_06\"?");
+        assert_eq!(suggest("v0", ["v000", "v010"]).unwrap(), "did you mean \"v000\"?");
         let many: Vec<String> = (0..100).map(|i| format!("block number {i}")).collect();
         assert!(suggest("x", many.iter().map(String::as_str)).unwrap().ends_with("and 88 more"));
     }

@@ -238,8 +238,8 @@ fn joints() -> impl Strategy<Value = Joints> {
 
 fn load() -> impl Strategy<Value = Load> {
     let at = some(prop_oneof![vector().prop_map(At::Point), Just(At::Centroid(load::Centroid::Centroid))]);
-    (some(name()), some(vector()), some(vector()), at, some(vector()), some(vector()))
-        .prop_map(|(block, force, moment, at, acceleration, weight)| Load { block, force, moment, at, acceleration, weight })
+    (some(name()), some(vector()), some(vector()), at, any::<bool>(), some(vector()), some(vector()))
+        .prop_map(|(block, force, moment, at, arm, acceleration, weight)| Load { block, force, moment, at, arm, acceleration, weight })
 }
 
 fn scene() -> impl Strategy<Value = Scene> {

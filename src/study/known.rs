@@ -32,32 +32,26 @@ const WALL_100: &str = r#"{ "format": "voussoir-scene/1", "name": "Wall of 100 c
 /// All of them.
 pub fn known() -> Vec<Known> {
     let list: [(&str, &str, f64, Option<f64>, &str); 8] = [
-        ("arch", structure!("oppenheim-arch"), 0.37361169234365993, None, "case B16: Oppenheim (1992), linear programming"),
-        (
-            "wall",
-            structure!("running-bond-wall"),
-            0.5799986113337297,
-            None,
-            "case D02: geometry of Ferris & Tin-Loi (2001), linear programming",
-        ),
-        (
-            "openings",
-            structure!("wall-with-openings"),
-            0.4036941035441143,
-            None,
-            "case D03: geometry of Ferris & Tin-Loi (2001), linear programming",
-        ),
+        ("arch", structure!("oppenheim-arch"), 0.37361169234365993, None, "Oppenheim (1992), linear programming"),
+        ("wall", structure!("running-bond-wall"), 0.5799986113337297, None, "geometry of Ferris & Tin-Loi (2001), linear programming"),
+        ("openings", structure!("wall-with-openings"), 0.4036941035441143, None, "geometry of Ferris & Tin-Loi (2001), linear programming"),
         (
             "corner",
             structure!("wall-corner"),
             0.5077265540878951,
             None,
-            "case E15: conic programming and linear programming with cone cuts",
+            "computed by conic programming and linear programming with cone cuts",
         ),
-        ("groove", structure!("block-in-groove"), 0.8164965809277261, Some(std::f64::consts::FRAC_1_SQRT_2), "case E05: closed form"),
+        (
+            "groove",
+            structure!("block-in-groove"),
+            0.8164965809277261,
+            Some(std::f64::consts::FRAC_1_SQRT_2),
+            "derived; the conventional value is that of Hoek & Bray, Rock Slope Engineering; closed form",
+        ),
         ("column", structure!("column-1000"), 0.002, Some(0.002), "closed form: width / height"),
         ("courses", WALL_100, 0.0125, Some(0.0125), "closed form: width / height"),
-        ("tiny", structure!("tiny-on-huge"), 0.5, Some(0.5), "case G07: closed form"),
+        ("tiny", structure!("tiny-on-huge"), 0.5, Some(0.5), "elementary statics; closed form"),
     ];
     list.into_iter()
         .filter_map(|(name, text, truth, dry, source)| Some(Known { name, scene: read_str(name, text).ok()?.0, truth, dry, source }))

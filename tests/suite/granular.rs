@@ -75,6 +75,22 @@ fn trough(angle: f64, mu: f64) -> Scene {
     )
 }
 
+/// One scene of every kind of case, for questions about the scenes themselves.
+pub fn scenes() -> Vec<(&'static str, Scene)> {
+    let corners = [[1.0, 0.0], [-0.5, 0.75f64.sqrt()], [-0.5, -(0.75f64.sqrt())]].map(|p| p.map(|c| 2.0 / 3f64.sqrt() * c));
+    vec![
+        ("groove", groove(1.1, 0.1, 0.0)),
+        ("groove with a rolling arm", groove(1.1, 0.1, 0.05)),
+        ("pocket", pocket(0.5, 0.3)),
+        ("four", four(0.3)),
+        ("pile", pile("fcc", 3, 0.3)),
+        ("discs", pile("triangular", 3, 0.3)),
+        ("heap", heap(&corners, 1.0 + (8.0f64 / 3.0).sqrt(), 0.4, 0.2)),
+        ("step", step(0.2, 0.05)),
+        ("trough", trough(45.0, 0.5)),
+    ]
+}
+
 /// Stands just above a least friction, falls just below.
 fn least(case: &str, critical: f64, make: impl Fn(f64) -> Scene) {
     flips(case, make, critical * (1.0 + 1e-6), critical * (1.0 - 1e-6));

@@ -14,7 +14,7 @@ use voussoir::{
 
 type V = Vector3<f64>;
 
-/// Critical thickness over radius of the semicircular arch of 16 straight-chord voussoirs (case B02).
+/// Critical thickness over radius of the semicircular arch of 16 straight-chord voussoirs (five-hinge closed form).
 const CRITICAL: f64 = 0.10707620314306167;
 
 fn arch(thickness: f64, mu: f64) -> Scene {

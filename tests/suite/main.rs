@@ -38,6 +38,7 @@ mod reference;
 mod same;
 mod scenes;
 mod schema;
+mod slips;
 mod strength;
 mod sweep;
 mod symmetry;

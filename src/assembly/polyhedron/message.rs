@@ -268,6 +268,17 @@ pub enum ShapeError {
 }
 
 impl ShapeError {
+    /// A face where it shows, counted from 0; none where the shape as a whole is meant.
+    pub fn face(&self) -> Option<usize> {
+        match *self {
+            Self::NoSuchVertex { face, .. } | Self::TooFewCorners { face, .. } | Self::CrossedFace { face, .. } => Some(face),
+            Self::Folded { face, .. } | Self::Open { face, .. } | Self::OneSided { face } => Some(face),
+            Self::DuplicateFace { first, .. } | Self::Branching { first, .. } | Self::Overlap { first, .. } => Some(first),
+            Self::Nested { inner, .. } => Some(inner),
+            Self::NotFinite { .. } | Self::OutOfRange { .. } | Self::Count { .. } | Self::Flat { .. } | Self::Tangled => None,
+        }
+    }
+
     /// What to do about it.
     pub fn hint(&self) -> &'static str {
         match self {

@@ -5,7 +5,7 @@
 
 use super::{Names, check};
 use crate::{
-    assembly::{AppliedForce, Assembly, Wrench},
+    assembly::{AppliedForce, Assembly, Wrench, plausible},
     error::{InputError, JsonPath},
     scene::{At, Load, Scene},
 };
@@ -75,6 +75,12 @@ fn add(load: &Load, assembly: &Assembly, names: &Names, sum: &mut [Wrench], path
         return Err(InputError::at(path.key("at"), "only a force acts at a point").hint("remove \"at\""));
     }
 
+    if load.arm && !matches!(load.at, Some(At::Point(_))) {
+        return Err(
+            InputError::at(path.key("arm"), "only a force at a point of its own hangs on an arm").hint("remove \"arm\", or give \"at\"")
+        );
+    }
+
     if by_force {
         let Some(i) = block else {
             return Err(InputError::at(path.clone(), "it is not said which block the force or moment acts on").hint("add \"block\": id"));
@@ -82,7 +88,11 @@ fn add(load: &Load, assembly: &Assembly, names: &Names, sum: &mut [Wrench], path
         let force = force.unwrap_or_default();
         let arm = match load.at {
             None | Some(At::Centroid(_)) => Vector3::zeros(),
-            Some(At::Point(point)) => check::vector(point, &path.key("at"))? - assembly.blocks[i].centroid,
+            Some(At::Point(point)) => {
+                let point = check::vector(point, &path.key("at"))?;
+                plausible::place(load, &assembly.blocks[i], assembly, path)?;
+                point - assembly.blocks[i].centroid
+            }
         };
         sum[i] += Wrench { force, moment: moment.unwrap_or_default() + arm.cross(&force) };
         return Ok((arm != Vector3::zeros()).then_some(AppliedForce { block: i, force, arm }));

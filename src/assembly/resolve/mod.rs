@@ -10,12 +10,11 @@ mod joints;
 mod loads;
 mod prism;
 mod shape;
-mod units;
 
 #[cfg(test)]
 mod tests;
 
-use super::{Assembly, Block};
+use super::{Assembly, Block, plausible};
 use crate::{
     error::{Finding, InputError, JsonPath},
     scene::{Scene, suggest},
@@ -93,7 +92,8 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     (assembly.dead, assembly.live) = (loads.dead, loads.live);
     (assembly.dead_forces, assembly.live_forces) = (loads.dead_forces, loads.live_forces);
     assembly.findings.extend(told);
-    assembly.findings.extend(units::slips(&assembly));
+    let slips = plausible::slips(scene, &assembly);
+    assembly.findings.extend(slips);
     Ok(assembly)
 }
 

@@ -222,7 +222,7 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
             "s.json:6:66: loads.live[0].at: only a force acts at a point; hint: remove \"at\"",
         ),
         (
-            r#""loads": { "live": [{ "block": "top", "force": [1e308, 0, 0], "at": [0, 0, 1e9] }] },"#,
+            r#""loads": { "live": [{ "block": "top", "force": [1e308, 0, 0], "at": [0, 0, 1e9], "arm": true }] },"#,
             "s.json:6:10: loads: the load on block \"top\" is too large to compute with; hint: forces are in N, lengths in m, masses in kg",
         ),
         // given interfaces
@@ -492,14 +492,25 @@ fn slips_of_units_are_findings_with_numbers() {
     };
     let top = |keys: &str| format!(r#"{{ "id": "top", "shape": {{ "box": {{ "size": [1, 1, 1] }} }}{keys} }}"#);
     assert!(units(&top(", \"density\": 1"), "\"gravity\": [0, 0, -1],").is_empty(), "unit problems are no slips");
-    assert!(units(&top(", \"density\": 22600"), "").is_empty(), "osmium");
-    assert!(units(&top(", \"density\": 0.0024"), "")[0].contains("has a density of 2.400e-3 kg/m³"));
-    assert!(units(&top(", \"density\": 2.4e6"), "")[0].contains("2.400e6"));
+    assert!(units(&top(", \"density\": 11340"), "").is_empty(), "lead");
+    assert!(units(&top(", \"density\": 22600"), "")[0].contains("N/m³"), "the weight of concrete, not osmium");
+    let grams = &units(&top(", \"density\": 0.0024"), "")[0];
+    assert!(grams.contains("has a density of 0.0024 kg/m³") && grams.ends_with("write 2400"), "{grams}");
+    assert!(units(&top(", \"density\": 2.4e6"), "")[0].contains("2.4e6"));
+    assert!(units(&top(", \"density\": 0.2"), "")[0].contains("has a density of 2.000e-1 kg/m³; stone has about 2400"));
+    assert!(units(&top(", \"density\": 24"), "\"gravity\": [0, 0, -1],").is_empty(), "weights per volume where gravity is 1");
+    // One unit for all, or the others real: a lot that was drawn has neither.
+    let two = |a: f64, b: f64| {
+        let block = |id: &str, d: f64| format!(r#"{{ "id": "{id}", "shape": {{ "box": {{ "size": [1, 1, 1] }} }}, "density": {d} }}"#);
+        units(&format!("{}, {}", block("one", a), block("two", b)), "")
+    };
+    assert!(two(24.0, 2400.0)[0].contains("kN/m³") && two(24.0, 19.0)[0].contains("(and 1 more)"));
+    assert!(two(24.0, 70.0).is_empty() && two(1.0, 24.0).is_empty());
     assert!(units(TOP, "\"gravity\": [0, 0, -9810],")[0].contains("Gravity is 9.810e3 m/s²"));
     let box_of = |size: f64| {
         format!(r#"{{ "id": "top", "shape": {{ "box": {{ "size": [{size}, {size}, {size}] }} }} }}, {}"#, TOP.replace("top", "other"))
     };
-    assert!(units(&box_of(1000.0), "").is_empty() && units(&box_of(1e-3), "").is_empty());
+    assert!(units(&box_of(100.0), "").is_empty() && units(&box_of(1e-3), "").is_empty());
     assert!(units(&box_of(1e6), "").iter().any(|t| t.contains("the median of all blocks 1.732e0 m")), "{:?}", units(&box_of(1e6), ""));
     assert!(units(&box_of(1e-6), "").iter().any(|t| t.starts_with("Block \"top\" measures 1.732e-6 m across, the median")));
 }

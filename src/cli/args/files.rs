@@ -43,11 +43,14 @@ pub struct Man {
 #[derive(Debug, Args)]
 pub struct Generate {
     /// The template; --list shows them.
-    #[arg(required_unless_present = "list")]
+    #[arg(required_unless_present_any = ["list", "help"])]
     pub template: Option<String>,
     /// What differs from the template's own values.
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
+    /// Print help; after a template, its parameters with their units.
+    #[arg(short, long)]
+    pub help: bool,
     /// List the templates with their values.
     #[arg(long, conflicts_with_all = ["template", "set", "output"])]
     pub list: bool,
@@ -100,6 +103,9 @@ pub struct Import {
     /// How far apart faces may be and still touch, relative to the smaller block's size.
     #[arg(long, value_name = "GAP", allow_negative_numbers = true, value_parser = not_negative)]
     pub gap: Option<f64>,
+    /// How far from parallel faces may be and still touch, in degrees (1 where it is not said).
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = finite)]
+    pub angle: Option<f64>,
     /// Leave out the interfaces stored in the file: all contacts are detected.
     #[arg(long)]
     pub no_stored_interfaces: bool,

@@ -122,7 +122,8 @@ pub enum Verb {
     /// Make a scene from a template.
     ///
     /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON on the right:
-    /// `voussoir generate arch voussoirs=31 thickness=0.6`. A key set to `null` is left out.
+    /// `voussoir generate arch voussoirs=31 thickness=0.6`. A key set to `null` is left out. `voussoir generate arch --help` lists the keys of an arch.
+    #[command(disable_help_flag = true)]
     Generate(Generate),
     /// Make a scene from files of other programs: COMPAS JSON, OBJ, PLY, STL.
     ///

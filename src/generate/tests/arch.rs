@@ -250,3 +250,40 @@ fn buttresses_stand_flush_with_the_intrados_on_the_ground() {
     assert_eq!(blocks.iter().filter(|b| b.support).count(), 1);
     assert_mirrored(&blocks);
 }
+
+#[test]
+fn a_clear_span_and_rise_are_those_between_the_intrados() {
+    use crate::scene::template::JointDirection;
+    let intrados = |profile, joints, thickness: f64| {
+        let arch = Arch {
+            profile,
+            joints,
+            intrados_span: Some(4.0),
+            intrados_rise: Some(2.5),
+            thickness,
+            depth: 1.0,
+            voussoirs: 12,
+            ..Arch::default()
+        };
+        let blocks = build(Template::Arch(arch));
+        let corners = |i: usize| match &blocks[i].shape {
+            Shape::Prism { polygon, .. } => polygon.clone(),
+            _ => panic!("voussoirs are prisms"),
+        };
+        // The intrados comes first; the joint of the crown is that between v05 and v06.
+        let (foot, crown) = (corners(0)[0], corners(5)[1]);
+        [-2.0 * foot[0], crown[1] - foot[1]]
+    };
+    for thickness in [0.1, 0.5] {
+        for (profile, joints) in [
+            (Profile::Circular, JointDirection::Radial),
+            (Profile::Pointed, JointDirection::Radial),
+            (Profile::Elliptical, JointDirection::Radial),
+            (Profile::Parabolic, JointDirection::Radial),
+            (Profile::Parabolic, JointDirection::Vertical),
+        ] {
+            let [span, rise] = intrados(profile, joints, thickness);
+            assert!((span - 4.0).abs() < 1e-12 && (rise - 2.5).abs() < 1e-12, "{profile:?} {joints:?}: {span} {rise}");
+        }
+    }
+}

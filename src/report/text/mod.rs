@@ -8,12 +8,14 @@ mod mechanism;
 mod packing;
 mod page;
 mod simulation;
+mod template;
 mod thrust;
 
 pub use check::{inspection, verification};
 pub use heaps::heaps;
 pub use packing::packing;
 pub use page::{Layout, Page, Role, Span};
+pub use template::template;
 
 use crate::proof::{
     result::{QuestionKind, ResultFile},

@@ -16,7 +16,7 @@ pub use surface::{Surface, ViewShape};
 
 use crate::proof::result::{QuestionKind, ResultFile};
 use crate::{
-    assembly::JointLaw,
+    assembly::{AppliedForce, JointLaw},
     dynamics::Frame,
     interface::{ContactKind, Model},
     number::short,
@@ -235,22 +235,20 @@ fn front(up: Vector3<f64>, extent: Vector3<f64>) -> Vector3<f64> {
 
 fn loads(model: &Model) -> Vec<ViewLoad> {
     let assembly = &model.assembly;
-    let off = assembly.dead_forces.iter().map(|f| ViewLoad {
-        body: f.block,
-        at: assembly.blocks[f.block].centroid + f.arm,
-        force: f.force,
-        live: false,
-    });
-    let mut list: Vec<ViewLoad> = off.collect();
-    for i in assembly.free() {
-        let at = assembly.blocks[i].centroid;
-        let elsewhere: Vector3<f64> = assembly.dead_forces.iter().filter(|f| f.block == i).map(|f| f.force).sum();
-        let dead = assembly.dead[i].force - assembly.self_weight(i).force - elsewhere;
-        if dead.norm() > 1e-9 * (assembly.weight(i) + elsewhere.norm()) {
-            list.push(ViewLoad { body: i, at, force: dead, live: false });
-        }
-        if assembly.live[i].force != Vector3::zeros() {
-            list.push(ViewLoad { body: i, at, force: assembly.live[i].force, live: true });
+    let mut list = Vec::new();
+    for (forces, live) in [(&assembly.dead_forces, false), (&assembly.live_forces, true)] {
+        let at = |f: &AppliedForce| assembly.blocks[f.block].centroid + f.arm;
+        // Each where it acts, however many there are on a block.
+        list.extend(forces.iter().map(|f| ViewLoad { body: f.block, at: at(f), force: f.force, live }));
+        for i in assembly.free() {
+            let elsewhere: Vec<f64> = forces.iter().filter(|f| f.block == i).map(|f| f.force.norm()).collect();
+            let off: Vector3<f64> = forces.iter().filter(|f| f.block == i).map(|f| f.force).sum();
+            let whole = if live { assembly.live[i].force } else { assembly.dead[i].force - assembly.self_weight(i).force };
+            // Sums leave their rounding.
+            let least = 1e-9 * (elsewhere.iter().sum::<f64>() + if live { 0.0 } else { assembly.weight(i) });
+            if (whole - off).norm() > least {
+                list.push(ViewLoad { body: i, at: assembly.blocks[i].centroid, force: whole - off, live });
+            }
         }
     }
     list

@@ -90,7 +90,7 @@ pub struct Segment {
     pub body: usize,
     /// From the centre of pressure of this joint
     pub joint: usize,
-    /// to that of this one, or to the centre of mass.
+    /// to that of this one, or to the line on which the block's loads act.
     pub other: Option<usize>,
     /// Where it begins, m.
     pub from: Vector3<f64>,
@@ -146,7 +146,34 @@ fn used(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Option<f64>> {
     used
 }
 
-/// Through every block from one centre of pressure to the other; where more or fewer than two joints press, to the centre of mass.
+/// Loads act off the centre of mass when they do by this × the block's size. Larger: small loads far out are drawn through the centre. Smaller: rounding bends
+/// every line.
+const OFF_CENTRE: f64 = 1e-3;
+
+/// Where the loads of a block act: the point of their line of action next to the centre of mass, and their force. Both follow from the joints, which balance them,
+/// so that it does not matter what they are multiplied by. `None` where that point lies off the block by more than its size: what is left of forces that nearly
+/// cancel has no place.
+fn action(model: &Model, body: usize, joints: &[(usize, &Resultant)]) -> Option<(Vector3<f64>, Vector3<f64>)> {
+    let block = &model.assembly.blocks[body];
+    let on = |joint: usize| if model.interfaces.list[joint].b == body { 1.0 } else { -1.0 };
+    let force: Vector3<f64> = joints.iter().map(|&(k, r)| r.force * -on(k)).sum();
+    let moment: Vector3<f64> = joints.iter().map(|&(k, r)| (r.at - block.centroid).cross(&r.force) * -on(k)).sum();
+    let off = force.cross(&moment) / force.norm_squared();
+    (off.norm() <= block.size).then_some((block.centroid + off, force))
+}
+
+/// Where the line through a centre of pressure meets the line of action of the loads, inside or near the block.
+fn meeting(r: &Resultant, (at, load): (Vector3<f64>, Vector3<f64>), near: Vector3<f64>, size: f64) -> Option<Vector3<f64>> {
+    let (u, v) = (r.force.normalize(), load.normalize());
+    let cos = u.dot(&v);
+    // Parallel lines meet nowhere, and nearly parallel ones far away.
+    let along = ((at - r.at).dot(&u) - (at - r.at).dot(&v) * cos) / (1.0 - cos * cos);
+    let point = r.at + u * along;
+    (along.is_finite() && (point - near).norm() <= size).then_some(point)
+}
+
+/// Through every block from one centre of pressure to the other, over the line of action of its loads where they act off the centre of mass; where more or fewer than
+/// two joints press, from there to the place where its loads act.
 fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
     let mut joints: Vec<Vec<(usize, &Resultant)>> = vec![Vec::new(); model.assembly.blocks.len()];
     for (body, joint, r) in pressed(model, resultants) {
@@ -154,14 +181,28 @@ fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
     }
     let mut line = Vec::new();
     for body in model.assembly.free() {
+        let block = &model.assembly.blocks[body];
+        let action = action(model, body, &joints[body]);
+        let hub = action.map_or(block.centroid, |(at, _)| at);
+        let off = (hub - block.centroid).norm() > OFF_CENTRE * block.size;
         match joints[body][..] {
             [(joint, r), (other, s)] => {
+                if let Some(to) = action.filter(|_| off).and_then(|action| meeting(r, action, block.centroid, block.size)) {
+                    for (joint, r) in [(joint, r), (other, s)] {
+                        line.push(Segment { body, joint, other: None, from: r.at, to, force: r.force.norm() });
+                    }
+                    continue;
+                }
                 let force = 0.5 * (r.force.norm() + s.force.norm());
                 line.push(Segment { body, joint, other: Some(other), from: r.at, to: s.at, force });
             }
-            _ => line.extend(joints[body].iter().map(|&(joint, r)| {
-                let to = model.assembly.blocks[body].centroid;
-                Segment { body, joint, other: None, from: r.at, to, force: r.force.norm() }
+            _ => line.extend(joints[body].iter().map(|&(joint, r)| Segment {
+                body,
+                joint,
+                other: None,
+                from: r.at,
+                to: if off { hub } else { block.centroid },
+                force: r.force.norm(),
             })),
         }
     }

@@ -15,6 +15,8 @@ pub struct Point {
     pub block: Option<usize>,
     /// The joint and the corner of it whose force it carries.
     pub contact: Option<(usize, usize)>,
+    /// The load that acts there.
+    pub load: Option<usize>,
 }
 
 /// A cell.
@@ -38,7 +40,7 @@ pub struct Cell {
 pub struct Mesh {
     /// Points.
     pub points: Vec<Point>,
-    /// Contact points that carry forces, and contacts at points.
+    /// Contact points that carry forces, contacts at points, and places of loads.
     pub verts: Vec<Cell>,
     /// Lines of thrust, and contacts along edges.
     pub lines: Vec<Cell>,
@@ -52,6 +54,7 @@ impl Mesh {
         let mut mesh = Self::blocks_of(view);
         mesh.joints(view);
         mesh.thrust(view);
+        mesh.loads(view);
         mesh
     }
 
@@ -63,7 +66,7 @@ impl Mesh {
     }
 
     fn point(&mut self, at: Vector3<f64>, block: Option<usize>, contact: Option<(usize, usize)>) -> u32 {
-        self.points.push(Point { at, block, contact });
+        self.points.push(Point { at, block, contact, load: None });
         self.points.len() as u32 - 1
     }
 
@@ -78,12 +81,12 @@ impl Mesh {
             match &body.shape {
                 ViewShape::Surface(s) => {
                     s.pieces.iter().for_each(|piece| face(piece.iter().map(|v| first + v).collect()));
-                    self.points.extend(s.corners.iter().map(|&at| Point { at, block: Some(i), contact: None }));
+                    self.points.extend(s.corners.iter().map(|&at| Point { at, block: Some(i), contact: None, load: None }));
                 }
                 ViewShape::Sphere(radius) => {
                     faces.iter().for_each(|f| face(f.iter().map(|v| first + v).collect()));
                     let at = |c: &Vector3<f64>| body.center + c * *radius;
-                    self.points.extend(corners.iter().map(|c| Point { at: at(c), block: Some(i), contact: None }));
+                    self.points.extend(corners.iter().map(|c| Point { at: at(c), block: Some(i), contact: None, load: None }));
                 }
             }
         }
@@ -103,6 +106,15 @@ impl Mesh {
                 2 => self.lines.push(cell),
                 _ => self.polys.push(cell),
             }
+        }
+    }
+
+    fn loads(&mut self, view: &View) {
+        for (k, load) in view.loads.iter().enumerate() {
+            let point = self.points.len() as u32;
+            self.points.push(Point { at: load.at, block: None, contact: None, load: Some(k) });
+            let part = if load.live { VtkPart::LiveLoad } else { VtkPart::Load };
+            self.verts.push(Cell { part, block: Some(load.body), other: None, joint: None, segment: None, points: vec![point] });
         }
     }
 

@@ -3,7 +3,7 @@
 //!
 //! Cells of all kinds stand in one file and are told apart by the cell array `part` ([`VtkPart`]); `block`, `other block` and `joint` are indices in
 //! scene order (−1: none), the names of blocks stand in the field data. Arrays that belong to a system of forces or
-//! a mechanism carry its name in parentheses: `force (…)`, N, on the points of contact forces; `normal force (…)`, N, and `used (…)`, the
+//! a mechanism carry its name in parentheses: `force (…)`, N, on the points of contact forces; `load`, N, on the places of loads (live ones not yet multiplied by λ); `normal force (…)`, N, and `used (…)`, the
 //! share of the section or of the friction, on joints and blocks; `displacement (…)`, m, on the points of blocks, to first order and as far
 //! as it is seen well. A simulation is a collection (`.pvd`) of such files, one a time, that hold the blocks alone with their velocity: readers
 //! of VTK 9 add up the cells of all times that stand in one file.
@@ -34,6 +34,10 @@ pub enum VtkPart {
     Force = 3,
     /// A piece of a line of thrust.
     Thrust = 4,
+    /// The place of a dead load beside the weight.
+    Load = 5,
+    /// The place of a live load.
+    LiveLoad = 6,
 }
 
 /// The file of an answer.
@@ -118,6 +122,10 @@ fn point_data(xml: &mut Xml, view: &View, mesh: &Mesh) {
             None => Vector3::zeros(),
         };
         xml.vectors(&named("force", &state.name), mesh.points.iter().map(force));
+    }
+    if !view.loads.is_empty() {
+        let load = |p: &mesh::Point| p.load.map_or(Vector3::zeros(), |k| view.loads[k].force);
+        xml.vectors("load", mesh.points.iter().map(load));
     }
     for motion in &view.motions {
         let by = sized(view, motion) / motion.reach;

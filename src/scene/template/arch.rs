@@ -32,12 +32,18 @@ pub struct Arch {
     /// Distance of the two centres from the axis, m (pointed, with `radius`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eccentricity: Option<f64>,
-    /// Distance between the ends of the mid-line, m (every profile; then `rise` too).
+    /// Span of the mid-line: distance between its ends, m (every profile; then `rise` too). The clear span is smaller: `intrados_span`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub span: Option<f64>,
-    /// Height of the crown of the mid-line above its ends, m (with `span`).
+    /// Rise of the mid-line: height of its crown above its ends, m (with `span`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rise: Option<f64>,
+    /// Clear span: distance between the ends of the intrados, m, in place of `span` (then `intrados_rise` too).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub intrados_span: Option<f64>,
+    /// Clear rise: height of the crown of the intrados (of its curve, where it is drawn with chords) above its ends, m (with `intrados_span`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub intrados_rise: Option<f64>,
     /// Direction of the joints.
     #[serde(default, skip_serializing_if = "super::is_default")]
     pub joints: JointDirection,

@@ -1,5 +1,6 @@
 //! Drawings, VTK files and tables are read back, and what they say is compared with the mechanics.
 
+mod loads;
 mod svg;
 mod table;
 mod vtk;

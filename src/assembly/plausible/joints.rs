@@ -1,0 +1,117 @@
+//! Friction and strengths of joints, as the scene gives them.
+
+use super::{Told, Weights, bounds, free, short};
+use crate::{
+    assembly::Assembly,
+    error::JsonPath,
+    scene::{Friction, JointSpec, Scene},
+};
+
+/// What looks like a slip in them.
+pub(super) fn slips(scene: &Scene, assembly: &Assembly) -> Vec<String> {
+    let path = JsonPath::root().key("joints");
+    let weights = Weights::of(assembly);
+    let largest = free(assembly).map(|b| b.size).fold(0.0, f64::max);
+    let mut told = Told::default();
+    look(&scene.joints.default, &path.key("default"), weights.as_ref(), largest, &mut told);
+    for (i, rule) in scene.joints.overrides.iter().enumerate() {
+        look(&rule.spec(), &path.key("overrides").index(i), weights.as_ref(), largest, &mut told);
+    }
+    told.texts("joint rules")
+}
+
+fn look(spec: &JointSpec, path: &JsonPath, weights: Option<&Weights>, largest: f64, told: &mut Told) {
+    let mut tell = |kind: &'static str, text: Option<String>| {
+        if let Some(text) = text {
+            told.add(kind, || text);
+        }
+    };
+    tell("friction", spec.friction.and_then(|f| coefficient(f, path)));
+    tell("friction_angle_deg", spec.friction_angle_deg.and_then(|a| angle(a, path)));
+    if let Some(weights) = weights {
+        tell("compression", spec.compression.and_then(|s| compression(s, path, weights)));
+        tell("cohesion", spec.cohesion.and_then(|s| bond("cohesion", s, path, weights)));
+        tell("tension", spec.tension.and_then(|s| bond("tension", s, path, weights)));
+        tell("pore_pressure", spec.pore_pressure.and_then(|p| pressure(p, path, weights)));
+    }
+    // An arm longer than the block itself would hold a ball on a wall.
+    let arm = spec.rolling_arm.filter(|&arm| arm > largest).map(|arm| {
+        let path = path.key("rolling_arm");
+        let (arm, largest) = (short(arm), short(largest));
+        format!("{path} is {arm} m, more than the largest block measures ({largest} m). It looks like millimetres: it is a length in m")
+    });
+    tell("rolling_arm", arm);
+}
+
+fn coefficient(friction: Friction, path: &JsonPath) -> Option<String> {
+    let mu = friction.mu();
+    bounds::FRICTION_IN_DEGREES.contains(&mu).then(|| {
+        format!(
+            "{} is {}, where stone on stone has 0.3 to 1.2. It looks like degrees: write \"friction_angle_deg\": {mu} (a coefficient of {:.2}), or \
+             \"infinite\" for no sliding",
+            path.key("friction"),
+            short(mu),
+            mu.to_radians().tan()
+        )
+    })
+}
+
+fn angle(degrees: f64, path: &JsonPath) -> Option<String> {
+    bounds::ANGLE_IN_RADIANS.contains(&degrees).then(|| {
+        format!(
+            "{} is {} degrees, smoother than ice. It looks like radians ({:.1}°) or a coefficient (\"friction\": {degrees}, {:.1}°): write degrees",
+            path.key("friction_angle_deg"),
+            short(degrees),
+            degrees.to_degrees(),
+            degrees.atan().to_degrees()
+        )
+    })
+}
+
+fn compression(strength: f64, path: &JsonPath, weights: &Weights) -> Option<String> {
+    let column = strength / weights.volume;
+    if column >= bounds::LEAST_COLUMN {
+        return None;
+    }
+    let (unit, factor) = unit(strength, bounds::COMPRESSION_IN_MEGAPASCALS, bounds::COMPRESSION_IN_KILOPASCALS)?;
+    Some(format!(
+        "{} is {} Pa: a column of this stone {} m high crushes under its own weight. It looks like {unit}: strengths are in Pa, write {:e}",
+        path.key("compression"),
+        short(strength),
+        short(column),
+        strength * factor
+    ))
+}
+
+fn bond(key: &str, strength: f64, path: &JsonPath, weights: &Weights) -> Option<String> {
+    let share = strength / (weights.volume * weights.size);
+    if share >= bounds::LEAST_BOND {
+        return None;
+    }
+    let (unit, factor) = unit(strength, bounds::BOND_IN_MEGAPASCALS, bounds::BOND_IN_KILOPASCALS)?;
+    Some(format!(
+        "{} is {} Pa, {} of what a block weighs on its area: it does next to nothing. It looks like {unit}: strengths are in Pa, write {:e}",
+        path.key(key),
+        short(strength),
+        short(share),
+        strength * factor
+    ))
+}
+
+fn pressure(pressure: f64, path: &JsonPath, weights: &Weights) -> Option<String> {
+    let small = pressure < bounds::LEAST_BOND * weights.volume * weights.size;
+    (small && bounds::PORE_IN_KILOPASCALS.contains(&pressure)).then(|| {
+        format!(
+            "{} is {} Pa, that of {} mm of water. It looks like kPa: pressures are in Pa, one metre of water is 9810; write {:e}",
+            path.key("pore_pressure"),
+            short(pressure),
+            short(pressure / 9.81),
+            pressure * 1e3
+        )
+    })
+}
+
+/// The unit that a stress was written in, and how many Pa it is.
+fn unit(stress: f64, mega: std::ops::RangeInclusive<f64>, kilo: std::ops::RangeInclusive<f64>) -> Option<(&'static str, f64)> {
+    if mega.contains(&stress) { Some(("MPa (N/mm²)", 1e6)) } else { kilo.contains(&stress).then_some(("kPa (kN/m²)", 1e3)) }
+}
