@@ -42,7 +42,7 @@ impl Reuse {
     /// The model of a scene, from what is known of scenes with the same keys.
     ///
     /// # Errors
-    /// As [`prepare`](super::prepare()).
+    /// As [`prepare`](crate::interface::prepare).
     pub fn prepare(&self, scene: &Scene, keys: &Keys) -> Result<Model, InputError> {
         let blocks = self.blocks.get(keys, || assembly::resolve_blocks(scene))?;
         let assembly = assembly::resolve_with(scene, (*blocks).clone())?;
