@@ -152,9 +152,9 @@ pub enum FindingCode {
     Floating,
     /// A given normal that points against the line from the first block's centre to the second's.
     Orientation,
-    /// Numbers that look like a slip of units.
+    /// Numbers that look like a mistake of units.
     Units,
-    /// Supports face another way than gravity pulls: a slip of axes.
+    /// Supports face another way than gravity pulls: a mistake of axes.
     Axes,
     /// A load that acts off its block, or does not say what it seems to.
     Loads,
@@ -173,13 +173,13 @@ pub enum FindingCode {
 }
 
 impl FindingCode {
-    /// Whether the scene is then likely not the one that is meant: its numbers, axes or loads look like slips. Such findings reach everybody who asks.
+    /// Whether the scene is then likely not the one that is meant: its numbers, axes or loads look like mistakes. Such findings reach everybody who asks.
     pub fn is_implausible(self) -> bool {
         matches!(self, Self::Units | Self::Axes | Self::Loads)
     }
 
     /// Whether it is likely a mistake in the scene, and not only worth knowing.
-    pub fn is_slip(self) -> bool {
+    pub fn is_mistake(self) -> bool {
         match self {
             Self::Units | Self::Axes | Self::Loads | Self::NearMiss | Self::Overlap | Self::Floating => true,
             Self::Orientation | Self::Missing | Self::WithoutEffect => true,

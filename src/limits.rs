@@ -1,4 +1,4 @@
-//! What a file may ask for: counts beyond which a number is taken for a slip, and memory that is estimated before it is taken.
+//! What a file may ask for: counts beyond which a number is taken for a mistake, and memory that is estimated before it is taken.
 //!
 //! Estimates are upper bounds by the measured cost of one item (corner, block, contact point); what does not fit is an error that
 //! says how much it would take. The memory that counts is [`set_memory`]'s, else what the system says is free (Linux), else without
@@ -26,7 +26,7 @@ use std::{
 /// their corners (some 700 bytes each) are refused.
 pub const FILE: u64 = 2 << 30;
 
-/// Most blocks of a scene, and of one template. More: a slip in a count ends in minutes of work or in exhausted memory. Fewer: large
+/// Most blocks of a scene, and of one template. More: a mistake in a count ends in minutes of work or in exhausted memory. Fewer: large
 /// packings are refused.
 pub const BLOCKS: usize = 1_000_000;
 

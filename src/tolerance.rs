@@ -111,7 +111,7 @@ pub const CONTACT_ROUNDING_ANGLE: f64 = 1e-6;
 pub const DEFAULT_DENSITY: f64 = 2400.0;
 
 /// Points of an interface given by hand that lie further than this × the block's size outside its bounding box are reported.
-/// Larger: a slip of units passes on small contacts. Smaller: curved blocks discretised coarsely are reported.
+/// Larger: a mistake of units passes on small contacts. Smaller: curved blocks discretised coarsely are reported.
 pub const GIVEN_APART: f64 = 0.5;
 
 /// A shape thinner than this × its size is flat (thickness = volume / largest facet).

@@ -18,7 +18,7 @@ use voussoir::{
 /// Decimals of the value that the picture is of: flips are known to 1e-9.
 const DIGITS: usize = 10;
 
-/// More steps than this are taken for a slip.
+/// More steps than this are taken for a mistake.
 const MOST: f64 = 100_000.0;
 
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {

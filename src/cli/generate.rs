@@ -16,7 +16,7 @@ use voussoir::{
     scene::{self, Material, Scene},
 };
 
-/// Templates are at most this deep; more is taken for a slip.
+/// Templates are at most this deep; more is taken for a mistake.
 const DEPTH: usize = 8;
 /// The name of the one material that --density makes.
 const MATERIAL: &str = "stone";

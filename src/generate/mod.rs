@@ -25,7 +25,7 @@ use crate::{
     scene::{BlockSpec, Shape, Template, template},
 };
 
-/// The most blocks one template may make. More is taken for a slip (a count of 10⁹ would otherwise end in memory exhaustion).
+/// The most blocks one template may make. More is taken for a mistake (a count of 10⁹ would otherwise end in memory exhaustion).
 pub const MAX_BLOCKS: usize = crate::limits::BLOCKS;
 
 /// The blocks of a template, in order.

@@ -1,4 +1,4 @@
-//! Which way a scene lies: supports that face sideways or downwards, where gravity pulls, are a slip of axes.
+//! Which way a scene lies: supports that face sideways or downwards, where gravity pulls, are a mistake of axes.
 //!
 //! The sign is the mean direction in which supports push on what they carry: the sum of area × normal over their contacts. It points upwards, more or less, for
 //! everything that stands on something, and nowhere for what is held between walls. Drawings with y up read with z up have it level, along the axis that was
@@ -31,8 +31,8 @@ const CARRIES: f64 = 0.02;
 /// Joints enough to tell that none of them carries weight. More: short columns on their side are not seen. Fewer: a block squeezed between two walls is reported.
 const FEW: usize = 4;
 
-/// What looks like a slip of axes.
-pub fn slip(model: &Model) -> Option<Finding> {
+/// What looks like a mistake of axes.
+pub fn mistake(model: &Model) -> Option<Finding> {
     let assembly = &model.assembly;
     let up = -assembly.gravity.normalize();
     let push = push(model)?;
@@ -58,7 +58,7 @@ pub fn slip(model: &Model) -> Option<Finding> {
     Some(Finding::new(FindingCode::Axes, text))
 }
 
-/// What looks like a slip of axes although supports do not tell: no joint is inclined so that it could carry weight.
+/// What looks like a mistake of axes although supports do not tell: no joint is inclined so that it could carry weight.
 pub fn on_its_side(model: &Model) -> Option<Finding> {
     let Model { assembly, interfaces, .. } = model;
     let up = -assembly.gravity.normalize();

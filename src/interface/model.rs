@@ -47,7 +47,7 @@ impl Model {
     /// An assembly with its interfaces as they were detected; adds what they say together.
     pub fn detected(assembly: Assembly, interfaces: Interfaces) -> Self {
         let mut model = Self::new(assembly, interfaces);
-        let said: Vec<Finding> = unheld(&model).into_iter().chain(without_effect(&model.interfaces)).chain(axes::slip(&model)).collect();
+        let said: Vec<Finding> = unheld(&model).into_iter().chain(without_effect(&model.interfaces)).chain(axes::mistake(&model)).collect();
         model.interfaces.findings.extend(said);
         model
     }

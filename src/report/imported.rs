@@ -1,5 +1,5 @@
 //! What an import says beside the scene: how large the thing is that was read, which of its objects are no solids and where in their file they stand, and what
-//! looks like a slip. All of it is looked at as a question would, with stand-ins for what the file does not have (supports, friction).
+//! looks like a mistake. All of it is looked at as a question would, with stand-ins for what the file does not have (supports, friction).
 
 use crate::{
     assembly::{Polyhedron, ShapeError},
@@ -22,7 +22,7 @@ pub struct Examined {
     pub summary: String,
     /// The objects that are no solids, each with its place and the remedy. A scene with one of them has no answer.
     pub broken: Vec<String>,
-    /// What looks like a slip.
+    /// What looks like a mistake.
     pub findings: Vec<Finding>,
 }
 
@@ -38,7 +38,7 @@ pub fn examine(imported: &Imported, options: &ImportOptions) -> Examined {
     let volume: f64 = solids.iter().flatten().sum();
     let mut findings = Vec::new();
     if broken.is_empty() {
-        match slips(scene, options) {
+        match mistakes(scene, options) {
             Ok(found) => findings = found,
             Err(why) => broken.push(why),
         }
@@ -84,8 +84,8 @@ fn short(x: f64) -> String {
     if x != 0.0 && !(1e-4..1e7).contains(&x.abs()) { format!("{x:e}") } else { format!("{x}") }
 }
 
-/// What looks like a slip, with stand-ins for what is not known yet. What is known to be missing has been said.
-fn slips(scene: &Scene, options: &ImportOptions) -> Result<Vec<Finding>, String> {
+/// What looks like a mistake, with stand-ins for what is not known yet. What is known to be missing has been said.
+fn mistakes(scene: &Scene, options: &ImportOptions) -> Result<Vec<Finding>, String> {
     let mut trial = scene.clone();
     trial.joints.default.friction.get_or_insert(Friction::Coefficient(0.6));
     let supports = scene.blocks.iter().filter(|b| b.support).count();
@@ -98,7 +98,7 @@ fn slips(scene: &Scene, options: &ImportOptions) -> Result<Vec<Finding>, String>
         return Ok(Vec::new());
     }
     let model = prepare(&trial).map_err(|e| e.to_string())?;
-    let mut found: Vec<Finding> = model.findings().filter(|f| f.code.is_slip() && (decided || !by_supports(f.code))).cloned().collect();
+    let mut found: Vec<Finding> = model.findings().filter(|f| f.code.is_mistake() && (decided || !by_supports(f.code))).cloned().collect();
     if !decided {
         found.extend(on_its_side(&model));
     }

@@ -31,7 +31,7 @@ pub struct Load {
     /// Where the force acts: a point of the scene, m, or `"centroid"` (the default).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<At>,
-    /// An arm of no weight carries the force from the block to `at`, however far off that lies. Without it such a force is taken for a slip.
+    /// An arm of no weight carries the force from the block to `at`, however far off that lies. Without it such a force is taken for a mistake.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub arm: bool,
     /// Body force: mass × this acceleration, m/s².

@@ -10,11 +10,11 @@ pub(crate) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     if let (Some(name), None) = (alike.next(), alike.next()) {
         return Some(format!("did you mean {name:?}?"));
     }
-    // One slip in three letters is still the same word; more, and the guess is noise.
-    let slips = (word.chars().count() / 3).max(1);
+    // One mistake in three letters is still the same word; more, and the guess is noise.
+    let mistakes = (word.chars().count() / 3).max(1);
     let nearest = known.iter().map(|k| (strsim::damerau_levenshtein(&word.to_lowercase(), &k.to_lowercase()), *k)).min();
     match nearest {
-        Some((distance, name)) if distance <= slips => Some(format!("did you mean {name:?}?")),
+        Some((distance, name)) if distance <= mistakes => Some(format!("did you mean {name:?}?")),
         None => None,
         Some(_) => {
             let list: Vec<String> = known.iter().take(LIST_AT_MOST).map(|k| format!("{k:?}")).collect();

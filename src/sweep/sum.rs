@@ -1,4 +1,4 @@
-//! Check sums of rows: whether a row, or the header above it, is still what the program wrote. They are there against slips (an editor, a
+//! Check sums of rows: whether a row, or the header above it, is still what the program wrote. They are there against mistakes (an editor, a
 //! merge by hand, a worn disk), not against forgery: who wants to can compute them anew.
 
 use crate::{error::RowsError, plain};

@@ -57,7 +57,7 @@ fn with(pointer: &str, value: Value) -> String {
 }
 
 #[test]
-fn slips_are_errors_with_place_and_remedy_and_nothing_is_written() {
+fn mistakes_are_errors_with_place_and_remedy_and_nothing_is_written() {
     let cases: Vec<(String, &str)> = vec![
         (String::new(), "empty"),
         (base().to_string()[..100].to_string(), "ends"),
@@ -139,7 +139,7 @@ fn a_floating_block_falls_at_once_and_is_named() {
 }
 
 #[test]
-fn slips_of_units_are_told() {
+fn mistakes_of_units_are_told() {
     for (pointer, value) in [
         ("/blocks/1/shape", json!({ "box": { "size": [1e6, 1e6, 1e6] } })),
         ("/blocks/1/density", json!(2.4e9)),

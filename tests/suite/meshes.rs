@@ -43,7 +43,7 @@ fn differences(text: &str) -> Vec<String> {
             return wrong;
         }
     };
-    // Density 1 kg/m³ is a slip of units on purpose: masses are volumes.
+    // Density 1 kg/m³ is a mistake of units on purpose: masses are volumes.
     let said: Vec<&str> = model.findings().filter(|f| !f.text.contains("density of 1.000e0")).map(|f| f.text.as_str()).collect();
     let stone = &model.assembly.blocks[model.assembly.find("stone").unwrap()];
     for line in expected {

@@ -3,8 +3,8 @@
 use super::{bounds, density, first, free, is_on_earth, median, short};
 use crate::assembly::Assembly;
 
-/// What looks like a slip in them.
-pub(super) fn slips(assembly: &Assembly) -> Vec<String> {
+/// What looks like a mistake in them.
+pub(super) fn mistakes(assembly: &Assembly) -> Vec<String> {
     [gravity(assembly), densities(assembly), large(assembly), small(assembly), odd(assembly)].into_iter().flatten().collect()
 }
 
@@ -18,7 +18,7 @@ fn gravity(assembly: &Assembly) -> Option<String> {
 
 fn densities(assembly: &Assembly) -> Option<String> {
     let unit = |d: f64| bounds::DENSITY_UNITS.iter().find(|u| u.window.contains(&d));
-    // What was drawn by lot, or scaled for a trial, has densities of all kinds; a slip has those of stone in one other unit.
+    // What was drawn by lot, or scaled for a trial, has densities of all kinds; a mistake has those of stone in one other unit.
     if is_on_earth(assembly)
         && let Some((block, value, others)) = first(free(assembly), density, |d| unit(d).is_some())
         && let Some(unit) = unit(value)
@@ -45,8 +45,8 @@ fn densities(assembly: &Assembly) -> Option<String> {
 fn large(assembly: &Assembly) -> Option<String> {
     let many = free(assembly).count() >= bounds::MANY;
     let size = median(free(assembly).map(|b| b.size))?;
-    let slip = size > if many { bounds::LARGE_OF_MANY } else { bounds::LARGE };
-    if !slip || !bounds::SIZE.contains(&size) {
+    let mistake = size > if many { bounds::LARGE_OF_MANY } else { bounds::LARGE };
+    if !mistake || !bounds::SIZE.contains(&size) {
         return None;
     }
     let (block, value, others) = first(free(assembly), |b| b.size, |s| s >= size)?;

@@ -1,9 +1,9 @@
-//! What stone, masonry, rock and grains are, as ranges outside which a number is more likely a slip than a structure.
+//! What stone, masonry, rock and grains are, as ranges outside which a number is more likely a mistake than a structure.
 //!
 //! Sources of the ranges: densities and unit weights from EN 1991-1-1, annex A (natural stone 20 to 31 kN/m³, brick and mortar 12 to 23); strengths
 //! of stone and masonry from EN 1996-1-1 and of rock from Hoek & Brown, Underground Excavations in Rock (1980): 0.3 MPa (earth) to 400 MPa
 //! (basalt) in compression, joints 0.01 to 3 MPa in shear and tension; friction of joints from Barton & Choubey, Rock Mechanics 10 (1977), and
-//! EN 1996-1-1: angles of 10° to 70°. A window is narrow on purpose: it holds what a slip by that unit makes of a real number, so that a
+//! EN 1996-1-1: angles of 10° to 70°. A window is narrow on purpose: it holds what a mistake by that unit makes of a real number, so that a
 //! number that was chosen lies outside.
 
 use std::ops::RangeInclusive;
@@ -12,7 +12,7 @@ use std::ops::RangeInclusive;
 /// Wider: scenes of the Moon and problems with unit gravity, whose units are their own, are reported. Narrower: 9.8 or 10 switches the checks off.
 pub const EARTH: RangeInclusive<f64> = 9.5..=10.1;
 
-/// Strengths of gravity outside this range, m/s², are slips (9810 is mm/s², 0.00981 is km/s²).
+/// Strengths of gravity outside this range, m/s², are mistakes (9810 is mm/s², 0.00981 is km/s²).
 /// Narrower: unit gravity, the Moon (1.6) or a centrifuge (1000) are reported. Wider: mm/s² pass.
 pub const GRAVITY: RangeInclusive<f64> = 0.05..=5e3;
 
@@ -20,8 +20,8 @@ pub const GRAVITY: RangeInclusive<f64> = 0.05..=5e3;
 /// Wider: centrifuges at three times gravity are reported. Narrower: 32.2 passes.
 pub const GRAVITY_IN_FEET: RangeInclusive<f64> = 32.1..=32.25;
 
-/// Densities outside this range, kg/m³, are slips of one unit or another (aerogel, the lightest solid, has about 1; osmium 22,600).
-/// Wider: a slip by a thousand passes. Narrower: cork, lead or scaled test problems are reported.
+/// Densities outside this range, kg/m³, are mistakes of one unit or another (aerogel, the lightest solid, has about 1; osmium 22,600).
+/// Wider: a mistake by a thousand passes. Narrower: cork, lead or scaled test problems are reported.
 pub const DENSITY: RangeInclusive<f64> = 0.999_999..=3e4;
 
 /// Densities of what is built or piled, kg/m³, from wood to steel: strengths are compared with weights of such things only.
@@ -54,7 +54,7 @@ pub const DENSITY_UNITS: [DensityUnit; 8] = [
     DensityUnit { name: "t/mm³", window: 1.2e-9..=3.4e-9, kilograms: 1e12 },
 ];
 
-/// Block sizes outside this range, m, are slips. Narrower: clay grains or mountains are reported. Wider: micrometres pass.
+/// Block sizes outside this range, m, are mistakes. Narrower: clay grains or mountains are reported. Wider: micrometres pass.
 pub const SIZE: RangeInclusive<f64> = 1e-6..=1e4;
 
 /// Free blocks larger than this, m, are in millimetres, where the median is meant. Larger: bricks of 250 mm pass. Smaller: a wedge of rock of 100 m is
@@ -75,8 +75,8 @@ pub const IN_MILLIMETRES_AMONG_METRES: RangeInclusive<f64> = 300.0..=5e3;
 /// So many free blocks have a median that tells an odd one. Fewer: neither of two is the odd one.
 pub const SEVERAL: usize = 3;
 
-/// A block this many times larger or smaller than the median block is a slip.
-/// Larger: a slip by a million on one block passes where the block was small. Smaller: the ground slab under a heap of sand is reported.
+/// A block this many times larger or smaller than the median block is a mistake.
+/// Larger: a mistake by a million on one block passes where the block was small. Smaller: the ground slab under a heap of sand is reported.
 pub const SIZE_RATIO: f64 = 1e5;
 
 /// Coefficients of friction that are angles in degrees. Lower: rough joints with a coefficient of 3 are reported. Higher on the left: smooth joints

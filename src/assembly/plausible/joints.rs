@@ -7,8 +7,8 @@ use crate::{
     scene::{Friction, JointSpec, Scene},
 };
 
-/// What looks like a slip in them.
-pub(super) fn slips(scene: &Scene, assembly: &Assembly) -> Vec<String> {
+/// What looks like a mistake in them.
+pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
     let path = JsonPath::root().key("joints");
     let weights = Weights::of(assembly);
     let largest = free(assembly).map(|b| b.size).fold(0.0, f64::max);

@@ -9,8 +9,8 @@ use crate::{
 use nalgebra::Vector3;
 use std::collections::HashMap;
 
-/// What looks like a slip in the loads of a resolved scene.
-pub(super) fn slips(scene: &Scene, assembly: &Assembly) -> Vec<String> {
+/// What looks like a mistake in the loads of a resolved scene.
+pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
     let path = JsonPath::root().key("loads");
     let index: HashMap<&str, usize> = assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
     let on_earth = Weights::of(assembly).is_some();

@@ -1,4 +1,4 @@
-//! Numbers that look like slips: of units, of axes, of places. Findings only, each with the probable mistake and the remedy, for there are grains
+//! Numbers that look like mistakes: of units, of axes, of places. Findings only, each with the probable mistake and the remedy, for there are grains
 //! and there are cliffs; what is refused (a load far off its block) is refused where the load is resolved.
 //!
 //! One number alone is rarely proof: a density of 24 is foam, a compressive strength of 5 Pa somebody's unit problem. So real weights are
@@ -18,14 +18,14 @@ use crate::{
     scene::Scene,
 };
 
-/// What looks like a slip in a resolved scene.
-pub(super) fn slips(scene: &Scene, assembly: &Assembly) -> Vec<Finding> {
-    let units = blocks::slips(assembly).into_iter().chain(joints::slips(scene, assembly));
+/// What looks like a mistake in a resolved scene.
+pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<Finding> {
+    let units = blocks::mistakes(assembly).into_iter().chain(joints::mistakes(scene, assembly));
     let units = units.map(|text| Finding::new(FindingCode::Units, text));
-    units.chain(loads::slips(scene, assembly).into_iter().map(|text| Finding::new(FindingCode::Loads, text))).collect()
+    units.chain(loads::mistakes(scene, assembly).into_iter().map(|text| Finding::new(FindingCode::Loads, text))).collect()
 }
 
-/// Slips of several kinds, each with the first place where it is: ten thousand loads in another unit are one finding.
+/// Mistakes of several kinds, each with the first place where it is: ten thousand loads in another unit are one finding.
 #[derive(Default)]
 struct Told(Vec<(&'static str, String, usize)>);
 

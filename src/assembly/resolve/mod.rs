@@ -92,8 +92,8 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     (assembly.dead, assembly.live) = (loads.dead, loads.live);
     (assembly.dead_forces, assembly.live_forces) = (loads.dead_forces, loads.live_forces);
     assembly.findings.extend(told);
-    let slips = plausible::slips(scene, &assembly);
-    assembly.findings.extend(slips);
+    let mistakes = plausible::mistakes(scene, &assembly);
+    assembly.findings.extend(mistakes);
     Ok(assembly)
 }
 

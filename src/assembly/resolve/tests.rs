@@ -491,7 +491,7 @@ fn slips_of_units_are_findings_with_numbers() {
         findings.into_iter().filter(|f| f.code == FindingCode::Units).map(|f| f.text).collect::<Vec<_>>()
     };
     let top = |keys: &str| format!(r#"{{ "id": "top", "shape": {{ "box": {{ "size": [1, 1, 1] }} }}{keys} }}"#);
-    assert!(units(&top(", \"density\": 1"), "\"gravity\": [0, 0, -1],").is_empty(), "unit problems are no slips");
+    assert!(units(&top(", \"density\": 1"), "\"gravity\": [0, 0, -1],").is_empty(), "unit problems are no mistakes");
     assert!(units(&top(", \"density\": 11340"), "").is_empty(), "lead");
     assert!(units(&top(", \"density\": 22600"), "")[0].contains("N/m³"), "the weight of concrete, not osmium");
     let grams = &units(&top(", \"density\": 0.0024"), "")[0];

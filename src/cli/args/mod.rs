@@ -23,7 +23,7 @@ use voussoir::{import::Reach, sweep::Between};
 const EXIT_CODES: &str = "\
 Exit codes:
   0    yes, or done
-  1    a clean negative answer: it falls, a requirement is not met, a result is refuted, a scene has slips
+  1    a clean negative answer: it falls, a requirement is not met, a result is refuted, a scene has mistakes
   2    the command line or an input file is wrong, or a file cannot be written
   3    undecided: the question was asked properly and stayed open
   130  interrupted
@@ -129,11 +129,11 @@ pub enum Verb {
     ///
     /// What was assumed or left out is said on standard error.
     Import(Import),
-    /// Verify a saved result from its scene (proofs without a solver), or look for slips in a scene.
+    /// Verify a saved result from its scene (proofs without a solver), or look for mistakes in a scene.
     ///
     /// A result is verified from the scene inside it, or from --scene: forces are added up block by block, powers of the mechanism joint by
     /// joint, and every word of the answer is compared. Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing.
-    /// Of a scene, near misses, overlaps, loose blocks and slips of units are listed. Exit code 0 if there is none, 1 otherwise.
+    /// Of a scene, near misses, overlaps, loose blocks and mistakes of units are listed. Exit code 0 if there is none, 1 otherwise.
     /// Pictures show what is proved, or the scene.
     Check(Check),
     /// Ask a question of many scenes that differ in a few numbers.

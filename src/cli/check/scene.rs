@@ -1,4 +1,4 @@
-//! Looking for slips in a scene.
+//! Looking for mistakes in a scene.
 
 use crate::cli::{
     args::Check,
@@ -23,12 +23,12 @@ pub fn run(
 ) -> anyhow::Result<Exit> {
     let mut model = prepare(scene).map_err(|e| e.located(source))?;
     model.assembly.findings.splice(0..0, said);
-    let (slips, notes): (Vec<Finding>, Vec<Finding>) = model.findings().cloned().partition(|f| f.code.is_slip());
+    let (mistakes, notes): (Vec<Finding>, Vec<Finding>) = model.findings().cloned().partition(|f| f.code.is_mistake());
     pictures.write(&View::bare(&model))?;
     if args.json {
         terminal::print(&report::json::pretty(&Inspection::new(&model))?)?;
     } else if !pictures.printed() {
-        terminal.page(&text::inspection(&model, &slips, &notes, terminal.layout(&args.file)))?;
+        terminal.page(&text::inspection(&model, &mistakes, &notes, terminal.layout(&args.file)))?;
     }
-    Ok(if slips.is_empty() { Exit::Yes } else { Exit::No })
+    Ok(if mistakes.is_empty() { Exit::Yes } else { Exit::No })
 }

@@ -39,14 +39,14 @@ pub fn verification(file: &ResultFile, verification: &Verification, layout: Layo
 }
 
 /// A scene's likely mistakes, and what else is worth knowing about it.
-pub fn inspection(model: &Model, slips: &[Finding], notes: &[Finding], layout: Layout) -> Page {
+pub fn inspection(model: &Model, mistakes: &[Finding], notes: &[Finding], layout: Layout) -> Page {
     let mut page = Page::new(layout);
-    match slips.len() {
+    match mistakes.len() {
         0 => page.title(&model.assembly.name, "nothing suspicious", Role::Good),
         n => page.title(&model.assembly.name, count(n, "finding"), Role::Bad),
     }
     page.blank();
-    page.row("findings", slips.iter().map(|f| f.text.clone()));
+    page.row("findings", mistakes.iter().map(|f| f.text.clone()));
     page.row("note", notes.iter().map(|f| f.text.clone()));
     let supports = model.assembly.blocks.iter().filter(|b| b.support).count();
     let interfaces = &model.interfaces.list;

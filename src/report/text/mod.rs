@@ -161,7 +161,7 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
     };
     let again =
         if asked.options.is_empty() { format!("voussoir {verb} {scene}") } else { format!("voussoir {verb} {scene} {}", asked.options) };
-    let look = (format!("voussoir check {scene}"), "slips in the scene, near misses, overlaps");
+    let look = (format!("voussoir check {scene}"), "mistakes in the scene, near misses, overlaps");
     let elsewhere = file.critical.is_some() || file.thrust.is_some();
     if file.question == QuestionKind::Simulate {
         return page.commands("next", &simulation::next(file, scene, &again));

@@ -168,7 +168,7 @@ mod tests {
         page.title("", "falls", Role::Bad);
         page.paragraph(LONG);
         page.row("proof", [LONG.to_string()]);
-        page.commands("next", &[("voussoir check a.json".into(), "slips in the scene, near misses, overlaps")]);
+        page.commands("next", &[("voussoir check a.json".into(), "mistakes in the scene, near misses, overlaps")]);
         page.to_string()
     }
 
@@ -178,7 +178,7 @@ mod tests {
             let text = page(width);
             assert!(text.lines().all(|l| l.chars().count() <= width), "{width}:\n{text}");
         }
-        assert!(page(80).contains("next        voussoir check a.json   slips in"), "{}", page(80));
+        assert!(page(80).contains("next        voussoir check a.json   mistakes in"), "{}", page(80));
         assert!(page(60).contains("next        voussoir check a.json\n"), "{}", page(60));
         assert_eq!(page(0), page(NARROW));
     }

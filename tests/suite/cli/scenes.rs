@@ -78,7 +78,7 @@ fn meshes_become_scenes() {
         expect(YES, voussoir(&[&["import", &obj, "--friction", "0.5", "-o", &scene], &support[..]].concat()));
         assert_eq!(desk.read("stone.json")["blocks"].as_array().unwrap().len(), 2);
         let result = desk.saved(YES, &["tilt", &scene, "--toward", "1,0"]);
-        assert!((result["answer"]["load_factor"]["value"].as_f64().unwrap() - 0.5).abs() < 1e-7);
+        assert!((result["answer"]["tan_tilt"]["value"].as_f64().unwrap() - 0.5).abs() < 1e-7);
     }
     // What is missing is said, on standard error alone.
     let answer = expect(YES, voussoir(&["import", &obj]));

@@ -58,7 +58,7 @@ fn what_is_about_the_command_line_names_no_place_in_the_scene() {
 #[test]
 fn an_import_takes_an_angle_beside_the_gap() {
     let desk = Desk::new();
-    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/slips/pile-in-metres.obj");
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mistakes/pile-in-metres.obj");
     let import = |angle: &str| voussoir(&["import", mesh, "--gap", "1e-3", "--angle", angle, "-o", &desk.at("scene.json")]);
     expect(YES, import("3"));
     let scene: Value = serde_json::from_str(&fs::read_to_string(desk.path("scene.json")).unwrap()).unwrap();

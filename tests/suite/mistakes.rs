@@ -1,6 +1,6 @@
-//! Slips of units, axes, loads, meshes and ids, one file each (`tests/slips`), found with the right advice; and no scene that is meant as it is takes one for granted.
+//! Mistakes of units, axes, loads, meshes and ids, one file each (`tests/mistakes`), found with the right advice; and no scene that is meant as it is takes one for granted.
 //!
-//! `slips.json` lists them: `file`, `slip` in words, `ask` (`check`; `refused`, an error of every verb; `import` with its options) and `says`, words that have to be
+//! `mistakes.json` lists them: `file`, `mistake` in words, `ask` (`check`; `refused`, an error of every verb; `import` with its options) and `says`, words that have to be
 //! on one line of what is said.
 
 use super::{granular, reference};
@@ -17,9 +17,9 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Exit code, standard output and standard error of a command in the folder of slips.
+/// Exit code, standard output and standard error of a command in the folder of mistakes.
 fn run(args: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_voussoir")).current_dir(root().join("tests/slips")).args(args).output().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_voussoir")).current_dir(root().join("tests/mistakes")).args(args).output().unwrap();
     let text = |b: &[u8]| String::from_utf8_lossy(b).into_owned();
     (output.status.code().unwrap(), text(&output.stdout), text(&output.stderr))
 }
@@ -31,10 +31,10 @@ fn says(text: &str, words: &[&str]) -> bool {
     lines.iter().map(|l| l.to_string()).chain(pairs).any(|line| words.iter().all(|w| line.contains(w)))
 }
 
-/// What is not as it should be about one slip.
-fn missed(slip: &Value) -> Vec<String> {
-    let file = slip["file"].as_str().unwrap();
-    let words: Vec<&str> = slip["says"].as_array().unwrap().iter().map(|w| w.as_str().unwrap()).collect();
+/// What is not as it should be about one mistake.
+fn missed(mistake: &Value) -> Vec<String> {
+    let file = mistake["file"].as_str().unwrap();
+    let words: Vec<&str> = mistake["says"].as_array().unwrap().iter().map(|w| w.as_str().unwrap()).collect();
     let mut wrong = Vec::new();
     let mut expect = |args: &[&str], code: &dyn Fn(i32) -> bool| {
         let (exit, _, said) = run(args);
@@ -45,7 +45,7 @@ fn missed(slip: &Value) -> Vec<String> {
             wrong.push(format!("{file}: {args:?} ends with {exit}: {said}"));
         }
     };
-    match slip["ask"].as_str().unwrap() {
+    match mistake["ask"].as_str().unwrap() {
         // Said whatever is asked, and however little is wanted; never a refusal.
         "check" => {
             expect(&["assess", file, "--quiet", "--law", "associative"], &|exit| exit != 2);
@@ -71,15 +71,15 @@ fn missed(slip: &Value) -> Vec<String> {
 
 #[test]
 fn every_slip_is_found_with_the_right_advice() {
-    let folder = root().join("tests/slips");
-    let list: Value = serde_json::from_str(&std::fs::read_to_string(folder.join("slips.json")).unwrap()).unwrap();
+    let folder = root().join("tests/mistakes");
+    let list: Value = serde_json::from_str(&std::fs::read_to_string(folder.join("mistakes.json")).unwrap()).unwrap();
     let list = list.as_array().unwrap();
     let wrong: Vec<String> = list.iter().flat_map(missed).collect();
-    println!("{} slips, {} found", list.len(), list.len() - wrong.len().min(list.len()));
+    println!("{} mistakes, {} found", list.len(), list.len() - wrong.len().min(list.len()));
     assert!(list.len() >= 40 && wrong.is_empty(), "{wrong:#?}");
     for entry in std::fs::read_dir(&folder).unwrap() {
         let name = entry.unwrap().file_name().to_string_lossy().into_owned();
-        assert!(name == "slips.json" || list.iter().any(|s| s["file"] == *name), "{name} is in no row");
+        assert!(name == "mistakes.json" || list.iter().any(|s| s["file"] == *name), "{name} is in no row");
     }
 }
 
@@ -91,7 +91,7 @@ fn an_import_says_how_large_the_thing_is_and_where_objects_are_broken() {
     assert!(!said.contains("warning"), "{said}");
     let (exit, scene, said) = run(&["import", "open.obj", "--friction", "0.6", "--support", "ground", "--output", "-"]);
     assert!(exit == 1 && scene.contains("stone1"), "it can be looked at: {said}");
-    let text = std::fs::read_to_string(root().join("tests/slips/open.obj")).unwrap();
+    let text = std::fs::read_to_string(root().join("tests/mistakes/open.obj")).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     let line: usize = said.split("open.obj:").nth(1).and_then(|t| t.split(':').next()).unwrap().parse().unwrap();
     let object = lines[..line].iter().rfind(|l| l.starts_with("o ")).unwrap();
@@ -99,7 +99,7 @@ fn an_import_says_how_large_the_thing_is_and_where_objects_are_broken() {
 }
 
 /// What is said of a scene that is meant as it is.
-fn false_slips(name: &str, scene: &Scene) -> Vec<String> {
+fn false_mistakes(name: &str, scene: &Scene) -> Vec<String> {
     let model = prepare(scene).unwrap_or_else(|e| panic!("{name}: {e}"));
     model.findings().filter(|f| f.code.is_implausible()).map(|f| format!("{name}: {}", f.text)).collect()
 }
@@ -115,10 +115,10 @@ fn no_scene_of_the_collection_raises_a_false_one() {
         }
         let (mut scene, _) = read_file(&path).unwrap();
         read_meshes(&mut scene, &root().join("structures"), Reach::Folder).unwrap();
-        wrong.extend(false_slips(&path.display().to_string(), &scene));
+        wrong.extend(false_mistakes(&path.display().to_string(), &scene));
         seen += 1;
     }
-    println!("{seen} scenes, {} false slips", wrong.len());
+    println!("{seen} scenes, {} false mistakes", wrong.len());
     assert!(seen >= 80 && wrong.is_empty(), "{wrong:#?}");
 }
 
@@ -127,7 +127,7 @@ fn no_template_as_it_is_raises_a_false_one() {
     for template in voussoir::generate::examples() {
         let mut scene = Scene { templates: vec![template.clone()], ..Scene::default() };
         scene.joints.default.friction = Some(Friction::Coefficient(0.7));
-        assert_eq!(false_slips(template.name(), &scene), [""; 0]);
+        assert_eq!(false_mistakes(template.name(), &scene), [""; 0]);
     }
 }
 
@@ -143,17 +143,17 @@ fn no_reference_case_raises_a_false_one() {
         let variants: Vec<&Value> = case["variants"].as_array().into_iter().flatten().chain([case]).filter(|v| given(v)).collect();
         let mu = reference::mu_of(case);
         for variant in variants {
-            let found = false_slips(&case["id"].to_string(), &reference::scene(case, variant, mu));
+            let found = false_mistakes(&case["id"].to_string(), &reference::scene(case, variant, mu));
             // Where a case gives contacts alone, its reader puts supports a kilometre below them.
             wrong.extend(found.into_iter().filter(|text| !text.contains("points lie up to")));
             seen += 1;
         }
     }
     for (name, scene) in granular::scenes() {
-        wrong.extend(false_slips(name, &scene));
+        wrong.extend(false_mistakes(name, &scene));
         seen += 1;
     }
-    println!("{seen} scenes of reference cases, {} false slips", wrong.len());
+    println!("{seen} scenes of reference cases, {} false mistakes", wrong.len());
     assert!(seen >= 60 && wrong.is_empty(), "{wrong:#?}");
 }
 
@@ -203,18 +203,18 @@ fn implausible(findings: &[voussoir::error::Finding]) -> Vec<String> {
 
 #[test]
 fn what_is_expected_of_a_slip_is_really_compared() {
-    let slip = |says: &str| serde_json::json!({ "file": "density-in-kilonewtons.json", "ask": "check", "says": [says] });
-    assert_eq!(missed(&slip("kN/m³")), [""; 0]);
-    assert_eq!(missed(&slip("ounces")).len(), 3);
+    let mistake = |says: &str| serde_json::json!({ "file": "density-in-kilonewtons.json", "ask": "check", "says": [says] });
+    assert_eq!(missed(&mistake("kN/m³")), [""; 0]);
+    assert_eq!(missed(&mistake("ounces")).len(), 3);
 }
 
 #[test]
-fn a_thousand_slips_of_one_kind_are_one_finding() {
-    let path = root().join("tests/slips/load-beside-the-block.json");
+fn a_thousand_mistakes_of_one_kind_are_one_finding() {
+    let path = root().join("tests/mistakes/load-beside-the-block.json");
     let (mut scene, _) = read_file(&path).unwrap();
     let load = scene.loads.live[0].clone();
     scene.loads.live = vec![load.clone(); 1000];
     scene.loads.dead = vec![load];
-    let found = false_slips("loads", &scene);
+    let found = false_mistakes("loads", &scene);
     assert!(found.len() == 1 && found[0].contains("loads.dead[0]") && found[0].ends_with("(and 1000 more loads)"), "{found:?}");
 }

@@ -1,0 +1,163 @@
+//! Verifying a claim from the scene, the forces and the rates: no program, no solver, no trust in any saved number
+//! but the forces and the rates themselves.
+
+mod balance;
+mod load_factor;
+mod motion;
+
+pub use balance::live_alone;
+pub(super) use balance::{balanced, cones};
+pub use load_factor::{dry_map, natural_factor, upper_bound};
+pub use motion::moving;
+
+use super::{
+    Evidence, Verdict, certificate,
+    exact::Grade,
+    thrust,
+    thrust::{Extreme, ThrustAt},
+};
+use crate::interface::Model;
+use balance::live_alone_balances;
+use load_factor::{dry, load_factor};
+use motion::{falls, moves};
+use serde::{Deserialize, Serialize};
+
+/// What is claimed about a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Claim {
+    /// The forces balance the dead load inside the friction cones.
+    Stable,
+    /// The forces balance the dead load inside the friction cones, but the base forces, which need no pre-stress, leave a motion
+    /// that obeys Coulomb's law with them.
+    Conditional,
+    /// The mechanism gains power under the dead load: nothing balances it.
+    Unstable,
+    /// The forces balance the dead load and `lower` × the live load; the mechanism admits no more than `upper`.
+    LoadFactor {
+        /// Claimed load factor.
+        value: f64,
+        /// Claimed lower end.
+        lower: f64,
+        /// Claimed upper end.
+        upper: f64,
+    },
+    /// The forces balance the dead load and `value` × the live load, and the mechanism, driven by the live load, obeys
+    /// Coulomb's law with them: a load factor with dry friction (not the only one, perhaps).
+    DryLoadFactor {
+        /// Claimed load factor.
+        value: f64,
+    },
+    /// The forces balance the live load alone (and other forces the scene at load factor `standing`).
+    Unbounded {
+        /// A load factor at which the scene stands.
+        standing: f64,
+    },
+    /// The mechanism gains power under the dead load and none under the live load.
+    Impossible,
+    /// The forces balance the dead load and push a support with `value`; the mechanism that follows the support admits nothing beyond the
+    /// bracket on the other side.
+    Thrust {
+        /// Where, and in which direction.
+        at: ThrustAt,
+        /// Least or greatest.
+        extreme: Extreme,
+        /// Claimed thrust, N.
+        value: f64,
+        /// Claimed lower end, N.
+        lower: f64,
+        /// Claimed upper end, N.
+        upper: f64,
+    },
+    /// The forces balance without any load and push a support (and other forces balance the dead load): the thrust has no end.
+    EndlessThrust {
+        /// Where, and in which direction.
+        at: ThrustAt,
+        /// Least or greatest.
+        extreme: Extreme,
+    },
+}
+
+impl Claim {
+    /// The verdict that it is; nothing where it is about a number.
+    pub fn verdict(&self) -> Option<Verdict> {
+        match self {
+            Self::Stable => Some(Verdict::Stable),
+            Self::Conditional => Some(Verdict::Conditional),
+            Self::Unstable => Some(Verdict::Unstable),
+            _ => None,
+        }
+    }
+}
+
+/// What the recomputation gave, one line of text each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// What holds, with its number.
+    pub holds: Vec<String>,
+    /// What does not, with its number.
+    pub fails: Vec<String>,
+    /// How exactly: the weakest of all that holds.
+    pub grade: Grade,
+    /// Whether something in it is computed, not proved.
+    pub computed: bool,
+}
+
+impl Findings {
+    pub(super) fn require(&mut self, ok: bool, text: String) {
+        if ok { &mut self.holds } else { &mut self.fails }.push(text);
+    }
+
+    /// Requires something that is proved with a grade.
+    pub(super) fn require_graded(&mut self, ok: bool, grade: Grade, text: impl std::fmt::Display) {
+        self.grade = self.grade.and(grade);
+        self.require(ok, format!("{text} ({grade})"));
+    }
+
+    /// Whether the claim is proved.
+    pub fn proved(&self) -> bool {
+        self.fails.is_empty() && !self.holds.is_empty()
+    }
+}
+
+/// Verifies a claim.
+pub fn verify(model: &Model, claim: &Claim, evidence: Evidence) -> Findings {
+    let Evidence { forces, base, rates } = evidence;
+    let assembly = &model.assembly;
+    let mut f = Findings::default();
+    // How fast a mechanism moves says nothing, but for rates that belong to forces or to a support.
+    let unit;
+    let rates = match claim {
+        Claim::Unstable | Claim::LoadFactor { .. } | Claim::Impossible => {
+            unit = certificate::at_unit_speed(assembly, rates);
+            &unit[..]
+        }
+        _ => rates,
+    };
+    match *claim {
+        Claim::Stable => balanced(&mut f, "", model, forces, 0.0),
+        Claim::Conditional => {
+            balanced(&mut f, "", model, forces, 0.0);
+            match base {
+                Some(base) => moves(&mut f, model, base, rates),
+                None => f.fails.push("the forces without the pre-stress are missing".into()),
+            }
+        }
+        Claim::Unstable => falls(&mut f, model, rates, false),
+        Claim::LoadFactor { value, lower, upper } => load_factor(&mut f, model, forces, rates, [value, lower, upper]),
+        Claim::DryLoadFactor { value } => dry(&mut f, model, forces, rates, value),
+        Claim::Unbounded { standing } => {
+            match base {
+                Some(base) => balanced(&mut f, "at a load factor at which it stands, ", model, base, standing),
+                None => f.fails.push("forces at a load factor at which the scene stands are missing".into()),
+            }
+            live_alone_balances(&mut f, model, forces);
+        }
+        Claim::Thrust { at, extreme, value, lower, upper } => {
+            thrust::verify(&mut f, model, (forces, rates), (&at, extreme), [value, lower, upper]);
+        }
+        Claim::EndlessThrust { at, extreme } => thrust::verify_endless(&mut f, model, forces, base, &at, extreme),
+        Claim::Impossible => falls(&mut f, model, rates, true),
+    }
+    f
+}
