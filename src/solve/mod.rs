@@ -1,8 +1,8 @@
 //! Solving a conic program. What comes back is a candidate, never an answer: every verdict is recomputed from the scene.
 
-use crate::deadline::Deadline;
 mod cholesky;
 mod clarabel;
+pub(crate) mod coulomb;
 mod engine;
 mod interior;
 mod lu;
@@ -14,6 +14,7 @@ pub use self::{
     watched::{Session, solve},
 };
 
+use crate::deadline::Deadline;
 use serde::{Deserialize, Serialize};
 
 /// What the engine said. Only ever reported, never decided on.

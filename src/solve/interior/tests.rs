@@ -5,7 +5,7 @@ use crate::{
     interface::{Model, prepare},
     program::{
         LiveLoad, Statics, StaticsOptions, Unknowns,
-        coulomb::{Aim, Contacts, Hold},
+        coulomb::{Contacts, HeldQuantity, Objective},
         load_factor, unbalance,
     },
     scene::read_str,
@@ -85,11 +85,11 @@ fn both_engines_find_the_same_state_again_and_again() {
     let model = wall(6, 6, [1.0, 0.0, 0.0]);
     let contacts = Contacts::new(&model, StaticsOptions { keep_all: true, ..StaticsOptions::default() });
     let limit = vec![0.7; contacts.discs().count()];
-    let mut program = contacts.program(Aim::State(1e-2), Hold::Limits, &limit);
+    let mut program = contacts.program(Objective::State(1e-2), HeldQuantity::Limits, &limit);
     let mut session = Session::new(&program, &settings(Engine::Interior)).unwrap();
     // The second solve begins where the first passed, the third changes nothing.
     for limit in [0.7, 0.3, 0.3] {
-        contacts.hold(&mut program, Hold::Limits, &vec![limit; contacts.discs().count()]);
+        contacts.hold(&mut program, HeldQuantity::Limits, &vec![limit; contacts.discs().count()]);
         assert!(session.set_rhs(&program.rhs));
         let [a, b] = [session.solve(), solve(&program, &settings(Engine::Clarabel))];
         assert_eq!(a.status, Status::Solved);
