@@ -21,7 +21,7 @@ use crate::{
         coulomb::{Contacts, HeldQuantity, Objective},
     },
     solve::{
-        Settings,
+        EngineSettings, Settings,
         coulomb::{FixedPoint, Law, Solvers, StoppingCriterion, iterate},
     },
     strength::laws::unlimited,
@@ -158,7 +158,8 @@ struct Scene<'a> {
 /// Lowers δ until the law is obeyed.
 fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mut DryLoadFactor) {
     let Model { assembly, interfaces, .. } = scene.model;
-    let settings = Settings { deadline: control.deadline, tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
+    let settings =
+        Settings { deadline: control.deadline, tolerance: TOLERANCES[0], engine: EngineSettings::clarabel(1e-9), ..Settings::default() };
     let scale = check::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
     let first = StoppingCriterion { change: 0.0, solves: 1 };

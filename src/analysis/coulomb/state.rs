@@ -113,7 +113,7 @@ pub fn state(model: &Model, control: &Control) -> State {
 /// The continuation in ε.
 fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State {
     let interfaces = &model.interfaces;
-    let settings = Settings { tolerance: 1e-10, regularization: 1e-8, deadline: control.deadline, ..Settings::default() };
+    let settings = Settings { tolerance: 1e-10, deadline: control.deadline, ..Settings::default() };
     let mut answer = State { motion: StateMotion::Undecided, steps: Vec::new(), forces: Vec::new() };
     let still = vec![0.0; contacts.discs().count()];
     let once = StoppingCriterion { solves: 1, ..STOP };
