@@ -3,13 +3,14 @@
 
 use super::{
     Bracket, Deciding, Proved,
-    attempt::{Attempt, Control, Law, Run, Rung, even, interior, is_large, run, rung, steps},
+    attempt::{Attempt, Control, Law, Rung, is_large, run, steps},
     coulomb::{State, StateMotion, state},
     mend, parts,
 };
 use crate::{
     interface::{Model, floating, is_forest},
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
+    solve::EngineSettings,
     tolerance,
     verdict::{
         Evidence, Forces, Rate, Verdict, certificate,
@@ -54,18 +55,18 @@ pub struct Assessment {
 
 /// Best first; measured on the reference cases.
 const LADDER: [Rung; 8] = [
-    rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
-    rung(Unknowns::Rates, 1.0, true, 1e-11, 1e-8, true),
-    rung(Unknowns::Forces, 4.0, true, 1e-12, 1e-9, true),
-    rung(Unknowns::Forces, 1.0, false, 1e-12, 1e-7, true),
-    rung(Unknowns::Rates, 8.0, false, 1e-12, 1e-9, true),
-    rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
-    even(rung(Unknowns::Forces, 1.0, true, 1e-12, 1e-9, true)),
-    even(rung(Unknowns::Rates, 1.0, true, 1e-12, 1e-9, true)),
+    Rung::FORCES,
+    Rung::RATES,
+    Rung { unit: 4.0, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
+    Rung { local: false, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES },
+    Rung { unit: 8.0, local: false, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
+    Rung { tolerance: 1e-10, engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false }, ..Rung::FORCES },
+    Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
+    Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
 ];
 
 /// Tried first where the program is large.
-const LARGE: [Rung; 1] = [interior(1.0, 1e-10)];
+const LARGE: [Rung; 1] = [Rung { tolerance: 1e-10, ..Rung::INTERIOR }];
 
 /// Decides whether an assembly stands under its dead load, part by part.
 pub fn assess(model: &Model, control: &Control) -> Proved<Assessment> {
@@ -186,11 +187,11 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         }
         let mut statics = step.scaled(&base);
         statics.sections = std::mem::take(&mut sections);
-        let settings = crate::solve::Settings { deadline: control.deadline, ..step.settings };
+        let settings = step.settings(control.deadline);
         let build = |statics: &Statics| program::unbalance(statics, live, step.unknowns);
-        let Run { candidate, solution, size } = run(model, &mut statics, build, &settings);
+        let mut done = run(model, &mut statics, build, &settings);
         let (mut lower, mut upper) = (0.0, f64::INFINITY);
-        if let Some(mut c) = candidate {
+        if let Some(mut c) = done.candidate.take() {
             mend::cut(interfaces, &mut c.forces);
             let lambda = if live == LiveLoad::AnyMultiple { c.solution.x.last().copied().unwrap_or(0.0) } else { 0.0 };
             let mut s = certificate::statics(model, &c.forces, lambda);
@@ -230,20 +231,8 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
                 (answer.unbalance.lower, answer.rates) = (lower, c.rates);
             }
         }
-        answer.attempts.push(Attempt {
-            program: format!("least unbalance in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
-            force_unit: statics.unit / statics.total_load(),
-            engine: settings.engine,
-            tolerance: settings.tolerance,
-            regularization: settings.regularization,
-            engine_status: solution.status,
-            iterations: solution.trace.len(),
-            size,
-            seconds: solution.seconds,
-            engine_value: None,
-            lower,
-            upper,
-        });
+        let name = format!("least unbalance in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" });
+        answer.attempts.push(done.attempt(name, statics.unit / statics.total_load(), &step, None, [lower, upper]));
         sections = statics.sections;
         let b = answer.unbalance;
         // Re-added without rounding, or the next attempt.

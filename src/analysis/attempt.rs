@@ -6,7 +6,7 @@ use crate::{
     deadline::Deadline,
     interface::Model,
     program::{ConicProgram, Positions, Statics, Unknowns},
-    solve::{self, Engine, Settings, Solution, Status},
+    solve::{self, Engine, EngineSettings, Settings, Solution, Status},
     verdict::{Forces, Rate, certificate},
 };
 use schemars::JsonSchema;
@@ -52,8 +52,9 @@ pub struct Attempt {
     pub engine: Engine,
     /// The engine's tolerance.
     pub tolerance: f64,
-    /// The engine's regularisation.
-    pub regularization: f64,
+    /// The engine's regularisation, where it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub regularization: Option<f64>,
     /// The engine's word.
     pub engine_status: Status,
     /// Iterations.
@@ -86,7 +87,7 @@ pub(super) fn steps(ladder: &[Rung], is_part: bool) -> impl Iterator<Item = (boo
     part.iter().map(|step| (false, *step)).chain(ladder.iter().map(move |step| (is_part, *step)))
 }
 
-/// One step of a ladder.
+/// One step of a ladder: how the program is written and scaled, and what solves it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rung {
     pub unknowns: Unknowns,
@@ -94,32 +95,11 @@ pub(super) struct Rung {
     pub unit: f64,
     /// Whether small blocks get units of their own.
     pub local: bool,
-    /// Whether all blocks are measured by the greatest load ([`Statics::even`]).
+    /// Whether all blocks are measured by the greatest load ([`Statics::even`]), for scenes of very unequal masses.
     pub even: bool,
-    pub settings: Settings,
-}
-
-pub(super) const fn rung(unknowns: Unknowns, unit: f64, local: bool, tolerance: f64, regularization: f64, equilibrate: bool) -> Rung {
-    Rung {
-        unknowns,
-        unit,
-        local,
-        even: false,
-        settings: Settings { engine: Engine::Clarabel, tolerance, regularization, equilibrate, iterations: 200, deadline: Deadline::NEVER },
-    }
-}
-
-/// A rung for large programs, in forces on the stiffness matrix of the blocks.
-pub(super) const fn interior(unit: f64, tolerance: f64) -> Rung {
-    let settings = Settings {
-        engine: Engine::Interior,
-        tolerance,
-        regularization: 0.0,
-        equilibrate: false,
-        iterations: 200,
-        deadline: Deadline::NEVER,
-    };
-    Rung { unknowns: Unknowns::Forces, unit, local: true, even: false, settings }
+    /// The engine's tolerance.
+    pub tolerance: f64,
+    pub engine: EngineSettings,
 }
 
 /// Force columns from which a program is large. More: walls of a thousand blocks take several times as long. Fewer: nothing is
@@ -131,12 +111,15 @@ pub(super) fn is_large(statics: &Statics) -> bool {
     statics.matrix.columns >= LARGE
 }
 
-/// The same for scenes of very unequal masses.
-pub(super) const fn even(rung: Rung) -> Rung {
-    Rung { even: true, ..rung }
-}
-
 impl Rung {
+    /// The usual one in forces; what a ladder names differs from it.
+    pub const FORCES: Self =
+        Self { unknowns: Unknowns::Forces, unit: 1.0, local: true, even: false, tolerance: 1e-11, engine: EngineSettings::clarabel(1e-8) };
+    /// The same in rates.
+    pub const RATES: Self = Self { unknowns: Unknowns::Rates, ..Self::FORCES };
+    /// For large programs, on the stiffness matrix of the blocks.
+    pub const INTERIOR: Self = Self { engine: EngineSettings::Interior, ..Self::FORCES };
+
     /// The equilibrium as this step takes it.
     pub fn scaled(&self, statics: &Statics) -> Statics {
         let mut statics = statics.clone();
@@ -145,6 +128,11 @@ impl Rung {
             statics.even();
         }
         statics
+    }
+
+    /// The settings of its solves.
+    pub fn settings(&self, deadline: Deadline) -> Settings {
+        Settings { engine: self.engine, tolerance: self.tolerance, deadline, ..Settings::default() }
     }
 }
 
@@ -166,6 +154,26 @@ pub(super) struct Run {
     pub solution: Solution,
     /// Unknowns and rows of the last program.
     pub size: [usize; 2],
+}
+
+impl Run {
+    /// The record of this run of a rung, with the ends that were recomputed from it.
+    pub fn attempt(&self, program: String, force_unit: f64, step: &Rung, engine_value: Option<f64>, [lower, upper]: [f64; 2]) -> Attempt {
+        Attempt {
+            program,
+            force_unit,
+            engine: step.engine.engine(),
+            tolerance: step.tolerance,
+            regularization: step.engine.regularization(),
+            engine_status: self.solution.status,
+            iterations: self.solution.trace.len(),
+            size: self.size,
+            seconds: self.solution.seconds,
+            engine_value,
+            lower,
+            upper,
+        }
+    }
 }
 
 /// Solves the program that `build` makes, again and again with the bounds on crushing that its forces break, which stay in
@@ -193,5 +201,30 @@ pub(super) fn run(model: &Model, statics: &mut Statics, build: impl Fn(&Statics)
             .map(|(velocity, spin)| Rate { velocity, spin })
             .collect();
         return Run { candidate: Some(Candidate { solution: solution.clone(), forces, rates }), solution, size };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(step: &Rung) -> serde_json::Value {
+        let solution = Solution { x: Vec::new(), z: Vec::new(), status: Status::Solved, trace: Vec::new(), seconds: 0.5 };
+        let run = Run { candidate: None, solution, size: [3, 4] };
+        serde_json::to_value(run.attempt("least unbalance in forces".into(), 1.0, step, None, [0.0, 1.0])).unwrap()
+    }
+
+    #[test]
+    fn a_record_names_the_settings_that_its_engine_has() {
+        let [usual, interior] = [Rung::FORCES, Rung::INTERIOR].map(|step| record(&step));
+        assert_eq!((usual.get("engine"), &usual["regularization"]), (None, &1e-8.into()));
+        assert_eq!((&interior["engine"], interior.get("regularization")), (&"interior".into(), None));
+        // Result files of before have a number there.
+        let mut old = interior.clone();
+        old["regularization"] = 0.0.into();
+        for record in [usual, interior, old] {
+            let read: Attempt = serde_json::from_value(record.clone()).unwrap();
+            assert_eq!(serde_json::to_value(&read).unwrap(), record);
+        }
     }
 }

@@ -8,7 +8,7 @@
 use super::{
     Bracket, Deciding, Proved,
     assess::least_unbalance,
-    attempt::{Attempt, Control, Run, Rung, even, interior, is_large, run, rung, steps},
+    attempt::{Attempt, Control, Rung, is_large, run, steps},
     mend, parts,
 };
 use crate::{
@@ -16,6 +16,7 @@ use crate::{
     deadline::Deadline,
     interface::Model,
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
+    solve::EngineSettings,
     strength::laws::unlimited,
     tolerance,
     verdict::{
@@ -73,22 +74,22 @@ pub struct LoadFactor {
 
 /// Best first; measured on the reference cases and on walls pushed in and out of their plane.
 const LADDER: [Rung; 8] = [
-    rung(Unknowns::Rates, 16.0, true, 1e-9, 1e-9, true),
-    rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
-    rung(Unknowns::Forces, 8.0, true, 1e-11, 1e-9, true),
-    rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true),
-    rung(Unknowns::Rates, 1.0, false, 1e-11, 1e-8, true),
-    rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
-    even(rung(Unknowns::Rates, 1.0, true, 1e-12, 1e-9, true)),
-    even(rung(Unknowns::Forces, 1.0, true, 1e-12, 1e-9, true)),
+    Rung { unit: 16.0, tolerance: 1e-9, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
+    Rung::FORCES,
+    Rung { unit: 8.0, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
+    Rung { local: false, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES },
+    Rung { local: false, ..Rung::RATES },
+    Rung { tolerance: 1e-10, engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false }, ..Rung::FORCES },
+    Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
+    Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
 ];
 
 /// Tried first where the program is large; the second is reached by load factors far below the natural one, now that their size is known.
-const LARGE: [Rung; 2] = [interior(1.0, 1e-7), interior(1.0, 1e-8)];
+const LARGE: [Rung; 2] = [Rung { tolerance: 1e-7, ..Rung::INTERIOR }, Rung { tolerance: 1e-8, ..Rung::INTERIOR }];
 
 /// First, after those for large programs, where all blocks touch in points, as spheres do: on random packings of 5,000 (three to seven contacts a grain) three other rungs
 /// leave brackets of 1e-3 to 1e-5 of the value, one after the other.
-const POINTS: Rung = rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true);
+const POINTS: Rung = Rung { local: false, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES };
 
 /// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is neither where both ends
 /// of the bracket are known): two by clarabel; one where the program is large, for the same method again would say the same.
@@ -260,11 +261,11 @@ fn unknown(model: &Model, left_out: Vec<String>) -> LoadFactor {
 fn climb(model: &Model, base: &mut Statics, step: Rung, scale: f64, deadline: Deadline, answer: &mut LoadFactor) {
     let assembly = &model.assembly;
     let mut statics = step.scaled(base);
-    let settings = crate::solve::Settings { deadline, ..step.settings };
+    let settings = step.settings(deadline);
     let build = |statics: &Statics| program::load_factor(statics, scale, step.unknowns);
-    let Run { candidate, solution, size } = run(model, &mut statics, build, &settings);
+    let mut done = run(model, &mut statics, build, &settings);
     let (mut lower, mut upper, mut engine_value) = (f64::NEG_INFINITY, f64::INFINITY, None);
-    if let Some(c) = candidate {
+    if let Some(c) = done.candidate.take() {
         let lambda = scale * if step.unknowns == Unknowns::Forces { c.solution.x[statics.matrix.columns] } else { -c.solution.z[0] };
         engine_value = Some(lambda);
         let k = certificate::kinematics(model, &c.rates, &c.forces);
@@ -289,20 +290,9 @@ fn climb(model: &Model, base: &mut Statics, step: Rung, scale: f64, deadline: De
         }
         pair(model, answer);
     }
-    answer.attempts.push(Attempt {
-        program: format!("load factor in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }),
-        force_unit: statics.unit / statics.total_load(),
-        engine: settings.engine,
-        tolerance: settings.tolerance,
-        regularization: settings.regularization,
-        engine_status: solution.status,
-        iterations: solution.trace.len(),
-        size,
-        seconds: solution.seconds,
-        engine_value: engine_value.filter(|v| v.is_finite()),
-        lower,
-        upper,
-    });
+    let name = format!("load factor in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" });
+    let engine_value = engine_value.filter(|v| v.is_finite());
+    answer.attempts.push(done.attempt(name, statics.unit / statics.total_load(), &step, engine_value, [lower, upper]));
     base.sections = statics.sections;
 }
 
@@ -335,8 +325,8 @@ pub fn attempt(model: &Model, way: &Formulation) -> LoadFactor {
     let mut statics = Statics::new(model, StaticsOptions { live: true, ..way.options });
     let mut answer = unknown(model, statics.left_out.clone());
     let scale = if way.options.unscaled { 1.0 } else { check::natural_factor(assembly) };
-    let step = Rung { unknowns: way.unknowns, unit: way.unit, local: way.local, even: false, settings: way.settings };
-    climb(model, &mut statics, step, scale, way.settings.deadline, &mut answer);
+    let Formulation { unknowns, unit, local, tolerance, engine, .. } = *way;
+    climb(model, &mut statics, Rung { unknowns, unit, local, even: false, tolerance, engine }, scale, Deadline::NEVER, &mut answer);
     let value = answer.value.abs();
     if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly)) {
         answer.outcome = Outcome::Found;
@@ -355,15 +345,18 @@ pub struct Formulation {
     pub unit: f64,
     /// Whether small blocks get units of their own.
     pub local: bool,
-    /// Settings of the engine.
-    pub settings: crate::solve::Settings,
+    /// The engine's tolerance.
+    pub tolerance: f64,
+    /// What solves it.
+    pub engine: EngineSettings,
 }
 
 impl Formulation {
     /// The first way of [`limit`] in the given unknowns.
     pub fn usual(unknowns: Unknowns) -> Self {
         let step = LADDER.into_iter().find(|step| step.unknowns == unknowns).unwrap_or(LADDER[0]);
-        Self { options: StaticsOptions::default(), unknowns, unit: step.unit, local: step.local, settings: step.settings }
+        let Rung { unit, local, tolerance, engine, .. } = step;
+        Self { options: StaticsOptions::default(), unknowns, unit, local, tolerance, engine }
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::{
     Assessment, Bracket, Control, Outcome, Proved, assess,
-    attempt::{Attempt, Candidate, Run, Rung, run, rung},
+    attempt::{Attempt, Candidate, Rung, run},
     geometric::{Geometric, geometric_factor},
     parts,
 };
@@ -14,7 +14,8 @@ use crate::{
     deadline::Deadline,
     error::{InputError, JsonPath},
     interface::{Interfaces, Model},
-    program::{self, Statics, StaticsOptions, Unknowns},
+    program::{self, Statics, StaticsOptions},
+    solve::EngineSettings,
     strength::laws::unlimited,
     tolerance,
     verdict::{
@@ -52,11 +53,11 @@ pub struct ThrustEnd {
 
 /// Best first, in forces.
 const LADDER: [Rung; 5] = [
-    rung(Unknowns::Forces, 1.0, true, 1e-11, 1e-8, true),
-    rung(Unknowns::Forces, 4.0, true, 1e-12, 1e-9, true),
-    rung(Unknowns::Forces, 0.25, true, 1e-12, 1e-8, true),
-    rung(Unknowns::Forces, 1.0, false, 1e-11, 1e-7, true),
-    rung(Unknowns::Forces, 1.0, true, 1e-10, 1e-8, false),
+    Rung::FORCES,
+    Rung { unit: 4.0, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
+    Rung { unit: 0.25, tolerance: 1e-12, ..Rung::FORCES },
+    Rung { local: false, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES },
+    Rung { tolerance: 1e-10, engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false }, ..Rung::FORCES },
 ];
 
 /// Where a thrust is asked for: on this support, or the first that touches a free block; in the part of this direction across gravity, or outwards.
@@ -193,30 +194,13 @@ impl Problem<'_> {
         columns.into_iter().map(|c| c * by).collect()
     }
 
-    fn attempt(&self, name: &str, statics: &Statics, run: &Run, step: Rung, [lower, upper]: [f64; 2]) -> Attempt {
-        Attempt {
-            program: name.into(),
-            force_unit: statics.unit / self.total,
-            engine: step.settings.engine,
-            tolerance: step.settings.tolerance,
-            regularization: step.settings.regularization,
-            engine_status: run.solution.status,
-            iterations: run.solution.trace.len(),
-            size: run.size,
-            seconds: run.solution.seconds,
-            lower,
-            upper,
-            engine_value: None,
-        }
-    }
-
     /// One attempt; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
     fn climb(&self, base: &mut Statics, step: Rung, deadline: Deadline, answer: &mut ThrustEnd) {
         let model = self.model;
         let interfaces = &model.interfaces;
         let mut statics = base.clone();
         statics.rescale(step.unit, step.local);
-        let settings = crate::solve::Settings { deadline, ..step.settings };
+        let settings = step.settings(deadline);
         let build = |statics: &Statics| program::thrust(statics, &self.objective(statics, interfaces));
         let mut done = run(model, &mut statics, build, &settings);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
@@ -249,7 +233,7 @@ impl Problem<'_> {
             }
         }
         let name = if self.extreme == Extreme::Least { "least thrust in forces" } else { "greatest thrust in forces" };
-        answer.attempts.push(self.attempt(name, &statics, &done, step, ends));
+        answer.attempts.push(done.attempt(name.into(), statics.unit / self.total, &step, None, ends));
         base.sections = statics.sections;
     }
 
@@ -259,7 +243,7 @@ impl Problem<'_> {
         let unlimited = self.model.with_interfaces(unlimited);
         let mut statics = Statics::new(&unlimited, StaticsOptions { keep_all, ..StaticsOptions::default() });
         statics.rescale(step.unit, step.local);
-        let settings = crate::solve::Settings { deadline, ..step.settings };
+        let settings = step.settings(deadline);
         let build = |statics: &Statics| program::endless_thrust(statics, &self.objective(statics, &unlimited.interfaces));
         let mut done = run(&unlimited, &mut statics, build, &settings);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
@@ -274,7 +258,7 @@ impl Problem<'_> {
                 kept.into_iter().zip(forces).for_each(|(k, forces)| answer.forces[k] = forces);
             }
         }
-        answer.attempts.push(self.attempt("thrust without end", &statics, &done, step, ends));
+        answer.attempts.push(done.attempt("thrust without end".into(), statics.unit / self.total, &step, None, ends));
         endless
     }
 }

@@ -57,7 +57,7 @@ pub struct Contacts {
 
 /// How friction is held fixed in one convex program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Hold {
+pub enum HeldQuantity {
     /// The limit `s` of each disc (Tresca).
     Limits,
     /// The sliding rate `μ‖u_t‖` of each disc (De Saxcé).
@@ -66,7 +66,7 @@ pub enum Hold {
 
 /// What is asked of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Aim {
+pub enum Objective {
     /// C: the state, with this ε.
     State(f64),
     /// D: the load factor, with this δ and live load multiplied by the second number.
@@ -125,7 +125,7 @@ impl Contacts {
         Self { statics, points, compliance, passing, lighter, row_images, column_images }
     }
 
-    /// Measures the blocks for [`Aim::State`]: what is left of a block's load over ε is then the block's acceleration, whatever the others
+    /// Measures the blocks for [`Objective::State`]: what is left of a block's load over ε is then the block's acceleration, whatever the others
     /// weigh, as if every mass were on its way for a while.
     pub fn by_mass(&mut self) {
         let mean = self.statics.unit;
@@ -148,25 +148,25 @@ impl Contacts {
     }
 
     /// One convex program of the sequence; `held` are the limits or the sliding rates per point.
-    pub fn program(&self, aim: Aim, hold: Hold, held: &[f64]) -> ConicProgram {
+    pub fn program(&self, objective: Objective, quantity: HeldQuantity, held: &[f64]) -> ConicProgram {
         let (rows, forces) = (self.statics.matrix.rows, self.statics.matrix.columns);
-        let extra = match aim {
-            Aim::State(_) => rows,
-            Aim::LoadFactor(..) => 1,
+        let extra = match objective {
+            Objective::State(_) => rows,
+            Objective::LoadFactor(..) => 1,
         };
         let mut p = ConicProgram::new(forces + extra);
-        let weight = if let Aim::LoadFactor(delta, _) = aim { delta } else { 1.0 };
+        let weight = if let Objective::LoadFactor(delta, _) = objective { delta } else { 1.0 };
         p.quadratic = self.compliance.iter().zip(&self.column_images).map(|(c, n)| c * weight * n).collect();
         p.cone(Cone::Zero(rows));
         copy(&mut p, &self.statics, 0, 0);
-        match aim {
-            Aim::State(epsilon) => {
+        match objective {
+            Objective::State(epsilon) => {
                 p.quadratic.extend(self.row_images.iter().map(|n| n / epsilon));
                 for row in 0..rows {
                     p.matrix.push(row, forces + row, 1.0);
                 }
             }
-            Aim::LoadFactor(_, scale) => {
+            Objective::LoadFactor(_, scale) => {
                 p.quadratic.push(0.0);
                 p.objective[forces] = -1.0;
                 for row in 0..rows {
@@ -177,11 +177,11 @@ impl Contacts {
         for row in 0..rows {
             p.rhs[row] = -self.statics.dead[row];
         }
-        match hold {
-            Hold::Limits => self.limit_cones(&mut p),
-            Hold::SlidingRates => self.friction_cones(&mut p),
+        match quantity {
+            HeldQuantity::Limits => self.limit_cones(&mut p),
+            HeldQuantity::SlidingRates => self.friction_cones(&mut p),
         }
-        self.hold(&mut p, hold, held);
+        self.hold(&mut p, quantity, held);
         p
     }
 
@@ -191,9 +191,9 @@ impl Contacts {
     }
 
     /// Puts new limits or sliding rates (one per disc) into a program made by [`Self::program`].
-    pub fn hold(&self, p: &mut ConicProgram, hold: Hold, held: &[f64]) {
-        match hold {
-            Hold::Limits => {
+    pub fn hold(&self, p: &mut ConicProgram, quantity: HeldQuantity, held: &[f64]) {
+        match quantity {
+            HeldQuantity::Limits => {
                 let mut row = self.statics.matrix.rows + self.points.len();
                 for (disc, &s) in self.discs().zip(held) {
                     let rows = if disc.count == 1 { 2 } else { 3 };
@@ -204,7 +204,7 @@ impl Contacts {
                     row += rows;
                 }
             }
-            Hold::SlidingRates => {
+            HeldQuantity::SlidingRates => {
                 for point in &self.points {
                     p.objective[point.column] = 0.0;
                 }

@@ -7,7 +7,7 @@
 //! `g(q) = ε q − A f(q) − w = 0`, the gradient of a convex function that is once differentiable, and `∂g/∂q = ε + A D Aᵀ` with
 //! `D = P_K′ / c`, symmetric and positive definite (Alart & Curnier 1991; Qi & Sun 1993 for Newton's method on it).
 
-use super::coulomb::{Contacts, Hold, SlidingPoint};
+use super::coulomb::{Contacts, HeldQuantity, SlidingPoint};
 use std::ops::Range;
 
 /// Most columns of a point: a force and three couples.
@@ -30,7 +30,7 @@ struct Joint {
 #[derive(Clone, Copy, Debug)]
 pub enum FrictionLimits<'a> {
     /// What is held, one number a disc.
-    Held(Hold, &'a [f64]),
+    Held(HeldQuantity, &'a [f64]),
     /// Coulomb's law: the normal force of the same rates.
     Law,
 }
@@ -39,7 +39,7 @@ impl<'a> FrictionLimits<'a> {
     /// The same for the discs of one point.
     fn of(self, joint: &Joint, point: &SlidingPoint) -> Self {
         match self {
-            Self::Held(hold, held) => Self::Held(hold, &held[joint.disc..joint.disc + point.discs.len()]),
+            Self::Held(quantity, held) => Self::Held(quantity, &held[joint.disc..joint.disc + point.discs.len()]),
             Self::Law => Self::Law,
         }
     }
@@ -145,8 +145,8 @@ impl Response {
     }
 
     /// Whether forces follow from rates in closed form: with sliding rates held, only where a point has one friction cone and no couples.
-    pub fn is_explicit(contacts: &Contacts, hold: Hold) -> bool {
-        hold == Hold::Limits || contacts.points.iter().all(|p| p.discs.len() < 2)
+    pub fn is_explicit(contacts: &Contacts, quantity: HeldQuantity) -> bool {
+        quantity == HeldQuantity::Limits || contacts.points.iter().all(|p| p.discs.len() < 2)
     }
 
     /// Forces per column and `g` per row at the rates `q`.
@@ -252,7 +252,9 @@ fn answer(
             row[k] = 1.0;
         }
     }
-    if let (FrictionLimits::Held(Hold::SlidingRates, &[rate, ..]), Some(disc)) = (friction, point.discs.first().filter(|d| d.slope > 0.0)) {
+    if let (FrictionLimits::Held(HeldQuantity::SlidingRates, &[rate, ..]), Some(disc)) =
+        (friction, point.discs.first().filter(|d| d.slope > 0.0))
+    {
         // Tension beyond cohesion / μ does not count: the cone ends there.
         let tension = point.tension.min(disc.constant / disc.slope);
         f[0] -= rate / c;
@@ -268,8 +270,8 @@ fn answer(
     }
     for (k, disc) in point.discs.iter().enumerate() {
         let s = match friction {
-            FrictionLimits::Held(Hold::Limits, held) => held.get(k).copied().unwrap_or(0.0),
-            FrictionLimits::Held(Hold::SlidingRates, _) => disc.constant,
+            FrictionLimits::Held(HeldQuantity::Limits, held) => held.get(k).copied().unwrap_or(0.0),
+            FrictionLimits::Held(HeldQuantity::SlidingRates, _) => disc.constant,
             FrictionLimits::Law => disc.limit(f[0]),
         };
         let at = disc.first - point.column..disc.first - point.column + disc.count;

@@ -21,7 +21,7 @@ pub struct Session {
 
 impl Session {
     /// Sets a program up; `None` where the engine refuses it.
-    pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
+    pub fn new(program: &ConicProgram, settings: &Settings, regularization: f64, equilibrate: bool) -> Option<Self> {
         let start = Arc::new(Mutex::new(Instant::now()));
         // The engine counts the seconds of each solve anew: the callback knows better.
         let deadline = settings.deadline;
@@ -47,8 +47,8 @@ impl Session {
             tol_gap_abs: settings.tolerance,
             tol_gap_rel: settings.tolerance,
             tol_feas: settings.tolerance,
-            static_regularization_constant: settings.regularization,
-            equilibrate_enable: settings.equilibrate,
+            static_regularization_constant: regularization,
+            equilibrate_enable: equilibrate,
             verbose: false,
             max_threads: 1,
             // By the fill of the factor: scalar where it is sparse (walls pushed in their plane, arches), in dense blocks where it is not

@@ -1,6 +1,6 @@
 //! A session with the engine that the settings name; clarabel takes what is not made like a program of contacts.
 
-use super::{Engine, Settings, Solution, clarabel, interior};
+use super::{EngineSettings, Settings, Solution, clarabel, interior};
 use crate::program::ConicProgram;
 
 /// A program that is solved several times with changed right-hand sides and objectives.
@@ -13,10 +13,12 @@ impl Session {
     /// Sets a program up; `None` where the engine refuses it.
     pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
         match settings.engine {
-            Engine::Clarabel => clarabel::Session::new(program, settings).map(|s| Self::Clarabel(Box::new(s))),
-            Engine::Interior => match interior::Session::new(program, settings) {
+            EngineSettings::Clarabel { regularization, equilibrate } => {
+                clarabel::Session::new(program, settings, regularization, equilibrate).map(|s| Self::Clarabel(Box::new(s)))
+            }
+            EngineSettings::Interior => match interior::Session::new(program, settings) {
                 Some(s) => Some(Self::Interior(Box::new(s))),
-                None => Self::new(program, &Settings { engine: Engine::Clarabel, ..*settings }),
+                None => Self::new(program, &Settings { engine: EngineSettings::default(), ..*settings }),
             },
         }
     }

@@ -1,8 +1,8 @@
 //! Solving a conic program. What comes back is a candidate, never an answer: every verdict is recomputed from the scene.
 
-use crate::deadline::Deadline;
 mod cholesky;
 mod clarabel;
+pub(crate) mod coulomb;
 mod engine;
 mod interior;
 mod lu;
@@ -14,6 +14,7 @@ pub use self::{
     watched::{Session, solve},
 };
 
+use crate::deadline::Deadline;
 use serde::{Deserialize, Serialize};
 
 /// What the engine said. Only ever reported, never decided on.
@@ -36,7 +37,7 @@ pub enum Status {
     Refused,
 }
 
-/// What solves a program.
+/// What solves a program, by name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Engine {
@@ -54,17 +55,56 @@ impl Engine {
     }
 }
 
+/// What solves a program, with the settings that it alone has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EngineSettings {
+    /// [`Engine::Clarabel`].
+    Clarabel {
+        /// Static regularisation of the KKT system.
+        regularization: f64,
+        /// Whether the engine rescales rows and columns once more.
+        equilibrate: bool,
+    },
+    /// [`Engine::Interior`]; clarabel, as it usually is, where the program is not one of contacts.
+    Interior,
+}
+
+impl EngineSettings {
+    /// Clarabel with this regularisation.
+    pub const fn clarabel(regularization: f64) -> Self {
+        Self::Clarabel { regularization, equilibrate: true }
+    }
+
+    /// The name of the engine.
+    pub fn engine(&self) -> Engine {
+        match self {
+            Self::Clarabel { .. } => Engine::Clarabel,
+            Self::Interior => Engine::Interior,
+        }
+    }
+
+    /// The regularisation of an engine that has one.
+    pub fn regularization(&self) -> Option<f64> {
+        match self {
+            Self::Clarabel { regularization, .. } => Some(*regularization),
+            Self::Interior => None,
+        }
+    }
+}
+
+impl Default for EngineSettings {
+    fn default() -> Self {
+        Self::clarabel(1e-8)
+    }
+}
+
 /// Settings of one solve.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// What solves it.
-    pub engine: Engine,
+    pub engine: EngineSettings,
     /// Tolerance on gap and feasibility, relative and absolute in the scaled program.
     pub tolerance: f64,
-    /// Static regularisation of the KKT system.
-    pub regularization: f64,
-    /// Whether the engine rescales rows and columns once more.
-    pub equilibrate: bool,
     /// Most iterations.
     pub iterations: u32,
     /// When all solves of a session together have to end.
@@ -73,14 +113,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self {
-            engine: Engine::Clarabel,
-            tolerance: 1e-10,
-            regularization: 1e-8,
-            equilibrate: true,
-            iterations: 200,
-            deadline: Deadline::NEVER,
-        }
+        Self { engine: EngineSettings::default(), tolerance: 1e-10, iterations: 200, deadline: Deadline::NEVER }
     }
 }
 

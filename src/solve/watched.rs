@@ -23,11 +23,12 @@ pub fn solve(program: &ConicProgram, settings: &Settings) -> Solution {
 
 /// A program that is solved several times with changed right-hand sides and objectives: ordering and set-up are kept. The seconds of
 /// its settings are those of all solves together.
-pub struct Session(Way);
+pub struct Session(Runner);
 
-enum Way {
-    Here(Box<engine::Session>),
-    Apart { orders: Sender<Order>, answers: Receiver<Answer>, deadline: Deadline },
+/// Where the engine runs.
+enum Runner {
+    Inline(Box<engine::Session>),
+    Threaded { orders: Sender<Order>, answers: Receiver<Answer>, deadline: Deadline },
 }
 
 enum Order {
@@ -44,7 +45,7 @@ enum Answer {
 impl Session {
     /// Sets a program up; `None` where the engine refuses it.
     pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
-        let own = || engine::Session::new(program, settings).map(|s| Self(Way::Here(Box::new(s))));
+        let own = || engine::Session::new(program, settings).map(|s| Self(Runner::Inline(Box::new(s))));
         if !settings.deadline.is_set() {
             return own();
         }
@@ -53,7 +54,7 @@ impl Session {
         let (program, own) = (program.clone(), *settings);
         let spawned = std::thread::Builder::new().name("engine".into()).spawn(move || serve(&program, &own, &inbox, &outbox));
         match spawned {
-            Ok(_) => Some(Self(Way::Apart { orders, answers, deadline: settings.deadline })),
+            Ok(_) => Some(Self(Runner::Threaded { orders, answers, deadline: settings.deadline })),
             Err(_) => None,
         }
     }
@@ -61,24 +62,24 @@ impl Session {
     /// Changes the right-hand side; false where the engine refuses it.
     pub fn set_rhs(&mut self, rhs: &[f64]) -> bool {
         match &mut self.0 {
-            Way::Here(session) => session.set_rhs(rhs),
-            Way::Apart { .. } => matches!(self.ask(Order::Rhs(rhs.to_vec())), Some(Answer::Done(true))),
+            Runner::Inline(session) => session.set_rhs(rhs),
+            Runner::Threaded { .. } => matches!(self.ask(Order::Rhs(rhs.to_vec())), Some(Answer::Done(true))),
         }
     }
 
     /// Changes the objective; false where the engine refuses it.
     pub fn set_objective(&mut self, objective: &[f64]) -> bool {
         match &mut self.0 {
-            Way::Here(session) => session.set_objective(objective),
-            Way::Apart { .. } => matches!(self.ask(Order::Objective(objective.to_vec())), Some(Answer::Done(true))),
+            Runner::Inline(session) => session.set_objective(objective),
+            Runner::Threaded { .. } => matches!(self.ask(Order::Objective(objective.to_vec())), Some(Answer::Done(true))),
         }
     }
 
     /// Solves the program as it stands.
     pub fn solve(&mut self) -> Solution {
         match &mut self.0 {
-            Way::Here(session) => session.solve(),
-            Way::Apart { .. } => match self.ask(Order::Solve) {
+            Runner::Inline(session) => session.solve(),
+            Runner::Threaded { .. } => match self.ask(Order::Solve) {
                 Some(Answer::Solved(solution)) => solution,
                 _ => none(Status::Limit),
             },
@@ -87,7 +88,7 @@ impl Session {
 
     /// The answer to an order; `None` where it does not come in time.
     fn ask(&self, order: Order) -> Option<Answer> {
-        let Way::Apart { orders, answers, deadline } = &self.0 else { return None };
+        let Runner::Threaded { orders, answers, deadline } = &self.0 else { return None };
         orders.send(order).ok()?;
         // In steps, to hear that it is cancelled.
         loop {

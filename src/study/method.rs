@@ -6,7 +6,7 @@ use crate::{
     dynamics::{self, Fate, Fidelity},
     interface::Model,
     program::{Pyramid, Statics, StaticsOptions, Unknowns},
-    solve::Settings,
+    solve::EngineSettings,
     verdict::Verdict,
 };
 use serde::{Deserialize, Serialize};
@@ -102,8 +102,8 @@ impl StudyMethod {
     /// One run.
     pub(super) fn run(self, known: &Known, model: &Model, knob: f64) -> StudyPoint {
         let start = Instant::now();
-        let tolerance = |way: Formulation| Formulation { settings: Settings { tolerance: knob, ..way.settings }, ..way };
-        let once = |way: Formulation| Got::from(&limit::attempt(model, &way));
+        let tolerance = |way: Formulation| Formulation { tolerance: knob, ..way };
+        let once = |way: Formulation| Measurement::from(&limit::attempt(model, &way));
         let pyramid = |around: bool| {
             let options =
                 StaticsOptions { pyramid: Some(Pyramid { facets: knob as usize, around }), keep_all: true, ..StaticsOptions::default() };
@@ -112,10 +112,10 @@ impl StudyMethod {
         // What is simulated slides without opening.
         let dry = matches!(self, Self::DryFriction | Self::Simulation);
         let truth = if dry { known.dry.unwrap_or(f64::NAN) } else { known.truth };
-        let got: Got = match self {
+        let got: Measurement = match self {
             Self::Ladder => {
                 let l = limit::limit(model, &Control { law: Law::Associative, ..Control::default() });
-                Got { value: Some(l.value), ..Got::from(&*l) }
+                Measurement { value: Some(l.value), ..Measurement::from(&*l) }
             }
             Self::Forces => once(tolerance(Formulation::usual(Unknowns::Forces))),
             Self::Rates => once(tolerance(Formulation::usual(Unknowns::Rates))),
@@ -128,7 +128,8 @@ impl StudyMethod {
                 unknowns: Unknowns::Forces,
                 unit: 1.0,
                 local: false,
-                settings: Settings { tolerance: knob, ..Settings::default() },
+                tolerance: knob,
+                engine: EngineSettings::default(),
             }),
             Self::PyramidInside => pyramid(false),
             Self::PyramidAround => pyramid(true),
@@ -136,7 +137,7 @@ impl StudyMethod {
             Self::DryFriction => {
                 let l = limit::limit(model, &Control::default());
                 let d = coulomb::load_factor(model, &l, &Control::default());
-                Got { value: Some(d.value), iterations: d.solves, ..Got::default() }
+                Measurement { value: Some(d.value), iterations: d.solves, ..Measurement::default() }
             }
             Self::Simulation => simulated(model, if knob < 500.0 { Fidelity::Fast } else { Fidelity::Fine }, 2.0 * known.truth),
         };
@@ -157,14 +158,14 @@ impl StudyMethod {
 
 /// What a run gives.
 #[derive(Default)]
-struct Got {
+struct Measurement {
     value: Option<f64>,
     bracket: Option<f64>,
     iterations: usize,
     status: Option<crate::solve::Status>,
 }
 
-impl From<&LoadFactor> for Got {
+impl From<&LoadFactor> for Measurement {
     fn from(l: &LoadFactor) -> Self {
         Self {
             value: l.attempts.last().and_then(|a| a.engine_value),
@@ -181,7 +182,7 @@ const SIMULATED: usize = 40;
 const SIMULATIONS: usize = 8;
 
 /// Halving between 0 and `high` by what happens in time.
-fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Got {
+fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Measurement {
     let settings = dynamics::SimulationSettings { fidelity: Some(fidelity), ..dynamics::SimulationSettings::default() };
     let mut low = 0.0;
     for _ in 0..SIMULATIONS {
@@ -194,11 +195,11 @@ fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Got {
             _ => break,
         }
     }
-    Got { value: Some(0.5 * (low + high)), bracket: Some(high - low), ..Got::default() }
+    Measurement { value: Some(0.5 * (low + high)), bracket: Some(high - low), ..Measurement::default() }
 }
 
 /// Halving between 0 and `high` by verdicts about the scene under its dead load and that multiple of the live load.
-fn bisection(model: &Model, verdicts: usize, mut high: f64) -> Got {
+fn bisection(model: &Model, verdicts: usize, mut high: f64) -> Measurement {
     let (mut low, mut iterations) = (0.0, 0);
     for _ in 0..verdicts {
         let middle = 0.5 * (low + high);
@@ -211,5 +212,5 @@ fn bisection(model: &Model, verdicts: usize, mut high: f64) -> Got {
             Verdict::Undecided => break,
         }
     }
-    Got { value: Some(0.5 * (low + high)), bracket: Some(high - low), iterations, status: None }
+    Measurement { value: Some(0.5 * (low + high)), bracket: Some(high - low), iterations, status: None }
 }

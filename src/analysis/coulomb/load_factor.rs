@@ -9,8 +9,7 @@
 //! Forces and a mechanism at λ say that the scene moves there, not that it comes to rest below: that is asked of the state ([`rest`](super::rest)).
 
 use super::{
-    fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
-    law::Law,
+    crushing::within_strength,
     rest::up_to_rest,
     state::{StateMotion, state},
 };
@@ -19,9 +18,12 @@ use crate::{
     interface::{Model, is_forest},
     program::{
         StaticsOptions,
-        coulomb::{Aim, Contacts, Hold},
+        coulomb::{Contacts, HeldQuantity, Objective},
     },
-    solve::Settings,
+    solve::{
+        EngineSettings, Settings,
+        coulomb::{FixedPoint, Law, Solvers, StoppingCriterion, iterate},
+    },
     strength::laws::unlimited,
     tolerance,
     verdict::{Forces, Rate, Verdict, certificate, check, law},
@@ -82,11 +84,11 @@ impl DryLoadFactor {
 /// δ, and the change of the friction limits (mean block loads) at which the next one is taken up. The error of the law falls with δ,
 /// the engine's noise in the forces grows with its tolerance / δ: the last stage, for what is not exact enough by then, has a
 /// larger δ than the one before and the engine at its finest.
-const STAGES: [(f64, Stop); 4] = [
-    (1e-4, Stop { change: 3e-2, solves: 20 }),
-    (1e-5, Stop { change: 3e-3, solves: 20 }),
-    (6e-8, Stop { change: 3e-5, solves: 20 }),
-    (5e-7, Stop { change: 1e-7, solves: 10 }),
+const STAGES: [(f64, StoppingCriterion); 4] = [
+    (1e-4, StoppingCriterion { change: 3e-2, solves: 20 }),
+    (1e-5, StoppingCriterion { change: 3e-3, solves: 20 }),
+    (6e-8, StoppingCriterion { change: 3e-5, solves: 20 }),
+    (5e-7, StoppingCriterion { change: 1e-7, solves: 10 }),
 ];
 /// What δ is multiplied by for fixed points of Coulomb's law that are not exact enough for it. Smaller: rounding.
 const FURTHER: [f64; 3] = [0.1, 1e-2, 1e-3];
@@ -156,11 +158,13 @@ struct Scene<'a> {
 /// Lowers δ until the law is obeyed.
 fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mut DryLoadFactor) {
     let Model { assembly, interfaces, .. } = scene.model;
-    let settings = Settings { deadline: control.deadline, tolerance: TOLERANCES[0], regularization: 1e-9, ..Settings::default() };
+    let settings =
+        Settings { deadline: control.deadline, tolerance: TOLERANCES[0], engine: EngineSettings::clarabel(1e-9), ..Settings::default() };
     let scale = check::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
-    let first = Stop { change: 0.0, solves: 1 };
-    let Some(mut from) = iterate(&contacts, Aim::LoadFactor(STAGES[0].0, scale), Hold::SlidingRates, still, first, engine(&settings))
+    let first = StoppingCriterion { change: 0.0, solves: 1 };
+    let Some(mut from) =
+        iterate(&contacts, Objective::LoadFactor(STAGES[0].0, scale), HeldQuantity::SlidingRates, still, first, engine(&settings))
     else {
         return;
     };
@@ -172,8 +176,8 @@ fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mu
         }
         let settings = Settings { tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| {
-            let means = Means { law: law.as_mut(), ..engine(&settings) };
-            iterate(c, Aim::LoadFactor(delta, scale), Hold::Limits, c.limits(&from.forces), stop, means)
+            let solvers = Solvers { law: law.as_mut(), ..engine(&settings) };
+            iterate(c, Objective::LoadFactor(delta, scale), HeldQuantity::Limits, c.limits(&from.forces), stop, solvers)
         });
         let Some(point) = point else { break };
         answer.solves += point.solves;
@@ -199,8 +203,8 @@ fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mu
 }
 
 /// The engine alone.
-fn engine(settings: &Settings) -> Means<'_> {
-    Means { newton: None, law: None, settings }
+fn engine(settings: &Settings) -> Solvers<'_> {
+    Solvers { newton: None, law: None, settings }
 }
 
 /// Takes a fixed point as the answer if it is more exact than the one before; says whether it is a value.

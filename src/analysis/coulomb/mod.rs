@@ -1,11 +1,7 @@
-//! Dry friction exactly: fixed points of the convex programs of [`crate::program::coulomb`].
+//! Dry friction exactly: what the fixed points of [`crate::program::coulomb`] say about state and load factor.
 
-mod anderson;
-mod exact;
-mod fixed_point;
-mod law;
+mod crushing;
 mod load_factor;
-mod newton;
 mod rest;
 mod state;
 

@@ -6,19 +6,18 @@
 //! *Proved:* a state that moves is a solution of the law (its natural map is recomputed from the forces). *Computed, not proved:*
 //! that a state at rest is the one the loads produce; rest under a pre-stress and motion are often both exact solutions.
 
-use super::{
-    exact::Exact,
-    fixed_point::{FixedPoint, Means, Stop, iterate, within_strength},
-    newton::Newton,
-};
+use super::crushing::within_strength;
 use crate::{
     analysis::attempt::Control,
     interface::Model,
     program::{
         StaticsOptions,
-        coulomb::{Aim, Contacts, Hold},
+        coulomb::{Contacts, HeldQuantity, Objective},
     },
-    solve::Settings,
+    solve::{
+        Settings,
+        coulomb::{Exact, FixedPoint, Newton, Solvers, StoppingCriterion, iterate},
+    },
     tolerance,
     verdict::{
         Forces,
@@ -94,7 +93,7 @@ const HOPELESS: (f64, usize) = (0.1, 2);
 const NOISE: f64 = 10.0;
 
 /// When a fixed point has settled.
-const STOP: Stop = Stop { change: 1e-5, solves: 25 };
+const STOP: StoppingCriterion = StoppingCriterion { change: 1e-5, solves: 25 };
 
 /// Computes the state; of a symmetric scene from one part of it, and where that leaves it open from the whole.
 pub fn state(model: &Model, control: &Control) -> State {
@@ -114,10 +113,10 @@ pub fn state(model: &Model, control: &Control) -> State {
 /// The continuation in ε.
 fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State {
     let interfaces = &model.interfaces;
-    let settings = Settings { tolerance: 1e-10, regularization: 1e-8, deadline: control.deadline, ..Settings::default() };
+    let settings = Settings { tolerance: 1e-10, deadline: control.deadline, ..Settings::default() };
     let mut answer = State { motion: StateMotion::Undecided, steps: Vec::new(), forces: Vec::new() };
     let still = vec![0.0; contacts.discs().count()];
-    let once = Stop { solves: 1, ..STOP };
+    let once = StoppingCriterion { solves: 1, ..STOP };
     let mut exact = f64::INFINITY;
     let mut exactly: Option<Option<Exact>> = None;
     contacts.by_mass();
@@ -126,14 +125,15 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
     let mut hopeless = 0;
     let rest = vec![0.0; contacts.statics.matrix.rows];
     // The associative state is the first guess of the friction limits.
-    let means = Means { newton: newton.as_mut().map(|n| (n, &rest[..])), law: None, settings: &settings };
-    let mut last = iterate(&contacts, Aim::State(EPSILONS[0]), Hold::SlidingRates, still, once, means);
+    let solvers = Solvers { newton: newton.as_mut().map(|n| (n, &rest[..])), law: None, settings: &settings };
+    let mut last = iterate(&contacts, Objective::State(EPSILONS[0]), HeldQuantity::SlidingRates, still, once, solvers);
     for epsilon in EPSILONS {
         let Some(from) = last.take().filter(|_| !control.deadline.is_over()) else { break };
         let start = Instant::now();
         let tolerance = (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE);
         let settings = Settings { tolerance, ..settings };
-        let point = within_strength(&mut contacts, interfaces, |c| settled(c, Aim::State(epsilon), &from, newton.as_mut(), &settings));
+        let point =
+            within_strength(&mut contacts, interfaces, |c| settled(c, Objective::State(epsilon), &from, newton.as_mut(), &settings));
         let Some(mut point) = point else { break };
         let mut forces = contacts.statics.forces(interfaces, &point.forces);
         let mut moved = law::motion(model, &forces);
@@ -175,15 +175,21 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
 }
 
 /// The fixed point on the limits; where it does not settle, the twin on the sliding rates has a try.
-fn settled(contacts: &Contacts, aim: Aim, from: &FixedPoint, mut newton: Option<&mut Newton>, settings: &Settings) -> Option<FixedPoint> {
-    let means = Means { newton: newton.as_deref_mut().map(|n| (n, &from.rates[..])), law: None, settings };
-    let by_limits = iterate(contacts, aim, Hold::Limits, contacts.limits(&from.forces), STOP, means)?;
+fn settled(
+    contacts: &Contacts,
+    objective: Objective,
+    from: &FixedPoint,
+    mut newton: Option<&mut Newton>,
+    settings: &Settings,
+) -> Option<FixedPoint> {
+    let solvers = Solvers { newton: newton.as_deref_mut().map(|n| (n, &from.rates[..])), law: None, settings };
+    let by_limits = iterate(contacts, objective, HeldQuantity::Limits, contacts.limits(&from.forces), STOP, solvers)?;
     if by_limits.change <= tolerance::COULOMB_SETTLED {
         return Some(by_limits);
     }
     let sliding = contacts.sliding(&contacts.joint_rates(&by_limits.rates));
-    let means = Means { newton: newton.map(|n| (n, &by_limits.rates[..])), law: None, settings };
-    let by_rates = iterate(contacts, aim, Hold::SlidingRates, sliding, STOP, means);
+    let solvers = Solvers { newton: newton.map(|n| (n, &by_limits.rates[..])), law: None, settings };
+    let by_rates = iterate(contacts, objective, HeldQuantity::SlidingRates, sliding, STOP, solvers);
     match by_rates {
         Some(twin) if twin.change <= STOP.change => Some(FixedPoint { solves: twin.solves + by_limits.solves, ..twin }),
         _ => Some(by_limits),

@@ -132,9 +132,9 @@ fn work(w: &Work) -> String {
 
 fn attempt(a: &Attempt) -> String {
     let status = format!("{:?}", a.engine_status);
-    let how = match a.engine {
-        Engine::Clarabel => format!("regularisation {:.0e}", a.regularization),
-        Engine::Interior => "on the stiffness matrix of the blocks".to_string(),
+    let how = match a.regularization {
+        Some(regularization) if a.engine == Engine::Clarabel => format!("regularisation {regularization:.0e}"),
+        _ => "on the stiffness matrix of the blocks".to_string(),
     };
     format!(
         "{}: {} unknowns, {} rows, tolerance {:.0e}, {how}: {} iterations, {}, {status}, bracket {:.9e} to {:.9e}",

@@ -5,11 +5,11 @@ use crate::{
     interface::{Model, prepare},
     program::{
         LiveLoad, Statics, StaticsOptions, Unknowns,
-        coulomb::{Aim, Contacts, Hold},
+        coulomb::{Contacts, HeldQuantity, Objective},
         load_factor, unbalance,
     },
     scene::read_str,
-    solve::{Engine, Status, solve},
+    solve::{EngineSettings, Status, solve},
 };
 
 /// A running-bond wall of blocks 1 × 0.5 × 0.4 m on a fixed course.
@@ -22,7 +22,7 @@ fn wall(courses: usize, length: usize, push: [f64; 3]) -> Model {
     prepare(&read_str("wall", text).unwrap().0).unwrap()
 }
 
-fn settings(engine: Engine) -> Settings {
+fn settings(engine: EngineSettings) -> Settings {
     Settings { engine, tolerance: 1e-9, ..Settings::default() }
 }
 
@@ -41,7 +41,7 @@ fn pushed(courses: usize, length: usize, push: [f64; 3]) -> ConicProgram {
 fn a_wall_pushed_over_turns_about_its_foot() {
     // Thickness over height: every course turns with the others about the lowest edge.
     let program = pushed(8, 6, [0.0, 1.0, 0.0]);
-    let solution = own(&program, &settings(Engine::Interior));
+    let solution = own(&program, &settings(EngineSettings::Interior));
     assert_eq!(solution.status, Status::Solved);
     let lambda = *solution.x.last().unwrap();
     assert!((lambda - 0.5 / (8.0 * 0.4)).abs() < 1e-8, "{lambda}");
@@ -53,7 +53,7 @@ fn a_wall_pushed_over_turns_about_its_foot() {
 #[test]
 fn both_engines_find_the_same_load_factor() {
     for (program, columns) in [(pushed(10, 10, [1.0, 0.0, 0.0]), 1), (pushed(5, 7, [0.6, 0.8, 0.0]), 1)] {
-        let [a, b] = [own(&program, &settings(Engine::Interior)), solve(&program, &settings(Engine::Clarabel))];
+        let [a, b] = [own(&program, &settings(EngineSettings::Interior)), solve(&program, &settings(EngineSettings::default()))];
         assert_eq!(a.status, Status::Solved);
         let last = program.matrix.columns - columns;
         assert!((a.x[last] - b.x[last]).abs() < 1e-7, "{} {}", a.x[last], b.x[last]);
@@ -71,7 +71,7 @@ fn both_engines_find_the_same_least_unbalance() {
         let model = prepare(&read_str("wall", text).unwrap().0).unwrap();
         let statics = Statics::new(&model, StaticsOptions::default());
         let (program, layout) = unbalance(&statics, LiveLoad::Absent, Unknowns::Forces);
-        let [a, b] = [own(&program, &settings(Engine::Interior)), solve(&program, &settings(Engine::Clarabel))];
+        let [a, b] = [own(&program, &settings(EngineSettings::Interior)), solve(&program, &settings(EngineSettings::default()))];
         assert_eq!(a.status, Status::Solved, "{:?}", a.trace.last());
         let value = |s: &Solution| program.objective.iter().zip(&s.x).map(|(c, x)| c * x).sum::<f64>();
         assert!((value(&a) - value(&b)).abs() < 1e-7, "{} {}", value(&a), value(&b));
@@ -85,13 +85,13 @@ fn both_engines_find_the_same_state_again_and_again() {
     let model = wall(6, 6, [1.0, 0.0, 0.0]);
     let contacts = Contacts::new(&model, StaticsOptions { keep_all: true, ..StaticsOptions::default() });
     let limit = vec![0.7; contacts.discs().count()];
-    let mut program = contacts.program(Aim::State(1e-2), Hold::Limits, &limit);
-    let mut session = Session::new(&program, &settings(Engine::Interior)).unwrap();
+    let mut program = contacts.program(Objective::State(1e-2), HeldQuantity::Limits, &limit);
+    let mut session = Session::new(&program, &settings(EngineSettings::Interior)).unwrap();
     // The second solve begins where the first passed, the third changes nothing.
     for limit in [0.7, 0.3, 0.3] {
-        contacts.hold(&mut program, Hold::Limits, &vec![limit; contacts.discs().count()]);
+        contacts.hold(&mut program, HeldQuantity::Limits, &vec![limit; contacts.discs().count()]);
         assert!(session.set_rhs(&program.rhs));
-        let [a, b] = [session.solve(), solve(&program, &settings(Engine::Clarabel))];
+        let [a, b] = [session.solve(), solve(&program, &settings(EngineSettings::default()))];
         assert_eq!(a.status, Status::Solved);
         let forces = contacts.statics.matrix.columns;
         for (a, b) in a.x[..forces].iter().zip(&b.x) {
@@ -104,7 +104,7 @@ fn both_engines_find_the_same_state_again_and_again() {
 #[test]
 fn the_same_program_gives_the_same_bits() {
     let program = pushed(6, 6, [1.0, 0.0, 0.0]);
-    let bits = || own(&program, &settings(Engine::Interior)).x.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+    let bits = || own(&program, &settings(EngineSettings::Interior)).x.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(), bits());
 }
 
@@ -114,18 +114,18 @@ fn what_has_no_answer_ends_without_one() {
     let mut program = pushed(6, 6, [1.0, 0.0, 0.0]);
     let lambda = program.matrix.columns - 1;
     program.matrix.j.iter().zip(&mut program.matrix.v).filter(|(j, _)| **j == lambda).for_each(|(_, v)| *v = 1e-300);
-    let solution = own(&program, &settings(Engine::Interior));
+    let solution = own(&program, &settings(EngineSettings::Interior));
     assert_ne!(solution.status, Status::Solved);
     // No time.
     let program = pushed(6, 6, [1.0, 0.0, 0.0]);
     assert_eq!(
-        own(&program, &Settings { deadline: crate::deadline::Deadline::within(0.0), ..settings(Engine::Interior) }).status,
+        own(&program, &Settings { deadline: crate::deadline::Deadline::within(0.0), ..settings(EngineSettings::Interior) }).status,
         Status::Limit
     );
     // Numbers that are none.
     let mut program = program;
     program.rhs[0] = f64::NAN;
-    assert_ne!(own(&program, &settings(Engine::Interior)).status, Status::Solved);
+    assert_ne!(own(&program, &settings(EngineSettings::Interior)).status, Status::Solved);
 }
 
 #[test]
@@ -135,10 +135,10 @@ fn other_programs_are_left_to_the_other_engine() {
     let model = wall(6, 6, [1.0, 0.0, 0.0]);
     let statics = Statics::new(&model, StaticsOptions { live: true, ..StaticsOptions::default() });
     let (rates, _) = load_factor(&statics, 1.0, Unknowns::Rates);
-    assert!(Session::new(&rates, &settings(Engine::Interior)).is_none());
-    assert_eq!(solve(&rates, &settings(Engine::Interior)).status, Status::Solved);
+    assert!(Session::new(&rates, &settings(EngineSettings::Interior)).is_none());
+    assert_eq!(solve(&rates, &settings(EngineSettings::Interior)).status, Status::Solved);
     // A variable that nothing holds has no stiffness.
     program.objective.push(0.0);
     program.matrix.columns += 1;
-    assert!(own(&program, &settings(Engine::Interior)).x.is_empty());
+    assert!(own(&program, &settings(EngineSettings::Interior)).x.is_empty());
 }

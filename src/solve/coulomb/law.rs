@@ -34,17 +34,17 @@ const LEAST_GROWTH: f64 = 1.01;
 const PUSHES: usize = 200;
 
 /// Coulomb's law for one set of contacts, and where it was last obeyed.
-pub(super) struct Law {
+pub struct Law {
     response: Response,
     lu: Lu,
     /// The live load as program D has it.
     live: Vec<f64>,
-    last: Option<Place>,
+    last: Option<PathPoint>,
 }
 
 /// Displacements, load factor (over the scale) and way.
 #[derive(Clone)]
-struct Place {
+struct PathPoint {
     z: Vec<f64>,
     lambda: f64,
     way: f64,
@@ -62,7 +62,7 @@ impl Law {
 
     /// The fixed point at δ near rates and load factor (over the scale) of one of its programs.
     pub fn near(&mut self, contacts: &Contacts, delta: f64, rates: &[f64], lambda: f64, end: Deadline) -> Option<FixedPoint> {
-        let start = Place { z: rates.iter().map(|y| y / delta).collect(), lambda, way: 1.0 / delta };
+        let start = PathPoint { z: rates.iter().map(|y| y / delta).collect(), lambda, way: 1.0 / delta };
         let way = start.way;
         self.to(contacts, start, way, end)
     }
@@ -90,8 +90,8 @@ impl Law {
     }
 
     /// Newton's method from a place to a way.
-    fn to(&mut self, contacts: &Contacts, start: Place, way: f64, end: Deadline) -> Option<FixedPoint> {
-        let Place { mut z, mut lambda, .. } = start;
+    fn to(&mut self, contacts: &Contacts, start: PathPoint, way: f64, end: Deadline) -> Option<FixedPoint> {
+        let PathPoint { mut z, mut lambda, .. } = start;
         let (mut forces, mut imbalance) = self.look(contacts, &z, lambda);
         // The first step goes all the way, whatever it leaves.
         let mut size = f64::INFINITY;
@@ -126,7 +126,7 @@ impl Law {
             }
             if size <= EXACT + ROUNDING * norm(&z) {
                 let rates = z.iter().map(|z| z / way).collect();
-                self.last = Some(Place { z, lambda, way });
+                self.last = Some(PathPoint { z, lambda, way });
                 return Some(FixedPoint { forces, rates, lambda, change: 0.0, noise: 0.0, solves: 0 });
             }
         }

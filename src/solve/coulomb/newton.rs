@@ -5,7 +5,7 @@
 use crate::{
     deadline::Deadline,
     program::{
-        coulomb::{Contacts, Hold},
+        coulomb::{Contacts, HeldQuantity},
         response::{FrictionLimits, Response},
     },
     solve::{Cholesky, Pattern},
@@ -33,7 +33,7 @@ const EXACT: f64 = 1e-8;
 const ENOUGH: f64 = 1e-10;
 
 /// A solver of the programs of one scene.
-pub(super) struct Newton {
+pub struct Newton {
     response: Response,
     cholesky: Cholesky,
     /// What the imbalance of each row is measured by: a heavy block makes no room for a light one.
@@ -41,7 +41,7 @@ pub(super) struct Newton {
 }
 
 /// One solution.
-pub(super) struct Solved {
+pub struct Solved {
     /// Forces per column.
     pub forces: Vec<f64>,
     /// Rates per row.
@@ -61,14 +61,14 @@ impl Newton {
     pub fn solve(
         &mut self,
         contacts: &Contacts,
-        (epsilon, hold, held): (f64, Hold, &[f64]),
+        (epsilon, quantity, held): (f64, HeldQuantity, &[f64]),
         start: &[f64],
         end: Deadline,
     ) -> Option<Solved> {
-        if !Response::is_explicit(contacts, hold) {
+        if !Response::is_explicit(contacts, quantity) {
             return None;
         }
-        let friction = FrictionLimits::Held(hold, held);
+        let friction = FrictionLimits::Held(quantity, held);
         let look = |q: &[f64]| self.response.forces(contacts, epsilon, friction, q);
         let left = |g: &[f64]| g.iter().zip(&self.carried).map(|(g, c)| (g / c).powi(2)).sum::<f64>().sqrt();
         let mut rates = start.to_vec();
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use crate::{
         interface::prepare,
-        program::{StaticsOptions, coulomb::Aim},
+        program::{StaticsOptions, coulomb::Objective},
         scene::read_str,
         solve::{self, Settings},
     };
@@ -169,7 +169,8 @@ mod tests {
             let n = contacts.statics.matrix.rows;
             let (starts, rows) = response.pattern();
             let held: Vec<f64> = numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
-            let (limits, sliding) = (FrictionLimits::Held(Hold::Limits, &held), FrictionLimits::Held(Hold::SlidingRates, &held));
+            let (limits, sliding) =
+                (FrictionLimits::Held(HeldQuantity::Limits, &held), FrictionLimits::Held(HeldQuantity::SlidingRates, &held));
             for (friction, size) in [limits, sliding, FrictionLimits::Law].into_iter().flat_map(|f| [(f, 0.5), (f, 3.0)]) {
                 let (q, step) = (numbers(n, 1.0, size), numbers(n, 2.0, 1e-7));
                 let imbalance = |sign: f64| {
@@ -198,14 +199,14 @@ mod tests {
         for (which, contacts) in scenes().iter().enumerate() {
             let mut newton = Newton::new(contacts).unwrap();
             let start = vec![0.0; contacts.statics.matrix.rows];
-            for (hold, epsilon) in [(Hold::Limits, 1e-3), (Hold::Limits, 1e-6), (Hold::SlidingRates, 1e-3)] {
+            for (quantity, epsilon) in [(HeldQuantity::Limits, 1e-3), (HeldQuantity::Limits, 1e-6), (HeldQuantity::SlidingRates, 1e-3)] {
                 let held: Vec<f64> = numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
-                let found = newton.solve(contacts, (epsilon, hold, &held), &start, Deadline::NEVER).unwrap();
+                let found = newton.solve(contacts, (epsilon, quantity, &held), &start, Deadline::NEVER).unwrap();
                 let settings = Settings { tolerance: 1e-12, ..Settings::default() };
-                let engine = solve::solve(&contacts.program(Aim::State(epsilon), hold, &held), &settings);
+                let engine = solve::solve(&contacts.program(Objective::State(epsilon), quantity, &held), &settings);
                 let size = norm(&found.forces);
                 for (a, b) in found.forces.iter().zip(&engine.x) {
-                    assert!((a - b).abs() < 1e-5 * size, "scene {which} {hold:?} {epsilon}: {a} and {b} of {size}");
+                    assert!((a - b).abs() < 1e-5 * size, "scene {which} {quantity:?} {epsilon}: {a} and {b} of {size}");
                 }
             }
         }
@@ -216,7 +217,7 @@ mod tests {
         let contacts = contacts(r#"{ "friction": 0.5 }"#, "");
         let start = vec![0.0; contacts.statics.matrix.rows];
         let held = vec![0.1; contacts.discs().count()];
-        let solved = Newton::new(&contacts).unwrap().solve(&contacts, (1e-3, Hold::Limits, &held), &start, Deadline::within(0.0));
+        let solved = Newton::new(&contacts).unwrap().solve(&contacts, (1e-3, HeldQuantity::Limits, &held), &start, Deadline::within(0.0));
         assert!(solved.is_none());
     }
 }

@@ -2,18 +2,16 @@
 
 use super::{anderson::Anderson, law::Law, newton::Newton};
 use crate::{
-    interface::Interfaces,
     program::{
         ConicProgram,
-        coulomb::{Aim, Contacts, Hold},
+        coulomb::{Contacts, HeldQuantity, Objective},
     },
     solve::{Session, Settings, Solution},
-    verdict::certificate,
 };
 
 /// Where an iteration ended.
 #[derive(Clone, Debug)]
-pub(super) struct FixedPoint {
+pub struct FixedPoint {
     /// Forces per column in mean block loads, cut back into the friction cones.
     pub forces: Vec<f64>,
     /// Rates of the blocks: multipliers of the rows.
@@ -30,7 +28,7 @@ pub(super) struct FixedPoint {
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stop {
+pub struct StoppingCriterion {
     /// Change of what is held, in the load that presumably passes there: a measure relative to the current value would let blocks that
     /// are squeezed by ever smaller forces hang, one that is the same everywhere overlooks light blocks among heavy ones.
     pub change: f64,
@@ -39,7 +37,7 @@ pub(super) struct Stop {
 }
 
 /// What solves the programs of one fixed point.
-pub(super) struct Means<'a> {
+pub struct Solvers<'a> {
     /// Newton's method, where the program can be written in the rates, and the rates it starts from.
     pub newton: Option<(&'a mut Newton, &'a [f64])>,
     /// Coulomb's law itself, for load factors.
@@ -49,22 +47,29 @@ pub(super) struct Means<'a> {
 }
 
 /// Iterates from the limits or sliding rates `start`. `None` where the engine refuses the program or leaves no numbers.
-pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>, stop: Stop, means: Means) -> Option<FixedPoint> {
-    let Means { mut newton, mut law, settings } = means;
+pub fn iterate(
+    contacts: &Contacts,
+    objective: Objective,
+    quantity: HeldQuantity,
+    start: Vec<f64>,
+    stop: StoppingCriterion,
+    solvers: Solvers,
+) -> Option<FixedPoint> {
+    let Solvers { mut newton, mut law, settings } = solvers;
     let end = settings.deadline;
     let mut rates = newton.as_ref().map_or_else(Vec::new, |(_, rates)| rates.to_vec());
     let mut held = start;
     let mut engine: Option<Engine> = None;
     let mut anderson = Anderson::default();
     let mut best: Option<FixedPoint> = None;
-    if let (Some(law), Aim::LoadFactor(delta, scale)) = (&mut law, aim)
+    if let (Some(law), Objective::LoadFactor(delta, scale)) = (&mut law, objective)
         && let Some(point) = law.on(contacts, delta, end)
     {
         return Some(FixedPoint { lambda: scale * point.lambda, ..point });
     }
     for k in 1..=stop.solves {
-        let solved = match (&mut newton, aim) {
-            (Some((newton, _)), Aim::State(epsilon)) => newton.solve(contacts, (epsilon, hold, &held), &rates, end),
+        let solved = match (&mut newton, objective) {
+            (Some((newton, _)), Objective::State(epsilon)) => newton.solve(contacts, (epsilon, quantity, &held), &rates, end),
             _ => None,
         };
         let (forces, lambda);
@@ -75,24 +80,27 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
             // Once is enough to know that Newton's method does not get there.
             newton = None;
             let solution = match &mut engine {
-                Some(engine) => engine.again(contacts, hold, &held),
-                None => engine.insert(Engine::new(contacts, (aim, hold, &held), settings)?).session.solve().into(),
+                Some(engine) => engine.again(contacts, quantity, &held),
+                None => engine.insert(Engine::new(contacts, (objective, quantity, &held), settings)?).session.solve().into(),
             };
             let Some(solution) = solution.filter(Solution::is_finite) else { break };
-            (forces, rates, lambda) = read(contacts, aim, &solution);
+            (forces, rates, lambda) = read(contacts, objective, &solution);
         }
-        if let (Some(law), Aim::LoadFactor(delta, scale)) = (&mut law, aim)
+        if let (Some(law), Objective::LoadFactor(delta, scale)) = (&mut law, objective)
             && let Some(point) = law.near(contacts, delta, &rates, lambda / scale, end)
         {
             return Some(FixedPoint { lambda: scale * point.lambda, solves: k, ..point });
         }
         // Under these limits there is no load factor: those that came before wander.
-        if best.is_some() && contacts.residual(&forces, lambda).iter().any(|r| r.abs() > UNBALANCED) && matches!(aim, Aim::LoadFactor(..)) {
+        if best.is_some()
+            && contacts.residual(&forces, lambda).iter().any(|r| r.abs() > UNBALANCED)
+            && matches!(objective, Objective::LoadFactor(..))
+        {
             break;
         }
-        let next = match hold {
-            Hold::Limits => contacts.limits(&forces),
-            Hold::SlidingRates => contacts.sliding(&joint_rates(contacts, aim, &forces, &rates)),
+        let next = match quantity {
+            HeldQuantity::Limits => contacts.limits(&forces),
+            HeldQuantity::SlidingRates => contacts.sliding(&joint_rates(contacts, objective, &forces, &rates)),
         };
         let local = |x: &[f64]| -> Vec<f64> { x.iter().zip(&contacts.passing).map(|(x, p)| x / p).collect() };
         let (now, then) = (local(&held), local(&next));
@@ -102,7 +110,7 @@ pub(super) fn iterate(contacts: &Contacts, aim: Aim, hold: Hold, start: Vec<f64>
         }
         // The last iterate is kept unless an earlier one was much better: near the end the change is the engine's noise.
         if best.as_ref().is_none_or(|b| change < 10.0 * b.change) {
-            let noise = if hold == Hold::Limits { contacts.unsettled(&forces, &held, &next) } else { change };
+            let noise = if quantity == HeldQuantity::Limits { contacts.unsettled(&forces, &held, &next) } else { change };
             best = Some(FixedPoint { forces: contacts.cut(&forces), rates: rates.clone(), lambda, change, noise, solves: k });
         } else if let Some(best) = &mut best {
             best.solves = k;
@@ -126,50 +134,28 @@ struct Engine {
 }
 
 impl Engine {
-    fn new(contacts: &Contacts, (aim, hold, held): (Aim, Hold, &[f64]), settings: &Settings) -> Option<Self> {
-        let program = contacts.program(aim, hold, held);
+    fn new(contacts: &Contacts, (objective, quantity, held): (Objective, HeldQuantity, &[f64]), settings: &Settings) -> Option<Self> {
+        let program = contacts.program(objective, quantity, held);
         let session = Session::new(&program, settings)?;
         Some(Self { program, session })
     }
 
     /// Solves with something else held.
-    fn again(&mut self, contacts: &Contacts, hold: Hold, held: &[f64]) -> Option<Solution> {
-        contacts.hold(&mut self.program, hold, held);
-        let accepted = match hold {
-            Hold::Limits => self.session.set_rhs(&self.program.rhs),
-            Hold::SlidingRates => self.session.set_objective(&self.program.objective),
+    fn again(&mut self, contacts: &Contacts, quantity: HeldQuantity, held: &[f64]) -> Option<Solution> {
+        contacts.hold(&mut self.program, quantity, held);
+        let accepted = match quantity {
+            HeldQuantity::Limits => self.session.set_rhs(&self.program.rhs),
+            HeldQuantity::SlidingRates => self.session.set_objective(&self.program.objective),
         };
         accepted.then(|| self.session.solve())
     }
 }
 
-/// Fixed points again and again, with the bounds on crushing that the last one broke added to the contacts.
-pub(super) fn within_strength(
-    contacts: &mut Contacts,
-    interfaces: &Interfaces,
-    mut solve: impl FnMut(&Contacts) -> Option<FixedPoint>,
-) -> Option<FixedPoint> {
-    let mut solves = 0;
-    for _ in 0..MOST_ROUNDS {
-        let point = solve(contacts)?;
-        solves += point.solves;
-        let broken = certificate::crushed(interfaces, &contacts.statics.forces(interfaces, &point.forces));
-        if broken.is_empty() {
-            return Some(FixedPoint { solves, ..point });
-        }
-        contacts.statics.bound(&broken);
-    }
-    None
-}
-
-/// Fixed points tried with ever more bounds on crushing. Fewer: states near the strength stay undecided. More: time lost.
-const MOST_ROUNDS: usize = 20;
-
-fn read(contacts: &Contacts, aim: Aim, solution: &Solution) -> (Vec<f64>, Vec<f64>, f64) {
+fn read(contacts: &Contacts, objective: Objective, solution: &Solution) -> (Vec<f64>, Vec<f64>, f64) {
     let forces = solution.x[..contacts.statics.matrix.columns].to_vec();
-    let (rates, lambda) = match aim {
-        Aim::State(epsilon) => (contacts.multipliers(&contacts.residual(&forces, 0.0), epsilon), 0.0),
-        Aim::LoadFactor(_, scale) => {
+    let (rates, lambda) = match objective {
+        Objective::State(epsilon) => (contacts.multipliers(&contacts.residual(&forces, 0.0), epsilon), 0.0),
+        Objective::LoadFactor(_, scale) => {
             (solution.z[..contacts.statics.matrix.rows].to_vec(), scale * solution.x[contacts.statics.matrix.columns])
         }
     };
@@ -177,8 +163,8 @@ fn read(contacts: &Contacts, aim: Aim, solution: &Solution) -> (Vec<f64>, Vec<f6
 }
 
 /// `u`, the compliance of the contacts included.
-fn joint_rates(contacts: &Contacts, aim: Aim, forces: &[f64], rates: &[f64]) -> Vec<f64> {
-    let weight = if let Aim::LoadFactor(delta, _) = aim { delta } else { 1.0 };
+fn joint_rates(contacts: &Contacts, objective: Objective, forces: &[f64], rates: &[f64]) -> Vec<f64> {
+    let weight = if let Objective::LoadFactor(delta, _) = objective { delta } else { 1.0 };
     let mut u = contacts.joint_rates(rates);
     for ((u, c), f) in u.iter_mut().zip(&contacts.compliance).zip(forces) {
         *u += weight * c * f;

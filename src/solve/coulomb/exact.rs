@@ -30,7 +30,7 @@ const ENOUGH: f64 = 100.0;
 const MOST_ROWS: usize = 12_000;
 
 /// Coulomb's law for the states of one set of contacts.
-pub(super) struct Exact {
+pub struct Exact {
     response: Response,
     lu: Lu,
     carried: Vec<f64>,

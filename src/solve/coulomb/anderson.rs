@@ -12,7 +12,7 @@ const RANK: f64 = 1e-10;
 
 /// The history of an accelerated iteration over non-negative vectors.
 #[derive(Default)]
-pub(super) struct Anderson {
+pub struct Anderson {
     last: Option<(DVector<f64>, DVector<f64>)>,
     steps: VecDeque<(DVector<f64>, DVector<f64>)>,
 }
