@@ -1,10 +1,13 @@
-//! Time per stage against the number of blocks, on running-bond walls, and the figures that the README quotes.
+//! Time per stage against the number of blocks, on running-bond walls, and the figures that the
+//! README quotes.
 //!
 //! `cargo bench` prints them; one thread throughout. Nothing here asserts a time.
 
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
-use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use criterion::{
+    BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
+};
 use std::{hint::black_box, ops::ControlFlow, process::Command, time::Duration};
 use voussoir::{
     analysis::{self, Control, Law, Limited},
@@ -18,7 +21,8 @@ use voussoir::{
     verdict::{Evidence, check},
 };
 
-/// A wall of `courses` free courses of `length` blocks of 1 × 0.5 × 0.4 m on a fixed course, pushed along x or y.
+/// A wall of `courses` free courses of `length` blocks of 1 × 0.5 × 0.4 m on a fixed course, pushed
+/// along x or y.
 fn wall(courses: usize, length: usize, push: [f64; 3]) -> Scene {
     let text = format!(
         r#"{{ "format": "voussoir-scene/1", "joints": {{ "default": {{ "friction": 0.6 }} }},
@@ -33,39 +37,62 @@ const WALLS: [usize; 3] = [10, 20, 40];
 
 fn stages(c: &mut Criterion) {
     let mut group = c.benchmark_group("stages");
-    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(2));
     for n in WALLS {
         let scene = wall(n, n, [1.0, 0.0, 0.0]);
         let model = &interface::prepare(&scene).expect("the bench scene resolves");
         let assembly = &model.assembly;
         let blocks = assembly.blocks.len();
-        group.bench_function(BenchmarkId::new("resolve", blocks), |b| b.iter(|| assembly::resolve(black_box(&scene))));
-        group.bench_function(BenchmarkId::new("detect", blocks), |b| b.iter(|| interface::detect(black_box(assembly))));
+        group.bench_function(BenchmarkId::new("resolve", blocks), |b| {
+            b.iter(|| assembly::resolve(black_box(&scene)))
+        });
+        group.bench_function(BenchmarkId::new("detect", blocks), |b| {
+            b.iter(|| interface::detect(black_box(assembly)))
+        });
         group.bench_function(BenchmarkId::new("build", blocks), |b| {
             b.iter(|| {
                 program::load_factor(
-                    &Statics::new(model, StaticsOptions { keep_all: false, live: true, ..StaticsOptions::default() }),
+                    &Statics::new(
+                        model,
+                        StaticsOptions { keep_all: false, live: true, ..StaticsOptions::default() },
+                    ),
                     1.0,
                     Unknowns::Rates,
                 )
             })
         });
-        group.bench_function(BenchmarkId::new("assess", blocks), |b| b.iter(|| analysis::assess(model, &Control::default())));
-        group.bench_function(BenchmarkId::new("limit in plane", blocks), |b| b.iter(|| analysis::limit(model, &Control::default())));
+        group.bench_function(BenchmarkId::new("assess", blocks), |b| {
+            b.iter(|| analysis::assess(model, &Control::default()))
+        });
+        group.bench_function(BenchmarkId::new("limit in plane", blocks), |b| {
+            b.iter(|| analysis::limit(model, &Control::default()))
+        });
         let answer = analysis::limit(model, &Control::default());
-        let claim = check::Claim::LoadFactor { value: answer.value, lower: answer.bracket.lower, upper: answer.bracket.upper };
+        let claim = check::Claim::LoadFactor {
+            value: answer.value,
+            lower: answer.bracket.lower,
+            upper: answer.bracket.upper,
+        };
         group.bench_function(BenchmarkId::new("check", blocks), |b| {
             b.iter(|| check::verify(model, &claim, Evidence::new(&answer.forces, &answer.rates)))
         });
         let limited = Limited { bound: answer, dry: None, dead: None };
-        group.bench_function(BenchmarkId::new("result file", blocks), |b| b.iter(|| ResultFile::load_factor(&scene, model, &limited)));
+        group.bench_function(BenchmarkId::new("result file", blocks), |b| {
+            b.iter(|| ResultFile::load_factor(&scene, model, &limited))
+        });
     }
     group.finish();
 }
 
 fn figures(c: &mut Criterion) {
     let mut group = c.benchmark_group("figures");
-    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(3));
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(3));
     let scene = wall(199, 100, [1.0, 0.0, 0.0]);
     let large = assembly::resolve(&scene).expect("the bench scene resolves");
     group.bench_function(format!("interfaces of a wall of {} blocks", large.blocks.len()), |b| {
@@ -73,21 +100,37 @@ fn figures(c: &mut Criterion) {
     });
     let scene = wall(12, 12, [0.0, 1.0, 0.0]);
     let model = interface::prepare(&scene).expect("the bench scene resolves");
-    group.bench_function(format!("limit out of plane, {} blocks", model.assembly.blocks.len()), |b| {
-        b.iter(|| analysis::limit(&model, &Control::default()))
-    });
+    group.bench_function(
+        format!("limit out of plane, {} blocks", model.assembly.blocks.len()),
+        |b| b.iter(|| analysis::limit(&model, &Control::default())),
+    );
     let arch = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/semicircular-arch-thick.json");
     group.bench_function("whole process: assess an arch of 27 voussoirs", |b| {
-        b.iter(|| Command::new(env!("CARGO_BIN_EXE_voussoir")).args(["assess", arch, "--quiet"]).output().expect("the program runs"))
+        b.iter(|| {
+            Command::new(env!("CARGO_BIN_EXE_voussoir"))
+                .args(["assess", arch, "--quiet"])
+                .output()
+                .expect("the program runs")
+        })
     });
     let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/sweeps/arch-in-earthquake.json");
     let sweep = sweep::open(plan.as_ref()).expect("the plan opens");
     let folder = tempfile::tempdir().expect("a folder");
     for threads in [1, 2, 4] {
-        let options = sweep::RunOptions { threads: Some(threads), restart: true, ..sweep::RunOptions::default() };
-        group.bench_function(format!("sweep of {} arches of 27 voussoirs, {threads} threads", sweep.rows()), |b| {
-            b.iter(|| sweep::run(&sweep, &folder.path().join("rows.jsonl"), &options, &|_| {}).expect("the sweep runs"))
-        });
+        let options = sweep::RunOptions {
+            threads: Some(threads),
+            restart: true,
+            ..sweep::RunOptions::default()
+        };
+        group.bench_function(
+            format!("sweep of {} arches of 27 voussoirs, {threads} threads", sweep.rows()),
+            |b| {
+                b.iter(|| {
+                    sweep::run(&sweep, &folder.path().join("rows.jsonl"), &options, &|_| {})
+                        .expect("the sweep runs")
+                })
+            },
+        );
     }
     group.finish();
 }
@@ -95,11 +138,22 @@ fn figures(c: &mut Criterion) {
 /// A real vault under dry friction, where its file is at hand, and a long chain.
 fn large(c: &mut Criterion) {
     let mut group = c.benchmark_group("large");
-    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(5));
-    let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/compas/cra-armadillo.json"));
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(5));
+    let path = std::path::Path::new(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../shared/data/compas/cra-armadillo.json"
+    ));
     if path.exists() {
         let options = import::ImportOptions {
-            supports: (0..8).chain(79..89).chain(217..228).chain(328..332).map(|k| k.to_string()).collect(),
+            supports: (0..8)
+                .chain(79..89)
+                .chain(217..228)
+                .chain(328..332)
+                .map(|k| k.to_string())
+                .collect(),
             friction: Some(Friction::Coefficient(0.84)),
             density: Some(1.0),
             ..import::ImportOptions::default()
@@ -108,9 +162,15 @@ fn large(c: &mut Criterion) {
         scene.loads.live = vec![Load { weight: Some([1.0, 0.0, 0.0]), ..Load::default() }];
         let model = &interface::prepare(&scene).expect("the vault resolves");
         let bound = Control { law: Law::Associative, ..Control::default() };
-        group.bench_function("vault of 399 voussoirs: verdict", |b| b.iter(|| analysis::assess(model, &bound)));
-        group.bench_function("vault of 399 voussoirs: verdict and state", |b| b.iter(|| analysis::assess(model, &Control::default())));
-        group.bench_function("vault of 399 voussoirs: load factor", |b| b.iter(|| analysis::limit(model, &bound)));
+        group.bench_function("vault of 399 voussoirs: verdict", |b| {
+            b.iter(|| analysis::assess(model, &bound))
+        });
+        group.bench_function("vault of 399 voussoirs: verdict and state", |b| {
+            b.iter(|| analysis::assess(model, &Control::default()))
+        });
+        group.bench_function("vault of 399 voussoirs: load factor", |b| {
+            b.iter(|| analysis::limit(model, &bound))
+        });
     } else {
         println!("large: no ../shared/data/compas, the vault of 399 voussoirs is left out");
     }
@@ -130,7 +190,10 @@ fn large(c: &mut Criterion) {
 fn steps(c: &mut Criterion) {
     const STEPS: usize = 100;
     let mut group = c.benchmark_group("dynamics");
-    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(3));
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(3));
     for (courses, length) in [(9, 10), (24, 40)] {
         let scene = wall(courses, length, [1.0, 0.0, 0.0]);
         let model = interface::prepare(&scene).expect("the bench scene resolves");
@@ -145,31 +208,42 @@ fn steps(c: &mut Criterion) {
                 ..SimulationSettings::default()
             };
             group.throughput(Throughput::Elements(STEPS as u64));
-            group.bench_function(BenchmarkId::new(format!("{STEPS} fast steps, {threads} threads"), blocks), |b| {
-                b.iter(|| simulate(&model, &settings, &mut |_| ControlFlow::Continue(())))
-            });
+            group.bench_function(
+                BenchmarkId::new(format!("{STEPS} fast steps, {threads} threads"), blocks),
+                |b| b.iter(|| simulate(&model, &settings, &mut |_| ControlFlow::Continue(()))),
+            );
         }
     }
     group.finish();
 }
 
-/// Load factor and verdict of walls pushed in and out of their plane, by the engine of large programs; the largest take minutes, and
-/// run only where `VOUSSOIR_LARGE_WALLS` is set.
+/// Load factor and verdict of walls pushed in and out of their plane, by the engine of large
+/// programs; the largest take minutes, and run only where `VOUSSOIR_LARGE_WALLS` is set.
 fn walls(c: &mut Criterion) {
     let mut group = c.benchmark_group("walls");
-    group.sample_size(10).sampling_mode(SamplingMode::Flat).warm_up_time(Duration::from_millis(1)).measurement_time(Duration::from_secs(2));
+    group
+        .sample_size(10)
+        .sampling_mode(SamplingMode::Flat)
+        .warm_up_time(Duration::from_millis(1))
+        .measurement_time(Duration::from_secs(2));
     let (inward, outward) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let mut list = vec![(40, 40, inward), (30, 60, outward)];
     if std::env::var_os("VOUSSOIR_LARGE_WALLS").is_some() {
         list.extend([(100, 100, inward), (100, 200, outward), (200, 200, inward)]);
     }
     for (courses, length, push) in list {
-        let model = &interface::prepare(&wall(courses, length, push)).expect("the bench scene resolves");
-        let name = format!("{courses} x {length} {} plane", if push == inward { "in" } else { "out of" });
-        group.bench_function(BenchmarkId::new("limit", &name), |b| b.iter(|| analysis::limit(model, &Control::default())));
+        let model =
+            &interface::prepare(&wall(courses, length, push)).expect("the bench scene resolves");
+        let name =
+            format!("{courses} x {length} {} plane", if push == inward { "in" } else { "out of" });
+        group.bench_function(BenchmarkId::new("limit", &name), |b| {
+            b.iter(|| analysis::limit(model, &Control::default()))
+        });
         for law in [Law::Associative, Law::Coulomb] {
             let control = Control { law, ..Control::default() };
-            group.bench_function(BenchmarkId::new(format!("assess, {law:?}"), &name), |b| b.iter(|| analysis::assess(model, &control)));
+            group.bench_function(BenchmarkId::new(format!("assess, {law:?}"), &name), |b| {
+                b.iter(|| analysis::assess(model, &control))
+            });
         }
     }
     group.finish();

@@ -1,22 +1,32 @@
 //! What the targets have in common.
 
 use libfuzzer_sys::Corpus;
-use voussoir::{interface::{Model, prepare}, scene::{Scene, read_bytes}};
+use voussoir::{
+    interface::{Model, prepare},
+    scene::{Scene, read_bytes},
+};
 
 /// Scenes beyond this are not prepared: the fuzzer looks for mistakes, not for large inputs.
 const MOST: u64 = 60;
 
-/// Whether a scene is small enough to be prepared a million times: the counts of its templates multiply.
+/// Whether a scene is small enough to be prepared a million times: the counts of its templates
+/// multiply.
 pub fn is_small(scene: &Scene) -> bool {
     fn product(value: &serde_json::Value) -> u64 {
         match value {
             serde_json::Value::Number(n) => n.as_u64().unwrap_or(1).max(1),
             serde_json::Value::Array(list) => list.iter().map(product).fold(1, u64::saturating_mul),
-            serde_json::Value::Object(map) => map.values().map(product).fold(1, u64::saturating_mul),
+            serde_json::Value::Object(map) => {
+                map.values().map(product).fold(1, u64::saturating_mul)
+            }
             _ => 1,
         }
     }
-    let templates: u64 = scene.templates.iter().map(|t| serde_json::to_value(t).map_or(u64::MAX, |v| product(&v))).fold(0, u64::saturating_add);
+    let templates: u64 = scene
+        .templates
+        .iter()
+        .map(|t| serde_json::to_value(t).map_or(u64::MAX, |v| product(&v)))
+        .fold(0, u64::saturating_add);
     templates.saturating_add(scene.blocks.len() as u64) <= MOST
 }
 
@@ -49,15 +59,27 @@ pub fn scene(bytes: &[u8], and_prepare: bool) -> Corpus {
 pub fn sound(model: &Model) {
     let finite = |v: &nalgebra::Vector3<f64>| v.iter().all(|x| x.is_finite());
     for block in &model.assembly.blocks {
-        assert!(block.mass > 0.0 && block.mass.is_finite() && finite(&block.centroid) && block.size > 0.0);
+        assert!(
+            block.mass > 0.0
+                && block.mass.is_finite()
+                && finite(&block.centroid)
+                && block.size > 0.0
+        );
         assert!(block.inertia.iter().all(|x| x.is_finite()));
     }
     for face in &model.interfaces.list {
-        assert!(face.a != face.b && face.a < model.assembly.blocks.len() && face.b < model.assembly.blocks.len());
+        assert!(
+            face.a != face.b
+                && face.a < model.assembly.blocks.len()
+                && face.b < model.assembly.blocks.len()
+        );
         assert!(!face.points.is_empty() && face.points.iter().all(finite));
         assert!(face.area >= 0.0 && face.area.is_finite());
         let f = &face.frame;
-        assert!((f.n.norm() - 1.0).abs() < 1e-9 && (f.t1.cross(&f.t2) - f.n).norm() < 1e-9, "no right-handed frame: {f:?}");
+        assert!(
+            (f.n.norm() - 1.0).abs() < 1e-9 && (f.t1.cross(&f.t2) - f.n).norm() < 1e-9,
+            "no right-handed frame: {f:?}"
+        );
     }
     for finding in model.findings() {
         assert!(!finding.text.is_empty());

@@ -1,13 +1,13 @@
-//! When work has to end: a moment, and a flag that whoever waits may raise before. Every loop that can take long asks it; what remains is computed
-//! here and nowhere else.
+//! When work has to end: a moment, and a flag that whoever waits may raise before. Every loop that
+//! can take long asks it; what remains is computed here and nowhere else.
 
 use std::{
     sync::atomic::{AtomicBool, Ordering},
     time::{Duration, Instant},
 };
 
-/// A flag by which a caller ends work on another thread. It lasts as long as the program: one for each thing that can be cancelled, to be
-/// lowered and used again, not one for each question.
+/// A flag by which a caller ends work on another thread. It lasts as long as the program: one for
+/// each thing that can be cancelled, to be lowered and used again, not one for each question.
 #[derive(Debug, Default)]
 pub struct Cancel(AtomicBool);
 
@@ -39,10 +39,15 @@ impl Deadline {
     /// No end.
     pub const NEVER: Self = Self { end: None, cancel: None };
 
-    /// So many seconds from now; what no clock can show is no end. Less than nothing, and what is no number, is over at once.
+    /// So many seconds from now; what no clock can show is no end. Less than nothing, and what is
+    /// no number, is over at once.
     pub fn within(seconds: f64) -> Self {
         let now = Instant::now();
-        let end = if seconds > 0.0 { Duration::try_from_secs_f64(seconds).ok().and_then(|d| now.checked_add(d)) } else { Some(now) };
+        let end = if seconds > 0.0 {
+            Duration::try_from_secs_f64(seconds).ok().and_then(|d| now.checked_add(d))
+        } else {
+            Some(now)
+        };
         Self { end, cancel: None }
     }
 
@@ -69,7 +74,9 @@ impl Deadline {
         if self.cancel.is_some_and(|c| c.0.load(Ordering::Relaxed)) {
             return 0.0;
         }
-        self.end.map_or(f64::INFINITY, |end| end.saturating_duration_since(Instant::now()).as_secs_f64())
+        self.end.map_or(f64::INFINITY, |end| {
+            end.saturating_duration_since(Instant::now()).as_secs_f64()
+        })
     }
 
     /// Whether there is nothing left.
@@ -89,15 +96,26 @@ mod tests {
 
     #[test]
     fn what_is_left_never_grows() {
-        assert!(Deadline::NEVER.left().is_infinite() && !Deadline::NEVER.is_over() && !Deadline::NEVER.is_set());
+        assert!(
+            Deadline::NEVER.left().is_infinite()
+                && !Deadline::NEVER.is_over()
+                && !Deadline::NEVER.is_set()
+        );
         for over in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
             assert!(Deadline::within(over).is_over(), "{over}");
         }
         assert!(!Deadline::within(1e300).is_over() && !Deadline::within(f64::INFINITY).is_set());
         let hour = Deadline::within(3600.0);
         assert!(hour.left() <= 3600.0 && hour.left() > 3500.0);
-        assert!(hour.share(0.5).left() <= 1800.0 && hour.at_most(1e9).left() <= 3600.0 && hour.at_most(1.0).left() <= 1.0);
-        assert!(Deadline::NEVER.share(0.5).left().is_infinite() && Deadline::NEVER.at_most(1.0).left() <= 1.0);
+        assert!(
+            hour.share(0.5).left() <= 1800.0
+                && hour.at_most(1e9).left() <= 3600.0
+                && hour.at_most(1.0).left() <= 1.0
+        );
+        assert!(
+            Deadline::NEVER.share(0.5).left().is_infinite()
+                && Deadline::NEVER.at_most(1.0).left() <= 1.0
+        );
     }
 
     #[test]
@@ -106,7 +124,11 @@ mod tests {
         let deadline = Deadline::within(3600.0).or_when(flag);
         assert!(!deadline.is_over() && deadline.at_most(1800.0).is_set());
         flag.raise();
-        assert!(deadline.is_over() && deadline.share(1.0).is_over() && Deadline::NEVER.or_when(flag).is_over());
+        assert!(
+            deadline.is_over()
+                && deadline.share(1.0).is_over()
+                && Deadline::NEVER.or_when(flag).is_over()
+        );
         flag.lower();
         assert!(!deadline.is_over());
     }

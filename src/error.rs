@@ -131,7 +131,19 @@ pub struct Finding {
 }
 
 /// The kinds of [`Finding`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    Serialize,
+    Deserialize,
+    schemars::JsonSchema,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum FindingCode {
     /// A value nobody gave was assumed.
@@ -173,7 +185,8 @@ pub enum FindingCode {
 }
 
 impl FindingCode {
-    /// Whether the scene is then likely not the one that is meant: its numbers, axes or loads look like mistakes. Such findings reach everybody who asks.
+    /// Whether the scene is then likely not the one that is meant: its numbers, axes or loads look
+    /// like mistakes. Such findings reach everybody who asks.
     pub fn is_implausible(self) -> bool {
         matches!(self, Self::Units | Self::Axes | Self::Loads)
     }
@@ -181,9 +194,18 @@ impl FindingCode {
     /// Whether it is likely a mistake in the scene, and not only worth knowing.
     pub fn is_mistake(self) -> bool {
         match self {
-            Self::Units | Self::Axes | Self::Loads | Self::NearMiss | Self::Overlap | Self::Floating => true,
+            Self::Units
+            | Self::Axes
+            | Self::Loads
+            | Self::NearMiss
+            | Self::Overlap
+            | Self::Floating => true,
             Self::Orientation | Self::Missing | Self::WithoutEffect => true,
-            Self::Assumed | Self::Mended | Self::Warped | Self::GapClosed | Self::ContactIgnored => false,
+            Self::Assumed
+            | Self::Mended
+            | Self::Warped
+            | Self::GapClosed
+            | Self::ContactIgnored => false,
             Self::Numerics | Self::LeftOut | Self::Converted | Self::WorstCase => false,
         }
     }

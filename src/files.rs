@@ -1,5 +1,6 @@
-//! Opening files that somebody else may have made: only regular ones, for a pipe never ends and a device may do anything; and what was
-//! looked at is what is read, for a name may lead elsewhere a moment later.
+//! Opening files that somebody else may have made: only regular ones, for a pipe never ends and a
+//! device may do anything; and what was looked at is what is read, for a name may lead elsewhere a
+//! moment later.
 
 use std::{
     fs::{File, Metadata, OpenOptions},
@@ -7,17 +8,20 @@ use std::{
     path::Path,
 };
 
-/// Opens a regular file for reading. Never waits: a pipe without a writer is refused like any other.
+/// Opens a regular file for reading. Never waits: a pipe without a writer is refused like any
+/// other.
 ///
 /// # Errors
 /// The file cannot be opened, or is a folder, a pipe, a device or the like.
 pub fn open(path: &Path) -> io::Result<File> {
-    // Looked at before it is opened, for opening alone may do something to a device; and once more when it cannot change any longer.
+    // Looked at before it is opened, for opening alone may do something to a device; and once more
+    // when it cannot change any longer.
     regular(&std::fs::metadata(path)?)?;
     opened(OpenOptions::new().read(true), path)
 }
 
-/// Opens a regular file for reading and writing, made where there is none; nothing of it is cut off.
+/// Opens a regular file for reading and writing, made where there is none; nothing of it is cut
+/// off.
 ///
 /// # Errors
 /// As [`open`].
@@ -43,9 +47,13 @@ fn opened(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-/// The system's error about a file that was to be made under a name of chance, without that name: nobody has given it, and it is gone.
+/// The system's error about a file that was to be made under a name of chance, without that name:
+/// nobody has given it, and it is gone.
 pub fn unnamed(e: io::Error) -> io::Error {
-    let cause = e.get_ref().and_then(|e| std::error::Error::source(e)).and_then(|e| e.downcast_ref::<io::Error>());
+    let cause = e
+        .get_ref()
+        .and_then(|e| std::error::Error::source(e))
+        .and_then(|e| e.downcast_ref::<io::Error>());
     cause.and_then(io::Error::raw_os_error).map_or(e, io::Error::from_raw_os_error)
 }
 
@@ -53,13 +61,19 @@ pub fn unnamed(e: io::Error) -> io::Error {
 fn regular(there: &Metadata) -> io::Result<()> {
     match (there.is_file(), there.is_dir()) {
         (true, _) => Ok(()),
-        (_, true) => Err(io::Error::new(io::ErrorKind::IsADirectory, "this is a folder; name a file in it")),
-        _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "this is no regular file but a pipe, a device or the like; name a file")),
+        (_, true) => {
+            Err(io::Error::new(io::ErrorKind::IsADirectory, "this is a folder; name a file in it"))
+        }
+        _ => Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "this is no regular file but a pipe, a device or the like; name a file",
+        )),
     }
 }
 
-/// Opens a regular file below a folder. `path` has neither links nor steps up in it: where one of its names is a link by now, the file
-/// is not opened, so that nothing outside the folder can take its place between a look and this.
+/// Opens a regular file below a folder. `path` has neither links nor steps up in it: where one of
+/// its names is a link by now, the file is not opened, so that nothing outside the folder can take
+/// its place between a look and this.
 ///
 /// # Errors
 /// As [`open`], or there is a link on the way.
@@ -69,32 +83,52 @@ pub fn open_below(folder: &Path, path: &Path) -> io::Result<File> {
     let way = OFlags::DIRECTORY | OFlags::CLOEXEC;
     let folder = openat(CWD, folder, OFlags::RDONLY | way, Mode::empty())?;
     let flags = OFlags::RDONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
-    let file = File::from(at_once(&folder, path, flags).unwrap_or_else(|| step_by_step(folder, path, flags))?);
+    let file = File::from(
+        at_once(&folder, path, flags).unwrap_or_else(|| step_by_step(folder, path, flags))?,
+    );
     regular(&file.metadata()?)?;
     Ok(file)
 }
 
 /// By one call that follows no link; `None` where the system does not have it, or forbids it.
 #[cfg(target_os = "linux")]
-fn at_once(folder: &rustix::fd::OwnedFd, path: &Path, flags: rustix::fs::OFlags) -> Option<rustix::io::Result<rustix::fd::OwnedFd>> {
+fn at_once(
+    folder: &rustix::fd::OwnedFd,
+    path: &Path,
+    flags: rustix::fs::OFlags,
+) -> Option<rustix::io::Result<rustix::fd::OwnedFd>> {
     use rustix::{
         fs::{Mode, ResolveFlags, openat2},
         io::Errno,
     };
-    match openat2(folder, path, flags, Mode::empty(), ResolveFlags::BENEATH | ResolveFlags::NO_SYMLINKS | ResolveFlags::NO_MAGICLINKS) {
+    match openat2(
+        folder,
+        path,
+        flags,
+        Mode::empty(),
+        ResolveFlags::BENEATH | ResolveFlags::NO_SYMLINKS | ResolveFlags::NO_MAGICLINKS,
+    ) {
         Err(Errno::NOSYS | Errno::PERM | Errno::INVAL | Errno::TOOBIG) => None,
         opened => Some(opened),
     }
 }
 
 #[cfg(all(unix, not(target_os = "linux")))]
-fn at_once(_: &rustix::fd::OwnedFd, _: &Path, _: rustix::fs::OFlags) -> Option<rustix::io::Result<rustix::fd::OwnedFd>> {
+fn at_once(
+    _: &rustix::fd::OwnedFd,
+    _: &Path,
+    _: rustix::fs::OFlags,
+) -> Option<rustix::io::Result<rustix::fd::OwnedFd>> {
     None
 }
 
 /// Name by name, each opened in the folder before it and none of them a link.
 #[cfg(unix)]
-fn step_by_step(folder: rustix::fd::OwnedFd, path: &Path, flags: rustix::fs::OFlags) -> rustix::io::Result<rustix::fd::OwnedFd> {
+fn step_by_step(
+    folder: rustix::fd::OwnedFd,
+    path: &Path,
+    flags: rustix::fs::OFlags,
+) -> rustix::io::Result<rustix::fd::OwnedFd> {
     use rustix::{
         fs::{Mode, OFlags, openat},
         io::Errno,
@@ -111,7 +145,8 @@ fn step_by_step(folder: rustix::fd::OwnedFd, path: &Path, flags: rustix::fs::OFl
     Ok(at)
 }
 
-/// As on other systems, where the folder can be held while its files are opened; here a name may lead elsewhere between two looks.
+/// As on other systems, where the folder can be held while its files are opened; here a name may
+/// lead elsewhere between two looks.
 ///
 /// # Errors
 /// As [`open`].
@@ -151,8 +186,13 @@ mod tests {
         let below = |path: &str| text(open_below(&folder, Path::new(path)));
         let steps = |path: &str| {
             use rustix::fs::{CWD, Mode, OFlags, openat};
-            let held = openat(CWD, &folder, OFlags::RDONLY | OFlags::DIRECTORY, Mode::empty()).unwrap();
-            text(step_by_step(held, Path::new(path), OFlags::RDONLY).map(File::from).map_err(Into::into))
+            let held =
+                openat(CWD, &folder, OFlags::RDONLY | OFlags::DIRECTORY, Mode::empty()).unwrap();
+            text(
+                step_by_step(held, Path::new(path), OFlags::RDONLY)
+                    .map(File::from)
+                    .map_err(Into::into),
+            )
         };
         for open in [&below as &dyn Fn(&str) -> io::Result<String>, &steps] {
             assert_eq!(open("stones/a").unwrap(), "inside");
@@ -179,7 +219,9 @@ mod tests {
                     fs::rename(folder.join("file"), folder.join("a")).unwrap();
                 }
             });
-            let read: Vec<_> = (0..20_000).filter_map(|_| text(open_below(&folder, Path::new("a"))).ok()).collect();
+            let read: Vec<_> = (0..20_000)
+                .filter_map(|_| text(open_below(&folder, Path::new("a"))).ok())
+                .collect();
             done.store(true, Ordering::Relaxed);
             assert!(!read.is_empty() && read.iter().all(|t| t == "inside"));
         });

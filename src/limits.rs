@@ -1,8 +1,10 @@
-//! What a file may ask for: counts beyond which a number is taken for a mistake, and memory that is estimated before it is taken.
+//! What a file may ask for: counts beyond which a number is taken for a mistake, and memory that is
+//! estimated before it is taken.
 //!
-//! Estimates are upper bounds by the measured cost of one item (corner, block, contact point); what does not fit is an error that
-//! says how much it would take. The memory that counts is [`set_memory`]'s, else what the system says is free (Linux), else without
-//! bound. It is one number for the process, as memory itself is; no answer depends on it.
+//! Estimates are upper bounds by the measured cost of one item (corner, block, contact point); what
+//! does not fit is an error that says how much it would take. The memory that counts is
+//! [`set_memory`]'s, else what the system says is free (Linux), else without bound. It is one
+//! number for the process, as memory itself is; no answer depends on it.
 
 mod system;
 
@@ -22,23 +24,25 @@ use std::{
     },
 };
 
-/// Longest file, bytes. Longer: the text and what is made of it no longer fit into common machines. Shorter: a million blocks with
-/// their corners (some 700 bytes each) are refused.
+/// Longest file, bytes. Longer: the text and what is made of it no longer fit into common machines.
+/// Shorter: a million blocks with their corners (some 700 bytes each) are refused.
 pub const FILE: u64 = 2 << 30;
 
-/// Most blocks of a scene, and of one template. More: a mistake in a count ends in minutes of work or in exhausted memory. Fewer: large
-/// packings are refused.
+/// Most blocks of a scene, and of one template. More: a mistake in a count ends in minutes of work
+/// or in exhausted memory. Fewer: large packings are refused.
 pub const BLOCKS: usize = 1_000_000;
 
-/// Most pairs of blocks near enough to touch. More: a thousand copies of a block in one place, or ten thousand in a large overlap,
-/// take hours. Fewer: heaps of a million grains (some seven pairs each) are refused.
+/// Most pairs of blocks near enough to touch. More: a thousand copies of a block in one place, or
+/// ten thousand in a large overlap, take hours. Fewer: heaps of a million grains (some seven pairs
+/// each) are refused.
 pub const PAIRS: usize = 20_000_000;
 
-/// Most contact points of a scene. More: no program of this size is solved here. Fewer: walls of a million bricks are refused by
-/// `check`, which solves nothing.
+/// Most contact points of a scene. More: no program of this size is solved here. Fewer: walls of a
+/// million bricks are refused by `check`, which solves nothing.
 pub const CONTACT_POINTS: usize = 40_000_000;
 
-/// Bytes that reading takes per byte of a scene, a plan or a result: its text, and what is made of it.
+/// Bytes that reading takes per byte of a scene, a plan or a result: its text, and what is made of
+/// it.
 pub const PER_BYTE: u64 = 16;
 /// The same for files of other programs, which are first read as they are.
 pub const PER_FOREIGN_BYTE: u64 = 40;
@@ -48,7 +52,8 @@ pub const PER_KEPT_BYTE: u64 = 4;
 pub const PER_BLOCK: u64 = 6 << 10;
 /// Bytes per pair of blocks near enough to touch.
 pub const PER_PAIR: u64 = 256;
-/// Bytes per contact point while a program is solved: its rows and columns, the engine's copies, the factors.
+/// Bytes per contact point while a program is solved: its rows and columns, the engine's copies,
+/// the factors.
 pub const PER_CONTACT_POINT: u64 = 8 << 10;
 /// Bytes per block and frame of a simulation that is kept.
 pub const PER_POSE: u64 = 640;
@@ -80,8 +85,10 @@ pub fn afford(what: &str, count: u64, each: u64) -> Result<(), InputError> {
     match memory() {
         Some(most) if bytes > most => {
             let given = if MEMORY.load(Ordering::Relaxed) > 0 { "allowed" } else { "free" };
-            let message = format!("{what} would take about {} of memory; {} {given}", size(bytes), is(most));
-            Err(InputError::at(JsonPath::root(), message).hint("ask for less, or raise --max-memory where the machine has more"))
+            let message =
+                format!("{what} would take about {} of memory; {} {given}", size(bytes), is(most));
+            Err(InputError::at(JsonPath::root(), message)
+                .hint("ask for less, or raise --max-memory where the machine has more"))
         }
         _ => Ok(()),
     }
@@ -100,7 +107,8 @@ pub fn size(bytes: u64) -> String {
     format!("{value:.digits$} {}", UNITS[power as usize])
 }
 
-/// The bytes of a regular file, unless it is longer than can be read; `each` is what reading takes per byte.
+/// The bytes of a regular file, unless it is longer than can be read; `each` is what reading takes
+/// per byte.
 ///
 /// # Errors
 /// It cannot be read, is a folder, a pipe, a device or the like, or is too long.
@@ -119,7 +127,8 @@ pub fn read_opened(file: &File, each: u64) -> Result<Vec<u8>, InputError> {
 }
 
 fn failed(e: io::Error) -> InputError {
-    InputError::at(JsonPath::root(), format!("cannot be read: {e}")).hint("check the path and the permissions")
+    InputError::at(JsonPath::root(), format!("cannot be read: {e}"))
+        .hint("check the path and the permissions")
 }
 
 /// The bytes of a stream, as [`read_file`].
@@ -136,7 +145,8 @@ pub fn read(stream: impl Read, each: u64) -> io::Result<Result<Vec<u8>, InputErr
 fn fits(length: u64, each: u64) -> Result<(), InputError> {
     if length > FILE {
         let message = format!("the file has {}, at most {} are read", size(length), size(FILE));
-        return Err(InputError::at(JsonPath::root(), message).hint("split it, or give structures by templates"));
+        return Err(InputError::at(JsonPath::root(), message)
+            .hint("split it, or give structures by templates"));
     }
     afford(&format!("a file of {}", size(length)), length, each)
 }
@@ -147,19 +157,29 @@ mod tests {
 
     #[test]
     fn sizes_are_readable() {
-        for (bytes, text) in
-            [(0, "0 bytes"), (1023, "1023 bytes"), (1024, "1.0 KiB"), (1536, "1.5 KiB"), (500 << 20, "500 MiB"), (u64::MAX, "16777216 TiB")]
-        {
+        for (bytes, text) in [
+            (0, "0 bytes"),
+            (1023, "1023 bytes"),
+            (1024, "1.0 KiB"),
+            (1536, "1.5 KiB"),
+            (500 << 20, "500 MiB"),
+            (u64::MAX, "16777216 TiB"),
+        ] {
             assert_eq!(size(bytes), text);
         }
     }
 
     #[test]
     fn what_does_not_fit_is_said_with_both_numbers() {
-        // Beyond any machine, so that the test needs no limit of its own, which other tests would see.
+        // Beyond any machine, so that the test needs no limit of its own, which other tests would
+        // see.
         if memory().is_some() {
             let text = afford("a test", 1 << 40, 1 << 20).expect_err("does not fit").to_string();
-            assert!(text.contains("a test would take about 1048576 TiB") && text.contains("--max-memory"), "{text}");
+            assert!(
+                text.contains("a test would take about 1048576 TiB")
+                    && text.contains("--max-memory"),
+                "{text}"
+            );
         }
         assert!(afford("a test", 1, 1).is_ok());
         assert!(fits(FILE + 1, 1).unwrap_err().message.contains("at most 2.0 GiB"));

@@ -10,7 +10,11 @@ pub fn decimals(value: f64, lower: f64, upper: f64) -> usize {
     let size = value.abs().max(lower.abs()).max(upper.abs());
     let size = if size > 0.0 && size.is_finite() { leading(size) } else { 0 };
     let most = DIGITS - 1 - size;
-    let known = if width > 0.0 && width.is_finite() { -(width.log10().ceil().clamp(-300.0, 300.0) as i32) } else { most };
+    let known = if width > 0.0 && width.is_finite() {
+        -(width.log10().ceil().clamp(-300.0, 300.0) as i32)
+    } else {
+        most
+    };
     usize::try_from(known.min(most)).unwrap_or(0)
 }
 
@@ -45,7 +49,11 @@ pub fn fixed(value: f64, decimals: usize) -> String {
         return format!("{value:.digits$e}");
     }
     let text = format!("{value:.decimals$}");
-    if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') { text.trim_start_matches('-').to_string() } else { text }
+    if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
+        text.trim_start_matches('-').to_string()
+    } else {
+        text
+    }
 }
 
 /// A few digits, for lengths and directions: `1.25`, `-0.5`, `0`.
@@ -58,7 +66,11 @@ pub fn short(value: f64) -> String {
     }
     let digits = (3 - value.abs().log10().floor() as i32).max(0) as usize;
     let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        text
+    }
 }
 
 /// A point or a direction. Coordinates that are rounding beside the others are written 0.
@@ -111,7 +123,10 @@ mod tests {
             (99.999_999, 100.000_001),
         ] {
             let [l, u] = ends(0.5 * (lower + upper), lower, upper);
-            assert!(l.parse::<f64>().unwrap() <= lower && u.parse::<f64>().unwrap() >= upper, "{l} {u}");
+            assert!(
+                l.parse::<f64>().unwrap() <= lower && u.parse::<f64>().unwrap() >= upper,
+                "{l} {u}"
+            );
         }
     }
 

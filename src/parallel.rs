@@ -1,7 +1,8 @@
 //! Independent pieces of work on several threads, in order of their start.
 //!
-//! Plain threads and not a work-stealing pool: a simulation inside such a pool waits for the engine's own threads, and the pool uses the
-//! wait to begin further pieces on the same stack, until it overflows.
+//! Plain threads and not a work-stealing pool: a simulation inside such a pool waits for the
+//! engine's own threads, and the pool uses the wait to begin further pieces on the same stack,
+//! until it overflows.
 
 use std::{
     io,
@@ -12,14 +13,20 @@ use std::{
     thread,
 };
 
-/// Stack of a thread, bytes. Larger than usual: no work here is deep, and a stack that is not touched costs nothing.
+/// Stack of a thread, bytes. Larger than usual: no work here is deep, and a stack that is not
+/// touched costs nothing.
 const STACK: usize = 16 << 20;
 
-/// Does `work` for every item on so many threads (0 for as many as there are processors); the first error ends it.
+/// Does `work` for every item on so many threads (0 for as many as there are processors); the first
+/// error ends it.
 ///
 /// # Errors
 /// The outer error says that threads cannot be started; the inner one is that of the work.
-pub fn for_each<T: Sync, E: Send>(threads: usize, items: &[T], work: impl Fn(&T) -> Result<(), E> + Sync) -> io::Result<Result<(), E>> {
+pub fn for_each<T: Sync, E: Send>(
+    threads: usize,
+    items: &[T],
+    work: impl Fn(&T) -> Result<(), E> + Sync,
+) -> io::Result<Result<(), E>> {
     let threads = match threads {
         0 => thread::available_parallelism().map_or(1, |n| n.get()),
         n => n,
@@ -51,7 +58,11 @@ pub fn for_each<T: Sync, E: Send>(threads: usize, items: &[T], work: impl Fn(&T)
 ///
 /// # Errors
 /// Threads cannot be started.
-pub fn map<T: Sync, R: Send>(threads: usize, items: &[T], work: impl Fn(&T) -> R + Sync) -> io::Result<Vec<R>> {
+pub fn map<T: Sync, R: Send>(
+    threads: usize,
+    items: &[T],
+    work: impl Fn(&T) -> R + Sync,
+) -> io::Result<Vec<R>> {
     let sure = |item: &T| Ok::<R, std::convert::Infallible>(work(item));
     try_map(threads, items, sure).map(|done| done.unwrap_or_else(|e| match e {}))
 }
@@ -65,12 +76,18 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
     items: &[T],
     work: impl Fn(&T) -> Result<R, E> + Sync,
 ) -> io::Result<Result<Vec<R>, E>> {
-    let slots: Vec<(&T, Mutex<Option<R>>)> = items.iter().map(|item| (item, Mutex::new(None))).collect();
+    let slots: Vec<(&T, Mutex<Option<R>>)> =
+        items.iter().map(|item| (item, Mutex::new(None))).collect();
     let done = for_each(threads, &slots, |(item, slot)| {
         *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(work(item)?);
         Ok(())
     })?;
-    let results = || slots.into_iter().filter_map(|(_, slot)| slot.into_inner().unwrap_or_else(PoisonError::into_inner)).collect();
+    let results = || {
+        slots
+            .into_iter()
+            .filter_map(|(_, slot)| slot.into_inner().unwrap_or_else(PoisonError::into_inner))
+            .collect()
+    };
     Ok(done.map(|()| results()))
 }
 
@@ -82,7 +99,10 @@ mod tests {
     fn every_item_is_done_once_in_order_and_errors_end_the_work() {
         let items: Vec<usize> = (0..1000).collect();
         for threads in [0, 1, 3, 2000] {
-            assert_eq!(map(threads, &items, |x| x * x).unwrap(), items.iter().map(|x| x * x).collect::<Vec<_>>());
+            assert_eq!(
+                map(threads, &items, |x| x * x).unwrap(),
+                items.iter().map(|x| x * x).collect::<Vec<_>>()
+            );
         }
         assert_eq!(map(4, &[0; 0], |x| *x).unwrap(), [0; 0]);
         let done = AtomicUsize::new(0);

@@ -1,25 +1,29 @@
-//! Text of files that strangers wrote, in what this program writes: it stays text, and what is read is what is there. One function for each
-//! medium.
+//! Text of files that strangers wrote, in what this program writes: it stays text, and what is read
+//! is what is there. One function for each medium.
 //!
-//! Control characters move the cursor of a terminal, change its colours and its title, and end lines and cells. Marks of direction reorder what
-//! stands around them, so that a name may read as another one (Boucher & Anderson, Trojan Source, USENIX Security 2023). Both are shown by
-//! their numbers, `\u{202e}`. Letters of every script, and the joiners that some need, are left alone.
+//! Control characters move the cursor of a terminal, change its colours and its title, and end
+//! lines and cells. Marks of direction reorder what stands around them, so that a name may read as
+//! another one (Boucher & Anderson, Trojan Source, USENIX Security 2023). Both are shown by their
+//! numbers, `\u{202e}`. Letters of every script, and the joiners that some need, are left alone.
 
 use std::borrow::Cow;
 
-/// Whether a character is not seen but does something: controls (C0, C1, delete), separators of lines and paragraphs, marks of direction
-/// (Unicode Standard Annex 9), annotation marks, and the byte order mark where it is none.
+/// Whether a character is not seen but does something: controls (C0, C1, delete), separators of
+/// lines and paragraphs, marks of direction (Unicode Standard Annex 9), annotation marks, and the
+/// byte order mark where it is none.
 pub fn is_unseen(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}')
 }
 
-/// For a line of a terminal or of a page, of drawings and tables: what is not seen is shown by its number.
+/// For a line of a terminal or of a page, of drawings and tables: what is not seen is shown by its
+/// number.
 pub fn printable(text: &str) -> Cow<'_, str> {
     shown(text, |_| false)
 }
 
-/// For a whole document whose markup, if it has any, is in place already; its line breaks and tabs stay.
+/// For a whole document whose markup, if it has any, is in place already; its line breaks and tabs
+/// stay.
 pub fn document(text: &str) -> Cow<'_, str> {
     shown(text, |c| matches!(c, '\n' | '\t'))
 }
@@ -33,20 +37,24 @@ fn shown(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(escape).collect())
 }
 
-/// For JSON: the same value, written without what is not seen. `text` is JSON already, which has such characters in strings only.
+/// For JSON: the same value, written without what is not seen. `text` is JSON already, which has
+/// such characters in strings only.
 pub fn json(text: String) -> String {
     let hidden = |c: char| is_unseen(c) && !matches!(c, '\n' | '\r' | '\t');
     if !text.contains(hidden) {
         return text;
     }
     // All of them lie in the basic plane: four digits name them.
-    text.chars().map(|c| if hidden(c) { format!("\\u{:04x}", u32::from(c)) } else { c.to_string() }).collect()
+    text.chars()
+        .map(|c| if hidden(c) { format!("\\u{:04x}", u32::from(c)) } else { c.to_string() })
+        .collect()
 }
 
-/// For a cell of a table (CSV): what a spreadsheet would compute begins with an apostrophe, which makes it text there (OWASP, CSV injection).
-/// Numbers stay numbers, negative ones too.
+/// For a cell of a table (CSV): what a spreadsheet would compute begins with an apostrophe, which
+/// makes it text there (OWASP, CSV injection). Numbers stay numbers, negative ones too.
 pub fn cell(text: &str) -> Cow<'_, str> {
-    let computed = text.trim_start().starts_with(['=', '+', '-', '@', '＝', '＋', '－', '＠']) && text.parse::<f64>().is_err();
+    let computed = text.trim_start().starts_with(['=', '+', '-', '@', '＝', '＋', '－', '＠'])
+        && text.parse::<f64>().is_err();
     // Told by the text as it is, for a tab shown by its number begins nothing.
     match (computed, printable(text)) {
         (true, shown) => Cow::Owned(format!("'{shown}")),
@@ -54,8 +62,8 @@ pub fn cell(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// For HTML, SVG and other XML, between tags and inside quoted attributes: markup as its entities, what is not seen by its number but line
-/// breaks and tabs; what XML 1.0 cannot hold is left out.
+/// For HTML, SVG and other XML, between tags and inside quoted attributes: markup as its entities,
+/// what is not seen by its number but line breaks and tabs; what XML 1.0 cannot hold is left out.
 pub fn markup(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in document(text).chars() {
@@ -77,12 +85,16 @@ mod tests {
     use super::*;
 
     /// Every one of them does something somewhere.
-    const UNSEEN: &str =
-        "\u{0}\u{7}\u{1b}\u{7f}\u{85}\u{9b}\u{61c}\u{200e}\u{200f}\u{2028}\u{2029}\u{202a}\u{202e}\u{2066}\u{2069}\u{feff}";
+    const UNSEEN: &str = "\u{0}\u{7}\u{1b}\u{7f}\u{85}\u{9b}\u{61c}\u{200e}\u{200f}\u{2028}\u{2029}\u{202a}\u{202e}\u{2066}\u{2069}\u{feff}";
 
     #[test]
     fn nothing_unseen_gets_through_in_any_medium() {
-        for text in [printable(UNSEEN).into_owned(), document(UNSEEN).into_owned(), cell(UNSEEN).into_owned(), markup(UNSEEN)] {
+        for text in [
+            printable(UNSEEN).into_owned(),
+            document(UNSEEN).into_owned(),
+            cell(UNSEEN).into_owned(),
+            markup(UNSEEN),
+        ] {
             assert!(!text.contains(is_unseen) && text.contains("\\u{202e}"), "{text}");
         }
         let written = json(serde_json::to_string(UNSEEN).unwrap());
@@ -92,9 +104,13 @@ mod tests {
 
     #[test]
     fn letters_of_every_script_stay() {
-        for text in ["λ = 1°", "клин", "حجر", "אבן", "石", "می\u{200c}خواهم", "−x"] {
+        for text in ["λ = 1°", "клин", "حجر", "אבן", "石", "می\u{200c}خواهم", "−x"]
+        {
             assert!(matches!(printable(text), Cow::Borrowed(same) if same == text));
-            assert_eq!((cell(text).as_ref(), markup(text).as_str(), json(text.into()).as_str()), (text, text, text));
+            assert_eq!(
+                (cell(text).as_ref(), markup(text).as_str(), json(text.into()).as_str()),
+                (text, text, text)
+            );
         }
     }
 

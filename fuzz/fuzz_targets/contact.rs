@@ -2,7 +2,10 @@
 #![no_main]
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
-use voussoir::{interface::prepare, scene::{BlockSpec, Friction, Rotation, Scene, Shape}};
+use voussoir::{
+    interface::prepare,
+    scene::{BlockSpec, Friction, Rotation, Scene, Shape},
+};
 
 #[derive(Arbitrary, Debug)]
 enum Kind {
@@ -38,7 +41,10 @@ fn block(k: usize, piece: &Piece) -> BlockSpec {
         0..=7 => 0.0,
         n => 10f64.powi(-i32::from(n)) * if piece.nudge.0 & 4 == 0 { 1.0 } else { -1.0 },
     };
-    let rotation_deg = piece.turn.map(|(axis, angle)| Rotation { axis: axis.map(f64::from), angle: f64::from(angle % 360) * 0.5 });
+    let rotation_deg = piece.turn.map(|(axis, angle)| Rotation {
+        axis: axis.map(f64::from),
+        angle: f64::from(angle % 360) * 0.5,
+    });
     BlockSpec { at, rotation_deg, support: k == 0, ..BlockSpec::new(format!("b{k}"), shape) }
 }
 
@@ -51,7 +57,11 @@ fuzz_target!(|pieces: [Piece; 3]| {
         // Blocks in another order touch as often.
         scene.blocks.reverse();
         if let Ok(again) = prepare(&scene) {
-            assert_eq!(again.interfaces.list.len(), model.interfaces.list.len(), "contacts depend on the order of the blocks");
+            assert_eq!(
+                again.interfaces.list.len(),
+                model.interfaces.list.len(),
+                "contacts depend on the order of the blocks"
+            );
         }
     }
 });

@@ -20,7 +20,8 @@ impl Point {
 const TOL: f64 = 1e-9;
 
 fuzz_target!(|input: (Vec<Point>, Vec<Point>)| {
-    let [a, b] = [&input.0, &input.1].map(|list| hull(&list.iter().take(64).map(Point::value).collect::<Vec<_>>(), TOL));
+    let [a, b] = [&input.0, &input.1]
+        .map(|list| hull(&list.iter().take(64).map(Point::value).collect::<Vec<_>>(), TOL));
     for h in [&a, &b] {
         assert!(h.iter().flat_map(|p| p.iter()).all(|x| x.is_finite()));
         assert!(h.len() < 3 || area(h) >= 0.0, "a hull runs clockwise: {h:?}");

@@ -5,7 +5,8 @@ use libfuzzer_sys::fuzz_target;
 use nalgebra::Vector3;
 use voussoir::assembly::Polyhedron;
 
-/// A coordinate: on a coarse grid mostly, so that corners coincide and faces are plane, with a nudge of some power of ten.
+/// A coordinate: on a coarse grid mostly, so that corners coincide and faces are plane, with a
+/// nudge of some power of ten.
 #[derive(Arbitrary, Debug)]
 struct Coordinate {
     place: i8,
@@ -34,8 +35,13 @@ fuzz_target!(|input: Input| {
         return;
     }
     let scale = 10f64.powi(i32::from(input.scale) / 8);
-    let corners: Vec<Vector3<f64>> = input.corners.iter().map(|c| Vector3::new(c[0].value(), c[1].value(), c[2].value()) * scale).collect();
-    let faces: Vec<Vec<usize>> = input.faces.iter().map(|f| f.iter().map(|&i| usize::from(i)).collect()).collect();
+    let corners: Vec<Vector3<f64>> = input
+        .corners
+        .iter()
+        .map(|c| Vector3::new(c[0].value(), c[1].value(), c[2].value()) * scale)
+        .collect();
+    let faces: Vec<Vec<usize>> =
+        input.faces.iter().map(|f| f.iter().map(|&i| usize::from(i)).collect()).collect();
     match Polyhedron::from_faces(corners, &faces) {
         Err(e) => assert!(!e.to_string().is_empty() && !e.hint().is_empty()),
         Ok((solid, mends)) => {
@@ -47,11 +53,24 @@ fuzz_target!(|input: Input| {
                 (low, high) = (low.inf(v), high.sup(v));
             }
             let size = (high - low).norm();
-            assert!(mass.volume <= (high - low).product() * (1.0 + 1e-6), "more volume than its box: {mass:?}");
-            assert!((0..3).all(|k| mass.centroid[k] >= low[k] - 1e-6 * size && mass.centroid[k] <= high[k] + 1e-6 * size), "{mass:?}");
+            assert!(
+                mass.volume <= (high - low).product() * (1.0 + 1e-6),
+                "more volume than its box: {mass:?}"
+            );
+            assert!(
+                (0..3).all(|k| mass.centroid[k] >= low[k] - 1e-6 * size
+                    && mass.centroid[k] <= high[k] + 1e-6 * size),
+                "{mass:?}"
+            );
             for facet in &solid.facets {
-                assert!((facet.normal.norm() - 1.0).abs() < 1e-9 && facet.area > 0.0 && facet.area.is_finite());
-                assert!(facet.pieces.iter().all(|p| p.len() >= 3 && p.iter().all(|&i| (i as usize) < solid.vertices.len())));
+                assert!(
+                    (facet.normal.norm() - 1.0).abs() < 1e-9
+                        && facet.area > 0.0
+                        && facet.area.is_finite()
+                );
+                assert!(facet.pieces.iter().all(
+                    |p| p.len() >= 3 && p.iter().all(|&i| (i as usize) < solid.vertices.len())
+                ));
             }
             // An orientable closed surface has no area in sum.
             let sum: Vector3<f64> = solid.facets.iter().map(|f| f.normal * f.area).sum();

@@ -1,5 +1,5 @@
-//! Bytes → the result reader → its verification. A changed result may be refused or, where nothing that matters changed, proved;
-//! it must do so without a panic.
+//! Bytes → the result reader → its verification. A changed result may be refused or, where nothing
+//! that matters changed, proved; it must do so without a panic.
 #![no_main]
 use libfuzzer_sys::fuzz_target;
 use voussoir::proof::{read, verify};

@@ -1,3 +1,5 @@
 //! Bytes → the scene reader.
 #![no_main]
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| -> libfuzzer_sys::Corpus { voussoir_fuzz::scene(bytes, false) });
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| -> libfuzzer_sys::Corpus {
+    voussoir_fuzz::scene(bytes, false)
+});

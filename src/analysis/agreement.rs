@@ -1,4 +1,5 @@
-//! Verdict and simulation beside each other: two methods that share nothing but the blocks and where they touch.
+//! Verdict and simulation beside each other: two methods that share nothing but the blocks and
+//! where they touch.
 
 use super::Assessment;
 use crate::{
@@ -12,7 +13,8 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Forces below this × the largest are rounding of two iterations, and left out of the comparison block by block.
+/// Forces below this × the largest are rounding of two iterations, and left out of the comparison
+/// block by block.
 const SMALL: f64 = 1e-6;
 
 /// How far a verdict and a simulation agree.
@@ -23,13 +25,14 @@ pub struct Agreement {
     pub verdict: Verdict,
     /// What the simulation showed.
     pub fate: Fate,
-    /// Whether they say the same; absent where one of them is undecided, or the joints have strengths that the
-    /// simulation leaves out. A conditional verdict says that it falls, because the
-    /// simulation starts without a pre-stress.
+    /// Whether they say the same; absent where one of them is undecided, or the joints have
+    /// strengths that the simulation leaves out. A conditional verdict says that it falls, because
+    /// the simulation starts without a pre-stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agrees: Option<bool>,
-    /// Where both fall: cosine between the first motion and the mechanism, in the metric of the kinetic energy. 1 is the same motion; a
-    /// scene with several ways to fall takes the fastest, the mechanism is the one that proves most.
+    /// Where both fall: cosine between the first motion and the mechanism, in the metric of the
+    /// kinetic energy. 1 is the same motion; a scene with several ways to fall takes the fastest,
+    /// the mechanism is the one that proves most.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<f64>,
     /// Where both stand and the contact forces are known.
@@ -41,19 +44,23 @@ pub struct Agreement {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ForceAgreement {
-    /// Largest difference between the two resultants of a pair of blocks, over the largest resultant.
+    /// Largest difference between the two resultants of a pair of blocks, over the largest
+    /// resultant.
     pub largest: f64,
     /// The pair it is found on.
     pub between: [String; 2],
-    /// Root of the mean square of the differences over the root of the mean square of the resultants.
+    /// Root of the mean square of the differences over the root of the mean square of the
+    /// resultants.
     pub mean: f64,
     /// Pairs compared.
     pub pairs: usize,
-    /// Whether statics alone fixes the resultants; if not, they depend on how contacts yield, and the two methods need not agree.
+    /// Whether statics alone fixes the resultants; if not, they depend on how contacts yield, and
+    /// the two methods need not agree.
     pub determinate: bool,
 }
 
-/// Whether a verdict and a simulation say the same; `left_out`: the simulated joints resist less, or more, than those of the verdict.
+/// Whether a verdict and a simulation say the same; `left_out`: the simulated joints resist less,
+/// or more, than those of the verdict.
 pub fn agree(verdict: Verdict, fate: Fate, left_out: bool) -> Option<bool> {
     match (verdict, fate) {
         (Verdict::Undecided, _) | (_, Fate::Undecided) => None,
@@ -67,7 +74,8 @@ pub fn agree(verdict: Verdict, fate: Fate, left_out: bool) -> Option<bool> {
 pub fn agreement(model: &Model, assessment: &Assessment, outcome: &SimulationOutcome) -> Agreement {
     let assembly = &model.assembly;
     let (verdict, fate) = (assessment.verdict, outcome.fate);
-    let agrees = agree(verdict, fate, outcome.findings.iter().any(|f| f.code == FindingCode::LeftOut));
+    let agrees =
+        agree(verdict, fate, outcome.findings.iter().any(|f| f.code == FindingCode::LeftOut));
     let falls = matches!(verdict, Verdict::Unstable | Verdict::Conditional) && fate == Fate::Falls;
     let stands = verdict == Verdict::Stable && fate == Fate::Stands;
     let determinate = is_forest(model);
@@ -84,13 +92,16 @@ pub fn agreement(model: &Model, assessment: &Assessment, outcome: &SimulationOut
     }
 }
 
-/// `⟨x, q⟩ / (‖x‖ ‖q‖)` with `⟨x, q⟩ = Σ m u·v + φ·J ω` over the free blocks, `x = (u, φ)` the first motion and `q = (v, ω)` the rates.
+/// `⟨x, q⟩ / (‖x‖ ‖q‖)` with `⟨x, q⟩ = Σ m u·v + φ·J ω` over the free blocks, `x = (u, φ)` the
+/// first motion and `q = (v, ω)` the rates.
 fn correlation(assembly: &Assembly, outcome: &SimulationOutcome, rates: &[Rate]) -> Option<f64> {
     let (mut across, mut one, mut other) = (0.0, 0.0, 0.0);
     for i in assembly.free() {
-        let (block, motion, rate) = (&assembly.blocks[i], outcome.first_motion.get(i)?, rates.get(i)?);
-        let product =
-            |u: Vector3<f64>, a: Vector3<f64>, v: Vector3<f64>, b: Vector3<f64>| block.mass * u.dot(&v) + a.dot(&(block.inertia * b));
+        let (block, motion, rate) =
+            (&assembly.blocks[i], outcome.first_motion.get(i)?, rates.get(i)?);
+        let product = |u: Vector3<f64>, a: Vector3<f64>, v: Vector3<f64>, b: Vector3<f64>| {
+            block.mass * u.dot(&v) + a.dot(&(block.inertia * b))
+        };
         across += product(motion.way, motion.turn, rate.velocity, rate.spin);
         one += product(motion.way, motion.turn, motion.way, motion.turn);
         other += product(rate.velocity, rate.spin, rate.velocity, rate.spin);
@@ -99,13 +110,19 @@ fn correlation(assembly: &Assembly, outcome: &SimulationOutcome, rates: &[Rate])
     (size > 0.0).then(|| (across / size).clamp(-1.0, 1.0))
 }
 
-fn forces(model: &Model, computed: &Forces, outcome: &SimulationOutcome, determinate: bool) -> Option<ForceAgreement> {
+fn forces(
+    model: &Model,
+    computed: &Forces,
+    outcome: &SimulationOutcome,
+    determinate: bool,
+) -> Option<ForceAgreement> {
     let Model { assembly, interfaces, .. } = model;
     // By pairs of blocks: computed, simulated; both on the block with the larger index.
     let mut pairs: BTreeMap<(usize, usize), [Vector3<f64>; 2]> = BTreeMap::new();
     for (face, points) in interfaces.list.iter().zip(computed) {
         let force: Vector3<f64> = points.iter().map(|w| w.force).sum();
-        let (pair, force) = if face.a < face.b { ((face.a, face.b), force) } else { ((face.b, face.a), -force) };
+        let (pair, force) =
+            if face.a < face.b { ((face.a, face.b), force) } else { ((face.b, face.a), -force) };
         pairs.entry(pair).or_default()[0] += force;
     }
     for contact in &outcome.contacts {
@@ -113,7 +130,8 @@ fn forces(model: &Model, computed: &Forces, outcome: &SimulationOutcome, determi
     }
     let largest = pairs.values().flatten().map(|f| f.norm()).fold(0.0, f64::max);
     pairs.retain(|_, f| f.iter().any(|f| f.norm() > SMALL * largest));
-    let differences: Vec<((usize, usize), f64)> = pairs.iter().map(|(pair, [c, s])| (*pair, (c - s).norm())).collect();
+    let differences: Vec<((usize, usize), f64)> =
+        pairs.iter().map(|(pair, [c, s])| (*pair, (c - s).norm())).collect();
     let (pair, worst) = differences.iter().copied().max_by(|x, y| x.1.total_cmp(&y.1))?;
     let square = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
     let size = square(&mut pairs.values().map(|[c, _]| c.norm()));

@@ -1,11 +1,16 @@
-//! The one door: every question goes through [`ask`], whoever asks it, and every answer that comes out of it was checked on the scene
-//! ([`Proved`]). A further question is a further arm here, a variant of [`Question`] and one of [`Answer`].
+//! The one door: every question goes through [`ask`], whoever asks it, and every answer that comes
+//! out of it was checked on the scene ([`Proved`]). A further question is a further arm here, a
+//! variant of [`Question`] and one of [`Answer`].
 
 use super::{
-    Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt, assess, coulomb,
+    Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt, assess,
+    coulomb,
     coulomb::DryLoadFactor,
     critical, limit,
-    question::{CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions, directions},
+    question::{
+        CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
+        directions,
+    },
     stability,
     stability::Packing,
     thrust,
@@ -47,7 +52,8 @@ pub struct Limited {
     pub bound: Proved<LoadFactor>,
     /// With dry friction, where that was asked and the bound has a value or no limit.
     pub dry: Option<Proved<DryLoadFactor>>,
-    /// Whether it stands under its dead load alone, where that was asked and is not settled by the bound.
+    /// Whether it stands under its dead load alone, where that was asked and is not settled by the
+    /// bound.
     pub dead: Option<Proved<Assessment>>,
 }
 
@@ -85,16 +91,33 @@ pub struct Watch<'a> {
 ///
 /// # Errors
 /// The question has no meaning, or none for this scene.
-pub fn ask(question: &Question, scene: &Scene, model: &Model, control: &Control) -> Result<Answer, InputError> {
+pub fn ask(
+    question: &Question,
+    scene: &Scene,
+    model: &Model,
+    control: &Control,
+) -> Result<Answer, InputError> {
     let mut each = |_: &Progress| ControlFlow::Continue(());
-    ask_watched(question, scene, model, control, Watch { threads: 1, frames: 0, keep_frames: false, every_step: false, each: &mut each })
+    ask_watched(
+        question,
+        scene,
+        model,
+        control,
+        Watch { threads: 1, frames: 0, keep_frames: false, every_step: false, each: &mut each },
+    )
 }
 
 /// The same, with somebody who watches what happens in time.
 ///
 /// # Errors
 /// As [`ask`].
-pub fn ask_watched(question: &Question, scene: &Scene, model: &Model, control: &Control, watch: Watch) -> Result<Answer, InputError> {
+pub fn ask_watched(
+    question: &Question,
+    scene: &Scene,
+    model: &Model,
+    control: &Control,
+    watch: Watch,
+) -> Result<Answer, InputError> {
     question.check()?;
     let control = &question.control(control);
     Ok(match question {
@@ -102,7 +125,8 @@ pub fn ask_watched(question: &Question, scene: &Scene, model: &Model, control: &
         Question::Limit(options) => Answer::Limit(Box::new(limited(options, model, control)?)),
         Question::Tilt(options) => Answer::Tilt(tilted(options, model, control)?),
         Question::Critical(CriticalOptions { vary, between: [from, to], scan, .. }) => {
-            let range = critical::Range { pointer: vary.clone(), from: *from, to: *to, scan: *scan };
+            let range =
+                critical::Range { pointer: vary.clone(), from: *from, to: *to, scan: *scan };
             Answer::Critical(Box::new(critical(scene, &range, control)?))
         }
         Question::Thrust(options) => Answer::Thrust(Box::new(pushed(options, model, control)?)),
@@ -110,7 +134,9 @@ pub fn ask_watched(question: &Question, scene: &Scene, model: &Model, control: &
             let toward = directions(model.assembly.gravity, toward, *all);
             Answer::Repose(stability::packing(model, &toward, *moving_mass, control)?)
         }
-        Question::Simulate(options) => Answer::Simulate(Box::new(simulated(options, scene, model, watch)?)),
+        Question::Simulate(options) => {
+            Answer::Simulate(Box::new(simulated(options, scene, model, watch)?))
+        }
     })
 }
 
@@ -119,7 +145,11 @@ fn bounds(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Found | Outcome::Unbounded)
 }
 
-fn limited(options: &LimitOptions, model: &Model, control: &Control) -> Result<Limited, InputError> {
+fn limited(
+    options: &LimitOptions,
+    model: &Model,
+    control: &Control,
+) -> Result<Limited, InputError> {
     if model.assembly.live.iter().all(|w| *w == Wrench::zero()) {
         let path = JsonPath::root().key("loads").key("live");
         return Err(InputError::at(path, "there is no live load on a free block to ask about")
@@ -127,7 +157,8 @@ fn limited(options: &LimitOptions, model: &Model, control: &Control) -> Result<L
     }
     let bound = limit(model, control);
     // Where the answer itself says that λ = 0 is too much, there is nothing left to ask.
-    let settled = bound.outcome == Outcome::Impossible || (bound.outcome == Outcome::Found && bound.bracket.upper < 0.0);
+    let settled = bound.outcome == Outcome::Impossible
+        || (bound.outcome == Outcome::Found && bound.bracket.upper < 0.0);
     let dead = (!settled && !options.skip_dead).then(|| assess(model, control));
     let ask_dry = control.law == Law::Coulomb && bounds(bound.outcome);
     let level = dead.as_ref().map(|d| d.verdict);
@@ -139,7 +170,10 @@ fn tilted(options: &TiltOptions, model: &Model, control: &Control) -> Result<Til
     let level = (!options.skip_dead).then(|| assess(model, control));
     let verdict = level.as_ref().map(|l| l.verdict);
     let toward = directions(model.assembly.gravity, &options.toward, options.all);
-    let directions = toward.into_iter().map(|d| tilt::with_dry(model, d, verdict, control)).collect::<Result<Vec<_>, InputError>>()?;
+    let directions = toward
+        .into_iter()
+        .map(|d| tilt::with_dry(model, d, verdict, control))
+        .collect::<Result<Vec<_>, InputError>>()?;
     Ok(Tilted { directions, level })
 }
 
@@ -153,14 +187,25 @@ fn pushed(options: &ThrustOptions, model: &Model, control: &Control) -> Result<T
     Ok(thrust::answer(model, at, ends, control))
 }
 
-fn simulated(options: &SimulateOptions, scene: &Scene, model: &Model, watch: Watch) -> Result<SimulationOutcome, InputError> {
+fn simulated(
+    options: &SimulateOptions,
+    scene: &Scene,
+    model: &Model,
+    watch: Watch,
+) -> Result<SimulationOutcome, InputError> {
     // In the scene, whose live loads may act off the centre of mass and turn with their blocks.
     let loaded = match options.load_factor {
-        Some(factor) if factor != 0.0 => &prepare(&Scene { loads: scene.loads.fixed(factor), ..scene.clone() })?,
+        Some(factor) if factor != 0.0 => {
+            &prepare(&Scene { loads: scene.loads.fixed(factor), ..scene.clone() })?
+        }
         _ => model,
     };
     let settings = SimulationSettings {
-        fidelity: if options.fast { Some(Fidelity::Fast) } else { options.fine.then_some(Fidelity::Fine) },
+        fidelity: if options.fast {
+            Some(Fidelity::Fast)
+        } else {
+            options.fine.then_some(Fidelity::Fine)
+        },
         seconds: options.seconds,
         threads: watch.threads,
         frames: watch.frames,

@@ -1,5 +1,6 @@
-//! Does it stand under its dead load? Program V, its bracket recomputed from the scene; then, where admissible forces exist
-//! and contacts form closed chains that could hold a pre-stress, the state under dry friction (program C).
+//! Does it stand under its dead load? Program V, its bracket recomputed from the scene; then, where
+//! admissible forces exist and contacts form closed chains that could hold a pre-stress, the state
+//! under dry friction (program C).
 
 use super::{
     Bracket, Deciding, Proved,
@@ -30,14 +31,15 @@ pub struct Assessment {
     pub verdict: Verdict,
     /// Bracket of the least unbalance, in multiples of gravity.
     pub unbalance: Bracket,
-    /// The unbalance that separates stable from unstable: [`tolerance::UNBALANCE`], or the rounding of the scene's own
-    /// coordinates where that is larger.
+    /// The unbalance that separates stable from unstable: [`tolerance::UNBALANCE`], or the rounding
+    /// of the scene's own coordinates where that is larger.
     pub threshold: f64,
     /// The part that decides, where there are several.
     pub part: Option<Deciding>,
     /// The forces that leave the upper end of the bracket.
     pub forces: Forces,
-    /// The load factor of these forces: 0 except inside `limit`, where any multiple of the live load may help.
+    /// The load factor of these forces: 0 except inside `limit`, where any multiple of the live
+    /// load may help.
     pub(super) load_factor: f64,
     /// The rates that prove the lower end (all zero where it is zero).
     pub rates: Vec<Rate>,
@@ -59,8 +61,18 @@ const LADDER: [Rung; 8] = [
     Rung::RATES,
     Rung { unit: 4.0, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
     Rung { local: false, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES },
-    Rung { unit: 8.0, local: false, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
-    Rung { tolerance: 1e-10, engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false }, ..Rung::FORCES },
+    Rung {
+        unit: 8.0,
+        local: false,
+        tolerance: 1e-12,
+        engine: EngineSettings::clarabel(1e-9),
+        ..Rung::RATES
+    },
+    Rung {
+        tolerance: 1e-10,
+        engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false },
+        ..Rung::FORCES
+    },
     Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
     Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
 ];
@@ -134,7 +146,10 @@ pub(super) fn falls_freely(model: &Model) -> Option<Assessment> {
     let count: usize = floating.iter().map(Vec::len).sum();
     Some(Assessment {
         verdict: Verdict::Unstable,
-        unbalance: Bracket { lower: kinematics.dead_power / kinematics.norm, upper: statics.unbalance },
+        unbalance: Bracket {
+            lower: kinematics.dead_power / kinematics.norm,
+            upper: statics.unbalance,
+        },
         threshold: tolerance::UNBALANCE,
         part: None,
         mechanism: Some(mechanism::read(model, &rates)),
@@ -144,15 +159,21 @@ pub(super) fn falls_freely(model: &Model) -> Option<Assessment> {
         state: None,
         floating,
         attempts: Vec::new(),
-        left_out: vec![format!("the whole program: {count} free blocks have no contact path to a support")],
+        left_out: vec![format!(
+            "the whole program: {count} free blocks have no contact path to a support"
+        )],
     })
 }
 
 /// Program V down the ladder until its bracket decides.
 pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) -> Assessment {
     let Model { assembly, interfaces, .. } = model;
-    let options =
-        StaticsOptions { keep_all: control.keep_all, live: live != LiveLoad::Absent, symmetry: true, ..StaticsOptions::default() };
+    let options = StaticsOptions {
+        keep_all: control.keep_all,
+        live: live != LiveLoad::Absent,
+        symmetry: true,
+        ..StaticsOptions::default()
+    };
     let mut base = Statics::new(model, options);
     let zero = no_forces(interfaces);
     let unloaded = certificate::statics(model, &zero, 0.0);
@@ -174,9 +195,15 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
     // Bounds on crushing that one rung found hold for all.
     let mut sections = base.sections.clone();
     let large = if is_large(&base) { &LARGE[..] } else { &[] };
-    // With a free load factor only the force form yields its value; with strengths there is no other.
+    // With a free load factor only the force form yields its value; with strengths there is no
+    // other.
     let forces_only = live == LiveLoad::AnyMultiple || base.in_forces_only();
-    let ladder: Vec<Rung> = large.iter().copied().chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates)).collect();
+    let ladder: Vec<Rung> = large
+        .iter()
+        .copied()
+        .chain(LADDER)
+        .filter(|step| !(forces_only && step.unknowns == Unknowns::Rates))
+        .collect();
     for (whole, step) in steps(&ladder, base.is_part()) {
         if control.deadline.is_over() {
             break;
@@ -193,9 +220,14 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         let (mut lower, mut upper) = (0.0, f64::INFINITY);
         if let Some(mut c) = done.candidate.take() {
             mend::cut(interfaces, &mut c.forces);
-            let lambda = if live == LiveLoad::AnyMultiple { c.solution.x.last().copied().unwrap_or(0.0) } else { 0.0 };
+            let lambda = if live == LiveLoad::AnyMultiple {
+                c.solution.x.last().copied().unwrap_or(0.0)
+            } else {
+                0.0
+            };
             let mut s = certificate::statics(model, &c.forces, lambda);
-            // The mechanism is weighed by the forces that came with it: others hide what its joints close by.
+            // The mechanism is weighed by the forces that came with it: others hide what its joints
+            // close by.
             let k = certificate::kinematics(model, &c.rates, &c.forces);
             // What the engine's last digits leave may be no more than that.
             if !s.balanced
@@ -215,7 +247,8 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
             if !k.is_admissible(assembly)
                 && live == LiveLoad::Absent
                 && !s.balanced
-                && let Some(mended) = mend::admissible(model, &c.rates, (0.0, 0.5 * k.gain()), control.deadline)
+                && let Some(mended) =
+                    mend::admissible(model, &c.rates, (0.0, 0.5 * k.gain()), control.deadline)
             {
                 k = certificate::kinematics(model, &mended, &c.forces);
                 c.rates = mended;
@@ -224,19 +257,30 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
                 lower = ((k.gain() - k.slack - (lambda * k.live_power).abs()) / k.norm).max(0.0);
             }
             if upper < answer.unbalance.upper {
-                (answer.unbalance.upper, answer.forces, answer.load_factor) = (upper, c.forces, lambda);
+                (answer.unbalance.upper, answer.forces, answer.load_factor) =
+                    (upper, c.forces, lambda);
                 balanced = s.balanced;
             }
             if lower > answer.unbalance.lower {
                 (answer.unbalance.lower, answer.rates) = (lower, c.rates);
             }
         }
-        let name = format!("least unbalance in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" });
-        answer.attempts.push(done.attempt(name, statics.unit / statics.total_load(), &step, None, [lower, upper]));
+        let name = format!(
+            "least unbalance in {}",
+            if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }
+        );
+        answer.attempts.push(done.attempt(
+            name,
+            statics.unit / statics.total_load(),
+            &step,
+            None,
+            [lower, upper],
+        ));
         sections = statics.sections;
         let b = answer.unbalance;
         // Re-added without rounding, or the next attempt.
-        let holds = |f: &Forces| check::verify(model, &Claim::Stable, Evidence::new(f, &[])).proved();
+        let holds =
+            |f: &Forces| check::verify(model, &Claim::Stable, Evidence::new(f, &[])).proved();
         answer.verdict = if balanced && (live != LiveLoad::Absent || holds(&answer.forces)) {
             Verdict::Stable
         } else if b.lower > tolerance::UNBALANCE {
@@ -253,7 +297,9 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         let power = certificate::kinematics(model, &answer.rates, &no_forces(interfaces));
         let most = 0.5 * (power.gain() - tolerance::UNBALANCE * power.norm);
         let with_live = live == LiveLoad::AnyMultiple;
-        if let Some(mended) = mend::admissible(model, &answer.rates, (0.0, most), control.deadline).filter(|_| !with_live) {
+        if let Some(mended) = mend::admissible(model, &answer.rates, (0.0, most), control.deadline)
+            .filter(|_| !with_live)
+        {
             let k = certificate::kinematics(model, &mended, &no_forces(interfaces));
             (answer.unbalance.lower, answer.rates) = (k.gain() / k.norm, mended);
         }

@@ -1,6 +1,7 @@
 //! One run of a program, and the ladder of attempts.
 //!
-//! An attempt's worth is its bracket, recomputed from the scene; the engine's word is recorded and never decides.
+//! An attempt's worth is its bracket, recomputed from the scene; the engine's word is recorded and
+//! never decides.
 
 use crate::{
     deadline::Deadline,
@@ -76,12 +77,14 @@ pub struct Attempt {
     pub upper: f64,
 }
 
-/// Steps that the part of a symmetric scene is tried with; then the whole is, from the first step on, for what the parts leave off balance
-/// for not being quite alike would decide. Fewer: symmetric scenes near their limit cost twice. More: time lost on those that are
-/// symmetric in eleven digits only.
+/// Steps that the part of a symmetric scene is tried with; then the whole is, from the first step
+/// on, for what the parts leave off balance for not being quite alike would decide. Fewer:
+/// symmetric scenes near their limit cost twice. More: time lost on those that are symmetric in
+/// eleven digits only.
 const ON_THE_PART: usize = 2;
 
-/// The steps of a ladder in order, each with whether it takes the scene as [`Statics`] first gave it (a part, where there is symmetry) or whole.
+/// The steps of a ladder in order, each with whether it takes the scene as [`Statics`] first gave
+/// it (a part, where there is symmetry) or whole.
 pub(super) fn steps(ladder: &[Rung], is_part: bool) -> impl Iterator<Item = (bool, Rung)> {
     let part = if is_part { &ladder[..ladder.len().min(ON_THE_PART)] } else { &[] };
     part.iter().map(|step| (false, *step)).chain(ladder.iter().map(move |step| (is_part, *step)))
@@ -95,15 +98,16 @@ pub(super) struct Rung {
     pub unit: f64,
     /// Whether small blocks get units of their own.
     pub local: bool,
-    /// Whether all blocks are measured by the greatest load ([`Statics::even`]), for scenes of very unequal masses.
+    /// Whether all blocks are measured by the greatest load ([`Statics::even`]), for scenes of very
+    /// unequal masses.
     pub even: bool,
     /// The engine's tolerance.
     pub tolerance: f64,
     pub engine: EngineSettings,
 }
 
-/// Force columns from which a program is large. More: walls of a thousand blocks take several times as long. Fewer: nothing is
-/// gained, and the ladders, measured on small scenes, begin elsewhere.
+/// Force columns from which a program is large. More: walls of a thousand blocks take several times
+/// as long. Fewer: nothing is gained, and the ladders, measured on small scenes, begin elsewhere.
 const LARGE: usize = 4000;
 
 /// Whether a program is large.
@@ -113,8 +117,14 @@ pub(super) fn is_large(statics: &Statics) -> bool {
 
 impl Rung {
     /// The usual one in forces; what a ladder names differs from it.
-    pub const FORCES: Self =
-        Self { unknowns: Unknowns::Forces, unit: 1.0, local: true, even: false, tolerance: 1e-11, engine: EngineSettings::clarabel(1e-8) };
+    pub const FORCES: Self = Self {
+        unknowns: Unknowns::Forces,
+        unit: 1.0,
+        local: true,
+        even: false,
+        tolerance: 1e-11,
+        engine: EngineSettings::clarabel(1e-8),
+    };
     /// The same in rates.
     pub const RATES: Self = Self { unknowns: Unknowns::Rates, ..Self::FORCES };
     /// For large programs, on the stiffness matrix of the blocks.
@@ -143,8 +153,9 @@ pub(super) struct Candidate {
     pub rates: Vec<Rate>,
 }
 
-/// Runs of one rung after the bounds on crushing that the last forces broke were added. Fewer: thick joints near their strength
-/// stay undecided. More: time lost where the engine itself no longer resolves the bounds.
+/// Runs of one rung after the bounds on crushing that the last forces broke were added. Fewer:
+/// thick joints near their strength stay undecided. More: time lost where the engine itself no
+/// longer resolves the bounds.
 const MOST_ROUNDS: usize = 30;
 
 /// What a rung gave.
@@ -158,7 +169,14 @@ pub(super) struct Run {
 
 impl Run {
     /// The record of this run of a rung, with the ends that were recomputed from it.
-    pub fn attempt(&self, program: String, force_unit: f64, step: &Rung, engine_value: Option<f64>, [lower, upper]: [f64; 2]) -> Attempt {
+    pub fn attempt(
+        &self,
+        program: String,
+        force_unit: f64,
+        step: &Rung,
+        engine_value: Option<f64>,
+        [lower, upper]: [f64; 2],
+    ) -> Attempt {
         Attempt {
             program,
             force_unit,
@@ -176,9 +194,14 @@ impl Run {
     }
 }
 
-/// Solves the program that `build` makes, again and again with the bounds on crushing that its forces break, which stay in
-/// `statics`.
-pub(super) fn run(model: &Model, statics: &mut Statics, build: impl Fn(&Statics) -> (ConicProgram, Positions), settings: &Settings) -> Run {
+/// Solves the program that `build` makes, again and again with the bounds on crushing that its
+/// forces break, which stay in `statics`.
+pub(super) fn run(
+    model: &Model,
+    statics: &mut Statics,
+    build: impl Fn(&Statics) -> (ConicProgram, Positions),
+    settings: &Settings,
+) -> Run {
     let Model { assembly, interfaces, .. } = model;
     let mut rounds = 0;
     loop {
@@ -200,7 +223,11 @@ pub(super) fn run(model: &Model, statics: &mut Statics, build: impl Fn(&Statics)
             .into_iter()
             .map(|(velocity, spin)| Rate { velocity, spin })
             .collect();
-        return Run { candidate: Some(Candidate { solution: solution.clone(), forces, rates }), solution, size };
+        return Run {
+            candidate: Some(Candidate { solution: solution.clone(), forces, rates }),
+            solution,
+            size,
+        };
     }
 }
 
@@ -209,16 +236,32 @@ mod tests {
     use super::*;
 
     fn record(step: &Rung) -> serde_json::Value {
-        let solution = Solution { x: Vec::new(), z: Vec::new(), status: Status::Solved, trace: Vec::new(), seconds: 0.5 };
+        let solution = Solution {
+            x: Vec::new(),
+            z: Vec::new(),
+            status: Status::Solved,
+            trace: Vec::new(),
+            seconds: 0.5,
+        };
         let run = Run { candidate: None, solution, size: [3, 4] };
-        serde_json::to_value(run.attempt("least unbalance in forces".into(), 1.0, step, None, [0.0, 1.0])).unwrap()
+        serde_json::to_value(run.attempt(
+            "least unbalance in forces".into(),
+            1.0,
+            step,
+            None,
+            [0.0, 1.0],
+        ))
+        .unwrap()
     }
 
     #[test]
     fn a_record_names_the_settings_that_its_engine_has() {
         let [usual, interior] = [Rung::FORCES, Rung::INTERIOR].map(|step| record(&step));
         assert_eq!((usual.get("engine"), &usual["regularization"]), (None, &1e-8.into()));
-        assert_eq!((&interior["engine"], interior.get("regularization")), (&"interior".into(), None));
+        assert_eq!(
+            (&interior["engine"], interior.get("regularization")),
+            (&"interior".into(), None)
+        );
         // Result files of before have a number there.
         let mut old = interior.clone();
         old["regularization"] = 0.0.into();

@@ -1,9 +1,11 @@
 //! At what value of a number in the scene does the verdict flip?
 //!
-//! The range is scanned first, since a verdict may flip more than once (a voussoir arch is not monotone in anything but its load).
-//! Between neighbours whose verdicts differ the flip is narrowed ([`flip`](super::flip)). A value at which the scene falls less than at
-//! both its neighbours may hide a window in which it stands: there the least unbalance is followed to its lowest point. A window in which
-//! it falls, between two values at which it stands, has no such trace; only a finer scan finds it.
+//! The range is scanned first, since a verdict may flip more than once (a voussoir arch is not
+//! monotone in anything but its load). Between neighbours whose verdicts differ the flip is
+//! narrowed ([`flip`](super::flip)). A value at which the scene falls less than at both its
+//! neighbours may hide a window in which it stands: there the least unbalance is followed to its
+//! lowest point. A window in which it falls, between two values at which it stands, has no such
+//! trace; only a finer scan finds it.
 
 use super::{
     Assessment, Control, Law, Proved, assess,
@@ -26,7 +28,8 @@ pub struct Range {
     pub from: f64,
     /// The other end.
     pub to: f64,
-    /// Values scanned, both ends among them; [`SCAN`] where nothing is said, or every whole number up to [`WHOLE`] of them.
+    /// Values scanned, both ends among them; [`SCAN`] where nothing is said, or every whole number
+    /// up to [`WHOLE`] of them.
     pub scan: Option<usize>,
 }
 
@@ -53,7 +56,9 @@ pub struct Change {
 }
 
 /// How a critical value was found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
     /// The zero of the least unbalance.
@@ -90,7 +95,9 @@ pub struct Critical {
 /// # Errors
 /// The pointer names no number, or no value of the scan makes a scene; the first error is returned.
 pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Critical, InputError> {
-    scene.with_field(&range.pointer, range.from).or_else(|e| scene.with_field(&range.pointer, range.to).map_err(|_| e))?;
+    scene
+        .with_field(&range.pointer, range.from)
+        .or_else(|e| scene.with_field(&range.pointer, range.to).map_err(|_| e))?;
     let whole = is_whole(scene, range);
     let statics = Control { law: Law::Associative, ..*control };
     let mut probes = 0;
@@ -115,7 +122,8 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             break;
         }
         let answer = ask(value, *control);
-        let outcome = answer.as_ref().map(|p| (p.assessment.verdict, p.unbalance())).map_err(Clone::clone);
+        let outcome =
+            answer.as_ref().map(|p| (p.assessment.verdict, p.unbalance())).map_err(Clone::clone);
         scan.push(Scanned { value, outcome });
         if let Ok(probe) = answer {
             if k == 0 || k + 1 == count {
@@ -132,7 +140,10 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             }
         }
     }
-    if let (true, Some(error)) = (scan.iter().all(|s| s.outcome.is_err()), scan.iter().find_map(|s| s.outcome.as_ref().err())) {
+    if let (true, Some(error)) = (
+        scan.iter().all(|s| s.outcome.is_err()),
+        scan.iter().find_map(|s| s.outcome.as_ref().err()),
+    ) {
         return Err(error.clone());
     }
     if !whole {
@@ -147,7 +158,8 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     for pair in found.windows(2) {
         let [a, b] = pair else { continue };
         let (va, vb) = (a.assessment.verdict, b.assessment.verdict);
-        let settled = a.admissible() != b.admissible() || ![a, b].iter().any(|p| open.contains(&p.value));
+        let settled =
+            a.admissible() != b.admissible() || ![a, b].iter().any(|p| open.contains(&p.value));
         if va == vb || !settled {
             continue;
         }
@@ -157,10 +169,16 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             (false, false) => by_margin(&mut ask, [statics, *control], a, b, least),
         };
         let (value, method, one, other) = narrowed.unwrap_or_else(|e| {
-            notes.push(format!("the range from {} to {} could not be narrowed: {e}", a.value, b.value));
+            notes.push(format!(
+                "the range from {} to {} could not be narrowed: {e}",
+                a.value, b.value
+            ));
             (0.5 * (a.value + b.value), Method::Scan, a.clone(), b.clone())
         });
-        if let Some(side) = [&one, &other].into_iter().find(|p| control.law == Law::Coulomb && p.assessment.rests_on_statics()) {
+        if let Some(side) = [&one, &other]
+            .into_iter()
+            .find(|p| control.law == Law::Coulomb && p.assessment.rests_on_statics())
+        {
             notes.push(format!(
                 "at {} admissible forces exist; whether the loads produce them with dry friction stayed undecided",
                 side.value
@@ -170,15 +188,30 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
         changes.push(Change { value, method, below: below.proved(), above: above.proved() });
     }
     // Where there are flips, they say it all.
-    let ends = if changes.is_empty() { ends.into_iter().map(Probe::proved).collect() } else { Vec::new() };
-    Ok(Critical { range: range.clone(), whole, law: control.law, scan, changes, ends, notes, probes })
+    let ends =
+        if changes.is_empty() { ends.into_iter().map(Probe::proved).collect() } else { Vec::new() };
+    Ok(Critical {
+        range: range.clone(),
+        whole,
+        law: control.law,
+        scan,
+        changes,
+        ends,
+        notes,
+        probes,
+    })
 }
 
 /// The verdict at a value.
 ///
 /// # Errors
 /// There is no scene with this value.
-pub fn probe(scene: &Scene, pointer: &str, value: f64, control: &Control) -> Result<Probe, InputError> {
+pub fn probe(
+    scene: &Scene,
+    pointer: &str,
+    value: f64,
+    control: &Control,
+) -> Result<Probe, InputError> {
     let model = prepare(&scene.with_field(pointer, value)?)?;
     let assessment = assess::unproved(&model, control);
     Ok(Probe { value, model, assessment })
@@ -220,7 +253,8 @@ fn by_margin(
     least: f64,
 ) -> Result<Narrowed, InputError> {
     let (falls, stands) = if a.admissible() == Some(false) { (a, b) } else { (b, a) };
-    let Flip { value, falls, mut stands, linear, .. } = refine(&mut |v| ask(v, statics), falls.clone(), stands.clone(), least)?;
+    let Flip { value, falls, mut stands, linear, .. } =
+        refine(&mut |v| ask(v, statics), falls.clone(), stands.clone(), least)?;
     // With dry friction what stands by statics may be no more than wedged.
     if full.law == Law::Coulomb
         && let Ok(dry) = ask(stands.value, full)
@@ -232,9 +266,15 @@ fn by_margin(
 }
 
 /// Halves the range between two different verdicts.
-fn halve(ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>, mut a: Probe, mut b: Probe, least: f64) -> Result<Narrowed, InputError> {
+fn halve(
+    ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>,
+    mut a: Probe,
+    mut b: Probe,
+    least: f64,
+) -> Result<Narrowed, InputError> {
     loop {
-        let (middle, scale) = (0.5 * (a.value + b.value), a.value.abs().max(b.value.abs()).max(least));
+        let (middle, scale) =
+            (0.5 * (a.value + b.value), a.value.abs().max(b.value.abs()).max(least));
         if (a.value - b.value).abs() <= tolerance::DRY_CRITICAL_WIDTH * scale {
             break;
         }
@@ -250,7 +290,10 @@ fn halve(ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>, mut a: Probe, mu
 }
 
 /// Standing values between neighbours of the scan that all fall, with where they belong.
-fn windows(found: &[Probe], ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>) -> Vec<(usize, Probe)> {
+fn windows(
+    found: &[Probe],
+    ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>,
+) -> Vec<(usize, Probe)> {
     let mut list = Vec::new();
     for k in 1..found.len().saturating_sub(1) {
         let [a, b, c] = [&found[k - 1], &found[k], &found[k + 1]];
@@ -267,14 +310,23 @@ fn windows(found: &[Probe], ask: &mut dyn FnMut(f64) -> Result<Probe, InputError
 }
 
 /// Follows the unbalance downhill between three falling values; returns the first that stands.
-fn lowest(a: &Probe, b: &Probe, c: &Probe, ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>) -> Option<Probe> {
+fn lowest(
+    a: &Probe,
+    b: &Probe,
+    c: &Probe,
+    ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>,
+) -> Option<Probe> {
     // Golden sections: the part kept at each step.
     const KEPT: f64 = 0.618_033_988_749_895;
     const STEPS: usize = 24;
     let (mut low, mut middle, mut high) = (a.value, (b.value, b.unbalance()), c.value);
     for _ in 0..STEPS {
         let right = (high - middle.0).abs() > (middle.0 - low).abs();
-        let value = if right { middle.0 + (1.0 - KEPT) * (high - middle.0) } else { middle.0 - (1.0 - KEPT) * (middle.0 - low) };
+        let value = if right {
+            middle.0 + (1.0 - KEPT) * (high - middle.0)
+        } else {
+            middle.0 - (1.0 - KEPT) * (middle.0 - low)
+        };
         let probe = ask(value).ok()?;
         if probe.admissible() == Some(true) {
             return Some(probe);
@@ -325,10 +377,18 @@ mod tests {
         let control = Control { law: Law::Associative, ..Control::default() };
         let answer = critical(&arch(16), &range(0.05, 0.25, 5), &control).unwrap();
         let [change] = &answer.changes[..] else { panic!("{:?}", answer.changes.len()) };
-        println!("{} {} {} in {} scenes", change.below.value, change.value, change.above.value, answer.probes);
+        println!(
+            "{} {} {} in {} scenes",
+            change.below.value, change.value, change.above.value, answer.probes
+        );
         assert_eq!(change.method, Method::Margin);
         assert!((change.value / exact - 1.0).abs() < 1e-9, "{}", change.value / exact - 1.0);
-        assert!(change.below.value < exact && exact < change.above.value, "{} {}", change.below.value, change.above.value);
+        assert!(
+            change.below.value < exact && exact < change.above.value,
+            "{} {}",
+            change.below.value,
+            change.above.value
+        );
         assert!(change.above.value - change.below.value < 1e-8 * exact);
         assert!(answer.probes < 30, "{}", answer.probes);
     }

@@ -1,4 +1,5 @@
-//! Open ends of a bracket in JSON, which has no infinity: they are written as `null`, and read back as the end they stand for.
+//! Open ends of a bracket in JSON, which has no infinity: they are written as `null`, and read back
+//! as the end they stand for.
 
 use serde::{Deserialize, Deserializer};
 

@@ -1,17 +1,20 @@
 //! From contacts to averages: how a packing carries its load.
 //!
-//! Everything here is a sum over the contacts that carry force; the forces on block `b` of a contact are pressed along the unit normal `n`
-//! from `a` into `b`.
-//! * *Coordination number*: contacts per free grain, a contact between two free grains counted for both. A grain that nothing presses
-//!   from above (it carries itself alone) is a rattler under gravity: it could be lifted off without any other grain noticing.
-//! * *Fabric tensor* `F = ⟨n ⊗ n⟩` (Satake 1982), trace 1; anisotropy = its largest minus its least eigenvalue, 0 for equal numbers of
-//!   contacts in all directions.
-//! * *Mean stress* in the grains `σ = (1/V) Σ l ⊗ f` (Love–Weber), `l` from the centre of one grain to that of the other, or from a support's
-//!   contact point to the centre, pressure positive, Pa, `V` the volume of the grains themselves: times the share of space that grains
-//!   fill it is the stress of the packing.
+//! Everything here is a sum over the contacts that carry force; the forces on block `b` of a
+//! contact are pressed along the unit normal `n` from `a` into `b`.
+//! * *Coordination number*: contacts per free grain, a contact between two free grains counted for
+//!   both. A grain that nothing presses from above (it carries itself alone) is a rattler under
+//!   gravity: it could be lifted off without any other grain noticing.
+//! * *Fabric tensor* `F = ⟨n ⊗ n⟩` (Satake 1982), trace 1; anisotropy = its largest minus its least
+//!   eigenvalue, 0 for equal numbers of contacts in all directions.
+//! * *Mean stress* in the grains `σ = (1/V) Σ l ⊗ f` (Love–Weber), `l` from the centre of one grain
+//!   to that of the other, or from a support's contact point to the centre, pressure positive, Pa,
+//!   `V` the volume of the grains themselves: times the share of space that grains fill it is the
+//!   stress of the packing.
 //! * *Mobilised friction* `‖f_t‖ / (μ f_n)`: 1 where a contact is about to slide.
 //!
-//! M. Satake, *Fabric tensor in granular materials*, IUTAM Symposium on Deformation and Failure of Granular Materials, Delft 1982.
+//! M. Satake, *Fabric tensor in granular materials*, IUTAM Symposium on Deformation and Failure of
+//! Granular Materials, Delft 1982.
 
 use crate::{
     interface::{Interfaces, Model},
@@ -24,7 +27,8 @@ use serde::{Deserialize, Serialize};
 
 /// Bins of the angle between contact normals and gravity, each of the same solid angle.
 pub const ANGLE_BINS: usize = 9;
-/// Bins of the normal force over its mean, each [`FORCE_BIN`] wide; the last one holds all that is greater.
+/// Bins of the normal force over its mean, each [`FORCE_BIN`] wide; the last one holds all that is
+/// greater.
 pub const FORCE_BINS: usize = 17;
 /// Width of a bin of normal forces over their mean.
 pub const FORCE_BIN: f64 = 0.25;
@@ -62,7 +66,8 @@ pub struct Fabric {
     pub tensor: [[f64; 3]; 3],
     /// Its largest minus its least eigenvalue.
     pub anisotropy: f64,
-    /// Share of the contacts by the angle of their normal to gravity, from 0° to 90°, bins of equal solid angle.
+    /// Share of the contacts by the angle of their normal to gravity, from 0° to 90°, bins of equal
+    /// solid angle.
     pub normals: [f64; ANGLE_BINS],
     /// Mean normal force, N.
     pub mean_force: f64,
@@ -74,7 +79,8 @@ pub struct Fabric {
     pub stress: [[f64; 3]; 3],
     /// Volume of the free grains, m³.
     pub volume: f64,
-    /// Mean share of the friction that is used, over the contacts with a limited friction above 0; absent where there are none.
+    /// Mean share of the friction that is used, over the contacts with a limited friction above 0;
+    /// absent where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mobilised: Option<f64>,
     /// Share of these contacts that are about to slide.
@@ -101,7 +107,9 @@ pub fn contacts(interfaces: &Interfaces, forces: &Forces) -> Vec<Contact> {
             let at = face.points.iter().zip(forces).map(|(p, w)| p * weight(w)).sum();
             let tangential_force = (total - n * normal_force).norm();
             let mobilised = match face.law.friction {
-                Friction::Coefficient(mu) if mu > 0.0 => Some(tangential_force / (mu * normal_force)),
+                Friction::Coefficient(mu) if mu > 0.0 => {
+                    Some(tangential_force / (mu * normal_force))
+                }
                 _ => None,
             };
             Some(Contact { interface: k, at, normal_force, tangential_force, mobilised })
@@ -120,7 +128,9 @@ pub fn fabric(model: &Model, forces: &Forces) -> Fabric {
     let rattles = rattlers(model, forces, &list);
     let rattlers = (0..assembly.blocks.len()).filter(|&i| rattles[i]).count();
     let ends = |c: &Contact| [interfaces.list[c.interface].a, interfaces.list[c.interface].b];
-    let degree = |list: &mut dyn Iterator<Item = &Contact>| list.flat_map(ends).filter(|&i| free(i)).count() as f64;
+    let degree = |list: &mut dyn Iterator<Item = &Contact>| {
+        list.flat_map(ends).filter(|&i| free(i)).count() as f64
+    };
     let per = |sum: f64, count: usize| if count > 0 { sum / count as f64 } else { 0.0 };
     let bearing = degree(&mut list.iter().filter(|c| ends(c).iter().all(|&i| !rattles[i])));
 
@@ -135,7 +145,8 @@ pub fn fabric(model: &Model, forces: &Forces) -> Fabric {
         tensor += n * n.transpose() * share;
         let steep = 1.0 - n.dot(&down).abs();
         normals[((steep * ANGLE_BINS as f64) as usize).min(ANGLE_BINS - 1)] += share;
-        bins[((contact.normal_force / mean_force / FORCE_BIN) as usize).min(FORCE_BINS - 1)] += share;
+        bins[((contact.normal_force / mean_force / FORCE_BIN) as usize).min(FORCE_BINS - 1)] +=
+            share;
         let end = |i: usize| if free(i) { assembly.blocks[i].centroid } else { contact.at };
         let force: Vector3<f64> = forces[contact.interface].iter().map(|w| w.force).sum();
         stress += (end(face.b) - end(face.a)) * force.transpose();
@@ -155,7 +166,11 @@ pub fn fabric(model: &Model, forces: &Forces) -> Fabric {
         anisotropy: eigen.max() - eigen.min(),
         normals,
         mean_force,
-        greatest_force: if mean_force > 0.0 { list.iter().map(|c| c.normal_force).fold(0.0, f64::max) / mean_force } else { 0.0 },
+        greatest_force: if mean_force > 0.0 {
+            list.iter().map(|c| c.normal_force).fold(0.0, f64::max) / mean_force
+        } else {
+            0.0
+        },
         forces: bins,
         stress: rows(if volume > 0.0 { stress / volume } else { stress }),
         volume,

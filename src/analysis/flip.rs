@@ -1,14 +1,17 @@
 //! Where a verdict flips between a value at which a scene falls and one at which it stands.
 //!
-//! On the falling side the least unbalance `t` (program V) measures how far the flip is: it grows linearly from zero with the distance.
-//! The zero of the secant through two falling points is therefore the value itself, with an error of the product of their distances,
-//! and far closer than the two verdicts can be told apart, which needs `t` above the tolerance. Where `t` does not behave (a contact
-//! that is lost at once), the range is halved instead. Both ends of the answer are verdicts with their own evidence.
+//! On the falling side the least unbalance `t` (program V) measures how far the flip is: it grows
+//! linearly from zero with the distance. The zero of the secant through two falling points is
+//! therefore the value itself, with an error of the product of their distances, and far closer than
+//! the two verdicts can be told apart, which needs `t` above the tolerance. Where `t` does not
+//! behave (a contact that is lost at once), the range is halved instead. Both ends of the answer
+//! are verdicts with their own evidence.
 
 use super::{Assessment, Proved};
 use crate::{error::InputError, interface::Model, tolerance, verdict::Verdict};
 
-/// A model at one value of what varies, with its verdict: as it was computed on the way of a search, or proved.
+/// A model at one value of what varies, with its verdict: as it was computed on the way of a
+/// search, or proved.
 #[derive(Clone, Debug)]
 pub struct Probe<A = Assessment> {
     /// The value.
@@ -27,8 +30,9 @@ impl Probe {
         Probe { value, model, assessment }
     }
 
-    /// The least unbalance as its mechanism proves it. The attempts at a verdict end as soon as that is enough, so that the upper end may
-    /// still be far away; measured near the flip, the lower one holds to 1e-11 g.
+    /// The least unbalance as its mechanism proves it. The attempts at a verdict end as soon as
+    /// that is enough, so that the upper end may still be far away; measured near the flip, the
+    /// lower one holds to 1e-11 g.
     pub fn unbalance(&self) -> f64 {
         self.assessment.unbalance.lower
     }
@@ -61,7 +65,8 @@ pub struct Flip<A = Assessment> {
 /// What can be asked at a value.
 pub type Ask<'a> = dyn FnMut(f64) -> Result<Probe, InputError> + 'a;
 
-/// Narrows the flip between two probes, of which one falls and the other stands. `least` is the scale of values near zero.
+/// Narrows the flip between two probes, of which one falls and the other stands. `least` is the
+/// scale of values near zero.
 ///
 /// # Errors
 /// A scene between the two cannot be resolved.
@@ -89,12 +94,14 @@ struct Search<'a, 'b> {
     probes: usize,
 }
 
-/// The next point lies at this share of the way to the zero of the secant. More: curvature puts it on the standing side, which has no
-/// slope. Less: more steps.
+/// The next point lies at this share of the way to the zero of the secant. More: curvature puts it
+/// on the standing side, which has no slope. Less: more steps.
 const SHARE: f64 = 0.97;
-/// No point is laid nearer to the zero than this × the tolerance of a verdict. Smaller: what falls counts as standing. Larger: fewer digits.
+/// No point is laid nearer to the zero than this × the tolerance of a verdict. Smaller: what falls
+/// counts as standing. Larger: fewer digits.
 const NEAREST: f64 = 5.0;
-/// Scenes asked on the way to the zero. A well-behaved unbalance takes some eight, halving some forty.
+/// Scenes asked on the way to the zero. A well-behaved unbalance takes some eight, halving some
+/// forty.
 const MOST: usize = 80;
 /// Scenes asked on each side of it.
 const MOST_OUTWARDS: usize = 40;
@@ -119,9 +126,11 @@ impl Search<'_, '_> {
         (value - self.falls.value) * (value - self.stands.value) < 0.0
     }
 
-    /// Whether a zero is believed: it lies between, or where a verdict cannot tell it from the standing end.
+    /// Whether a zero is believed: it lies between, or where a verdict cannot tell it from the
+    /// standing end.
     fn reaches(&self, zero: f64) -> bool {
-        self.is_between(zero) || (zero - self.stands.value).abs() * self.slope() <= 2.0 * self.told()
+        self.is_between(zero)
+            || (zero - self.stands.value).abs() * self.slope() <= 2.0 * self.told()
     }
 
     /// The unbalance that a verdict can tell from none.
@@ -133,7 +142,8 @@ impl Search<'_, '_> {
         self.falls.value.abs().max(self.stands.value.abs()).max(self.least)
     }
 
-    /// Growth of the unbalance away from the flip, per unit of the value; 0 where there are not two points for it.
+    /// Growth of the unbalance away from the flip, per unit of the value; 0 where there are not two
+    /// points for it.
     fn slope(&self) -> f64 {
         match self.falling[..] {
             [.., (a, s), (b, t)] if a != b => ((t - s) / (b - a)).abs(),
@@ -168,7 +178,9 @@ impl Search<'_, '_> {
             if let Some(z) = secant.filter(|_| (1.0 - SHARE) * self.falls.unbalance() < least) {
                 return Ok(Some(z));
             }
-            let from_falls = secant.filter(|_| stuck < 2).map(|z| self.falls.value + SHARE * (z - self.falls.value));
+            let from_falls = secant
+                .filter(|_| stuck < 2)
+                .map(|z| self.falls.value + SHARE * (z - self.falls.value));
             last = secant;
             match self.probe(from_falls.filter(|&p| self.is_between(p)).unwrap_or(middle))? {
                 // Too close to tell: the other side of the range is still open.
@@ -179,7 +191,8 @@ impl Search<'_, '_> {
             let left = (self.stands.value - self.falls.value).abs();
             // A secant that leaves much of the unbalance is none.
             let shrinks = matches!(self.falling[..], [.., (_, s), (_, t)] if t < 0.5 * s);
-            stuck = if left <= 0.5 * gap || (from_falls.is_some() && shrinks) { 0 } else { stuck + 1 };
+            stuck =
+                if left <= 0.5 * gap || (from_falls.is_some() && shrinks) { 0 } else { stuck + 1 };
         }
         Ok(self.secant())
     }

@@ -1,9 +1,10 @@
 //! The geometric safety factor: how far the line of thrust stays inside.
 //!
-//! It is the greatest factor by which all sections can be shrunk about their centroids, loads and weights unchanged, and still contain a
-//! line of thrust: for an arch the ratio of its thickness to that of the thinnest arch inside it that carries the same loads (Heyman
-//! 1969, Int. J. Mech. Sci. 11; 1982, The Masonry Arch). Friction limits the lines of thrust as it does in the scene. The share of the
-//! sections that is left is a critical value like any other ([`flip`](super::flip)).
+//! It is the greatest factor by which all sections can be shrunk about their centroids, loads and
+//! weights unchanged, and still contain a line of thrust: for an arch the ratio of its thickness to
+//! that of the thinnest arch inside it that carries the same loads (Heyman 1969, Int. J. Mech. Sci.
+//! 11; 1982, The Masonry Arch). Friction limits the lines of thrust as it does in the scene. The
+//! share of the sections that is left is a critical value like any other ([`flip`](super::flip)).
 
 use super::{
     Assessment, Control, Law, Proved, assess,
@@ -33,14 +34,21 @@ pub fn geometric_factor(model: &Model, control: &Control) -> Geometric<Proved<As
     match parts::thrust::geometric_factor(model, control) {
         Geometric::Found(flip) => {
             let Flip { value, falls, stands, linear, probes } = *flip;
-            Geometric::Found(Box::new(Flip { value, falls: falls.proved(), stands: stands.proved(), linear, probes }))
+            Geometric::Found(Box::new(Flip {
+                value,
+                falls: falls.proved(),
+                stands: stands.proved(),
+                linear,
+                probes,
+            }))
         }
         Geometric::Beyond(probe) => Geometric::Beyond(Box::new(probe.proved())),
         Geometric::Open(why) => Geometric::Open(why),
     }
 }
 
-/// The flip that one part gave, with the verdicts on the whole scene; none of them has one where there is no flip.
+/// The flip that one part gave, with the verdicts on the whole scene; none of them has one where
+/// there is no flip.
 pub(super) fn on_scene(scene: &Model, flip: Option<Flip>, control: &Control) -> Geometric {
     let control = Control { law: Law::Associative, ..*control };
     let Some(flip) = flip else {
@@ -50,30 +58,39 @@ pub(super) fn on_scene(scene: &Model, flip: Option<Flip>, control: &Control) -> 
             _ => Geometric::Open("the verdict on shrunk sections came out undecided".into()),
         };
     };
-    let [falls, stands] = [&flip.falls, &flip.stands].map(|probe| shrunk(scene, probe.value, &control));
+    let [falls, stands] =
+        [&flip.falls, &flip.stands].map(|probe| shrunk(scene, probe.value, &control));
     Geometric::Found(Box::new(Flip { falls, stands, ..flip }))
 }
 
 /// The same for one part.
 pub(super) fn of_part(model: &Model, control: &Control) -> Geometric {
     if !are_dry(&model.interfaces) {
-        return Geometric::Open("joints have strengths or water, which shrinking sections would change".into());
+        return Geometric::Open(
+            "joints have strengths or water, which shrinking sections would change".into(),
+        );
     }
     let ask = |by: f64| shrunk(model, by, &Control { law: Law::Associative, ..*control });
     let (least, whole) = (ask(tolerance::LEAST_SHRINK), ask(1.0));
     match (least.assessment.verdict, whole.assessment.verdict) {
         (Verdict::Stable, _) => Geometric::Beyond(Box::new(least)),
-        (Verdict::Unstable, Verdict::Stable) => match refine(&mut |by| Ok(ask(by)), least, whole, tolerance::LEAST_SHRINK) {
-            Ok(flip) => Geometric::Found(Box::new(flip)),
-            Err(e) => Geometric::Open(e.to_string()),
-        },
+        (Verdict::Unstable, Verdict::Stable) => {
+            match refine(&mut |by| Ok(ask(by)), least, whole, tolerance::LEAST_SHRINK) {
+                Ok(flip) => Geometric::Found(Box::new(flip)),
+                Err(e) => Geometric::Open(e.to_string()),
+            }
+        }
         _ => Geometric::Open("the verdict on shrunk sections came out undecided".into()),
     }
 }
 
 /// The model with its sections shrunk about their centroids.
 pub fn shrunk_model(model: &Model, by: f64) -> Model {
-    Model { assembly: model.assembly.clone(), interfaces: model.interfaces.shrunk(by, centroid), timings: model.timings }
+    Model {
+        assembly: model.assembly.clone(),
+        interfaces: model.interfaces.shrunk(by, centroid),
+        timings: model.timings,
+    }
 }
 
 fn shrunk(model: &Model, by: f64, control: &Control) -> Probe {

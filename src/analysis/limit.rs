@@ -1,9 +1,10 @@
 //! How large may the live load grow? Program L, λ's bracket recomputed from the scene.
 //!
-//! Forces that balance up to a residual `r` bound λ from below by `λ − |r·q|`, a mechanism `q` with inadmissibility `e`
-//! bounds it from above by `(−w·q + Σ e f_n) / ℓ·q`; both corrections are first-order in the residuals. They steer the search; what is
-//! answered is proved: a mechanism that closes no joint, and forces at the lower end near which others balance exactly (`prove`), or
-//! the number that the proof rests on.
+//! Forces that balance up to a residual `r` bound λ from below by `λ − |r·q|`, a mechanism `q` with
+//! inadmissibility `e` bounds it from above by `(−w·q + Σ e f_n) / ℓ·q`; both corrections are
+//! first-order in the residuals. They steer the search; what is answered is proved: a mechanism
+//! that closes no joint, and forces at the lower end near which others balance exactly (`prove`),
+//! or the number that the proof rests on.
 
 use super::{
     Bracket, Deciding, Proved,
@@ -56,7 +57,8 @@ pub struct LoadFactor {
     pub bracket: Bracket,
     /// The part that decides, where there are several.
     pub part: Option<Deciding>,
-    /// Found: forces at the lower end of the bracket. Unbounded: forces that balance the live load alone. Otherwise the best there is.
+    /// Found: forces at the lower end of the bracket. Unbounded: forces that balance the live load
+    /// alone. Otherwise the best there is.
     pub forces: Forces,
     /// Unbounded: forces at the load factor `standing`, under which the scene stands.
     pub base: Option<(f64, Forces)>,
@@ -68,7 +70,8 @@ pub struct LoadFactor {
     pub attempts: Vec<Attempt>,
     /// What the scene did not need.
     pub left_out: Vec<String>,
-    /// The answers of the parts, in their order and their own units; `None` where no live load acts.
+    /// The answers of the parts, in their order and their own units; `None` where no live load
+    /// acts.
     pub(super) parts: Vec<Option<LoadFactor>>,
 }
 
@@ -79,24 +82,33 @@ const LADDER: [Rung; 8] = [
     Rung { unit: 8.0, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
     Rung { local: false, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES },
     Rung { local: false, ..Rung::RATES },
-    Rung { tolerance: 1e-10, engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false }, ..Rung::FORCES },
+    Rung {
+        tolerance: 1e-10,
+        engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false },
+        ..Rung::FORCES
+    },
     Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
     Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
 ];
 
-/// Tried first where the program is large; the second is reached by load factors far below the natural one, now that their size is known.
-const LARGE: [Rung; 2] = [Rung { tolerance: 1e-7, ..Rung::INTERIOR }, Rung { tolerance: 1e-8, ..Rung::INTERIOR }];
+/// Tried first where the program is large; the second is reached by load factors far below the
+/// natural one, now that their size is known.
+const LARGE: [Rung; 2] =
+    [Rung { tolerance: 1e-7, ..Rung::INTERIOR }, Rung { tolerance: 1e-8, ..Rung::INTERIOR }];
 
-/// First, after those for large programs, where all blocks touch in points, as spheres do: on random packings of 5,000 (three to seven contacts a grain) three other rungs
-/// leave brackets of 1e-3 to 1e-5 of the value, one after the other.
+/// First, after those for large programs, where all blocks touch in points, as spheres do: on
+/// random packings of 5,000 (three to seven contacts a grain) three other rungs leave brackets of
+/// 1e-3 to 1e-5 of the value, one after the other.
 const POINTS: Rung = Rung { local: false, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES };
 
-/// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is neither where both ends
-/// of the bracket are known): two by clarabel; one where the program is large, for the same method again would say the same.
+/// How many rungs are tried before asking whether the load factor is unbounded or impossible (it is
+/// neither where both ends of the bracket are known): two by clarabel; one where the program is
+/// large, for the same method again would say the same.
 const BEFORE_DIAGNOSIS: usize = 2;
 const BEFORE_DIAGNOSIS_LARGE: usize = 1;
 
-/// The greatest multiple of the live load under which admissible contact forces exist, part by part. The live load must not be zero.
+/// The greatest multiple of the live load under which admissible contact forces exist, part by
+/// part. The live load must not be zero.
 pub fn limit(model: &Model, control: &Control) -> Proved<LoadFactor> {
     Proved::new(model, unproved(model, control))
 }
@@ -113,7 +125,12 @@ pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
     if control.deadline.is_over() {
         return unknown(model, Vec::new());
     }
-    let options = StaticsOptions { keep_all: control.keep_all, live: true, symmetry: true, ..StaticsOptions::default() };
+    let options = StaticsOptions {
+        keep_all: control.keep_all,
+        live: true,
+        symmetry: true,
+        ..StaticsOptions::default()
+    };
     let mut statics = Statics::new(model, options);
     let natural = check::natural_factor(assembly);
     let mut answer = unknown(model, statics.left_out.clone());
@@ -122,11 +139,17 @@ pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
     let points = !interfaces.list.is_empty() && interfaces.list.iter().all(|f| f.points.len() == 1);
     let large = is_large(&statics);
     let first = LARGE.into_iter().filter(|_| large).chain(points.then_some(POINTS));
-    let ladder: Vec<Rung> = first.chain(LADDER).filter(|step| !(forces_only && step.unknowns == Unknowns::Rates)).collect();
+    let ladder: Vec<Rung> = first
+        .chain(LADDER)
+        .filter(|step| !(forces_only && step.unknowns == Unknowns::Rates))
+        .collect();
     let before_diagnosis = if large { BEFORE_DIAGNOSIS_LARGE } else { BEFORE_DIAGNOSIS };
     let mut inside = None;
     for (index, (whole, step)) in steps(&ladder, statics.is_part()).enumerate() {
-        if index == before_diagnosis && !answer.bracket.width().is_finite() && diagnose(model, control, &mut answer) {
+        if index == before_diagnosis
+            && !answer.bracket.width().is_finite()
+            && diagnose(model, control, &mut answer)
+        {
             return answer;
         }
         if whole && statics.is_part() {
@@ -138,7 +161,9 @@ pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
         }
         climb(model, &mut statics, step, scale, control.deadline, &mut answer);
         let value = answer.value.abs();
-        if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural) {
+        if answer.bracket.is_narrow(
+            tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural,
+        ) {
             let mut proved = answer.clone();
             if prove(model, control, &mut proved, natural, &mut inside) {
                 answer = proved;
@@ -161,28 +186,45 @@ pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
     answer
 }
 
-/// The share by which a load factor is lowered for forces that lie strictly inside their cones; the first that is enough. Larger: a wider
-/// bracket than [`tolerance::LOAD_FACTOR_WIDTH`]. Smaller: no room for what rounding leaves.
+/// The share by which a load factor is lowered for forces that lie strictly inside their cones; the
+/// first that is enough. Larger: a wider bracket than [`tolerance::LOAD_FACTOR_WIDTH`]. Smaller: no
+/// room for what rounding leaves.
 const INWARDS: [f64; 3] = [0.0, 1e-8, 2e-7];
 
-/// Makes the evidence of a load factor as exact as it can be, and the bracket what it proves: a mechanism that closes no joint, and forces
-/// at the lower end near which others balance exactly. At the limit itself forces have no room; mixed with a little of those that hold the
-/// scene at another load factor they have (`inside`, sought once). False where the forces leave too much unbalanced for a proof.
-fn prove(model: &Model, control: &Control, answer: &mut LoadFactor, natural: f64, inside: &mut Option<(f64, Forces)>) -> bool {
+/// Makes the evidence of a load factor as exact as it can be, and the bracket what it proves: a
+/// mechanism that closes no joint, and forces at the lower end near which others balance exactly.
+/// At the limit itself forces have no room; mixed with a little of those that hold the scene at
+/// another load factor they have (`inside`, sought once). False where the forces leave too much
+/// unbalanced for a proof.
+fn prove(
+    model: &Model,
+    control: &Control,
+    answer: &mut LoadFactor,
+    natural: f64,
+    inside: &mut Option<(f64, Forces)>,
+) -> bool {
     let Model { assembly, interfaces, .. } = model;
     let k = certificate::kinematics(model, &answer.rates, &answer.forces);
-    let width = tolerance::LOAD_FACTOR_WIDTH * answer.value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
+    let width =
+        tolerance::LOAD_FACTOR_WIDTH * answer.value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
     let mut moved = motion::motion(model, &answer.rates);
     let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
     if !moved.as_ref().is_some_and(is_proof)
-        && let Some(mended) = mend::admissible(model, &answer.rates, (answer.value, 0.1 * width * k.live_power), control.deadline)
+        && let Some(mended) = mend::admissible(
+            model,
+            &answer.rates,
+            (answer.value, 0.1 * width * k.live_power),
+            control.deadline,
+        )
     {
         let other = motion::motion(model, &mended);
         if check::upper_bound(other, || f64::INFINITY).is_finite() {
             (answer.rates, moved) = (mended, other);
         }
     }
-    let upper = |forces: &Forces, rates: &[Rate]| check::upper_bound(moved, || certificate::kinematics(model, rates, forces).upper());
+    let upper = |forces: &Forces, rates: &[Rate]| {
+        check::upper_bound(moved, || certificate::kinematics(model, rates, forces).upper())
+    };
     answer.bracket.upper = upper(&answer.forces, &answer.rates);
     let start = answer.value.min(answer.bracket.upper);
     let mut best: Option<(f64, f64, Forces)> = None;
@@ -204,7 +246,11 @@ fn prove(model: &Model, control: &Control, answer: &mut LoadFactor, natural: f64
                 sum += *b * share;
                 sum
             };
-            forces = forces.iter().zip(&*held).map(|(a, b)| a.iter().zip(b).map(mix).collect()).collect();
+            forces = forces
+                .iter()
+                .zip(&*held)
+                .map(|(a, b)| a.iter().zip(b).map(mix).collect())
+                .collect();
         }
         mend::cut(interfaces, &mut forces);
         let forces = existence::improved(model, &forces, lambda).unwrap_or(forces);
@@ -223,12 +269,13 @@ fn prove(model: &Model, control: &Control, answer: &mut LoadFactor, natural: f64
         (answer.bracket.lower, answer.forces) = (lambda, forces);
         answer.bracket.upper = upper(&answer.forces, &answer.rates);
     }
-    answer.value = answer.value.clamp(answer.bracket.lower, answer.bracket.upper.max(answer.bracket.lower));
+    answer.value =
+        answer.value.clamp(answer.bracket.lower, answer.bracket.upper.max(answer.bracket.lower));
     proved
 }
 
-/// A load factor at which the scene stands with room, and forces that hold it there: without the live load where it stands without; no
-/// forces where none are found.
+/// A load factor at which the scene stands with room, and forces that hold it there: without the
+/// live load where it stands without; no forces where none are found.
 fn elsewhere(model: &Model, control: &Control) -> (f64, Forces) {
     for live in [LiveLoad::Absent, LiveLoad::AnyMultiple] {
         let held = least_unbalance(model, live, control);
@@ -257,8 +304,16 @@ fn unknown(model: &Model, left_out: Vec<String>) -> LoadFactor {
     }
 }
 
-/// One attempt at program L; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
-fn climb(model: &Model, base: &mut Statics, step: Rung, scale: f64, deadline: Deadline, answer: &mut LoadFactor) {
+/// One attempt at program L; tightens the bracket in `answer`. Bounds on crushing that it finds
+/// stay in `base`.
+fn climb(
+    model: &Model,
+    base: &mut Statics,
+    step: Rung,
+    scale: f64,
+    deadline: Deadline,
+    answer: &mut LoadFactor,
+) {
     let assembly = &model.assembly;
     let mut statics = step.scaled(base);
     let settings = step.settings(deadline);
@@ -266,15 +321,22 @@ fn climb(model: &Model, base: &mut Statics, step: Rung, scale: f64, deadline: De
     let mut done = run(model, &mut statics, build, &settings);
     let (mut lower, mut upper, mut engine_value) = (f64::NEG_INFINITY, f64::INFINITY, None);
     if let Some(c) = done.candidate.take() {
-        let lambda = scale * if step.unknowns == Unknowns::Forces { c.solution.x[statics.matrix.columns] } else { -c.solution.z[0] };
+        let lambda = scale
+            * if step.unknowns == Unknowns::Forces {
+                c.solution.x[statics.matrix.columns]
+            } else {
+                -c.solution.z[0]
+            };
         engine_value = Some(lambda);
         let k = certificate::kinematics(model, &c.rates, &c.forces);
         let s = certificate::statics(model, &c.forces, lambda);
-        let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &c.rates[i]).abs()).sum();
+        let hidden: f64 =
+            assembly.free().map(|i| certificate::power(&s.residuals[i], &c.rates[i]).abs()).sum();
         if k.live_power > 0.0 {
             // Rates that are no mechanism bound nothing.
             let natural = check::natural_factor(assembly);
-            let allowed = tolerance::LOAD_FACTOR_BEHIND * lambda.abs() + tolerance::LOAD_FACTOR_WIDTH * natural;
+            let allowed = tolerance::LOAD_FACTOR_BEHIND * lambda.abs()
+                + tolerance::LOAD_FACTOR_WIDTH * natural;
             if k.behind(&c.forces) <= allowed {
                 upper = k.upper();
             }
@@ -290,14 +352,24 @@ fn climb(model: &Model, base: &mut Statics, step: Rung, scale: f64, deadline: De
         }
         pair(model, answer);
     }
-    let name = format!("load factor in {}", if step.unknowns == Unknowns::Forces { "forces" } else { "rates" });
+    let name = format!(
+        "load factor in {}",
+        if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }
+    );
     let engine_value = engine_value.filter(|v| v.is_finite());
-    answer.attempts.push(done.attempt(name, statics.unit / statics.total_load(), &step, engine_value, [lower, upper]));
+    answer.attempts.push(done.attempt(
+        name,
+        statics.unit / statics.total_load(),
+        &step,
+        engine_value,
+        [lower, upper],
+    ));
     base.sections = statics.sections;
 }
 
-/// The bracket of the best forces and the best mechanism together. Each end is corrected to first order by the other side, and the best
-/// of the other side corrects best: a mechanism weighed by the forces of a poor attempt may seem to fall below the limit.
+/// The bracket of the best forces and the best mechanism together. Each end is corrected to first
+/// order by the other side, and the best of the other side corrects best: a mechanism weighed by
+/// the forces of a poor attempt may seem to fall below the limit.
 fn pair(model: &Model, answer: &mut LoadFactor) {
     let assembly = &model.assembly;
     if !answer.bracket.width().is_finite() {
@@ -306,12 +378,15 @@ fn pair(model: &Model, answer: &mut LoadFactor) {
     let k = certificate::kinematics(model, &answer.rates, &answer.forces);
     let lower = |value: f64| {
         let s = certificate::statics(model, &answer.forces, value);
-        let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &answer.rates[i]).abs()).sum();
+        let hidden: f64 = assembly
+            .free()
+            .map(|i| certificate::power(&s.residuals[i], &answer.rates[i]).abs())
+            .sum();
         value - hidden / k.live_power
     };
     let mut bracket = Bracket { lower: lower(answer.value), upper: k.upper() };
-    // The engine's load factor may pass what the mechanism proves by a last digit; its forces are then those of the end itself. Ends
-    // that cross are left as they are: they prove nothing.
+    // The engine's load factor may pass what the mechanism proves by a last digit; its forces are
+    // then those of the end itself. Ends that cross are left as they are: they prove nothing.
     if bracket.lower <= bracket.upper && bracket.upper < answer.value {
         bracket.lower = lower(bracket.upper);
         answer.value = bracket.upper;
@@ -326,9 +401,19 @@ pub fn attempt(model: &Model, way: &Formulation) -> LoadFactor {
     let mut answer = unknown(model, statics.left_out.clone());
     let scale = if way.options.unscaled { 1.0 } else { check::natural_factor(assembly) };
     let Formulation { unknowns, unit, local, tolerance, engine, .. } = *way;
-    climb(model, &mut statics, Rung { unknowns, unit, local, even: false, tolerance, engine }, scale, Deadline::NEVER, &mut answer);
+    climb(
+        model,
+        &mut statics,
+        Rung { unknowns, unit, local, even: false, tolerance, engine },
+        scale,
+        Deadline::NEVER,
+        &mut answer,
+    );
     let value = answer.value.abs();
-    if answer.bracket.is_narrow(tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly)) {
+    if answer.bracket.is_narrow(
+        tolerance::LOAD_FACTOR_WIDTH * value
+            + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly),
+    ) {
         answer.outcome = Outcome::Found;
     }
     answer

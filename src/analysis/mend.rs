@@ -1,12 +1,15 @@
 //! Evidence made exact: what an engine leaves outside by rounding is brought inside.
 //!
-//! *Forces* that lie outside their cones by rounding are cut to them; what that leaves unbalanced is rounding, and the proof that forces
-//! which balance exactly exist nearby covers it ([`existence`](crate::verdict::exact::existence)).
+//! *Forces* that lie outside their cones by rounding are cut to them; what that leaves unbalanced
+//! is rounding, and the proof that forces which balance exactly exist nearby covers it
+//! ([`existence`](crate::verdict::exact::existence)).
 //!
-//! *Mechanisms* close joints by rounding where these should turn or slide. A little of a motion that opens every joint makes up for that:
-//! how far a joint closes is a sublinear function of the motion, so that `e(q + ε p) ≤ e(q) + ε e(p)`. A structure that rises and spreads
-//! as a whole opens its joints; where it is held between supports, one that opens those that need it is sought ([`opening`]). Where
-//! sliding is excluded at any force there is none, and the mechanism stays as it is.
+//! *Mechanisms* close joints by rounding where these should turn or slide. A little of a motion
+//! that opens every joint makes up for that: how far a joint closes is a sublinear function of the
+//! motion, so that `e(q + ε p) ≤ e(q) + ε e(p)`. A structure that rises and spreads as a whole
+//! opens its joints; where it is held between supports, one that opens those that need it is sought
+//! ([`opening`]). Where sliding is excluded at any force there is none, and the mechanism stays as
+//! it is.
 
 use crate::{
     assembly::Assembly,
@@ -26,7 +29,8 @@ use crate::{
 };
 use nalgebra::Vector3;
 
-/// Forces cut to their cones, and further inside by this share. Larger: unbalances above rounding. Smaller: rounding of the cut itself.
+/// Forces cut to their cones, and further inside by this share. Larger: unbalances above rounding.
+/// Smaller: rounding of the cut itself.
 const CUT: f64 = 1e-14;
 
 /// Forces with every one that lies outside its friction cone cut to it.
@@ -47,7 +51,11 @@ pub(super) fn cut(interfaces: &Interfaces, forces: &mut Forces) {
                 }
             }
             if normal != along || shear != wrench.force - n * along {
-                wrench.force = if normal == 0.0 && shear.norm() == 0.0 { Vector3::zeros() } else { n * normal + shear };
+                wrench.force = if normal == 0.0 && shear.norm() == 0.0 {
+                    Vector3::zeros()
+                } else {
+                    n * normal + shear
+                };
             }
             let arm = rolling_arm(face);
             let (most, twist) = (normal.max(0.0) * arm * (1.0 - CUT), n.dot(&wrench.moment));
@@ -60,15 +68,23 @@ pub(super) fn cut(interfaces: &Interfaces, forces: &mut Forces) {
     }
 }
 
-/// Scenes of more free blocks have no opening motion sought. More: a program as large as the one that was answered.
+/// Scenes of more free blocks have no opening motion sought. More: a program as large as the one
+/// that was answered.
 const MOST_BLOCKS: usize = 1500;
 
-/// How far inside the motion is left, over the speeds there. Larger: power lost. Smaller: rounding of the sum.
+/// How far inside the motion is left, over the speeds there. Larger: power lost. Smaller: rounding
+/// of the sum.
 const INSIDE: f64 = 1e-14;
 
-/// A motion next to `rates` that closes no joint; `None` where none is found, or where it loses more than `most` of the power of the loads
-/// (the dead load's and `lambda` × the live load's), or none before the `deadline`.
-pub(super) fn admissible(model: &Model, rates: &[Rate], (lambda, most): (f64, f64), deadline: Deadline) -> Option<Vec<Rate>> {
+/// A motion next to `rates` that closes no joint; `None` where none is found, or where it loses
+/// more than `most` of the power of the loads (the dead load's and `lambda` × the live load's), or
+/// none before the `deadline`.
+pub(super) fn admissible(
+    model: &Model,
+    rates: &[Rate],
+    (lambda, most): (f64, f64),
+    deadline: Deadline,
+) -> Option<Vec<Rate>> {
     let assembly = &model.assembly;
     let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
     if motion(model, rates).as_ref().is_some_and(is_proof) {
@@ -78,7 +94,8 @@ pub(super) fn admissible(model: &Model, rates: &[Rate], (lambda, most): (f64, f6
     let power = |q: &[Rate]| -> f64 {
         let of = |i: usize| {
             let (w, l) = (&assembly.dead[i], &assembly.live[i]);
-            (w.force + l.force * lambda).dot(&q[i].velocity) + (w.moment + l.moment * lambda).dot(&q[i].spin)
+            (w.force + l.force * lambda).dot(&q[i].velocity)
+                + (w.moment + l.moment * lambda).dot(&q[i].spin)
         };
         assembly.free().map(of).sum()
     };
@@ -89,13 +106,22 @@ pub(super) fn admissible(model: &Model, rates: &[Rate], (lambda, most): (f64, f6
         Some((share, -share * power(p)))
     };
     let mended = |p: &[Rate], share: f64| -> Option<Vec<Rate>> {
-        let mended: Vec<Rate> =
-            rates.iter().zip(p).map(|(q, p)| Rate { velocity: q.velocity + p.velocity * share, spin: q.spin + p.spin * share }).collect();
-        let holds = own - power(&mended) <= most && motion(model, &mended).as_ref().is_some_and(is_proof);
+        let mended: Vec<Rate> = rates
+            .iter()
+            .zip(p)
+            .map(|(q, p)| Rate {
+                velocity: q.velocity + p.velocity * share,
+                spin: q.spin + p.spin * share,
+            })
+            .collect();
+        let holds =
+            own - power(&mended) <= most && motion(model, &mended).as_ref().is_some_and(is_proof);
         holds.then_some(mended)
     };
-    let mut rising: Vec<(f64, f64, Vec<Rate>)> =
-        fields(assembly).filter_map(|p| added(&p).map(|(share, loss)| (loss, share, p))).filter(|(loss, ..)| *loss <= most).collect();
+    let mut rising: Vec<(f64, f64, Vec<Rate>)> = fields(assembly)
+        .filter_map(|p| added(&p).map(|(share, loss)| (loss, share, p)))
+        .filter(|(loss, ..)| *loss <= most)
+        .collect();
     rising.sort_by(|a, b| a.0.total_cmp(&b.0));
     if let Some(mended) = rising.iter().find_map(|(_, share, p)| mended(p, *share)) {
         return Some(mended);
@@ -107,15 +133,22 @@ pub(super) fn admissible(model: &Model, rates: &[Rate], (lambda, most): (f64, f6
     added(&p).and_then(|(share, _)| mended(&p, share))
 }
 
-/// The same motion without the blocks that all but rest in it, where it proves as much: what an engine leaves of a zero has power on large loads.
+/// The same motion without the blocks that all but rest in it, where it proves as much: what an
+/// engine leaves of a zero has power on large loads.
 pub(super) fn at_rest(model: &Model, rates: &[Rate]) -> Vec<Rate> {
     let Model { assembly, interfaces, .. } = model;
     let speed = |i: usize| certificate::speed(assembly, i, &rates[i]);
     let fastest = assembly.free().map(speed).fold(0.0, f64::max);
-    let rest = |(i, q): (usize, &Rate)| if speed(i) <= tolerance::MECHANISM_REST * fastest { Rate::zero() } else { *q };
+    let rest = |(i, q): (usize, &Rate)| {
+        if speed(i) <= tolerance::MECHANISM_REST * fastest { Rate::zero() } else { *q }
+    };
     let still: Vec<Rate> = rates.iter().enumerate().map(rest).collect();
     let k = certificate::kinematics(model, &still, &no_forces(interfaces));
-    if k.is_admissible(assembly) && k.gain() > tolerance::UNBALANCE * k.norm { still } else { rates.to_vec() }
+    if k.is_admissible(assembly) && k.gain() > tolerance::UNBALANCE * k.norm {
+        still
+    } else {
+        rates.to_vec()
+    }
 }
 
 /// How far each point of each contact closes, and the rounding of that, m/s.
@@ -134,7 +167,10 @@ fn closing(model: &Model, rates: &[Rate]) -> Vec<(f64, f64)> {
                 let Rate { velocity, spin } = &rates[i];
                 velocity.norm() + spin.norm() * (p - assembly.blocks[i].centroid).norm()
             };
-            list.push((mu * sliding + rolling - normal, (1.0 + mu) * (speed(face.a) + speed(face.b))));
+            list.push((
+                mu * sliding + rolling - normal,
+                (1.0 + mu) * (speed(face.a) + speed(face.b)),
+            ));
         }
     }
     list
@@ -150,7 +186,8 @@ fn rolling(face: &Interface, rates: &[Rate]) -> f64 {
     arm * ((spin - face.frame.n * twist).norm() + twist.abs())
 }
 
-/// How much of an opening motion makes up for what closes; `None` where a joint that closes is not opened.
+/// How much of an opening motion makes up for what closes; `None` where a joint that closes is not
+/// opened.
 fn share(closing: &[(f64, f64)], opening: &[(f64, f64)]) -> Option<f64> {
     let mut share = 0.0_f64;
     for ((e, speed), (p, p_speed)) in closing.iter().zip(opening) {
@@ -166,31 +203,47 @@ fn share(closing: &[(f64, f64)], opening: &[(f64, f64)]) -> Option<f64> {
     Some(share * (1.0 + 1e-3))
 }
 
-/// Rises along and spreads across gravity that are tried: a lift in sizes of the scene, and the spread over the rise.
-const FIELDS: [(f64, f64); 9] =
-    [(0.0, 1.0), (0.0, 0.1), (0.0, 0.01), (1.0, 1.0), (1.0, 0.1), (1.0, 0.01), (10.0, 1.0), (10.0, 0.1), (100.0, 1.0)];
+/// Rises along and spreads across gravity that are tried: a lift in sizes of the scene, and the
+/// spread over the rise.
+const FIELDS: [(f64, f64); 9] = [
+    (0.0, 1.0),
+    (0.0, 0.1),
+    (0.0, 0.01),
+    (1.0, 1.0),
+    (1.0, 0.1),
+    (1.0, 0.01),
+    (10.0, 1.0),
+    (10.0, 0.1),
+    (100.0, 1.0),
+];
 
-/// Motions in which every free block rises with its height and moves outwards with its distance from the middle.
+/// Motions in which every free block rises with its height and moves outwards with its distance
+/// from the middle.
 fn fields(assembly: &Assembly) -> impl Iterator<Item = Vec<Rate>> + '_ {
     let up = -assembly.gravity.normalize();
     let count = assembly.free().count().max(1) as f64;
     let middle = assembly.free().map(|i| assembly.blocks[i].centroid).sum::<Vector3<f64>>() / count;
-    let lowest = assembly.free().map(|i| up.dot(&assembly.blocks[i].centroid)).fold(f64::INFINITY, f64::min);
-    let size = assembly.free().map(|i| (assembly.blocks[i].centroid - middle).norm().max(assembly.blocks[i].size)).fold(0.0, f64::max);
+    let lowest =
+        assembly.free().map(|i| up.dot(&assembly.blocks[i].centroid)).fold(f64::INFINITY, f64::min);
+    let size = assembly
+        .free()
+        .map(|i| (assembly.blocks[i].centroid - middle).norm().max(assembly.blocks[i].size))
+        .fold(0.0, f64::max);
     FIELDS.into_iter().map(move |(lift, spread)| {
         let mut rates = vec![Rate::zero(); assembly.blocks.len()];
         for i in assembly.free() {
             let from = assembly.blocks[i].centroid - middle;
             let across = from - up * up.dot(&from);
             let height = up.dot(&assembly.blocks[i].centroid) - lowest + assembly.blocks[i].size;
-            rates[i].velocity = (up * (lift + height / size) + across * (spread / size)).map(|c| c + 0.0);
+            rates[i].velocity =
+                (up * (lift + height / size) + across * (spread / size)).map(|c| c + 0.0);
         }
         rates
     })
 }
 
-/// The least motion that opens every contact by one, of the whole scene; `None` where there is none (forces that balance without a load hold
-/// some contact closed) or where joints have strengths.
+/// The least motion that opens every contact by one, of the whole scene; `None` where there is none
+/// (forces that balance without a load hold some contact closed) or where joints have strengths.
 fn sought(model: &Model, deadline: Deadline) -> Option<Vec<Rate>> {
     let assembly = &model.assembly;
     let statics = Statics::new(model, StaticsOptions::default());

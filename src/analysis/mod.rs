@@ -30,7 +30,10 @@ pub use fabric::{Fabric, fabric};
 pub use limit::{LoadFactor, Outcome, limit};
 pub use parts::Deciding;
 pub use proved::{Claims, Proved};
-pub use question::{AssessOptions, CriticalOptions, LimitOptions, Question, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions};
+pub use question::{
+    AssessOptions, CriticalOptions, LimitOptions, Question, ReposeOptions, SimulateOptions,
+    ThrustOptions, TiltOptions,
+};
 pub use stability::{Packing, Stability, stability};
 pub use tilt::{Tilt, tilt};
 

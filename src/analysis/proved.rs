@@ -1,5 +1,5 @@
-//! The only way to hold an answer: with the check of what it claims, on the scene and by nothing that found it
-//! ([`check::verify`]). What the check refuses is taken back here and nowhere else.
+//! The only way to hold an answer: with the check of what it claims, on the scene and by nothing
+//! that found it ([`check::verify`]). What the check refuses is taken back here and nowhere else.
 
 use super::{
     Assessment, LoadFactor, Outcome,
@@ -25,11 +25,13 @@ pub trait Claims {
     /// What proves it.
     fn evidence(&self) -> Evidence<'_>;
 
-    /// Claims nothing any more: undecided. The evidence stays, for whoever wants to see what was refused.
+    /// Claims nothing any more: undecided. The evidence stays, for whoever wants to see what was
+    /// refused.
     fn withdraw(&mut self);
 }
 
-/// An answer that was checked: what it says is proved from the scene, or it says that it is undecided.
+/// An answer that was checked: what it says is proved from the scene, or it says that it is
+/// undecided.
 #[derive(Clone, Debug)]
 pub struct Proved<T> {
     answer: T,
@@ -44,12 +46,19 @@ impl<T: Claims> Proved<T> {
     pub fn new(model: &Model, mut answer: T) -> Self {
         let start = Instant::now();
         let claim = answer.claim();
-        let findings = claim.map(|c| check::verify(model, &c, answer.evidence())).unwrap_or_default();
+        let findings =
+            claim.map(|c| check::verify(model, &c, answer.evidence())).unwrap_or_default();
         let refused = claim.filter(|_| !findings.proved());
         if refused.is_some() {
             answer.withdraw();
         }
-        Self { answer, claim: claim.filter(|_| refused.is_none()), refused, findings, seconds: start.elapsed().as_secs_f64() }
+        Self {
+            answer,
+            claim: claim.filter(|_| refused.is_none()),
+            refused,
+            findings,
+            seconds: start.elapsed().as_secs_f64(),
+        }
     }
 }
 
@@ -108,7 +117,8 @@ impl Claims for Assessment {
 }
 
 impl Assessment {
-    /// Whether it counts as standing although the state under dry friction, which could deny it, was not asked.
+    /// Whether it counts as standing although the state under dry friction, which could deny it,
+    /// was not asked.
     pub fn rests_on_statics(&self) -> bool {
         let forest = self.left_out.iter().any(|l| l.starts_with(NO_STATE_NEEDED));
         self.verdict == Verdict::Stable && self.state.is_none() && !forest
@@ -123,15 +133,25 @@ impl Assessment {
 impl Claims for LoadFactor {
     fn claim(&self) -> Option<Claim> {
         match self.outcome {
-            Outcome::Found => Some(Claim::LoadFactor { value: self.value, lower: self.bracket.lower, upper: self.bracket.upper }),
-            Outcome::Unbounded => self.base.as_ref().map(|(standing, _)| Claim::Unbounded { standing: *standing }),
+            Outcome::Found => Some(Claim::LoadFactor {
+                value: self.value,
+                lower: self.bracket.lower,
+                upper: self.bracket.upper,
+            }),
+            Outcome::Unbounded => {
+                self.base.as_ref().map(|(standing, _)| Claim::Unbounded { standing: *standing })
+            }
             Outcome::Impossible => Some(Claim::Impossible),
             Outcome::Undecided => None,
         }
     }
 
     fn evidence(&self) -> Evidence<'_> {
-        Evidence { forces: &self.forces, base: self.base.as_ref().map(|b| &b.1), rates: &self.rates }
+        Evidence {
+            forces: &self.forces,
+            base: self.base.as_ref().map(|b| &b.1),
+            rates: &self.rates,
+        }
     }
 
     fn withdraw(&mut self) {
@@ -142,7 +162,8 @@ impl Claims for LoadFactor {
 impl Claims for DryLoadFactor {
     /// What is seen of states is computed, not proved: it is no claim.
     fn claim(&self) -> Option<Claim> {
-        matches!(self.found, Found::NothingSlides | Found::FixedPoint).then_some(Claim::DryLoadFactor { value: self.value })
+        matches!(self.found, Found::NothingSlides | Found::FixedPoint)
+            .then_some(Claim::DryLoadFactor { value: self.value })
     }
 
     fn evidence(&self) -> Evidence<'_> {
@@ -158,7 +179,13 @@ impl Claims for ThrustEnd {
     fn claim(&self) -> Option<Claim> {
         let Self { at, extreme, value, .. } = *self;
         match self.outcome {
-            Outcome::Found => Some(Claim::Thrust { at, extreme, value, lower: self.bracket.lower, upper: self.bracket.upper }),
+            Outcome::Found => Some(Claim::Thrust {
+                at,
+                extreme,
+                value,
+                lower: self.bracket.lower,
+                upper: self.bracket.upper,
+            }),
             Outcome::Unbounded => Some(Claim::EndlessThrust { at, extreme }),
             Outcome::Impossible | Outcome::Undecided => None,
         }

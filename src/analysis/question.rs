@@ -1,4 +1,5 @@
-//! What can be asked: one type for verbs, plans, result files and the library, checked where it is made ([`Question::check`]).
+//! What can be asked: one type for verbs, plans, result files and the library, checked where it is
+//! made ([`Question::check`]).
 
 use super::{Control, Law};
 use crate::error::{InputError, JsonPath};
@@ -43,7 +44,8 @@ pub struct LimitOptions {
     /// A load factor below this counts as failure.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub require: Option<f64>,
-    /// Whether it stands under its dead load alone is not asked as well. Rows of a sweep never ask it.
+    /// Whether it stands under its dead load alone is not asked as well. Rows of a sweep never ask
+    /// it.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub skip_dead: bool,
 }
@@ -79,7 +81,8 @@ pub struct CriticalOptions {
     pub vary: String,
     /// Both ends of the range.
     pub between: [f64; 2],
-    /// Values scanned, both ends among them: 33 where nothing is said, or every whole number up to 1000 of them.
+    /// Values scanned, both ends among them: 33 where nothing is said, or every whole number up to
+    /// 1000 of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scan: Option<usize>,
 }
@@ -164,11 +167,19 @@ impl Question {
                 refuse("moving_mass", format!("must be a share from 0 to 1, got {}", o.moving_mass))
             }
             Self::Repose(o) => check_directions(&path, &o.toward, o.all),
-            Self::Critical(o) if o.between[0] == o.between[1] => refuse("between", "the range is empty".into()),
-            Self::Critical(o) if o.scan.is_some_and(|n| n < 2) => refuse("scan", "must be at least 2: both ends of the range".into()),
+            Self::Critical(o) if o.between[0] == o.between[1] => {
+                refuse("between", "the range is empty".into())
+            }
+            Self::Critical(o) if o.scan.is_some_and(|n| n < 2) => {
+                refuse("scan", "must be at least 2: both ends of the range".into())
+            }
             Self::Critical(_) => Ok(()),
-            Self::Simulate(o) if o.fast && o.fine => refuse("fine", "\"fast\" and \"fine\" are both given".into()),
-            Self::Simulate(o) if o.seconds.is_some_and(|s| s.is_nan() || s <= 0.0) => refuse("seconds", "must be > 0".into()),
+            Self::Simulate(o) if o.fast && o.fine => {
+                refuse("fine", "\"fast\" and \"fine\" are both given".into())
+            }
+            Self::Simulate(o) if o.seconds.is_some_and(|s| s.is_nan() || s <= 0.0) => {
+                refuse("seconds", "must be > 0".into())
+            }
             Self::Simulate(_) => Ok(()),
         }
     }
@@ -214,7 +225,9 @@ impl Question {
     pub fn quantity(&self) -> Option<&'static str> {
         match self {
             Self::Assess(_) | Self::Simulate(_) => None,
-            Self::Thrust(o) => Some(if o.greatest { "greatest thrust in N" } else { "least thrust in N" }),
+            Self::Thrust(o) => {
+                Some(if o.greatest { "greatest thrust in N" } else { "least thrust in N" })
+            }
             Self::Limit(_) => Some("load factor"),
             Self::Tilt(_) => Some("tilt in degrees"),
             Self::Critical(_) => Some("value at which the verdict flips"),
@@ -222,7 +235,8 @@ impl Question {
         }
     }
 
-    /// The same without what one number cannot show: the verdict beside a load factor, the other end of a range.
+    /// The same without what one number cannot show: the verdict beside a load factor, the other
+    /// end of a range.
     #[must_use]
     pub fn for_one_number(&self) -> Self {
         match self.clone() {
@@ -240,18 +254,30 @@ impl Question {
     }
 }
 
-fn check_directions(path: &JsonPath, toward: &[[f64; 3]], all: Option<u16>) -> Result<(), InputError> {
+fn check_directions(
+    path: &JsonPath,
+    toward: &[[f64; 3]],
+    all: Option<u16>,
+) -> Result<(), InputError> {
     match (all, toward.is_empty()) {
-        (Some(_), false) => Err(InputError::at(path.key("all"), "\"toward\" and \"all\" are both given").hint("keep one of them")),
-        (Some(n), true) if !(1..=MOST_DIRECTIONS).contains(&n) => {
-            Err(InputError::at(path.key("all"), format!("must be from 1 to {MOST_DIRECTIONS}, got {n}")))
+        (Some(_), false) => {
+            Err(InputError::at(path.key("all"), "\"toward\" and \"all\" are both given")
+                .hint("keep one of them"))
         }
+        (Some(n), true) if !(1..=MOST_DIRECTIONS).contains(&n) => Err(InputError::at(
+            path.key("all"),
+            format!("must be from 1 to {MOST_DIRECTIONS}, got {n}"),
+        )),
         _ => Ok(()),
     }
 }
 
 /// The directions that are asked about.
-pub(super) fn directions(gravity: Vector3<f64>, toward: &[[f64; 3]], all: Option<u16>) -> Vec<Vector3<f64>> {
+pub(super) fn directions(
+    gravity: Vector3<f64>,
+    toward: &[[f64; 3]],
+    all: Option<u16>,
+) -> Vec<Vector3<f64>> {
     if toward.is_empty() {
         return super::tilt::directions(gravity, all.unwrap_or(DIRECTIONS).into());
     }

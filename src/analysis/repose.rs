@@ -1,9 +1,11 @@
 //! The angle of repose: the slope that a heap leaves behind which flowed and came to rest.
 //!
-//! A heap is made by a [`Protocol`] in the dynamics. Its free surface is the highest grain of every cell 2 d wide; the cells at wall and toe
-//! are dropped and a straight line is fitted along each of several paths (strips from the wall to the edge, or sectors from the middle) and
-//! through their mean. The heap at rest is then a scene like any other, and its static margin, the tilt that it still bears, is
-//! asked for as a cross-check by a method that shares nothing with the dynamics but the places of the grains.
+//! A heap is made by a [`Protocol`] in the dynamics. Its free surface is the highest grain of every
+//! cell 2 d wide; the cells at wall and toe are dropped and a straight line is fitted along each of
+//! several paths (strips from the wall to the edge, or sectors from the middle) and through their
+//! mean. The heap at rest is then a scene like any other, and its static margin, the tilt that it
+//! still bears, is asked for as a cross-check by a method that shares nothing with the dynamics but
+//! the places of the grains.
 
 use super::{
     Control, Outcome, Tilt,
@@ -33,7 +35,8 @@ const FEWEST: usize = 3;
 const HORIZON: f64 = 400.0;
 /// √(d/g) between two layers that are poured: a grain falls 3 d in the meantime.
 const POUR: f64 = 2.5;
-/// Rounds in which grains that nothing balances are left out. More: a heap that really falls is taken apart.
+/// Rounds in which grains that nothing balances are left out. More: a heap that really falls is
+/// taken apart.
 const UNBALANCED: usize = 4;
 /// Cells lower than this, d, are the rough floor with single grains on it: the toe.
 const TOE: f64 = 1.0;
@@ -85,7 +88,8 @@ pub struct Margin {
     pub tilt: Tilt,
     /// Grains that nothing held.
     pub loose: usize,
-    /// Grains that no admissible forces balance as they lie, left out: they still creep, too slowly for the dynamics to call it motion.
+    /// Grains that no admissible forces balance as they lie, left out: they still creep, too slowly
+    /// for the dynamics to call it motion.
     pub unbalanced: usize,
     /// Seconds: contacts, limit.
     pub seconds: [f64; 2],
@@ -95,20 +99,32 @@ pub struct Margin {
 ///
 /// # Errors
 /// A value of the protocol is out of its range.
-pub fn heap(protocol: &Protocol, seed: u64, watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>) -> Result<Heap, InputError> {
+pub fn heap(
+    protocol: &Protocol,
+    seed: u64,
+    watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>,
+) -> Result<Heap, InputError> {
     let Deposit { scene, gates, layers } = deposit(protocol, seed)?;
     let assembly = assembly::resolve(&scene)?;
-    let index: BTreeMap<&str, usize> = assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
-    let find = |ids: &[String]| ids.iter().filter_map(|id| index.get(id.as_str()).copied()).collect::<Vec<_>>();
+    let index: BTreeMap<&str, usize> =
+        assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
+    let find = |ids: &[String]| {
+        ids.iter().filter_map(|id| index.get(id.as_str()).copied()).collect::<Vec<_>>()
+    };
     let d = protocol.diameter;
     let g = assembly.gravity.norm();
     let natural = (d / g).sqrt();
     let stages = match protocol.kind {
         ProtocolKind::Drain => vec![Disturbance::Settle, Disturbance::Remove(find(&gates))],
-        ProtocolKind::Funnel => vec![Disturbance::Pour(layers.iter().map(|l| find(l)).collect(), POUR * natural)],
+        ProtocolKind::Funnel => {
+            vec![Disturbance::Pour(layers.iter().map(|l| find(l)).collect(), POUR * natural)]
+        }
         ProtocolKind::Cylinder => {
             let height = 3.0 * d * (protocol.grains as f64).cbrt();
-            vec![Disturbance::Settle, Disturbance::Lift(find(&gates), protocol.rate * (g * d).sqrt(), height)]
+            vec![
+                Disturbance::Settle,
+                Disturbance::Lift(find(&gates), protocol.rate * (g * d).sqrt(), height),
+            ]
         }
         // Towards the gate, which goes as soon as the bed has settled.
         ProtocolKind::Tilt => {
@@ -117,17 +133,26 @@ pub fn heap(protocol: &Protocol, seed: u64, watch: &mut dyn FnMut(&Flow) -> Cont
         }
     };
     let rest = flow(&assembly, &stages, d, HORIZON, watch)?;
-    let spots: Vec<(Vector3<f64>, f64)> =
-        assembly.free().filter_map(|i| rest.poses[i].map(|p| (i, p))).flat_map(|(i, pose)| tops(&assembly.blocks[i], pose)).collect();
+    let spots: Vec<(Vector3<f64>, f64)> = assembly
+        .free()
+        .filter_map(|i| rest.poses[i].map(|p| (i, p)))
+        .flat_map(|(i, pose)| tops(&assembly.blocks[i], pose))
+        .collect();
     let turned = rest.turned.unwrap_or(0.0);
     let (slope, parts) = surface(protocol, &spots, turned);
     let mut findings = Vec::new();
     let mut say = |text: String| findings.push(Finding::new(FindingCode::Numerics, text));
     if !rest.rested {
-        say(format!("the heap still moves: {:.1e} m g d a grain after {:.0} √(d/g)", rest.energy, rest.time / natural));
+        say(format!(
+            "the heap still moves: {:.1e} m g d a grain after {:.0} √(d/g)",
+            rest.energy,
+            rest.time / natural
+        ));
     }
     if slope.is_none() {
-        say(format!("fewer than {FEWEST} cells of the surface lie between wall and toe: too few grains for a slope"));
+        say(format!(
+            "fewer than {FEWEST} cells of the surface lie between wall and toe: too few grains for a slope"
+        ));
     }
     let free = assembly.free().count();
     Ok(Heap {
@@ -146,7 +171,10 @@ pub fn heap(protocol: &Protocol, seed: u64, watch: &mut dyn FnMut(&Flow) -> Cont
 }
 
 /// Spheres with these centres and radii, one of whose tops is the top of the grain as it has moved.
-fn tops(block: &assembly::Block, (center, turn): (Vector3<f64>, UnitQuaternion<f64>)) -> Vec<(Vector3<f64>, f64)> {
+fn tops(
+    block: &assembly::Block,
+    (center, turn): (Vector3<f64>, UnitQuaternion<f64>),
+) -> Vec<(Vector3<f64>, f64)> {
     let moved = |p: &Vector3<f64>| center + turn * (p - block.centroid);
     match &block.solid {
         assembly::Solid::Sphere { center, radius } => vec![(moved(center), *radius)],
@@ -156,7 +184,12 @@ fn tops(block: &assembly::Block, (center, turn): (Vector3<f64>, UnitQuaternion<f
 }
 
 /// The heap as a scene: what stayed, where it lies.
-fn settled(scene: &Scene, assembly: &assembly::Assembly, rest: &Rest, index: &BTreeMap<&str, usize>) -> Scene {
+fn settled(
+    scene: &Scene,
+    assembly: &assembly::Assembly,
+    rest: &Rest,
+    index: &BTreeMap<&str, usize>,
+) -> Scene {
     let mut heap = scene.clone();
     heap.contact.gap = GRAIN_GAP;
     if let Some(turned) = rest.turned {
@@ -176,24 +209,41 @@ fn settled(scene: &Scene, assembly: &assembly::Assembly, rest: &Rest, index: &BT
 }
 
 /// Moves a block: the frame x ↦ R x + t turns about the centre of mass.
-fn lay(spec: &mut BlockSpec, block: &assembly::Block, center: Vector3<f64>, turn: UnitQuaternion<f64>) {
+fn lay(
+    spec: &mut BlockSpec,
+    block: &assembly::Block,
+    center: Vector3<f64>,
+    turn: UnitQuaternion<f64>,
+) {
     if matches!(block.solid, assembly::Solid::Sphere { .. }) {
         // A sphere looks the same however it has turned.
         spec.at = center.into();
         return;
     }
-    let before = spec.rotation_deg.as_ref().and_then(|r| Unit::try_new(Vector3::from(r.axis), 0.0).map(|axis| (axis, r.angle)));
-    let before = before.map_or(UnitQuaternion::identity(), |(axis, angle)| UnitQuaternion::from_axis_angle(&axis, angle.to_radians()));
+    let before = spec
+        .rotation_deg
+        .as_ref()
+        .and_then(|r| Unit::try_new(Vector3::from(r.axis), 0.0).map(|axis| (axis, r.angle)));
+    let before = before.map_or(UnitQuaternion::identity(), |(axis, angle)| {
+        UnitQuaternion::from_axis_angle(&axis, angle.to_radians())
+    });
     spec.at = (center + turn * (Vector3::from(spec.at) - block.centroid)).into();
-    spec.rotation_deg =
-        (turn * before).axis_angle().map(|(axis, angle)| Rotation { axis: axis.into_inner().into(), angle: angle.to_degrees() });
+    spec.rotation_deg = (turn * before).axis_angle().map(|(axis, angle)| Rotation {
+        axis: axis.into_inner().into(),
+        angle: angle.to_degrees(),
+    });
 }
 
 /// The fit through the mean surface, and the fits along strips or sectors.
 ///
-/// Where the bed has been tilted by `turned` radians, ways and heights count as gravity sees them: against the bed the surface is
-/// nearly level, and a line through it would explain little of its roughness.
-fn surface(protocol: &Protocol, spots: &[(Vector3<f64>, f64)], turned: f64) -> (Option<Slope>, Vec<Slope>) {
+/// Where the bed has been tilted by `turned` radians, ways and heights count as gravity sees them:
+/// against the bed the surface is nearly level, and a line through it would explain little of its
+/// roughness.
+fn surface(
+    protocol: &Protocol,
+    spots: &[(Vector3<f64>, f64)],
+    turned: f64,
+) -> (Option<Slope>, Vec<Slope>) {
     let d = protocol.diameter;
     let width = CELL * d;
     let open = matches!(protocol.kind, ProtocolKind::Funnel | ProtocolKind::Cylinder);
@@ -205,7 +255,10 @@ fn surface(protocol: &Protocol, spots: &[(Vector3<f64>, f64)], turned: f64) -> (
     for (c, r) in spots {
         let (path, way) = if open {
             let (x, y) = (c.x - middle.x, c.y - middle.y);
-            ((((y.atan2(x) / TAU).rem_euclid(1.0) * SECTORS as f64) as usize).min(SECTORS - 1), x.hypot(y))
+            (
+                (((y.atan2(x) / TAU).rem_euclid(1.0) * SECTORS as f64) as usize).min(SECTORS - 1),
+                x.hypot(y),
+            )
         } else {
             // What hangs over the edge is no part of the surface.
             if c.x < 0.0 || c.x > protocol.size[0] * d {
@@ -230,23 +283,28 @@ fn surface(protocol: &Protocol, spots: &[(Vector3<f64>, f64)], turned: f64) -> (
         (cells.iter().map(|c| c.0).sum::<f64>() / n, cells.iter().map(|c| c.1).sum::<f64>() / n)
     };
     // A step that not every path reaches lies beyond the toe of the mean.
-    let profile: Vec<(f64, f64)> = steps.values().filter(|cells| 2 * cells.len() > full).map(mean).collect();
+    let profile: Vec<(f64, f64)> =
+        steps.values().filter(|cells| 2 * cells.len() > full).map(mean).collect();
     (fit(&profile, d, turned), paths.values().filter_map(|cells| fit(cells, d, turned)).collect())
 }
 
 /// A straight line through cells, the first (at the wall, or the top) and the toe left out.
 fn fit(cells: &[(f64, f64)], d: f64, turned: f64) -> Option<Slope> {
-    // Beyond the last cell that stands clear of the floor is the toe; its own last cell is cut by it.
+    // Beyond the last cell that stands clear of the floor is the toe; its own last cell is cut by
+    // it.
     let end = cells.iter().rposition(|c| c.1 > TOE * d)?;
     let (sin, cos) = turned.sin_cos();
-    let inner: Vec<(f64, f64)> = cells.get(1..end)?.iter().map(|(x, z)| (x * cos + z * sin, z * cos - x * sin)).collect();
+    let inner: Vec<(f64, f64)> =
+        cells.get(1..end)?.iter().map(|(x, z)| (x * cos + z * sin, z * cos - x * sin)).collect();
     if inner.len() < FEWEST {
         return None;
     }
     let n = inner.len() as f64;
-    let (x, z) = (inner.iter().map(|c| c.0).sum::<f64>() / n, inner.iter().map(|c| c.1).sum::<f64>() / n);
+    let (x, z) =
+        (inner.iter().map(|c| c.0).sum::<f64>() / n, inner.iter().map(|c| c.1).sum::<f64>() / n);
     let sum = |f: &dyn Fn(&(f64, f64)) -> f64| inner.iter().map(f).sum::<f64>();
-    let (xx, xz, zz) = (sum(&|c| (c.0 - x).powi(2)), sum(&|c| (c.0 - x) * (c.1 - z)), sum(&|c| (c.1 - z).powi(2)));
+    let (xx, xz, zz) =
+        (sum(&|c| (c.0 - x).powi(2)), sum(&|c| (c.0 - x) * (c.1 - z)), sum(&|c| (c.1 - z).powi(2)));
     if xx <= 0.0 {
         return None;
     }
@@ -267,7 +325,8 @@ pub fn margin(heap: &Heap, control: &Control) -> Result<Margin, InputError> {
     let (mut gone, mut unbalanced) = (loose.clone(), 0);
     let mut tilt = tilt(&model, down, control)?;
     for _ in 0..UNBALANCED {
-        let moving: Vec<usize> = tilt.load_factor.mechanism.iter().flat_map(|m| m.moving.iter().copied()).collect();
+        let moving: Vec<usize> =
+            tilt.load_factor.mechanism.iter().flat_map(|m| m.moving.iter().copied()).collect();
         if tilt.load_factor.outcome != Outcome::Impossible || moving.is_empty() {
             break;
         }
@@ -281,7 +340,13 @@ pub fn margin(heap: &Heap, control: &Control) -> Result<Margin, InputError> {
         tilt = self::tilt(&model, down, control)?;
     }
     let scene = without(&heap.scene, &gone)?;
-    Ok(Margin { scene, tilt, loose: loose.len(), unbalanced, seconds: [contacts, start.elapsed().as_secs_f64()] })
+    Ok(Margin {
+        scene,
+        tilt,
+        loose: loose.len(),
+        unbalanced,
+        seconds: [contacts, start.elapsed().as_secs_f64()],
+    })
 }
 
 impl Margin {
@@ -310,7 +375,10 @@ mod tests {
             .collect();
         let (mean, parts) = surface(&protocol, &spots, 0.0);
         let mean = mean.expect("a slope");
-        assert!((mean.angle_deg - 25.0).abs() < 1e-9 && mean.r_squared > 1.0 - 1e-12 && mean.cells >= 5, "{mean:?}");
+        assert!(
+            (mean.angle_deg - 25.0).abs() < 1e-9 && mean.r_squared > 1.0 - 1e-12 && mean.cells >= 5,
+            "{mean:?}"
+        );
         assert_eq!(parts.len(), 5);
         assert!(parts.iter().all(|p| (p.angle_deg - 25.0).abs() < 1e-9), "{parts:?}");
         // The same grains where gravity has turned by 10°: ten more, with the same fit.

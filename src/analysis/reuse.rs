@@ -1,8 +1,8 @@
 //! Many scenes that share their blocks or their contacts: what they share is computed once.
 //!
-//! Blocks depend on shapes and densities, contacts on shapes alone (and the contact tolerances); joints, loads and gravity
-//! change neither. The caller says which scenes are alike by two [`Keys`]; a model made with reuse is the same bit by bit as one
-//! made without.
+//! Blocks depend on shapes and densities, contacts on shapes alone (and the contact tolerances);
+//! joints, loads and gravity change neither. The caller says which scenes are alike by two
+//! [`Keys`]; a model made with reuse is the same bit by bit as one made without.
 
 use crate::{
     assembly::{self, Blocks},
@@ -28,7 +28,8 @@ pub struct Keys {
     pub masses: Vec<u64>,
 }
 
-/// So many blocks lists and contact lists are kept. More: memory. Fewer: threads that work on different parts of a grid push each other's out.
+/// So many blocks lists and contact lists are kept. More: memory. Fewer: threads that work on
+/// different parts of a grid push each other's out.
 const KEPT: usize = 64;
 
 /// The parts that are kept.
@@ -53,7 +54,10 @@ impl Reuse {
 
     /// How often blocks were resolved and contacts detected.
     pub fn computed(&self) -> [usize; 2] {
-        [self.blocks.computed.load(Ordering::Relaxed), self.contacts.computed.load(Ordering::Relaxed)]
+        [
+            self.blocks.computed.load(Ordering::Relaxed),
+            self.contacts.computed.load(Ordering::Relaxed),
+        ]
     }
 }
 
@@ -75,9 +79,14 @@ impl<K, V> Default for Store<K, V> {
 }
 
 impl<K: Clone + Eq + Hash, V> Store<K, V> {
-    /// The value for `key`; computed under the lock of its own slot, so that threads with the same key wait instead of repeating
-    /// the work. A failure is not kept: it may be due to something else in the scene.
-    fn get(&self, key: &K, compute: impl FnOnce() -> Result<V, InputError>) -> Result<Arc<V>, InputError> {
+    /// The value for `key`; computed under the lock of its own slot, so that threads with the same
+    /// key wait instead of repeating the work. A failure is not kept: it may be due to something
+    /// else in the scene.
+    fn get(
+        &self,
+        key: &K,
+        compute: impl FnOnce() -> Result<V, InputError>,
+    ) -> Result<Arc<V>, InputError> {
         let slot = self.slot(key);
         let mut value = slot.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = &*value {

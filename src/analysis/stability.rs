@@ -1,9 +1,12 @@
-//! The angle of maximum stability of a packing at rest: the tilt of gravity at which the first grains, or enough of them, lose balance.
+//! The angle of maximum stability of a packing at rest: the tilt of gravity at which the first
+//! grains, or enough of them, lose balance.
 //!
-//! A packing fails as soon as one loose grain on its surface rolls off, which says little about the packing. Each direction is therefore
-//! asked in rounds: the grains that a mechanism moves are taken away until a mechanism moves at least a given share of the mass of all free
-//! grains, or nothing is left. Grains without a contact path to a support are no part of the packing and are taken away before.
-//! What one round finds has the proof of any tilt ([`tilt`](super::tilt())), for the packing that it was asked about.
+//! A packing fails as soon as one loose grain on its surface rolls off, which says little about the
+//! packing. Each direction is therefore asked in rounds: the grains that a mechanism moves are
+//! taken away until a mechanism moves at least a given share of the mass of all free grains, or
+//! nothing is left. Grains without a contact path to a support are no part of the packing and are
+//! taken away before. What one round finds has the proof of any tilt ([`tilt`](super::tilt())), for
+//! the packing that it was asked about.
 
 use super::{Control, Outcome, Tilt, tilt};
 use crate::{
@@ -42,7 +45,8 @@ pub struct Round {
 /// One direction.
 #[derive(Clone, Debug)]
 pub struct Stability {
-    /// The rounds in order. What a later round loses at a smaller tilt has fallen by the greatest tilt before it.
+    /// The rounds in order. What a later round loses at a smaller tilt has fallen by the greatest
+    /// tilt before it.
     pub rounds: Vec<Round>,
     /// The round with the answer: the greatest tilt.
     pub answer: usize,
@@ -60,14 +64,23 @@ pub fn held(model: &Model) -> (Model, Vec<String>) {
 ///
 /// # Errors
 /// As [`stability`].
-pub fn packing(model: &Model, toward: &[Vector3<f64>], moving_mass: f64, control: &Control) -> Result<Packing, InputError> {
+pub fn packing(
+    model: &Model,
+    toward: &[Vector3<f64>],
+    moving_mass: f64,
+    control: &Control,
+) -> Result<Packing, InputError> {
     let (model, loose) = held(model);
-    let directions = toward.iter().map(|&d| stability(&model, &loose, d, moving_mass, control)).collect::<Result<Vec<_>, InputError>>()?;
+    let directions = toward
+        .iter()
+        .map(|&d| stability(&model, &loose, d, moving_mass, control))
+        .collect::<Result<Vec<_>, InputError>>()?;
     Ok(Packing { model, loose, directions })
 }
 
-/// The tilt towards `toward` at which at least `moving_mass` (a share of the mass of the free grains) has moved; `loose` are the ids of the grains
-/// that are gone already. With dry friction asked for, the round with the answer has the value with dry friction as well.
+/// The tilt towards `toward` at which at least `moving_mass` (a share of the mass of the free
+/// grains) has moved; `loose` are the ids of the grains that are gone already. With dry friction
+/// asked for, the round with the answer has the value with dry friction as well.
 ///
 /// # Errors
 /// As [`turned`](super::tilt::turned).
@@ -78,15 +91,18 @@ pub fn stability(
     moving_mass: f64,
     control: &Control,
 ) -> Result<Stability, InputError> {
-    let mass = |model: &Model| model.assembly.free().map(|i| model.assembly.blocks[i].mass).sum::<f64>();
+    let mass =
+        |model: &Model| model.assembly.free().map(|i| model.assembly.blocks[i].mass).sum::<f64>();
     let all = mass(model);
     let (mut model, mut gone) = (model.clone(), loose.to_vec());
     let (mut rounds, mut level): (Vec<Round>, Vec<Model>) = Default::default();
     loop {
         let tilt = tilt(&model, toward, control)?;
-        let moving: Vec<usize> = tilt.load_factor.mechanism.iter().flat_map(|m| m.moving.iter().copied()).collect();
+        let moving: Vec<usize> =
+            tilt.load_factor.mechanism.iter().flat_map(|m| m.moving.iter().copied()).collect();
         let ids = model.ids(&moving);
-        let left = mass(&model) - moving.iter().map(|&i| model.assembly.blocks[i].mass).sum::<f64>();
+        let left =
+            mass(&model) - moving.iter().map(|&i| model.assembly.blocks[i].mass).sum::<f64>();
         let moved = if all > 0.0 { 1.0 - left / all } else { 0.0 };
         // What stood on the grains that fell may fall however it is tilted: it fell with them.
         let fell = match tilt.load_factor.outcome {
@@ -109,19 +125,28 @@ pub fn stability(
 }
 
 /// Finds the round with the answer, and asks for dry friction there.
-fn finish(mut rounds: Vec<Round>, level: &[Model], reached: bool, control: &Control) -> Result<Stability, InputError> {
-    // A round that stayed open ends the search, and is the answer then; only what fell after others is none of its own.
+fn finish(
+    mut rounds: Vec<Round>,
+    level: &[Model],
+    reached: bool,
+    control: &Control,
+) -> Result<Stability, InputError> {
+    // A round that stayed open ends the search, and is the answer then; only what fell after others
+    // is none of its own.
     let height = |r: &Round| match r.tilt.load_factor.outcome {
         Outcome::Undecided => f64::INFINITY,
         Outcome::Impossible => f64::NEG_INFINITY,
         Outcome::Found | Outcome::Unbounded => r.tilt.angle_deg(),
     };
-    let answer = (0..rounds.len()).max_by(|&i, &j| height(&rounds[i]).total_cmp(&height(&rounds[j])).then(j.cmp(&i))).unwrap_or(0);
+    let answer = (0..rounds.len())
+        .max_by(|&i, &j| height(&rounds[i]).total_cmp(&height(&rounds[j])).then(j.cmp(&i)))
+        .unwrap_or(0);
     rounds[answer].tilt.add_dry(&level[answer], None, control)?;
     Ok(Stability { rounds, answer, reached })
 }
 
-/// The scene without some blocks and all that names them; templates become blocks. Nothing changes where there are none.
+/// The scene without some blocks and all that names them; templates become blocks. Nothing changes
+/// where there are none.
 ///
 /// # Errors
 /// A template cannot be expanded.

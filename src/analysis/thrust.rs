@@ -1,8 +1,8 @@
 //! The least and the greatest thrust on a support, and how far the line of thrust stays inside.
 //!
-//! The *thrust* is the horizontal component, along a direction, of the force that the blocks exert on a support. Where it has no end
-//! (blocks wedged between supports), that is an answer of its own. Beside it stands the geometric safety factor
-//! ([`geometric`](super::geometric)).
+//! The *thrust* is the horizontal component, along a direction, of the force that the blocks exert
+//! on a support. Where it has no end (blocks wedged between supports), that is an answer of its
+//! own. Beside it stands the geometric safety factor ([`geometric`](super::geometric)).
 
 use super::{
     Assessment, Bracket, Control, Outcome, Proved, assess,
@@ -57,24 +57,48 @@ const LADDER: [Rung; 5] = [
     Rung { unit: 4.0, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
     Rung { unit: 0.25, tolerance: 1e-12, ..Rung::FORCES },
     Rung { local: false, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES },
-    Rung { tolerance: 1e-10, engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false }, ..Rung::FORCES },
+    Rung {
+        tolerance: 1e-10,
+        engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false },
+        ..Rung::FORCES
+    },
 ];
 
-/// Where a thrust is asked for: on this support, or the first that touches a free block; in the part of this direction across gravity, or outwards.
+/// Where a thrust is asked for: on this support, or the first that touches a free block; in the
+/// part of this direction across gravity, or outwards.
 ///
 /// # Errors
 /// There is no such support, it touches no free block, or no direction follows.
-pub fn place(model: &Model, support: Option<&str>, direction: Option<[f64; 3]>) -> Result<ThrustAt, InputError> {
+pub fn place(
+    model: &Model,
+    support: Option<&str>,
+    direction: Option<[f64; 3]>,
+) -> Result<ThrustAt, InputError> {
     let error = |text: String| InputError::at(JsonPath::root(), text);
     let blocks = &model.assembly.blocks;
-    let supports = || blocks.iter().filter(|b| b.support).map(|b| b.id.as_str()).take(8).collect::<Vec<_>>().join(", ");
+    let supports = || {
+        blocks
+            .iter()
+            .filter(|b| b.support)
+            .map(|b| b.id.as_str())
+            .take(8)
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     let support = match support {
         Some(id) => match model.assembly.find(id) {
             Some(index) if blocks[index].support => index,
-            Some(_) => return Err(error(format!("support {id}: this block is free")).hint(format!("supports are {}", supports()))),
-            None => return Err(error(format!("support {id}: there is no such block")).hint(format!("supports are {}", supports()))),
+            Some(_) => {
+                return Err(error(format!("support {id}: this block is free"))
+                    .hint(format!("supports are {}", supports())));
+            }
+            None => {
+                return Err(error(format!("support {id}: there is no such block"))
+                    .hint(format!("supports are {}", supports())));
+            }
         },
-        None => first_support(model).ok_or_else(|| error("no support touches a free block: there is no thrust".into()))?,
+        None => first_support(model)
+            .ok_or_else(|| error("no support touches a free block: there is no thrust".into()))?,
     };
     let id = &blocks[support].id;
     if !touches(model, support) {
@@ -82,10 +106,15 @@ pub fn place(model: &Model, support: Option<&str>, direction: Option<[f64; 3]>) 
         return Err(error(text).hint("`voussoir check` lists near misses"));
     }
     let direction = match direction {
-        Some(d) => level(&model.assembly.gravity, d.into(), Vector3::from(d).norm())
-            .ok_or_else(|| error(format!("direction {d:?} is parallel to gravity")).hint("give one across gravity, such as 1,0,0"))?,
+        Some(d) => {
+            level(&model.assembly.gravity, d.into(), Vector3::from(d).norm()).ok_or_else(|| {
+                error(format!("direction {d:?} is parallel to gravity"))
+                    .hint("give one across gravity, such as 1,0,0")
+            })?
+        }
         None => outwards(model, support).ok_or_else(|| {
-            error(format!("support {id} lies straight below the blocks: no direction is outwards")).hint("give a direction, such as 1,0,0")
+            error(format!("support {id} lies straight below the blocks: no direction is outwards"))
+                .hint("give a direction, such as 1,0,0")
         })?,
     };
     Ok(ThrustAt { support, direction: direction.into() })
@@ -94,7 +123,11 @@ pub fn place(model: &Model, support: Option<&str>, direction: Option<[f64; 3]>) 
 /// Whether a support touches a free block.
 fn touches(model: &Model, support: usize) -> bool {
     let free = |i: usize| !model.assembly.blocks[i].support;
-    model.interfaces.list.iter().any(|f| (f.a == support && free(f.b)) || (f.b == support && free(f.a)))
+    model
+        .interfaces
+        .list
+        .iter()
+        .any(|f| (f.a == support && free(f.b)) || (f.b == support && free(f.a)))
 }
 
 /// The support that is asked about where none is named: the first that touches a free block.
@@ -103,13 +136,23 @@ pub fn first_support(model: &Model) -> Option<usize> {
     (0..blocks.len()).find(|&s| blocks[s].support && touches(model, s))
 }
 
-/// The horizontal direction from the free blocks' centre of mass to where a support touches them: outwards. `None` where it is straight
-/// below, or touches nothing.
+/// The horizontal direction from the free blocks' centre of mass to where a support touches them:
+/// outwards. `None` where it is straight below, or touches nothing.
 pub fn outwards(model: &Model, support: usize) -> Option<Vector3<f64>> {
     let assembly = &model.assembly;
     let mass: f64 = assembly.free().map(|i| assembly.blocks[i].mass).sum();
-    let middle = assembly.free().map(|i| assembly.blocks[i].centroid * assembly.blocks[i].mass).sum::<Vector3<f64>>() / mass;
-    let touching: Vec<Vector3<f64>> = model.interfaces.list.iter().filter(|f| f.a == support || f.b == support).map(centroid).collect();
+    let middle = assembly
+        .free()
+        .map(|i| assembly.blocks[i].centroid * assembly.blocks[i].mass)
+        .sum::<Vector3<f64>>()
+        / mass;
+    let touching: Vec<Vector3<f64>> = model
+        .interfaces
+        .list
+        .iter()
+        .filter(|f| f.a == support || f.b == support)
+        .map(centroid)
+        .collect();
     let contact = touching.iter().sum::<Vector3<f64>>() / touching.len().max(1) as f64;
     let size = touching.iter().map(|p| (p - middle).norm()).fold(0.0, f64::max);
     if touching.is_empty() {
@@ -118,7 +161,8 @@ pub fn outwards(model: &Model, support: usize) -> Option<Vector3<f64>> {
     level(&assembly.gravity, contact - middle, size)
 }
 
-/// The part of a direction across gravity, as a unit vector; `None` where it is small beside `size`. What is rounding becomes zero.
+/// The part of a direction across gravity, as a unit vector; `None` where it is small beside
+/// `size`. What is rounding becomes zero.
 pub fn level(gravity: &Vector3<f64>, direction: Vector3<f64>, size: f64) -> Option<Vector3<f64>> {
     let down = gravity.normalize();
     let across = direction - down * down.dot(&direction);
@@ -129,16 +173,31 @@ pub fn level(gravity: &Vector3<f64>, direction: Vector3<f64>, size: f64) -> Opti
     Some(unit.map(|c| if c.abs() < 1e-9 { 0.0 } else { c }).normalize())
 }
 
-/// The least or greatest thrust of a scene that stands, summed over its parts; `standing` are forces that balance its loads.
-pub fn thrust(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> Proved<ThrustEnd> {
+/// The least or greatest thrust of a scene that stands, summed over its parts; `standing` are
+/// forces that balance its loads.
+pub fn thrust(
+    model: &Model,
+    at: &ThrustAt,
+    extreme: Extreme,
+    standing: &Forces,
+    control: &Control,
+) -> Proved<ThrustEnd> {
     Proved::new(model, parts::thrust::thrust(model, at, extreme, standing, control))
 }
 
 /// The same for one part.
-pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> ThrustEnd {
+pub(super) fn of_part(
+    model: &Model,
+    at: &ThrustAt,
+    extreme: Extreme,
+    standing: &Forces,
+    control: &Control,
+) -> ThrustEnd {
     let assembly = &model.assembly;
     let direction = Vector3::from(at.direction);
-    let build = |keep_all: bool| Statics::new(model, StaticsOptions { keep_all, ..StaticsOptions::default() });
+    let build = |keep_all: bool| {
+        Statics::new(model, StaticsOptions { keep_all, ..StaticsOptions::default() })
+    };
     let mut base = build(control.keep_all);
     // A plane scene knows no thrust out of its plane.
     if base.plane.is_some_and(|p| p.axis.dot(&direction).abs() > 1e-9) {
@@ -167,7 +226,14 @@ pub(super) fn of_part(model: &Model, at: &ThrustAt, extreme: Extreme, standing: 
             answer.outcome = Outcome::Found;
             break;
         }
-        if index == 0 && problem.has_no_end(step, control.deadline, control.keep_all || base.plane.is_none(), &mut answer) {
+        if index == 0
+            && problem.has_no_end(
+                step,
+                control.deadline,
+                control.keep_all || base.plane.is_none(),
+                &mut answer,
+            )
+        {
             answer.outcome = Outcome::Unbounded;
             answer.value = f64::NAN;
             let end = -extreme.sigma() * f64::INFINITY;
@@ -190,26 +256,32 @@ struct Problem<'a> {
 impl Problem<'_> {
     fn objective(&self, statics: &Statics, interfaces: &Interfaces) -> Vec<f64> {
         let by = self.extreme.sigma() / self.total;
-        let columns = program::thrust_columns(statics, interfaces, self.at.support, self.at.direction.into());
+        let columns =
+            program::thrust_columns(statics, interfaces, self.at.support, self.at.direction.into());
         columns.into_iter().map(|c| c * by).collect()
     }
 
-    /// One attempt; tightens the bracket in `answer`. Bounds on crushing that it finds stay in `base`.
+    /// One attempt; tightens the bracket in `answer`. Bounds on crushing that it finds stay in
+    /// `base`.
     fn climb(&self, base: &mut Statics, step: Rung, deadline: Deadline, answer: &mut ThrustEnd) {
         let model = self.model;
         let interfaces = &model.interfaces;
         let mut statics = base.clone();
         statics.rescale(step.unit, step.local);
         let settings = step.settings(deadline);
-        let build = |statics: &Statics| program::thrust(statics, &self.objective(statics, interfaces));
+        let build =
+            |statics: &Statics| program::thrust(statics, &self.objective(statics, interfaces));
         let mut done = run(model, &mut statics, build, &settings);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         if let Some(Candidate { forces, rates, .. }) = done.candidate.take() {
             // Rates come per unit of the objective.
-            let rates: Vec<Rate> =
-                rates.into_iter().map(|r| Rate { velocity: r.velocity * self.total, spin: r.spin * self.total }).collect();
+            let rates: Vec<Rate> = rates
+                .into_iter()
+                .map(|r| Rate { velocity: r.velocity * self.total, spin: r.spin * self.total })
+                .collect();
             let p = self.at.bracket(model, self.extreme, &forces, &rates);
-            let balanced = p.statics.unbalance <= tolerance::LOOSE_BALANCE && p.statics.is_within_strength();
+            let balanced =
+                p.statics.unbalance <= tolerance::LOOSE_BALANCE && p.statics.is_within_strength();
             let (bound, reached) = if self.extreme == Extreme::Least { (0, 1) } else { (1, 0) };
             if p.is_admissible(self.total) {
                 ends[bound] = [p.lower, p.upper][bound];
@@ -232,33 +304,63 @@ impl Problem<'_> {
                 answer.rates = rates;
             }
         }
-        let name = if self.extreme == Extreme::Least { "least thrust in forces" } else { "greatest thrust in forces" };
-        answer.attempts.push(done.attempt(name.into(), statics.unit / self.total, &step, None, ends));
+        let name = if self.extreme == Extreme::Least {
+            "least thrust in forces"
+        } else {
+            "greatest thrust in forces"
+        };
+        answer.attempts.push(done.attempt(
+            name.into(),
+            statics.unit / self.total,
+            &step,
+            None,
+            ends,
+        ));
         base.sections = statics.sections;
     }
 
     /// Whether forces that need no load push without end; then they are the forces of `answer`.
-    fn has_no_end(&self, step: Rung, deadline: Deadline, keep_all: bool, answer: &mut ThrustEnd) -> bool {
+    fn has_no_end(
+        &self,
+        step: Rung,
+        deadline: Deadline,
+        keep_all: bool,
+        answer: &mut ThrustEnd,
+    ) -> bool {
         let (unlimited, kept) = unlimited(&self.model.interfaces);
         let unlimited = self.model.with_interfaces(unlimited);
-        let mut statics = Statics::new(&unlimited, StaticsOptions { keep_all, ..StaticsOptions::default() });
+        let mut statics =
+            Statics::new(&unlimited, StaticsOptions { keep_all, ..StaticsOptions::default() });
         statics.rescale(step.unit, step.local);
         let settings = step.settings(deadline);
-        let build = |statics: &Statics| program::endless_thrust(statics, &self.objective(statics, &unlimited.interfaces));
+        let build = |statics: &Statics| {
+            program::endless_thrust(statics, &self.objective(statics, &unlimited.interfaces))
+        };
         let mut done = run(&unlimited, &mut statics, build, &settings);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         let mut endless = false;
         if let Some(Candidate { forces, .. }) = done.candidate.take() {
-            let bare = Model::new(crate::verdict::thrust::unloaded(&self.model.assembly), unlimited.interfaces);
+            let bare = Model::new(
+                crate::verdict::thrust::unloaded(&self.model.assembly),
+                unlimited.interfaces,
+            );
             let s = certificate::statics(&bare, &forces, 0.0);
-            endless = s.balanced && -self.extreme.sigma() * self.at.value(&bare.interfaces, &forces) >= 0.5 * self.total;
+            endless = s.balanced
+                && -self.extreme.sigma() * self.at.value(&bare.interfaces, &forces)
+                    >= 0.5 * self.total;
             if endless {
                 ends = [-self.extreme.sigma() * f64::INFINITY; 2];
                 answer.forces = no_forces(&self.model.interfaces);
                 kept.into_iter().zip(forces).for_each(|(k, forces)| answer.forces[k] = forces);
             }
         }
-        answer.attempts.push(done.attempt("thrust without end".into(), statics.unit / self.total, &step, None, ends));
+        answer.attempts.push(done.attempt(
+            "thrust without end".into(),
+            statics.unit / self.total,
+            &step,
+            None,
+            ends,
+        ));
         endless
     }
 }
@@ -281,7 +383,8 @@ pub struct Thrust {
     pub at: ThrustAt,
     /// Whether it stands at all.
     pub standing: Proved<Assessment>,
-    /// Least and greatest, as far as they were asked; none where no forces balance the loads, or that is undecided.
+    /// Least and greatest, as far as they were asked; none where no forces balance the loads, or
+    /// that is undecided.
     pub ends: Vec<Proved<ThrustEnd>>,
     /// The geometric safety factor.
     pub factor: Option<Geometric<Proved<Assessment>>>,

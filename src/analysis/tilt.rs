@@ -1,12 +1,14 @@
 //! At what tilt does it fall? One load-factor program a direction.
 //!
-//! Tilting the ground by θ towards a horizontal direction `d` turns gravity to `g (cos θ ẑ↓ + sin θ d)`; forces scale, so
-//! `tan θ` is the load factor of the live load "own weight along d", the vertical load kept. Dead loads on blocks are
-//! taken as hanging weights: they must act along gravity, and turn with it.
+//! Tilting the ground by θ towards a horizontal direction `d` turns gravity to `g (cos θ ẑ↓ + sin θ
+//! d)`; forces scale, so `tan θ` is the load factor of the live load "own weight along d", the
+//! vertical load kept. Dead loads on blocks are taken as hanging weights: they must act along
+//! gravity, and turn with it.
 //!
-//! Stresses do not turn. Where joints have strengths or water, all forces are divided by cos θ, and with them the stresses: the load
-//! factor is asked for with joints `√(1 + tan² θ)` times as strong, and θ is the first tilt that is its own answer, found from level
-//! upwards. Joints that hold more than the weight at any tilt have none; that comes out undecided.
+//! Stresses do not turn. Where joints have strengths or water, all forces are divided by cos θ, and
+//! with them the stresses: the load factor is asked for with joints `√(1 + tan² θ)` times as
+//! strong, and θ is the first tilt that is its own answer, found from level upwards. Joints that
+//! hold more than the weight at any tilt have none; that comes out undecided.
 
 use super::{
     Bracket, Control, Law, LoadFactor, Outcome, Proved,
@@ -47,7 +49,8 @@ pub struct DryTilt {
 }
 
 impl Tilt {
-    /// The angle in degrees; 90 where the scene is wedged and stands at every tilt below, NaN where there is none.
+    /// The angle in degrees; 90 where the scene is wedged and stands at every tilt below, NaN where
+    /// there is none.
     pub fn angle_deg(&self) -> f64 {
         match self.load_factor.outcome {
             Outcome::Found => self.load_factor.value.atan().to_degrees(),
@@ -61,13 +64,19 @@ impl Tilt {
 ///
 /// # Errors
 /// `toward` is parallel to gravity, or a dead load does not act along gravity.
-pub fn turned(assembly: &Assembly, toward: Vector3<f64>) -> Result<(Assembly, Vector3<f64>), InputError> {
+pub fn turned(
+    assembly: &Assembly,
+    toward: Vector3<f64>,
+) -> Result<(Assembly, Vector3<f64>), InputError> {
     let down = assembly.gravity.normalize();
     let horizontal = toward - down * down.dot(&toward);
     let across = horizontal.norm() / toward.norm();
     if across.is_nan() || across <= 1e-9 {
-        return Err(InputError::at(Default::default(), format!("cannot tilt towards {:?}: it is parallel to gravity", toward.as_slice()))
-            .hint("give a direction across gravity, such as 1,0,0"));
+        return Err(InputError::at(
+            Default::default(),
+            format!("cannot tilt towards {:?}: it is parallel to gravity", toward.as_slice()),
+        )
+        .hint("give a direction across gravity, such as 1,0,0"));
     }
     let d = horizontal.normalize();
     let mut turned = assembly.clone();
@@ -79,7 +88,9 @@ pub fn turned(assembly: &Assembly, toward: Vector3<f64>) -> Result<(Assembly, Ve
         let Wrench { force, moment } = assembly.dead[i];
         let along = down.dot(&force);
         let across = (force - down * along).norm();
-        if across > ALONG * force.norm() || moments[i].norm() > ALONG * (moment.norm() + force.norm() * assembly.blocks[i].size) {
+        if across > ALONG * force.norm()
+            || moments[i].norm() > ALONG * (moment.norm() + force.norm() * assembly.blocks[i].size)
+        {
             return Err(InputError::at(
                 Default::default(),
                 format!("tilt turns dead loads with gravity, but the dead load on {:?} is not a hanging weight", assembly.blocks[i].id),
@@ -88,7 +99,8 @@ pub fn turned(assembly: &Assembly, toward: Vector3<f64>) -> Result<(Assembly, Ve
         }
         turned.live[i] = Wrench { force: d * along, moment: Vector3::zeros() };
     }
-    let level = |applied: &AppliedForce| AppliedForce { force: d * down.dot(&applied.force), ..*applied };
+    let level =
+        |applied: &AppliedForce| AppliedForce { force: d * down.dot(&applied.force), ..*applied };
     turned.live_forces = assembly.dead_forces.iter().map(level).collect();
     for applied in &turned.live_forces {
         turned.live[applied.block].moment += applied.arm.cross(&applied.force);
@@ -96,18 +108,23 @@ pub fn turned(assembly: &Assembly, toward: Vector3<f64>) -> Result<(Assembly, Ve
     Ok((turned, d))
 }
 
-/// A dead load hangs when it lies along gravity within this share of its size. Larger: inclined loads would be turned as
-/// if they hung. Smaller: rounding of a rotated scene refuses true weights.
+/// A dead load hangs when it lies along gravity within this share of its size. Larger: inclined
+/// loads would be turned as if they hung. Smaller: rounding of a rotated scene refuses true
+/// weights.
 const ALONG: f64 = 1e-9;
 
-/// The model as it is at the tilt `tan θ = load_factor` (level where that is not a number): its live load turns it further, and its
-/// forces are divided by cos θ.
+/// The model as it is at the tilt `tan θ = load_factor` (level where that is not a number): its
+/// live load turns it further, and its forces are divided by cos θ.
 ///
 /// # Errors
 /// As [`turned`].
 pub fn tilted(model: &Model, toward: Vector3<f64>, load_factor: f64) -> Result<Model, InputError> {
     let (assembly, _) = turned(&model.assembly, toward)?;
-    Ok(Model { assembly, interfaces: stressed(&model.interfaces, load_factor), timings: model.timings })
+    Ok(Model {
+        assembly,
+        interfaces: stressed(&model.interfaces, load_factor),
+        timings: model.timings,
+    })
 }
 
 /// The joints where all forces are divided by cos θ.
@@ -146,14 +163,17 @@ fn tilted_under(part: &Part, tilt: f64) -> Model {
 /// The tilt at which a part falls whose joints have strengths, as a load factor in its own units.
 fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
     let at = |tilt: f64| limit::of_part(&tilted_joints(part, tilt), control);
-    let found = |l: &LoadFactor| (l.outcome == Outcome::Found).then(|| part.units.load_factor(l.value));
+    let found =
+        |l: &LoadFactor| (l.outcome == Outcome::Found).then(|| part.units.load_factor(l.value));
     match own_answer(0.0, at, found) {
-        // Joints at the tilt itself differ by what is left of the search from those that it was found with.
+        // Joints at the tilt itself differ by what is left of the search from those that it was
+        // found with.
         Ok(mut answer) => {
             answer.bracket.upper += 2.0 * OWN_ANSWER * answer.value.abs();
             answer
         }
-        // What has no limit at one tilt may have one at another, where the joints are weaker beside the weight.
+        // What has no limit at one tilt may have one at another, where the joints are weaker beside
+        // the weight.
         Err(answer) if answer.outcome == Outcome::Impossible => answer,
         Err(answer) => LoadFactor {
             outcome: Outcome::Undecided,
@@ -165,24 +185,37 @@ fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
     }
 }
 
-/// The same, and with dry friction where that is asked for and the bound leaves something to ask; `level` is the verdict at level, where it is
-/// known.
+/// The same, and with dry friction where that is asked for and the bound leaves something to ask;
+/// `level` is the verdict at level, where it is known.
 ///
 /// # Errors
 /// As [`turned`].
-pub fn with_dry(model: &Model, toward: Vector3<f64>, level: Option<Verdict>, control: &Control) -> Result<Tilt, InputError> {
+pub fn with_dry(
+    model: &Model,
+    toward: Vector3<f64>,
+    level: Option<Verdict>,
+    control: &Control,
+) -> Result<Tilt, InputError> {
     let mut tilt = tilt(model, toward, control)?;
     tilt.add_dry(model, level, control)?;
     Ok(tilt)
 }
 
 impl Tilt {
-    /// Adds dry friction to the answer of [`tilt`](tilt()) for the same model, as [`with_dry`] does.
+    /// Adds dry friction to the answer of [`tilt`](tilt()) for the same model, as [`with_dry`]
+    /// does.
     ///
     /// # Errors
     /// As [`turned`].
-    pub fn add_dry(&mut self, model: &Model, level: Option<Verdict>, control: &Control) -> Result<(), InputError> {
-        if control.law == Law::Coulomb && matches!(self.load_factor.outcome, Outcome::Found | Outcome::Unbounded) {
+    pub fn add_dry(
+        &mut self,
+        model: &Model,
+        level: Option<Verdict>,
+        control: &Control,
+    ) -> Result<(), InputError> {
+        if control.law == Law::Coulomb
+            && matches!(self.load_factor.outcome, Outcome::Found | Outcome::Unbounded)
+        {
             let load_factor = dry(model, self, level, control)?;
             let model = tilted(model, self.toward, load_factor.value)?;
             self.dry = Some(DryTilt { load_factor: Proved::new(&model, load_factor), model });
@@ -192,7 +225,12 @@ impl Tilt {
 }
 
 /// The load factor with dry friction.
-fn dry(model: &Model, tilt: &Tilt, level: Option<Verdict>, control: &Control) -> Result<DryLoadFactor, InputError> {
+fn dry(
+    model: &Model,
+    tilt: &Tilt,
+    level: Option<Verdict>,
+    control: &Control,
+) -> Result<DryLoadFactor, InputError> {
     let (associative, turned) = (&tilt.load_factor, tilted(model, tilt.toward, 0.0)?);
     if are_dry(&turned.interfaces) {
         return Ok(parts::dry::unproved(&turned, associative, level, control));
@@ -208,8 +246,10 @@ fn dry(model: &Model, tilt: &Tilt, level: Option<Verdict>, control: &Control) ->
                 &computed
             }
         };
-        let at = |tilt: f64| coulomb::complementary(&tilted_joints(part, tilt), &own(tilt), control);
-        let value = |d: &DryLoadFactor| d.value.is_finite().then(|| part.units.load_factor(d.value));
+        let at =
+            |tilt: f64| coulomb::complementary(&tilted_joints(part, tilt), &own(tilt), control);
+        let value =
+            |d: &DryLoadFactor| d.value.is_finite().then(|| part.units.load_factor(d.value));
         let answer = match own_answer(part.units.load_factor(bound.value), at, value) {
             Ok(answer) => answer,
             Err(answer) => DryLoadFactor { found: Found::Undecided, value: f64::NAN, ..answer },
@@ -220,11 +260,16 @@ fn dry(model: &Model, tilt: &Tilt, level: Option<Verdict>, control: &Control) ->
     Ok(parts::dry::load_factor_by(&turned, associative, control, (solve, tilted_under)))
 }
 
-/// A tilt is its own answer up to this × itself. Larger: a wider bracket. Smaller: the last digits of the engine.
+/// A tilt is its own answer up to this × itself. Larger: a wider bracket. Smaller: the last digits
+/// of the engine.
 const OWN_ANSWER: f64 = 0.01 * tolerance::LOAD_FACTOR_WIDTH;
 
 /// A load factor that is the tangent of its own tilt. `Err` is the last answer where there is none.
-fn own_answer<T>(start: f64, at: impl Fn(f64) -> T, value: impl Fn(&T) -> Option<f64>) -> Result<T, T> {
+fn own_answer<T>(
+    start: f64,
+    at: impl Fn(f64) -> T,
+    value: impl Fn(&T) -> Option<f64>,
+) -> Result<T, T> {
     let mut tilt = start;
     let mut before: Option<(f64, f64)> = None;
     let mut answer = at(tilt);
@@ -235,7 +280,9 @@ fn own_answer<T>(start: f64, at: impl Fn(f64) -> T, value: impl Fn(&T) -> Option
             return Ok(answer);
         }
         // The secant where it goes on in the same direction, the answer itself otherwise.
-        let secant = before.map(|(t, s)| tilt + short * (tilt - t) / (s - short)).filter(|t| (t - tilt) * short > 0.0 && t.is_finite());
+        let secant = before
+            .map(|(t, s)| tilt + short * (tilt - t) / (s - short))
+            .filter(|t| (t - tilt) * short > 0.0 && t.is_finite());
         before = Some((tilt, short));
         tilt = secant.unwrap_or(value);
         answer = at(tilt);
@@ -243,15 +290,21 @@ fn own_answer<T>(start: f64, at: impl Fn(f64) -> T, value: impl Fn(&T) -> Option
     Err(answer)
 }
 
-/// Tilts tried. The secant takes some six; more are needed only where joints hold almost everything at any tilt.
+/// Tilts tried. The secant takes some six; more are needed only where joints hold almost everything
+/// at any tilt.
 const MOST_TILTS: usize = 30;
 
-/// `count` directions across gravity, evenly spread, the first along x (or along y, where gravity is along x).
+/// `count` directions across gravity, evenly spread, the first along x (or along y, where gravity
+/// is along x).
 pub fn directions(gravity: Vector3<f64>, count: usize) -> Vec<Vector3<f64>> {
     let down = gravity.normalize();
     let across = |axis: Vector3<f64>| axis - down * down.dot(&axis);
-    let e1 =
-        [Vector3::x(), Vector3::y()].map(across).into_iter().find(|v| v.norm() > 0.5).unwrap_or_else(|| across(Vector3::z())).normalize();
+    let e1 = [Vector3::x(), Vector3::y()]
+        .map(across)
+        .into_iter()
+        .find(|v| v.norm() > 0.5)
+        .unwrap_or_else(|| across(Vector3::z()))
+        .normalize();
     let e2 = e1.cross(&down);
     // Exact along the axes: what is 1e-16 there is rounding of the cosine.
     let clean = |c: f64| if c.abs() < 1e-15 { 0.0 } else { c };

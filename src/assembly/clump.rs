@@ -1,12 +1,16 @@
-//! Mass properties of spheres rigidly joined: of their union, so that where they overlap there is mass once.
+//! Mass properties of spheres rigidly joined: of their union, so that where they overlap there is
+//! mass once.
 //!
 //! * Spheres inside another one add nothing.
-//! * Where no three spheres have a point in common the union is the sum of the spheres less the lenses in which two overlap, and a lens is two
-//!   caps: exact, in closed form. `∫ (r² − x²) xᵏ dx` gives volume and first moments of a cap, `∫ (r² − x²)² / 4 dx` its second
-//!   moments across the axis.
-//! * Where three do, columns through the union are added up: along x the union of the chords is exact; across, the midpoint rule on
-//!   [`COLUMNS`] × [`COLUMNS`] lines, closer together towards the silhouette (`y = c + h sin t`). Volume and moments of three spheres are
-//!   good to 1e-4, whatever their size and place. It is done in the block's own frame: the mass does not depend on how the block stands.
+//! * Where no three spheres have a point in common the union is the sum of the spheres less the
+//!   lenses in which two overlap, and a lens is two caps: exact, in closed form. `∫ (r² − x²) xᵏ
+//!   dx` gives volume and first moments of a cap, `∫ (r² − x²)² / 4 dx` its second moments across
+//!   the axis.
+//! * Where three do, columns through the union are added up: along x the union of the chords is
+//!   exact; across, the midpoint rule on [`COLUMNS`] × [`COLUMNS`] lines, closer together towards
+//!   the silhouette (`y = c + h sin t`). Volume and moments of three spheres are good to 1e-4,
+//!   whatever their size and place. It is done in the block's own frame: the mass does not depend
+//!   on how the block stands.
 
 use super::MassProperties;
 use nalgebra::{Matrix3, Vector3};
@@ -29,8 +33,11 @@ struct Moments {
 }
 
 impl Moments {
-    const ZERO: Self =
-        Self { volume: 0.0, first: Vector3::new(0.0, 0.0, 0.0), second: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0) };
+    const ZERO: Self = Self {
+        volume: 0.0,
+        first: Vector3::new(0.0, 0.0, 0.0),
+        second: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    };
 
     fn add(&mut self, other: &Self, sign: f64) {
         self.volume += sign * other.volume;
@@ -38,18 +45,23 @@ impl Moments {
         self.second += sign * other.second;
     }
 
-    /// Of the part of a ball at `center` beyond a plane at distance `from` along the unit vector `axis`; the whole ball from `-radius`.
+    /// Of the part of a ball at `center` beyond a plane at distance `from` along the unit vector
+    /// `axis`; the whole ball from `-radius`.
     fn cap(center: Vector3<f64>, radius: f64, axis: Vector3<f64>, from: f64) -> Self {
         let (r2, a, b) = (radius * radius, from, radius);
         let between = |f: &dyn Fn(f64) -> f64| f(b) - f(a);
         let volume = PI * between(&|x| r2 * x - x.powi(3) / 3.0);
         let along = PI * between(&|x| r2 * x * x / 2.0 - x.powi(4) / 4.0);
         let along2 = PI * between(&|x| r2 * x.powi(3) / 3.0 - x.powi(5) / 5.0);
-        let across2 = 0.25 * PI * between(&|x| r2 * r2 * x - 2.0 * r2 * x.powi(3) / 3.0 + x.powi(5) / 5.0);
+        let across2 =
+            0.25 * PI * between(&|x| r2 * r2 * x - 2.0 * r2 * x.powi(3) / 3.0 + x.powi(5) / 5.0);
         let uu = axis * axis.transpose();
         let own = uu * along2 + (Matrix3::identity() - uu) * across2;
         let first = axis * along;
-        let shifted = own + center * first.transpose() + first * center.transpose() + center * center.transpose() * volume;
+        let shifted = own
+            + center * first.transpose()
+            + first * center.transpose()
+            + center * center.transpose() * volume;
         Self { volume, first: first + center * volume, second: shifted }
     }
 }
@@ -57,8 +69,10 @@ impl Moments {
 /// Mass properties of the union at unit density.
 pub(super) fn mass_properties(balls: &[Ball]) -> MassProperties {
     // In numbers around one and about the middle: no digits are lost far away, and none overflow.
-    let low = balls.iter().map(|(c, r)| c.add_scalar(-r)).reduce(|a, b| a.inf(&b)).unwrap_or_default();
-    let high = balls.iter().map(|(c, r)| c.add_scalar(*r)).reduce(|a, b| a.sup(&b)).unwrap_or_default();
+    let low =
+        balls.iter().map(|(c, r)| c.add_scalar(-r)).reduce(|a, b| a.inf(&b)).unwrap_or_default();
+    let high =
+        balls.iter().map(|(c, r)| c.add_scalar(*r)).reduce(|a, b| a.sup(&b)).unwrap_or_default();
     let (middle, unit) = (0.5 * (low + high), (high - low).amax().max(f64::MIN_POSITIVE));
     let scaled: Vec<Ball> = balls.iter().map(|(c, r)| ((c - middle) / unit, r / unit)).collect();
     let outer = outer(&scaled);
@@ -66,7 +80,11 @@ pub(super) fn mass_properties(balls: &[Ball]) -> MassProperties {
     let centroid = m.first / m.volume;
     let covariance = m.second - centroid * centroid.transpose() * m.volume;
     let inertia = Matrix3::identity() * covariance.trace() - covariance;
-    MassProperties { volume: m.volume * unit.powi(3), centroid: middle + centroid * unit, inertia: inertia * unit.powi(5) }
+    MassProperties {
+        volume: m.volume * unit.powi(3),
+        centroid: middle + centroid * unit,
+        inertia: inertia * unit.powi(5),
+    }
 }
 
 /// The balls that lie inside no other one; of equal ones the first.
@@ -75,13 +93,16 @@ fn outer(balls: &[Ball]) -> Vec<Ball> {
         let (gap, (c, r), (d, s)) = ((balls[i].0 - balls[j].0).norm(), balls[i], balls[j]);
         gap + r <= s && (c != d || r < s || j < i)
     };
-    (0..balls.len()).filter(|&i| !(0..balls.len()).any(|j| j != i && inside(i, j))).map(|i| balls[i]).collect()
+    (0..balls.len())
+        .filter(|&i| !(0..balls.len()).any(|j| j != i && inside(i, j)))
+        .map(|i| balls[i])
+        .collect()
 }
 
 /// Whether three balls, none inside another, have a point inside all of them.
 ///
-/// By symmetry then also one in the plane of the centres, where the common part of three discs has a corner: a point where two circles
-/// cross inside the third disc.
+/// By symmetry then also one in the plane of the centres, where the common part of three discs has
+/// a corner: a point where two circles cross inside the third disc.
 fn has_triple(balls: &[Ball]) -> bool {
     let meet = |a: &Ball, b: &Ball| (a.0 - b.0).norm() < a.1 + b.1;
     let crosses_in = |a: &Ball, b: &Ball, c: &Ball| {
@@ -89,9 +110,12 @@ fn has_triple(balls: &[Ball]) -> bool {
         let (axis, gap) = (between.normalize(), between.norm());
         let along = (gap * gap + a.1 * a.1 - b.1 * b.1) / (2.0 * gap);
         let off = c.0 - a.0;
-        let side = (off - axis * axis.dot(&off)).try_normalize(1e-12).unwrap_or_else(|| across(&axis));
+        let side =
+            (off - axis * axis.dot(&off)).try_normalize(1e-12).unwrap_or_else(|| across(&axis));
         let half = (a.1 * a.1 - along * along).max(0.0).sqrt();
-        [half, -half].iter().any(|h| (a.0 + axis * along + side * *h - c.0).norm() < c.1 * (1.0 - 1e-12))
+        [half, -half]
+            .iter()
+            .any(|h| (a.0 + axis * along + side * *h - c.0).norm() < c.1 * (1.0 - 1e-12))
     };
     let n = balls.len();
     (0..n).any(|i| {
@@ -153,9 +177,26 @@ fn columns(balls: &[Ball]) -> Moments {
                 let from = from.max(end);
                 if to > from {
                     end = to;
-                    let (l, x1, x2) = (to - from, (to * to - from * from) / 2.0, (to.powi(3) - from.powi(3)) / 3.0);
-                    let second = Matrix3::new(x2, x1 * y, x1 * z, x1 * y, l * y * y, l * y * z, x1 * z, l * y * z, l * z * z);
-                    sum.add(&Moments { volume: l, first: Vector3::new(x1, l * y, l * z), second }, dy * dz);
+                    let (l, x1, x2) = (
+                        to - from,
+                        (to * to - from * from) / 2.0,
+                        (to.powi(3) - from.powi(3)) / 3.0,
+                    );
+                    let second = Matrix3::new(
+                        x2,
+                        x1 * y,
+                        x1 * z,
+                        x1 * y,
+                        l * y * y,
+                        l * y * z,
+                        x1 * z,
+                        l * y * z,
+                        l * z * z,
+                    );
+                    sum.add(
+                        &Moments { volume: l, first: Vector3::new(x1, l * y, l * z), second },
+                        dy * dz,
+                    );
                 }
             }
         }
@@ -168,7 +209,11 @@ mod tests {
     use super::*;
 
     fn near(got: f64, want: f64, tolerance: f64) {
-        assert!((got - want).abs() <= tolerance * want.abs(), "{got}, expected {want}: off by {:.1e}", got / want - 1.0);
+        assert!(
+            (got - want).abs() <= tolerance * want.abs(),
+            "{got}, expected {want}: off by {:.1e}",
+            got / want - 1.0
+        );
     }
 
     fn at(x: f64, y: f64, z: f64) -> Vector3<f64> {
@@ -180,7 +225,11 @@ mod tests {
         // Lens of two spheres of radius R at distance d: π (4 R + d) (2 R − d)² / 12.
         let (r, d) = (0.7, 0.5);
         let m = mass_properties(&[(at(1e3, 0.0, 0.0), r), (at(1e3, d, 0.0), r)]);
-        near(m.volume, 8.0 / 3.0 * PI * r.powi(3) - PI * (4.0 * r + d) * (2.0 * r - d).powi(2) / 12.0, 1e-13);
+        near(
+            m.volume,
+            8.0 / 3.0 * PI * r.powi(3) - PI * (4.0 * r + d) * (2.0 * r - d).powi(2) / 12.0,
+            1e-13,
+        );
         assert!((m.centroid - at(1e3, 0.5 * d, 0.0)).norm() < 1e-12, "{}", m.centroid);
         // Touching: two spheres and Steiner.
         let m = mass_properties(&[(at(0.0, 0.0, 0.0), 1.0), (at(0.0, 0.0, 2.0), 1.0)]);
@@ -192,7 +241,12 @@ mod tests {
     #[test]
     fn spheres_inside_another_and_spheres_given_twice_weigh_nothing() {
         let one = mass_properties(&[(at(1.0, 2.0, 3.0), 2.0)]);
-        let balls = [(at(1.0, 2.0, 3.0), 2.0), (at(1.5, 2.0, 3.0), 1.0), (at(1.0, 2.0, 3.0), 2.0), (at(1.0, 2.0, 4.0), 1.0)];
+        let balls = [
+            (at(1.0, 2.0, 3.0), 2.0),
+            (at(1.5, 2.0, 3.0), 1.0),
+            (at(1.0, 2.0, 3.0), 2.0),
+            (at(1.0, 2.0, 4.0), 1.0),
+        ];
         let m = mass_properties(&balls);
         near(m.volume, one.volume, 1e-14);
         near(m.inertia.trace(), one.inertia.trace(), 1e-14);
@@ -201,7 +255,8 @@ mod tests {
 
     #[test]
     fn columns_agree_with_the_closed_form() {
-        let balls = [(at(0.0, 0.0, 0.0), 1.0), (at(0.7, 0.4, -0.5), 0.8), (at(-0.6, -0.9, 0.7), 0.6)];
+        let balls =
+            [(at(0.0, 0.0, 0.0), 1.0), (at(0.7, 0.4, -0.5), 0.8), (at(-0.6, -0.9, 0.7), 0.6)];
         assert!(!has_triple(&balls));
         let (exact, counted) = (pairs(&balls), columns(&balls));
         let off = (
@@ -229,7 +284,8 @@ mod tests {
         near(m.inertia[(0, 0)], m.inertia[(1, 1)], 3e-4);
         // The same shape turned out of the grid.
         let turn = nalgebra::Rotation3::new(at(0.3, -0.8, 0.5));
-        let turned = mass_properties(&balls.iter().map(|(c, r)| (turn * c, *r)).collect::<Vec<_>>());
+        let turned =
+            mass_properties(&balls.iter().map(|(c, r)| (turn * c, *r)).collect::<Vec<_>>());
         near(turned.volume, m.volume, 2e-4);
         // A fourth sphere inside the union and inside no other sphere changes nothing.
         let inner: Vec<Ball> = balls.iter().copied().chain([(at(0.0, 0.0, 0.0), 0.55)]).collect();
@@ -238,11 +294,27 @@ mod tests {
 
     #[test]
     fn triples_are_seen_where_they_are() {
-        let triangle = |side: f64| [(at(0.0, 0.0, 0.0), 1.0), (at(side, 0.0, 0.0), 1.0), (at(0.5 * side, 0.75f64.sqrt() * side, 0.0), 1.0)];
+        let triangle = |side: f64| {
+            [
+                (at(0.0, 0.0, 0.0), 1.0),
+                (at(side, 0.0, 0.0), 1.0),
+                (at(0.5 * side, 0.75f64.sqrt() * side, 0.0), 1.0),
+            ]
+        };
         // Three unit discs on a triangle of side s meet in one point at s = √3.
-        assert!(has_triple(&triangle(3f64.sqrt() - 1e-6)) && !has_triple(&triangle(3f64.sqrt() + 1e-6)));
+        assert!(
+            has_triple(&triangle(3f64.sqrt() - 1e-6)) && !has_triple(&triangle(3f64.sqrt() + 1e-6))
+        );
         // In a row: the lens of two of them inside the third.
-        assert!(has_triple(&[(at(0.0, 0.0, 0.0), 1.0), (at(1.0, 0.0, 0.0), 1.0), (at(0.5, 0.0, 0.0), 0.9)]));
-        assert!(!has_triple(&[(at(0.0, 0.0, 0.0), 1.0), (at(1.0, 0.0, 0.0), 1.0), (at(2.0, 0.0, 0.0), 1.0)]));
+        assert!(has_triple(&[
+            (at(0.0, 0.0, 0.0), 1.0),
+            (at(1.0, 0.0, 0.0), 1.0),
+            (at(0.5, 0.0, 0.0), 0.9)
+        ]));
+        assert!(!has_triple(&[
+            (at(0.0, 0.0, 0.0), 1.0),
+            (at(1.0, 0.0, 0.0), 1.0),
+            (at(2.0, 0.0, 0.0), 1.0)
+        ]));
     }
 }

@@ -9,9 +9,14 @@ impl Solid {
     pub fn distance(&self, point: Vector3<f64>) -> f64 {
         match self {
             Self::Sphere { center, radius } => ((point - center).norm() - radius).max(0.0),
-            Self::Clump { balls, .. } => balls.iter().map(|(c, r)| ((point - c).norm() - r).max(0.0)).fold(f64::INFINITY, f64::min),
+            Self::Clump { balls, .. } => balls
+                .iter()
+                .map(|(c, r)| ((point - c).norm() - r).max(0.0))
+                .fold(f64::INFINITY, f64::min),
             Self::Polyhedron(p) if is_inside(p, point) => 0.0,
-            Self::Polyhedron(p) => triangles(p).map(|t| from_triangle(point, t)).fold(f64::INFINITY, f64::min),
+            Self::Polyhedron(p) => {
+                triangles(p).map(|t| from_triangle(point, t)).fold(f64::INFINITY, f64::min)
+            }
         }
     }
 }
@@ -20,10 +25,13 @@ impl Solid {
 fn triangles(solid: &Polyhedron) -> impl Iterator<Item = [Vector3<f64>; 3]> + '_ {
     let corner = |v: u32| solid.vertices[v as usize];
     let pieces = solid.facets.iter().flat_map(|f| &f.pieces);
-    pieces.flat_map(move |p| p.windows(2).skip(1).map(move |e| [corner(p[0]), corner(e[0]), corner(e[1])]))
+    pieces.flat_map(move |p| {
+        p.windows(2).skip(1).map(move |e| [corner(p[0]), corner(e[0]), corner(e[1])])
+    })
 }
 
-/// Whether the surface is seen from the point in all directions: solid angles of its triangles (van Oosterom & Strackee, 1983) sum to 4π inside, to 0 outside.
+/// Whether the surface is seen from the point in all directions: solid angles of its triangles (van
+/// Oosterom & Strackee, 1983) sum to 4π inside, to 0 outside.
 fn is_inside(solid: &Polyhedron, point: Vector3<f64>) -> bool {
     if solid.convex {
         return solid.facets.iter().all(|f| f.normal.dot(&point) <= f.offset);
@@ -36,11 +44,13 @@ fn is_inside(solid: &Polyhedron, point: Vector3<f64>) -> bool {
     triangles(solid).map(angle).sum::<f64>() > 2.0 * PI
 }
 
-/// Distance of a point from a triangle: from its plane where it lies above it, else from the nearest edge.
+/// Distance of a point from a triangle: from its plane where it lies above it, else from the
+/// nearest edge.
 fn from_triangle(point: Vector3<f64>, [a, b, c]: [Vector3<f64>; 3]) -> f64 {
     let normal = (b - a).cross(&(c - a));
     let edges = [(a, b), (b, c), (c, a)];
-    let above = edges.iter().all(|(from, to)| normal.dot(&(to - from).cross(&(point - from))) >= 0.0);
+    let above =
+        edges.iter().all(|(from, to)| normal.dot(&(to - from).cross(&(point - from))) >= 0.0);
     let length = normal.norm();
     if above && length > 0.0 {
         return (normal.dot(&(point - a)) / length).abs();
@@ -50,7 +60,11 @@ fn from_triangle(point: Vector3<f64>, [a, b, c]: [Vector3<f64>; 3]) -> f64 {
 
 fn from_edge(point: Vector3<f64>, from: Vector3<f64>, to: Vector3<f64>) -> f64 {
     let edge = to - from;
-    let along = if edge.norm_squared() > 0.0 { (edge.dot(&(point - from)) / edge.norm_squared()).clamp(0.0, 1.0) } else { 0.0 };
+    let along = if edge.norm_squared() > 0.0 {
+        (edge.dot(&(point - from)) / edge.norm_squared()).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     (point - from - edge * along).norm()
 }
 
@@ -61,9 +75,13 @@ mod tests {
     /// An L of unit height: the square 0 to 2 without the quarter beyond 1, 1.
     fn l_shape() -> Solid {
         let outline = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
-        let vertices = [0.0, 1.0].iter().flat_map(|&z| outline.iter().map(move |p| Vector3::new(p[0], p[1], z))).collect();
+        let vertices = [0.0, 1.0]
+            .iter()
+            .flat_map(|&z| outline.iter().map(move |p| Vector3::new(p[0], p[1], z)))
+            .collect();
         let sides = (0..6).map(|i| vec![i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i]);
-        let faces: Vec<Vec<usize>> = [(0..6).rev().collect(), (6..12).collect()].into_iter().chain(sides).collect();
+        let faces: Vec<Vec<usize>> =
+            [(0..6).rev().collect(), (6..12).collect()].into_iter().chain(sides).collect();
         Solid::Polyhedron(Polyhedron::from_faces(vertices, &faces).unwrap().0)
     }
 
@@ -82,6 +100,12 @@ mod tests {
             assert!((got - expected).abs() < 1e-12, "{x} {y} {z}: {got} expected {expected}");
         }
         let ball = Solid::Sphere { center: Vector3::zeros(), radius: 1.0 };
-        assert_eq!((ball.distance(Vector3::new(3.0, 0.0, 0.0)), ball.distance(Vector3::new(0.5, 0.0, 0.0))), (2.0, 0.0));
+        assert_eq!(
+            (
+                ball.distance(Vector3::new(3.0, 0.0, 0.0)),
+                ball.distance(Vector3::new(0.5, 0.0, 0.0))
+            ),
+            (2.0, 0.0)
+        );
     }
 }

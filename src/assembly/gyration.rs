@@ -1,8 +1,10 @@
 //! How far from its centre of mass the mass of a block lies, direction by direction.
 //!
-//! With `G = √(I/m)` (the symmetric root, m) a spin ω moves the mass at the root mean square speed `‖G ω‖`, and a moment M weighs
-//! as much as a force of the size `‖G⁻¹ M‖`: the two are dual, `M·ω = (G⁻¹M)·(Gω)`. Every direction has its own length: turning about
-//! the long axis of a beam is measured by its cross-section, however long it is. The eigenvalues of G are the radii of gyration.
+//! With `G = √(I/m)` (the symmetric root, m) a spin ω moves the mass at the root mean square speed
+//! `‖G ω‖`, and a moment M weighs as much as a force of the size `‖G⁻¹ M‖`: the two are dual, `M·ω
+//! = (G⁻¹M)·(Gω)`. Every direction has its own length: turning about the long axis of a beam is
+//! measured by its cross-section, however long it is. The eigenvalues of G are the radii of
+//! gyration.
 
 use crate::tolerance;
 use nalgebra::{Matrix3, Vector3};
@@ -23,7 +25,8 @@ impl Gyration {
     pub fn new(inertia: &Matrix3<f64>, mass: f64) -> Self {
         let eigen = tidy(inertia / mass).symmetric_eigen();
         let greatest = eigen.eigenvalues.max().sqrt();
-        let radii = eigen.eigenvalues.map(|i| i.max(0.0).sqrt().max(tolerance::LEAST_GYRATION * greatest));
+        let radii =
+            eigen.eigenvalues.map(|i| i.max(0.0).sqrt().max(tolerance::LEAST_GYRATION * greatest));
         let v = &eigen.eigenvectors;
         let with = |d: Vector3<f64>| tidy(v * Matrix3::from_diagonal(&d) * v.transpose());
         Self { root: with(radii), inverse: with(radii.map(f64::recip)), least: radii.min() }
@@ -31,7 +34,11 @@ impl Gyration {
 
     /// The same in units of `length`, m.
     pub fn in_units(&self, length: f64) -> Self {
-        Self { root: self.root / length, inverse: self.inverse * length, least: self.least / length }
+        Self {
+            root: self.root / length,
+            inverse: self.inverse * length,
+            least: self.least / length,
+        }
     }
 
     /// Root mean square speed, as a vector, of a spin (rad/s): m/s.
@@ -44,10 +51,16 @@ impl Gyration {
         self.inverse * moment
     }
 
-    /// At least the force, component by component, that weighs as much as a moment whose components are at most these (N·m).
+    /// At least the force, component by component, that weighs as much as a moment whose components
+    /// are at most these (N·m).
     pub fn bound(&self, moment: &Vector3<f64>) -> Vector3<f64> {
         // A component that is zero counts for nothing, whatever the size of the others.
-        Vector3::from_fn(|i, _| (0..3).filter(|&j| moment[j] != 0.0).map(|j| self.inverse[(i, j)].abs() * moment[j]).sum())
+        Vector3::from_fn(|i, _| {
+            (0..3)
+                .filter(|&j| moment[j] != 0.0)
+                .map(|j| self.inverse[(i, j)].abs() * moment[j])
+                .sum()
+        })
     }
 
     /// The spin (rad/s) of a speed: the inverse of [`Self::speed`].
@@ -86,7 +99,11 @@ mod tests {
     fn a_turned_slab_has_the_radii_of_its_sides() {
         let sides = Vector3::new(1.0, 2000.0, 0.2);
         let square = |k: usize| sides[k] * sides[k] / 12.0;
-        let still = Matrix3::from_diagonal(&Vector3::new(square(1) + square(2), square(0) + square(2), square(0) + square(1)));
+        let still = Matrix3::from_diagonal(&Vector3::new(
+            square(1) + square(2),
+            square(0) + square(2),
+            square(0) + square(1),
+        ));
         let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
         let mass = 7.0;
         let g = Gyration::new(&(turn * still * turn.inverse() * mass), mass);
@@ -101,7 +118,10 @@ mod tests {
 
     #[test]
     fn a_sphere_and_a_box_along_the_axes_leave_no_noise() {
-        for inertia in [Matrix3::identity() * 0.4, Matrix3::new(2.0, 1e-17, 0.0, 1e-17, 3.0, 1e-16, 0.0, 1e-16, 4.0)] {
+        for inertia in [
+            Matrix3::identity() * 0.4,
+            Matrix3::new(2.0, 1e-17, 0.0, 1e-17, 3.0, 1e-16, 0.0, 1e-16, 4.0),
+        ] {
             let g = Gyration::new(&inertia, 1.0);
             assert_eq!(g.root - Matrix3::from_diagonal(&g.root.diagonal()), Matrix3::zeros());
         }

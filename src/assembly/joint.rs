@@ -3,8 +3,8 @@
 use super::Block;
 use crate::scene::Friction;
 
-/// The law of one joint. Stresses act on the area that touches; forces at the corners of an interface count with the corner's
-/// share of the area.
+/// The law of one joint. Stresses act on the area that touches; forces at the corners of an
+/// interface count with the corner's share of the area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointLaw {
     /// Friction μ on the effective normal force.
@@ -15,17 +15,25 @@ pub struct JointLaw {
     pub tension: f64,
     /// Compressive strength, Pa; infinite where crushing is excluded.
     pub compression: f64,
-    /// Pressure of the water in the joint, Pa: it pushes the blocks apart and takes its part off the normal force that friction
-    /// and strength see.
+    /// Pressure of the water in the joint, Pa: it pushes the blocks apart and takes its part off
+    /// the normal force that friction and strength see.
     pub pore_pressure: f64,
-    /// Rolling arm c, m: a point or an edge that touches carries couples `‖m_t‖ ≤ c f_n` (rolling) and `|m_n| ≤ c f_n` (twisting).
+    /// Rolling arm c, m: a point or an edge that touches carries couples `‖m_t‖ ≤ c f_n` (rolling)
+    /// and `|m_n| ≤ c f_n` (twisting).
     pub rolling_arm: f64,
 }
 
 impl JointLaw {
     /// Dry friction and nothing else.
     pub fn dry(friction: Friction) -> Self {
-        Self { friction, cohesion: 0.0, tension: 0.0, compression: f64::INFINITY, pore_pressure: 0.0, rolling_arm: 0.0 }
+        Self {
+            friction,
+            cohesion: 0.0,
+            tension: 0.0,
+            compression: f64::INFINITY,
+            pore_pressure: 0.0,
+            rolling_arm: 0.0,
+        }
     }
 
     /// Whether dry friction is all there is.
@@ -33,7 +41,8 @@ impl JointLaw {
         *self == Self::dry(self.friction)
     }
 
-    /// Whether nothing in it is a stress: only friction and couples in proportion to the normal force.
+    /// Whether nothing in it is a stress: only friction and couples in proportion to the normal
+    /// force.
     pub fn friction_only(&self) -> bool {
         Self { rolling_arm: 0.0, ..*self }.is_dry()
     }
@@ -62,8 +71,8 @@ pub struct JointRules {
 }
 
 impl JointRules {
-    /// The law between two blocks: the rule for the two blocks, else the last rule for their materials, else the default.
-    /// `None` where no rule says any.
+    /// The law between two blocks: the rule for the two blocks, else the last rule for their
+    /// materials, else the default. `None` where no rule says any.
     pub fn law(&self, a: usize, b: usize, blocks: &[Block]) -> Option<JointLaw> {
         if let Some(law) = self.by_blocks.get(&(a.min(b), a.max(b))) {
             return Some(*law);
@@ -74,7 +83,14 @@ impl JointRules {
 
     /// The law between two blocks of these materials that no rule names by themselves.
     pub fn of_materials(&self, one: Option<&String>, two: Option<&String>) -> Option<JointLaw> {
-        let named = |[m, n]: &[String; 2]| (one == Some(m) && two == Some(n)) || (one == Some(n) && two == Some(m));
-        self.by_material.iter().rev().find(|(pair, _)| named(pair)).map(|(_, law)| *law).or(self.default)
+        let named = |[m, n]: &[String; 2]| {
+            (one == Some(m) && two == Some(n)) || (one == Some(n) && two == Some(m))
+        };
+        self.by_material
+            .iter()
+            .rev()
+            .find(|(pair, _)| named(pair))
+            .map(|(_, law)| *law)
+            .or(self.default)
     }
 }

@@ -1,5 +1,5 @@
-//! A [`Scene`](crate::scene::Scene) resolved once and completely: SI units, scene coordinates, closed outward shapes,
-//! positive masses, every default applied, every name resolved.
+//! A [`Scene`](crate::scene::Scene) resolved once and completely: SI units, scene coordinates,
+//! closed outward shapes, positive masses, every default applied, every name resolved.
 
 mod clump;
 mod distance;
@@ -35,7 +35,8 @@ pub struct Assembly {
     pub dead: Vec<Wrench>,
     /// Live load per block (multiplied by λ); zero on supports.
     pub live: Vec<Wrench>,
-    /// The dead forces that act off the centre of mass; contained in `dead`. Their heights matter when gravity turns.
+    /// The dead forces that act off the centre of mass; contained in `dead`. Their heights matter
+    /// when gravity turns.
     pub dead_forces: Vec<AppliedForce>,
     /// The live forces that act off the centre of mass; contained in `live`.
     pub live_forces: Vec<AppliedForce>,
@@ -103,7 +104,8 @@ impl Solid {
         }
     }
 
-    /// Whether the surface is made of spheres alone, so that whatever touches it touches it at points.
+    /// Whether the surface is made of spheres alone, so that whatever touches it touches it at
+    /// points.
     pub fn is_round(&self) -> bool {
         !matches!(self, Self::Polyhedron(_))
     }
@@ -120,7 +122,8 @@ pub struct AppliedForce {
     pub arm: Vector3<f64>,
 }
 
-/// A force and a moment about a stated point: the centre of mass for loads on a block, the contact point for contact forces.
+/// A force and a moment about a stated point: the centre of mass for loads on a block, the contact
+/// point for contact forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wrench {
     /// Force, N.
@@ -173,7 +176,9 @@ impl Assembly {
             *dead += *live * lambda;
             *live = Wrench::zero();
         }
-        let forces = std::mem::take(&mut loaded.live_forces).into_iter().map(|f| AppliedForce { force: f.force * lambda, ..f });
+        let forces = std::mem::take(&mut loaded.live_forces)
+            .into_iter()
+            .map(|f| AppliedForce { force: f.force * lambda, ..f });
         loaded.dead_forces.extend(forces.filter(|f| f.force != Vector3::zeros()));
         loaded
     }
@@ -188,10 +193,15 @@ impl Assembly {
         self.blocks[block].mass * self.gravity.norm()
     }
 
-    /// The weight of a block as a load about its centre of mass; zero on supports. `dead` minus this is what loads add.
+    /// The weight of a block as a load about its centre of mass; zero on supports. `dead` minus
+    /// this is what loads add.
     pub fn self_weight(&self, block: usize) -> Wrench {
         let Block { mass, support, .. } = self.blocks[block];
-        if support { Wrench::zero() } else { Wrench { force: self.gravity * mass, moment: Vector3::zeros() } }
+        if support {
+            Wrench::zero()
+        } else {
+            Wrench { force: self.gravity * mass, moment: Vector3::zeros() }
+        }
     }
 
     /// Index of a block by name.

@@ -17,8 +17,9 @@ pub fn worst(ranges: &[Between]) -> Vec<String> {
 impl Tilt {
     /// The options that change the answer, as typed.
     pub fn options(&self) -> Vec<String> {
-        let toward =
-            self.toward.iter().map(|[x, y, z]| if *z == 0.0 { format!("--toward {x},{y}") } else { format!("--toward {x},{y},{z}") });
+        let toward = self.toward.iter().map(|[x, y, z]| {
+            if *z == 0.0 { format!("--toward {x},{y}") } else { format!("--toward {x},{y},{z}") }
+        });
         let all = (self.all != DIRECTIONS).then(|| format!("--all {}", self.all));
         toward.chain(all).chain(skip_dead(self.skip_dead)).collect()
     }
@@ -28,7 +29,10 @@ impl Critical {
     /// The options that change the answer, as typed.
     pub fn options(&self) -> Vec<String> {
         let ends: Vec<String> = self.between.iter().map(f64::to_string).collect();
-        let range = [format!("--vary {}", super::question::quoted(&self.vary)), format!("--between {}", ends.join(" "))];
+        let range = [
+            format!("--vary {}", super::question::quoted(&self.vary)),
+            format!("--between {}", ends.join(" ")),
+        ];
         let step = self.step.map(|s| format!("--step {s}"));
         let scan = self.scan.map(|n| format!("--scan {n}"));
         range.into_iter().chain(step).chain(scan).collect()
@@ -38,7 +42,8 @@ impl Critical {
 impl Thrust {
     /// The options that change the answer, as typed.
     pub fn options(&self) -> Vec<String> {
-        let support = self.support.as_ref().map(|s| format!("--support {}", super::question::quoted(s)));
+        let support =
+            self.support.as_ref().map(|s| format!("--support {}", super::question::quoted(s)));
         let direction = self.direction.map(|[x, y, z]| format!("--direction {x},{y},{z}"));
         support.into_iter().chain(direction).collect()
     }
@@ -56,8 +61,12 @@ impl Assess {
 impl Simulate {
     /// The options that change the answer, as typed.
     pub fn options(&self) -> Vec<String> {
-        let given =
-            [(self.fast, "--fast"), (self.fine, "--fine"), (self.to_the_end, "--to-the-end"), (self.skip_verdict, "--skip-verdict")];
+        let given = [
+            (self.fast, "--fast"),
+            (self.fine, "--fine"),
+            (self.to_the_end, "--to-the-end"),
+            (self.skip_verdict, "--skip-verdict"),
+        ];
         let words = given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string());
         let seconds = self.seconds.map(|s| format!("--seconds {s}"));
         let load = (self.load_factor != 0.0).then(|| format!("--load-factor {}", self.load_factor));

@@ -15,20 +15,25 @@ use voussoir::{
 };
 
 pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let mut session = Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
+    let mut session =
+        Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     let question = Question::Assess(AssessOptions { law: session.law() });
     session.worst(&args.worst, &question)?;
     let answer = session.ask(&question)?;
     let mut file = session.result(&answer)?;
     let doubt = matches!(file.answer.verdict(), Some(Verdict::Conditional | Verdict::Undecided));
     let mut film = Vec::new();
-    if let (true, Answer::Assess(assessment)) = (args.simulate || (args.thorough && doubt), &answer) {
+    if let (true, Answer::Assess(assessment)) = (args.simulate || (args.thorough && doubt), &answer)
+    {
         let mut camera = Camera::new(&session, args.threads, session.report().is_some());
-        if let Answer::Simulate(outcome) = camera.ask(&session, SimulateOptions::default(), &mut |_| ControlFlow::Continue(()))? {
+        if let Answer::Simulate(outcome) =
+            camera.ask(&session, SimulateOptions::default(), &mut |_| ControlFlow::Continue(()))?
+        {
             file = file.with_simulation(&session.model, Some(assessment), &outcome);
         }
         film = camera.frames();
     }
-    let file: ResultFile = session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
+    let file: ResultFile =
+        session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
     Ok(verdict(file.answer.verdict()))
 }

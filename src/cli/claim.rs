@@ -1,5 +1,5 @@
-//! Which files this run reads and which it writes: no output replaces another one, or what is read. Every input and every output passes here,
-//! by whatever option it was named.
+//! Which files this run reads and which it writes: no output replaces another one, or what is read.
+//! Every input and every output passes here, by whatever option it was named.
 
 use anyhow::bail;
 use std::{
@@ -41,10 +41,20 @@ fn claim(path: &Path, is_written: bool) -> anyhow::Result<()> {
     let mut claims = CLAIMS.lock().unwrap_or_else(PoisonError::into_inner);
     let other = claims.iter().find(|c| c.place.is(&place) && (c.is_written || is_written));
     if let Some(other) = other {
-        let also = if other.name == path { String::new() } else { format!(" ({} is the same file)", other.name.display()) };
+        let also = if other.name == path {
+            String::new()
+        } else {
+            format!(" ({} is the same file)", other.name.display())
+        };
         match other.is_written && is_written {
-            true => bail!("{}: two outputs would go to this file{also}; give each a file of its own", path.display()),
-            false => bail!("{}: this file is read, and an output would replace it{also}; give the output another name", path.display()),
+            true => bail!(
+                "{}: two outputs would go to this file{also}; give each a file of its own",
+                path.display()
+            ),
+            false => bail!(
+                "{}: this file is read, and an output would replace it{also}; give the output another name",
+                path.display()
+            ),
         }
     }
     claims.push(Claim { place, name: path.to_path_buf(), is_written });
@@ -52,16 +62,23 @@ fn claim(path: &Path, is_written: bool) -> anyhow::Result<()> {
 }
 
 impl Place {
-    /// None for what is no regular file: standard output and devices may take what they like, and what cannot be there is told when it is opened.
+    /// None for what is no regular file: standard output and devices may take what they like, and
+    /// what cannot be there is told when it is opened.
     fn of(path: &Path) -> Option<Self> {
         if path.as_os_str() == "-" {
             return None;
         }
         match fs::metadata(path) {
-            Ok(there) => there.is_file().then(|| Some(Self { path: path.canonicalize().ok()?, number: number(&there) }))?,
+            Ok(there) => there
+                .is_file()
+                .then(|| Some(Self { path: path.canonicalize().ok()?, number: number(&there) }))?,
             Err(_) => {
-                let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-                Some(Self { path: folder.canonicalize().ok()?.join(path.file_name()?), number: None })
+                let folder =
+                    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+                Some(Self {
+                    path: folder.canonicalize().ok()?.join(path.file_name()?),
+                    number: None,
+                })
             }
         }
     }

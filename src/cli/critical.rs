@@ -22,17 +22,27 @@ const DIGITS: usize = 10;
 const MOST: f64 = 100_000.0;
 
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let [from, to] = args.between[..] else { bail!("--between takes two numbers: --between 0.05 0.2") };
+    let [from, to] = args.between[..] else {
+        bail!("--between takes two numbers: --between 0.05 0.2")
+    };
     if from == to {
         bail!("--between {from} {to}: the range is empty");
     }
     let scan = match args.step.map(|step| ((to - from) / step).abs().ceil() + 1.0) {
         None => args.scan.map(|n| n as usize),
         Some(count) if count <= MOST => Some(count as usize),
-        Some(count) => bail!("--step {}: the range would take {count:.0} steps, at most {MOST} are taken", args.step.unwrap_or(0.0)),
+        Some(count) => bail!(
+            "--step {}: the range would take {count:.0} steps, at most {MOST} are taken",
+            args.step.unwrap_or(0.0)
+        ),
     };
     let session = Session::open(&args.common)?;
-    let question = Question::Critical(CriticalOptions { law: session.law(), vary: args.vary.clone(), between: [from, to], scan });
+    let question = Question::Critical(CriticalOptions {
+        law: session.law(),
+        vary: args.vary.clone(),
+        between: [from, to],
+        scan,
+    });
     let answer = session.ask(&question)?;
     let seen = match (&answer, session.report()) {
         (Answer::Critical(flips), Some(_)) => picture(&session, flips)?,
@@ -49,7 +59,9 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
 /// The scene beside the first flip, on the side where it falls; as it is where there is none.
 fn picture(session: &Session, answer: &Critical) -> anyhow::Result<Seen> {
     let sides = answer.changes.iter().flat_map(|c| [&c.below, &c.above]);
-    let Some(side) = sides.into_iter().find(|s| s.assessment.verdict == Verdict::Unstable) else { return Ok(Seen::Scene(Vec::new())) };
+    let Some(side) = sides.into_iter().find(|s| s.assessment.verdict == Verdict::Unstable) else {
+        return Ok(Seen::Scene(Vec::new()));
+    };
     let file = ResultFile::assessment(&session.scene, &side.model, &side.assessment);
     let mut view = View::new(&side.model, &file, Vec::new())?;
     view.caption = format!("falls with {} at {}", answer.range.pointer, fixed(side.value, DIGITS));

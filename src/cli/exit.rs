@@ -8,7 +8,8 @@ use std::process::ExitCode;
 pub enum Exit {
     /// Yes, or done.
     Yes = 0,
-    /// A clean negative answer: it falls, the requirement is not met, the result is refuted, the scene has mistakes.
+    /// A clean negative answer: it falls, the requirement is not met, the result is refuted, the
+    /// scene has mistakes.
     No = 1,
     /// The command line or an input file is wrong, or a file cannot be written.
     Usage = 2,

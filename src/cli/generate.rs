@@ -48,22 +48,32 @@ pub fn run(args: &Generate) -> anyhow::Result<Exit> {
         set(values, "material", Value::from(MATERIAL))?;
     }
     if let Value::Object(values) = &mut *values {
-        let chosen: Vec<_> = args.set.iter().map(|(key, text)| (key.as_str(), text.trim_matches('"'))).collect();
+        let chosen: Vec<_> =
+            args.set.iter().map(|(key, text)| (key.as_str(), text.trim_matches('"'))).collect();
         make_room(values, &chosen);
     }
     for (key, text) in &args.set {
         // What is no JSON is text, so that words need no quotes.
-        set(values, key, serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str())))?;
+        set(
+            values,
+            key,
+            serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str())),
+        )?;
     }
     let command: Vec<String> = args.set.iter().map(|(k, v)| format!(" {k}={v}")).collect();
-    let mut head = Scene { name: args.name.clone().unwrap_or_else(|| title(name)), ..Scene::default() };
+    let mut head =
+        Scene { name: args.name.clone().unwrap_or_else(|| title(name)), ..Scene::default() };
     head.source = format!("voussoir generate {name}{}", command.concat());
     head.joints.default.friction = Some(args.friction);
     head.materials.extend(args.density.map(|density| (MATERIAL.to_string(), Material { density })));
     let mut value = serde_json::to_value(&head)?;
     value["templates"] = Value::from(vec![template]);
     // Lines and columns of a text that nobody has seen help nobody: the path is enough.
-    let (mut scene, _) = scene::read_str(name, value.to_string()).map_err(|e| InputError { file: None, position: None, ..e })?;
+    let (mut scene, _) = scene::read_str(name, value.to_string()).map_err(|e| InputError {
+        file: None,
+        position: None,
+        ..e
+    })?;
     let template = scene.templates.first().context("the template was lost")?;
     let blocks = expand(template)?;
     if args.expand {
@@ -82,13 +92,17 @@ fn set(value: &mut Value, key: &str, new: Value) -> anyhow::Result<()> {
         }
         if let Value::Array(list) = place {
             let count = list.len();
-            place =
-                step.parse().ok().and_then(|i: usize| list.get_mut(i)).with_context(|| format!("{key}: the list has {count} entries"))?;
+            place = step
+                .parse()
+                .ok()
+                .and_then(|i: usize| list.get_mut(i))
+                .with_context(|| format!("{key}: the list has {count} entries"))?;
         } else {
             if !place.is_object() {
                 *place = Value::Object(Map::new());
             }
-            place = place.as_object_mut().context("not an object")?.entry(step).or_insert(Value::Null);
+            place =
+                place.as_object_mut().context("not an object")?.entry(step).or_insert(Value::Null);
         }
     }
     *place = new;

@@ -1,6 +1,9 @@
 //! `voussoir repose --question repose`: heaps that flow and come to rest.
 
-use super::{args::Repose, claim, exit::Exit, output::Sink, pictures::Pictures, report, terminal, terminal::Terminal};
+use super::{
+    args::Repose, claim, exit::Exit, output::Sink, pictures::Pictures, report, terminal,
+    terminal::Terminal,
+};
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::{Deserialize, Serialize};
@@ -55,13 +58,15 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let kept = args.keep.as_deref().map(|path| kept(path, &protocol, args)).transpose()?;
     let there = || kept.iter().flat_map(|k| &k.there);
     let keep = |piece: &Piece| kept.as_ref().map_or(Ok(()), |k| k.append(piece));
-    let target = if args.common.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let target =
+        if args.common.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let bar = ProgressBar::with_draw_target(None, target);
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
         bar.set_style(style);
     }
     let deadline = args.common.time_limit.map_or(Deadline::NEVER, Deadline::within);
-    // Cut off by the time limit, a heap or a margin is an answer, but not the one that the next run wants.
+    // Cut off by the time limit, a heap or a margin is an answer, but not the one that the next run
+    // wants.
     let in_time = || !deadline.is_over();
     let one = |(k, output): &(usize, Option<Sink>)| -> anyhow::Result<(HeapResult, Option<View>)> {
         let seed = args.seed + *k as u64;
@@ -95,12 +100,18 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         let shown = *k == 0 && (report.is_some() || pictures.wanted());
         let wanted = heap.rested && !args.skip_margin;
         let known = there().find_map(|p| match p {
-            Piece::Margin { seed: of, keep_all, margin } if (*of, *keep_all) == (seed, args.common.keep_all) => Some(margin),
+            Piece::Margin { seed: of, keep_all, margin }
+                if (*of, *keep_all) == (seed, args.common.keep_all) =>
+            {
+                Some(margin)
+            }
             _ => None,
         });
         let control = Control { law: Law::Associative, keep_all: args.common.keep_all, deadline };
-        let fresh = (wanted && (shown || known.is_none())).then(|| margin(&heap, &control)).transpose()?;
-        let result = known.filter(|_| wanted).cloned().or_else(|| fresh.as_ref().map(MarginResult::from));
+        let fresh =
+            (wanted && (shown || known.is_none())).then(|| margin(&heap, &control)).transpose()?;
+        let result =
+            known.filter(|_| wanted).cloned().or_else(|| fresh.as_ref().map(MarginResult::from));
         if let (Some(margin), None, true) = (&result, known, in_time()) {
             keep(&Piece::Margin { seed, keep_all: args.common.keep_all, margin: margin.clone() })?;
         }
@@ -137,9 +148,17 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
 fn kept(path: &std::path::Path, protocol: &Protocol, args: &Repose) -> anyhow::Result<Kept<Piece>> {
     let kept = Kept::open(path, "voussoir-heaps/1", json!({ "protocol": protocol }))?;
     let seeds = args.seed..args.seed + u64::from(args.seeds);
-    let count = kept.there.iter().filter(|p| matches!(p, Piece::Heap(h) if seeds.contains(&h.seed))).count();
+    let count = kept
+        .there
+        .iter()
+        .filter(|p| matches!(p, Piece::Heap(h) if seeds.contains(&h.seed)))
+        .count();
     if count > 0 && !args.common.quiet {
-        terminal::say(&format!("note: {} holds {count} of {} heaps already", path.display(), args.seeds));
+        terminal::say(&format!(
+            "note: {} holds {count} of {} heaps already",
+            path.display(),
+            args.seeds
+        ));
     }
     Ok(kept)
 }
@@ -147,12 +166,14 @@ fn kept(path: &std::path::Path, protocol: &Protocol, args: &Repose) -> anyhow::R
 /// A heap at rest, with the forces and the mechanism of its static margin where that was asked for.
 fn picture(heap: &Heap, margin: Option<&Margin>) -> anyhow::Result<View> {
     let tilted = margin.map(|m| (m, Tilted { directions: vec![m.tilt.clone()], level: None }));
-    let proof = tilted.and_then(|(m, tilted)| Some((m, ResultFile::tilt(&m.scene, &m.tilt.model, &tilted)?)));
+    let proof = tilted
+        .and_then(|(m, tilted)| Some((m, ResultFile::tilt(&m.scene, &m.tilt.model, &tilted)?)));
     let mut view = match proof {
         Some((margin, file)) => View::new(&prepare(&margin.scene)?, &file, Vec::new())?,
         None => View::bare(&prepare(&heap.scene)?),
     };
-    let tipped = if view.caption.is_empty() { String::new() } else { format!(", {}", view.caption) };
+    let tipped =
+        if view.caption.is_empty() { String::new() } else { format!(", {}", view.caption) };
     view.caption = format!("the heap of seed {}{tipped}", heap.seed);
     Ok(view)
 }

@@ -9,7 +9,8 @@ use voussoir::{
     scene::{self, Scene, Shape, Source},
 };
 
-/// The bytes of a file, or of standard input for `-`, with a name for messages. No output may go to the file.
+/// The bytes of a file, or of standard input for `-`, with a name for messages. No output may go to
+/// the file.
 pub fn bytes(path: &Path) -> anyhow::Result<(String, Vec<u8>)> {
     claim::read(path)?;
     Ok(read(path)?)
@@ -36,8 +37,14 @@ pub fn scene(path: &Path, reach: Reach) -> anyhow::Result<(Scene, Source, Vec<Fi
     scene_of(path, name, bytes, reach)
 }
 
-/// As [`scene`], of a file that is already in memory. Paths are relative to its folder; to the current one for standard input.
-pub fn scene_of(path: &Path, name: String, bytes: Vec<u8>, reach: Reach) -> anyhow::Result<(Scene, Source, Vec<Finding>)> {
+/// As [`scene`], of a file that is already in memory. Paths are relative to its folder; to the
+/// current one for standard input.
+pub fn scene_of(
+    path: &Path,
+    name: String,
+    bytes: Vec<u8>,
+    reach: Reach,
+) -> anyhow::Result<(Scene, Source, Vec<Finding>)> {
     let (mut scene, source) = scene::read_bytes(name, bytes)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let findings = read_meshes(&mut scene, folder, reach).map_err(|e| e.located(&source))?;

@@ -10,10 +10,19 @@ use super::{
 use voussoir::analysis::{LimitOptions, Question};
 
 pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let mut session = Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
-    let question = Question::Limit(LimitOptions { law: session.law(), require: args.require, skip_dead: args.skip_dead });
+    let mut session =
+        Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
+    let question = Question::Limit(LimitOptions {
+        law: session.law(),
+        require: args.require,
+        skip_dead: args.skip_dead,
+    });
     session.worst(&args.worst, &question)?;
     let file = session.result(&session.ask(&question)?)?;
-    let file = session.answer(terminal, &[skip_dead(args.skip_dead), worst(&args.worst)].concat(), file)?;
+    let file = session.answer(
+        terminal,
+        &[skip_dead(args.skip_dead), worst(&args.worst)].concat(),
+        file,
+    )?;
     Ok(requirement(&file, question.require(), |lambda| lambda))
 }

@@ -24,7 +24,9 @@ pub fn run(args: &Man) -> anyhow::Result<Exit> {
     }
     let command = match &args.verb {
         None => &whole,
-        Some(verb) => whole.find_subcommand(verb).with_context(|| format!("there is no verb `{verb}`; `voussoir help` lists them"))?,
+        Some(verb) => whole
+            .find_subcommand(verb)
+            .with_context(|| format!("there is no verb `{verb}`; `voussoir help` lists them"))?,
     };
     terminal::print(&page(command)?)?;
     Ok(Exit::Yes)

@@ -1,9 +1,11 @@
-//! `--max-memory`, and the limits of the system: the process never takes more, and says so when it would have to.
+//! `--max-memory`, and the limits of the system: the process never takes more, and says so when it
+//! would have to.
 //!
-//! Estimates refuse most of what is too large before it begins ([`voussoir::limits`]). What they miss meets this: where there is a limit, the
-//! option's or that of a control group, every allocation is counted, and the one that would go beyond ends the program with an error. So does
-//! one that the system refuses (`ulimit -v`, a machine without more), where the language would abort. Files that were being written are absent
-//! then, as after a kill.
+//! Estimates refuse most of what is too large before it begins ([`voussoir::limits`]). What they
+//! miss meets this: where there is a limit, the option's or that of a control group, every
+//! allocation is counted, and the one that would go beyond ends the program with an error. So does
+//! one that the system refuses (`ulimit -v`, a machine without more), where the language would
+//! abort. Files that were being written are absent then, as after a kill.
 
 // An allocator is unsafe by its trait, and the system's is asked directly where none is left.
 #![allow(unsafe_code)]
@@ -42,7 +44,8 @@ pub fn limit(bytes: u64) -> anyhow::Result<()> {
             voussoir::limits::size(2 * OWN as u64)
         );
     }
-    // Freed memory goes back to the system at once where pieces are large, so that what is counted is what is taken.
+    // Freed memory goes back to the system at once where pieces are large, so that what is counted
+    // is what is taken.
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     // SAFETY: sets numbers of the system's allocator; nothing is passed by reference.
     unsafe {
@@ -56,9 +59,13 @@ pub fn limit(bytes: u64) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Begins to count where a control group sets a limit that is lower than the one given: beyond it the system kills without a word.
+/// Begins to count where a control group sets a limit that is lower than the one given: beyond it
+/// the system kills without a word.
 pub fn heed_group(given: Option<u64>) {
-    let Some(left) = voussoir::limits::group().filter(|left| given.is_none_or(|g| *left < g)) else { return };
+    let Some(left) = voussoir::limits::group().filter(|left| given.is_none_or(|g| *left < g))
+    else {
+        return;
+    };
     // Pages are not filled to the last byte, and others in the group need some as well.
     let most = usize::try_from(left - left / 20).unwrap_or(usize::MAX);
     OF_GROUP.store(true, Ordering::Relaxed);
@@ -89,7 +96,9 @@ fn refuse(bytes: usize) {
     }
     let limit = voussoir::limits::size((most + OWN) as u64);
     let (whose, remedy) = match OF_GROUP.load(Ordering::Relaxed) {
-        true => (format!("the control group of this process leaves it ({limit})"), "let it have more"),
+        true => {
+            (format!("the control group of this process leaves it ({limit})"), "let it have more")
+        }
         false => (format!("--max-memory {limit} allows"), "raise it"),
     };
     let text = format!(
@@ -100,7 +109,8 @@ fn refuse(bytes: usize) {
     std::process::exit(Exit::Usage as i32);
 }
 
-/// Ends the program where the system gave nothing. Nothing here may ask for memory, unwind or wait for a lock that this thread holds.
+/// Ends the program where the system gave nothing. Nothing here may ask for memory, unwind or wait
+/// for a lock that this thread holds.
 #[cold]
 fn failed(bytes: usize) -> ! {
     if FAILED.swap(true, Ordering::Relaxed) {
@@ -121,7 +131,8 @@ fn failed(bytes: usize) -> ! {
 /// Says it and ends at once, without what is done at a proper end: some of that needs memory.
 #[cfg(unix)]
 fn end(text: &[u8]) -> ! {
-    // SAFETY: the bytes are there for the whole call, and the handle is a number; a failure is an answer that nobody can be told.
+    // SAFETY: the bytes are there for the whole call, and the handle is a number; a failure is an
+    // answer that nobody can be told.
     unsafe { libc::write(libc::STDERR_FILENO, text.as_ptr().cast(), text.len()) };
     // SAFETY: ends the process; no code of it runs after that.
     unsafe { libc::_exit(Exit::Usage as i32) }
@@ -158,8 +169,9 @@ fn given(place: *mut u8, bytes: usize) -> *mut u8 {
     place
 }
 
-// SAFETY: every call is the system allocator's own, with the same arguments, and what it gives is handed on as it is; counting touches atomics
-// alone, and no path unwinds: where the system gives nothing the process ends inside the call.
+// SAFETY: every call is the system allocator's own, with the same arguments, and what it gives is
+// handed on as it is; counting touches atomics alone, and no path unwinds: where the system gives
+// nothing the process ends inside the call.
 unsafe impl GlobalAlloc for Counted {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         if COUNTED.load(Ordering::Relaxed) {

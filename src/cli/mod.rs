@@ -1,4 +1,5 @@
-//! Arguments, terminal and exit codes; one file per verb. No mechanics: what is asked is a call to the library.
+//! Arguments, terminal and exit codes; one file per verb. No mechanics: what is asked is a call to
+//! the library.
 
 pub mod again;
 pub mod args;

@@ -21,8 +21,9 @@ pub enum Sink {
 }
 
 impl Sink {
-    /// A sink for `path`; `None` and `-` are standard output. Writing is tried out now, so that a long answer is not lost later:
-    /// a file without a name is made in the target's folder. Nothing else of this run is read from there or written to it.
+    /// A sink for `path`; `None` and `-` are standard output. Writing is tried out now, so that a
+    /// long answer is not lost later: a file without a name is made in the target's folder. Nothing
+    /// else of this run is read from there or written to it.
     pub fn open(path: Option<&Path>) -> anyhow::Result<Self> {
         path.map_or(Ok(()), claim::written)?;
         Self::again(path)
@@ -33,13 +34,21 @@ impl Sink {
         let Some(path) = path.filter(|p| p.as_os_str() != "-") else { return Ok(Self::Stdout) };
         let context = || format!("{}: cannot be written", path.display());
         // Through a symbolic link to the file it names.
-        let target = if path.exists() { path.canonicalize().with_context(context)? } else { path.to_path_buf() };
+        let target = if path.exists() {
+            path.canonicalize().with_context(context)?
+        } else {
+            path.to_path_buf()
+        };
         match fs::metadata(&target) {
             Ok(m) if m.is_dir() => bail!("{}: cannot be written: it is a folder", path.display()),
             Ok(m) if !m.is_file() => return Ok(Self::Device(target)),
             Ok(_) => drop(OpenOptions::new().append(true).open(&target).with_context(context)?),
-            Err(_) if target.file_name().is_none() => bail!("{}: cannot be written: it names no file", path.display()),
-            Err(_) if !folder(&target).is_dir() => bail!("{}: cannot be written: there is no such folder", path.display()),
+            Err(_) if target.file_name().is_none() => {
+                bail!("{}: cannot be written: it names no file", path.display())
+            }
+            Err(_) if !folder(&target).is_dir() => {
+                bail!("{}: cannot be written: there is no such folder", path.display())
+            }
             Err(_) => {}
         }
         tempfile::tempfile_in(folder(&target)).map_err(files::unnamed).with_context(context)?;
@@ -50,8 +59,13 @@ impl Sink {
     pub fn write(&self, text: &str) -> anyhow::Result<()> {
         match self {
             Self::Stdout => terminal::print(text),
-            Self::File(target) => replace(target, text).with_context(|| format!("{}: cannot be written", target.display())),
-            Self::Device(target) => match OpenOptions::new().write(true).open(target).and_then(|mut f| f.write_all(text.as_bytes())) {
+            Self::File(target) => replace(target, text)
+                .with_context(|| format!("{}: cannot be written", target.display())),
+            Self::Device(target) => match OpenOptions::new()
+                .write(true)
+                .open(target)
+                .and_then(|mut f| f.write_all(text.as_bytes()))
+            {
                 Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
                 other => other.with_context(|| format!("{}: cannot be written", target.display())),
             },
@@ -90,13 +104,19 @@ fn fill(file: &mut fs::File, target: &Path, text: &str) -> std::io::Result<()> {
     file.sync_all()
 }
 
-/// Writes a file that has no name until it is whole, so that even a kill leaves nothing beside the target. `None` where the system or
-/// the file system has no such files.
+/// Writes a file that has no name until it is whole, so that even a kill leaves nothing beside the
+/// target. `None` where the system or the file system has no such files.
 #[cfg(target_os = "linux")]
 fn nameless(target: &Path, text: &str) -> Option<std::io::Result<()>> {
     use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat, openat};
     use std::os::fd::AsRawFd;
-    let fd = openat(CWD, folder(target), OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC, Mode::from_raw_mode(0o666)).ok()?;
+    let fd = openat(
+        CWD,
+        folder(target),
+        OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC,
+        Mode::from_raw_mode(0o666),
+    )
+    .ok()?;
     let mut file = fs::File::from(fd);
     if let Err(e) = fill(&mut file, target, text) {
         return Some(Err(e));

@@ -24,40 +24,66 @@ pub struct Pictures {
 }
 
 impl Pictures {
-    /// Opens what will be written. `table` is where the table of joints goes; that of the blocks goes beside it.
+    /// Opens what will be written. `table` is where the table of joints goes; that of the blocks
+    /// goes beside it.
     pub fn open(args: &args::Pictures, table: Option<&Path>) -> anyhow::Result<Self> {
         Self::open_as(args, table, "vtp")
     }
 
-    /// As [`Self::open`], for what happens in time: a collection of VTK files, which stand in a folder of the same name.
+    /// As [`Self::open`], for what happens in time: a collection of VTK files, which stand in a
+    /// folder of the same name.
     pub fn open_film(args: &args::Pictures) -> anyhow::Result<Self> {
         let mut pictures = Self::open_as(args, None, "pvd")?;
         if let Some(path) = &args.vtk {
             let folder = path.with_extension("");
-            std::fs::create_dir_all(&folder).with_context(|| format!("{}: cannot be written", folder.display()))?;
+            std::fs::create_dir_all(&folder)
+                .with_context(|| format!("{}: cannot be written", folder.display()))?;
             pictures.frames = Some(folder);
         }
         Ok(pictures)
     }
 
     fn open_as(args: &args::Pictures, table: Option<&Path>, ending: &str) -> anyhow::Result<Self> {
-        let fits = |p: &Path| p.extension().is_some_and(|e| e == ending) || (is_dash(p) && ending == "vtp");
+        let fits = |p: &Path| {
+            p.extension().is_some_and(|e| e == ending) || (is_dash(p) && ending == "vtp")
+        };
         if let Some(path) = args.vtk.as_deref().filter(|p| !fits(p)) {
-            let named = if is_dash(path) { PathBuf::from(format!("FILE.{ending}")) } else { path.with_extension(ending) };
-            bail!("--vtk {}: ParaView goes by the ending, which is .{ending} here: name it {}", path.display(), named.display());
+            let named = if is_dash(path) {
+                PathBuf::from(format!("FILE.{ending}"))
+            } else {
+                path.with_extension(ending)
+            };
+            bail!(
+                "--vtk {}: ParaView goes by the ending, which is .{ending} here: name it {}",
+                path.display(),
+                named.display()
+            );
         }
         let open = |path: Option<&Path>| path.map(|p| Sink::open(Some(p))).transpose();
-        let printed = [args.svg.as_deref(), args.vtk.as_deref(), table].into_iter().flatten().filter(|p| is_dash(p)).count();
+        let printed = [args.svg.as_deref(), args.vtk.as_deref(), table]
+            .into_iter()
+            .flatten()
+            .filter(|p| is_dash(p))
+            .count();
         if printed > 1 {
             bail!("standard output takes one of --svg, --vtk and --csv");
         }
         let tables = match table {
-            Some(path) if is_dash(path) => bail!("--csv takes a file: the table of the blocks is written beside it"),
+            Some(path) if is_dash(path) => {
+                bail!("--csv takes a file: the table of the blocks is written beside it")
+            }
             Some(path) => Some([Sink::open(Some(path))?, Sink::open(Some(&beside(path)))?]),
             None => None,
         };
         let (svg, vtk) = (open(args.svg.as_deref())?, open(args.vtk.as_deref())?);
-        Ok(Self { svg, aspect: args.view.unwrap_or_default(), vtk, frames: None, csv: tables, printed })
+        Ok(Self {
+            svg,
+            aspect: args.view.unwrap_or_default(),
+            vtk,
+            frames: None,
+            csv: tables,
+            printed,
+        })
     }
 
     /// Whether anything is to be made.

@@ -12,7 +12,8 @@ pub struct Bar(ProgressBar);
 impl Bar {
     /// A bar, hidden unless `shown` and on a terminal.
     pub fn new(shown: bool) -> Self {
-        let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let target =
+            if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(Some(STEPS), target);
         if let Ok(style) = ProgressStyle::with_template("{prefix} {wide_bar} {msg}") {
             bar.set_style(style);
@@ -29,7 +30,10 @@ impl Bar {
         self.0.set_prefix(steps);
         self.0.set_position((STEPS as f64 * progress.time / progress.horizon) as u64);
         let moved = 100.0 * progress.relative;
-        self.0.set_message(format!("{:.2} of {:.2} s, moved by {moved:.2} % of a block's thickness", progress.time, progress.horizon));
+        self.0.set_message(format!(
+            "{:.2} of {:.2} s, moved by {moved:.2} % of a block's thickness",
+            progress.time, progress.horizon
+        ));
     }
 }
 

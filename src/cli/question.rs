@@ -64,7 +64,10 @@ impl<'a> Session<'a> {
     }
 
     /// As [`Self::open`], asking about the scene that `change` makes of the one in the file.
-    pub fn open_changed(common: &'a Common, change: impl FnOnce(Scene) -> Scene) -> anyhow::Result<Self> {
+    pub fn open_changed(
+        common: &'a Common,
+        change: impl FnOnce(Scene) -> Scene,
+    ) -> anyhow::Result<Self> {
         if common.save.as_ref().is_some_and(|p| p.as_os_str() == "-") {
             bail!("--save takes a file; --json prints the result");
         }
@@ -89,8 +92,23 @@ impl<'a> Session<'a> {
         model.assembly.findings.splice(0..0, said.iter().cloned());
         terminal::warnings(model.findings());
         let points = model.contact_points() as u64;
-        limits::afford(&format!("solving for {points} contact points"), points, limits::PER_CONTACT_POINT)?;
-        Ok(Self { common, save, report, pictures: Pictures::default(), source, said, deadline, start: Instant::now(), scene, model })
+        limits::afford(
+            &format!("solving for {points} contact points"),
+            points,
+            limits::PER_CONTACT_POINT,
+        )?;
+        Ok(Self {
+            common,
+            save,
+            report,
+            pictures: Pictures::default(),
+            source,
+            said,
+            deadline,
+            start: Instant::now(),
+            scene,
+            model,
+        })
     }
 
     /// Opens the pictures that are wanted, and the tables.
@@ -109,7 +127,8 @@ impl<'a> Session<'a> {
         table: Option<&Path>,
         open: impl FnOnce() -> anyhow::Result<Pictures>,
     ) -> anyhow::Result<Self> {
-        let given = [("--svg", args.svg.as_deref()), ("--vtk", args.vtk.as_deref()), ("--csv", table)];
+        let given =
+            [("--svg", args.svg.as_deref()), ("--vtk", args.vtk.as_deref()), ("--csv", table)];
         for (option, path) in given.into_iter().filter_map(|(o, p)| Some((o, p?))) {
             if is_same(path, &self.common.scene) {
                 bail!("{option} {} would replace the scene", path.display());
@@ -122,7 +141,8 @@ impl<'a> Session<'a> {
         Ok(Self { pictures, ..self })
     }
 
-    /// Puts the worst case within ranges in the place of the scene, and the argument among what the user should know.
+    /// Puts the worst case within ranges in the place of the scene, and the argument among what the
+    /// user should know.
     pub fn worst(&mut self, ranges: &[Between], asked: &Question) -> anyhow::Result<()> {
         if ranges.is_empty() {
             return Ok(());
@@ -132,7 +152,10 @@ impl<'a> Session<'a> {
         let read = self.model.timings.read;
         let mut model = prepare(&worst.scene).map_err(refuse)?;
         model.timings.read = read;
-        let notes = worst.argument.into_iter().map(|text| Finding::new(FindingCode::WorstCase, format!("worst case: {text}")));
+        let notes = worst
+            .argument
+            .into_iter()
+            .map(|text| Finding::new(FindingCode::WorstCase, format!("worst case: {text}")));
         model.assembly.findings.splice(0..0, notes.chain(self.said.iter().cloned()));
         (self.scene, self.model) = (worst.scene, model);
         Ok(())
@@ -155,7 +178,8 @@ impl<'a> Session<'a> {
 
     /// The same, of what happens in time: with somebody who watches.
     pub fn ask_watched(&self, question: &Question, watch: Watch) -> anyhow::Result<Answer> {
-        ask_watched(question, &self.scene, &self.model, &self.control(), watch).map_err(|e| self.refuse(e))
+        ask_watched(question, &self.scene, &self.model, &self.control(), watch)
+            .map_err(|e| self.refuse(e))
     }
 
     /// The result that proves an answer.
@@ -200,20 +224,35 @@ impl<'a> Session<'a> {
     }
 
     /// Saves a result and prints it; `own` are the verb's own options that change the answer.
-    pub fn answer(&self, terminal: &Terminal, own: &[String], file: ResultFile) -> anyhow::Result<ResultFile> {
+    pub fn answer(
+        &self,
+        terminal: &Terminal,
+        own: &[String],
+        file: ResultFile,
+    ) -> anyhow::Result<ResultFile> {
         self.answer_seen(terminal, own, Seen::Scene(Vec::new()), file)
     }
 
     /// As [`Self::answer`], and says what a page shows.
-    pub fn answer_seen(&self, terminal: &Terminal, own: &[String], seen: Seen, mut file: ResultFile) -> anyhow::Result<ResultFile> {
-        file.timings.simulate = file.simulation.iter().flat_map(|s| &s.runs).map(|r| r.seconds).sum();
-        file.timings.solve = (self.start.elapsed().as_secs_f64() - file.timings.simulate - file.timings.check).max(0.0);
+    pub fn answer_seen(
+        &self,
+        terminal: &Terminal,
+        own: &[String],
+        seen: Seen,
+        mut file: ResultFile,
+    ) -> anyhow::Result<ResultFile> {
+        file.timings.simulate =
+            file.simulation.iter().flat_map(|s| &s.runs).map(|r| r.seconds).sum();
+        file.timings.solve =
+            (self.start.elapsed().as_secs_f64() - file.timings.simulate - file.timings.check)
+                .max(0.0);
         file.work = Some(Work::of(&file, &self.model));
         let scene = match self.common.scene.to_string_lossy() {
             name if name == "-" => "SCENE".into(),
             name => quoted(&name),
         };
-        let asked = Asked { scene: &scene, options: &[own, &self.common.options()].concat().join(" ") };
+        let asked =
+            Asked { scene: &scene, options: &[own, &self.common.options()].concat().join(" ") };
         let layout = terminal.layout(&self.common.scene);
         if let Some(save) = &self.save {
             save.write(&json::pretty(&file)?)?;
@@ -265,8 +304,9 @@ pub fn verdict(verdict: Option<Verdict>) -> Exit {
     }
 }
 
-/// The exit code of a load factor, read through `scale`, against what is required of it. A requirement inside the bracket is not
-/// decided. Where dry friction was asked for, the bound alone meets no requirement.
+/// The exit code of a load factor, read through `scale`, against what is required of it. A
+/// requirement inside the bracket is not decided. Where dry friction was asked for, the bound alone
+/// meets no requirement.
 pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f64) -> Exit {
     let Some(said) = file.answer.load_factor() else { return Exit::Undecided };
     // A scene that needs a pre-stress already without its live load, or falls, is no yes.
@@ -277,17 +317,16 @@ pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f6
         (FactorStatus::Impossible | FactorStatus::NotAtRest, _) => Exit::No,
         (_, Some(r)) if said.associative.upper.map(scale).is_some_and(|u| u < r) => Exit::No,
         (FactorStatus::Found | FactorStatus::Unbounded, None) if dead => Exit::No,
-        (FactorStatus::Found | FactorStatus::Unbounded, None) | (FactorStatus::Unbounded, Some(_)) => Exit::Yes,
+        (FactorStatus::Found | FactorStatus::Unbounded, None)
+        | (FactorStatus::Unbounded, Some(_)) => Exit::Yes,
         // Seen at rest there, whatever is known beyond.
         (_, Some(r)) if lower.is_some_and(|l| l >= r) => Exit::Yes,
         (FactorStatus::Found, Some(r)) if upper.is_some_and(|u| u < r) => Exit::No,
         // Of a value with dry friction that slides, the ends are what was seen beside it.
-        (FactorStatus::Found, Some(r)) if matches!(said.found, Some(Found::FixedPoint | Found::Rests)) => {
-            if value.is_some_and(|v| v < r) {
-                Exit::No
-            } else {
-                Exit::Yes
-            }
+        (FactorStatus::Found, Some(r))
+            if matches!(said.found, Some(Found::FixedPoint | Found::Rests)) =>
+        {
+            if value.is_some_and(|v| v < r) { Exit::No } else { Exit::Yes }
         }
         (FactorStatus::Found | FactorStatus::Undecided, _) => Exit::Undecided,
     }

@@ -31,17 +31,28 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.question == Asked::Repose {
         return heap::run(args, terminal);
     }
-    if let Some(word) = args.common.scene.to_str().filter(|w| PROTOCOLS.contains(w) && !args.common.scene.exists()) {
+    if let Some(word) =
+        args.common.scene.to_str().filter(|w| PROTOCOLS.contains(w) && !args.common.scene.exists())
+    {
         bail!(
-            InputError::at(Default::default(), format!("`{word}` is a protocol that makes a heap, and there is no scene of that name"))
-                .hint(format!("ask for the slope of heaps with `voussoir repose {word} --question repose`"))
+            InputError::at(
+                Default::default(),
+                format!(
+                    "`{word}` is a protocol that makes a heap, and there is no scene of that name"
+                )
+            )
+            .hint(format!(
+                "ask for the slope of heaps with `voussoir repose {word} --question repose`"
+            ))
         );
     }
     if let Some((key, _)) = args.set.first() {
         bail!("{key}=…: only the protocols of --question repose take values");
     }
     if args.keep.is_some() || args.heaps.is_some() || args.skip_margin {
-        bail!("--keep, --heaps and --skip-margin are about heaps in time: they go with --question repose");
+        bail!(
+            "--keep, --heaps and --skip-margin are about heaps in time: they go with --question repose"
+        );
     }
     let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
@@ -57,9 +68,11 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let model = &packing.model;
     let forces = (args.fabric || csv.is_some()).then(|| level(&session, model)).transpose()?;
     let solve = start.elapsed().as_secs_f64();
-    let packed = PackingFile::new(&session.scene, args.moving_mass, &packing).map_err(|e| session.refuse(e))?;
+    let packed = PackingFile::new(&session.scene, args.moving_mass, &packing)
+        .map_err(|e| session.refuse(e))?;
     let (mut file, proof) = packed.context("no direction to tilt towards")?;
-    (file.timings.check, file.timings.solve) = (proof.timings.check, (solve - proof.timings.check).max(0.0));
+    (file.timings.check, file.timings.solve) =
+        (proof.timings.check, (solve - proof.timings.check).max(0.0));
     if let Some(forces) = &forces {
         file.fabric = args.fabric.then(|| fabric(model, forces));
         if let Some(csv) = &csv {
@@ -72,7 +85,10 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let layout = terminal.layout(&args.common.scene);
     // The round with the answer: grains that fell earlier are gone.
-    let seen = session.is_filmed().then(|| anyhow::Ok(View::new(&prepare(&proof.scene.input)?, &proof, Vec::new())?)).transpose()?;
+    let seen = session
+        .is_filmed()
+        .then(|| anyhow::Ok(View::new(&prepare(&proof.scene.input)?, &proof, Vec::new())?))
+        .transpose()?;
     if let Some(view) = &seen {
         session.pictures().write(view)?;
     }
@@ -90,11 +106,16 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     Ok(if open { Exit::Undecided } else { Exit::Yes })
 }
 
-/// Forces of the packing when level: those that the weights produce where dry friction was computed, else some that balance.
+/// Forces of the packing when level: those that the weights produce where dry friction was
+/// computed, else some that balance.
 fn level(session: &Session, model: &Model) -> anyhow::Result<Forces> {
     let question = Question::Assess(AssessOptions { law: session.law() });
-    match ask(&question, &session.scene, model, &session.control()).map_err(|e| session.refuse(e))? {
-        Answer::Assess(a) => Ok(a.state.as_ref().map_or_else(|| a.forces.clone(), |s| s.forces.clone())),
+    match ask(&question, &session.scene, model, &session.control())
+        .map_err(|e| session.refuse(e))?
+    {
+        Answer::Assess(a) => {
+            Ok(a.state.as_ref().map_or_else(|| a.forces.clone(), |s| s.forces.clone()))
+        }
         _ => bail!("there is no verdict"),
     }
 }

@@ -34,22 +34,35 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     let mut csv = match &args.csv {
         Some(path) => {
             claim::written(path)?;
-            Some(TrajectoryWriter::new(File::create(path).with_context(|| written(path))?).with_context(|| written(path))?)
+            Some(
+                TrajectoryWriter::new(File::create(path).with_context(|| written(path))?)
+                    .with_context(|| written(path))?,
+            )
         }
         None => None,
     };
     let frames = args.frames.map_or(if csv.is_some() { FRAMES } else { 0 }, |n| n as usize);
-    let mut camera = Camera { frames, keep_frames: args.frames.is_some(), ..Camera::new(&session, args.threads, session.is_filmed()) };
-    let mut failure = None;
-    let mut keep = |frame: &Frame| match csv.as_mut().map(|csv| csv.frame(&session.model.assembly, frame)) {
-        Some(Err(e)) => {
-            failure = Some(e);
-            ControlFlow::Break(())
-        }
-        _ => ControlFlow::Continue(()),
+    let mut camera = Camera {
+        frames,
+        keep_frames: args.frames.is_some(),
+        ..Camera::new(&session, args.threads, session.is_filmed())
     };
-    let options =
-        SimulateOptions { fast: args.fast, fine: args.fine, seconds: args.seconds, to_the_end: args.to_the_end, load_factor: None };
+    let mut failure = None;
+    let mut keep =
+        |frame: &Frame| match csv.as_mut().map(|csv| csv.frame(&session.model.assembly, frame)) {
+            Some(Err(e)) => {
+                failure = Some(e);
+                ControlFlow::Break(())
+            }
+            _ => ControlFlow::Continue(()),
+        };
+    let options = SimulateOptions {
+        fast: args.fast,
+        fine: args.fine,
+        seconds: args.seconds,
+        to_the_end: args.to_the_end,
+        load_factor: None,
+    };
     let answer = camera.ask(&session, options, &mut keep)?;
     let film = camera.frames();
     if let (Some(e), Some(path)) = (failure, &args.csv) {
@@ -57,7 +70,9 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let Answer::Simulate(outcome) = &answer else { bail!("there is no simulation") };
     let law = session.law();
-    let verdict = (!args.skip_verdict).then(|| session.ask(&Question::Assess(AssessOptions { law }))).transpose()?;
+    let verdict = (!args.skip_verdict)
+        .then(|| session.ask(&Question::Assess(AssessOptions { law })))
+        .transpose()?;
     let assessment = match &verdict {
         Some(Answer::Assess(a)) => Some(a),
         _ => None,
@@ -71,7 +86,8 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     })
 }
 
-/// Who watches a simulation: under a bar, until the time limit, with a film where there is to be one.
+/// Who watches a simulation: under a bar, until the time limit, with a film where there is to be
+/// one.
 pub struct Camera {
     threads: usize,
     frames: usize,
@@ -108,7 +124,13 @@ impl Camera {
             }
             progress.frame.map_or(ControlFlow::Continue(()), &mut *keep)
         };
-        let watch = Watch { threads: *threads, frames: *frames, keep_frames: *keep_frames, every_step, each: &mut each };
+        let watch = Watch {
+            threads: *threads,
+            frames: *frames,
+            keep_frames: *keep_frames,
+            every_step,
+            each: &mut each,
+        };
         session.ask_watched(&Question::Simulate(options), watch)
     }
 

@@ -1,6 +1,8 @@
 //! `voussoir study`
 
-use super::{args::Study, claim, exit::Exit, output::Sink, report as pages, terminal, terminal::Terminal};
+use super::{
+    args::Study, claim, exit::Exit, output::Sink, report as pages, terminal, terminal::Terminal,
+};
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{io::IsTerminal, path::Path};
@@ -35,7 +37,9 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let random = args.soak.or(args.cross).or(args.forge);
     if args.keep.is_some() && random.is_none() && !args.extreme {
-        bail!("--keep goes with --soak, --cross, --forge and --extreme: the other studies compare times, which belong to one run");
+        bail!(
+            "--keep goes with --soak, --cross, --forge and --extreme: the other studies compare times, which belong to one run"
+        );
     }
     if args.extreme {
         let cells = extreme::grid();
@@ -60,13 +64,19 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     if let Some(index) = args.only {
         let index = index as usize;
-        let scene = if args.soak.is_some() { soak::scene(args.seed, index)?.0 } else { cross::scene(args.seed, index)?.0 };
+        let scene = if args.soak.is_some() {
+            soak::scene(args.seed, index)?.0
+        } else {
+            cross::scene(args.seed, index)?.0
+        };
         terminal::print(&json::pretty(&scene)?)?;
         return Ok(Exit::Yes);
     }
     if let Some(count) = args.cross {
         let kept = args.keep.as_deref().map(|path| cross::keep(path, args.seed)).transpose()?;
-        let there = kept.as_ref().map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
+        let there = kept
+            .as_ref()
+            .map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
         taken_up(args, there, count as usize);
         bar.set_length(u64::from(count) - there as u64);
         let list = cross::run(args.seed, count as usize, kept.as_ref(), |_| bar.inc(1))?;
@@ -88,7 +98,9 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     if let Some(count) = args.forge {
         let kept = args.keep.as_deref().map(|path| forge::keep(path, args.seed)).transpose()?;
-        let there = kept.as_ref().map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
+        let there = kept
+            .as_ref()
+            .map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
         taken_up(args, there, count as usize);
         bar.set_length(u64::from(count) - there as u64);
         let list = forge::run(args.seed, count as usize, kept.as_ref(), |_| bar.inc(1))?;
@@ -110,7 +122,9 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     if let Some(count) = args.soak {
         let kept = args.keep.as_deref().map(|path| soak::keep(path, args.seed)).transpose()?;
-        let there = kept.as_ref().map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
+        let there = kept
+            .as_ref()
+            .map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
         taken_up(args, there, count as usize);
         bar.set_length(u64::from(count) - there as u64);
         let list = soak::run(args.seed, count as usize, kept.as_ref(), |_| bar.inc(1))?;
@@ -149,9 +163,11 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     if let Some(folder) = &args.svg {
         for known in &scenes {
-            Sink::open(Some(&folder.join(format!("{}.svg", known.name))))?.write(&report::errors(known.name, &points)?)?;
+            Sink::open(Some(&folder.join(format!("{}.svg", known.name))))?
+                .write(&report::errors(known.name, &points)?)?;
         }
-        Sink::open(Some(&folder.join("profile.svg")))?.write(&report::profiles(&points, report::ANSWER)?)?;
+        Sink::open(Some(&folder.join("profile.svg")))?
+            .write(&report::profiles(&points, report::ANSWER)?)?;
     }
     if let Some(sink) = &sink {
         sink.write(&page::study(&report::text(&points, wide), &points)?)?;
@@ -181,7 +197,10 @@ fn chosen(names: &[String]) -> anyhow::Result<Vec<Known>> {
     names
         .iter()
         .map(|name| {
-            all.iter().find(|k| k.name == name).cloned().with_context(|| format!("there is no scene {name:?} to study; there are {known}"))
+            all.iter()
+                .find(|k| k.name == name)
+                .cloned()
+                .with_context(|| format!("there is no scene {name:?} to study; there are {known}"))
         })
         .collect()
 }

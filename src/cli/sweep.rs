@@ -34,11 +34,18 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let plan = args.plan.as_deref().context("no plan is given")?;
     let (name, bytes) = input::bytes(plan)?;
-    let folder = if plan.as_os_str() == "-" { Path::new("") } else { plan.parent().unwrap_or(Path::new("")) };
+    let folder = if plan.as_os_str() == "-" {
+        Path::new("")
+    } else {
+        plan.parent().unwrap_or(Path::new(""))
+    };
     let sweep = sweep::open_bytes(name, bytes, folder, args.outside.reach())?;
     terminal::notes(&sweep.findings);
     // The scene as the file has it, where that can be resolved before a row gives it its numbers.
-    if let Some(model) = serde_json::from_value::<Scene>(sweep.scene.clone()).ok().and_then(|scene| prepare(&scene).ok()) {
+    if let Some(model) = serde_json::from_value::<Scene>(sweep.scene.clone())
+        .ok()
+        .and_then(|scene| prepare(&scene).ok())
+    {
         terminal::warnings(model.findings());
     }
     args.summary.chart.map_or(Ok(()), |kind| report::Kind::from(kind).fits(&sweep.plan))?;
@@ -49,18 +56,27 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.slurm.slurm {
         return slurm::submit::run(args, &sweep, &output, &sinks, terminal);
     }
-    let options = RunOptions { shard: args.shard, threads: args.threads.map(usize::from), restart: args.restart };
+    let options = RunOptions {
+        shard: args.shard,
+        threads: args.threads.map(usize::from),
+        restart: args.restart,
+    };
     let bar = bar(args.summary.quiet);
     let quiet = args.summary.quiet;
     let done = sweep::run(&sweep, &output, &options, &|event| match event {
         Event::Begin { rows, there, mended, unchecked } => {
             bar.set_length((rows - there) as u64);
             if mended > 0 {
-                terminal::say(&format!("note: the last row was written in part ({mended} bytes): it is computed again"));
+                terminal::say(&format!(
+                    "note: the last row was written in part ({mended} bytes): it is computed again"
+                ));
             }
             slurm::say_unchecked(unchecked);
             if there > 0 && !quiet {
-                terminal::say(&format!("note: {} holds {there} of {rows} rows already", output.display()));
+                terminal::say(&format!(
+                    "note: {} holds {there} of {rows} rows already",
+                    output.display()
+                ));
             }
         }
         Event::Row(_) => bar.inc(1),
@@ -85,7 +101,10 @@ fn merged(args: &Merge, terminal: &Terminal) -> anyhow::Result<Exit> {
     match merged.missing() {
         None => Ok(Exit::Yes),
         Some((many, first)) => {
-            terminal::say(&format!("note: {many} of {} rows are missing, the first is row {first}", merged.header.rows));
+            terminal::say(&format!(
+                "note: {many} of {} rows are missing, the first is row {first}",
+                merged.header.rows
+            ));
             Ok(Exit::Undecided)
         }
     }
@@ -94,9 +113,13 @@ fn merged(args: &Merge, terminal: &Terminal) -> anyhow::Result<Exit> {
 /// Where rows go.
 fn rows_file(args: &Sweep, plan: &Path) -> anyhow::Result<PathBuf> {
     match (&args.output, plan.file_stem()) {
-        (Some(output), _) if output.as_os_str() == "-" => bail!("--output takes a file, so that a killed run can be continued"),
+        (Some(output), _) if output.as_os_str() == "-" => {
+            bail!("--output takes a file, so that a killed run can be continued")
+        }
         (Some(output), _) => Ok(output.clone()),
-        (None, Some(stem)) if plan.as_os_str() != "-" => Ok(PathBuf::from(format!("{}.rows.jsonl", stem.to_string_lossy()))),
+        (None, Some(stem)) if plan.as_os_str() != "-" => {
+            Ok(PathBuf::from(format!("{}.rows.jsonl", stem.to_string_lossy())))
+        }
         _ => bail!("a plan from standard input needs --output FILE for its rows"),
     }
 }
@@ -107,7 +130,9 @@ pub(super) fn bar(quiet: bool) -> ProgressBar {
     if quiet || !std::io::stderr().is_terminal() {
         bar.set_draw_target(ProgressDrawTarget::hidden());
     }
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len} rows, {per_sec}, {eta} left{msg}") {
+    if let Ok(style) =
+        ProgressStyle::with_template("{wide_bar} {pos} of {len} rows, {per_sec}, {eta} left{msg}")
+    {
         bar.set_style(style);
     }
     bar
@@ -122,11 +147,18 @@ pub(super) struct Sinks {
 
 impl Sinks {
     pub(super) fn open(args: &Summary) -> anyhow::Result<Self> {
-        let open = |path: &Option<PathBuf>| path.as_deref().map(|p| Sink::open(Some(p))).transpose();
+        let open =
+            |path: &Option<PathBuf>| path.as_deref().map(|p| Sink::open(Some(p))).transpose();
         Ok(Self { csv: open(&args.csv)?, svg: open(&args.svg)?, report: open(&args.report)? })
     }
 
-    pub(super) fn write(&self, args: &Summary, header: &Header, rows: &[Row], terminal: &Terminal) -> anyhow::Result<()> {
+    pub(super) fn write(
+        &self,
+        args: &Summary,
+        header: &Header,
+        rows: &[Row],
+        terminal: &Terminal,
+    ) -> anyhow::Result<()> {
         let summary = sweep::summarize(header, rows);
         if let Some(csv) = &self.csv {
             csv.write(&report::csv(header, rows)?)?;
@@ -142,7 +174,8 @@ impl Sinks {
             terminal.page(&report::summary(header, &summary, args.quiet, layout))?;
         }
         if let Some(svg) = &self.svg {
-            let kind = args.chart.map_or_else(|| report::Kind::suited(header, &summary), Into::into);
+            let kind =
+                args.chart.map_or_else(|| report::Kind::suited(header, &summary), Into::into);
             svg.write(&report::chart(header, rows, &summary, kind)?)?;
         }
         Ok(())

@@ -18,7 +18,8 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// Colour as asked for; by default on a terminal, unless `NO_COLOR` is set (<https://no-color.org>).
+    /// Colour as asked for; by default on a terminal, unless `NO_COLOR` is set
+    /// (<https://no-color.org>).
     pub fn new(color: Color) -> Self {
         let set = |name: &str| std::env::var_os(name).is_some_and(|v| !v.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|t| t == "dumb");
@@ -31,11 +32,17 @@ impl Terminal {
         }
     }
 
-    /// Fits pages to the terminal, where standard output is one, and says what stands for a scene without a name: its file's.
+    /// Fits pages to the terminal, where standard output is one, and says what stands for a scene
+    /// without a name: its file's.
     pub fn layout<'a>(&self, file: &'a Path) -> Layout<'a> {
-        let unnamed = if file.as_os_str() == "-" { "standard input" } else { file.file_name().and_then(|n| n.to_str()).unwrap_or("") };
+        let unnamed = if file.as_os_str() == "-" {
+            "standard input"
+        } else {
+            file.file_name().and_then(|n| n.to_str()).unwrap_or("")
+        };
         let usual = Layout::default().width;
-        let width = terminal_size::terminal_size_of(io::stdout()).map_or(usual, |(columns, _)| usize::from(columns.0).min(usual));
+        let width = terminal_size::terminal_size_of(io::stdout())
+            .map_or(usual, |(columns, _)| usize::from(columns.0).min(usual));
         Layout { unnamed, width }
     }
 
@@ -48,7 +55,9 @@ impl Terminal {
         for line in &page.lines {
             for span in line {
                 match style(span.role) {
-                    Some(code) if !span.text.trim().is_empty() => text.push_str(&format!("\x1b[{code}m{}\x1b[0m", span.text)),
+                    Some(code) if !span.text.trim().is_empty() => {
+                        text.push_str(&format!("\x1b[{code}m{}\x1b[0m", span.text))
+                    }
                     _ => text.push_str(&span.text),
                 }
             }
@@ -92,9 +101,13 @@ pub fn notes<'a>(findings: impl IntoIterator<Item = &'a Finding>) {
     findings.into_iter().for_each(|f| say(&format!("note: {}", f.text)));
 }
 
-/// Prints the findings that make it likely that another scene is meant, on standard error, however little else is asked for.
+/// Prints the findings that make it likely that another scene is meant, on standard error, however
+/// little else is asked for.
 pub fn warnings<'a>(findings: impl IntoIterator<Item = &'a Finding>) {
-    findings.into_iter().filter(|f| f.code.is_implausible()).for_each(|f| say(&format!("warning: {}", f.text)));
+    findings
+        .into_iter()
+        .filter(|f| f.code.is_implausible())
+        .for_each(|f| say(&format!("warning: {}", f.text)));
 }
 
 /// Prints an error: what is wrong and where, then what to do about it.
@@ -120,7 +133,8 @@ pub fn words(error: &anyhow::Error) -> String {
     text
 }
 
-/// Prints what the argument parser answers: help and version on standard output, errors on standard error.
+/// Prints what the argument parser answers: help and version on standard output, errors on standard
+/// error.
 pub fn usage(answer: &clap::Error) -> Exit {
     match answer.print() {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Exit::Usage,

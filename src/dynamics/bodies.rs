@@ -15,7 +15,8 @@ use crate::{
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use std::collections::{HashMap, HashSet};
 
-/// A block as the engine sees it; coordinates about its centre of mass, axes those of the scene at the start.
+/// A block as the engine sees it; coordinates about its centre of mass, axes those of the scene at
+/// the start.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub support: bool,
@@ -23,9 +24,11 @@ pub(super) struct Body {
     pub mass: f64,
     pub inertia: Matrix3<f64>,
     pub shapes: Vec<Shape>,
-    /// Least distance between two parallel planes that hold the block between them, one of them a facet's.
+    /// Least distance between two parallel planes that hold the block between them, one of them a
+    /// facet's.
     pub thickness: f64,
-    /// Farthest point from the centre of mass; 0 for a sphere about its centre, which looks the same however it turns.
+    /// Farthest point from the centre of mass; 0 for a sphere about its centre, which looks the
+    /// same however it turns.
     pub reach: f64,
 }
 
@@ -35,7 +38,8 @@ pub(super) struct Shape {
     pub form: Form,
     pub skin: f64,
     pub role: Role,
-    /// Directions in which other pieces of the same block follow, and the outward normals of the others.
+    /// Directions in which other pieces of the same block follow, and the outward normals of the
+    /// others.
     pub inner: Vec<Vector3<f64>>,
     pub outer: Vec<Vector3<f64>>,
 }
@@ -45,7 +49,8 @@ pub(super) struct Shape {
 pub(super) enum Role {
     /// Part of the block: touches parts of other blocks.
     Part,
-    /// One side of the interface given by hand with this index: touches the other side and nothing else.
+    /// One side of the interface given by hand with this index: touches the other side and nothing
+    /// else.
     Given(u32),
 }
 
@@ -57,28 +62,39 @@ pub(super) enum Form {
     Hull { points: Vec<Vector3<f64>>, triangles: Vec<[u32; 3]> },
 }
 
-/// Radius of the ball that stands for a contact point given by hand, and margin of the plate it rests on, in block sizes.
+/// Radius of the ball that stands for a contact point given by hand, and margin of the plate it
+/// rests on, in block sizes.
 const GIVEN_BALL: f64 = 0.02;
 const GIVEN_PLATE: f64 = 0.3;
 
 /// The bodies of a scene; polyhedra are smaller by `skin` × their size.
 pub(super) fn bodies(model: &Model, units: &Units, skin: f64) -> Result<Vec<Body>, InputError> {
     let Model { assembly, interfaces, .. } = model;
-    let mut bodies = assembly.blocks.iter().map(|b| body(b, units, skin)).collect::<Result<Vec<_>, _>>()?;
-    for (index, face) in interfaces.list.iter().enumerate().filter(|(_, f)| f.kind == ContactKind::Given) {
+    let mut bodies =
+        assembly.blocks.iter().map(|b| body(b, units, skin)).collect::<Result<Vec<_>, _>>()?;
+    for (index, face) in
+        interfaces.list.iter().enumerate().filter(|(_, f)| f.kind == ContactKind::Given)
+    {
         let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size) / units.length;
         let points: Vec<_> = face.points.iter().map(|p| units.place(*p)).collect();
         let middle = super::cell::mean(&points);
         let (ball, skin) = (GIVEN_BALL * size, SKIN * size);
         let spread = points.iter().map(|p| (p - middle).norm()).fold(0.0, f64::max);
-        let half = Vector3::new(spread + GIVEN_PLATE * size, spread + GIVEN_PLATE * size, GIVEN_PLATE * size);
-        let turn = UnitQuaternion::from_basis_unchecked(&[face.frame.t1, face.frame.t2, face.frame.n]);
+        let half = Vector3::new(
+            spread + GIVEN_PLATE * size,
+            spread + GIVEN_PLATE * size,
+            GIVEN_PLATE * size,
+        );
+        let turn =
+            UnitQuaternion::from_basis_unchecked(&[face.frame.t1, face.frame.t2, face.frame.n]);
         let role = Role::Given(index as u32);
         let shape = |form| Shape { form, skin, role, inner: Vec::new(), outer: Vec::new() };
         let at = middle - face.frame.n * half.z - bodies[face.a].center;
         bodies[face.a].shapes.push(shape(Form::Cuboid { at, turn, half: half.map(|h| h - skin) }));
         let center = bodies[face.b].center;
-        let balls = points.iter().map(|p| shape(Form::Ball { at: p + face.frame.n * ball - center, radius: ball - skin }));
+        let balls = points.iter().map(|p| {
+            shape(Form::Ball { at: p + face.frame.n * ball - center, radius: ball - skin })
+        });
         bodies[face.b].shapes.extend(balls);
     }
     Ok(bodies)
@@ -96,35 +112,52 @@ fn body(block: &Block, units: &Units, skin: f64) -> Result<Body, InputError> {
         thickness,
         reach,
     };
-    let part = |form, skin| Shape { form, skin, role: Role::Part, inner: Vec::new(), outer: Vec::new() };
+    let part =
+        |form, skin| Shape { form, skin, role: Role::Part, inner: Vec::new(), outer: Vec::new() };
     let polyhedron = match &block.solid {
         Solid::Sphere { center: at, radius } => {
             let (at, radius) = (units.place(*at) - center, radius / units.length);
             let skin = SKIN * size;
             let off = at.norm();
             let reach = if off > 1e-9 * radius { off + radius } else { 0.0 };
-            return Ok(body(vec![part(Form::Ball { at, radius: radius - skin }, skin)], 2.0 * radius, reach));
+            return Ok(body(
+                vec![part(Form::Ball { at, radius: radius - skin }, skin)],
+                2.0 * radius,
+                reach,
+            ));
         }
         Solid::Clump { balls, .. } => {
-            let placed: Vec<_> = balls.iter().map(|(at, radius)| (units.place(*at) - center, radius / units.length)).collect();
+            let placed: Vec<_> = balls
+                .iter()
+                .map(|(at, radius)| (units.place(*at) - center, radius / units.length))
+                .collect();
             let least = placed.iter().map(|b| b.1).fold(f64::INFINITY, f64::min);
             let skin = (SKIN * size).min(SKIN_OF_THICKNESS * least);
             let reach = placed.iter().map(|(at, radius)| at.norm() + radius).fold(0.0, f64::max);
-            let shapes = placed.into_iter().map(|(at, radius)| part(Form::Ball { at, radius: radius - skin }, skin)).collect();
+            let shapes = placed
+                .into_iter()
+                .map(|(at, radius)| part(Form::Ball { at, radius: radius - skin }, skin))
+                .collect();
             return Ok(body(shapes, 2.0 * least, reach));
         }
         Solid::Polyhedron(polyhedron) => polyhedron,
     };
     let Some(cells) = pieces::pieces(polyhedron, block.centroid, units.length) else {
-        let text = format!("{:?} falls into more than {MOST} convex pieces, too many to simulate", block.id);
+        let text = format!(
+            "{:?} falls into more than {MOST} convex pieces, too many to simulate",
+            block.id
+        );
         return Err(InputError::at(block.path.clone(), text).hint("give the block a simpler shape"));
     };
-    let corners: Vec<Vector3<f64>> = polyhedron.vertices.iter().map(|v| (v - block.centroid) / units.length).collect();
+    let corners: Vec<Vector3<f64>> =
+        polyhedron.vertices.iter().map(|v| (v - block.centroid) / units.length).collect();
     let depth = |normal: &Vector3<f64>, points: &[Vector3<f64>]| {
         let height = |p: &Vector3<f64>| normal.dot(p);
-        points.iter().map(height).fold(f64::NEG_INFINITY, f64::max) - points.iter().map(height).fold(f64::INFINITY, f64::min)
+        points.iter().map(height).fold(f64::NEG_INFINITY, f64::max)
+            - points.iter().map(height).fold(f64::INFINITY, f64::min)
     };
-    let thickness = polyhedron.facets.iter().map(|f| depth(&f.normal, &corners)).fold(size, f64::min);
+    let thickness =
+        polyhedron.facets.iter().map(|f| depth(&f.normal, &corners)).fold(size, f64::min);
     let reach = corners.iter().map(|c| c.norm()).fold(0.0, f64::max);
     let shapes = cells
         .iter()
@@ -136,10 +169,20 @@ fn body(block: &Block, units: &Units, skin: f64) -> Result<Body, InputError> {
                 return part(Form::Cuboid { at, turn, half: half.map(|h| h - skin) }, skin);
             }
             let (points, loops) = cell.eroded(skin);
-            let fan = |l: &Vec<usize>| (1..l.len().saturating_sub(1)).map(|i| [l[0], l[i], l[i + 1]].map(|c| c as u32)).collect::<Vec<_>>();
+            let fan = |l: &Vec<usize>| {
+                (1..l.len().saturating_sub(1))
+                    .map(|i| [l[0], l[i], l[i + 1]].map(|c| c as u32))
+                    .collect::<Vec<_>>()
+            };
             let triangles = loops.iter().flat_map(fan).collect();
-            let normals = |inner: bool| cell.faces.iter().filter(|f| f.inner == inner).map(|f| f.normal).collect();
-            Shape { inner: normals(true), outer: normals(false), ..part(Form::Hull { points, triangles }, skin) }
+            let normals = |inner: bool| {
+                cell.faces.iter().filter(|f| f.inner == inner).map(|f| f.normal).collect()
+            };
+            Shape {
+                inner: normals(true),
+                outer: normals(false),
+                ..part(Form::Hull { points, triangles }, skin)
+            }
         })
         .collect();
     Ok(body(shapes, thickness, reach))
@@ -157,7 +200,8 @@ pub(super) struct Frictions<'a> {
     rules: Table,
 }
 
-/// What rules for materials say, by two small numbers in place of four names: the engine asks for every pair in every step.
+/// What rules for materials say, by two small numbers in place of four names: the engine asks for
+/// every pair in every step.
 struct Table {
     /// By block: 0 where no rule names its material.
     kinds: Vec<usize>,
@@ -176,13 +220,20 @@ impl Table {
         let mut names: Vec<&String> = rules.by_material.iter().flat_map(|(pair, _)| pair).collect();
         names.sort_unstable();
         names.dedup();
-        let kind = |b: &Block| b.material.as_ref().and_then(|m| names.binary_search(&m).ok()).map_or(0, |k| k + 1);
+        let kind = |b: &Block| {
+            b.material.as_ref().and_then(|m| names.binary_search(&m).ok()).map_or(0, |k| k + 1)
+        };
         let kinds: Vec<usize> = assembly.blocks.iter().map(kind).collect();
         let count = names.len() + 1;
-        let law = |a: Option<&&String>, b: Option<&&String>| rules.of_materials(a.copied(), b.copied());
+        let law =
+            |a: Option<&&String>, b: Option<&&String>| rules.of_materials(a.copied(), b.copied());
         let name = |kind: usize| kind.checked_sub(1).and_then(|k| names.get(k));
         let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
-        let laws = if count <= KINDS { pairs.map(|(a, b)| law(name(a), name(b))).collect() } else { Vec::new() };
+        let laws = if count <= KINDS {
+            pairs.map(|(a, b)| law(name(a), name(b))).collect()
+        } else {
+            Vec::new()
+        };
         Self { kinds, count, laws }
     }
 
@@ -204,8 +255,8 @@ pub(super) struct Resistance {
     pub arm: f64,
 }
 
-/// Stands for friction without limit. Larger: friction impulses of resting contacts overflow their float error.
-/// Smaller: steep joints without sliding could slide.
+/// Stands for friction without limit. Larger: friction impulses of resting contacts overflow their
+/// float error. Smaller: steep joints without sliding could slide.
 const UNLIMITED: f64 = 1e4;
 
 impl<'a> Frictions<'a> {
@@ -233,15 +284,19 @@ impl<'a> Frictions<'a> {
         new
     }
 
-    /// Between two blocks; nothing where no rule says any. Of blocks that meet on the way only spheres and clumps resist rolling:
-    /// for others it depends on how they meet.
+    /// Between two blocks; nothing where no rule says any. Of blocks that meet on the way only
+    /// spheres and clumps resist rolling: for others it depends on how they meet.
     pub fn between(&self, a: usize, b: usize) -> Resistance {
         let pair = (a.min(b), a.max(b));
         let rule = || self.rules.law(pair.0, pair.1, self.assembly);
         let met = || {
             rule().map_or(Resistance::default(), |law| Resistance {
                 friction: coefficient(law.friction),
-                arm: if self.is_round(pair.0) || self.is_round(pair.1) { law.rolling_arm / self.length } else { 0.0 },
+                arm: if self.is_round(pair.0) || self.is_round(pair.1) {
+                    law.rolling_arm / self.length
+                } else {
+                    0.0
+                },
             })
         };
         self.known.get(&pair).copied().unwrap_or_else(met)
@@ -250,9 +305,16 @@ impl<'a> Frictions<'a> {
     /// Whether any joint resists rolling.
     pub fn resist_rolling(&self) -> bool {
         let rules = &self.assembly.joints;
-        let laws = || rules.default.iter().chain(rules.by_material.iter().map(|(_, law)| law)).chain(rules.by_blocks.values());
+        let laws = || {
+            rules
+                .default
+                .iter()
+                .chain(rules.by_material.iter().map(|(_, law)| law))
+                .chain(rules.by_blocks.values())
+        };
         self.known.values().any(|r| r.arm > 0.0)
-            || (laws().any(|law| law.rolling_arm > 0.0) && (0..self.assembly.blocks.len()).any(|i| self.is_round(i)))
+            || (laws().any(|law| law.rolling_arm > 0.0)
+                && (0..self.assembly.blocks.len()).any(|i| self.is_round(i)))
     }
 
     fn is_round(&self, block: usize) -> bool {

@@ -7,7 +7,8 @@ use nalgebra::{Matrix3, Vector3};
 /// Larger: thin pieces lose their thickness. Smaller: cuts through existing corners leave slivers.
 const ON: f64 = 1e-9;
 
-/// A corner moves by at most this many times the erosion: at a needle-sharp corner the faces are left a little further out.
+/// A corner moves by at most this many times the erosion: at a needle-sharp corner the faces are
+/// left a little further out.
 const SHARPEST: f64 = 30.0;
 
 /// A convex polyhedron as the faces around it.
@@ -30,7 +31,8 @@ impl Face {
     /// A face around points, its normal by Newell's formula.
     pub fn around(points: Vec<Vector3<f64>>, inner: bool) -> Option<Self> {
         let first = *points.first()?;
-        let area: Vector3<f64> = points.windows(2).map(|p| (p[0] - first).cross(&(p[1] - first))).sum();
+        let area: Vector3<f64> =
+            points.windows(2).map(|p| (p[0] - first).cross(&(p[1] - first))).sum();
         Some(Self { normal: area.try_normalize(0.0)?, points, inner })
     }
 
@@ -46,9 +48,17 @@ pub(super) fn mean(points: &[Vector3<f64>]) -> Vector3<f64> {
 impl Cell {
     /// A box between two corners.
     pub fn cuboid(low: Vector3<f64>, high: Vector3<f64>) -> Self {
-        let corner = |k: usize| Vector3::from_fn(|axis, _| if k >> axis & 1 == 1 { high[axis] } else { low[axis] });
-        let loops = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-        Self { faces: loops.iter().filter_map(|l| Face::around(l.iter().map(|&k| corner(k)).collect(), false)).collect() }
+        let corner = |k: usize| {
+            Vector3::from_fn(|axis, _| if k >> axis & 1 == 1 { high[axis] } else { low[axis] })
+        };
+        let loops =
+            [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        Self {
+            faces: loops
+                .iter()
+                .filter_map(|l| Face::around(l.iter().map(|&k| corner(k)).collect(), false))
+                .collect(),
+        }
     }
 
     /// Largest distance of a corner from the origin: the scale of rounding.
@@ -61,8 +71,14 @@ impl Cell {
         mean(&self.faces.iter().map(Face::middle).collect::<Vec<_>>())
     }
 
-    /// Cuts by the plane `normal · x = offset`: the part below and the part above. `inner` marks the cut.
-    pub fn cut(&self, normal: Vector3<f64>, offset: f64, inner: bool) -> (Option<Self>, Option<Self>) {
+    /// Cuts by the plane `normal · x = offset`: the part below and the part above. `inner` marks
+    /// the cut.
+    pub fn cut(
+        &self,
+        normal: Vector3<f64>,
+        offset: f64,
+        inner: bool,
+    ) -> (Option<Self>, Option<Self>) {
         (self.below(normal, offset, inner), self.below(-normal, -offset, inner))
     }
 
@@ -116,7 +132,8 @@ impl Cell {
 
     /// The same cell with every face moved inward by `depth`.
     ///
-    /// A corner moves to where its moved faces meet, in the sense of least squares where they are more than three.
+    /// A corner moves to where its moved faces meet, in the sense of least squares where they are
+    /// more than three.
     pub fn eroded(&self, depth: f64) -> (Vec<Vector3<f64>>, Vec<Vec<usize>>) {
         let (mut corners, loops) = self.mesh();
         let mut squares = vec![(Matrix3::zeros(), Vector3::zeros()); corners.len()];
@@ -143,7 +160,9 @@ fn around(points: Vec<Vector3<f64>>, normal: Vector3<f64>, weld: f64) -> Vec<Vec
         }
     }
     let middle = mean(&single);
-    let Some(axis) = single.iter().map(|p| p - middle).find_map(|d| d.try_normalize(weld)) else { return Vec::new() };
+    let Some(axis) = single.iter().map(|p| p - middle).find_map(|d| d.try_normalize(weld)) else {
+        return Vec::new();
+    };
     let side = normal.cross(&axis);
     let angle = |p: &Vector3<f64>| side.dot(&(p - middle)).atan2(axis.dot(&(p - middle)));
     single.sort_by(|p, q| angle(p).total_cmp(&angle(q)));

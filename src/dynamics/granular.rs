@@ -1,10 +1,12 @@
 //! Grains that flow and come to rest.
 //!
-//! The same engine as [`simulate`](super::simulate()), run stage by stage: walls are taken away or lifted, grains are poured, gravity is
-//! turned; at the end they settle once more with finer steps. Grains that fall below the floor are discarded. Restitution is 0 and nothing else damps: contacts are overdamped springs of
-//! natural frequency 0.1 / substep, friction is Coulomb's. A stage ends when the mean kinetic energy of a grain (of a sphere without its spin:
-//! nothing ever stops a ball that spins between two smooth walls) stays below
-//! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), never after a fixed time; where it does not, that is said.
+//! The same engine as [`simulate`](super::simulate()), run stage by stage: walls are taken away or
+//! lifted, grains are poured, gravity is turned; at the end they settle once more with finer steps.
+//! Grains that fall below the floor are discarded. Restitution is 0 and nothing else damps:
+//! contacts are overdamped springs of natural frequency 0.1 / substep, friction is Coulomb's. A
+//! stage ends when the mean kinetic energy of a grain (of a sphere without its spin: nothing ever
+//! stops a ball that spins between two smooth walls) stays below [`GRAIN_REST_ENERGY`] × m g d for
+//! [`GRAIN_REST_TIME`] √(d/g), never after a fixed time; where it does not, that is said.
 
 use super::{
     bodies::{Frictions, bodies},
@@ -21,16 +23,18 @@ use crate::{
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
-/// A step is √(d/g) / this; substeps of it. Finer: time. Coarser: grains sink into each other before they are seen.
+/// A step is √(d/g) / this; substeps of it. Finer: time. Coarser: grains sink into each other
+/// before they are seen.
 const STEPS: f64 = 30.0;
 const SUBSTEPS: usize = 6;
-/// Contacts are prepared up to this distance, in d. Smaller: fast grains sink in before they are seen. Between spheres and on walls normals
-/// do not depend on it.
+/// Contacts are prepared up to this distance, in d. Smaller: fast grains sink in before they are
+/// seen. Between spheres and on walls normals do not depend on it.
 const PREDICTION: f64 = 0.05;
 /// The same where grains have faces. Larger: neighbours round a corner are seen at wrong normals.
 const PREDICTION_FACES: f64 = 0.02;
-/// At the end steps are finer by this, and contacts stiffer by its square, so that grains that touch overlap by a sixth of what they did:
-/// the statics takes them as they lie. Smaller: contacts are lost in the overlaps. Larger: time.
+/// At the end steps are finer by this, and contacts stiffer by its square, so that grains that
+/// touch overlap by a sixth of what they did: the statics takes them as they lie. Smaller: contacts
+/// are lost in the overlaps. Larger: time.
 const FINER: f64 = 2.4;
 /// Steps between two looks at the grains.
 const LOOK: usize = 10;
@@ -57,7 +61,8 @@ pub enum Disturbance {
 /// Where the grains came to rest.
 #[derive(Clone, Debug)]
 pub struct Rest {
-    /// Centre of mass, and turn from the orientation at the start, by block; `None` where a grain is gone or a wall was taken away.
+    /// Centre of mass, and turn from the orientation at the start, by block; `None` where a grain
+    /// is gone or a wall was taken away.
     pub poses: Vec<Option<(Vector3<f64>, UnitQuaternion<f64>)>>,
     /// Whether every stage came to rest.
     pub rested: bool,
@@ -65,7 +70,8 @@ pub struct Rest {
     pub energy: f64,
     /// Grains that fell over the edge.
     pub gone: usize,
-    /// Angle by which gravity had turned when the grains began to flow, radians; `None` where it did not turn, or they never flowed.
+    /// Angle by which gravity had turned when the grains began to flow, radians; `None` where it
+    /// did not turn, or they never flowed.
     pub turned: Option<f64>,
     /// Time simulated, s.
     pub time: f64,
@@ -75,7 +81,8 @@ pub struct Rest {
     pub seconds: f64,
 }
 
-/// How far a stage is: its index, simulated √(d/g) in it, mean kinetic energy of a grain over m g d.
+/// How far a stage is: its index, simulated √(d/g) in it, mean kinetic energy of a grain over m g
+/// d.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
     /// Index of the stage.
@@ -86,7 +93,8 @@ pub struct Flow {
     pub energy: f64,
 }
 
-/// Runs the stages; `diameter` is d, `horizon` the longest a stage may take to come to rest after its change, √(d/g).
+/// Runs the stages; `diameter` is d, `horizon` the longest a stage may take to come to rest after
+/// its change, √(d/g).
 ///
 /// # Errors
 /// A block that the engine cannot take.
@@ -98,8 +106,12 @@ pub fn flow(
     watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>,
 ) -> Result<Rest, InputError> {
     let begin = Instant::now();
-    let refuse = |text: &str| InputError::at(Default::default(), text.to_string()).hint("give at least one grain, and gravity");
-    let units = Units::of(assembly, &assembly.dead).ok_or_else(|| refuse("there is nothing that could flow"))?;
+    let refuse = |text: &str| {
+        InputError::at(Default::default(), text.to_string())
+            .hint("give at least one grain, and gravity")
+    };
+    let units = Units::of(assembly, &assembly.dead)
+        .ok_or_else(|| refuse("there is nothing that could flow"))?;
     let g = assembly.gravity.norm();
     if g == 0.0 {
         return Err(refuse("without gravity nothing flows"));
@@ -113,32 +125,50 @@ pub fn flow(
     let round = assembly.free().all(|i| assembly.blocks[i].solid.is_round());
     let prediction = if round { PREDICTION } else { PREDICTION_FACES } * diameter / units.length;
     let step = Step { dt, iterations: SUBSTEPS, threads: 1, prediction };
-    let world = World::new(&bodies, &frictions, step).map_err(|text| InputError::at(Default::default(), text))?;
-    let floor = assembly.blocks.iter().filter(|b| b.support).map(|b| b.centroid.z).fold(f64::NEG_INFINITY, f64::max).min(0.0);
+    let world = World::new(&bodies, &frictions, step)
+        .map_err(|text| InputError::at(Default::default(), text))?;
+    let floor = assembly
+        .blocks
+        .iter()
+        .filter(|b| b.support)
+        .map(|b| b.centroid.z)
+        .fold(f64::NEG_INFINITY, f64::max)
+        .min(0.0);
     let free: Vec<usize> = assembly.free().collect();
-    let mut run = Flowing {
-        assembly,
-        units,
-        world,
-        there: vec![true; assembly.blocks.len()],
-        free,
-        gravity: assembly.gravity,
-        diameter,
-        floor,
-        steps: 0,
-        elapsed: 0.0,
-        resting: 0.0,
-        energy: 0.0,
-        dt: natural / STEPS,
-        natural,
-        rolling: Rolling::default(),
-        frictions: &frictions,
-        bodies: &bodies,
-        gyration: bodies.iter().map(|b| if b.reach > 0.0 { b.inertia.symmetric_eigenvalues().max() / b.mass } else { 0.0 }).collect(),
-    };
+    let mut run =
+        Flowing {
+            assembly,
+            units,
+            world,
+            there: vec![true; assembly.blocks.len()],
+            free,
+            gravity: assembly.gravity,
+            diameter,
+            floor,
+            steps: 0,
+            elapsed: 0.0,
+            resting: 0.0,
+            energy: 0.0,
+            dt: natural / STEPS,
+            natural,
+            rolling: Rolling::default(),
+            frictions: &frictions,
+            bodies: &bodies,
+            gyration: bodies
+                .iter()
+                .map(|b| {
+                    if b.reach > 0.0 {
+                        b.inertia.symmetric_eigenvalues().max() / b.mass
+                    } else {
+                        0.0
+                    }
+                })
+                .collect(),
+        };
     let (mut rested, mut turned) = (true, None);
     for (stage, change) in stages.iter().enumerate() {
-        let mut watch = |time: f64, energy: f64| watch(&Flow { stage, time: time / natural, energy });
+        let mut watch =
+            |time: f64, energy: f64| watch(&Flow { stage, time: time / natural, energy });
         let (came, angle) = run.stage(change, horizon * natural, &mut watch);
         rested &= came;
         turned = angle.or(turned);
@@ -149,13 +179,26 @@ pub fn flow(
     if rested {
         run.world.refine(Step { dt: dt / FINER, ..step });
         run.dt /= FINER;
-        let mut watch = |time: f64, energy: f64| watch(&Flow { stage: stages.len(), time: time / natural, energy });
+        let mut watch = |time: f64, energy: f64| {
+            watch(&Flow { stage: stages.len(), time: time / natural, energy })
+        };
         rested = run.stage(&Disturbance::Settle, horizon * natural, &mut watch).0;
     }
     let gone = run.free.iter().filter(|&&i| !run.there[i]).count();
-    let poses = (0..assembly.blocks.len()).map(|i| run.there[i].then(|| (run.center(i), run.world.pose(i).1))).collect();
+    let poses = (0..assembly.blocks.len())
+        .map(|i| run.there[i].then(|| (run.center(i), run.world.pose(i).1)))
+        .collect();
     let time = run.elapsed;
-    Ok(Rest { poses, rested, energy: run.energy, gone, turned, time, steps: run.steps, seconds: begin.elapsed().as_secs_f64() })
+    Ok(Rest {
+        poses,
+        rested,
+        energy: run.energy,
+        gone,
+        turned,
+        time,
+        steps: run.steps,
+        seconds: begin.elapsed().as_secs_f64(),
+    })
 }
 
 struct Flowing<'a> {
@@ -189,8 +232,14 @@ impl Flowing<'_> {
         self.world.pose(i).0 * self.units.length + self.units.origin
     }
 
-    /// One stage; whether it came to rest, and by how much gravity had turned when the grains began to flow.
-    fn stage(&mut self, change: &Disturbance, horizon: f64, watch: &mut dyn FnMut(f64, f64) -> ControlFlow<()>) -> (bool, Option<f64>) {
+    /// One stage; whether it came to rest, and by how much gravity had turned when the grains began
+    /// to flow.
+    fn stage(
+        &mut self,
+        change: &Disturbance,
+        horizon: f64,
+        watch: &mut dyn FnMut(f64, f64) -> ControlFlow<()>,
+    ) -> (bool, Option<f64>) {
         let start: Vec<Vector3<f64>> = (0..self.there.len()).map(|i| self.center(i)).collect();
         let (mut lifted, mut waiting) = (Vec::new(), Vec::new());
         match change {
@@ -206,8 +255,10 @@ impl Flowing<'_> {
             Disturbance::Settle | Disturbance::Turn(..) => {}
         }
         waiting.reverse();
-        let mut parked: std::collections::BTreeSet<usize> = waiting.iter().flatten().copied().collect();
-        let (mut time, mut poured, mut angle, mut flowing) = (0.0, f64::NEG_INFINITY, 0.0, !matches!(change, Disturbance::Turn(..)));
+        let mut parked: std::collections::BTreeSet<usize> =
+            waiting.iter().flatten().copied().collect();
+        let (mut time, mut poured, mut angle, mut flowing) =
+            (0.0, f64::NEG_INFINITY, 0.0, !matches!(change, Disturbance::Turn(..)));
         let mut still_since = 0.0;
         self.resting = 0.0;
         self.load(&BTreeMap::new(), &parked);
@@ -218,7 +269,8 @@ impl Flowing<'_> {
                     lifted.drain(..).for_each(|i| self.remove(i));
                 } else {
                     for &i in &lifted {
-                        let at = (start[i] + Vector3::z() * (speed * time) - self.units.origin) / self.units.length;
+                        let at = (start[i] + Vector3::z() * (speed * time) - self.units.origin)
+                            / self.units.length;
                         self.world.place(i, at);
                     }
                 }
@@ -227,8 +279,12 @@ impl Flowing<'_> {
                 && !waiting.is_empty()
                 && time - poured >= *every
             {
-                let top =
-                    self.free.iter().filter(|i| self.there[**i] && !parked.contains(i)).map(|&i| self.center(i).z).fold(0.0, f64::max);
+                let top = self
+                    .free
+                    .iter()
+                    .filter(|i| self.there[**i] && !parked.contains(i))
+                    .map(|&i| self.center(i).z)
+                    .fold(0.0, f64::max);
                 for i in waiting.pop().into_iter().flatten() {
                     parked.remove(&i);
                     let base = self.assembly.blocks[i].centroid;
@@ -244,7 +300,12 @@ impl Flowing<'_> {
                 loads = true;
             }
             let couples = if self.frictions.resist_rolling() {
-                self.rolling.torques(self.bodies, self.frictions, &self.world, self.dt / self.units.time)
+                self.rolling.torques(
+                    self.bodies,
+                    self.frictions,
+                    &self.world,
+                    self.dt / self.units.time,
+                )
             } else {
                 BTreeMap::new()
             };
@@ -263,7 +324,13 @@ impl Flowing<'_> {
             }
             self.look(&parked);
             if !flowing {
-                let moved = self.free.iter().filter(|&&i| !self.there[i] || (self.center(i) - start[i]).norm() > self.diameter).count();
+                let moved = self
+                    .free
+                    .iter()
+                    .filter(|&&i| {
+                        !self.there[i] || (self.center(i) - start[i]).norm() > self.diameter
+                    })
+                    .count();
                 flowing = moved as f64 >= FLOWING * self.free.len() as f64;
                 // Steeper than a cliff, or stuck.
                 if !flowing && angle > std::f64::consts::FRAC_PI_2 {
@@ -302,10 +369,22 @@ impl Flowing<'_> {
         self.world.stop(i);
     }
 
-    fn load(&mut self, couples: &BTreeMap<usize, Vector3<f64>>, parked: &std::collections::BTreeSet<usize>) {
+    fn load(
+        &mut self,
+        couples: &BTreeMap<usize, Vector3<f64>>,
+        parked: &std::collections::BTreeSet<usize>,
+    ) {
         for &i in self.free.iter().filter(|i| self.there[**i]) {
-            let weight = if parked.contains(&i) { Vector3::zeros() } else { self.gravity * self.assembly.blocks[i].mass };
-            self.world.load(i, weight / self.units.force(), couples.get(&i).copied().unwrap_or_default());
+            let weight = if parked.contains(&i) {
+                Vector3::zeros()
+            } else {
+                self.gravity * self.assembly.blocks[i].mass
+            };
+            self.world.load(
+                i,
+                weight / self.units.force(),
+                couples.get(&i).copied().unwrap_or_default(),
+            );
         }
     }
 
@@ -326,6 +405,10 @@ impl Flowing<'_> {
         }
         // Gravity is one in the engine's units.
         self.energy = energy / count.max(1.0) / (self.diameter / self.units.length);
-        self.resting = if self.energy < GRAIN_REST_ENERGY { self.resting + LOOK as f64 * self.dt } else { 0.0 };
+        self.resting = if self.energy < GRAIN_REST_ENERGY {
+            self.resting + LOOK as f64 * self.dt
+        } else {
+            0.0
+        };
     }
 }

@@ -1,16 +1,19 @@
-//! What happens in time: the same assembly run by a rigid-body engine, as a second opinion that knows nothing of programs and
-//! solvers.
+//! What happens in time: the same assembly run by a rigid-body engine, as a second opinion that
+//! knows nothing of programs and solvers.
 //!
-//! The engine (rapier) integrates Newton's law with Coulomb friction at contacts that are very slightly soft. It proves nothing: near a
-//! critical parameter it may err (see [`Fidelity`]), and it shows one history, that of loads which act from one moment on without any
-//! pre-stress. *Its error grows with the number of blocks in a row*, because its contact forces come out of a fixed number of
-//! iterations.
+//! The engine (rapier) integrates Newton's law with Coulomb friction at contacts that are very
+//! slightly soft. It proves nothing: near a critical parameter it may err (see [`Fidelity`]), and
+//! it shows one history, that of loads which act from one moment on without any pre-stress. *Its
+//! error grows with the number of blocks in a row*, because its contact forces come out of a fixed
+//! number of iterations.
 //!
-//! A block has fallen when it moved by more than [`FALLEN`] of its thickness and still moves; the scene stands when
-//! every block came to rest within [`SETTLED`]; in between the settings are refined, and then it stays undecided.
+//! A block has fallen when it moved by more than [`FALLEN`] of its thickness and still moves; the
+//! scene stands when every block came to rest within [`SETTLED`]; in between the settings are
+//! refined, and then it stays undecided.
 //!
-//! Joints resist by friction, by their rolling arm, and by the water in them, which pushes as it does at the start. Cohesion, tensile and
-//! compressive strength are left out, which the outcome's findings say.
+//! Joints resist by friction, by their rolling arm, and by the water in them, which pushes as it
+//! does at the start. Cohesion, tensile and compressive strength are left out, which the outcome's
+//! findings say.
 
 mod bodies;
 mod cell;
@@ -22,22 +25,26 @@ mod rolling;
 mod run;
 mod units;
 
-pub use outcome::{Fate, Fidelity, FirstMotion, Frame, MeanContact, Pose, Run, SimulationOutcome, Stop};
+pub use outcome::{
+    Fate, Fidelity, FirstMotion, Frame, MeanContact, Pose, Run, SimulationOutcome, Stop,
+};
 pub use run::simulate;
 
 #[cfg(doc)]
 use crate::tolerance::{FALLEN, SETTLED};
 
-/// The first motion is read where some block moved by this × its thickness. Larger: blocks have met new neighbours on the way.
-/// Smaller: settling on soft contacts hides the motion.
+/// The first motion is read where some block moved by this × its thickness. Larger: blocks have met
+/// new neighbours on the way. Smaller: settling on soft contacts hides the motion.
 pub const FIRST_MOTION: f64 = 0.01;
 
 /// What the caller may change about a simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulationSettings {
-    /// One kind of run only; by default a fast one, and a fine one unless that shows that it stands.
+    /// One kind of run only; by default a fast one, and a fine one unless that shows that it
+    /// stands.
     pub fidelity: Option<Fidelity>,
-    /// Time to simulate at most, s; by default 10 √(H/g), H the height of the scene, and at least 10 √(L/g), L the median block size.
+    /// Time to simulate at most, s; by default 10 √(H/g), H the height of the scene, and at least
+    /// 10 √(L/g), L the median block size.
     pub seconds: Option<f64>,
     /// Threads of the engine. The answer does not depend on them, bit by bit.
     pub threads: usize,
@@ -53,7 +60,15 @@ pub struct SimulationSettings {
 
 impl Default for SimulationSettings {
     fn default() -> Self {
-        Self { fidelity: None, seconds: None, threads: 1, frames: 0, keep_frames: true, to_the_end: false, every_step: false }
+        Self {
+            fidelity: None,
+            seconds: None,
+            threads: 1,
+            frames: 0,
+            keep_frames: true,
+            to_the_end: false,
+            every_step: false,
+        }
     }
 }
 

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 pub enum Fate {
     /// It came to rest where it was.
     Stands,
-    /// A block moved by more than [`FALLEN`](crate::tolerance::FALLEN) × its thickness and was still moving.
+    /// A block moved by more than [`FALLEN`](crate::tolerance::FALLEN) × its thickness and was
+    /// still moving.
     Falls,
     /// Neither.
     Undecided,
@@ -20,7 +21,8 @@ pub enum Fate {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Fidelity {
-    /// √(L/g) / 100, L the median block size, 20 substeps: to be trusted 3 % away from a critical parameter.
+    /// √(L/g) / 100, L the median block size, 20 substeps: to be trusted 3 % away from a critical
+    /// parameter.
     Fast,
     /// √(L/g) / 400, 20 substeps: to be trusted 1 % away from it.
     Fine,
@@ -107,7 +109,8 @@ pub struct Frame {
     pub relative: f64,
     /// Kinetic energy of all blocks, J.
     pub energy: f64,
-    /// Centre of mass (m), orientation, velocity (m/s) and spin (rad/s) of each block, in scene order.
+    /// Centre of mass (m), orientation, velocity (m/s) and spin (rad/s) of each block, in scene
+    /// order.
     pub blocks: Vec<Pose>,
 }
 
@@ -133,11 +136,13 @@ pub struct SimulationOutcome {
     pub collapse: Option<f64>,
     /// The runs, the decisive one last.
     pub runs: Vec<Run>,
-    /// The motion from the start to where some block first moved by [`FIRST_MOTION`](super::FIRST_MOTION) × its thickness; empty where none did.
+    /// The motion from the start to where some block first moved by
+    /// [`FIRST_MOTION`](super::FIRST_MOTION) × its thickness; empty where none did.
     pub first_motion: Vec<FirstMotion>,
     /// Contact forces at the end, by pairs of blocks.
     pub contacts: Vec<MeanContact>,
-    /// What is left when the contact forces on the supports and all loads are added up, over the sum of the loads' sizes: 0 at rest.
+    /// What is left when the contact forces on the supports and all loads are added up, over the
+    /// sum of the loads' sizes: 0 at rest.
     pub reaction_error: f64,
     /// The frames that were asked for.
     pub frames: Vec<Frame>,

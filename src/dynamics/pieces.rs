@@ -1,13 +1,15 @@
 //! A block as convex pieces whose outer faces have at most four corners.
 //!
-//! The contact engine takes at most four corners of a face and at most four points of a contact, so that a drum on a
-//! twelve-cornered face rocks. Every block is therefore cut, exactly and never by approximation:
-//! * a block that is not convex by the planes of its own facets, until no facet runs through a piece (binary space
-//!   partition; Thibault & Naylor 1987), of which those inside are kept;
-//! * a piece with a face of more than four corners through corners of that face, or, where that does not end soon, into
-//!   pyramids over quarters of its faces.
+//! The contact engine takes at most four corners of a face and at most four points of a contact, so
+//! that a drum on a twelve-cornered face rocks. Every block is therefore cut, exactly and never by
+//! approximation:
+//! * a block that is not convex by the planes of its own facets, until no facet runs through a
+//!   piece (binary space partition; Thibault & Naylor 1987), of which those inside are kept;
+//! * a piece with a face of more than four corners through corners of that face, or, where that
+//!   does not end soon, into pyramids over quarters of its faces.
 //!
-//! * W. C. Thibault, B. F. Naylor, *Set operations on polyhedra using binary space partitioning trees*, SIGGRAPH 1987.
+//! * W. C. Thibault, B. F. Naylor, *Set operations on polyhedra using binary space partitioning
+//!   trees*, SIGGRAPH 1987.
 
 use super::cell::{Cell, Face, mean};
 use crate::assembly::Polyhedron;
@@ -23,15 +25,26 @@ pub(super) const MOST: usize = 4096;
 /// A facet this close to a piece's faces (relative to the block) does not run through it.
 const THROUGH: f64 = 1e-7;
 
-/// The pieces of a polyhedron, in the frame `(x − origin) / unit`; `None` where they would be too many.
+/// The pieces of a polyhedron, in the frame `(x − origin) / unit`; `None` where they would be too
+/// many.
 pub(super) fn pieces(shape: &Polyhedron, origin: Vector3<f64>, unit: f64) -> Option<Vec<Cell>> {
     let place = |p: Vector3<f64>| (p - origin) / unit;
     let facets: Vec<Vec<Face>> = shape
         .facets
         .iter()
-        .map(|f| f.pieces.iter().map(|p| Face { normal: f.normal, points: shape.points(p).map(place).collect(), inner: false }).collect())
+        .map(|f| {
+            f.pieces
+                .iter()
+                .map(|p| Face {
+                    normal: f.normal,
+                    points: shape.points(p).map(place).collect(),
+                    inner: false,
+                })
+                .collect()
+        })
         .collect();
-    let whole = if shape.convex { vec![Cell { faces: facets.concat() }] } else { solid_cells(&facets)? };
+    let whole =
+        if shape.convex { vec![Cell { faces: facets.concat() }] } else { solid_cells(&facets)? };
     let mut pieces = Vec::new();
     for cell in whole {
         pieces.extend(four_cornered(cell));
@@ -42,7 +55,8 @@ pub(super) fn pieces(shape: &Polyhedron, origin: Vector3<f64>, unit: f64) -> Opt
     Some(pieces)
 }
 
-/// Half the sides of a box and how it lies, where the cell is one: boxes have a contact test of their own.
+/// Half the sides of a box and how it lies, where the cell is one: boxes have a contact test of
+/// their own.
 pub(super) fn as_box(cell: &Cell) -> Option<(Vector3<f64>, UnitQuaternion<f64>, Vector3<f64>)> {
     let (corners, loops) = cell.mesh();
     if corners.len() != 8 || loops.len() != 6 || cell.faces.iter().any(|f| f.inner) {
@@ -56,7 +70,9 @@ pub(super) fn as_box(cell: &Cell) -> Option<(Vector3<f64>, UnitQuaternion<f64>, 
         return None;
     }
     let middle = mean(&corners);
-    let half = Vector3::from_fn(|k, _| corners.iter().map(|c| axes[k].dot(&(c - middle))).fold(0.0, f64::max));
+    let half = Vector3::from_fn(|k, _| {
+        corners.iter().map(|c| axes[k].dot(&(c - middle))).fold(0.0, f64::max)
+    });
     let turn = UnitQuaternion::from_basis_unchecked(&axes);
     Some((half, Unit::new_normalize(turn.into_inner()), middle))
 }
@@ -70,7 +86,10 @@ fn four_cornered(cell: Cell) -> Vec<Cell> {
             continue;
         };
         let normal = (face.points[3] - face.points[0]).cross(&face.normal);
-        let (Some(normal), true) = (normal.try_normalize(0.0), open.len() + done.len() < FEW) else { return pyramids(&cell) };
+        let (Some(normal), true) = (normal.try_normalize(0.0), open.len() + done.len() < FEW)
+        else {
+            return pyramids(&cell);
+        };
         match piece.cut(normal, normal.dot(&face.points[0]), true) {
             (Some(one), Some(other)) => open.extend([one, other]),
             _ => return pyramids(&cell),
@@ -85,7 +104,9 @@ fn pyramids(cell: &Cell) -> Vec<Cell> {
     let mut list = Vec::new();
     for face in cell.faces.iter().filter(|f| !f.inner) {
         for base in quarters(&face.points) {
-            let sides = (0..base.len()).filter_map(|i| Face::around(vec![base[(i + 1) % base.len()], base[i], apex], true));
+            let sides = (0..base.len()).filter_map(|i| {
+                Face::around(vec![base[(i + 1) % base.len()], base[i], apex], true)
+            });
             let mut faces: Vec<Face> = sides.collect();
             faces.push(Face { points: base, ..face.clone() });
             list.push(Cell { faces });
@@ -113,20 +134,28 @@ fn solid_cells(facets: &[Vec<Face>]) -> Option<Vec<Cell>> {
     let mut solid = Vec::new();
     while let Some((cell, own)) = open.pop() {
         // The largest facet first: it cuts the fewest others.
-        let area = |facet: &Vec<Face>| facet.iter().map(|f| (f.points[0] - f.middle()).norm_squared()).fold(0.0, f64::max);
-        let Some(largest) = (0..own.len()).max_by(|&i, &j| area(&own[i]).total_cmp(&area(&own[j]))) else {
+        let area = |facet: &Vec<Face>| {
+            facet.iter().map(|f| (f.points[0] - f.middle()).norm_squared()).fold(0.0, f64::max)
+        };
+        let Some(largest) = (0..own.len()).max_by(|&i, &j| area(&own[i]).total_cmp(&area(&own[j])))
+        else {
             if is_inside(&cell.middle(), facets) {
                 solid.push(marked(cell, facets, size));
             }
             continue;
         };
-        let (normal, offset) = (own[largest][0].normal, own[largest][0].normal.dot(&own[largest][0].points[0]));
+        let (normal, offset) =
+            (own[largest][0].normal, own[largest][0].normal.dot(&own[largest][0].points[0]));
         let (below, above) = cell.cut(normal, offset, false);
         let height = move |p: &Vector3<f64>| normal.dot(p) - offset;
         for (part, sign) in [(below, 1.0), (above, -1.0)] {
             let Some(part) = part else { continue };
             let side = |p: &Vector3<f64>| sign * height(p);
-            let rest = own.iter().enumerate().filter(|(i, _)| *i != largest).filter_map(|(_, facet)| through(facet, &side, THROUGH * size));
+            let rest = own
+                .iter()
+                .enumerate()
+                .filter(|(i, _)| *i != largest)
+                .filter_map(|(_, facet)| through(facet, &side, THROUGH * size));
             open.push((part, rest.collect()));
         }
         if open.len() + solid.len() > MOST {
@@ -157,8 +186,8 @@ fn marked(mut cell: Cell, facets: &[Vec<Face>], size: f64) -> Cell {
     cell
 }
 
-/// Whether the surface winds around a point: the sum of its triangles' solid angles (Van Oosterom & Strackee 1983) is 4π inside and
-/// 0 outside.
+/// Whether the surface winds around a point: the sum of its triangles' solid angles (Van Oosterom &
+/// Strackee 1983) is 4π inside and 0 outside.
 fn is_inside(point: &Vector3<f64>, facets: &[Vec<Face>]) -> bool {
     let mut angle = 0.0;
     for face in facets.iter().flatten() {

@@ -1,11 +1,15 @@
-//! The only file that names rapier: bodies in, poses and contact forces out, all in the engine's units.
+//! The only file that names rapier: bodies in, poses and contact forces out, all in the engine's
+//! units.
 //!
 //! Settings, each measured on masonry and against the engine's defaults:
-//! * hulls smaller by a skin that the contacts add again: hulls that touch exactly get wrong normals (a column of ten blocks was thrown
-//!   1.7 m into the air);
-//! * contacts of natural frequency 0.1 / substep and damping ratio 2 (with 5, stacks of six drums with many contact points shake), no recycled contacts, no clusters, no sleep, no limit of speed;
-//! * friction of a contact patch as a whole (`FrictionModel::Simplified`: 0.06 % on static friction; friction point by point
-//!   underestimates it by up to 14 %), its coefficient set pair by pair through a hook.
+//! * hulls smaller by a skin that the contacts add again: hulls that touch exactly get wrong
+//!   normals (a column of ten blocks was thrown 1.7 m into the air);
+//! * contacts of natural frequency 0.1 / substep and damping ratio 2 (with 5, stacks of six drums
+//!   with many contact points shake), no recycled contacts, no clusters, no sleep, no limit of
+//!   speed;
+//! * friction of a contact patch as a whole (`FrictionModel::Simplified`: 0.06 % on static
+//!   friction; friction point by point underestimates it by up to 14 %), its coefficient set pair
+//!   by pair through a hook.
 
 use super::bodies::{Body, Form, Frictions, Role};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -15,16 +19,18 @@ use rapier3d::{
 };
 use std::collections::BTreeMap;
 
-/// Natural frequency of a contact × substep. Lower: contacts sink in, by its square. Higher: stacks shake.
+/// Natural frequency of a contact × substep. Lower: contacts sink in, by its square. Higher: stacks
+/// shake.
 const FREQUENCY: f64 = 0.1;
 /// Damping ratio of a contact.
 const DAMPING: f64 = 2.0;
 
-/// Contacts of masonry are prepared up to this distance, in median block sizes. Larger: neighbours round a corner are seen at wrong normals.
-/// Smaller: fast blocks sink in before they are seen.
+/// Contacts of masonry are prepared up to this distance, in median block sizes. Larger: neighbours
+/// round a corner are seen at wrong normals. Smaller: fast blocks sink in before they are seen.
 pub(super) const PREDICTION: f64 = 0.005;
 
-/// A contact whose normal points more into another piece of the same block than out of it, by this in the cosine, is none.
+/// A contact whose normal points more into another piece of the same block than out of it, by this
+/// in the cosine, is none.
 const SEAM: f64 = 1e-3;
 
 /// Points of one contact that the engine solves for.
@@ -38,7 +44,10 @@ const NEW_CONTACT: u64 = 1 << 31;
 
 /// Contacts as stiff as a step allows.
 fn softness(step: Step) -> SpringCoefficients<f64> {
-    SpringCoefficients { natural_frequency: FREQUENCY * step.iterations as f64 / step.dt, damping_ratio: DAMPING }
+    SpringCoefficients {
+        natural_frequency: FREQUENCY * step.iterations as f64 / step.dt,
+        damping_ratio: DAMPING,
+    }
 }
 
 /// How finely time is cut.
@@ -118,7 +127,9 @@ impl<'a> World<'a> {
             ..IntegrationParameters::default()
         };
         let mut pipeline = PhysicsPipeline::new();
-        pipeline.configure_thread_pool(step.threads).map_err(|e| format!("the engine got no threads: {e}"))?;
+        pipeline
+            .configure_thread_pool(step.threads)
+            .map_err(|e| format!("the engine got no threads: {e}"))?;
         let mut world = Self {
             hooks: Hooks { frictions, shapes: Vec::new() },
             parameters,
@@ -144,17 +155,25 @@ impl<'a> World<'a> {
 
     fn insert(&mut self, index: usize, body: &Body) -> Result<(), String> {
         let pose = Pose::from_parts(vector(body.center), Rotation::IDENTITY);
-        let builder = if body.support { RigidBodyBuilder::fixed() } else { RigidBodyBuilder::dynamic() };
+        let builder =
+            if body.support { RigidBodyBuilder::fixed() } else { RigidBodyBuilder::dynamic() };
         let inertia = rapier3d::math::Matrix::from_cols_array_2d(&body.inertia.data.0);
         let mass = MassProperties::with_inertia_matrix(Vector::ZERO, body.mass, inertia);
-        let handle = self.bodies.insert(builder.pose(pose).can_sleep(false).additional_mass_properties(mass));
+        let handle = self
+            .bodies
+            .insert(builder.pose(pose).can_sleep(false).additional_mass_properties(mass));
         self.handles.push(handle);
         for shape in &body.shapes {
             let refused = || format!("the engine does not take a piece of block number {index}");
             let collider = match &shape.form {
-                Form::Ball { at, radius } => ColliderBuilder::ball(*radius).translation(vector(*at)),
+                Form::Ball { at, radius } => {
+                    ColliderBuilder::ball(*radius).translation(vector(*at))
+                }
                 Form::Cuboid { at, turn, half } => ColliderBuilder::cuboid(half.x, half.y, half.z)
-                    .position(Pose::from_parts(vector(*at), Rotation::from_xyzw(turn.i, turn.j, turn.k, turn.w))),
+                    .position(Pose::from_parts(
+                        vector(*at),
+                        Rotation::from_xyzw(turn.i, turn.j, turn.k, turn.w),
+                    )),
                 Form::Hull { points, triangles } => {
                     let points = points.iter().map(|p| vector(*p)).collect();
                     ColliderBuilder::convex_mesh(points, triangles).ok_or_else(refused)?
@@ -226,8 +245,9 @@ impl<'a> World<'a> {
 
     /// One step in time.
     pub fn step(&mut self) {
-        // A worker of a work-stealing pool that waited for the engine's threads would begin other work meanwhile, on the same stack,
-        // and with simulations in that work without end. A plain thread waits.
+        // A worker of a work-stealing pool that waited for the engine's threads would begin other
+        // work meanwhile, on the same stack, and with simulations in that work without end. A plain
+        // thread waits.
         if rayon::current_thread_index().is_some() {
             let ended = std::thread::scope(|scope| scope.spawn(|| self.advance()).join());
             ended.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
@@ -276,22 +296,33 @@ impl<'a> World<'a> {
 
     /// Forces of all contact patches that carry any, in the order of the colliders.
     ///
-    /// A normal impulse is the sum over the substeps of the last step; of a patch's friction the engine keeps the last substep's impulse,
-    /// the same on every point. At rest all substeps are alike.
+    /// A normal impulse is the sum over the substeps of the last step; of a patch's friction the
+    /// engine keeps the last substep's impulse, the same on every point. At rest all substeps are
+    /// alike.
     pub fn patches(&self) -> Vec<Patch> {
         let (dt, substeps) = (self.parameters.dt, self.parameters.num_solver_iterations as f64);
         let mut list = Vec::new();
         for pair in self.narrow_phase.contact_pairs() {
             let PairContacts::Rigid(contacts) = &pair.contacts else { continue };
             let shape = |handle| self.colliders.get(handle).and_then(|c| self.hooks.shape(c));
-            let (Some(a), Some(b)) = (shape(pair.collider1), shape(pair.collider2)) else { continue };
+            let (Some(a), Some(b)) = (shape(pair.collider1), shape(pair.collider2)) else {
+                continue;
+            };
             for manifold in contacts.solver_manifolds() {
-                let active = || manifold.data.solver_contacts.iter().filter_map(|c| manifold.points.get(c.contact_indices()[0] as usize));
+                let active = || {
+                    manifold
+                        .data
+                        .solver_contacts
+                        .iter()
+                        .filter_map(|c| manifold.points.get(c.contact_indices()[0] as usize))
+                };
                 let normal_force = active().map(|p| p.data.impulse).sum::<f64>() / dt;
                 if normal_force <= 0.0 {
                     continue;
                 }
-                let friction = active().next().map_or(Vector::ZERO, |p| p.data.warmstart_tangent_world) * (substeps / dt);
+                let friction =
+                    active().next().map_or(Vector::ZERO, |p| p.data.warmstart_tangent_world)
+                        * (substeps / dt);
                 let normal = back(manifold.data.normal);
                 let force = normal * normal_force - back(friction);
                 list.push((
@@ -325,7 +356,10 @@ impl PhysicsHooks for Hooks<'_> {
 
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
         let collider = |handle| context.colliders.get(handle);
-        let (Some(one), Some(other)) = (collider(context.collider1), collider(context.collider2)) else { return };
+        let (Some(one), Some(other)) = (collider(context.collider1), collider(context.collider2))
+        else {
+            return;
+        };
         let (Some(a), Some(b)) = (self.shape(one), self.shape(other)) else { return };
         let (turn1, turn2) = (one.position().rotation, other.position().rotation);
         let skins = one.contact_skin() + other.contact_skin();
@@ -339,13 +373,19 @@ impl PhysicsHooks for Hooks<'_> {
         if a.at_seam(turn1.inverse() * normal) || b.at_seam(turn2.inverse() * -normal) {
             return manifold.solver_contacts.clear();
         }
-        // The engine adds the point where its search for the normal ended, which wanders: corners do without.
-        let corners = manifold.manifold.points.iter().filter(|p| p.fid1 != PackedFeatureId::UNKNOWN).count();
+        // The engine adds the point where its search for the normal ended, which wanders: corners
+        // do without.
+        let corners =
+            manifold.manifold.points.iter().filter(|p| p.fid1 != PackedFeatureId::UNKNOWN).count();
         if corners > CORNERS {
             spread(manifold, place, *other.position(), skins);
         } else if corners >= CORNERS - 1 {
             let points = &manifold.manifold.points;
-            let known = |c: &SolverContact| points.get(c.contact_indices()[0] as usize).is_some_and(|p| p.fid1 != PackedFeatureId::UNKNOWN);
+            let known = |c: &SolverContact| {
+                points
+                    .get(c.contact_indices()[0] as usize)
+                    .is_some_and(|p| p.fid1 != PackedFeatureId::UNKNOWN)
+            };
             if manifold.solver_contacts.iter().filter(|c| known(c)).count() == corners {
                 manifold.solver_contacts.retain(known);
             } else {
@@ -357,11 +397,15 @@ impl PhysicsHooks for Hooks<'_> {
 
 /// Of a contact with more points than the engine takes, the four that span the largest area.
 ///
-/// The engine's own choice starts from the deepest point, which is another one at every step, and shakes drums off each other.
+/// The engine's own choice starts from the deepest point, which is another one at every step, and
+/// shakes drums off each other.
 fn spread(manifold: &mut ModifiableManifold, place1: Pose, place2: Pose, skins: f64) {
     let Some(pattern) = manifold.solver_contacts.first().copied() else { return };
     let points = &manifold.manifold.points;
-    let own: Vec<usize> = (0..points.len()).filter(|&i| points[i].fid1 != PackedFeatureId::UNKNOWN).take(MOST_POINTS).collect();
+    let own: Vec<usize> = (0..points.len())
+        .filter(|&i| points[i].fid1 != PackedFeatureId::UNKNOWN)
+        .take(MOST_POINTS)
+        .collect();
     let local: Vec<Vector3<f64>> = own.iter().map(|&i| back(points[i].local_p1)).collect();
     let normal = back(manifold.manifold.local_n1);
     let middle = super::cell::mean(&local);
@@ -370,7 +414,8 @@ fn spread(manifold: &mut ModifiableManifold, place1: Pose, place2: Pose, skins: 
     let angle = |p: &Vector3<f64>| side.dot(&(p - middle)).atan2(axis.dot(&(p - middle)));
     let mut order: Vec<usize> = (0..local.len()).collect();
     order.sort_by(|&i, &j| angle(&local[i]).total_cmp(&angle(&local[j])));
-    let area = |[i, j, k, l]: [usize; 4]| (local[k] - local[i]).cross(&(local[l] - local[j])).dot(&normal);
+    let area =
+        |[i, j, k, l]: [usize; 4]| (local[k] - local[i]).cross(&(local[l] - local[j])).dot(&normal);
     let (mut best, mut chosen) = (0.0, [0; 4]);
     let n = order.len();
     for i in 0..n {
@@ -378,7 +423,8 @@ fn spread(manifold: &mut ModifiableManifold, place1: Pose, place2: Pose, skins: 
             for k in j + 1..n {
                 for l in k + 1..n {
                     let four = [order[i], order[j], order[k], order[l]];
-                    // Equal quarters of a regular outline differ by rounding only: the first one stays.
+                    // Equal quarters of a regular outline differ by rounding only: the first one
+                    // stays.
                     if area(four) > (1.0 + ALIKE) * best {
                         (best, chosen) = (area(four), four);
                     }
@@ -399,14 +445,16 @@ fn spread(manifold: &mut ModifiableManifold, place1: Pose, place2: Pose, skins: 
             let id = index as u64 | if point.data.impulse == 0.0 { NEW_CONTACT } else { 0 };
             let (anchor1, anchor2) = (place1 * point.local_p1, place2 * point.local_p2);
             let mut contact = pattern;
-            (contact.contact_id, contact.anchor1, contact.anchor2, contact.dist) = ([id], anchor1, anchor2, dist);
+            (contact.contact_id, contact.anchor1, contact.anchor2, contact.dist) =
+                ([id], anchor1, anchor2, dist);
             manifold.solver_contacts.push(contact);
         }
     }
 }
 
 impl Seam {
-    /// Whether a contact with this outward normal belongs to the neighbouring piece of the same block.
+    /// Whether a contact with this outward normal belongs to the neighbouring piece of the same
+    /// block.
     fn at_seam(&self, normal: Vector) -> bool {
         let best = |list: &[Vector]| list.iter().map(|n| n.dot(normal)).fold(-1.0, f64::max);
         !self.inner.is_empty() && best(&self.inner) > best(&self.outer) - SEAM

@@ -1,7 +1,8 @@
 //! Running the engine until the outcome is clear.
 
 use super::{
-    FIRST_MOTION, Fate, Fidelity, FirstMotion, Frame, MeanContact, Pose, Progress, Run, SimulationOutcome, SimulationSettings, Stop,
+    FIRST_MOTION, Fate, Fidelity, FirstMotion, Frame, MeanContact, Pose, Progress, Run,
+    SimulationOutcome, SimulationSettings, Stop,
     bodies::{Body, Frictions, bodies},
     rapier::{PREDICTION, Step, World},
     rolling::Rolling,
@@ -21,11 +22,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Steps between two reports to the caller, and the time after which one is due all the same: the caller may want to stop.
+/// Steps between two reports to the caller, and the time after which one is due all the same: the
+/// caller may want to stop.
 const REPORT: usize = 50;
 const PATIENCE: Duration = Duration::from_millis(100);
-/// Loads grow from nothing over this many √(L/g), all in proportion. Shorter: chains of blocks fall a little before their contact forces
-/// have built up, which is 1 % of the thickness in an arch. Longer: time is lost.
+/// Loads grow from nothing over this many √(L/g), all in proportion. Shorter: chains of blocks fall
+/// a little before their contact forces have built up, which is 1 % of the thickness in an arch.
+/// Longer: time is lost.
 const ONSET: f64 = 1.0;
 /// Contact forces are those of a scene at rest when reactions and loads add up to this × the loads.
 const BALANCED: f64 = 1e-6;
@@ -33,7 +36,8 @@ const BALANCED: f64 = 1e-6;
 const HORIZON: f64 = 10.0;
 /// Near the margin the horizon is this many times as long.
 const LONGER: f64 = 2.0;
-/// A scene that has settled farther than [`SETTLED`] may keep less than this × [`MOVING_ENERGY`] at the horizon.
+/// A scene that has settled farther than [`SETTLED`] may keep less than this × [`MOVING_ENERGY`] at
+/// the horizon.
 const QUIET: f64 = 1e-3;
 /// A displacement is measured against a thickness of at least this × the block's reach.
 const THINNEST: f64 = 0.01;
@@ -72,13 +76,17 @@ pub fn simulate(
     let Some(units) = Units::of(assembly, &loads.total) else { return Ok(outcome) };
     let bodies = bodies(model, &units, SKIN)?;
     let frictions = Frictions::new(model, &units);
-    let scene = Stage { assembly, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
+    let scene =
+        Stage { assembly, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
     let ladder = match settings.fidelity {
         Some(one) => vec![one],
         None => vec![Fidelity::Fast, Fidelity::Fine],
     };
     for (index, &fidelity) in ladder.iter().enumerate() {
-        let horizon = settings.seconds.map_or_else(|| scene.horizon() * if index > 0 { LONGER } else { 1.0 }, |s| s / units.time);
+        let horizon = settings.seconds.map_or_else(
+            || scene.horizon() * if index > 0 { LONGER } else { 1.0 },
+            |s| s / units.time,
+        );
         let show = scene.run(fidelity, horizon, watch)?;
         outcome.frames.extend(show.frames);
         let run = show.run;
@@ -102,13 +110,18 @@ pub fn simulate(
 
 fn broken(runs: &[Run]) -> Option<Finding> {
     let run = runs.iter().find(|r| r.stop == Stop::Broken)?;
-    Some(Finding::new(FindingCode::Numerics, format!("the engine's numbers were no longer finite after {:.3e} s", run.time)))
+    Some(Finding::new(
+        FindingCode::Numerics,
+        format!("the engine's numbers were no longer finite after {:.3e} s", run.time),
+    ))
 }
 
 fn strengths(interfaces: &Interfaces) -> Option<Finding> {
     let strong = |f: &&Interface| f.law.cohesion > 0.0 || f.law.tension > 0.0 || crushes(f);
     let count = interfaces.list.iter().filter(strong).count();
-    let text = format!("{count} joints have cohesion, tensile or compressive strength: the simulation leaves it out and has friction only");
+    let text = format!(
+        "{count} joints have cohesion, tensile or compressive strength: the simulation leaves it out and has friction only"
+    );
     (count > 0).then(|| Finding::new(FindingCode::LeftOut, text))
 }
 
@@ -172,33 +185,56 @@ impl Stage<'_> {
     /// In the engine's units.
     fn horizon(&self) -> f64 {
         let up = -self.assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
-        let heights = || self.bodies.iter().filter(|b| !b.support).map(|b| (up.dot(&b.center), b.reach));
+        let heights =
+            || self.bodies.iter().filter(|b| !b.support).map(|b| (up.dot(&b.center), b.reach));
         let top = heights().map(|(h, r)| h + r).fold(f64::NEG_INFINITY, f64::max);
         let foot = heights().map(|(h, r)| h - r).fold(f64::INFINITY, f64::min);
         HORIZON * (top - foot).max(1.0).sqrt()
     }
 
-    fn run(&self, fidelity: Fidelity, horizon: f64, watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>) -> Result<Show, InputError> {
+    fn run(
+        &self,
+        fidelity: Fidelity,
+        horizon: f64,
+        watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Result<Show, InputError> {
         let begin = Instant::now();
         let (per_unit, iterations) = fidelity.fineness();
         let dt = 1.0 / per_unit;
-        let step = Step { dt, iterations, threads: self.settings.threads.max(1), prediction: PREDICTION };
-        let mut world = World::new(self.bodies, self.frictions, step)
-            .map_err(|text| InputError::at(Default::default(), text).hint("ask `voussoir assess` instead"))?;
+        let step =
+            Step { dt, iterations, threads: self.settings.threads.max(1), prediction: PREDICTION };
+        let mut world = World::new(self.bodies, self.frictions, step).map_err(|text| {
+            InputError::at(Default::default(), text).hint("ask `voussoir assess` instead")
+        })?;
         let total = (horizon / dt).ceil().max(1.0) as usize;
         let every = total.checked_div(self.settings.frames).map_or(usize::MAX, |n| n.max(1));
         let (mut rolling, mut couples) = (Rolling::default(), BTreeMap::new());
         let (mut steps, mut resting) = (0, 0.0);
-        let mut state = State { farthest: (self.assembly.free().next().unwrap_or(0), 0.0), now: 0.0, energy: 0.0, fallen: false };
+        let mut state = State {
+            farthest: (self.assembly.free().next().unwrap_or(0), 0.0),
+            now: 0.0,
+            energy: 0.0,
+            fallen: false,
+        };
         let (mut first_motion, mut frames, mut fell_at) = (Vec::new(), Vec::new(), None);
-        let moment = |world: &World, time, state: &State| self.settings.every_step.then(|| self.frame(world, fidelity, time, state));
+        let moment = |world: &World, time, state: &State| {
+            self.settings.every_step.then(|| self.frame(world, fidelity, time, state))
+        };
         if self.settings.frames > 0 || self.settings.every_step {
             if self.settings.frames > 0 {
                 frames.push(self.frame(&world, fidelity, 0.0, &state));
             }
-            let (time, horizon, now) = (0.0, horizon * self.units.time, moment(&world, 0.0, &state));
+            let (time, horizon, now) =
+                (0.0, horizon * self.units.time, moment(&world, 0.0, &state));
             // Stopping is heard at the first step.
-            let _ = watch(&Progress { fidelity, time, horizon, relative: 0.0, frame: frames.last(), moment: now.as_ref() });
+            let _ = watch(&Progress {
+                fidelity,
+                time,
+                horizon,
+                relative: 0.0,
+                frame: frames.last(),
+                moment: now.as_ref(),
+            });
         }
         let mut heard = Instant::now();
         let stop = loop {
@@ -230,7 +266,16 @@ impl Stage<'_> {
                 heard = Instant::now();
                 let (frame, moment) = (frames.last().filter(|_| framed), now.as_ref());
                 let (time, horizon) = (time * self.units.time, horizon * self.units.time);
-                if watch(&Progress { fidelity, time, horizon, relative: state.farthest.1, frame, moment }).is_break() {
+                if watch(&Progress {
+                    fidelity,
+                    time,
+                    horizon,
+                    relative: state.farthest.1,
+                    frame,
+                    moment,
+                })
+                .is_break()
+                {
                     break Stop::Stopped;
                 }
             }
@@ -252,7 +297,11 @@ impl Stage<'_> {
             _ if fell_at.is_some() => Fate::Falls,
             Stop::Rest if stayed(fidelity, state.farthest.1, state.energy) => Fate::Stands,
             // A shorter time shows nothing.
-            Stop::Horizon if horizon >= HORIZON && stayed(fidelity, state.farthest.1, state.energy) => Fate::Stands,
+            Stop::Horizon
+                if horizon >= HORIZON && stayed(fidelity, state.farthest.1, state.energy) =>
+            {
+                Fate::Stands
+            }
             _ => Fate::Undecided,
         };
         let (block, relative) = state.farthest;
@@ -285,9 +334,16 @@ impl Stage<'_> {
         body.thickness.max(THINNEST * body.reach)
     }
 
-    /// Sets this part of the loads and the couples of rolling joints (in the engine's units), on every block or only where they change.
-    /// Forces that act at a point of a block keep their direction while the point moves with the block.
-    fn load(&self, world: &mut World, part: f64, every: bool, couples: &BTreeMap<usize, Vector3<f64>>) {
+    /// Sets this part of the loads and the couples of rolling joints (in the engine's units), on
+    /// every block or only where they change. Forces that act at a point of a block keep their
+    /// direction while the point moves with the block.
+    fn load(
+        &self,
+        world: &mut World,
+        part: f64,
+        every: bool,
+        couples: &BTreeMap<usize, Vector3<f64>>,
+    ) {
         let mut moments: BTreeMap<usize, Vector3<f64>> = BTreeMap::new();
         for &(block, force, arm) in &self.loads.turning {
             let turned = world.pose(block).1 * arm;
@@ -299,7 +355,11 @@ impl Stage<'_> {
             let Wrench { force, moment } = self.loads.total[i];
             let moment = moment + moments.get(&i).copied().unwrap_or_default();
             let couple = couples.get(&i).copied().unwrap_or_default();
-            world.load(i, force * part / self.units.force(), moment * part / self.units.moment() + couple);
+            world.load(
+                i,
+                force * part / self.units.force(),
+                moment * part / self.units.moment() + couple,
+            );
         }
     }
 
@@ -309,10 +369,14 @@ impl Stage<'_> {
             let body = &self.bodies[i];
             let (center, turn) = world.pose(i);
             let (velocity, spin) = world.velocity(i);
-            let relative = ((center - body.center).norm() + turn.angle() * body.reach) / self.thickness(i);
+            let relative =
+                ((center - body.center).norm() + turn.angle() * body.reach) / self.thickness(i);
             let local = turn.inverse() * spin;
-            // Per mass; lengths, gravity and so m g L are one in these units up to the block's own size.
-            let energy = 0.5 * (velocity.norm_squared() + local.dot(&(body.inertia * local)) / body.mass) / self.size(i);
+            // Per mass; lengths, gravity and so m g L are one in these units up to the block's own
+            // size.
+            let energy = 0.5
+                * (velocity.norm_squared() + local.dot(&(body.inertia * local)) / body.mass)
+                / self.size(i);
             state.now = state.now.max(relative);
             if relative > state.farthest.1 {
                 state.farthest = (i, relative);
@@ -329,7 +393,10 @@ impl Stage<'_> {
     fn motions(&self, world: &World) -> Vec<FirstMotion> {
         let motion = |(i, body): (usize, &Body)| {
             let (center, turn) = world.pose(i);
-            FirstMotion { way: (center - body.center) * self.units.length, turn: turn.scaled_axis() }
+            FirstMotion {
+                way: (center - body.center) * self.units.length,
+                turn: turn.scaled_axis(),
+            }
         };
         self.bodies.iter().enumerate().map(motion).collect()
     }
@@ -344,24 +411,43 @@ impl Stage<'_> {
                 let (velocity, spin) = world.velocity(i);
                 let local = turn.inverse() * spin;
                 if !self.bodies[i].support {
-                    energy += 0.5 * (self.bodies[i].mass * velocity.norm_squared() + local.dot(&(self.bodies[i].inertia * local)));
+                    energy += 0.5
+                        * (self.bodies[i].mass * velocity.norm_squared()
+                            + local.dot(&(self.bodies[i].inertia * local)));
                 }
-                Pose { center: center * length + origin, turn, velocity: velocity * speed, spin: spin / unit }
+                Pose {
+                    center: center * length + origin,
+                    turn,
+                    velocity: velocity * speed,
+                    spin: spin / unit,
+                }
             })
             .collect();
-        Frame { time: time * unit, fidelity, relative: state.farthest.1, energy: energy * mass * speed * speed, blocks }
+        Frame {
+            time: time * unit,
+            fidelity,
+            relative: state.farthest.1,
+            energy: energy * mass * speed * speed,
+            blocks,
+        }
     }
 
     /// Contact forces by pairs of blocks, N.
     fn contacts(&self, world: &World) -> Vec<MeanContact> {
         let mut sums: BTreeMap<(usize, usize), (Vector3<f64>, f64)> = BTreeMap::new();
         for patch in world.patches() {
-            let (pair, force) = if patch.a < patch.b { ((patch.a, patch.b), patch.force) } else { ((patch.b, patch.a), -patch.force) };
+            let (pair, force) = if patch.a < patch.b {
+                ((patch.a, patch.b), patch.force)
+            } else {
+                ((patch.b, patch.a), -patch.force)
+            };
             let sum = sums.entry(pair).or_insert((Vector3::zeros(), 0.0));
             sum.0 += force * self.units.force();
             sum.1 += patch.normal_force * self.units.force();
         }
-        sums.into_iter().map(|((a, b), (force, normal_force))| MeanContact { a, b, force, normal_force }).collect()
+        sums.into_iter()
+            .map(|((a, b), (force, normal_force))| MeanContact { a, b, force, normal_force })
+            .collect()
     }
 
     fn reaction_error(&self, contacts: &[MeanContact]) -> f64 {
@@ -379,11 +465,13 @@ impl Stage<'_> {
     }
 }
 
-/// Whether a scene that moved this far at most, with this energy left, stands. Contacts sink in by the square of the step: what fine
-/// steps leave is settling. What hardly moved over the whole horizon may shake a little.
+/// Whether a scene that moved this far at most, with this energy left, stands. Contacts sink in by
+/// the square of the step: what fine steps leave is settling. What hardly moved over the whole
+/// horizon may shake a little.
 fn stayed(fidelity: Fidelity, relative: f64, energy: f64) -> bool {
     let still = relative < SETTLED && energy < MOVING_ENERGY;
-    still || (fidelity == Fidelity::Fine && relative < SETTLED_FINE && energy < QUIET * MOVING_ENERGY)
+    still
+        || (fidelity == Fidelity::Fine && relative < SETTLED_FINE && energy < QUIET * MOVING_ENERGY)
 }
 
 /// From 0 to 1 and then 1, with continuous slope.

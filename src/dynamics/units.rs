@@ -1,5 +1,6 @@
-//! Units in which every scene looks alike to the engine, whose own tolerances are absolute: lengths in median block sizes,
-//! masses in median block masses, times such that the blocks' acceleration under their loads is one.
+//! Units in which every scene looks alike to the engine, whose own tolerances are absolute: lengths
+//! in median block sizes, masses in median block masses, times such that the blocks' acceleration
+//! under their loads is one.
 
 use crate::assembly::{Assembly, Wrench};
 use nalgebra::Vector3;
@@ -23,10 +24,12 @@ impl Units {
         let free: Vec<usize> = assembly.free().collect();
         let length = median(free.iter().map(|&i| assembly.blocks[i].size).collect())?;
         let mass = median(free.iter().map(|&i| assembly.blocks[i].mass).collect())?;
-        let origin = free.iter().map(|&i| assembly.blocks[i].centroid).sum::<Vector3<f64>>() / free.len() as f64;
+        let origin = free.iter().map(|&i| assembly.blocks[i].centroid).sum::<Vector3<f64>>()
+            / free.len() as f64;
         let total: f64 = free.iter().map(|&i| assembly.blocks[i].mass).sum();
         // Moments count by the forces that make them at the block's own size.
-        let force = |i: &usize| loads[*i].force.norm() + loads[*i].moment.norm() / assembly.blocks[*i].size;
+        let force =
+            |i: &usize| loads[*i].force.norm() + loads[*i].moment.norm() / assembly.blocks[*i].size;
         let acceleration = assembly.gravity.norm().max(free.iter().map(force).sum::<f64>() / total);
         // Without any load nothing moves, in whatever time.
         let time = if acceleration > 0.0 { (length / acceleration).sqrt() } else { length.sqrt() };

@@ -21,7 +21,10 @@ mod tests {
 
     #[test]
     fn quadrants_are_exact_and_the_rest_agrees_with_radians() {
-        assert_eq!((cos_deg(90.0), cos_deg(-90.0), sin_deg(180.0), sin_deg(90.0), cos_deg(180.0)), (0.0, 0.0, 0.0, 1.0, -1.0));
+        assert_eq!(
+            (cos_deg(90.0), cos_deg(-90.0), sin_deg(180.0), sin_deg(90.0), cos_deg(180.0)),
+            (0.0, 0.0, 0.0, 1.0, -1.0)
+        );
         for k in -1800..=1800 {
             let a = f64::from(k) / 10.0;
             assert!((sin_deg(a) - a.to_radians().sin()).abs() < 4e-16, "sin {a}");

@@ -50,7 +50,9 @@ pub fn blocks(arch: &Arch) -> Result<Vec<BlockSpec>, InputError> {
     place.total("voussoirs", &[arch.voussoirs])?;
     let midline = check(&place, &fields, arch.voussoirs)?;
     let section = match (arch.joints, along) {
-        (JointDirection::Radial, ThicknessAlong::Normal) => radial(&place, &midline, arch.thickness, arch.voussoirs)?,
+        (JointDirection::Radial, ThicknessAlong::Normal) => {
+            radial(&place, &midline, arch.thickness, arch.voussoirs)?
+        }
         (JointDirection::Radial, ThicknessAlong::Vertical) => {
             return Err(place.error(
                 "thickness_along",
@@ -64,20 +66,29 @@ pub fn blocks(arch: &Arch) -> Result<Vec<BlockSpec>, InputError> {
             {
                 return Err(place.error(
                     "joints",
-                    format!("vertical joints need an arch of at most 180°, this one has {}°", 2.0 * half_deg),
+                    format!(
+                        "vertical joints need an arch of at most 180°, this one has {}°",
+                        2.0 * half_deg
+                    ),
                     "use radial joints",
                 ));
             }
             match along {
                 ThicknessAlong::Vertical => sheared(&midline, arch.thickness, arch.voussoirs),
-                ThicknessAlong::Normal => ring_cut_vertically(&place, &midline, arch.thickness, arch.voussoirs)?,
+                ThicknessAlong::Normal => {
+                    ring_cut_vertically(&place, &midline, arch.thickness, arch.voussoirs)?
+                }
             }
         }
     };
     let prism = |polygon| Shape::Prism { polygon, depth: arch.depth };
     let n = section.voussoirs.len();
-    let mut blocks: Vec<_> =
-        section.voussoirs.into_iter().enumerate().map(|(i, polygon)| BlockSpec::new(numbered("v", i, n), prism(polygon))).collect();
+    let mut blocks: Vec<_> = section
+        .voussoirs
+        .into_iter()
+        .enumerate()
+        .map(|(i, polygon)| BlockSpec::new(numbered("v", i, n), prism(polygon)))
+        .collect();
     match &arch.buttresses {
         None => {
             let [left, right] = section.springers;
@@ -85,7 +96,8 @@ pub fn blocks(arch: &Arch) -> Result<Vec<BlockSpec>, InputError> {
             blocks.push(support("springer_right", prism(right)));
         }
         Some(buttresses) => {
-            let [left, right, ground] = under(&place, buttresses, section.springing, arch.thickness)?;
+            let [left, right, ground] =
+                under(&place, buttresses, section.springing, arch.thickness)?;
             blocks.push(BlockSpec::new("buttress_left", prism(left)));
             blocks.push(BlockSpec::new("buttress_right", prism(right)));
             blocks.push(support("ground", prism(ground)));
@@ -95,7 +107,11 @@ pub fn blocks(arch: &Arch) -> Result<Vec<BlockSpec>, InputError> {
 }
 
 /// The voussoirs and springers of an arch with radial joints; also the section of a barrel vault.
-pub fn radial_section(place: &Place, fields: &Fields, voussoirs: usize) -> Result<Section, InputError> {
+pub fn radial_section(
+    place: &Place,
+    fields: &Fields,
+    voussoirs: usize,
+) -> Result<Section, InputError> {
     let midline = check(place, fields, voussoirs)?;
     radial(place, &midline, fields.thickness, voussoirs)
 }
@@ -116,7 +132,10 @@ fn check(place: &Place, fields: &Fields, voussoirs: usize) -> Result<Midline, In
         Midline::Pointed { radius, eccentricity } if thickness >= 2.0 * (radius - eccentricity) => {
             return Err(place.error(
                 "thickness",
-                format!("must be < 2 × (radius − eccentricity) = {}, got {thickness}", 2.0 * (radius - eccentricity)),
+                format!(
+                    "must be < 2 × (radius − eccentricity) = {}, got {thickness}",
+                    2.0 * (radius - eccentricity)
+                ),
                 "the two halves would overlap at the springing; in m",
             ));
         }
@@ -140,7 +159,12 @@ fn check(place: &Place, fields: &Fields, voussoirs: usize) -> Result<Midline, In
 }
 
 /// Joints normal to the mid-line.
-fn radial(place: &Place, midline: &Midline, thickness: f64, n: usize) -> Result<Section, InputError> {
+fn radial(
+    place: &Place,
+    midline: &Midline,
+    thickness: f64,
+    n: usize,
+) -> Result<Section, InputError> {
     let joints: Vec<Joint> = (0..=n).map(|j| midline.radial_joint(j, n, thickness)).collect();
     for pair in joints.windows(2) {
         let [[a, d], [b, c]] = [pair[0], pair[1]];
@@ -163,14 +187,19 @@ fn radial(place: &Place, midline: &Midline, thickness: f64, n: usize) -> Result<
         }
         _ => {
             let [[a, d], [b, c]] = [joints[n - 1], springing];
-            let length = ((b[0] + c[0] - a[0] - d[0]) / 2.0).hypot((b[1] + c[1] - a[1] - d[1]) / 2.0);
+            let length =
+                ((b[0] + c[0] - a[0] - d[0]) / 2.0).hypot((b[1] + c[1] - a[1] - d[1]) / 2.0);
             // The joint runs outwards; turned clockwise it points away from the arch.
             let out = [(c[0] - b[0]) / thickness, (c[1] - b[1]) / thickness];
             let back = |p: Point| [p[0] + length * out[1], p[1] - length * out[0]];
             vec![b, back(b), back(c), c]
         }
     };
-    Ok(Section { voussoirs: joints.windows(2).map(|p| quad(p[0], p[1])).collect(), springers: both(right), springing })
+    Ok(Section {
+        voussoirs: joints.windows(2).map(|p| quad(p[0], p[1])).collect(),
+        springers: both(right),
+        springing,
+    })
 }
 
 /// Joints vertical, intrados and extrados the mid-line moved down and up by half the thickness.
@@ -185,11 +214,20 @@ fn sheared(midline: &Midline, thickness: f64, n: usize) -> Section {
     let width = 2.0 * midline.half_span() / n as f64;
     let [b, c] = springing;
     let right = vec![b, [b[0] + width, b[1]], [c[0] + width, c[1]], c];
-    Section { voussoirs: joints.windows(2).map(|p| quad(p[0], p[1])).collect(), springers: both(right), springing }
+    Section {
+        voussoirs: joints.windows(2).map(|p| quad(p[0], p[1])).collect(),
+        springers: both(right),
+        springing,
+    }
 }
 
 /// A circular ring of constant normal thickness cut by vertical joints.
-fn ring_cut_vertically(place: &Place, midline: &Midline, thickness: f64, n: usize) -> Result<Section, InputError> {
+fn ring_cut_vertically(
+    place: &Place,
+    midline: &Midline,
+    thickness: f64,
+    n: usize,
+) -> Result<Section, InputError> {
     let &Midline::Circular { radius, half_deg } = midline else {
         return Err(place.error(
             "thickness_along",
@@ -206,16 +244,22 @@ fn ring_cut_vertically(place: &Place, midline: &Midline, thickness: f64, n: usiz
         let [intrados, _] = midline.radial_joint(j, n, thickness);
         [intrados, [intrados[0], extrados(intrados[0])]]
     };
-    // A voussoir right of the crown, or the key: intrados chord, then the extrados from right to left.
+    // A voussoir right of the crown, or the key: intrados chord, then the extrados from right to
+    // left.
     let right = |i: usize| {
         let [a, d] = joint(i);
         if i + 1 == n {
             let (from, to) = ((d[0] / outer).asin(), half_deg.to_radians());
             let arc = (1..CHORDS_AT_SPRINGING).rev().map(|k| {
-                let (sin, cos) = (from + (to - from) * k as f64 / CHORDS_AT_SPRINGING as f64).sin_cos();
+                let (sin, cos) =
+                    (from + (to - from) * k as f64 / CHORDS_AT_SPRINGING as f64).sin_cos();
                 [outer * sin, outer * cos]
             });
-            return [a, springing[0], springing[1]].into_iter().chain(arc).chain([d]).collect::<Vec<_>>();
+            return [a, springing[0], springing[1]]
+                .into_iter()
+                .chain(arc)
+                .chain([d])
+                .collect::<Vec<_>>();
         }
         let [b, c] = joint(i + 1);
         // The outer points are weighted the same from either side, so that the key is symmetric.
@@ -225,12 +269,19 @@ fn ring_cut_vertically(place: &Place, midline: &Midline, thickness: f64, n: usiz
         });
         [a, b, c].into_iter().chain(arc).chain([d]).collect()
     };
-    let voussoirs = (0..n).map(|i| if 2 * i + 1 >= n { right(i) } else { reflect(&right(n - 1 - i)) }).collect();
+    let voussoirs = (0..n)
+        .map(|i| if 2 * i + 1 >= n { right(i) } else { reflect(&right(n - 1 - i)) })
+        .collect();
     let angle = half_deg + (2.0 * half_deg / n as f64).min((180.0 - half_deg) / 2.0);
-    Ok(Section { voussoirs, springers: both(continued(*midline, angle, thickness, springing)), springing })
+    Ok(Section {
+        voussoirs,
+        springers: both(continued(*midline, angle, thickness, springing)),
+        springing,
+    })
 }
 
-/// The right springer of a circular arch: a voussoir from the springing to `angle` degrees from the crown.
+/// The right springer of a circular arch: a voussoir from the springing to `angle` degrees from the
+/// crown.
 fn continued(midline: Midline, angle: f64, thickness: f64, [b, c]: Joint) -> Vec<Point> {
     let circle = match midline {
         Midline::Circular { radius, .. } => Midline::Circular { radius, half_deg: angle },
@@ -240,8 +291,14 @@ fn continued(midline: Midline, angle: f64, thickness: f64, [b, c]: Joint) -> Vec
     vec![b, inner, outer, c]
 }
 
-/// Buttresses under a horizontal springing, inner face flush with the intrados: left, right, and the ground under both.
-fn under(place: &Place, buttresses: &Buttresses, springing: Joint, thickness: f64) -> Result<[Vec<Point>; 3], InputError> {
+/// Buttresses under a horizontal springing, inner face flush with the intrados: left, right, and
+/// the ground under both.
+fn under(
+    place: &Place,
+    buttresses: &Buttresses,
+    springing: Joint,
+    thickness: f64,
+) -> Result<[Vec<Point>; 3], InputError> {
     let inner_place = Place(place.0.key("buttresses"));
     inner_place.length("width", buttresses.width)?;
     inner_place.length("height", buttresses.height)?;

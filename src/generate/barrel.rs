@@ -1,4 +1,5 @@
-//! The barrel vault: the section of an arch drawn out along y, every other strip moved by half a block.
+//! The barrel vault: the section of an arch drawn out along y, every other strip moved by half a
+//! block.
 
 use super::{arch::radial_section, check::Place, digits, midline::Fields, support};
 use crate::{
@@ -30,7 +31,8 @@ pub fn blocks(barrel: &Barrel) -> Result<Vec<BlockSpec>, InputError> {
         for (k, ends) in cuts(barrel.courses, i % 2 == 1).windows(2).enumerate() {
             // Ends in half blocks from the middle of the vault.
             let half = barrel.depth / (2 * barrel.courses) as f64;
-            let shape = Shape::Prism { polygon: polygon.clone(), depth: (ends[1] - ends[0]) * half };
+            let shape =
+                Shape::Prism { polygon: polygon.clone(), depth: (ends[1] - ends[0]) * half };
             blocks.push(BlockSpec {
                 at: [0.0, (ends[0] + ends[1]) / 2.0 * half, 0.0],
                 ..BlockSpec::new(format!("v{i:0across$}_{k:0along$}"), shape)

@@ -1,8 +1,10 @@
 //! The dome: rings of blocks between two spheres.
 //!
-//! A block lies between two meridian planes and two bed cones. Its corners are the points of both spheres there. The corners of a bed joint, two on each
-//! sphere at the same angle from the axis, form an isosceles trapezium; so do those of the intrados and of the extrados; those of a meridian joint lie
-//! in the meridian plane. So all six faces are plane and neighbours share their joints exactly.
+//! A block lies between two meridian planes and two bed cones. Its corners are the points of both
+//! spheres there. The corners of a bed joint, two on each sphere at the same angle from the axis,
+//! form an isosceles trapezium; so do those of the intrados and of the extrados; those of a
+//! meridian joint lie in the meridian plane. So all six faces are plane and neighbours share their
+//! joints exactly.
 
 use super::{
     angle::{cos_deg, sin_deg},
@@ -24,7 +26,10 @@ pub fn blocks(dome: &Dome) -> Result<Vec<BlockSpec>, InputError> {
         // The last bed is the edge of the oculus, or the keystone's, to the last bit.
         let high = if r + 1 == dome.rings { top } else { springing - (r + 1) as f64 * step };
         for k in 0..dome.segments {
-            blocks.push(BlockSpec::new(format!("r{r:0rings$}_{k:0segments$}"), voussoir(dome, low, high, k)));
+            blocks.push(BlockSpec::new(
+                format!("r{r:0rings$}_{k:0segments$}"),
+                voussoir(dome, low, high, k),
+            ));
         }
     }
     if dome.oculus_deg.is_none() {
@@ -32,7 +37,8 @@ pub fn blocks(dome: &Dome) -> Result<Vec<BlockSpec>, InputError> {
     }
     let foot = springing + step.min((180.0 - springing) / 2.0);
     for k in 0..dome.segments {
-        blocks.push(support(format!("springer_{k:0segments$}"), voussoir(dome, foot, springing, k)));
+        blocks
+            .push(support(format!("springer_{k:0segments$}"), voussoir(dome, foot, springing, k)));
     }
     Ok(blocks)
 }
@@ -60,7 +66,9 @@ fn check(place: &Place, dome: &Dome) -> Result<(f64, f64, f64), InputError> {
         ));
     }
     match dome.oculus_deg {
-        Some(oculus) if oculus > 0.0 && oculus < springing => Ok((springing, (springing - oculus) / dome.rings as f64, oculus)),
+        Some(oculus) if oculus > 0.0 && oculus < springing => {
+            Ok((springing, (springing - oculus) / dome.rings as f64, oculus))
+        }
         Some(oculus) => Err(place.error(
             "oculus_deg",
             format!("must lie between 0 and the springing at {springing}, got {oculus}"),
@@ -73,10 +81,15 @@ fn check(place: &Place, dome: &Dome) -> Result<(f64, f64, f64), InputError> {
     }
 }
 
-/// The point of a sphere at an angle from the axis and on meridian `k`; the meridians are symmetric about y = 0.
+/// The point of a sphere at an angle from the axis and on meridian `k`; the meridians are symmetric
+/// about y = 0.
 fn point(dome: &Dome, radius: f64, polar: f64, k: usize) -> [f64; 3] {
     let (k, n) = (k % dome.segments, dome.segments);
-    let azimuth = if 2 * k > n { -(360.0 * ((n - k) as f64 / n as f64)) } else { 360.0 * (k as f64 / n as f64) };
+    let azimuth = if 2 * k > n {
+        -(360.0 * ((n - k) as f64 / n as f64))
+    } else {
+        360.0 * (k as f64 / n as f64)
+    };
     let r = radius * sin_deg(polar);
     [r * cos_deg(azimuth), r * sin_deg(azimuth), radius * cos_deg(polar)]
 }
@@ -87,15 +100,25 @@ fn radii(dome: &Dome) -> [f64; 2] {
 
 /// The block between two bed joints and the meridians k and k + 1.
 fn voussoir(dome: &Dome, low: f64, high: f64, k: usize) -> Shape {
-    let corners = |r| [point(dome, r, low, k), point(dome, r, low, k + 1), point(dome, r, high, k + 1), point(dome, r, high, k)];
+    let corners = |r| {
+        [
+            point(dome, r, low, k),
+            point(dome, r, low, k + 1),
+            point(dome, r, high, k + 1),
+            point(dome, r, high, k),
+        ]
+    };
     Shape::Polyhedron {
         vertices: radii(dome).into_iter().flat_map(corners).collect(),
         // Intrados, extrados, lower bed, upper bed, the two meridian joints.
-        faces: [[3, 2, 1, 0], [4, 5, 6, 7], [0, 1, 5, 4], [7, 6, 2, 3], [4, 7, 3, 0], [5, 1, 2, 6]].map(Vec::from).into(),
+        faces: [[3, 2, 1, 0], [4, 5, 6, 7], [0, 1, 5, 4], [7, 6, 2, 3], [4, 7, 3, 0], [5, 1, 2, 6]]
+            .map(Vec::from)
+            .into(),
     }
 }
 
-/// The block that closes the dome above the bed joint at `edge`: a polygonal plug with plane top and bottom.
+/// The block that closes the dome above the bed joint at `edge`: a polygonal plug with plane top
+/// and bottom.
 fn keystone(dome: &Dome, edge: f64) -> Shape {
     let n = dome.segments;
     let sides = (0..n).map(|k| {
@@ -103,7 +126,10 @@ fn keystone(dome: &Dome, edge: f64) -> Shape {
         vec![n + next, n + k, k, next]
     });
     Shape::Polyhedron {
-        vertices: radii(dome).into_iter().flat_map(|r| (0..n).map(move |k| point(dome, r, edge, k))).collect(),
+        vertices: radii(dome)
+            .into_iter()
+            .flat_map(|r| (0..n).map(move |k| point(dome, r, edge, k)))
+            .collect(),
         faces: [(0..n).rev().collect(), (n..2 * n).collect()].into_iter().chain(sides).collect(),
     }
 }

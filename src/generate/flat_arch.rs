@@ -1,4 +1,5 @@
-//! The flat arch: voussoirs between two horizontal lines, joints vertical or through one point below.
+//! The flat arch: voussoirs between two horizontal lines, joints vertical or through one point
+//! below.
 
 use super::{check::Place, numbered, support};
 use crate::{
@@ -25,7 +26,8 @@ pub fn blocks(arch: &FlatArch) -> Result<Vec<BlockSpec>, InputError> {
         }
     };
     let n = arch.voussoirs;
-    // A joint that crosses mid-height at x meets the intrados at x (1 − slope) and the extrados at x (1 + slope).
+    // A joint that crosses mid-height at x meets the intrados at x (1 − slope) and the extrados at
+    // x (1 + slope).
     let joint = |j: usize| {
         let x = arch.span / 2.0 * ((2.0 * j as f64 - n as f64) / n as f64);
         [[x * (1.0 - slope), 0.0], [x * (1.0 + slope), arch.height]]

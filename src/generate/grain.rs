@@ -1,9 +1,10 @@
-//! The shapes of grains. Whatever its shape, a grain of radius R has the volume of the sphere of radius R.
+//! The shapes of grains. Whatever its shape, a grain of radius R has the volume of the sphere of
+//! radius R.
 //!
-//! * *Clump*: two equal spheres of radius ρ, centres `2 ρ (e − 1)` apart, so that length over width is the elongation e. Sphere, sphere less
-//!   lens: `V = π ρ³ (8/3 − 2/3 (1 + e) (2 − e)²)`.
-//! * *Hull*: the convex hull of points at random, and not too close to each other, on an ellipsoid with the axes `1 : m : e`, m between 1 and
-//!   e at random.
+//! * *Clump*: two equal spheres of radius ρ, centres `2 ρ (e − 1)` apart, so that length over width
+//!   is the elongation e. Sphere, sphere less lens: `V = π ρ³ (8/3 − 2/3 (1 + e) (2 − e)²)`.
+//! * *Hull*: the convex hull of points at random, and not too close to each other, on an ellipsoid
+//!   with the axes `1 : m : e`, m between 1 and e at random.
 //!
 //! Clumps and hulls lie turned at random, evenly over all orientations (Shoemake 1992).
 //!
@@ -15,8 +16,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Tries for a point of a hull.
 const TRIES: usize = 200;
-/// Least distance of two points on the sphere before it is stretched, over that of as many points spread evenly. Larger: hulls look alike.
-/// Smaller: needles among the faces.
+/// Least distance of two points on the sphere before it is stretched, over that of as many points
+/// spread evenly. Larger: hulls look alike. Smaller: needles among the faces.
 const APART: f64 = 0.5;
 
 /// A shape of unit radius with an orientation.
@@ -32,22 +33,43 @@ impl Grain {
     pub fn new(protocol: &Protocol, random: &mut Random) -> Self {
         let e = protocol.elongation;
         match protocol.grain {
-            GrainKind::Sphere => Self { shape: Shape::Sphere { radius: 1.0 }, rotation: None, reach: 1.0 },
+            GrainKind::Sphere => {
+                Self { shape: Shape::Sphere { radius: 1.0 }, rotation: None, reach: 1.0 }
+            }
             GrainKind::Clump => {
                 let volume = 8.0 / 3.0 - 2.0 / 3.0 * (1.0 + e) * (2.0 - e).powi(2);
                 let radius = (4.0 / 3.0 / volume).cbrt();
-                let spheres = [-1.0, 1.0].map(|side| Ball { at: [0.0, 0.0, side * radius * (e - 1.0)], radius }).to_vec();
-                Self { shape: Shape::Clump { spheres }, rotation: Some(turn(random)), reach: radius * e }
+                let spheres = [-1.0, 1.0]
+                    .map(|side| Ball { at: [0.0, 0.0, side * radius * (e - 1.0)], radius })
+                    .to_vec();
+                Self {
+                    shape: Shape::Clump { spheres },
+                    rotation: Some(turn(random)),
+                    reach: radius * e,
+                }
             }
             GrainKind::Hull => {
                 let axes = [1.0, random.between(1.0, e), e];
                 // Four points in a plane have no hull; other ones have.
-                let hull = std::iter::repeat_with(|| hull(&points(protocol.corners, axes, random))).take(TRIES).flatten().next();
+                let hull = std::iter::repeat_with(|| hull(&points(protocol.corners, axes, random)))
+                    .take(TRIES)
+                    .flatten()
+                    .next();
                 let rotation = Some(turn(random));
-                let Some(hull) = hull else { return Self { shape: Shape::Sphere { radius: 1.0 }, rotation: None, reach: 1.0 } };
+                let Some(hull) = hull else {
+                    return Self {
+                        shape: Shape::Sphere { radius: 1.0 },
+                        rotation: None,
+                        reach: 1.0,
+                    };
+                };
                 let scale = (4.0 / 3.0 * PI / hull.volume).cbrt();
-                let vertices: Vec<[f64; 3]> = hull.vertices.iter().map(|v| v.map(|c| c * scale)).collect();
-                let reach = vertices.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).fold(0.0, f64::max);
+                let vertices: Vec<[f64; 3]> =
+                    hull.vertices.iter().map(|v| v.map(|c| c * scale)).collect();
+                let reach = vertices
+                    .iter()
+                    .map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt())
+                    .fold(0.0, f64::max);
                 Self { shape: Shape::Polyhedron { vertices, faces: hull.faces }, rotation, reach }
             }
         }
@@ -57,12 +79,16 @@ impl Grain {
     pub fn of_radius(&self, radius: f64) -> (Shape, Option<Rotation>) {
         let scaled = |p: &[f64; 3]| p.map(|c| c * radius);
         let shape = match &self.shape {
-            Shape::Clump { spheres } => {
-                Shape::Clump { spheres: spheres.iter().map(|b| Ball { at: scaled(&b.at), radius: b.radius * radius }).collect() }
-            }
-            Shape::Polyhedron { vertices, faces } => {
-                Shape::Polyhedron { vertices: vertices.iter().map(scaled).collect(), faces: faces.clone() }
-            }
+            Shape::Clump { spheres } => Shape::Clump {
+                spheres: spheres
+                    .iter()
+                    .map(|b| Ball { at: scaled(&b.at), radius: b.radius * radius })
+                    .collect(),
+            },
+            Shape::Polyhedron { vertices, faces } => Shape::Polyhedron {
+                vertices: vertices.iter().map(scaled).collect(),
+                faces: faces.clone(),
+            },
             _ => Shape::Sphere { radius },
         };
         (shape, self.rotation.clone())
@@ -74,7 +100,9 @@ fn points(count: usize, axes: [f64; 3], random: &mut Random) -> Vec<[f64; 3]> {
     let apart = APART * (4.0 * PI / count as f64).sqrt();
     let mut list: Vec<[f64; 3]> = Vec::with_capacity(count);
     for _ in 0..count {
-        let far = |p: &[f64; 3]| list.iter().all(|q| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>() >= apart * apart);
+        let far = |p: &[f64; 3]| {
+            list.iter().all(|q| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>() >= apart * apart)
+        };
         let mut point = direction(random);
         for _ in 0..TRIES {
             if far(&point) {

@@ -18,7 +18,8 @@ pub fn hull(points: &[[f64; 3]]) -> Option<Hull> {
     let (corners, triangles) = try_convex_hull(&points).ok()?;
     let mass = MassProperties::from_convex_polyhedron(1.0, &corners, &triangles);
     let (middle, volume) = (mass.local_com, mass.mass());
-    let vertices = corners.iter().map(|c| [c.x - middle.x, c.y - middle.y, c.z - middle.z]).collect();
+    let vertices =
+        corners.iter().map(|c| [c.x - middle.x, c.y - middle.y, c.z - middle.z]).collect();
     let faces = triangles.iter().map(|t| t.map(|k| k as usize).to_vec()).collect();
     (volume > 0.0).then_some(Hull { vertices, faces, volume })
 }

@@ -1,6 +1,8 @@
-//! Mid-lines of arches and vaults: which fields give them, their joints, their height over the springing.
+//! Mid-lines of arches and vaults: which fields give them, their joints, their height over the
+//! springing.
 //!
-//! A place on the mid-line is named by u from −1 (left springing) over 0 (crown) to 1 (right springing). Only u ≥ 0 is computed.
+//! A place on the mid-line is named by u from −1 (left springing) over 0 (crown) to 1 (right
+//! springing). Only u ≥ 0 is computed.
 
 use super::{
     angle::{cos_deg, sin_deg},
@@ -27,7 +29,8 @@ pub struct Fields {
     pub intrados_rise: Option<f64>,
     /// Between intrados and extrados, m.
     pub thickness: f64,
-    /// Whether intrados and extrados are the mid-line moved down and up; otherwise they run along its normals.
+    /// Whether intrados and extrados are the mid-line moved down and up; otherwise they run along
+    /// its normals.
     pub sheared: bool,
 }
 
@@ -76,7 +79,10 @@ impl Fields {
                 self.refuse_with_span(place, "embrace_deg", self.embrace_deg)?;
                 // Inscribed angle: the springing sees the crown under half the half embrace angle.
                 let half_deg = 2.0 * rise.atan2(half_span).to_degrees();
-                Ok(Midline::Circular { radius: (half_span * half_span / rise + rise) / 2.0, half_deg })
+                Ok(Midline::Circular {
+                    radius: (half_span * half_span / rise + rise) / 2.0,
+                    half_deg,
+                })
             }
             Profile::Pointed => {
                 let (half_span, rise) = self.half_span_and_rise(place)?;
@@ -84,13 +90,18 @@ impl Fields {
                 if rise < half_span {
                     return Err(place.error(
                         "rise",
-                        format!("a pointed arch rises at least half its span ({half_span}), got {rise}"),
+                        format!(
+                            "a pointed arch rises at least half its span ({half_span}), got {rise}"
+                        ),
                         "use profile circular or elliptical for a lower arch",
                     ));
                 }
                 // R − e = half span, R² − e² = rise².
                 let sum = rise / half_span * rise;
-                Ok(Midline::Pointed { radius: (sum + half_span) / 2.0, eccentricity: (sum - half_span) / 2.0 })
+                Ok(Midline::Pointed {
+                    radius: (sum + half_span) / 2.0,
+                    eccentricity: (sum - half_span) / 2.0,
+                })
             }
             Profile::Elliptical => {
                 self.refuse(place, "radius", self.radius)?;
@@ -108,26 +119,48 @@ impl Fields {
     /// The mid-line half the thickness outside a given intrados.
     fn of_intrados(&self, place: &Place) -> Result<Midline, InputError> {
         let (Some(span), Some(rise)) = (self.intrados_span, self.intrados_rise) else {
-            let field = if self.intrados_span.is_none() { "intrados_span" } else { "intrados_rise" };
-            return Err(place.error(field, "missing", format!("{} is given by both span and rise of its intrados", self.called())));
+            let field =
+                if self.intrados_span.is_none() { "intrados_span" } else { "intrados_rise" };
+            return Err(place.error(
+                field,
+                "missing",
+                format!("{} is given by both span and rise of its intrados", self.called()),
+            ));
         };
         for (field, value) in [("radius", self.radius), ("span", self.span), ("rise", self.rise)] {
             if value.is_some() {
-                let text = "is that of the mid-line, which intrados_span and intrados_rise already give";
-                return Err(place.error(field, text, format!("leave {field} out, or both of the intrados")));
+                let text =
+                    "is that of the mid-line, which intrados_span and intrados_rise already give";
+                return Err(place.error(
+                    field,
+                    text,
+                    format!("leave {field} out, or both of the intrados"),
+                ));
             }
         }
         place.length("thickness", self.thickness)?;
-        let own = Self { span: Some(span), rise: Some(rise), intrados_span: None, intrados_rise: None, ..*self };
+        let own = Self {
+            span: Some(span),
+            rise: Some(rise),
+            intrados_span: None,
+            intrados_rise: None,
+            ..*self
+        };
         let intrados = own.resolve(place)?;
         let half = self.thickness / 2.0;
         Ok(match intrados {
             same if self.sheared => same,
             // Circles keep their centres.
-            Midline::Circular { radius, half_deg } => Midline::Circular { radius: radius + half, half_deg },
-            Midline::Pointed { radius, eccentricity } => Midline::Pointed { radius: radius + half, eccentricity },
+            Midline::Circular { radius, half_deg } => {
+                Midline::Circular { radius: radius + half, half_deg }
+            }
+            Midline::Pointed { radius, eccentricity } => {
+                Midline::Pointed { radius: radius + half, eccentricity }
+            }
             // The joints at the ends are level, the one at the crown is upright.
-            Midline::Elliptical { half_span, rise } => Midline::Elliptical { half_span: half_span + half, rise: rise + half },
+            Midline::Elliptical { half_span, rise } => {
+                Midline::Elliptical { half_span: half_span + half, rise: rise + half }
+            }
             Midline::Parabolic { half_span, rise } => parabola_over(half_span, rise, half),
         })
     }
@@ -136,7 +169,11 @@ impl Fields {
         let radius = self.radius.unwrap_or_default();
         let embrace = self.embrace_deg.unwrap_or(180.0);
         if !(embrace > 0.0 && embrace < 360.0) {
-            return Err(place.error("embrace_deg", format!("must lie between 0 and 360, got {embrace}"), "180 is a semicircle"));
+            return Err(place.error(
+                "embrace_deg",
+                format!("must lie between 0 and 360, got {embrace}"),
+                "180 is a semicircle",
+            ));
         }
         Ok(Midline::Circular { radius, half_deg: embrace / 2.0 })
     }
@@ -150,19 +187,27 @@ impl Fields {
                 format!("must lie between 0 and the radius {radius}, got {e}"),
                 "the right half is centred at x = −eccentricity; 0 is a semicircle",
             )),
-            None => Err(place.error("eccentricity", "missing", "a pointed arch needs it with radius, or span and rise in place of both")),
+            None => Err(place.error(
+                "eccentricity",
+                "missing",
+                "a pointed arch needs it with radius, or span and rise in place of both",
+            )),
         }
     }
 
     /// Whether a circular or pointed arch is given by its radius; otherwise it is by span and rise.
     fn by_radius(&self, place: &Place) -> Result<bool, InputError> {
         match (self.radius, self.span.or(self.rise)) {
-            (Some(_), Some(_)) => {
-                Err(place.error("radius", "excludes span and rise", "give the radius, or span and rise of the mid-line, not both"))
-            }
-            (None, None) => {
-                Err(place.error("radius", "missing", "give radius, or span and rise of the mid-line, or intrados_span and intrados_rise"))
-            }
+            (Some(_), Some(_)) => Err(place.error(
+                "radius",
+                "excludes span and rise",
+                "give the radius, or span and rise of the mid-line, not both",
+            )),
+            (None, None) => Err(place.error(
+                "radius",
+                "missing",
+                "give radius, or span and rise of the mid-line, or intrados_span and intrados_rise",
+            )),
             (radius, _) => Ok(radius.is_some()),
         }
     }
@@ -173,7 +218,10 @@ impl Fields {
             (span, _) => Err(place.error(
                 if span.is_none() { "span" } else { "rise" },
                 "missing",
-                format!("{} needs span and rise of the mid-line (or intrados_span and intrados_rise)", self.called()),
+                format!(
+                    "{} needs span and rise of the mid-line (or intrados_span and intrados_rise)",
+                    self.called()
+                ),
             )),
         }
     }
@@ -196,21 +244,33 @@ impl Fields {
             Profile::Pointed => "radius and eccentricity, or span and rise",
             Profile::Elliptical | Profile::Parabolic => "span and rise",
         };
-        Err(place.error(field, format!("{} has no {field}", self.called()), format!("it is given by {uses}")))
+        Err(place.error(
+            field,
+            format!("{} has no {field}", self.called()),
+            format!("it is given by {uses}"),
+        ))
     }
 
-    fn refuse_with_span(&self, place: &Place, field: &str, value: Option<f64>) -> Result<(), InputError> {
+    fn refuse_with_span(
+        &self,
+        place: &Place,
+        field: &str,
+        value: Option<f64>,
+    ) -> Result<(), InputError> {
         match value {
             None => Ok(()),
-            Some(_) => {
-                Err(place.error(field, format!("span and rise already give the arch; {field} excludes them"), format!("leave {field} out")))
-            }
+            Some(_) => Err(place.error(
+                field,
+                format!("span and rise already give the arch; {field} excludes them"),
+                format!("leave {field} out"),
+            )),
         }
     }
 }
 
 impl Midline {
-    /// The joint normal to the mid-line at u = (2j − n) / n, with half the thickness on either side.
+    /// The joint normal to the mid-line at u = (2j − n) / n, with half the thickness on either
+    /// side.
     pub fn radial_joint(&self, j: usize, n: usize, thickness: f64) -> Joint {
         mirrored(j, n, |u| [self.offset(u, -thickness / 2.0), self.offset(u, thickness / 2.0)])
     }
@@ -229,7 +289,9 @@ impl Midline {
         match *self {
             Midline::Circular { radius, half_deg } => radius * sin_deg(half_deg),
             Midline::Pointed { radius, eccentricity } => radius - eccentricity,
-            Midline::Elliptical { half_span, .. } | Midline::Parabolic { half_span, .. } => half_span,
+            Midline::Elliptical { half_span, .. } | Midline::Parabolic { half_span, .. } => {
+                half_span
+            }
         }
     }
 
@@ -263,13 +325,16 @@ impl Midline {
                 let (sin, cos) = (sin_deg(90.0 * u), cos_deg(90.0 * u));
                 along([a * sin, b * cos], [b * sin, a * cos], out)
             }
-            Midline::Parabolic { half_span: a, rise } => along([a * u, rise * (1.0 - u * u)], [2.0 * rise * u, a], out),
+            Midline::Parabolic { half_span: a, rise } => {
+                along([a * u, rise * (1.0 - u * u)], [2.0 * rise * u, a], out)
+            }
         }
     }
 }
 
-/// The parabola whose points, moved inwards by `half` along its normals, have their ends `half_span` from the axis and their crown `rise` above them: at the ends
-/// the normal leans by the slope of the parabola that is sought, so that its numbers are found by turns.
+/// The parabola whose points, moved inwards by `half` along its normals, have their ends
+/// `half_span` from the axis and their crown `rise` above them: at the ends the normal leans by the
+/// slope of the parabola that is sought, so that its numbers are found by turns.
 fn parabola_over(half_span: f64, rise: f64, half: f64) -> Midline {
     /// Each turn gains some digits: the normal turns by less than the ends move.
     const TURNS: usize = 100;

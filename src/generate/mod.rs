@@ -1,7 +1,8 @@
 //! Templates → blocks. One file per template.
 //!
-//! Everything here is plain geometry in SI units. Arches, flat arches and stacks are symmetric or stepped along x, with z up and the depth along y
-//! centred on y = 0. What is symmetric about x = 0 is so to the last bit: the right half is computed, the left half is its mirror image.
+//! Everything here is plain geometry in SI units. Arches, flat arches and stacks are symmetric or
+//! stepped along x, with z up and the depth along y centred on y = 0. What is symmetric about x = 0
+//! is so to the last bit: the right half is computed, the left half is its mirror image.
 
 mod angle;
 mod arch;
@@ -25,13 +26,15 @@ use crate::{
     scene::{BlockSpec, Shape, Template, template},
 };
 
-/// The most blocks one template may make. More is taken for a mistake (a count of 10⁹ would otherwise end in memory exhaustion).
+/// The most blocks one template may make. More is taken for a mistake (a count of 10⁹ would
+/// otherwise end in memory exhaustion).
 pub const MAX_BLOCKS: usize = crate::limits::BLOCKS;
 
 /// The blocks of a template, in order.
 ///
 /// # Errors
-/// A parameter is out of its range, or does not go with the others; the path is relative to the template (`arch.voussoirs`).
+/// A parameter is out of its range, or does not go with the others; the path is relative to the
+/// template (`arch.voussoirs`).
 pub fn expand(template: &Template) -> Result<Vec<BlockSpec>, InputError> {
     let (mut blocks, prefix, at, material) = match template {
         Template::Arch(t) => (arch::blocks(t)?, &t.prefix, t.at, &t.material),
@@ -45,15 +48,21 @@ pub fn expand(template: &Template) -> Result<Vec<BlockSpec>, InputError> {
     };
     let root = JsonPath::root().key(template.name());
     if at.iter().any(|c| !c.is_finite()) {
-        return Err(InputError::at(root.key("at"), format!("must be three finite numbers, got {at:?}")));
+        return Err(InputError::at(
+            root.key("at"),
+            format!("must be three finite numbers, got {at:?}"),
+        ));
     }
     for block in &mut blocks {
         block.id.insert_str(0, prefix);
         block.at = std::array::from_fn(|k| block.at[k] + at[k]);
         block.material.clone_from(material);
         if !is_finite(block) {
-            return Err(InputError::at(root, format!("block {:?} has coordinates beyond the range of numbers", block.id))
-                .hint("lengths are in m; use numbers of moderate size"));
+            return Err(InputError::at(
+                root,
+                format!("block {:?} has coordinates beyond the range of numbers", block.id),
+            )
+            .hint("lengths are in m; use numbers of moderate size"));
         }
     }
     Ok(blocks)
@@ -64,18 +73,21 @@ pub fn template_names() -> Vec<&'static str> {
     examples().iter().map(Template::name).collect()
 }
 
-/// A template with sensible values, as the scene file spells it: `{"column": {"blocks": 8, "size": [1, 1, 0.5]}}`.
-/// Optional fields are left out, and may be added; a field set to `null` counts as left out.
+/// A template with sensible values, as the scene file spells it: `{"column": {"blocks": 8, "size":
+/// [1, 1, 0.5]}}`. Optional fields are left out, and may be added; a field set to `null` counts as
+/// left out.
 pub fn default_template(name: &str) -> Option<serde_json::Value> {
     examples().iter().find(|t| t.name() == name).and_then(|t| serde_json::to_value(t).ok())
 }
 
-/// Takes out of the values of a template what excludes the keys that somebody chose, unless that was chosen as well: a span is no mistake
-/// because the template's own values have a radius.
+/// Takes out of the values of a template what excludes the keys that somebody chose, unless that
+/// was chosen as well: a span is no mistake because the template's own values have a radius.
 pub fn make_room(values: &mut serde_json::Map<String, serde_json::Value>, chosen: &[(&str, &str)]) {
     let is_chosen = |key: &str| chosen.iter().any(|(k, _)| *k == key);
     let by_span = ["span", "rise", "intrados_span", "intrados_rise"].into_iter().any(is_chosen)
-        || chosen.iter().any(|(key, value)| *key == "profile" && ["elliptical", "parabolic"].contains(value));
+        || chosen
+            .iter()
+            .any(|(key, value)| *key == "profile" && ["elliptical", "parabolic"].contains(value));
     for (own, excluded) in [("radius", by_span), ("shift", is_chosen("harmonic"))] {
         // A flat arch has a span of its own and no radius.
         if excluded && !is_chosen(own) {
@@ -84,10 +96,17 @@ pub fn make_room(values: &mut serde_json::Map<String, serde_json::Value>, chosen
     }
 }
 
-/// One template of each kind, of about the proportions of real ones; all of them stand with a friction of 0.7.
+/// One template of each kind, of about the proportions of real ones; all of them stand with a
+/// friction of 0.7.
 pub fn examples() -> Vec<Template> {
     vec![
-        Template::Arch(template::Arch { radius: Some(5.0), thickness: 0.8, depth: 1.0, voussoirs: 27, ..Default::default() }),
+        Template::Arch(template::Arch {
+            radius: Some(5.0),
+            thickness: 0.8,
+            depth: 1.0,
+            voussoirs: 27,
+            ..Default::default()
+        }),
         Template::Barrel(template::Barrel {
             radius: Some(3.0),
             thickness: 0.45,
@@ -96,8 +115,18 @@ pub fn examples() -> Vec<Template> {
             courses: 6,
             ..Default::default()
         }),
-        Template::Column(template::Column { blocks: 8, size: [1.0, 1.0, 0.5], ..Default::default() }),
-        Template::Dome(template::Dome { radius: 5.0, thickness: 0.5, rings: 8, segments: 24, ..Default::default() }),
+        Template::Column(template::Column {
+            blocks: 8,
+            size: [1.0, 1.0, 0.5],
+            ..Default::default()
+        }),
+        Template::Dome(template::Dome {
+            radius: 5.0,
+            thickness: 0.5,
+            rings: 8,
+            segments: 24,
+            ..Default::default()
+        }),
         Template::FlatArch(template::FlatArch {
             span: 3.0,
             height: 0.8,
@@ -107,8 +136,18 @@ pub fn examples() -> Vec<Template> {
             ..Default::default()
         }),
         Template::Lattice(template::Lattice { radius: 0.01, layers: 4, ..Default::default() }),
-        Template::Stack(template::Stack { blocks: 10, size: [1.0, 1.0, 0.2], shift: Some(0.05), ..Default::default() }),
-        Template::Wall(template::Wall { size: [1.0, 0.5, 0.4], courses: 8, blocks: 10, ..Default::default() }),
+        Template::Stack(template::Stack {
+            blocks: 10,
+            size: [1.0, 1.0, 0.2],
+            shift: Some(0.05),
+            ..Default::default()
+        }),
+        Template::Wall(template::Wall {
+            size: [1.0, 0.5, 0.4],
+            courses: 8,
+            blocks: 10,
+            ..Default::default()
+        }),
     ]
 }
 
@@ -117,7 +156,9 @@ fn is_finite(block: &BlockSpec) -> bool {
     all(&block.at)
         && match &block.shape {
             Shape::Cuboid { size } => all(size),
-            Shape::Polyhedron { vertices, .. } | Shape::Mesh { vertices, .. } => vertices.iter().all(|v| all(v)),
+            Shape::Polyhedron { vertices, .. } | Shape::Mesh { vertices, .. } => {
+                vertices.iter().all(|v| all(v))
+            }
             Shape::Prism { polygon, depth } => depth.is_finite() && polygon.iter().all(|p| all(p)),
             Shape::Sphere { radius } => radius.is_finite(),
             Shape::Clump { spheres } => spheres.iter().all(|b| all(&b.at) && b.radius.is_finite()),

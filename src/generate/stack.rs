@@ -1,4 +1,5 @@
-//! The stack: equal boxes, each shifted against the one below by a constant, or so that all joints are equally near to tipping.
+//! The stack: equal boxes, each shifted against the one below by a constant, or so that all joints
+//! are equally near to tipping.
 
 use super::{check::Place, numbered, support};
 use crate::{
@@ -22,9 +23,19 @@ pub fn blocks(stack: &Stack) -> Result<Vec<BlockSpec>, InputError> {
             place.finite("harmonic", scale)?;
             ([-2.0 * length, 0.0], harmonic(stack.blocks, length, scale))
         }
-        (Some(_), Some(_)) => return Err(place.error("harmonic", "shift and harmonic exclude each other", "leave one of them out")),
+        (Some(_), Some(_)) => {
+            return Err(place.error(
+                "harmonic",
+                "shift and harmonic exclude each other",
+                "leave one of them out",
+            ));
+        }
         (None, None) => {
-            return Err(place.error("shift", "missing", "give shift (m per block) or harmonic (1 is the critical overhang)"));
+            return Err(place.error(
+                "shift",
+                "missing",
+                "give shift (m per block) or harmonic (1 is the critical overhang)",
+            ));
         }
     };
     let base = BlockSpec {
@@ -38,7 +49,8 @@ pub fn blocks(stack: &Stack) -> Result<Vec<BlockSpec>, InputError> {
     Ok(std::iter::once(base).chain(free).collect())
 }
 
-/// Left ends of the blocks from the bottom up: the right end of block k, counted from the top, is at scale × length × Σ_{j=k}^{n} 1/(2j).
+/// Left ends of the blocks from the bottom up: the right end of block k, counted from the top, is
+/// at scale × length × Σ_{j=k}^{n} 1/(2j).
 fn harmonic(blocks: usize, length: f64, scale: f64) -> Vec<f64> {
     let mut sum = 0.0;
     (1..=blocks)

@@ -1,6 +1,7 @@
 //! The wall: running bond, cut by its ends and openings.
 //!
-//! Positions along the wall are counted in block lengths, so that the joints of the bond are exact halves.
+//! Positions along the wall are counted in block lengths, so that the joints of the bond are exact
+//! halves.
 
 use super::{check::Place, digits, support};
 use crate::{
@@ -24,7 +25,10 @@ pub fn blocks(wall: &Wall) -> Result<Vec<BlockSpec>, InputError> {
     let holes = check(&place, wall)?;
     let [length, depth, height] = wall.size;
     let cuboid = |x: &Range<f64>, z: f64| {
-        (Shape::Cuboid { size: [(x.end - x.start) * length, depth, height] }, [(x.start + x.end) / 2.0 * length, 0.0, z * height])
+        (
+            Shape::Cuboid { size: [(x.end - x.start) * length, depth, height] },
+            [(x.start + x.end) / 2.0 * length, 0.0, z * height],
+        )
     };
     let foot = 0.0..wall.blocks as f64;
     let mut blocks = Vec::new();
@@ -36,17 +40,24 @@ pub fn blocks(wall: &Wall) -> Result<Vec<BlockSpec>, InputError> {
         WallBase::Course => {
             for (k, x) in cut(&foot, moved(wall, 1), &[]).iter().enumerate() {
                 let (shape, at) = cuboid(x, -0.5);
-                blocks.push(BlockSpec { at, ..support(format!("base_{k:0width$}", width = digits(wall.blocks + 1)), shape) });
+                blocks.push(BlockSpec {
+                    at,
+                    ..support(format!("base_{k:0width$}", width = digits(wall.blocks + 1)), shape)
+                });
             }
         }
         WallBase::None => {}
     }
     let (course_digits, block_digits) = (digits(wall.courses), digits(wall.blocks + 1));
     for course in 0..wall.courses {
-        let holes: Vec<_> = holes.iter().filter(|h| h.courses.contains(&course)).map(|h| &h.x).collect();
+        let holes: Vec<_> =
+            holes.iter().filter(|h| h.courses.contains(&course)).map(|h| &h.x).collect();
         for (k, x) in cut(&ends(wall, course), moved(wall, course), &holes).iter().enumerate() {
             let (shape, at) = cuboid(x, course as f64 + 0.5);
-            blocks.push(BlockSpec { at, ..BlockSpec::new(format!("c{course:0course_digits$}_{k:0block_digits$}"), shape) });
+            blocks.push(BlockSpec {
+                at,
+                ..BlockSpec::new(format!("c{course:0course_digits$}_{k:0block_digits$}"), shape)
+            });
         }
     }
     Ok(blocks)
@@ -75,7 +86,11 @@ fn check(place: &Place, wall: &Wall) -> Result<Vec<Hole>, InputError> {
             "give fewer courses, more blocks or less rake",
         ));
     }
-    wall.openings.iter().enumerate().map(|(i, opening)| hole(place.0.key("openings").index(i), wall, opening)).collect()
+    wall.openings
+        .iter()
+        .enumerate()
+        .map(|(i, opening)| hole(place.0.key("openings").index(i), wall, opening))
+        .collect()
 }
 
 /// An opening in block lengths and courses.
@@ -129,9 +144,12 @@ fn snap(x: f64) -> f64 {
 /// The blocks of a course between its ends, without what lies in the holes.
 fn cut(ends: &Range<f64>, moved: bool, holes: &[&Range<f64>]) -> Vec<Range<f64>> {
     let offset = if moved { 0.5 } else { 0.0 };
-    let grid = ((ends.start - offset).floor() as i64..=(ends.end - offset).ceil() as i64).map(|k| k as f64 + offset);
-    let mut marks: Vec<f64> =
-        grid.chain(holes.iter().flat_map(|h| [h.start, h.end])).filter(|x| *x > ends.start && *x < ends.end).collect();
+    let grid = ((ends.start - offset).floor() as i64..=(ends.end - offset).ceil() as i64)
+        .map(|k| k as f64 + offset);
+    let mut marks: Vec<f64> = grid
+        .chain(holes.iter().flat_map(|h| [h.start, h.end]))
+        .filter(|x| *x > ends.start && *x < ends.end)
+        .collect();
     marks.extend([ends.start, ends.end]);
     marks.sort_by(f64::total_cmp);
     marks.dedup_by(|b, a| *b - *a <= GRID_SNAP);

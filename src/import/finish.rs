@@ -33,10 +33,15 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
         findings.extend(file.findings);
         scene.materials.extend(file.materials);
         for mut block in file.blocks {
-            place(&mut block.vertices, options).map_err(|v| beyond(&file.origin, &block.id, v, options))?;
+            place(&mut block.vertices, options)
+                .map_err(|v| beyond(&file.origin, &block.id, v, options))?;
             origins.push(Origin { file: file.name.clone(), line: block.line, lines: block.lines });
             let shape = Shape::Polyhedron { vertices: block.vertices, faces: block.faces };
-            scene.blocks.push(BlockSpec { support: block.support, material: block.material, ..BlockSpec::new(block.id, shape) });
+            scene.blocks.push(BlockSpec {
+                support: block.support,
+                material: block.material,
+                ..BlockSpec::new(block.id, shape)
+            });
         }
         if !options.stored_interfaces {
             unwanted += file.interfaces.len();
@@ -44,7 +49,8 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
         }
         with_forces += file.with_forces;
         for mut interface in file.interfaces {
-            place(&mut interface.points, options).map_err(|v| beyond(&file.origin, &interface.between.join("–"), v, options))?;
+            place(&mut interface.points, options)
+                .map_err(|v| beyond(&file.origin, &interface.between.join("–"), v, options))?;
             interface.normal = interface.normal.map(|n| options.up.rotate(n));
             scene.interfaces.push(interface);
         }
@@ -77,7 +83,8 @@ fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
             number += 1;
         }
         // Where the only block of a file bears the file's name, that name is enough.
-        let rename = |id: &str| if id == file.stem { prefix.clone() } else { format!("{prefix}-{id}") };
+        let rename =
+            |id: &str| if id == file.stem { prefix.clone() } else { format!("{prefix}-{id}") };
         file.blocks.iter_mut().for_each(|b| b.id = rename(&b.id));
         for end in file.interfaces.iter_mut().flat_map(|i| &mut i.between) {
             *end = rename(end);
@@ -85,11 +92,16 @@ fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
         prefixes.push(prefix);
     }
     if let Some(still) = self::clash(files) {
-        return Err(
-            InputError::at(JsonPath::root(), format!("two files lead to the same block id {still:?}")).hint("rename one of the files")
-        );
+        return Err(InputError::at(
+            JsonPath::root(),
+            format!("two files lead to the same block id {still:?}"),
+        )
+        .hint("rename one of the files"));
     }
-    let text = format!("two files have a block {clash:?}: the ids of every file got its name in front ({})", list(&prefixes));
+    let text = format!(
+        "two files have a block {clash:?}: the ids of every file got its name in front ({})",
+        list(&prefixes)
+    );
     Ok(vec![Finding::new(FindingCode::Converted, text)])
 }
 
@@ -121,7 +133,10 @@ fn name_materials_apart(files: &mut [Raw]) {
 
 /// Where the scene comes from, in words.
 fn source(files: &[Raw], options: &ImportOptions) -> String {
-    let mut text = format!("imported from {}", files.iter().map(|f| f.origin.as_str()).collect::<Vec<_>>().join(", "));
+    let mut text = format!(
+        "imported from {}",
+        files.iter().map(|f| f.origin.as_str()).collect::<Vec<_>>().join(", ")
+    );
     if options.scale != 1.0 {
         text.push_str(&format!("; coordinates × {}", options.scale));
     }
@@ -148,22 +163,33 @@ fn place(points: &mut [[f64; 3]], options: &ImportOptions) -> Result<(), f64> {
 }
 
 fn beyond(origin: &str, what: &str, value: f64, options: &ImportOptions) -> InputError {
-    let message = format!("{origin}: {what:?} has the coordinate {value} after multiplication by {}", options.scale);
-    InputError::at(JsonPath::root(), message).hint("look for damaged coordinates, or choose a smaller scale")
+    let message = format!(
+        "{origin}: {what:?} has the coordinate {value} after multiplication by {}",
+        options.scale
+    );
+    InputError::at(JsonPath::root(), message)
+        .hint("look for damaged coordinates, or choose a smaller scale")
 }
 
 /// Supports by name and by height, and a word where there is none.
-fn supports(scene: &mut Scene, options: &ImportOptions, findings: &mut Vec<Finding>) -> Result<(), InputError> {
+fn supports(
+    scene: &mut Scene,
+    options: &ImportOptions,
+    findings: &mut Vec<Finding>,
+) -> Result<(), InputError> {
     for id in &options.supports {
         let Some(block) = scene.blocks.iter_mut().find(|b| b.id == *id) else {
             let known: Vec<String> = scene.blocks.iter().map(|b| format!("{:?}", b.id)).collect();
-            return Err(
-                InputError::at(JsonPath::root(), format!("support {id:?}: no such block")).hint(format!("the blocks are {}", list(&known)))
-            );
+            return Err(InputError::at(JsonPath::root(), format!("support {id:?}: no such block"))
+                .hint(format!("the blocks are {}", list(&known))));
         };
         block.support = true;
     }
-    let lows: Vec<f64> = scene.blocks.iter().map(|b| corners(&b.shape).map(|p| p[2]).fold(f64::INFINITY, f64::min)).collect();
+    let lows: Vec<f64> = scene
+        .blocks
+        .iter()
+        .map(|b| corners(&b.shape).map(|p| p[2]).fold(f64::INFINITY, f64::min))
+        .collect();
     if let Some(height) = options.support_below {
         let mut count = 0;
         for (block, _) in scene.blocks.iter_mut().zip(&lows).filter(|(_, low)| **low < height) {
@@ -172,48 +198,86 @@ fn supports(scene: &mut Scene, options: &ImportOptions, findings: &mut Vec<Findi
         }
         let lowest = lows.iter().copied().fold(f64::INFINITY, f64::min);
         let text = match count {
-            0 => format!("no block reaches below {height} m, where supports were asked for; the lowest corner is at {lowest} m"),
+            0 => format!(
+                "no block reaches below {height} m, where supports were asked for; the lowest corner is at {lowest} m"
+            ),
             n => format!("blocks with their lowest corner below {height} m, now supports: {n}"),
         };
-        findings.push(Finding::new(if count == 0 { FindingCode::Missing } else { FindingCode::Converted }, text));
+        findings.push(Finding::new(
+            if count == 0 { FindingCode::Missing } else { FindingCode::Converted },
+            text,
+        ));
     }
     if scene.blocks.iter().all(|b| !b.support) {
         findings.push(Finding::new(FindingCode::Missing, propose(scene, &lows)));
     } else if scene.blocks.iter().all(|b| b.support) {
-        findings.push(Finding::new(FindingCode::Missing, "every block is a support: there is nothing that could move"));
+        findings.push(Finding::new(
+            FindingCode::Missing,
+            "every block is a support: there is nothing that could move",
+        ));
     }
     Ok(())
 }
 
-/// Leaves out stored interfaces between supports, where nothing can move and which a scene may not have, and says what became of the others.
+/// Leaves out stored interfaces between supports, where nothing can move and which a scene may not
+/// have, and says what became of the others.
 fn interfaces(scene: &mut Scene, unwanted: usize, with_forces: usize, findings: &mut Vec<Finding>) {
-    let held: HashSet<&str> = scene.blocks.iter().filter(|b| b.support).map(|b| b.id.as_str()).collect();
-    let (idle, kept): (Vec<_>, Vec<_>) =
-        std::mem::take(&mut scene.interfaces).into_iter().partition(|i| i.between.iter().all(|id| held.contains(id.as_str())));
+    let held: HashSet<&str> =
+        scene.blocks.iter().filter(|b| b.support).map(|b| b.id.as_str()).collect();
+    let (idle, kept): (Vec<_>, Vec<_>) = std::mem::take(&mut scene.interfaces)
+        .into_iter()
+        .partition(|i| i.between.iter().all(|id| held.contains(id.as_str())));
     scene.interfaces = kept;
     let mut say = |code, count: usize, text: String| {
         if count > 0 {
             findings.push(Finding::new(code, text));
         }
     };
-    say(FindingCode::LeftOut, unwanted, format!("stored interfaces, left out as asked (contacts are detected instead): {unwanted}"));
-    let names: Vec<String> = idle.iter().map(|i| format!("{:?}–{:?}", i.between[0], i.between[1])).collect();
-    say(FindingCode::LeftOut, idle.len(), format!("stored interfaces between two supports, left out: {}", tally(&names)));
-    let forces = if with_forces > 0 { format!("; with solved forces, which were left out: {with_forces}") } else { String::new() };
+    say(
+        FindingCode::LeftOut,
+        unwanted,
+        format!("stored interfaces, left out as asked (contacts are detected instead): {unwanted}"),
+    );
+    let names: Vec<String> =
+        idle.iter().map(|i| format!("{:?}–{:?}", i.between[0], i.between[1])).collect();
+    say(
+        FindingCode::LeftOut,
+        idle.len(),
+        format!("stored interfaces between two supports, left out: {}", tally(&names)),
+    );
+    let forces = if with_forces > 0 {
+        format!("; with solved forces, which were left out: {with_forces}")
+    } else {
+        String::new()
+    };
     let kept = scene.interfaces.len();
-    say(FindingCode::Converted, kept, format!("stored interfaces, kept in place of detected contacts: {kept}{forces}"));
+    say(
+        FindingCode::Converted,
+        kept,
+        format!("stored interfaces, kept in place of detected contacts: {kept}{forces}"),
+    );
 }
 
 /// The lowest blocks, as candidates for supports.
 fn propose(scene: &Scene, lows: &[f64]) -> String {
     let lowest = lows.iter().copied().fold(f64::INFINITY, f64::min);
-    let highest = scene.blocks.iter().flat_map(|b| corners(&b.shape).map(|p| p[2])).fold(f64::NEG_INFINITY, f64::max);
+    let highest = scene
+        .blocks
+        .iter()
+        .flat_map(|b| corners(&b.shape).map(|p| p[2]))
+        .fold(f64::NEG_INFINITY, f64::max);
     let band = lowest + tolerance::LOWEST_BAND * (highest - lowest);
     // Few digits to type, where they select the same blocks.
     let short = format!("{band:.3}").parse().unwrap_or(band);
     let selects = |z: f64| lows.iter().map(|&low| low < z).collect::<Vec<_>>();
     let height = if selects(short) == selects(band) { short } else { band };
-    let candidates: Vec<String> = scene.blocks.iter().zip(lows).filter(|(_, low)| **low < height).map(|(b, _)| b.id.clone()).collect();
+    let candidates: Vec<String> = scene
+        .blocks
+        .iter()
+        .zip(lows)
+        .filter(|(_, low)| **low < height)
+        .map(|(b, _)| b.id.clone())
+        .collect();
     match candidates.len() {
         0 => "no block is a support: import with `--support ID`".into(),
         _ => format!(

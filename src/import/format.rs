@@ -30,7 +30,11 @@ impl fmt::Display for Format {
 
 impl Format {
     /// The format the user asked for, else by the extension, else by the content.
-    pub(super) fn of(path: &Path, bytes: &[u8], asked: Option<Format>) -> Result<Format, InputError> {
+    pub(super) fn of(
+        path: &Path,
+        bytes: &[u8],
+        asked: Option<Format>,
+    ) -> Result<Format, InputError> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         asked
             .or(match extension.as_deref() {
@@ -49,14 +53,20 @@ impl Format {
 
     fn by_content(bytes: &[u8]) -> Option<Format> {
         let text = bytes.trim_ascii_start();
-        let statement = |line: &[u8]| [&b"v "[..], b"o ", b"g ", b"f ", b"mtllib "].iter().any(|s| line.starts_with(s));
+        let statement = |line: &[u8]| {
+            [&b"v "[..], b"o ", b"g ", b"f ", b"mtllib "].iter().any(|s| line.starts_with(s))
+        };
         if text.starts_with(b"{") || text.starts_with(b"[") {
             Some(Format::Compas)
         } else if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r\n") {
             Some(Format::Ply)
         } else if stl::looks_like(bytes) {
             Some(Format::Stl)
-        } else if text.split(|&b| b == b'\n').take(100).any(|line| statement(line.trim_ascii_start())) {
+        } else if text
+            .split(|&b| b == b'\n')
+            .take(100)
+            .any(|line| statement(line.trim_ascii_start()))
+        {
             Some(Format::Obj)
         } else {
             None

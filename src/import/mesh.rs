@@ -1,9 +1,10 @@
 //! The files that blocks of a scene name: `{ "mesh": { "path": "stone.obj" } }`.
 //!
-//! A scene may come from anybody, and its paths with it. So a path stays within the folder of the scene, links resolved, unless the user
-//! says otherwise ([`Reach`]); it is opened from there without following a link, so that what was looked at is what is read. Only regular
-//! files are opened ([`files`]). What is read is put into the scene, as the file has it: from there on the scene needs no file, and neither does
-//! a result that holds it.
+//! A scene may come from anybody, and its paths with it. So a path stays within the folder of the
+//! scene, links resolved, unless the user says otherwise ([`Reach`]); it is opened from there
+//! without following a link, so that what was looked at is what is read. Only regular files are
+//! opened ([`files`]). What is read is put into the scene, as the file has it: from there on the
+//! scene needs no file, and neither does a result that holds it.
 
 use super::{Format, raw::list, read};
 use crate::{
@@ -36,12 +37,18 @@ struct Mesh {
     length: u64,
 }
 
-/// Reads the files that the blocks of a scene name, into the scene; `folder` is where the scene lies. Blocks whose mesh is there already
-/// are left alone. Each file is read once; returned is what is worth knowing about the reading.
+/// Reads the files that the blocks of a scene name, into the scene; `folder` is where the scene
+/// lies. Blocks whose mesh is there already are left alone. Each file is read once; returned is
+/// what is worth knowing about the reading.
 ///
 /// # Errors
-/// A path leaves the folder, names no regular file, or the file is no single mesh; paths are those of the blocks.
-pub fn read_meshes(scene: &mut Scene, folder: &Path, reach: Reach) -> Result<Vec<Finding>, InputError> {
+/// A path leaves the folder, names no regular file, or the file is no single mesh; paths are those
+/// of the blocks.
+pub fn read_meshes(
+    scene: &mut Scene,
+    folder: &Path,
+    reach: Reach,
+) -> Result<Vec<Finding>, InputError> {
     let mut known: HashMap<PathBuf, Mesh> = HashMap::new();
     let mut findings = Vec::new();
     let mut total = 0_u64;
@@ -54,18 +61,28 @@ pub fn read_meshes(scene: &mut Scene, folder: &Path, reach: Reach) -> Result<Vec
         let refuse = |e: InputError| {
             // The reader's line is one of the mesh, not of the scene.
             let line = e.position.map_or(String::new(), |(line, _)| format!("line {line}: "));
-            InputError { hint: e.hint, ..InputError::at(place.clone(), format!("block {:?}: {name}: {line}{}", block.id, e.message)) }
+            InputError {
+                hint: e.hint,
+                ..InputError::at(
+                    place.clone(),
+                    format!("block {:?}: {name}: {line}{}", block.id, e.message),
+                )
+            }
         };
         let file = find(folder, Path::new(name.as_str()), reach).map_err(refuse)?;
         if !known.contains_key(&file.path) {
-            let (mesh, said) = file.open().and_then(|opened| load(&opened, name)).map_err(refuse)?;
-            findings.extend(said.into_iter().map(|f| Finding { text: format!("{name}: {}", f.text), ..f }));
+            let (mesh, said) =
+                file.open().and_then(|opened| load(&opened, name)).map_err(refuse)?;
+            findings.extend(
+                said.into_iter().map(|f| Finding { text: format!("{name}: {}", f.text), ..f }),
+            );
             known.insert(file.path.clone(), mesh);
         }
         let Some(mesh) = known.get(&file.path) else { continue };
         // A thousand blocks may name one file: each has its own copy.
         total = total.saturating_add(mesh.length);
-        limits::afford("the meshes up to this one", total, limits::PER_FOREIGN_BYTE).map_err(refuse)?;
+        limits::afford("the meshes up to this one", total, limits::PER_FOREIGN_BYTE)
+            .map_err(refuse)?;
         (*vertices, *faces) = (mesh.vertices.clone(), mesh.faces.clone());
     }
     Ok(findings)
@@ -135,7 +152,8 @@ fn outside(what: &str) -> InputError {
 }
 
 fn missing(e: io::Error) -> InputError {
-    InputError::at(JsonPath::root(), format!("cannot be read: {e}")).hint("the path is relative to the folder of the scene")
+    InputError::at(JsonPath::root(), format!("cannot be read: {e}"))
+        .hint("the path is relative to the folder of the scene")
 }
 
 /// The one mesh of a file.
@@ -143,14 +161,24 @@ fn load(file: &File, name: &str) -> Result<(Mesh, Vec<Finding>), InputError> {
     let bytes = limits::read_opened(file, limits::PER_FOREIGN_BYTE)?;
     let error = |text: String, hint: &str| Err(InputError::at(JsonPath::root(), text).hint(hint));
     if Format::of(Path::new(name), &bytes, None)? == Format::Compas {
-        return error("this is JSON, not a mesh".into(), "name an OBJ, PLY or STL file; `voussoir import` reads COMPAS JSON");
+        return error(
+            "this is JSON, not a mesh".into(),
+            "name an OBJ, PLY or STL file; `voussoir import` reads COMPAS JSON",
+        );
     }
     let raw = read(name, &bytes, false, &Default::default())?;
     let names: Vec<String> = raw.blocks.iter().map(|b| format!("{:?}", b.id)).collect();
     let mut blocks = raw.blocks.into_iter();
     let (Some(solid), None) = (blocks.next(), blocks.next()) else {
-        let text = format!("the file holds {} meshes ({}), a block is one", names.len(), list(&names));
-        return error(text, "split the file, or make a scene of all of them with `voussoir import`");
+        let text =
+            format!("the file holds {} meshes ({}), a block is one", names.len(), list(&names));
+        return error(
+            text,
+            "split the file, or make a scene of all of them with `voussoir import`",
+        );
     };
-    Ok((Mesh { vertices: solid.vertices, faces: solid.faces, length: bytes.len() as u64 }, raw.findings))
+    Ok((
+        Mesh { vertices: solid.vertices, faces: solid.faces, length: bytes.len() as u64 },
+        raw.findings,
+    ))
 }

@@ -7,13 +7,16 @@
 //! | PLY | ASCII and binary, both byte orders | a file |
 //! | STL | ASCII and binary | a `solid`, a binary file |
 //!
-//! Importers say what the file says: faces keep their corners and their order, nothing is welded, turned or closed. Whether a block is a
-//! proper solid is judged later, by [`crate::assembly::resolve`], for scenes of every origin alike. What a scene needs and the file does
-//! not have (supports, friction) is taken from [`ImportOptions`]; what is still missing then is a [`Finding`], not an error.
+//! Importers say what the file says: faces keep their corners and their order, nothing is welded,
+//! turned or closed. Whether a block is a proper solid is judged later, by
+//! [`crate::assembly::resolve`], for scenes of every origin alike. What a scene needs and the file
+//! does not have (supports, friction) is taken from [`ImportOptions`]; what is still missing then
+//! is a [`Finding`], not an error.
 //!
 //! Single meshes are read as well: those that the blocks of a scene name ([`read_meshes`]).
 //!
-//! Coordinates of the scene = rotation that brings [`ImportOptions::up`] to z × [`ImportOptions::scale`] × coordinates of the file.
+//! Coordinates of the scene = rotation that brings [`ImportOptions::up`] to z ×
+//! [`ImportOptions::scale`] × coordinates of the file.
 
 mod compas;
 mod finish;
@@ -74,29 +77,43 @@ impl Origin {
 /// Imports one file (and the files of [`ImportOptions::support_files`]).
 ///
 /// # Errors
-/// A file cannot be read or makes no sense; an option is out of its range or names a block that is not there.
+/// A file cannot be read or makes no sense; an option is out of its range or names a block that is
+/// not there.
 pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Imported, InputError> {
     import_files(&[path], options)
 }
 
-/// Imports several files into one scene, in order; the files of [`ImportOptions::support_files`] come last and all their blocks are supports.
+/// Imports several files into one scene, in order; the files of [`ImportOptions::support_files`]
+/// come last and all their blocks are supports.
 ///
-/// Where two files use the same id, the ids of every file get its name in front (`blocks-12`), and a finding says so.
+/// Where two files use the same id, the ids of every file get its name in front (`blocks-12`), and
+/// a finding says so.
 ///
 /// # Errors
 /// As for [`import_file`].
-pub fn import_files<P: AsRef<Path>>(paths: &[P], options: &ImportOptions) -> Result<Imported, InputError> {
+pub fn import_files<P: AsRef<Path>>(
+    paths: &[P],
+    options: &ImportOptions,
+) -> Result<Imported, InputError> {
     options.check()?;
-    let mut files = paths.iter().map(|path| load(path.as_ref(), false, options)).collect::<Result<Vec<_>, _>>()?;
+    let mut files = paths
+        .iter()
+        .map(|path| load(path.as_ref(), false, options))
+        .collect::<Result<Vec<_>, _>>()?;
     add_support_files(&mut files, options)?;
     finish::scene(files, options)
 }
 
-/// Imports a file that is already in memory; `name` stands for it in messages, its extension tells the format.
+/// Imports a file that is already in memory; `name` stands for it in messages, its extension tells
+/// the format.
 ///
 /// # Errors
 /// As for [`import_file`]; the files of [`ImportOptions::support_files`] are read here too.
-pub fn import_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Imported, InputError> {
+pub fn import_bytes(
+    name: &str,
+    bytes: &[u8],
+    options: &ImportOptions,
+) -> Result<Imported, InputError> {
     options.check()?;
     let mut files = vec![read(name, bytes, false, options)?];
     add_support_files(&mut files, options)?;
@@ -117,9 +134,15 @@ fn load(path: &Path, is_support: bool, options: &ImportOptions) -> Result<Raw, I
 }
 
 /// One file, read but not yet scaled, turned or merged with others.
-fn read(name: &str, bytes: &[u8], is_support: bool, options: &ImportOptions) -> Result<Raw, InputError> {
+fn read(
+    name: &str,
+    bytes: &[u8],
+    is_support: bool,
+    options: &ImportOptions,
+) -> Result<Raw, InputError> {
     let path = Path::new(name);
-    let stem = path.file_stem().map_or_else(|| "block".into(), |s| s.to_string_lossy().into_owned());
+    let stem =
+        path.file_stem().map_or_else(|| "block".into(), |s| s.to_string_lossy().into_owned());
     let result = Format::of(path, bytes, options.format).and_then(|format| {
         let mut raw = match format {
             Format::Compas => compas::read(bytes),
@@ -128,12 +151,18 @@ fn read(name: &str, bytes: &[u8], is_support: bool, options: &ImportOptions) -> 
             Format::Stl => stl::read(bytes, &stem),
         }?;
         if raw.blocks.is_empty() {
-            return Err(InputError::at(JsonPath::root(), format!("no blocks found in this {format} file"))
-                .hint("export the blocks as closed meshes, and check that this is the right file"));
+            return Err(InputError::at(
+                JsonPath::root(),
+                format!("no blocks found in this {format} file"),
+            )
+            .hint("export the blocks as closed meshes, and check that this is the right file"));
         }
         raw.stem = stem;
         raw.name = name.into();
-        raw.origin = format!("{} ({format})", path.file_name().map_or_else(|| name.into(), |f| f.to_string_lossy()));
+        raw.origin = format!(
+            "{} ({format})",
+            path.file_name().map_or_else(|| name.into(), |f| f.to_string_lossy())
+        );
         raw.blocks.iter_mut().for_each(|b| b.support |= is_support);
         Ok(raw)
     });

@@ -1,10 +1,12 @@
 //! Wavefront OBJ: `v`, `f`, `o`, `g`; everything about looks is skipped.
 //!
-//! A compact reader of our own: of the crates for OBJ, `obj` keeps coordinates in single precision and does not check indices, and `tobj`
-//! starts a new mesh at every change of colour and names no line in its errors. The subset a solid needs is four statements.
+//! A compact reader of our own: of the crates for OBJ, `obj` keeps coordinates in single precision
+//! and does not check indices, and `tobj` starts a new mesh at every change of colour and names no
+//! line in its errors. The subset a solid needs is four statements.
 //!
-//! Indices count from 1 over the whole file, negative ones from the last corner so far backwards; a face may come before its corners
-//! where its indices are positive. Only the first index of `v/t/n` matters.
+//! Indices count from 1 over the whole file, negative ones from the last corner so far backwards; a
+//! face may come before its corners where its indices are positive. Only the first index of `v/t/n`
+//! matters.
 
 use super::{
     raw::{Raw, Solid, compact, parts, tally},
@@ -14,8 +16,23 @@ use crate::error::{FindingCode, InputError, JsonPath};
 use std::collections::HashMap;
 
 /// Statements that say nothing about the shape of polyhedra.
-const SKIPPED: [&str; 15] =
-    ["vt", "vn", "s", "mg", "mtllib", "usemtl", "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "l"];
+const SKIPPED: [&str; 15] = [
+    "vt",
+    "vn",
+    "s",
+    "mg",
+    "mtllib",
+    "usemtl",
+    "usemap",
+    "maplib",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "shadow_obj",
+    "trace_obj",
+    "l",
+];
 
 struct Face {
     line: usize,
@@ -45,8 +62,11 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
                     .map(|word| corner(line, word, vertices.len()))
                     .collect::<Result<Vec<_>, _>>()?;
                 if corners.len() < 3 {
-                    return Err(text::error(line, format!("a face with {} corners", corners.len()))
-                        .hint("a face needs three corners or more; the file may be cut off here"));
+                    return Err(text::error(
+                        line,
+                        format!("a face with {} corners", corners.len()),
+                    )
+                    .hint("a face needs three corners or more; the file may be cut off here"));
                 }
                 faces.push(Face { line, corners, object: objects.len() - 1, group });
             }
@@ -62,7 +82,9 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
             _ => unknown.push(format!("line {line}: {:?}", shorten(&text))),
         }
     }
-    if let Some((face, index)) = faces.iter().find_map(|f| f.corners.iter().find(|&&i| i >= vertices.len()).map(|i| (f, i))) {
+    if let Some((face, index)) =
+        faces.iter().find_map(|f| f.corners.iter().find(|&&i| i >= vertices.len()).map(|i| (f, i)))
+    {
         return Err(text::error(face.line, format!("corner {} does not exist: the file has {} corners", index + 1, vertices.len()))
             .hint("indices count from 1 over the whole file; the file may be cut off or put together from several"));
     }
@@ -71,15 +93,23 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
         raw.say(FindingCode::LeftOut, text);
     }
     if faces.is_empty() {
-        return Err(InputError::at(JsonPath::root(), format!("an OBJ file without faces ({} corners)", vertices.len()))
-            .hint("export meshes, not points, curves or surfaces"));
+        return Err(InputError::at(
+            JsonPath::root(),
+            format!("an OBJ file without faces ({} corners)", vertices.len()),
+        )
+        .hint("export meshes, not points, curves or surfaces"));
     }
     if objects.len() > 1 {
         raw.blocks = gather(&vertices, faces, &objects, |f| f.object);
     } else if groups.len() > 1 {
         raw.blocks = gather(&vertices, faces, &groups, |f| f.group);
         let count = raw.blocks.len();
-        raw.say(FindingCode::Converted, format!("no objects (`o`) in the file: its groups (`g`) are the blocks, {count} in all"));
+        raw.say(
+            FindingCode::Converted,
+            format!(
+                "no objects (`o`) in the file: its groups (`g`) are the blocks, {count} in all"
+            ),
+        );
     } else {
         split(&vertices, faces, stem, &mut raw)?;
         return Ok(raw);
@@ -89,16 +119,25 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
     Ok(raw)
 }
 
-/// The corner a word of a face means, counted from 0; positive indices are checked when all corners are known.
+/// The corner a word of a face means, counted from 0; positive indices are checked when all corners
+/// are known.
 fn corner(line: usize, word: &str, so_far: usize) -> Result<usize, InputError> {
     let index = word.split('/').next().unwrap_or_default();
     let wrong = |what: &str| text::error(line, format!("face corner {:?}: {what}", shorten(word)));
-    let number: i64 =
-        index.parse().map_err(|_| wrong("expected an index").hint("a corner is written i, i/t, i//n or i/t/n with whole numbers"))?;
+    let number: i64 = index.parse().map_err(|_| {
+        wrong("expected an index")
+            .hint("a corner is written i, i/t, i//n or i/t/n with whole numbers")
+    })?;
     if number == 0 {
-        return Err(wrong("there is no corner 0").hint("indices count from 1, or from -1 backwards"));
+        return Err(
+            wrong("there is no corner 0").hint("indices count from 1, or from -1 backwards")
+        );
     }
-    let from_zero = if number > 0 { number.checked_sub(1) } else { i64::try_from(so_far).ok().and_then(|n| n.checked_add(number)) };
+    let from_zero = if number > 0 {
+        number.checked_sub(1)
+    } else {
+        i64::try_from(so_far).ok().and_then(|n| n.checked_add(number))
+    };
     from_zero.and_then(|i| usize::try_from(i).ok()).ok_or_else(|| {
         wrong(&format!("does not exist, {so_far} corners were given so far"))
             .hint("negative indices count back from the last corner so far")
@@ -106,8 +145,14 @@ fn corner(line: usize, word: &str, so_far: usize) -> Result<usize, InputError> {
 }
 
 /// One block per object (or group) that has faces.
-fn gather(vertices: &[[f64; 3]], faces: Vec<Face>, names: &[String], of: impl Fn(&Face) -> usize) -> Vec<Solid> {
-    let mut sorted: Vec<(Vec<usize>, Vec<Vec<usize>>)> = names.iter().map(|_| Default::default()).collect();
+fn gather(
+    vertices: &[[f64; 3]],
+    faces: Vec<Face>,
+    names: &[String],
+    of: impl Fn(&Face) -> usize,
+) -> Vec<Solid> {
+    let mut sorted: Vec<(Vec<usize>, Vec<Vec<usize>>)> =
+        names.iter().map(|_| Default::default()).collect();
     for face in faces {
         let (lines, loops) = &mut sorted[of(&face)];
         lines.push(face.line);
@@ -118,7 +163,12 @@ fn gather(vertices: &[[f64; 3]], faces: Vec<Face>, names: &[String], of: impl Fn
 }
 
 /// A file without names: its connected parts are the blocks.
-fn split(vertices: &[[f64; 3]], faces: Vec<Face>, stem: &str, raw: &mut Raw) -> Result<(), InputError> {
+fn split(
+    vertices: &[[f64; 3]],
+    faces: Vec<Face>,
+    stem: &str,
+    raw: &mut Raw,
+) -> Result<(), InputError> {
     let lines: Vec<usize> = faces.iter().map(|f| f.line).collect();
     let corners: Vec<Vec<usize>> = faces.into_iter().map(|f| f.corners).collect();
     let part = parts(vertices.len(), &corners);
@@ -130,17 +180,33 @@ fn split(vertices: &[[f64; 3]], faces: Vec<Face>, stem: &str, raw: &mut Raw) -> 
         sorted[p].push(face);
     }
     if let Some(p) = sorted.iter().position(|faces| faces.len() < 4) {
-        let (n, message) = (sorted[p].len(), "the file names no objects, and the faces do not hang together by their corners");
-        return Err(text::error(places[p][0], format!("{message}: here is a part of {n} faces, a solid has at least 4"))
-            .hint("export one object (`o NAME`) per block, or let faces share their corners (weld)"));
+        let (n, message) = (
+            sorted[p].len(),
+            "the file names no objects, and the faces do not hang together by their corners",
+        );
+        return Err(text::error(
+            places[p][0],
+            format!("{message}: here is a part of {n} faces, a solid has at least 4"),
+        )
+        .hint("export one object (`o NAME`) per block, or let faces share their corners (weld)"));
     }
     let digits = count.saturating_sub(1).to_string().len();
     raw.blocks = sorted
         .into_iter()
         .zip(places)
         .enumerate()
-        .map(|(i, (faces, lines))| compact(if count == 1 { stem.into() } else { format!("{stem}-{i:0digits$}") }, lines, vertices, faces))
+        .map(|(i, (faces, lines))| {
+            compact(
+                if count == 1 { stem.into() } else { format!("{stem}-{i:0digits$}") },
+                lines,
+                vertices,
+                faces,
+            )
+        })
         .collect();
-    raw.say(FindingCode::Converted, format!("no objects in the file: its connected parts are the blocks, {count} in all"));
+    raw.say(
+        FindingCode::Converted,
+        format!("no objects in the file: its connected parts are the blocks, {count} in all"),
+    );
     Ok(())
 }

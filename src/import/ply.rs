@@ -1,7 +1,9 @@
-//! PLY (Stanford polygon file format), ASCII and binary in both byte orders, by the crate `ply-rs-bw`. One block per file.
+//! PLY (Stanford polygon file format), ASCII and binary in both byte orders, by the crate
+//! `ply-rs-bw`. One block per file.
 //!
-//! Needed are the element `vertex` with `x`, `y`, `z` and the element `face` with the list `vertex_indices` (or `vertex_index`);
-//! everything else (colours, normals, other elements) is skipped.
+//! Needed are the element `vertex` with `x`, `y`, `z` and the element `face` with the list
+//! `vertex_indices` (or `vertex_index`); everything else (colours, normals, other elements) is
+//! skipped.
 
 use super::{
     raw::{Raw, Solid},
@@ -32,12 +34,20 @@ impl PropertyAccess for Item {
             "z" => 2,
             "vertex_indices" | "vertex_index" => {
                 self.corners = whole_numbers(property);
-                return if self.corners.is_some() { PropertyAccessResult::Set } else { PropertyAccessResult::UnsupportedType };
+                return if self.corners.is_some() {
+                    PropertyAccessResult::Set
+                } else {
+                    PropertyAccessResult::UnsupportedType
+                };
             }
             _ => return PropertyAccessResult::Ignored,
         };
         self.point[axis] = number(&property);
-        if self.point[axis].is_some() { PropertyAccessResult::Set } else { PropertyAccessResult::UnsupportedType }
+        if self.point[axis].is_some() {
+            PropertyAccessResult::Set
+        } else {
+            PropertyAccessResult::UnsupportedType
+        }
     }
 }
 
@@ -81,7 +91,8 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
     let mut payload = parser.read_payload(&mut reader, &header).map_err(|e| place(&e, ascii))?;
     // Where an element is: its line in an ASCII file, its number otherwise.
     let at = |element: &str, index: usize, message: String| {
-        let before: usize = header.elements.values().take_while(|e| e.name != element).map(|e| e.count).sum();
+        let before: usize =
+            header.elements.values().take_while(|e| e.name != element).map(|e| e.count).sum();
         match ascii {
             true => text::error(first_line + before + index, message),
             false => InputError::at(JsonPath::root().key(element).index(index), message),
@@ -103,17 +114,21 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
     for (i, item) in payload.swap_remove("face").unwrap_or_default().into_iter().enumerate() {
         let corners = item.corners.unwrap_or_default();
         if corners.len() < 3 {
-            return Err(at("face", i, format!("a face with {} corners", corners.len())).hint("a face needs three corners or more"));
+            return Err(at("face", i, format!("a face with {} corners", corners.len()))
+                .hint("a face needs three corners or more"));
         }
-        let face = corners.into_iter().map(|c| usize::try_from(c).ok().filter(|&c| c < count).ok_or(c)).collect::<Result<Vec<_>, _>>();
-        solid.faces.push(
-            face.map_err(|c| {
-                at("face", i, format!("corner {c} does not exist: the file has {count} corners")).hint("indices count from 0")
-            })?,
-        );
+        let face = corners
+            .into_iter()
+            .map(|c| usize::try_from(c).ok().filter(|&c| c < count).ok_or(c))
+            .collect::<Result<Vec<_>, _>>();
+        solid.faces.push(face.map_err(|c| {
+            at("face", i, format!("corner {c} does not exist: the file has {count} corners"))
+                .hint("indices count from 0")
+        })?);
     }
     if ascii {
-        let before: usize = header.elements.values().take_while(|e| e.name != "face").map(|e| e.count).sum();
+        let before: usize =
+            header.elements.values().take_while(|e| e.name != "face").map(|e| e.count).sum();
         solid.lines = (0..solid.faces.len()).map(|i| first_line + before + i).collect();
     }
     let mut raw = Raw { blocks: vec![solid], ..Raw::default() };
@@ -121,16 +136,29 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
     Ok(raw)
 }
 
-/// Refuses headers without the needed elements, and those that promise elements of no size: nothing in the file would end their list.
+/// Refuses headers without the needed elements, and those that promise elements of no size: nothing
+/// in the file would end their list.
 fn check(header: &Header) -> Result<(), InputError> {
-    let lacks = |what: &str, hint: &str| Err(InputError::at(JsonPath::root(), format!("PLY header: {what}")).hint(hint));
-    let has = |element: &ElementDef, names: &[&str]| names.iter().any(|n| element.properties.contains_key(*n));
+    let lacks = |what: &str, hint: &str| {
+        Err(InputError::at(JsonPath::root(), format!("PLY header: {what}")).hint(hint))
+    };
+    let has = |element: &ElementDef, names: &[&str]| {
+        names.iter().any(|n| element.properties.contains_key(*n))
+    };
     if let Some(empty) = header.elements.values().find(|e| e.properties.is_empty() && e.count > 0) {
-        return lacks(&format!("element {:?} has no properties", shorten(&empty.name)), "the header is damaged; export the file again");
+        return lacks(
+            &format!("element {:?} has no properties", shorten(&empty.name)),
+            "the header is damaged; export the file again",
+        );
     }
     match header.elements.get("vertex") {
         Some(vertex) if ["x", "y", "z"].iter().all(|axis| has(vertex, &[axis])) => {}
-        _ => return lacks("no element \"vertex\" with x, y and z", "export the file again, as a mesh"),
+        _ => {
+            return lacks(
+                "no element \"vertex\" with x, y and z",
+                "export the file again, as a mesh",
+            );
+        }
     }
     match header.elements.get("face") {
         Some(face) if has(face, &["vertex_indices", "vertex_index"]) && face.count > 0 => Ok(()),
@@ -141,7 +169,8 @@ fn check(header: &Header) -> Result<(), InputError> {
     }
 }
 
-/// The parser's error as ours. Its line numbers count elements in binary files, and are dropped there.
+/// The parser's error as ours. Its line numbers count elements in binary files, and are dropped
+/// there.
 fn place(error: &ParseError, text_line: bool) -> InputError {
     let message = error.to_string();
     let message = match error.line() {
@@ -154,7 +183,9 @@ fn place(error: &ParseError, text_line: bool) -> InputError {
         short.push('…');
     }
     let hint = match error.kind() {
-        std::io::ErrorKind::UnexpectedEof => "the file is cut off, or its header promises more than there is; export it again",
+        std::io::ErrorKind::UnexpectedEof => {
+            "the file is cut off, or its header promises more than there is; export it again"
+        }
         _ => "the file is damaged or no PLY file; export it again",
     };
     match error.line().filter(|_| text_line) {

@@ -43,7 +43,8 @@ impl Raw {
         self.findings.push(Finding::new(code, text));
     }
 
-    /// Makes the ids unique by numbers at their end; empty ids become `fallback`. Says how many were changed.
+    /// Makes the ids unique by numbers at their end; empty ids become `fallback`. Says how many
+    /// were changed.
     pub fn name_apart(&mut self, fallback: &str) {
         let mut taken: HashSet<String> = self.blocks.iter().map(|b| b.id.clone()).collect();
         let mut seen = HashSet::new();
@@ -78,7 +79,8 @@ impl Raw {
             .blocks
             .iter()
             .filter_map(|b| {
-                let parts = parts(b.vertices.len(), &b.faces).iter().copied().max().map_or(0, |m| m + 1);
+                let parts =
+                    parts(b.vertices.len(), &b.faces).iter().copied().max().map_or(0, |m| m + 1);
                 (parts > 1).then(|| format!("{:?} ({parts} parts)", b.id))
             })
             .collect();
@@ -108,7 +110,8 @@ pub(super) fn list(names: &[String]) -> String {
     text
 }
 
-/// Which connected part every face belongs to, numbered by first appearance: two faces are connected when they share a corner's index.
+/// Which connected part every face belongs to, numbered by first appearance: two faces are
+/// connected when they share a corner's index.
 pub(super) fn parts(vertices: usize, faces: &[Vec<usize>]) -> Vec<usize> {
     let mut sets = Sets::new(vertices);
     for face in faces {
@@ -128,7 +131,12 @@ pub(super) fn parts(vertices: usize, faces: &[Vec<usize>]) -> Vec<usize> {
 
 /// A solid of the given faces that keeps only the corners they use, in their old order.
 /// `lines` are those of the faces.
-pub(super) fn compact(id: String, lines: Vec<usize>, all: &[[f64; 3]], mut faces: Vec<Vec<usize>>) -> Solid {
+pub(super) fn compact(
+    id: String,
+    lines: Vec<usize>,
+    all: &[[f64; 3]],
+    mut faces: Vec<Vec<usize>>,
+) -> Solid {
     let mut used: Vec<usize> = faces.iter().flatten().copied().collect();
     used.sort_unstable();
     used.dedup();

@@ -1,10 +1,12 @@
 //! STL, ASCII (one block per `solid`) and binary (one block per file).
 //!
-//! A compact reader of our own: the crate `stl_io` takes every file that starts with `solid ` for ASCII although many binary ones do, reads
-//! only the first solid, rounds ASCII numbers to single precision and names no line in its errors.
+//! A compact reader of our own: the crate `stl_io` takes every file that starts with `solid ` for
+//! ASCII although many binary ones do, reads only the first solid, rounds ASCII numbers to single
+//! precision and names no line in its errors.
 //!
-//! STL has no shared corners: corners with the same coordinates (to the bit) become one. Normals are skipped: the order of the corners
-//! says the same, and where the two differ the normals are wrong more often.
+//! STL has no shared corners: corners with the same coordinates (to the bit) become one. Normals
+//! are skipped: the order of the corners says the same, and where the two differ the normals are
+//! wrong more often.
 
 use super::{
     raw::{Raw, Solid},
@@ -43,7 +45,8 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
 
 fn says_solid(bytes: &[u8]) -> bool {
     let text = bytes.trim_ascii_start();
-    text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && text.get(5).is_none_or(u8::is_ascii_whitespace)
+    text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+        && text.get(5).is_none_or(u8::is_ascii_whitespace)
 }
 
 /// The length a binary file has by its own count of triangles.
@@ -55,7 +58,11 @@ fn binary_length(bytes: &[u8]) -> Option<usize> {
 /// The blocks of an STL file.
 pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
     // Some binary files start with "solid": the length decides first.
-    let mut raw = if binary_length(bytes) != Some(bytes.len()) && says_solid(bytes) { ascii(bytes)? } else { binary(bytes)? };
+    let mut raw = if binary_length(bytes) != Some(bytes.len()) && says_solid(bytes) {
+        ascii(bytes)?
+    } else {
+        binary(bytes)?
+    };
     for block in &mut raw.blocks {
         if block.id.is_empty() {
             block.id = stem.into();
@@ -67,17 +74,26 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
 }
 
 fn binary(bytes: &[u8]) -> Result<Raw, InputError> {
-    let damaged = |message: String| InputError::at(JsonPath::root(), message).hint("the file is cut off or no STL file; export it again");
+    let damaged = |message: String| {
+        InputError::at(JsonPath::root(), message)
+            .hint("the file is cut off or no STL file; export it again")
+    };
     let Some(length) = binary_length(bytes) else {
         return Err(damaged(format!("no triangles in this STL file of {} bytes", bytes.len())));
     };
     let Some(body) = bytes.get(HEADER..length) else {
         let promised = (length - HEADER) / TRIANGLE;
-        return Err(damaged(format!("the header promises {promised} triangles ({length} bytes), the file has {} bytes", bytes.len())));
+        return Err(damaged(format!(
+            "the header promises {promised} triangles ({length} bytes), the file has {} bytes",
+            bytes.len()
+        )));
     };
     let mut raw = Raw::default();
     if bytes.len() > length {
-        raw.say(FindingCode::LeftOut, format!("bytes after the last triangle, left out: {}", bytes.len() - length));
+        raw.say(
+            FindingCode::LeftOut,
+            format!("bytes after the last triangle, left out: {}", bytes.len() - length),
+        );
     }
     let mut builder = Builder::default();
     for (i, triangle) in body.chunks_exact(TRIANGLE).enumerate() {
@@ -89,7 +105,9 @@ fn binary(bytes: &[u8]) -> Result<Raw, InputError> {
             }
             if let Some(value) = point.iter().find(|v| !v.is_finite()) {
                 let offset = HEADER + i * TRIANGLE;
-                return Err(damaged(format!("triangle {i} (byte {offset}): expected finite coordinates, got {value}")));
+                return Err(damaged(format!(
+                    "triangle {i} (byte {offset}): expected finite coordinates, got {value}"
+                )));
             }
             face.push(builder.corner(point));
         }
@@ -115,14 +133,23 @@ fn ascii(bytes: &[u8]) -> Result<Raw, InputError> {
         match (word.as_str(), &mut open, &mut face) {
             ("solid", None, _) => {
                 let id = words.collect::<Vec<_>>().join(" ");
-                open = Some(Builder { solid: Solid { id, line: Some(line), ..Solid::default() }, ..Builder::default() });
+                open = Some(Builder {
+                    solid: Solid { id, line: Some(line), ..Solid::default() },
+                    ..Builder::default()
+                });
             }
             ("facet" | "endloop", Some(_), _) => {}
             ("outer", Some(_), None) => face = Some(Vec::with_capacity(3)),
-            ("vertex", Some(builder), Some(face)) => face.push(builder.corner(text::point(line, words)?)),
+            ("vertex", Some(builder), Some(face)) => {
+                face.push(builder.corner(text::point(line, words)?))
+            }
             ("endfacet", Some(builder), Some(corners)) => {
                 if corners.len() != 3 {
-                    return Err(text::error(line, format!("a facet with {} corners", corners.len())).hint("STL facets are triangles"));
+                    return Err(text::error(
+                        line,
+                        format!("a facet with {} corners", corners.len()),
+                    )
+                    .hint("STL facets are triangles"));
                 }
                 builder.solid.faces.push(std::mem::take(corners));
                 builder.solid.lines.push(line);
@@ -133,12 +160,16 @@ fn ascii(bytes: &[u8]) -> Result<Raw, InputError> {
         }
     }
     if open.is_some() {
-        return Err(text::error(last, "the file ends inside a solid").hint("the file is cut off; export it again"));
+        return Err(text::error(last, "the file ends inside a solid")
+            .hint("the file is cut off; export it again"));
     }
     let before = raw.blocks.len();
     raw.blocks.retain(|b| !b.faces.is_empty());
     if raw.blocks.len() < before {
-        raw.say(FindingCode::LeftOut, format!("solids without facets, left out: {}", before - raw.blocks.len()));
+        raw.say(
+            FindingCode::LeftOut,
+            format!("solids without facets, left out: {}", before - raw.blocks.len()),
+        );
     }
     Ok(raw)
 }

@@ -9,8 +9,9 @@ pub(super) fn error(line: usize, message: impl Into<String>) -> InputError {
 
 /// The words of every line with the line's number (from 1).
 ///
-/// Lines that start with `#` are comments; a backslash at the end joins a line to the next, under the number of the first. Bytes that are no UTF-8 are
-/// replaced, for old exporters write names in other encodings; a zero byte means that the file is no text at all.
+/// Lines that start with `#` are comments; a backslash at the end joins a line to the next, under
+/// the number of the first. Bytes that are no UTF-8 are replaced, for old exporters write names in
+/// other encodings; a zero byte means that the file is no text at all.
 pub(super) fn lines(bytes: &[u8]) -> Result<Vec<(usize, String)>, InputError> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut continued = false;
@@ -36,24 +37,33 @@ pub(super) fn lines(bytes: &[u8]) -> Result<Vec<(usize, String)>, InputError> {
 }
 
 /// Three finite numbers.
-pub(super) fn point<'a>(line: usize, words: impl Iterator<Item = &'a str>) -> Result<[f64; 3], InputError> {
+pub(super) fn point<'a>(
+    line: usize,
+    words: impl Iterator<Item = &'a str>,
+) -> Result<[f64; 3], InputError> {
     let mut point = [0.0; 3];
     let mut words = words;
     for (value, axis) in point.iter_mut().zip(["x", "y", "z"]) {
         let word = words.next().ok_or_else(|| {
-            error(line, format!("coordinate {axis} is missing")).hint("a corner has three coordinates; the file may be cut off here")
+            error(line, format!("coordinate {axis} is missing"))
+                .hint("a corner has three coordinates; the file may be cut off here")
         })?;
         *value = word.parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| {
-            error(line, format!("coordinate {axis}: expected a finite number, got {:?}", shorten(word)))
-                .hint("look for NaN, infinite values and decimal commas in the export")
+            error(
+                line,
+                format!("coordinate {axis}: expected a finite number, got {:?}", shorten(word)),
+            )
+            .hint("look for NaN, infinite values and decimal commas in the export")
         })?;
     }
     Ok(point)
 }
 
-/// At most 60 characters of a text, without line breaks: files are quoted in messages, and some are garbage.
+/// At most 60 characters of a text, without line breaks: files are quoted in messages, and some are
+/// garbage.
 pub(super) fn shorten(text: &str) -> String {
-    let mut short: String = text.chars().take(60).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let mut short: String =
+        text.chars().take(60).map(|c| if c.is_control() { ' ' } else { c }).collect();
     if text.chars().nth(60).is_some() {
         short.push('…');
     }

@@ -1,34 +1,42 @@
-//! Which way a scene lies: supports that face sideways or downwards, where gravity pulls, are a mistake of axes.
+//! Which way a scene lies: supports that face sideways or downwards, where gravity pulls, are a
+//! mistake of axes.
 //!
-//! The sign is the mean direction in which supports push on what they carry: the sum of area × normal over their contacts. It points upwards, more or less, for
-//! everything that stands on something, and nowhere for what is held between walls. Drawings with y up read with z up have it level, along the axis that was
-//! meant; gravity turned over, or z that points down, has it straight down.
+//! The sign is the mean direction in which supports push on what they carry: the sum of area ×
+//! normal over their contacts. It points upwards, more or less, for everything that stands on
+//! something, and nowhere for what is held between walls. Drawings with y up read with z up have it
+//! level, along the axis that was meant; gravity turned over, or z that points down, has it
+//! straight down.
 
 use super::{Interface, Model};
 use crate::error::{Finding, FindingCode};
 use nalgebra::Vector3;
 
-/// Supports face sideways when their mean push has less than this upwards, of at most 1.
-/// Larger: a block on a slope of 80° is reported. Smaller: structures on their side whose springings are not quite level are not.
+/// Supports face sideways when their mean push has less than this upwards, of at most 1. Larger: a
+/// block on a slope of 80° is reported. Smaller: structures on their side whose springings are not
+/// quite level are not.
 const LEVEL: f64 = 0.1;
 
-/// They face one way when their mean push is at least this, of at most 1. Larger: the springings of a wide arch, 45° apart from each other, are not seen.
-/// Smaller: blocks held between walls that are not equally high are reported.
+/// They face one way when their mean push is at least this, of at most 1. Larger: the springings of
+/// a wide arch, 45° apart from each other, are not seen. Smaller: blocks held between walls that
+/// are not equally high are reported.
 const ONE_WAY: f64 = 0.5;
 
-/// They face along an axis when their mean push has this along it, of its length. Larger: meshes a little off their axes are not seen. Smaller: what leans on a
-/// wall at an angle is reported; no turn of axes would mend that.
+/// They face along an axis when their mean push has this along it, of its length. Larger: meshes a
+/// little off their axes are not seen. Smaller: what leans on a wall at an angle is reported; no
+/// turn of axes would mend that.
 const ALONG: f64 = 0.97;
 
-/// They face downwards when their mean push has this downwards. Larger: springings of an arch that hangs are not seen. Smaller: blocks wedged between posts that
-/// lean over them are reported.
+/// They face downwards when their mean push has this downwards. Larger: springings of an arch that
+/// hangs are not seen. Smaller: blocks wedged between posts that lean over them are reported.
 const DOWN: f64 = 0.8;
 
-/// Joints carry weight when their normals, by area, have more than this upwards in the mean. Larger: walls of tall thin slabs are reported. Smaller: prisms that
-/// lie on their side are seen only where they are drawn exactly.
+/// Joints carry weight when their normals, by area, have more than this upwards in the mean.
+/// Larger: walls of tall thin slabs are reported. Smaller: prisms that lie on their side are seen
+/// only where they are drawn exactly.
 const CARRIES: f64 = 0.02;
 
-/// Joints enough to tell that none of them carries weight. More: short columns on their side are not seen. Fewer: a block squeezed between two walls is reported.
+/// Joints enough to tell that none of them carries weight. More: short columns on their side are
+/// not seen. Fewer: a block squeezed between two walls is reported.
 const FEW: usize = 4;
 
 /// What looks like a mistake of axes.
@@ -41,8 +49,14 @@ pub fn mistake(model: &Model) -> Option<Finding> {
             g if g.z > 0.0 => "Gravity points upwards: write \"gravity\": [0, 0, -9.81]",
             _ => "If z points down in the drawing: import with --up -z, or turn gravity",
         };
-        format!("The free blocks hang below their supports, which push them the way gravity pulls, towards {}. {remedy}", direction(push))
-    } else if up.dot(&push).abs() < LEVEL && push.norm() > ONE_WAY && push.amax() > ALONG * push.norm() {
+        format!(
+            "The free blocks hang below their supports, which push them the way gravity pulls, towards {}. {remedy}",
+            direction(push)
+        )
+    } else if up.dot(&push).abs() < LEVEL
+        && push.norm() > ONE_WAY
+        && push.amax() > ALONG * push.norm()
+    {
         format!(
             "The supports push the free blocks sideways only, towards {}, but gravity pulls towards {}: everything lies on its side. \
              If {} points up in the drawing: import with --up {}, or give \"gravity\": {}",
@@ -58,26 +72,31 @@ pub fn mistake(model: &Model) -> Option<Finding> {
     Some(Finding::new(FindingCode::Axes, text))
 }
 
-/// What looks like a mistake of axes although supports do not tell: no joint is inclined so that it could carry weight.
+/// What looks like a mistake of axes although supports do not tell: no joint is inclined so that it
+/// could carry weight.
 pub fn on_its_side(model: &Model) -> Option<Finding> {
     let Model { assembly, interfaces, .. } = model;
     let up = -assembly.gravity.normalize();
     let weights = weights(interfaces.list.iter());
     let total: f64 = weights.iter().sum();
-    let carried: f64 = interfaces.list.iter().zip(&weights).map(|(f, w)| w * f.frame.n.dot(&up).abs()).sum();
+    let carried: f64 =
+        interfaces.list.iter().zip(&weights).map(|(f, w)| w * f.frame.n.dot(&up).abs()).sum();
     (interfaces.list.len() >= FEW && carried < CARRIES * total).then(|| {
         let text = "All joints stand upright: no block rests on another, so that everything lies on its side. Drawings often have y up: import with --up y";
         Finding::new(FindingCode::Axes, text)
     })
 }
 
-/// The mean direction in which supports push free blocks, of length 1 where all their contacts face the same way.
+/// The mean direction in which supports push free blocks, of length 1 where all their contacts face
+/// the same way.
 fn push(model: &Model) -> Option<Vector3<f64>> {
     let held = |i: usize| model.assembly.blocks[i].support;
-    let faces: Vec<&Interface> = model.interfaces.list.iter().filter(|f| held(f.a) != held(f.b)).collect();
+    let faces: Vec<&Interface> =
+        model.interfaces.list.iter().filter(|f| held(f.a) != held(f.b)).collect();
     let weights = weights(faces.iter().copied());
     let total: f64 = weights.iter().sum();
-    let sum: Vector3<f64> = faces.iter().zip(&weights).map(|(f, w)| f.frame.n * if held(f.a) { *w } else { -w }).sum();
+    let sum: Vector3<f64> =
+        faces.iter().zip(&weights).map(|(f, w)| f.frame.n * if held(f.a) { *w } else { -w }).sum();
     (total > 0.0).then(|| sum / total)
 }
 

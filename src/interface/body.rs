@@ -1,4 +1,5 @@
-//! A block made ready for detection: boxes around it and its facets, and, where asked for, its edges and corners.
+//! A block made ready for detection: boxes around it and its facets, and, where asked for, its
+//! edges and corners.
 
 use super::{plane::Plane, polygon};
 use crate::{
@@ -22,7 +23,8 @@ pub(super) struct Bounds {
 impl Bounds {
     /// The box around points.
     pub fn around<'a>(points: impl IntoIterator<Item = &'a Vector3<f64>>) -> Self {
-        let empty = Self { lo: Vector3::repeat(f64::INFINITY), hi: Vector3::repeat(f64::NEG_INFINITY) };
+        let empty =
+            Self { lo: Vector3::repeat(f64::INFINITY), hi: Vector3::repeat(f64::NEG_INFINITY) };
         points.into_iter().fold(empty, |b, p| Self { lo: b.lo.inf(p), hi: b.hi.sup(p) })
     }
 
@@ -72,12 +74,14 @@ pub(super) enum Form<'a> {
 pub(super) struct Solidity<'a> {
     pub polyhedron: &'a Polyhedron,
     pub facet_bounds: Vec<Bounds>,
-    /// How far a part of each facet may lean from its mean plane, radians: twice the warp over the width.
+    /// How far a part of each facet may lean from its mean plane, radians: twice the warp over the
+    /// width.
     pub facet_twist: Vec<f64>,
     topology: OnceCell<Topology>,
 }
 
-/// Edges, corners and facet rims; built on first use, since most pairs meet face to face and never ask.
+/// Edges, corners and facet rims; built on first use, since most pairs meet face to face and never
+/// ask.
 pub(super) struct Topology {
     pub edges: Vec<Edge>,
     pub corners: Vec<Corner>,
@@ -99,7 +103,8 @@ pub(super) struct Edge {
 pub(super) struct Corner {
     /// Unit directions along all sides of facet pieces that leave the corner.
     pub along: Vec<Vector3<f64>>,
-    /// Outward pseudo-normal, facet normals weighted by their angles at the corner (Bærentzen & Aanæs 2005); not of unit length.
+    /// Outward pseudo-normal, facet normals weighted by their angles at the corner (Bærentzen &
+    /// Aanæs 2005); not of unit length.
     pub outward: Vector3<f64>,
 }
 
@@ -115,7 +120,14 @@ impl<'a> Body<'a> {
                     facet_bounds: polyhedron
                         .facets
                         .iter()
-                        .map(|f| Bounds::around(f.pieces.iter().flatten().map(|&v| &polyhedron.vertices[v as usize])))
+                        .map(|f| {
+                            Bounds::around(
+                                f.pieces
+                                    .iter()
+                                    .flatten()
+                                    .map(|&v| &polyhedron.vertices[v as usize]),
+                            )
+                        })
                         .collect(),
                     facet_twist: polyhedron.facets.iter().map(|f| twist(polyhedron, f)).collect(),
                     topology: OnceCell::new(),
@@ -131,7 +143,11 @@ impl<'a> Body<'a> {
     fn of_balls(block: &'a Block, balls: Vec<(Vector3<f64>, f64)>) -> Self {
         let one = |(c, r): &(Vector3<f64>, f64)| Bounds { lo: *c, hi: *c }.loosened(*r);
         let all = |a: Bounds, b: Bounds| Bounds { lo: a.lo.inf(&b.lo), hi: a.hi.sup(&b.hi) };
-        let bounds = balls.iter().map(one).reduce(all).unwrap_or(Bounds { lo: block.centroid, hi: block.centroid });
+        let bounds = balls
+            .iter()
+            .map(one)
+            .reduce(all)
+            .unwrap_or(Bounds { lo: block.centroid, hi: block.centroid });
         Self { block, bounds, shape: Form::Balls(balls) }
     }
 }
@@ -139,7 +155,11 @@ impl<'a> Body<'a> {
 impl Solidity<'_> {
     /// Facets whose boxes meet `window`.
     pub fn facets_in(&self, window: &Bounds) -> impl Iterator<Item = (usize, &Facet)> {
-        self.polyhedron.facets.iter().enumerate().filter(move |&(i, _)| self.facet_bounds[i].meets(window))
+        self.polyhedron
+            .facets
+            .iter()
+            .enumerate()
+            .filter(move |&(i, _)| self.facet_bounds[i].meets(window))
     }
 
     /// Position of a vertex.
@@ -154,7 +174,10 @@ impl Solidity<'_> {
 
     /// Edges whose boxes meet `window`.
     pub fn edges_in(&self, window: &Bounds) -> impl Iterator<Item = &Edge> {
-        self.topology().edges.iter().filter(move |e| Bounds::around(&self.ends(e.ends)).meets(window))
+        self.topology()
+            .edges
+            .iter()
+            .filter(move |e| Bounds::around(&self.ends(e.ends)).meets(window))
     }
 
     /// Edges, corners and rims.
@@ -171,11 +194,17 @@ impl Topology {
         for (i, facet) in polyhedron.facets.iter().enumerate() {
             for piece in &facet.pieces {
                 for k in 0..piece.len() {
-                    let (here, ahead, behind) = (piece[k], piece[(k + 1) % piece.len()], piece[(k + piece.len() - 1) % piece.len()]);
-                    let (next, previous) = (unit(at(ahead) - at(here)), unit(at(behind) - at(here)));
+                    let (here, ahead, behind) = (
+                        piece[k],
+                        piece[(k + 1) % piece.len()],
+                        piece[(k + piece.len() - 1) % piece.len()],
+                    );
+                    let (next, previous) =
+                        (unit(at(ahead) - at(here)), unit(at(behind) - at(here)));
                     let corner = &mut corners[here as usize];
                     corner.along.extend([next, previous]);
-                    corner.outward += facet.normal * previous.cross(&next).norm().atan2(previous.dot(&next));
+                    corner.outward +=
+                        facet.normal * previous.cross(&next).norm().atan2(previous.dot(&next));
                     sides.push(Side { ends: [here, ahead], facet: i });
                 }
             }
@@ -212,15 +241,16 @@ struct Side {
     facet: usize,
 }
 
-/// Splits sides at corners that lie on them. A corner where two facets meet the straight side of a third is no corner of the third:
-/// its side has to be cut there to find its neighbours.
+/// Splits sides at corners that lie on them. A corner where two facets meet the straight side of a
+/// third is no corner of the third: its side has to be cut there to find its neighbours.
 fn split(polyhedron: &Polyhedron, sides: &mut Vec<Side>, corners: &mut [Corner]) {
     let at = |v: u32| polyhedron.vertices[v as usize];
     let bounds = Bounds::around(&polyhedron.vertices);
     // Corners this close to a straight side were taken out of it when facets were joined.
     let tol = 2.0 * COPLANAR * (bounds.hi - bounds.lo).norm();
     let known: HashSet<[u32; 2]> = sides.iter().map(|s| s.ends).collect();
-    let (whole, single): (Vec<Side>, Vec<Side>) = sides.iter().partition(|s| known.contains(&[s.ends[1], s.ends[0]]));
+    let (whole, single): (Vec<Side>, Vec<Side>) =
+        sides.iter().partition(|s| known.contains(&[s.ends[1], s.ends[0]]));
     let loose: BTreeSet<u32> = single.iter().flat_map(|s| s.ends).collect();
     *sides = whole;
     for Side { ends: [p, q], facet } in single {
@@ -229,7 +259,9 @@ fn split(polyhedron: &Polyhedron, sides: &mut Vec<Side>, corners: &mut [Corner])
         let mut cuts: Vec<(f64, u32)> = loose
             .iter()
             .map(|&v| ((at(v) - start).dot(&along), v))
-            .filter(|&(t, v)| t > tol && t < length - tol && (at(v) - start - along * t).norm() <= tol)
+            .filter(|&(t, v)| {
+                t > tol && t < length - tol && (at(v) - start - along * t).norm() <= tol
+            })
             .collect();
         cuts.sort_by(|x, y| x.0.total_cmp(&y.0));
         let mut from = p;
@@ -244,14 +276,16 @@ fn split(polyhedron: &Polyhedron, sides: &mut Vec<Side>, corners: &mut [Corner])
     }
 }
 
-/// How far a part of a facet may lean from its mean plane: from warp below to warp above it over its least width, radians.
+/// How far a part of a facet may lean from its mean plane: from warp below to warp above it over
+/// its least width, radians.
 fn twist(polyhedron: &Polyhedron, facet: &Facet) -> f64 {
     if facet.warp == 0.0 {
         return 0.0;
     }
     let corners = || facet.pieces.iter().flatten().map(|&v| polyhedron.vertices[v as usize]);
     let plane = Plane::new(corners().next().unwrap_or_default(), facet.normal);
-    let width = polygon::width(&polygon::hull(&corners().map(|x| plane.flat(x)).collect::<Vec<_>>(), 0.0));
+    let width =
+        polygon::width(&polygon::hull(&corners().map(|x| plane.flat(x)).collect::<Vec<_>>(), 0.0));
     (2.0 * facet.warp / width).min(GREATEST_TWIST)
 }
 

@@ -1,13 +1,14 @@
 //! Detection: every contact of an assembly, and a word on everything that nearly is one.
 //!
 //! 1. Candidate pairs, from a bounding-volume tree.
-//! 2. [Face against face](super::faces); where a pair has no face contact, or a block is not convex,
-//!    [edges and corners](super::features) as well; [spheres](super::spheres) exactly.
+//! 2. [Face against face](super::faces); where a pair has no face contact, or a block is not
+//!    convex, [edges and corners](super::features) as well; [spheres](super::spheres) exactly.
 //! 3. A gap that is within tolerance only because a thin block fills it is no contact.
-//! 4. What was closed, left apart or ignored becomes a [`Finding`](crate::error::Finding) with its numbers.
+//! 4. What was closed, left apart or ignored becomes a [`Finding`](crate::error::Finding) with its
+//!    numbers.
 //!
-//! All tolerances are relative to the smaller block of a pair. Nothing depends on the order of blocks, on how faces were
-//! triangulated, or on where and how the scene stands.
+//! All tolerances are relative to the smaller block of a pair. Nothing depends on the order of
+//! blocks, on how faces were triangulated, or on where and how the scene stands.
 
 use super::{
     ContactFrame, ContactKind, Interface, Interfaces,
@@ -32,17 +33,20 @@ use std::collections::{HashMap, HashSet};
 
 /// Finds every contact of an assembly.
 ///
-/// Interfaces given by hand are taken over, and their pairs are not looked at. Pairs of two supports are looked at, counted if
-/// they touch, and left out.
+/// Interfaces given by hand are taken over, and their pairs are not looked at. Pairs of two
+/// supports are looked at, counted if they touch, and left out.
 ///
 /// # Errors
 /// Two blocks touch and no rule says what friction acts between them.
 pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
     let bodies: Vec<Body> = assembly.blocks.iter().map(Body::new).collect();
-    let by_hand: HashSet<(usize, usize)> = assembly.given.iter().map(|g| (g.a.min(g.b), g.a.max(g.b))).collect();
+    let by_hand: HashSet<(usize, usize)> =
+        assembly.given.iter().map(|g| (g.a.min(g.b), g.a.max(g.b))).collect();
     let mut interfaces = Interfaces::default();
     for g in &assembly.given {
-        interfaces.list.push(given::interface(g, &Limits::of(&bodies[g.a], &bodies[g.b], &assembly.contact)));
+        interfaces
+            .list
+            .push(given::interface(g, &Limits::of(&bodies[g.a], &bodies[g.b], &assembly.contact)));
     }
 
     let mut tally = Tally::default();
@@ -79,8 +83,11 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
         let law = law(assembly, a, b)?;
         points += meeting.contacts.iter().map(|c| c.points.len()).sum::<usize>();
         if points > CONTACT_POINTS {
-            return Err(InputError::at(JsonPath::root(), format!("the blocks touch in more than {CONTACT_POINTS} points"))
-                .hint("ask about a part of the structure, or simplify its blocks"));
+            return Err(InputError::at(
+                JsonPath::root(),
+                format!("the blocks touch in more than {CONTACT_POINTS} points"),
+            )
+            .hint("ask about a part of the structure, or simplify its blocks"));
         }
         for contact in meeting.contacts {
             tally.contact(contact.gap, &limits);
@@ -99,9 +106,14 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
         }
     }
     interfaces.list.sort_by(|x, y| {
-        let center = |i: &Interface| i.points.iter().sum::<Vector3<f64>>() / i.points.len().max(1) as f64;
+        let center =
+            |i: &Interface| i.points.iter().sum::<Vector3<f64>>() / i.points.len().max(1) as f64;
         let (p, q) = (center(x), center(y));
-        (x.a, x.b).cmp(&(y.a, y.b)).then(p.x.total_cmp(&q.x)).then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z))
+        (x.a, x.b)
+            .cmp(&(y.a, y.b))
+            .then(p.x.total_cmp(&q.x))
+            .then(p.y.total_cmp(&q.y))
+            .then(p.z.total_cmp(&q.z))
     });
     interfaces.findings = tally.findings(assembly);
     Ok(interfaces)
@@ -117,8 +129,9 @@ fn law(assembly: &Assembly, a: usize, b: usize) -> Result<JointLaw, InputError> 
 }
 
 impl Interfaces {
-    /// The interfaces of an assembly that differs from the one they were [detected](detect) in by its joints, loads, masses and
-    /// gravity alone: where blocks touch is kept, how they resist is that of `assembly`. Interfaces given by hand keep their law.
+    /// The interfaces of an assembly that differs from the one they were [detected](detect) in by
+    /// its joints, loads, masses and gravity alone: where blocks touch is kept, how they resist is
+    /// that of `assembly`. Interfaces given by hand keep their law.
     ///
     /// # Errors
     /// As [`detect`].
@@ -176,16 +189,26 @@ struct Overlap {
 
 impl Meeting {
     fn is_nothing(&self) -> bool {
-        self.contacts.is_empty() && self.near.is_none() && self.overlap.is_none() && self.small.is_empty() && !self.without_normal
+        self.contacts.is_empty()
+            && self.near.is_none()
+            && self.overlap.is_none()
+            && self.small.is_empty()
+            && !self.without_normal
     }
 }
 
 fn meet(a: &Body, b: &Body, limits: &Limits) -> Meeting {
     match (&a.shape, &b.shape) {
         (Form::Polyhedron(p), Form::Polyhedron(q)) => polyhedra(a, p, b, q, limits),
-        (Form::Balls(one), Form::Balls(other)) => round(spheres::balls_balls(one, other, limits), 1.0, limits),
-        (Form::Balls(balls), Form::Polyhedron(q)) => round(spheres::balls_polyhedron(balls, q, limits), 1.0, limits),
-        (Form::Polyhedron(p), Form::Balls(balls)) => round(spheres::balls_polyhedron(balls, p, limits), -1.0, limits),
+        (Form::Balls(one), Form::Balls(other)) => {
+            round(spheres::balls_balls(one, other, limits), 1.0, limits)
+        }
+        (Form::Balls(balls), Form::Polyhedron(q)) => {
+            round(spheres::balls_polyhedron(balls, q, limits), 1.0, limits)
+        }
+        (Form::Polyhedron(p), Form::Balls(balls)) => {
+            round(spheres::balls_polyhedron(balls, p, limits), -1.0, limits)
+        }
     }
 }
 
@@ -195,31 +218,42 @@ fn round(meeting: spheres::Meeting, sign: f64, limits: &Limits) -> Meeting {
     Meeting {
         contacts: meeting.touches.into_iter().map(|t| of_touch(t, sign)).collect(),
         near: meeting.near.map(|gap| Near { gap, closing: closing(gap), plane: None }),
-        overlap: meeting.overlap.map(|depth| Overlap { depth, closing: Some(closing(depth)).filter(|c| c.gap <= limits.near) }),
+        overlap: meeting.overlap.map(|depth| Overlap {
+            depth,
+            closing: Some(closing(depth)).filter(|c| c.gap <= limits.near),
+        }),
         ..Meeting::default()
     }
 }
 
 fn polyhedra(a: &Body, p: &Solidity, b: &Body, q: &Solidity, limits: &Limits) -> Meeting {
-    if p.polyhedron.is_apart_from(q.polyhedron, limits.near) || q.polyhedron.is_apart_from(p.polyhedron, limits.near) {
+    if p.polyhedron.is_apart_from(q.polyhedron, limits.near)
+        || q.polyhedron.is_apart_from(p.polyhedron, limits.near)
+    {
         return Meeting::default();
     }
     let window = |slack: f64| a.bounds.loosened(slack).common(&b.bounds.loosened(slack));
     let facing = faces::facing(p, q, &window(limits.near), limits);
     let convex = p.polyhedron.convex && q.polyhedron.convex;
     let on_faces = !facing.contacts.is_empty();
-    let mut meeting = Meeting { small: facing.small.iter().map(|f| f.area).collect(), ..Meeting::default() };
+    let mut meeting =
+        Meeting { small: facing.small.iter().map(|f| f.area).collect(), ..Meeting::default() };
 
     // Two convex blocks that meet face to face meet nowhere else.
     let close = a.bounds.distance(&b.bounds) <= limits.gap;
     if close && !(convex && on_faces) {
         let known = facing.contacts.iter().chain(&facing.small);
-        let touches = features::touches(p, q, &window(limits.gap), limits, &|p, n| known.clone().any(|f| f.covers(p, n, limits)));
+        let touches = features::touches(p, q, &window(limits.gap), limits, &|p, n| {
+            known.clone().any(|f| f.covers(p, n, limits))
+        });
         meeting.contacts.extend(touches.into_iter().map(|t| of_touch(t, 1.0)));
         let common = a.bounds.common(&b.bounds);
-        if (!convex || meeting.contacts.is_empty()) && (0..3).all(|k| common.hi[k] - common.lo[k] > limits.gap) {
+        if (!convex || meeting.contacts.is_empty())
+            && (0..3).all(|k| common.hi[k] - common.lo[k] > limits.gap)
+        {
             let closing = facing.near.map(|n| n.closing);
-            meeting.overlap = overlap::depth(p, q, &common, limits).map(|depth| Overlap { depth, closing });
+            meeting.overlap =
+                overlap::depth(p, q, &common, limits).map(|depth| Overlap { depth, closing });
         }
         meeting.without_normal = !on_faces
             && meeting.contacts.is_empty()
@@ -228,7 +262,11 @@ fn polyhedra(a: &Body, p: &Solidity, b: &Body, q: &Solidity, limits: &Limits) ->
             && features::meet_without_normal(p, q, &window(limits.gap), limits);
     }
     if meeting.overlap.is_none() {
-        meeting.near = facing.near.map(|n| Near { gap: n.gap, closing: n.closing, plane: Some(Plane::new(n.at, n.n)) });
+        meeting.near = facing.near.map(|n| Near {
+            gap: n.gap,
+            closing: n.closing,
+            plane: Some(Plane::new(n.at, n.n)),
+        });
     }
     meeting.contacts.extend(facing.contacts.iter().map(|f| of_face(f, limits)));
     meeting
@@ -240,7 +278,15 @@ fn of_touch(touch: Touch, sign: f64) -> Contact {
         [p, q] => (ContactKind::Edge, ContactFrame::along(n, q - p)),
         _ => (ContactKind::Point, ContactFrame::around(n)),
     };
-    Contact { kind, frame, points: touch.points, area: 0.0, patches: touch.patches, pieces: Vec::new(), gap: touch.gap }
+    Contact {
+        kind,
+        frame,
+        points: touch.points,
+        area: 0.0,
+        patches: touch.patches,
+        pieces: Vec::new(),
+        gap: touch.gap,
+    }
 }
 
 fn of_face(face: &FaceContact, limits: &Limits) -> Contact {
@@ -251,7 +297,11 @@ fn of_face(face: &FaceContact, limits: &Limits) -> Contact {
         points: lift(&face.hull),
         area: face.area,
         patches: face.patches,
-        pieces: if face.fills_hull(limits) { Vec::new() } else { face.pieces.iter().map(lift).collect() },
+        pieces: if face.fills_hull(limits) {
+            Vec::new()
+        } else {
+            face.pieces.iter().map(lift).collect()
+        },
         gap: face.gap,
     }
 }
@@ -264,8 +314,8 @@ struct Link {
     gap: f64,
 }
 
-/// Drops contacts and near misses across a gap that a third block fills (a thin plate, a mortar bed): closing it would push
-/// the plate aside.
+/// Drops contacts and near misses across a gap that a third block fills (a thin plate, a mortar
+/// bed): closing it would push the plate aside.
 fn take_apart(pairs: &mut [Pair], tally: &mut Tally, assembly: &Assembly) {
     let mut links = Vec::new();
     let mut of_block: HashMap<usize, Vec<usize>> = HashMap::new();
@@ -279,7 +329,8 @@ fn take_apart(pairs: &mut [Pair], tally: &mut Tally, assembly: &Assembly) {
             links.push(Link { pair: k, plane, gap });
         }
     }
-    // Links of `block` that lie within the open gap `link`, with the neighbour and whether the block lies below.
+    // Links of `block` that lie within the open gap `link`, with the neighbour and whether the
+    // block lies below.
     let filling = |block: usize, link: &Link, sign: f64| -> Vec<usize> {
         let noise = pairs[link.pair].limits.noise;
         of_block
@@ -293,7 +344,9 @@ fn take_apart(pairs: &mut [Pair], tally: &mut Tally, assembly: &Assembly) {
                     && other.plane.frame.n.dot(&link.plane.frame.n) * out > 0.9
                     && link.plane.height(other.plane.origin).abs() <= 0.75 * link.gap + noise
             })
-            .map(|other| if pairs[other.pair].a == block { pairs[other.pair].b } else { pairs[other.pair].a })
+            .map(|other| {
+                if pairs[other.pair].a == block { pairs[other.pair].b } else { pairs[other.pair].a }
+            })
             .collect()
     };
     let held: Vec<(usize, f64)> = links
@@ -313,7 +366,9 @@ fn take_apart(pairs: &mut [Pair], tally: &mut Tally, assembly: &Assembly) {
         if meeting.near.as_ref().is_some_and(|n| n.gap == gap) {
             meeting.near = None;
         }
-        if meeting.contacts.len() < before && !(assembly.blocks[*a].support && assembly.blocks[*b].support) {
+        if meeting.contacts.len() < before
+            && !(assembly.blocks[*a].support && assembly.blocks[*b].support)
+        {
             tally.held_apart(*a, *b);
         }
     }

@@ -1,6 +1,8 @@
-//! Which pairs of blocks are close enough to be looked at: parry's bounding-volume tree over loosened boxes.
+//! Which pairs of blocks are close enough to be looked at: parry's bounding-volume tree over
+//! loosened boxes.
 //!
-//! parry3d-f64 keeps `f64` in the nodes of its tree, so a box far from the origin is as exact as the coordinates.
+//! parry3d-f64 keeps `f64` in the nodes of its tree, so a box far from the origin is as exact as
+//! the coordinates.
 
 use super::{
     body::{Body, Bounds},
@@ -18,13 +20,19 @@ use parry3d::{
     partitioning::{Bvh, BvhBuildStrategy},
 };
 
-/// Pairs `(a, b)`, `a < b`, ascending, whose boxes are within the reach of near misses of each other.
+/// Pairs `(a, b)`, `a < b`, ascending, whose boxes are within the reach of near misses of each
+/// other.
 ///
 /// # Errors
 /// There are more than can be looked at.
-pub(super) fn candidates(bodies: &[Body], spec: &ContactSpec) -> Result<Vec<(usize, usize, Limits)>, InputError> {
+pub(super) fn candidates(
+    bodies: &[Body],
+    spec: &ContactSpec,
+) -> Result<Vec<(usize, usize, Limits)>, InputError> {
     let reach = limits::near(spec);
-    let loose = |b: &Body| aabb(&b.bounds.loosened(reach * b.block.size + COORDINATE_ROUNDING * b.bounds.reach()));
+    let loose = |b: &Body| {
+        aabb(&b.bounds.loosened(reach * b.block.size + COORDINATE_ROUNDING * b.bounds.reach()))
+    };
     let boxes: Vec<Aabb> = bodies.iter().map(loose).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
     let mut pairs = Vec::new();
@@ -46,14 +54,24 @@ pub(super) fn candidates(bodies: &[Body], spec: &ContactSpec) -> Result<Vec<(usi
 fn few(pairs: usize, last: impl Fn() -> (String, usize)) -> Result<(), InputError> {
     let refuse = |message: String| {
         let (id, own) = last();
-        InputError::at(JsonPath::root(), format!("{message} (block {id:?} alone has {own} neighbours)"))
-            .hint("look for blocks that lie in one place, and for a contact.gap that is too large")
+        InputError::at(
+            JsonPath::root(),
+            format!("{message} (block {id:?} alone has {own} neighbours)"),
+        )
+        .hint("look for blocks that lie in one place, and for a contact.gap that is too large")
     };
     if pairs > most::PAIRS {
-        return Err(refuse(format!("more than {} pairs of blocks are near enough to touch", most::PAIRS)));
+        return Err(refuse(format!(
+            "more than {} pairs of blocks are near enough to touch",
+            most::PAIRS
+        )));
     }
-    most::afford(&format!("looking at {pairs} pairs of blocks that are near enough to touch"), pairs as u64, most::PER_PAIR)
-        .map_err(|e| refuse(e.message))
+    most::afford(
+        &format!("looking at {pairs} pairs of blocks that are near enough to touch"),
+        pairs as u64,
+        most::PER_PAIR,
+    )
+    .map_err(|e| refuse(e.message))
 }
 
 fn aabb(bounds: &Bounds) -> Aabb {

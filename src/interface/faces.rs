@@ -1,14 +1,17 @@
 //! Face against face.
 //!
-//! Two facets face each other where their normals are opposite within the angle. Each convex piece of one is cut by each convex
-//! piece of the other in a plane between them, and the gap is measured **at the corners of what is left**, not at the corners of
-//! the facets: a slab may be a hundred thousand times longer than the block it carries. They touch where the gap is within the
-//! tolerance at all these corners. Facets that are not plane stand for their mean planes, and both tolerances grow with their warp:
-//! two blocks that share part of a warped joint have different mean planes there, apart by up to the warp and leaning from each
-//! other by up to twice the warp over the width of the facet.
+//! Two facets face each other where their normals are opposite within the angle. Each convex piece
+//! of one is cut by each convex piece of the other in a plane between them, and the gap is measured
+//! **at the corners of what is left**, not at the corners of the facets: a slab may be a hundred
+//! thousand times longer than the block it carries. They touch where the gap is within the
+//! tolerance at all these corners. Facets that are not plane stand for their mean planes, and both
+//! tolerances grow with their warp: two blocks that share part of a warped joint have different
+//! mean planes there, apart by up to the warp and leaning from each other by up to twice the warp
+//! over the width of the facet.
 //!
-//! All facet pairs of two blocks that touch on one plane make one contact: its points are the convex hull, exact for rigid blocks
-//! with Coulomb friction, because a force at an inner point is a combination of forces at the hull's corners.
+//! All facet pairs of two blocks that touch on one plane make one contact: its points are the
+//! convex hull, exact for rigid blocks with Coulomb friction, because a force at an inner point is
+//! a combination of forces at the hull's corners.
 
 use super::{
     body::{Bounds, Solidity, unit},
@@ -81,8 +84,10 @@ pub(super) struct Closing {
 impl Closing {
     /// Whether facets with these gaps, which do not touch, nearly do.
     fn is_near(&self, gap: &Gap, limits: &Limits) -> bool {
-        // Facets that are parallel enough nearly touch with their nearest corner, others only as a whole.
-        self.gap <= limits.near || self.lean <= limits.chord && gap.least >= -limits.near && gap.least <= limits.near
+        // Facets that are parallel enough nearly touch with their nearest corner, others only as a
+        // whole.
+        self.gap <= limits.near
+            || self.lean <= limits.chord && gap.least >= -limits.near && gap.least <= limits.near
     }
 }
 
@@ -105,13 +110,19 @@ pub(super) fn facing(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limit
     let of_b: Vec<_> = b.facets_in(window).collect();
     for (i, fa) in a.facets_in(window) {
         for &(j, fb) in &of_b {
-            // The plane of a warped facet is known no better than its warp, and its direction no better than its twist.
+            // The plane of a warped facet is known no better than its warp, and its direction no
+            // better than its twist.
             let lean = limits.lean(&fa.normal, &fb.normal, a.facet_twist[i] + b.facet_twist[j]);
-            if lean > limits.near_chord || a.facet_bounds[i].distance(&b.facet_bounds[j]) > limits.near {
+            if lean > limits.near_chord
+                || a.facet_bounds[i].distance(&b.facet_bounds[j]) > limits.near
+            {
                 continue;
             }
             let Some(overlay) = overlay(a, b, [i, j], limits) else { continue };
-            let closing = Closing { gap: overlay.gap.greatest.max(-overlay.gap.least) - fa.warp - fb.warp, lean };
+            let closing = Closing {
+                gap: overlay.gap.greatest.max(-overlay.gap.least) - fa.warp - fb.warp,
+                lean,
+            };
             if closing.gap <= limits.gap && lean <= limits.chord {
                 touching.push(overlay);
             } else if overlay.area >= limits.min_area && closing.is_near(&overlay.gap, limits) {
@@ -134,12 +145,15 @@ pub(super) fn facing(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limit
     // Convex blocks that meet face to face meet nowhere else.
     if facing.contacts.is_empty() || !(a.polyhedron.convex && b.polyhedron.convex) {
         apart.sort_by(|(x, _), (y, _)| x.gap.total_cmp(&y.gap));
-        facing.near = apart.iter().find_map(|(closing, overlay)| near_miss(*closing, overlay, &facing.contacts, a, b, limits));
+        facing.near = apart.iter().find_map(|(closing, overlay)| {
+            near_miss(*closing, overlay, &facing.contacts, a, b, limits)
+        });
     }
     facing
 }
 
-/// A near miss of two facets, unless a contact lies there already or there would be none even if they were closed.
+/// A near miss of two facets, unless a contact lies there already or there would be none even if
+/// they were closed.
 fn near_miss(
     closing: Closing,
     overlay: &Overlay,
@@ -150,7 +164,9 @@ fn near_miss(
 ) -> Option<NearMiss> {
     let closed = Limits { gap: closing.gap.max(limits.gap), ..*limits };
     // Where the blocks touch already, facets that lean only belong to the same rounded surface.
-    let known = contacts.iter().any(|c| closing.lean > limits.chord || c.covers(overlay.centroid, &overlay.n, limits));
+    let known = contacts
+        .iter()
+        .any(|c| closing.lean > limits.chord || c.covers(overlay.centroid, &overlay.n, limits));
     (!known && !is_rim(&join(&[overlay], limits), overlay, a, b, &closed)).then_some(NearMiss {
         gap: overlay.gap.mean,
         closing,
@@ -159,13 +175,16 @@ fn near_miss(
     })
 }
 
-/// Two plates thinner than the gap tolerance meet twice within it: face to face, and back to back as if each had gone through the
-/// other. Of contacts with opposite normals only the one that closes less is kept.
+/// Two plates thinner than the gap tolerance meet twice within it: face to face, and back to back
+/// as if each had gone through the other. Of contacts with opposite normals only the one that
+/// closes less is kept.
 fn drop_far_sides(contacts: &mut Vec<FaceContact>, limits: &Limits) {
     let closes: Vec<(Plane, f64)> = contacts.iter().map(|c| (c.plane, c.gap.mean.abs())).collect();
     contacts.retain(|c| {
         !closes.iter().any(|(plane, less)| {
-            *less < c.gap.mean.abs() && plane.frame.n.dot(&c.plane.frame.n) < -0.9 && plane.height(c.plane.origin).abs() <= 2.0 * limits.gap
+            *less < c.gap.mean.abs()
+                && plane.frame.n.dot(&c.plane.frame.n) < -0.9
+                && plane.height(c.plane.origin).abs() <= 2.0 * limits.gap
         })
     });
 }
@@ -178,7 +197,9 @@ fn overlay(a: &Solidity, b: &Solidity, facets: [usize; 2], limits: &Limits) -> O
     if n == Vector3::zeros() {
         return None;
     }
-    let common = a.facet_bounds[facets[0]].loosened(limits.near).common(&b.facet_bounds[facets[1]].loosened(limits.near));
+    let common = a.facet_bounds[facets[0]]
+        .loosened(limits.near)
+        .common(&b.facet_bounds[facets[1]].loosened(limits.near));
     let plane = Plane::new((common.lo + common.hi) / 2.0, n);
     let flat = |s: &Solidity, f: &Facet, reversed: bool| -> Vec<Vec<P2>> {
         let loops = f.pieces.iter().map(|piece| {
@@ -244,7 +265,11 @@ fn overlay(a: &Solidity, b: &Solidity, facets: [usize; 2], limits: &Limits) -> O
 }
 
 fn extent(polygon: &[P2]) -> (P2, P2) {
-    polygon.iter().fold((P2::repeat(f64::INFINITY), P2::repeat(f64::NEG_INFINITY)), |(lo, hi), p| (lo.inf(p), hi.sup(p)))
+    polygon
+        .iter()
+        .fold((P2::repeat(f64::INFINITY), P2::repeat(f64::NEG_INFINITY)), |(lo, hi), p| {
+            (lo.inf(p), hi.sup(p))
+        })
 }
 
 /// Sorts overlays by the plane they lie on, largest first.
@@ -254,8 +279,16 @@ fn by_plane(mut overlays: Vec<Overlay>, limits: &Limits) -> Vec<Vec<Overlay>> {
     for overlay in overlays {
         let lies_on = |first: &Overlay| {
             (overlay.n - first.n).norm() <= limits.chord
-                && overlay.pieces.iter().flatten().all(|p| (p - first.centroid).dot(&first.n).abs() <= limits.gap)
-                && first.pieces.iter().flatten().all(|p| (p - overlay.centroid).dot(&overlay.n).abs() <= limits.gap)
+                && overlay
+                    .pieces
+                    .iter()
+                    .flatten()
+                    .all(|p| (p - first.centroid).dot(&first.n).abs() <= limits.gap)
+                && first
+                    .pieces
+                    .iter()
+                    .flatten()
+                    .all(|p| (p - overlay.centroid).dot(&overlay.n).abs() <= limits.gap)
         };
         match groups.iter().position(|g| lies_on(&g[0])) {
             Some(k) => groups[k].push(overlay),
@@ -269,10 +302,14 @@ fn by_plane(mut overlays: Vec<Overlay>, limits: &Limits) -> Vec<Vec<Overlay>> {
 fn join(overlays: &[&Overlay], limits: &Limits) -> FaceContact {
     let area: f64 = overlays.iter().map(|o| o.area).sum();
     let first = overlays[0].centroid;
-    let centroid = first + overlays.iter().map(|o| (o.centroid - first) * o.area).sum::<Vector3<f64>>() / area;
+    let centroid =
+        first + overlays.iter().map(|o| (o.centroid - first) * o.area).sum::<Vector3<f64>>() / area;
     let plane = Plane::new(centroid, unit(overlays.iter().map(|o| o.n * o.area).sum()));
-    let pieces: Vec<Vec<P2>> =
-        overlays.iter().flat_map(|o| &o.pieces).map(|piece| piece.iter().map(|&p| plane.flat(p)).collect()).collect();
+    let pieces: Vec<Vec<P2>> = overlays
+        .iter()
+        .flat_map(|o| &o.pieces)
+        .map(|piece| piece.iter().map(|&p| plane.flat(p)).collect())
+        .collect();
     let hull = polygon::hull(&pieces.concat(), limits.weld);
     FaceContact {
         patches: patches(&pieces, limits.weld),
@@ -288,12 +325,16 @@ fn join(overlays: &[&Overlay], limits: &Limits) -> FaceContact {
     }
 }
 
-/// Number of connected patches among convex pieces; pieces that meet along a side or in a point are connected.
+/// Number of connected patches among convex pieces; pieces that meet along a side or in a point are
+/// connected.
 fn patches(pieces: &[Vec<P2>], tol: f64) -> usize {
     let extents: Vec<_> = pieces.iter().map(|p| extent(p)).collect();
     let near = |i: usize, j: usize| {
         let ((lo, hi), (other_lo, other_hi)) = (extents[i], extents[j]);
-        lo.x <= other_hi.x + tol && lo.y <= other_hi.y + tol && other_lo.x <= hi.x + tol && other_lo.y <= hi.y + tol
+        lo.x <= other_hi.x + tol
+            && lo.y <= other_hi.y + tol
+            && other_lo.x <= hi.x + tol
+            && other_lo.y <= hi.y + tol
     };
     let mut unvisited: Vec<usize> = (0..pieces.len()).collect();
     let mut count = 0;
@@ -313,24 +354,40 @@ fn patches(pieces: &[Vec<P2>], tol: f64) -> usize {
     count
 }
 
-/// Whether a contact is only the rim of two faces that just overlap: no wider than the gap that is closed anyway, while both
-/// faces are much wider. (The edge of a thin plate is a bearing: the contact is narrow because the face is.)
-fn is_rim(contact: &FaceContact, overlay: &Overlay, a: &Solidity, b: &Solidity, limits: &Limits) -> bool {
+/// Whether a contact is only the rim of two faces that just overlap: no wider than the gap that is
+/// closed anyway, while both faces are much wider. (The edge of a thin plate is a bearing: the
+/// contact is narrow because the face is.)
+fn is_rim(
+    contact: &FaceContact,
+    overlay: &Overlay,
+    a: &Solidity,
+    b: &Solidity,
+    limits: &Limits,
+) -> bool {
     let width = polygon::width(&contact.hull);
     if width > limits.gap {
         return false;
     }
     let facet_width = |s: &Solidity, f: usize| {
-        let corners: Vec<P2> = s.polyhedron.facets[f].pieces.iter().flatten().map(|&v| contact.plane.flat(s.at(v))).collect();
+        let corners: Vec<P2> = s.polyhedron.facets[f]
+            .pieces
+            .iter()
+            .flatten()
+            .map(|&v| contact.plane.flat(s.at(v)))
+            .collect();
         polygon::width(&polygon::hull(&corners, 0.0))
     };
-    width < tolerance::RIM_SHARE * facet_width(a, overlay.facets[0]).min(facet_width(b, overlay.facets[1]))
+    width
+        < tolerance::RIM_SHARE
+            * facet_width(a, overlay.facets[0]).min(facet_width(b, overlay.facets[1]))
 }
 
 impl FaceContact {
     /// Whether the contact is the whole of its hull.
     pub fn fills_hull(&self, limits: &Limits) -> bool {
-        self.patches == 1 && polygon::area(&self.hull) - self.area <= 4.0 * limits.weld * polygon::perimeter(&self.hull)
+        self.patches == 1
+            && polygon::area(&self.hull) - self.area
+                <= 4.0 * limits.weld * polygon::perimeter(&self.hull)
     }
 
     /// Whether `p`, touched along a normal `n`, lies on this contact already.

@@ -1,13 +1,14 @@
 //! Edges and corners: an edge on a face, a corner on a face, two crossing edges.
 //!
-//! Own geometry, not parry's `contact` or `closest_points`: those give one point of what may be a whole edge, and a normal that is
-//! wrong for exactly touching aligned hulls. Here the feature gives the normal: the face's, or the common perpendicular of two
-//! crossing edges; and the same test serves convex and non-convex blocks, because it only looks at the neighbourhood of the touch.
-//! A touch counts where neither block digs into the other there: around an edge both facets, around a corner all sides, lie on the
-//! outer side.
+//! Own geometry, not parry's `contact` or `closest_points`: those give one point of what may be a
+//! whole edge, and a normal that is wrong for exactly touching aligned hulls. Here the feature
+//! gives the normal: the face's, or the common perpendicular of two crossing edges; and the same
+//! test serves convex and non-convex blocks, because it only looks at the neighbourhood of the
+//! touch. A touch counts where neither block digs into the other there: around an edge both facets,
+//! around a corner all sides, lie on the outer side.
 //!
-//! Parallel edges, an edge on a face's rim, a corner on an edge and two corners have no definite normal. They are not taken;
-//! [`meet_without_normal`] finds them so that they can be counted.
+//! Parallel edges, an edge on a face's rim, a corner on an edge and two corners have no definite
+//! normal. They are not taken; [`meet_without_normal`] finds them so that they can be counted.
 
 use super::{
     body::{Bounds, Edge, Solidity, unit},
@@ -49,7 +50,13 @@ impl Segment {
 pub(super) type Known<'a> = &'a dyn Fn(Vector3<f64>, &Vector3<f64>) -> bool;
 
 /// All touches of edges and corners that are not `known` already.
-pub(super) fn touches(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limits, known: Known) -> Vec<Touch> {
+pub(super) fn touches(
+    a: &Solidity,
+    b: &Solidity,
+    window: &Bounds,
+    limits: &Limits,
+    known: Known,
+) -> Vec<Touch> {
     let mut segments = Vec::new();
     edges_on_facets(a, b, -1.0, window, limits, &mut segments);
     edges_on_facets(b, a, 1.0, window, limits, &mut segments);
@@ -80,8 +87,16 @@ impl Touch {
     }
 }
 
-/// Edges of `s` on facets of `o`; `sign` turns the facet's normal so that it points from `a` into `b`.
-fn edges_on_facets(s: &Solidity, o: &Solidity, sign: f64, window: &Bounds, limits: &Limits, found: &mut Vec<Segment>) {
+/// Edges of `s` on facets of `o`; `sign` turns the facet's normal so that it points from `a` into
+/// `b`.
+fn edges_on_facets(
+    s: &Solidity,
+    o: &Solidity,
+    sign: f64,
+    window: &Bounds,
+    limits: &Limits,
+    found: &mut Vec<Segment>,
+) {
     // Shorter than the side of the least contact area is no edge contact.
     let shortest = limits.min_area.sqrt().max(limits.gap);
     for edge in s.edges_in(window).filter(|e| e.convex) {
@@ -101,9 +116,15 @@ fn edges_on_facets(s: &Solidity, o: &Solidity, sign: f64, window: &Bounds, limit
             for [from, to] in inside(o, i, &plane, plane.flat(p), plane.flat(q), limits.weld) {
                 let gaps = [hp + (hq - hp) * from, hp + (hq - hp) * to];
                 let at = |t: f64, gap: f64| p + (q - p) * t - n * (gap / 2.0);
-                let segment = Segment { n: n * sign, ends: [at(from, gaps[0]), at(to, gaps[1])], gaps };
-                let in_interior = [0.25, 0.5, 0.75].iter().any(|t| off_rim(o, i, p + (q - p) * (from + (to - from) * t), limits));
-                if gaps.iter().all(|g| g.abs() <= limits.gap) && segment.length() > shortest && in_interior {
+                let segment =
+                    Segment { n: n * sign, ends: [at(from, gaps[0]), at(to, gaps[1])], gaps };
+                let in_interior = [0.25, 0.5, 0.75]
+                    .iter()
+                    .any(|t| off_rim(o, i, p + (q - p) * (from + (to - from) * t), limits));
+                if gaps.iter().all(|g| g.abs() <= limits.gap)
+                    && segment.length() > shortest
+                    && in_interior
+                {
                     found.push(segment);
                 }
             }
@@ -175,7 +196,8 @@ fn by_line(mut segments: Vec<Segment>, limits: &Limits) -> Vec<Touch> {
         let on_line = |first: &Segment| {
             let along = unit(first.ends[1] - first.ends[0]);
             let off = |p: &Vector3<f64>| (p - first.ends[0]).cross(&along).norm();
-            (segment.n - first.n).norm() <= limits.chord && segment.ends.iter().all(|p| off(p) <= limits.gap)
+            (segment.n - first.n).norm() <= limits.chord
+                && segment.ends.iter().all(|p| off(p) <= limits.gap)
         };
         match lines.iter().position(|line| on_line(&line[0])) {
             Some(k) => lines[k].push(segment),
@@ -211,7 +233,14 @@ fn edge_contact(line: &[Segment], limits: &Limits) -> Touch {
 }
 
 /// Corners of `s` on facets of `o`.
-fn corners_on_facets(s: &Solidity, o: &Solidity, sign: f64, window: &Bounds, limits: &Limits, found: &mut Vec<Touch>) {
+fn corners_on_facets(
+    s: &Solidity,
+    o: &Solidity,
+    sign: f64,
+    window: &Bounds,
+    limits: &Limits,
+    found: &mut Vec<Touch>,
+) {
     for (corner, &v) in s.topology().corners.iter().zip(&s.polyhedron.vertices) {
         let here = Bounds { lo: v, hi: v }.loosened(limits.gap);
         if corner.along.is_empty() || !here.meets(window) {
@@ -220,7 +249,8 @@ fn corners_on_facets(s: &Solidity, o: &Solidity, sign: f64, window: &Bounds, lim
         for (i, facet) in o.facets_in(&here) {
             let n = facet.normal;
             let height = n.dot(&v) - facet.offset;
-            let outside = corner.along.iter().all(|u| u.dot(&n) >= -CONTACT_ROUNDING_ANGLE) && corner.outward.dot(&n) < 0.0;
+            let outside = corner.along.iter().all(|u| u.dot(&n) >= -CONTACT_ROUNDING_ANGLE)
+                && corner.outward.dot(&n) < 0.0;
             if height.abs() > limits.gap || !outside {
                 continue;
             }
@@ -237,7 +267,13 @@ fn corners_on_facets(s: &Solidity, o: &Solidity, sign: f64, window: &Bounds, lim
 }
 
 /// Where edges of `a` and `b` cross, their common perpendicular keeping the blocks apart.
-fn crossing_edges(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limits, found: &mut Vec<Touch>) {
+fn crossing_edges(
+    a: &Solidity,
+    b: &Solidity,
+    window: &Bounds,
+    limits: &Limits,
+    found: &mut Vec<Touch>,
+) {
     for (ea, eb) in edge_pairs(a, b, window, limits.gap) {
         if !(ea.convex && eb.convex) {
             continue;
@@ -249,7 +285,8 @@ fn crossing_edges(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limits, 
         }
         let (ta, tb) = nearest_of_lines(pa, qa, pb, qb);
         let (xa, xb) = (pa + (qa - pa) * ta, pb + (qb - pb) * tb);
-        let within = |t: f64, length: f64| t * length > limits.weld && (1.0 - t) * length > limits.weld;
+        let within =
+            |t: f64, length: f64| t * length > limits.weld && (1.0 - t) * length > limits.weld;
         let gap = (xb - xa).dot(&n);
         if within(ta, (qa - pa).norm()) && within(tb, (qb - pb).norm()) && gap.abs() <= limits.gap {
             found.push(Touch::point(n, (xa + xb) / 2.0, gap));
@@ -257,20 +294,33 @@ fn crossing_edges(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limits, 
     }
 }
 
-/// The common perpendicular of two edges, from `a` into `b`, if the blocks lie on different sides of it near the edges
-/// (the arcs of their facets' normals cross on the sphere of directions).
-pub(super) fn separating(ea: &Edge, eb: &Edge, along_a: Vector3<f64>, along_b: Vector3<f64>) -> Option<Vector3<f64>> {
+/// The common perpendicular of two edges, from `a` into `b`, if the blocks lie on different sides
+/// of it near the edges (the arcs of their facets' normals cross on the sphere of directions).
+pub(super) fn separating(
+    ea: &Edge,
+    eb: &Edge,
+    along_a: Vector3<f64>,
+    along_b: Vector3<f64>,
+) -> Option<Vector3<f64>> {
     let n = unit(along_a.cross(&along_b));
     let apart = |n: &Vector3<f64>| {
-        ea.into.iter().all(|t| t.dot(n) < -CONTACT_ROUNDING_ANGLE) && eb.into.iter().all(|t| t.dot(n) > CONTACT_ROUNDING_ANGLE)
+        ea.into.iter().all(|t| t.dot(n) < -CONTACT_ROUNDING_ANGLE)
+            && eb.into.iter().all(|t| t.dot(n) > CONTACT_ROUNDING_ANGLE)
     };
     [n, -n].into_iter().find(apart)
 }
 
 /// Edges of `a` and `b` whose boxes come within `reach` of each other.
-fn edge_pairs<'s>(a: &'s Solidity, b: &'s Solidity, window: &Bounds, reach: f64) -> Vec<(&'s Edge, &'s Edge)> {
+fn edge_pairs<'s>(
+    a: &'s Solidity,
+    b: &'s Solidity,
+    window: &Bounds,
+    reach: f64,
+) -> Vec<(&'s Edge, &'s Edge)> {
     let boxed = |s: &'s Solidity| -> Vec<(&'s Edge, Bounds)> {
-        s.edges_in(window).map(|e| (e, Bounds::around(&s.ends(e.ends)).loosened(reach / 2.0))).collect()
+        s.edges_in(window)
+            .map(|e| (e, Bounds::around(&s.ends(e.ends)).loosened(reach / 2.0)))
+            .collect()
     };
     let of_b = boxed(b);
     let mut pairs = Vec::new();
@@ -280,21 +330,34 @@ fn edge_pairs<'s>(a: &'s Solidity, b: &'s Solidity, window: &Bounds, reach: f64)
     pairs
 }
 
-/// Whether the blocks come within the gap along an edge or at a corner. Asked only of pairs without any contact.
-pub(super) fn meet_without_normal(a: &Solidity, b: &Solidity, window: &Bounds, limits: &Limits) -> bool {
+/// Whether the blocks come within the gap along an edge or at a corner. Asked only of pairs without
+/// any contact.
+pub(super) fn meet_without_normal(
+    a: &Solidity,
+    b: &Solidity,
+    window: &Bounds,
+    limits: &Limits,
+) -> bool {
     edge_pairs(a, b, window, limits.gap).iter().any(|(ea, eb)| {
         let ([pa, qa], [pb, qb]) = (a.ends(ea.ends), b.ends(eb.ends));
         let (ta, tb) = nearest_of_lines(pa, qa, pb, qb);
-        let crossing =
-            (0.0..=1.0).contains(&ta) && (0.0..=1.0).contains(&tb) && (pa + (qa - pa) * ta - pb - (qb - pb) * tb).norm() <= limits.gap;
+        let crossing = (0.0..=1.0).contains(&ta)
+            && (0.0..=1.0).contains(&tb)
+            && (pa + (qa - pa) * ta - pb - (qb - pb) * tb).norm() <= limits.gap;
         crossing
             || [pa, qa].iter().any(|&p| distance_to_segment(p, pb, qb) <= limits.gap)
             || [pb, qb].iter().any(|&p| distance_to_segment(p, pa, qa) <= limits.gap)
     })
 }
 
-/// Fractions along two segments at which their lines come closest; beyond 0..1 where that is off the segment, NaN where parallel.
-fn nearest_of_lines(pa: Vector3<f64>, qa: Vector3<f64>, pb: Vector3<f64>, qb: Vector3<f64>) -> (f64, f64) {
+/// Fractions along two segments at which their lines come closest; beyond 0..1 where that is off
+/// the segment, NaN where parallel.
+fn nearest_of_lines(
+    pa: Vector3<f64>,
+    qa: Vector3<f64>,
+    pb: Vector3<f64>,
+    qb: Vector3<f64>,
+) -> (f64, f64) {
     let (u, v, w) = (qa - pa, qb - pb, pb - pa);
     let n = u.cross(&v);
     let square = n.norm_squared();
@@ -307,7 +370,11 @@ pub(super) fn distance_to_segment(p: Vector3<f64>, a: Vector3<f64>, b: Vector3<f
 }
 
 /// The point of a segment nearest to `p`.
-pub(super) fn nearest_on_segment(p: Vector3<f64>, a: Vector3<f64>, b: Vector3<f64>) -> Vector3<f64> {
+pub(super) fn nearest_on_segment(
+    p: Vector3<f64>,
+    a: Vector3<f64>,
+    b: Vector3<f64>,
+) -> Vector3<f64> {
     let along = b - a;
     let square = along.norm_squared();
     let s = if square > 0.0 { ((p - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };

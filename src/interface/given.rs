@@ -4,7 +4,8 @@ use super::{ContactFrame, ContactKind, Interface, limits::Limits, plane::Plane, 
 use crate::assembly::GivenInterface;
 use nalgebra::Vector3;
 
-/// The interface somebody gave: its points as they are, turned counter-clockwise around the normal, repeated points left out.
+/// The interface somebody gave: its points as they are, turned counter-clockwise around the normal,
+/// repeated points left out.
 pub(super) fn interface(given: &GivenInterface, limits: &Limits) -> Interface {
     let mut points: Vec<Vector3<f64>> = Vec::with_capacity(given.points.len());
     for p in &given.points {

@@ -4,8 +4,8 @@ use super::body::Body;
 use crate::{scene::ContactSpec, tolerance};
 use nalgebra::Vector3;
 
-/// What counts as touching between two given blocks. All lengths derive from the size of the smaller block, and none
-/// is below the rounding of the coordinates.
+/// What counts as touching between two given blocks. All lengths derive from the size of the
+/// smaller block, and none is below the rounding of the coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// Size of the smaller block, m.
@@ -45,11 +45,13 @@ impl Limits {
             noise: (tolerance::GAP_WORTH_TELLING * size).max(rounding),
             min_area: spec.min_area * size * size,
             chord: chord(spec.angle_deg) + tolerance::CONTACT_ROUNDING_ANGLE,
-            near_chord: chord(spec.angle_deg.max(tolerance::NEAR_MISS_ANGLE_DEG)) + tolerance::CONTACT_ROUNDING_ANGLE,
+            near_chord: chord(spec.angle_deg.max(tolerance::NEAR_MISS_ANGLE_DEG))
+                + tolerance::CONTACT_ROUNDING_ANGLE,
         }
     }
 
-    /// How far normals `a` and `b` are from opposite, `|n_a + n_b|`, less what the twist of the facets (radians) explains.
+    /// How far normals `a` and `b` are from opposite, `|n_a + n_b|`, less what the twist of the
+    /// facets (radians) explains.
     pub fn lean(&self, a: &Vector3<f64>, b: &Vector3<f64>, twist: f64) -> f64 {
         ((a + b).norm() - twist).max(0.0)
     }

@@ -1,7 +1,7 @@
 //! Contact interfaces: where blocks touch, with normals, corner points and the law of the joint.
 //!
-//! Convention: the unit normal `n` points from block `a` into block `b`; contact forces are the forces **on b**;
-//! compression is `f_n ≥ 0`; the frame `(t1, t2, n)` is right-handed.
+//! Convention: the unit normal `n` points from block `a` into block `b`; contact forces are the
+//! forces **on b**; compression is `f_n ≥ 0`; the frame `(t1, t2, n)` is right-handed.
 
 mod axes;
 mod body;
@@ -59,10 +59,12 @@ pub struct Interface {
     pub kind: ContactKind,
     /// Orthonormal right-handed frame, `n` from `a` into `b`.
     pub frame: ContactFrame,
-    /// Contact points: the corners of the convex hull of the contact, in order around `n`, m.
-    /// The hull is exact for rigid blocks with Coulomb friction: a force at an inner point is a combination of forces at the corners.
+    /// Contact points: the corners of the convex hull of the contact, in order around `n`, m. The
+    /// hull is exact for rigid blocks with Coulomb friction: a force at an inner point is a
+    /// combination of forces at the corners.
     pub points: Vec<Vector3<f64>>,
-    /// Area that really touches, m² (smaller than the hull's where the contact has several patches or holes; 0 for edges and points).
+    /// Area that really touches, m² (smaller than the hull's where the contact has several patches
+    /// or holes; 0 for edges and points).
     pub area: f64,
     /// Connected patches.
     pub patches: usize,
@@ -100,14 +102,16 @@ pub struct ContactFrame {
 }
 
 impl ContactFrame {
-    /// A frame around a unit normal; `t1` lies along the coordinate axis least parallel to `n`, projected.
+    /// A frame around a unit normal; `t1` lies along the coordinate axis least parallel to `n`,
+    /// projected.
     pub fn around(n: Vector3<f64>) -> Self {
         let axis = Vector3::ith(n.iamin(), 1.0);
         let t1 = (axis - n * n.dot(&axis)).normalize();
         Self { t1, t2: n.cross(&t1), n }
     }
 
-    /// A frame around a unit normal whose `t1` is along `direction`, projected; falls back to [`Self::around`] where they are parallel.
+    /// A frame around a unit normal whose `t1` is along `direction`, projected; falls back to
+    /// [`Self::around`] where they are parallel.
     pub fn along(n: Vector3<f64>, direction: Vector3<f64>) -> Self {
         let t = direction - n * n.dot(&direction);
         if t.norm() <= 1e-9 * direction.norm() {

@@ -47,12 +47,17 @@ impl Model {
     /// An assembly with its interfaces as they were detected; adds what they say together.
     pub fn detected(assembly: Assembly, interfaces: Interfaces) -> Self {
         let mut model = Self::new(assembly, interfaces);
-        let said: Vec<Finding> = unheld(&model).into_iter().chain(without_effect(&model.interfaces)).chain(axes::mistake(&model)).collect();
+        let said: Vec<Finding> = unheld(&model)
+            .into_iter()
+            .chain(without_effect(&model.interfaces))
+            .chain(axes::mistake(&model))
+            .collect();
         model.interfaces.findings.extend(said);
         model
     }
 
-    /// The same contacts under the dead load and this multiple of the live load, which no longer varies.
+    /// The same contacts under the dead load and this multiple of the live load, which no longer
+    /// varies.
     #[must_use]
     pub fn at_load_factor(&self, lambda: f64) -> Self {
         Self::new(self.assembly.at_load_factor(lambda), self.interfaces.clone())
@@ -64,7 +69,8 @@ impl Model {
         Self { interfaces, ..Self::new(self.assembly.clone(), Interfaces::default()) }
     }
 
-    /// The model without these blocks (as indices, in any order), their contacts and their loads. What is left touches as it did.
+    /// The model without these blocks (as indices, in any order), their contacts and their loads.
+    /// What is left touches as it did.
     #[must_use]
     pub fn without(&self, gone: &[usize]) -> Self {
         let blocks = self.assembly.blocks.len();
@@ -75,7 +81,10 @@ impl Model {
         kept.iter().enumerate().for_each(|(own, &i)| place[i] = own);
         let of = &self.assembly;
         let forces = |list: &[AppliedForce]| -> Vec<AppliedForce> {
-            list.iter().filter(|a| stays[a.block]).map(|a| AppliedForce { block: place[a.block], ..*a }).collect()
+            list.iter()
+                .filter(|a| stays[a.block])
+                .map(|a| AppliedForce { block: place[a.block], ..*a })
+                .collect()
         };
         let assembly = Assembly {
             blocks: kept.iter().map(|&i| of.blocks[i].clone()).collect(),
@@ -93,7 +102,11 @@ impl Model {
         };
         let list = self.interfaces.list.iter().filter(|f| stays[f.a] && stays[f.b]);
         let list = list.map(|f| Interface { a: place[f.a], b: place[f.b], ..f.clone() }).collect();
-        let interfaces = Interfaces { list, support_pairs: self.interfaces.support_pairs, findings: self.interfaces.findings.clone() };
+        let interfaces = Interfaces {
+            list,
+            support_pairs: self.interfaces.support_pairs,
+            findings: self.interfaces.findings.clone(),
+        };
         Self { timings: self.timings, ..Self::new(assembly, interfaces) }
     }
 
@@ -124,28 +137,37 @@ pub fn prepare(scene: &Scene) -> Result<Model, InputError> {
     let start = Instant::now();
     let interfaces = detect(&assembly)?;
     let mut model = Model::detected(assembly, interfaces);
-    model.timings = Timings { resolve, detect: start.elapsed().as_secs_f64(), ..Timings::default() };
+    model.timings =
+        Timings { resolve, detect: start.elapsed().as_secs_f64(), ..Timings::default() };
     Ok(model)
 }
 
 /// Says which free blocks nothing holds.
 fn unheld(model: &Model) -> Option<Finding> {
     const NAMED: usize = 8;
-    let loose: Vec<&str> = floating(model).into_iter().flatten().map(|i| model.assembly.blocks[i].id.as_str()).collect();
+    let loose: Vec<&str> = floating(model)
+        .into_iter()
+        .flatten()
+        .map(|i| model.assembly.blocks[i].id.as_str())
+        .collect();
     let more = loose.len().saturating_sub(NAMED);
     let names = loose[..loose.len() - more].join(", ");
     let text = match (loose.len(), more) {
         (0, _) => return None,
         (1, _) => format!("a free block touches nothing that is held: {names}"),
         (n, 0) => format!("{n} free blocks have no contact path to a support: {names}"),
-        (n, more) => format!("{n} free blocks have no contact path to a support: {names} and {more} more"),
+        (n, more) => {
+            format!("{n} free blocks have no contact path to a support: {names} and {more} more")
+        }
     };
     Some(Finding::new(FindingCode::Floating, text))
 }
 
-/// Says what joints are given that their contacts cannot use: stresses need an area, a rolling arm an edge or a point.
+/// Says what joints are given that their contacts cannot use: stresses need an area, a rolling arm
+/// an edge or a point.
 fn without_effect(interfaces: &Interfaces) -> Vec<Finding> {
-    let count = |unused: &dyn Fn(&Interface) -> bool| interfaces.list.iter().filter(|f| unused(f)).count();
+    let count =
+        |unused: &dyn Fn(&Interface) -> bool| interfaces.list.iter().filter(|f| unused(f)).count();
     let faces = count(&|f| f.law.rolling_arm > 0.0 && f.points.len() >= 3);
     let lines = count(&|f| f.points.len() < 3 && !f.law.friction_only());
     let mut findings = Vec::new();

@@ -3,7 +3,8 @@
 use super::{ContactFrame, polygon::P2};
 use nalgebra::Vector3;
 
-/// A plane with an origin near the contact, so that coordinates in it are small, and axes `t1`, `t2` with `t1 × t2 = n`.
+/// A plane with an origin near the contact, so that coordinates in it are small, and axes `t1`,
+/// `t2` with `t1 × t2 = n`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
     pub origin: Vector3<f64>,

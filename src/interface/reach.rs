@@ -3,8 +3,8 @@
 use super::Model;
 use crate::plane::Sets;
 
-/// Whether the contacts form no closed chain, all supports taken as one: then the resultant of every contact follows from
-/// statics alone and there is nothing that could be wedged.
+/// Whether the contacts form no closed chain, all supports taken as one: then the resultant of
+/// every contact follows from statics alone and there is nothing that could be wedged.
 pub fn is_forest(model: &Model) -> bool {
     let Model { assembly, interfaces, .. } = model;
     let n = assembly.blocks.len();
@@ -14,7 +14,8 @@ pub fn is_forest(model: &Model) -> bool {
     interfaces.list.iter().all(|face| sets.join(node(face.a), node(face.b)))
 }
 
-/// Groups of free blocks connected to each other but not to any support, each group sorted, in block order.
+/// Groups of free blocks connected to each other but not to any support, each group sorted, in
+/// block order.
 pub fn floating(model: &Model) -> Vec<Vec<usize>> {
     let Model { assembly, interfaces, .. } = model;
     let n = assembly.blocks.len();

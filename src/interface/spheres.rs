@@ -1,10 +1,11 @@
 //! Spheres, alone or rigidly joined to a clump: exact nearest points.
 //!
-//! The members of a clump touch each by itself. Where a member would touch at a point inside another member of the same clump there is no
-//! surface, and nothing touches.
+//! The members of a clump touch each by itself. Where a member would touch at a point inside
+//! another member of the same clump there is no surface, and nothing touches.
 //!
-//! A sphere touches a polyhedron wherever the distance from its centre to the surface has a local least value equal to the radius:
-//! one point on a convex block, two in the groove of a non-convex one.
+//! A sphere touches a polyhedron wherever the distance from its centre to the surface has a local
+//! least value equal to the radius: one point on a convex block, two in the groove of a non-convex
+//! one.
 
 use super::{
     body::{Bounds, Solidity, unit},
@@ -56,8 +57,12 @@ pub(super) fn balls_balls(one: &[Ball], other: &[Ball], limits: &Limits) -> Meet
     }
     let mut all = Meeting::default();
     for (i, a) in one.iter().enumerate() {
-        for (j, b) in other.iter().enumerate().filter(|(_, b)| (a.0 - b.0).norm() <= a.1 + b.1 + limits.near) {
-            all.join(sphere_sphere(*a, *b, limits), |p| is_inside(p, one, i, limits) || is_inside(p, other, j, limits));
+        for (j, b) in
+            other.iter().enumerate().filter(|(_, b)| (a.0 - b.0).norm() <= a.1 + b.1 + limits.near)
+        {
+            all.join(sphere_sphere(*a, *b, limits), |p| {
+                is_inside(p, one, i, limits) || is_inside(p, other, j, limits)
+            });
         }
     }
     all
@@ -70,7 +75,9 @@ pub(super) fn balls_polyhedron(balls: &[Ball], solid: &Solidity, limits: &Limits
     }
     let mut all = Meeting::default();
     for (i, ball) in balls.iter().enumerate() {
-        all.join(sphere_polyhedron(ball.0, ball.1, solid, limits), |p| is_inside(p, balls, i, limits));
+        all.join(sphere_polyhedron(ball.0, ball.1, solid, limits), |p| {
+            is_inside(p, balls, i, limits)
+        });
     }
     all
 }
@@ -98,7 +105,12 @@ fn sphere_sphere(a: (Vector3<f64>, f64), b: (Vector3<f64>, f64), limits: &Limits
 }
 
 /// A sphere against a polyhedron; normals point from the sphere into the polyhedron.
-fn sphere_polyhedron(center: Vector3<f64>, radius: f64, solid: &Solidity, limits: &Limits) -> Meeting {
+fn sphere_polyhedron(
+    center: Vector3<f64>,
+    radius: f64,
+    solid: &Solidity,
+    limits: &Limits,
+) -> Meeting {
     let mut meeting = Meeting::default();
     if let Some(depth) = overlap::depth_inside(solid, center) {
         meeting.overlap = Some(radius + depth);
@@ -123,7 +135,8 @@ fn sphere_polyhedron(center: Vector3<f64>, radius: f64, solid: &Solidity, limits
     meeting
 }
 
-/// Points of the surface, within `reach`, at which the distance to an outer point `c` is locally least.
+/// Points of the surface, within `reach`, at which the distance to an outer point `c` is locally
+/// least.
 fn feet(c: Vector3<f64>, reach: f64, solid: &Solidity, limits: &Limits) -> Vec<Vector3<f64>> {
     let window = Bounds { lo: c, hi: c }.loosened(reach);
     let mut feet = Vec::new();
@@ -139,7 +152,8 @@ fn feet(c: Vector3<f64>, reach: f64, solid: &Solidity, limits: &Limits) -> Vec<V
         }
     }
     // Outside the cone of directions along the surface: no way along it comes nearer.
-    let farther = |d: Vector3<f64>, along: &Vector3<f64>| d.dot(along) <= CONTACT_ROUNDING_ANGLE * d.norm();
+    let farther =
+        |d: Vector3<f64>, along: &Vector3<f64>| d.dot(along) <= CONTACT_ROUNDING_ANGLE * d.norm();
     for edge in solid.edges_in(&window).filter(|e| e.convex) {
         let [p, q] = solid.ends(edge.ends);
         let foot = nearest_on_segment(c, p, q);
@@ -150,7 +164,11 @@ fn feet(c: Vector3<f64>, reach: f64, solid: &Solidity, limits: &Limits) -> Vec<V
     }
     for (corner, &v) in solid.topology().corners.iter().zip(&solid.polyhedron.vertices) {
         let d = c - v;
-        if d.norm() <= reach && !corner.along.is_empty() && corner.along.iter().all(|u| farther(d, u)) && corner.outward.dot(&d) > 0.0 {
+        if d.norm() <= reach
+            && !corner.along.is_empty()
+            && corner.along.iter().all(|u| farther(d, u))
+            && corner.outward.dot(&d) > 0.0
+        {
             feet.push(v);
         }
     }

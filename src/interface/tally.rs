@@ -73,7 +73,14 @@ impl Tally {
         self.near.push((Apart::new(closing, limits), a, b));
     }
 
-    pub fn overlap(&mut self, depth: f64, closing: Option<Closing>, limits: &Limits, a: usize, b: usize) {
+    pub fn overlap(
+        &mut self,
+        depth: f64,
+        closing: Option<Closing>,
+        limits: &Limits,
+        a: usize,
+        b: usize,
+    ) {
         self.overlaps.push((depth, closing.map(|c| Apart::new(c, limits)), a, b));
     }
 
@@ -87,15 +94,24 @@ impl Tally {
 
     /// One finding per kind of thing.
     pub fn findings(mut self, assembly: &Assembly) -> Vec<Finding> {
-        let pair = |a: usize, b: usize| format!("{} and {}", assembly.blocks[a].id, assembly.blocks[b].id);
+        let pair =
+            |a: usize, b: usize| format!("{} and {}", assembly.blocks[a].id, assembly.blocks[b].id);
         let tolerance = short(assembly.contact.gap);
         let mut findings = Vec::new();
         if self.closed.count + self.pressed.count > 0 {
-            let parts = [(&self.closed, "open gap", "open gaps"), (&self.pressed, "overlap", "overlaps")];
+            let parts =
+                [(&self.closed, "open gap", "open gaps"), (&self.pressed, "overlap", "overlaps")];
             let parts: Vec<String> = parts
                 .iter()
                 .filter(|(e, ..)| e.count > 0)
-                .map(|(e, one, many)| format!("{} {} (up to {} m)", e.count, if e.count == 1 { one } else { many }, short(e.greatest)))
+                .map(|(e, one, many)| {
+                    format!(
+                        "{} {} (up to {} m)",
+                        e.count,
+                        if e.count == 1 { one } else { many },
+                        short(e.greatest)
+                    )
+                })
                 .collect();
             let text = format!(
                 "closed {}, all within contact.gap ({tolerance} × the smaller block's size) or the warp of the faces",
@@ -106,9 +122,15 @@ impl Tally {
         if !self.near.is_empty() {
             self.near.sort_by(|x, y| x.0.gap.total_cmp(&y.0.gap).then((x.1, x.2).cmp(&(y.1, y.2))));
             let (least, greatest) = (self.near[0].0.gap, self.near[self.near.len() - 1].0.gap);
-            let lean = |angle: Option<f64>| angle.map(|a| format!(", {}° from parallel", short(a))).unwrap_or_default();
-            let worst: Vec<String> =
-                self.near.iter().take(3).map(|&(x, a, b)| format!("{} ({} m{})", pair(a, b), short(x.gap), lean(x.angle))).collect();
+            let lean = |angle: Option<f64>| {
+                angle.map(|a| format!(", {}° from parallel", short(a))).unwrap_or_default()
+            };
+            let worst: Vec<String> = self
+                .near
+                .iter()
+                .take(3)
+                .map(|&(x, a, b)| format!("{} ({} m{})", pair(a, b), short(x.gap), lean(x.angle)))
+                .collect();
             let text = format!(
                 "{} of blocks nearly touch and were left apart: gaps from {} to {} m; nearest: {}. If they should touch, {}",
                 pairs(self.near.len()),
@@ -121,12 +143,21 @@ impl Tally {
         }
         if !self.overlaps.is_empty() {
             self.overlaps.sort_by(|x, y| y.0.total_cmp(&x.0).then((x.2, x.3).cmp(&(y.2, y.3))));
-            let worst: Vec<String> = self.overlaps.iter().take(3).map(|&(d, _, a, b)| format!("{} ({} m)", pair(a, b), short(d))).collect();
+            let worst: Vec<String> = self
+                .overlaps
+                .iter()
+                .take(3)
+                .map(|&(d, _, a, b)| format!("{} ({} m)", pair(a, b), short(d)))
+                .collect();
             let closable: Vec<Apart> = self.overlaps.iter().filter_map(|o| o.1).collect();
             let close = match closable.len() {
                 0 => String::new(),
                 n if n == self.overlaps.len() => {
-                    format!(", or, to close {}, {}", if n == 1 { "it" } else { "them" }, remedy(closable, assembly))
+                    format!(
+                        ", or, to close {}, {}",
+                        if n == 1 { "it" } else { "them" },
+                        remedy(closable, assembly)
+                    )
                 }
                 n => format!(", or, to close {n} of them, {}", remedy(closable, assembly)),
             };
@@ -170,11 +201,19 @@ impl Tally {
 
 /// The tolerances that join all of these.
 fn remedy(apart: impl IntoIterator<Item = Apart>, assembly: &Assembly) -> String {
-    let (gap, angle) = apart.into_iter().fold((0.0, 0.0), |(g, a): (f64, f64), x| (g.max(x.relative), a.max(x.angle.unwrap_or(0.0))));
-    let raise = |name: &str, from: f64, to: f64| format!("contact.{name} from {} to {}", short(from), round_up(to));
+    let (gap, angle) = apart.into_iter().fold((0.0, 0.0), |(g, a): (f64, f64), x| {
+        (g.max(x.relative), a.max(x.angle.unwrap_or(0.0)))
+    });
+    let raise = |name: &str, from: f64, to: f64| {
+        format!("contact.{name} from {} to {}", short(from), round_up(to))
+    };
     let spec = &assembly.contact;
     match (gap > spec.gap, angle > spec.angle_deg) {
-        (true, true) => format!("raise {} and {}", raise("gap", spec.gap, gap), raise("angle_deg", spec.angle_deg, angle)),
+        (true, true) => format!(
+            "raise {} and {}",
+            raise("gap", spec.gap, gap),
+            raise("angle_deg", spec.angle_deg, angle)
+        ),
         (false, true) => format!("raise {}", raise("angle_deg", spec.angle_deg, angle)),
         _ => format!("raise {}", raise("gap", spec.gap, gap)),
     }
@@ -187,12 +226,21 @@ fn pairs(count: usize) -> String {
 /// Three significant digits.
 fn short(x: f64) -> String {
     if x == 0.0 || (1e-3..1e4).contains(&x.abs()) {
-        let digits = if x == 0.0 { 0 } else { (2 - x.abs().log10().floor() as i32).max(0) as usize };
+        let digits =
+            if x == 0.0 { 0 } else { (2 - x.abs().log10().floor() as i32).max(0) as usize };
         let text = format!("{x:.digits$}");
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+        if text.contains('.') {
+            text.trim_end_matches('0').trim_end_matches('.').to_string()
+        } else {
+            text
+        }
     } else {
         let text = format!("{x:.2e}");
-        text.replace(".00e", "e").replacen("0e", "e", usize::from(text.contains('.') && !text.contains(".00e")))
+        text.replace(".00e", "e").replacen(
+            "0e",
+            "e",
+            usize::from(text.contains('.') && !text.contains(".00e")),
+        )
     }
 }
 

@@ -1,4 +1,5 @@
-//! Detection by behaviour: exact answers on small scenes, invariance, and a word on everything left out.
+//! Detection by behaviour: exact answers on small scenes, invariance, and a word on everything left
+//! out.
 
 use super::*;
 use crate::{
@@ -27,7 +28,8 @@ fn v(x: f64, y: f64, z: f64) -> V {
 /// A polygon in the x–z plane, counter-clockwise seen from −y, from `y0` to `y1`.
 fn prism(polygon: &[(f64, f64)], y0: f64, y1: f64) -> Shape {
     let n = polygon.len();
-    let points = [y0, y1].iter().flat_map(|&y| polygon.iter().map(move |&(x, z)| v(x, y, z))).collect();
+    let points =
+        [y0, y1].iter().flat_map(|&y| polygon.iter().map(move |&(x, z)| v(x, y, z))).collect();
     let mut faces: Vec<Vec<usize>> = vec![(0..n).collect(), (n..2 * n).rev().collect()];
     faces.extend((0..n).map(|i| vec![i, n + i, n + (i + 1) % n, (i + 1) % n]));
     Shape::Mesh(points, faces)
@@ -59,13 +61,18 @@ fn tower(polygon: &[(f64, f64)], z0: f64, z1: f64, top: f64) -> Shape {
 }
 
 fn regular(n: usize, radius: f64, turn: f64) -> Vec<(f64, f64)> {
-    (0..n).map(|i| (turn + i as f64 / n as f64 * TAU).sin_cos()).map(|(s, c)| (radius * c, radius * s)).collect()
+    (0..n)
+        .map(|i| (turn + i as f64 / n as f64 * TAU).sin_cos())
+        .map(|(s, c)| (radius * c, radius * s))
+        .collect()
 }
 
 impl Shape {
     fn map(&self, f: impl Fn(V) -> V, scale: f64) -> Self {
         match self {
-            Shape::Mesh(points, faces) => Shape::Mesh(points.iter().map(|&p| f(p)).collect(), faces.clone()),
+            Shape::Mesh(points, faces) => {
+                Shape::Mesh(points.iter().map(|&p| f(p)).collect(), faces.clone())
+            }
             Shape::Ball(center, radius) => Shape::Ball(f(*center), radius * scale),
         }
     }
@@ -93,12 +100,15 @@ impl Shape {
         match self {
             Shape::Mesh(points, faces) => {
                 let size = super::body::Bounds::around(points);
-                let (polyhedron, mends) = Polyhedron::from_faces(points.clone(), faces).expect("a test shape is closed");
+                let (polyhedron, mends) =
+                    Polyhedron::from_faces(points.clone(), faces).expect("a test shape is closed");
                 // Corners of a grain, rounded far from the origin, are never quite plane.
                 assert!(mends.iter().all(|m| matches!(m, Mend::Warped { .. })), "{mends:?}");
                 (Solid::Polyhedron(polyhedron), (size.hi - size.lo).norm())
             }
-            Shape::Ball(center, radius) => (Solid::Sphere { center: *center, radius: *radius }, radius * 12f64.sqrt()),
+            Shape::Ball(center, radius) => {
+                (Solid::Sphere { center: *center, radius: *radius }, radius * 12f64.sqrt())
+            }
         }
     }
 }
@@ -145,11 +155,21 @@ fn found(shapes: &[Shape]) -> Interfaces {
     let interfaces = detect(&assembly(shapes)).expect("friction is given");
     for i in &interfaces.list {
         let ContactFrame { t1, t2, n } = i.frame;
-        assert!((t1.cross(&t2) - n).norm() < 1e-12 && (n.norm() - 1.0).abs() < 1e-12, "frame is right-handed");
+        assert!(
+            (t1.cross(&t2) - n).norm() < 1e-12 && (n.norm() - 1.0).abs() < 1e-12,
+            "frame is right-handed"
+        );
         if i.points.len() > 2 {
-            let newell: V =
-                (0..i.points.len()).map(|k| (i.points[k] - i.points[0]).cross(&(i.points[(k + 1) % i.points.len()] - i.points[0]))).sum();
-            assert!((newell.normalize() - n).norm() < 1e-5, "points run counter-clockwise around n: {newell} {n}");
+            let newell: V = (0..i.points.len())
+                .map(|k| {
+                    (i.points[k] - i.points[0])
+                        .cross(&(i.points[(k + 1) % i.points.len()] - i.points[0]))
+                })
+                .sum();
+            assert!(
+                (newell.normalize() - n).norm() < 1e-5,
+                "points run counter-clockwise around n: {newell} {n}"
+            );
         }
     }
     interfaces
@@ -207,7 +227,10 @@ fn identical_faces_keep_their_corners() {
 #[test]
 fn twelve_sided_drum_uses_all_its_corners() {
     // n/2 · sin(2π/n) = 6 · sin 30° = 3
-    let i = only(&[block(-2.0, -2.0, -1.0, 4.0, 4.0, 1.0), tower(&regular(12, 1.0, 0.1), 0.0, 1.0, 1.0)]);
+    let i = only(&[
+        block(-2.0, -2.0, -1.0, 4.0, 4.0, 1.0),
+        tower(&regular(12, 1.0, 0.1), 0.0, 1.0, 1.0),
+    ]);
     assert_eq!(i.points.len(), 12);
     assert!((i.area - 3.0).abs() < 1e-14, "{}", i.area);
 }
@@ -215,14 +238,30 @@ fn twelve_sided_drum_uses_all_its_corners() {
 #[test]
 fn rotated_squares_meet_in_an_octagon() {
     let s = 2f64.sqrt();
-    let i = only(&[tower(&regular(4, s, PI / 4.0), 0.0, 1.0, 1.0), tower(&regular(4, s, 0.0), 1.0, 2.0, 1.0)]);
+    let i = only(&[
+        tower(&regular(4, s, PI / 4.0), 0.0, 1.0, 1.0),
+        tower(&regular(4, s, 0.0), 1.0, 2.0, 1.0),
+    ]);
     // Regular octagon of apothem 1: 8 tan(π/8).
     assert_eq!(i.points.len(), 8);
     assert!((i.area - 8.0 * (PI / 8.0).tan()).abs() < 1e-13);
 }
 
 fn u_shape() -> Shape {
-    prism(&[(0.0, 0.0), (1.0, 0.0), (1.0, 2.0), (3.0, 2.0), (3.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)], 0.0, 1.0)
+    prism(
+        &[
+            (0.0, 0.0),
+            (1.0, 0.0),
+            (1.0, 2.0),
+            (3.0, 2.0),
+            (3.0, 0.0),
+            (4.0, 0.0),
+            (4.0, 3.0),
+            (0.0, 3.0),
+        ],
+        0.0,
+        1.0,
+    )
 }
 
 #[test]
@@ -252,7 +291,8 @@ fn frame_with_a_hole_is_one_patch_smaller_than_its_hull() {
 
 #[test]
 fn contact_on_two_planes_is_two_interfaces() {
-    let step = prism(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)], 0.0, 1.0);
+    let step =
+        prism(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)], 0.0, 1.0);
     let found = found(&[step, block(1.0, 0.0, 1.0, 0.5, 1.0, 0.5)]);
     assert_eq!(found.list.len(), 2);
     assert!(found.list.iter().all(|i| near(i.area, 0.5) && i.kind == ContactKind::Face));
@@ -265,7 +305,11 @@ fn triangulation_does_not_matter() {
     let plain = only(&[a.clone(), b.clone()]);
     for k in 0..4 {
         let cut = only(&[a.triangulated(k), b.triangulated(k + 1)]);
-        assert!(near(cut.area, plain.area) && cut.points.len() == plain.points.len() && cut.pieces.is_empty());
+        assert!(
+            near(cut.area, plain.area)
+                && cut.points.len() == plain.points.len()
+                && cut.pieces.is_empty()
+        );
     }
 }
 
@@ -281,8 +325,11 @@ fn long_slab_carries_all_its_blocks() {
 #[test]
 fn grain_of_a_micrometre_on_a_kilometre() {
     for at in [v(0.0, 0.0, 0.0), v(1e4, -1e4, 3e3)] {
-        let slab = block(-500.0, -500.0, -1000.0, 1000.0, 1000.0, 1000.0).turned(v(1.0, 2.0, 0.5), 0.3).moved(at);
-        let grain = block(-3e-7, 2e-7, 0.0, 1e-6, 1e-6, 1e-6).turned(v(1.0, 2.0, 0.5), 0.3).moved(at);
+        let slab = block(-500.0, -500.0, -1000.0, 1000.0, 1000.0, 1000.0)
+            .turned(v(1.0, 2.0, 0.5), 0.3)
+            .moved(at);
+        let grain =
+            block(-3e-7, 2e-7, 0.0, 1e-6, 1e-6, 1e-6).turned(v(1.0, 2.0, 0.5), 0.3).moved(at);
         let i = only(&[slab, grain]);
         // Coordinates are rounded at 1e-12 m there: a millionth of the grain.
         assert!((i.area / 1e-12 - 1.0).abs() < 1e-5, "{}", i.area);
@@ -299,11 +346,16 @@ fn thin_plate_on_its_edge_is_a_bearing() {
 #[test]
 fn area_below_the_minimum_is_counted() {
     // Only a corner of each face: compact, and less than 1e-9 × size².
-    let mut scene = assembly(&[block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(0.99, 0.99, 1.0, 1.0, 1.0, 1.0)]);
+    let mut scene =
+        assembly(&[block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(0.99, 0.99, 1.0, 1.0, 1.0, 1.0)]);
     scene.contact.min_area = 1e-3;
     let found = detect(&scene).unwrap();
     assert!(found.list.is_empty());
-    assert!(says(&found, FindingCode::ContactIgnored)[0].contains("1e-4 m²"), "{:?}", found.findings);
+    assert!(
+        says(&found, FindingCode::ContactIgnored)[0].contains("1e-4 m²"),
+        "{:?}",
+        found.findings
+    );
 }
 
 // --- Gaps, near misses, overlaps ---
@@ -343,7 +395,10 @@ fn near_misses_are_reported_with_the_remedy_that_closes_them() {
     let found = found(&shapes);
     assert!(found.list.is_empty());
     let text = says(&found, FindingCode::NearMiss)[0];
-    assert!(text.contains("1 pair") && text.contains("b0 and b1") && text.contains("0.05 m"), "{text}");
+    assert!(
+        text.contains("1 pair") && text.contains("b0 and b1") && text.contains("0.05 m"),
+        "{text}"
+    );
     let remedy: f64 = text.rsplit(' ').next().unwrap().parse().unwrap();
     let mut scene = assembly(&shapes);
     scene.contact.gap = remedy;
@@ -352,7 +407,8 @@ fn near_misses_are_reported_with_the_remedy_that_closes_them() {
 
 #[test]
 fn blocks_that_share_part_of_a_warped_joint_touch() {
-    // Between them the saddle z = 0.02 x y; over different parts of it the mean planes differ by 0.005.
+    // Between them the saddle z = 0.02 x y; over different parts of it the mean planes differ by
+    // 0.005.
     let saddle = |x0: f64, x1: f64, flat: f64, up: bool| {
         let corners = [(x0, 0.0), (x1, 0.0), (x1, 1.0), (x0, 1.0)];
         let joint = corners.iter().map(|&(x, y)| v(x, y, 0.02 * x * y));
@@ -369,10 +425,16 @@ fn blocks_that_share_part_of_a_warped_joint_touch() {
     assert!(says(&found, FindingCode::GapClosed)[0].contains("0.005"), "{:?}", found.findings);
 }
 
-/// A prism over the unit square from `z0` to `z1`; the corners of its top or bottom are moved up and down by `warp` in turn.
+/// A prism over the unit square from `z0` to `z1`; the corners of its top or bottom are moved up
+/// and down by `warp` in turn.
 fn hypar(warp: f64, z0: f64, z1: f64, on_top: bool) -> Shape {
     let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
-    let ring = |z: f64, w: f64| corners.iter().enumerate().map(move |(i, &(x, y))| v(x, y, z + if i % 2 == 0 { w } else { -w }));
+    let ring = |z: f64, w: f64| {
+        corners
+            .iter()
+            .enumerate()
+            .map(move |(i, &(x, y))| v(x, y, z + if i % 2 == 0 { w } else { -w }))
+    };
     let (low, high) = if on_top { (0.0, warp) } else { (warp, 0.0) };
     let mut faces: Vec<Vec<usize>> = vec![vec![3, 2, 1, 0], vec![4, 5, 6, 7]];
     faces.extend((0..4).map(|i| vec![i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i]));
@@ -381,43 +443,70 @@ fn hypar(warp: f64, z0: f64, z1: f64, on_top: bool) -> Shape {
 
 #[test]
 fn mean_planes_of_a_warped_joint_may_lean_by_its_twist() {
-    // Joints warped by 0.02, of which the upper side is known only to lean by 2°; the warp explains up to 2 × 2 × 0.02 = 4.6°.
+    // Joints warped by 0.02, of which the upper side is known only to lean by 2°; the warp explains
+    // up to 2 × 2 × 0.02 = 4.6°.
     let lower = hypar(0.02, -1.0, 0.0, true);
     let leaning = |warp: f64, degrees: f64| {
         let about = v(0.5, 0.5, 0.0);
-        hypar(warp, 0.0, 1.0, false).moved(-about).turned(v(0.0, 1.0, 0.0), degrees.to_radians()).moved(about)
+        hypar(warp, 0.0, 1.0, false)
+            .moved(-about)
+            .turned(v(0.0, 1.0, 0.0), degrees.to_radians())
+            .moved(about)
     };
     let warped = found(&[lower, leaning(0.02, 2.0)]);
-    assert_eq!(warped.list.iter().map(|i| i.kind).collect::<Vec<_>>(), [ContactKind::Face], "{:?}", warped.findings);
+    assert_eq!(
+        warped.list.iter().map(|i| i.kind).collect::<Vec<_>>(),
+        [ContactKind::Face],
+        "{:?}",
+        warped.findings
+    );
     assert!(warped.list[0].area > 0.99);
     // Plane faces that lean as much do not touch face to face.
-    let plane = found(&[hypar(0.0, -1.0, 0.0, true), leaning(0.0, 2.0).moved(v(0.0, 0.0, 0.5 * 2f64.to_radians().sin()))]);
+    let plane = found(&[
+        hypar(0.0, -1.0, 0.0, true),
+        leaning(0.0, 2.0).moved(v(0.0, 0.0, 0.5 * 2f64.to_radians().sin())),
+    ]);
     assert!(plane.list.iter().all(|i| i.kind == ContactKind::Edge), "{:?}", plane.list);
 }
 
 #[test]
 fn faces_that_lean_too_far_are_near_misses_with_a_remedy_for_the_angle() {
-    // A brick on a foot a twentieth as wide, which leans by 3°: 1.6 mm at its rims, within the reach of near misses.
+    // A brick on a foot a twentieth as wide, which leans by 3°: 1.6 mm at its rims, within the
+    // reach of near misses.
     let foot = block(0.0, 0.0, 0.0, 0.06, 1.0, 1.0);
-    let brick = block(-0.5, 0.0, 0.0, 1.06, 1.0, 1.0).turned(v(0.0, 1.0, 0.0), 3f64.to_radians()).moved(v(0.03, 0.0, 1.0));
+    let brick = block(-0.5, 0.0, 0.0, 1.06, 1.0, 1.0)
+        .turned(v(0.0, 1.0, 0.0), 3f64.to_radians())
+        .moved(v(0.03, 0.0, 1.0));
     let mut scene = assembly(&[foot, brick]);
     let apart = detect(&scene).unwrap();
     assert!(apart.list.iter().all(|i| i.kind != ContactKind::Face));
-    let text = match (&says(&apart, FindingCode::NearMiss)[..], &says(&apart, FindingCode::Overlap)[..]) {
-        ([text], []) | ([], [text]) => text.to_string(),
-        _ => panic!("{:?}", apart.findings),
-    };
+    let text =
+        match (&says(&apart, FindingCode::NearMiss)[..], &says(&apart, FindingCode::Overlap)[..]) {
+            ([text], []) | ([], [text]) => text.to_string(),
+            _ => panic!("{:?}", apart.findings),
+        };
     let after = |words: &str| -> f64 {
         let rest = &text[text.rfind(words).unwrap_or_else(|| panic!("{text}")) + words.len()..];
         rest.split(" to ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap()
     };
     assert!((after("contact.angle_deg from ") - 3.0).abs() <= 0.11, "{text}");
-    scene.contact = ContactSpec { gap: after("contact.gap from "), angle_deg: after("contact.angle_deg from "), ..scene.contact };
+    scene.contact = ContactSpec {
+        gap: after("contact.gap from "),
+        angle_deg: after("contact.angle_deg from "),
+        ..scene.contact
+    };
     let joined = detect(&scene).unwrap();
-    assert_eq!(joined.list.iter().map(|i| i.kind).collect::<Vec<_>>(), [ContactKind::Face], "{text}");
+    assert_eq!(
+        joined.list.iter().map(|i| i.kind).collect::<Vec<_>>(),
+        [ContactKind::Face],
+        "{text}"
+    );
     // Beyond the reach: a brick set down askew on purpose.
     let askew = block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0).turned(v(0.0, -1.0, 0.0), 3f64.to_radians());
-    assert!(says(&found(&[block(-2.0, -2.0, -1.0, 4.0, 4.0, 1.0), askew]), FindingCode::NearMiss).is_empty());
+    assert!(
+        says(&found(&[block(-2.0, -2.0, -1.0, 4.0, 4.0, 1.0), askew]), FindingCode::NearMiss)
+            .is_empty()
+    );
 }
 
 #[test]
@@ -426,18 +515,21 @@ fn the_remedy_for_an_overlap_closes_it() {
     let told = found(&shapes);
     let text = says(&told, FindingCode::Overlap)[0];
     let mut scene = assembly(&shapes);
-    scene.contact.gap = text.rsplit(' ').next().unwrap().parse().unwrap_or_else(|_| panic!("{text}"));
+    scene.contact.gap =
+        text.rsplit(' ').next().unwrap().parse().unwrap_or_else(|_| panic!("{text}"));
     assert!(scene.contact.gap < 1e-3);
     assert_eq!(detect(&scene).unwrap().list.len(), 1);
     // An overlap as deep as a block is no matter of tolerances.
-    let text = says(&found(&[shapes[0].clone(), shapes[0].clone()]), FindingCode::Overlap)[0].to_string();
+    let text =
+        says(&found(&[shapes[0].clone(), shapes[0].clone()]), FindingCode::Overlap)[0].to_string();
     assert!(text.ends_with("Mend the geometry"), "{text}");
 }
 
 #[test]
 fn a_second_face_that_nearly_touches_is_told_though_the_first_does() {
     // On the lower step of a stair, 5 mm from its riser.
-    let stair = prism(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)], 0.0, 1.0);
+    let stair =
+        prism(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)], 0.0, 1.0);
     let near = found(&[stair.clone(), block(1.005, 0.0, 1.0, 0.5, 1.0, 0.5)]);
     assert_eq!(near.list.len(), 1);
     assert!(says(&near, FindingCode::NearMiss)[0].contains("0.005 m"), "{:?}", near.findings);
@@ -506,13 +598,22 @@ fn crossed_ridges_that_overlap_are_told_apart_from_crossed_ridges_that_touch() {
     let roof = prism(&[(-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)], -2.0, 2.0);
     let upside_down = roof.turned(v(1.0, 0.0, 0.0), PI).turned(v(0.0, 0.0, 1.0), PI / 2.0);
     let told = found(&[roof.clone(), upside_down.moved(v(0.0, 0.0, 1.99))]);
-    assert!(told.list.is_empty() && says(&told, FindingCode::Overlap)[0].contains("0.01 m"), "{:?}", told.findings);
+    assert!(
+        told.list.is_empty() && says(&told, FindingCode::Overlap)[0].contains("0.01 m"),
+        "{:?}",
+        told.findings
+    );
 }
 
 #[test]
 fn overlaps_of_non_convex_blocks_are_found() {
     let u = u_shape();
-    for other in [u.clone(), u.moved(v(0.5, 0.0, 0.0)), block(0.2, -1.0, 0.2, 0.2, 5.0, 0.2), block(1.5, 0.2, 1.5, 1.0, 0.5, 1.0)] {
+    for other in [
+        u.clone(),
+        u.moved(v(0.5, 0.0, 0.0)),
+        block(0.2, -1.0, 0.2, 0.2, 5.0, 0.2),
+        block(1.5, 0.2, 1.5, 1.0, 0.5, 1.0),
+    ] {
         let found = found(&[u.clone(), other]);
         assert_eq!(says(&found, FindingCode::Overlap).len(), 1, "{found:?}");
     }
@@ -528,7 +629,10 @@ fn wedge_standing_on_its_edge() {
     let wedge = prism(&[(0.0, 0.0), (0.5, 1.0), (-0.5, 1.0)], 0.0, 1.0);
     let i = only(&[block(-2.0, 0.25, -1.0, 4.0, 4.0, 1.0), wedge.clone()]);
     assert_eq!((i.kind, i.points.len(), i.area, i.patches), (ContactKind::Edge, 2, 0.0, 1));
-    assert!(i.points.iter().any(|&p| is_at(p, 0.0, 0.25, 0.0)) && i.points.iter().any(|&p| is_at(p, 0.0, 1.0, 0.0)));
+    assert!(
+        i.points.iter().any(|&p| is_at(p, 0.0, 0.25, 0.0))
+            && i.points.iter().any(|&p| is_at(p, 0.0, 1.0, 0.0))
+    );
     assert!(is_at(i.frame.n, 0.0, 0.0, 1.0));
     assert_eq!(only(&[wedge, block(-2.0, 0.25, -1.0, 4.0, 4.0, 1.0)]).frame.n, v(0.0, 0.0, -1.0));
 }
@@ -537,7 +641,9 @@ fn wedge_standing_on_its_edge() {
 fn edge_over_two_feet_is_one_contact_of_two_patches() {
     // The U upside down, a wedge's edge along both its feet.
     let feet = u_shape().turned(v(1.0, 0.0, 0.0), PI);
-    let wedge = prism(&[(0.0, 0.0), (0.5, 1.0), (-0.5, 1.0)], -1.0, 5.0).turned(v(0.0, 0.0, 1.0), -PI / 2.0).moved(v(0.0, -0.5, 0.0));
+    let wedge = prism(&[(0.0, 0.0), (0.5, 1.0), (-0.5, 1.0)], -1.0, 5.0)
+        .turned(v(0.0, 0.0, 1.0), -PI / 2.0)
+        .moved(v(0.0, -0.5, 0.0));
     let i = only(&[feet, wedge]);
     assert_eq!((i.kind, i.points.len(), i.patches), (ContactKind::Edge, 2, 2));
     assert!(near((i.points[0] - i.points[1]).norm(), 4.0));
@@ -545,7 +651,9 @@ fn edge_over_two_feet_is_one_contact_of_two_patches() {
 
 #[test]
 fn cone_on_its_tip() {
-    let cone = tower(&regular(7, 0.5, 0.3), 0.0, 1.0, 0.0).turned(v(1.0, 0.0, 0.0), PI).moved(v(0.1, 0.2, 1.0));
+    let cone = tower(&regular(7, 0.5, 0.3), 0.0, 1.0, 0.0)
+        .turned(v(1.0, 0.0, 0.0), PI)
+        .moved(v(0.1, 0.2, 1.0));
     let i = only(&[block(-2.0, -2.0, -1.0, 4.0, 4.0, 1.0), cone]);
     assert_eq!((i.kind, i.points.len()), (ContactKind::Point, 1));
     assert!(is_at(i.points[0], 0.1, 0.2, 0.0) && is_at(i.frame.n, 0.0, 0.0, 1.0));
@@ -563,7 +671,20 @@ fn crossed_ridges_touch_in_a_point() {
 #[test]
 fn flat_foot_and_tip_of_one_block_both_stand() {
     // A foot from x = 0 to 1 and a blade with its edge at x = 3.
-    let block_on_both = prism(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (2.5, 1.0), (3.0, 0.0), (3.5, 1.0), (4.0, 2.0), (0.0, 2.0)], 0.0, 1.0);
+    let block_on_both = prism(
+        &[
+            (0.0, 0.0),
+            (1.0, 0.0),
+            (1.0, 1.0),
+            (2.5, 1.0),
+            (3.0, 0.0),
+            (3.5, 1.0),
+            (4.0, 2.0),
+            (0.0, 2.0),
+        ],
+        0.0,
+        1.0,
+    );
     let found = found(&[block(-1.0, -1.0, -1.0, 6.0, 3.0, 1.0), block_on_both]);
     let kinds: Vec<_> = found.list.iter().map(|i| (i.kind, i.points.len())).collect();
     assert_eq!(kinds, [(ContactKind::Face, 4), (ContactKind::Edge, 2)]);
@@ -572,7 +693,12 @@ fn flat_foot_and_tip_of_one_block_both_stand() {
 #[test]
 fn tilted_box_stands_on_its_edge_and_the_face_is_a_near_miss() {
     let slab = block(-2.0, -2.0, -1.0, 4.0, 4.0, 1.0);
-    let tilted = |degrees: f64| found(&[slab.clone(), block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0).turned(v(0.0, -1.0, 0.0), degrees.to_radians())]);
+    let tilted = |degrees: f64| {
+        found(&[
+            slab.clone(),
+            block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0).turned(v(0.0, -1.0, 0.0), degrees.to_radians()),
+        ])
+    };
     for degrees in [0.5, 5.0, 44.0] {
         let found = tilted(degrees);
         assert_eq!(found.list.len(), 1, "{degrees}: {found:?}");
@@ -598,9 +724,13 @@ fn diagonal_neighbours_are_not_joined() {
 
 #[test]
 fn diagonal_neighbours_in_rounded_files_are_not_joined_either() {
-    // Coordinates good to 1e-5: the neighbours overlap in a strip of 2e-5, or miss each other by as much.
+    // Coordinates good to 1e-5: the neighbours overlap in a strip of 2e-5, or miss each other by as
+    // much.
     for (dx, dz) in [(-1e-5, 0.0), (1e-5, 0.0), (-1e-5, -1e-5), (-1e-5, 1e-5), (1e-5, -1e-5)] {
-        let found = found(&[block(0.0, 0.0, 0.0, 1.0, 0.5, 1.0), block(1.0 + dx, 0.0, 1.0 + dz, 1.0, 0.5, 1.0)]);
+        let found = found(&[
+            block(0.0, 0.0, 0.0, 1.0, 0.5, 1.0),
+            block(1.0 + dx, 0.0, 1.0 + dz, 1.0, 0.5, 1.0),
+        ]);
         assert!(found.list.is_empty(), "{dx} {dz}: {:?}", found.list);
         assert_eq!(says(&found, FindingCode::ContactIgnored).len(), 1, "{dx} {dz}");
     }
@@ -620,14 +750,18 @@ fn touches_without_a_normal_are_counted() {
     for pair in pairs {
         let found = found(&pair);
         assert!(found.list.is_empty(), "{:?}", found.list);
-        assert!(says(&found, FindingCode::ContactIgnored)[0].starts_with("1 pair of blocks touch only"), "{:?}", found.findings);
+        assert!(
+            says(&found, FindingCode::ContactIgnored)[0].starts_with("1 pair of blocks touch only"),
+            "{:?}",
+            found.findings
+        );
     }
 }
 
 #[test]
 fn edge_with_different_faces_along_it_still_carries() {
-    // A ridge whose far side is steep for half its length and shallow for the other half: one side of the ridge is a single long
-    // edge, the other two.
+    // A ridge whose far side is steep for half its length and shallow for the other half: one side
+    // of the ridge is a single long edge, the other two.
     let ridge = Shape::Mesh(
         vec![
             v(0.0, 0.0, 0.0),
@@ -640,7 +774,15 @@ fn edge_with_different_faces_along_it_still_carries() {
             v(0.5, 1.0, 1.0),
             v(0.5, 2.0, 1.0),
         ],
-        vec![vec![0, 2, 3, 1, 4], vec![0, 4, 6, 5], vec![4, 1, 8, 7], vec![4, 7, 6], vec![0, 5, 2], vec![1, 3, 8], vec![2, 5, 6, 7, 8, 3]],
+        vec![
+            vec![0, 2, 3, 1, 4],
+            vec![0, 4, 6, 5],
+            vec![4, 1, 8, 7],
+            vec![4, 7, 6],
+            vec![0, 5, 2],
+            vec![1, 3, 8],
+            vec![2, 5, 6, 7, 8, 3],
+        ],
     );
     let i = only(&[block(-2.0, -2.0, -1.0, 4.0, 6.0, 1.0), ridge]);
     assert_eq!((i.kind, i.points.len(), i.patches), (ContactKind::Edge, 2, 1));
@@ -659,7 +801,10 @@ fn sphere_on_face_edge_and_corner() {
     ] {
         let i = only(&[Shape::Ball(center, 0.5), cube.clone()]);
         assert_eq!((i.kind, i.points.len(), i.area), (ContactKind::Point, 1, 0.0));
-        assert!((i.points[0] - foot).norm() < 1e-12 && (i.frame.n - (foot - center) / 0.5).norm() < 1e-12);
+        assert!(
+            (i.points[0] - foot).norm() < 1e-12
+                && (i.frame.n - (foot - center) / 0.5).norm() < 1e-12
+        );
         let turned = only(&[cube.clone(), Shape::Ball(center, 0.5)]);
         assert!((turned.frame.n + i.frame.n).norm() < 1e-12);
     }
@@ -671,7 +816,10 @@ fn sphere_in_the_groove_of_one_block_touches_twice() {
     let found = found(&[groove, Shape::Ball(v(0.0, 0.0, 1.0 + 0.5 * 2f64.sqrt()), 0.5)]);
     assert_eq!(found.list.len(), 2);
     let h = 0.5f64.sqrt();
-    assert!(is_at(found.list[0].frame.n, h, 0.0, h) && is_at(found.list[1].frame.n, -h, 0.0, h), "{found:?}");
+    assert!(
+        is_at(found.list[0].frame.n, h, 0.0, h) && is_at(found.list[1].frame.n, -h, 0.0, h),
+        "{found:?}"
+    );
 }
 
 #[test]
@@ -698,8 +846,11 @@ fn spheres_nearly_touching_are_reported() {
 
 #[test]
 fn pairs_of_supports_are_counted_and_left_out() {
-    let mut scene =
-        assembly(&[block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(1.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(0.5, 0.0, 1.0, 1.0, 1.0, 1.0)]);
+    let mut scene = assembly(&[
+        block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0),
+        block(1.0, 0.0, 0.0, 1.0, 1.0, 1.0),
+        block(0.5, 0.0, 1.0, 1.0, 1.0, 1.0),
+    ]);
     scene.blocks[0].support = true;
     scene.blocks[1].support = true;
     let found = detect(&scene).unwrap();
@@ -708,17 +859,24 @@ fn pairs_of_supports_are_counted_and_left_out() {
 
 #[test]
 fn touching_pair_without_friction_is_an_error_that_names_both() {
-    let mut scene = assembly(&[block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(0.0, 0.0, 1.0, 1.0, 1.0, 1.0)]);
+    let mut scene =
+        assembly(&[block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(0.0, 0.0, 1.0, 1.0, 1.0, 1.0)]);
     scene.joints.default = None;
     let InputError { message, hint, path, .. } = detect(&scene).unwrap_err();
-    assert!(message.contains("\"b0\"") && message.contains("\"b1\"") && hint.is_some() && path == JsonPath::root());
+    assert!(
+        message.contains("\"b0\"")
+            && message.contains("\"b1\"")
+            && hint.is_some()
+            && path == JsonPath::root()
+    );
     scene.joints.by_blocks.insert((0, 1), JointLaw::dry(Friction::Infinite));
     assert_eq!(detect(&scene).unwrap().list[0].law.friction, Friction::Infinite);
 }
 
 #[test]
 fn interface_given_by_hand_replaces_detection() {
-    let mut scene = assembly(&[block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(0.0, 0.0, 1.0, 1.0, 1.0, 1.0)]);
+    let mut scene =
+        assembly(&[block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(0.0, 0.0, 1.0, 1.0, 1.0, 1.0)]);
     scene.given.push(crate::assembly::GivenInterface {
         a: 1,
         b: 0,
@@ -729,8 +887,14 @@ fn interface_given_by_hand_replaces_detection() {
     let found = detect(&scene).unwrap();
     assert_eq!(found.list.len(), 1);
     let i = &found.list[0];
-    assert_eq!((i.a, i.b, i.kind, i.law.friction, i.patches), (1, 0, ContactKind::Given, Friction::Coefficient(0.1), 1));
-    assert!(near(i.area, 0.25) && near(hull_area(i), 0.25), "turned counter-clockwise around the normal");
+    assert_eq!(
+        (i.a, i.b, i.kind, i.law.friction, i.patches),
+        (1, 0, ContactKind::Given, Friction::Coefficient(0.1), 1)
+    );
+    assert!(
+        near(i.area, 0.25) && near(hull_area(i), 0.25),
+        "turned counter-clockwise around the normal"
+    );
 }
 
 #[test]
@@ -741,7 +905,8 @@ fn nothing_and_one_block_have_no_contacts() {
 
 #[test]
 fn zero_tolerance_still_joins_what_touches_exactly() {
-    let mut scene = assembly(&[block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(0.1, 0.1, 1.0, 1.0, 1.0, 1.0)]);
+    let mut scene =
+        assembly(&[block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(0.1, 0.1, 1.0, 1.0, 1.0, 1.0)]);
     scene.contact = ContactSpec { gap: 0.0, angle_deg: 0.0, min_area: 0.0 };
     assert_eq!(detect(&scene).unwrap().list.len(), 1);
 }
@@ -760,14 +925,26 @@ fn mixed() -> Vec<Shape> {
         prism(&[(0.0, 1.0), (0.5, 2.0), (-0.5, 2.0)], -3.0, -1.0).moved(v(-3.0, 0.0, 0.0)),
         Shape::Ball(v(2.0, -3.0, 1.7), 0.7),
         Shape::Ball(v(2.0, -3.0, 2.9), 0.5),
-        tower(&regular(5, 0.4, 0.0), 0.0, 1.0, 0.0).turned(v(1.0, 0.0, 0.0), PI).moved(v(-3.0, -4.5, 2.0)),
+        tower(&regular(5, 0.4, 0.0), 0.0, 1.0, 0.0)
+            .turned(v(1.0, 0.0, 0.0), PI)
+            .moved(v(-3.0, -4.5, 2.0)),
     ]
 }
 
 /// What must not change: kind, number of points, area and patches, per contact, in any order.
 fn signature(found: &Interfaces, scale: f64) -> Vec<(u8, usize, usize, i64)> {
-    let mut list: Vec<_> =
-        found.list.iter().map(|i| (i.kind as u8, i.points.len(), i.patches, (i.area / (scale * scale) * 1e6).round() as i64)).collect();
+    let mut list: Vec<_> = found
+        .list
+        .iter()
+        .map(|i| {
+            (
+                i.kind as u8,
+                i.points.len(),
+                i.patches,
+                (i.area / (scale * scale) * 1e6).round() as i64,
+            )
+        })
+        .collect();
     list.sort_unstable();
     list
 }
@@ -777,14 +954,20 @@ fn points(found: &Interfaces) -> Vec<V> {
 }
 
 fn same_points(moved: &[V], original: &[V], tol: f64) -> bool {
-    moved.len() == original.len() && original.iter().all(|p| moved.iter().any(|q| (p - q).norm() <= tol))
+    moved.len() == original.len()
+        && original.iter().all(|p| moved.iter().any(|q| (p - q).norm() <= tol))
 }
 
 #[test]
 fn mixed_scene_has_every_kind_of_contact() {
     let found = found(&mixed());
     let count = |k: ContactKind| found.list.iter().filter(|i| i.kind == k).count();
-    assert_eq!((count(ContactKind::Face), count(ContactKind::Edge), count(ContactKind::Point)), (3, 2, 3), "{:#?}", found.list);
+    assert_eq!(
+        (count(ContactKind::Face), count(ContactKind::Edge), count(ContactKind::Point)),
+        (3, 2, 3),
+        "{:#?}",
+        found.list
+    );
 }
 
 proptest! {

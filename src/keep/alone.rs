@@ -8,10 +8,12 @@ use std::{
     path::Path,
 };
 
-/// A file that no other run writes until this is dropped: because it is locked, or because it is new and its name is nobody else's.
+/// A file that no other run writes until this is dropped: because it is locked, or because it is
+/// new and its name is nobody else's.
 ///
-/// A lock belongs to the opened file, not to this handle of it: a process that another thread is starting holds a copy of every handle
-/// until it becomes its program, and closing ours alone would leave the file locked that long. So it is unlocked in so many words.
+/// A lock belongs to the opened file, not to this handle of it: a process that another thread is
+/// starting holds a copy of every handle until it becomes its program, and closing ours alone would
+/// leave the file locked that long. So it is unlocked in so many words.
 #[derive(Debug)]
 pub(crate) struct Alone(File);
 
@@ -34,7 +36,8 @@ impl Alone {
         Ok((alone, bytes))
     }
 
-    /// Makes a file that is not there yet. It needs no lock, which not every shared file system gives.
+    /// Makes a file that is not there yet. It needs no lock, which not every shared file system
+    /// gives.
     ///
     /// # Errors
     /// There is one ([`io::ErrorKind::AlreadyExists`]), or it cannot be written.

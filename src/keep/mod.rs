@@ -1,5 +1,6 @@
-//! Long work kept on the disk while it goes on: a header that says what it is, then one line a piece, each written by one call as the piece
-//! ends, so that a kill costs the pieces that were being done and no other. The same command takes the file up again.
+//! Long work kept on the disk while it goes on: a header that says what it is, then one line a
+//! piece, each written by one call as the piece ends, so that a kill costs the pieces that were
+//! being done and no other. The same command takes the file up again.
 
 mod alone;
 mod numbered;
@@ -37,20 +38,27 @@ pub struct Kept<T> {
 }
 
 impl<T: Serialize + DeserializeOwned> Kept<T> {
-    /// Begins a file, or takes up one of the same `format` and about the same thing. A last line that was written in part is cut off.
+    /// Begins a file, or takes up one of the same `format` and about the same thing. A last line
+    /// that was written in part is cut off.
     ///
     /// # Errors
     /// The file cannot be written, is being written by another run, or is about something else.
     pub fn open(path: &Path, format: &str, of: Value) -> Result<Self, RowsError> {
         let name = path.display().to_string();
         let problem = |what, cause| RowsError::File { file: name.clone(), what, cause };
-        let header = Header { format: format.into(), version: env!("CARGO_PKG_VERSION").into(), of };
+        let header =
+            Header { format: format.into(), version: env!("CARGO_PKG_VERSION").into(), of };
         let first = line(&header).map_err(|e| problem("written", e))?;
         let (mut file, bytes) = Alone::open(path)?;
         let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
-        // What is there of a header may be the beginning of this one; anything else is somebody's file.
+        // What is there of a header may be the beginning of this one; anything else is somebody's
+        // file.
         let begins = whole == 0 && first.as_bytes().starts_with(&bytes);
-        let there = if begins { Vec::new() } else { read(&name, bytes.get(..whole).unwrap_or_default(), &header)? };
+        let there = if begins {
+            Vec::new()
+        } else {
+            read(&name, bytes.get(..whole).unwrap_or_default(), &header)?
+        };
         file.cut(whole).map_err(|e| problem("written", e))?;
         if begins {
             file.write(&first).map_err(|e| problem("written", e))?;
@@ -69,12 +77,19 @@ impl<T: Serialize + DeserializeOwned> Kept<T> {
     }
 }
 
-fn read<T: DeserializeOwned>(name: &str, bytes: &[u8], wanted: &Header) -> Result<Vec<T>, RowsError> {
+fn read<T: DeserializeOwned>(
+    name: &str,
+    bytes: &[u8],
+    wanted: &Header,
+) -> Result<Vec<T>, RowsError> {
     let damaged = |line: usize, why: String| RowsError::Damaged { file: name.into(), line, why };
     let mut lines = bytes.split(|b| *b == b'\n').enumerate().filter(|(_, l)| !l.is_empty());
     let header = lines.next().and_then(|(_, text)| serde_json::from_slice::<Header>(text).ok());
     let Some(header) = header.filter(|h| h.format == wanted.format) else {
-        return Err(damaged(1, format!("not the beginning of a file of {}; give --keep another name", wanted.format)));
+        return Err(damaged(
+            1,
+            format!("not the beginning of a file of {}; give --keep another name", wanted.format),
+        ));
     };
     if header != *wanted {
         return Err(RowsError::Differs {
@@ -86,8 +101,12 @@ fn read<T: DeserializeOwned>(name: &str, bytes: &[u8], wanted: &Header) -> Resul
     }
     lines
         .map(|(index, text)| {
-            serde_json::from_slice(text)
-                .map_err(|e| damaged(index + 1, format!("not of {}: {e}; remove the line to have it done again", wanted.format)))
+            serde_json::from_slice(text).map_err(|e| {
+                damaged(
+                    index + 1,
+                    format!("not of {}: {e}; remove the line to have it done again", wanted.format),
+                )
+            })
         })
         .collect()
 }
@@ -95,13 +114,18 @@ fn read<T: DeserializeOwned>(name: &str, bytes: &[u8], wanted: &Header) -> Resul
 /// The bytes of a file that was kept, unless it is longer than can be read.
 pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, RowsError> {
     let name = path.display().to_string();
-    let file = files::open(path).map_err(|cause| RowsError::File { file: name.clone(), what: "read", cause })?;
+    let file = files::open(path).map_err(|cause| RowsError::File {
+        file: name.clone(),
+        what: "read",
+        cause,
+    })?;
     bytes(&name, &file)
 }
 
 /// As [`read_file`], of a file that is open already.
 fn bytes(name: &str, file: &File) -> Result<Vec<u8>, RowsError> {
-    limits::read_opened(file, limits::PER_KEPT_BYTE).map_err(|e| RowsError::Unreadable { file: name.into(), why: e.to_string() })
+    limits::read_opened(file, limits::PER_KEPT_BYTE)
+        .map_err(|e| RowsError::Unreadable { file: name.into(), why: e.to_string() })
 }
 
 /// A value as one line.
@@ -146,13 +170,17 @@ mod tests {
         let path = folder.path().join("kept.jsonl");
         let refused = |text: &str, word: &str| {
             fs::write(&path, text).unwrap();
-            let error = Kept::<f64>::open(&path, FORMAT, json!({ "seed": 1 })).unwrap_err().to_string();
+            let error =
+                Kept::<f64>::open(&path, FORMAT, json!({ "seed": 1 })).unwrap_err().to_string();
             assert!(error.contains(word), "{error}");
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         };
         refused("precious\n", "not the beginning of a file of voussoir-tests/1");
         refused("precious", "not the beginning");
-        let header = |format: &str, of| line(&Header { format: format.into(), version: env!("CARGO_PKG_VERSION").into(), of }).unwrap();
+        let header = |format: &str, of| {
+            line(&Header { format: format.into(), version: env!("CARGO_PKG_VERSION").into(), of })
+                .unwrap()
+        };
         let own = header(FORMAT, json!({ "seed": 1 }));
         refused(&header("voussoir-others/1", json!({ "seed": 1 })), "not the beginning");
         refused(&header(FORMAT, json!({ "seed": 2 })), "{\"seed\":2}");
@@ -160,7 +188,10 @@ mod tests {
         refused(&format!("{own}{{\"index\":1}}\n"), "kept.jsonl:2: not of voussoir-tests/1");
         let other = folder.path().join("other");
         let first = Kept::<f64>::open(&other, FORMAT, Value::Null).unwrap();
-        assert!(matches!(Kept::<f64>::open(&other, FORMAT, Value::Null), Err(RowsError::Busy { .. })));
+        assert!(matches!(
+            Kept::<f64>::open(&other, FORMAT, Value::Null),
+            Err(RowsError::Busy { .. })
+        ));
         drop(first);
     }
 }

@@ -1,13 +1,14 @@
 //! Cutting one convex polygon by another: Sutherland & Hodgman (1974) with a tolerance.
 //!
-//! A corner within `tol` of a clip line is *on* it and is kept as it stands. That makes the case masonry is full of, polygons that
-//! share corners and sides, exact: nothing is doubled and nothing is lost. The result may reach `tol` beyond the clip polygon.
+//! A corner within `tol` of a clip line is *on* it and is kept as it stands. That makes the case
+//! masonry is full of, polygons that share corners and sides, exact: nothing is doubled and nothing
+//! is lost. The result may reach `tol` beyond the clip polygon.
 
 use super::polygon::{P2, cross, tidy};
 use nalgebra::SVector;
 
-/// The part of the convex polygon `subject` inside the convex polygon `clip`, counter-clockwise like both;
-/// empty where they have no area in common.
+/// The part of the convex polygon `subject` inside the convex polygon `clip`, counter-clockwise
+/// like both; empty where they have no area in common.
 pub fn clip(subject: &[P2], clip: &[P2], tol: f64) -> Vec<P2> {
     let mut polygon = subject.to_vec();
     for (i, &a) in clip.iter().enumerate() {
@@ -29,13 +30,23 @@ pub fn clip(subject: &[P2], clip: &[P2], tol: f64) -> Vec<P2> {
     if polygon.len() < 3 { Vec::new() } else { polygon }
 }
 
-/// The part of a convex polygon, in its plane or in space, where `depth` is positive; corners where it is 0 within `tol` are kept.
-pub fn inside<const D: usize>(polygon: &[SVector<f64, D>], depth: impl Fn(&SVector<f64, D>) -> f64, tol: f64) -> Vec<SVector<f64, D>> {
+/// The part of a convex polygon, in its plane or in space, where `depth` is positive; corners where
+/// it is 0 within `tol` are kept.
+pub fn inside<const D: usize>(
+    polygon: &[SVector<f64, D>],
+    depth: impl Fn(&SVector<f64, D>) -> f64,
+    tol: f64,
+) -> Vec<SVector<f64, D>> {
     cut(polygon, &polygon.iter().map(depth).collect::<Vec<_>>(), tol)
 }
 
-/// Cuts a convex polygon, in its plane or in space, by the line or plane from which its corners have the signed distances `depth`, positive inside.
-fn cut<const D: usize>(polygon: &[SVector<f64, D>], depth: &[f64], tol: f64) -> Vec<SVector<f64, D>> {
+/// Cuts a convex polygon, in its plane or in space, by the line or plane from which its corners
+/// have the signed distances `depth`, positive inside.
+fn cut<const D: usize>(
+    polygon: &[SVector<f64, D>],
+    depth: &[f64],
+    tol: f64,
+) -> Vec<SVector<f64, D>> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (i, &p) in polygon.iter().enumerate() {
         let next = (i + 1) % polygon.len();
@@ -59,7 +70,10 @@ mod tests {
     const TOL: f64 = 1e-9;
 
     fn regular(n: usize, radius: f64, turn: f64, at: P2) -> Vec<P2> {
-        (0..n).map(|i| (turn + i as f64 / n as f64 * std::f64::consts::TAU).sin_cos()).map(|(s, c)| at + P2::new(c, s) * radius).collect()
+        (0..n)
+            .map(|i| (turn + i as f64 / n as f64 * std::f64::consts::TAU).sin_cos())
+            .map(|(s, c)| at + P2::new(c, s) * radius)
+            .collect()
     }
 
     #[test]
@@ -77,7 +91,11 @@ mod tests {
 
     #[test]
     fn square_by_the_same_square_turned_45_degrees_is_a_regular_octagon() {
-        let c = clip(&regular(4, 1.0, 0.0, P2::zeros()), &regular(4, 1.0, std::f64::consts::FRAC_PI_4, P2::zeros()), TOL);
+        let c = clip(
+            &regular(4, 1.0, 0.0, P2::zeros()),
+            &regular(4, 1.0, std::f64::consts::FRAC_PI_4, P2::zeros()),
+            TOL,
+        );
         assert_eq!(c.len(), 8);
         // Apothem 1/√2: area 8 tan(π/8) / 2.
         assert!((area(&c) - 4.0 * (std::f64::consts::PI / 8.0).tan()).abs() < 1e-14);

@@ -12,7 +12,8 @@ pub fn cross(a: P2, b: P2, c: P2) -> f64 {
     (b - a).perp(&(c - a))
 }
 
-/// Signed area, m²; positive counter-clockwise. Taken about the first corner, so that a far origin costs no digits.
+/// Signed area, m²; positive counter-clockwise. Taken about the first corner, so that a far origin
+/// costs no digits.
 pub fn area(polygon: &[P2]) -> f64 {
     polygon.windows(2).skip(1).map(|w| cross(polygon[0], w[0], w[1])).sum::<f64>() / 2.0
 }
@@ -29,7 +30,11 @@ pub fn area_and_moment(polygon: &[P2]) -> (f64, P2) {
 pub fn centroid(polygon: &[P2]) -> P2 {
     let Some(&origin) = polygon.first() else { return P2::zeros() };
     let (area, moment) = area_and_moment(polygon);
-    if area == 0.0 { polygon.iter().sum::<P2>() / polygon.len() as f64 } else { origin + moment / area }
+    if area == 0.0 {
+        polygon.iter().sum::<P2>() / polygon.len() as f64
+    } else {
+        origin + moment / area
+    }
 }
 
 /// Length of the closed loop, m.
@@ -42,7 +47,8 @@ pub fn edges(polygon: &[P2]) -> impl Iterator<Item = (P2, P2)> + '_ {
     polygon.iter().enumerate().map(|(i, &p)| (p, polygon[(i + 1) % polygon.len()]))
 }
 
-/// Removes corners that repeat a neighbour or lie on the line between their neighbours, both within `tol`.
+/// Removes corners that repeat a neighbour or lie on the line between their neighbours, both within
+/// `tol`.
 pub fn tidy(polygon: &mut Vec<P2>, tol: f64) {
     loop {
         let n = polygon.len();
@@ -52,9 +58,11 @@ pub fn tidy(polygon: &mut Vec<P2>, tol: f64) {
         let mut kept = Vec::with_capacity(n);
         let mut dropped_last = false;
         for i in 0..n {
-            let (previous, here, next) = (polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n]);
+            let (previous, here, next) =
+                (polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n]);
             // Never two neighbours in one sweep: each is judged by the other.
-            let neighbour_dropped = dropped_last || (i + 1 == n && kept.first() != Some(&polygon[0]));
+            let neighbour_dropped =
+                dropped_last || (i + 1 == n && kept.first() != Some(&polygon[0]));
             let drop = !neighbour_dropped && distance_to_segment(here, previous, next) <= tol;
             if !drop {
                 kept.push(here);
@@ -68,10 +76,11 @@ pub fn tidy(polygon: &mut Vec<P2>, tol: f64) {
     }
 }
 
-/// The convex hull, counter-clockwise, without collinear corners (within `tol`); Andrew's monotone chain (Andrew 1979).
+/// The convex hull, counter-clockwise, without collinear corners (within `tol`); Andrew's monotone
+/// chain (Andrew 1979).
 ///
-/// The turn at two corners that are one but for rounding has any sign, and behind it a corner that dents the hull may be kept: the chain
-/// is made anew without such pairs until it is convex.
+/// The turn at two corners that are one but for rounding has any sign, and behind it a corner that
+/// dents the hull may be kept: the chain is made anew without such pairs until it is convex.
 pub fn hull(points: &[P2], tol: f64) -> Vec<P2> {
     let mut points = points.to_vec();
     loop {
@@ -100,11 +109,13 @@ fn chain(points: &mut Vec<P2>) -> Vec<P2> {
     corners(points).into_iter().map(|i| points[i]).collect()
 }
 
-/// Corners of the convex hull, counter-clockwise, as positions in `points`: Andrew's monotone chain (Andrew 1979, "Another efficient algorithm for
-/// convex hulls in two dimensions").
+/// Corners of the convex hull, counter-clockwise, as positions in `points`: Andrew's monotone chain
+/// (Andrew 1979, "Another efficient algorithm for convex hulls in two dimensions").
 pub fn corners(points: &[P2]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|&i, &j| points[i].x.total_cmp(&points[j].x).then(points[i].y.total_cmp(&points[j].y)));
+    order.sort_by(|&i, &j| {
+        points[i].x.total_cmp(&points[j].x).then(points[i].y.total_cmp(&points[j].y))
+    });
     let half = |order: &mut dyn Iterator<Item = usize>| {
         let mut chain: Vec<usize> = Vec::new();
         for i in order {
@@ -125,7 +136,8 @@ pub fn corners(points: &[P2]) -> Vec<usize> {
     lower
 }
 
-/// Least width of a convex polygon: the least, over its sides, of the greatest distance of a corner from that side.
+/// Least width of a convex polygon: the least, over its sides, of the greatest distance of a corner
+/// from that side.
 pub fn width(hull: &[P2]) -> f64 {
     if hull.len() < 3 {
         return 0.0;
@@ -149,9 +161,12 @@ pub fn contains(polygon: &[P2], p: P2, tol: f64) -> bool {
     edges(polygon).all(|(a, b)| cross(a, b, p) >= -tol * (b - a).norm())
 }
 
-/// Whether two convex polygons come within about `tol` of each other: no side of either separates them by more.
+/// Whether two convex polygons come within about `tol` of each other: no side of either separates
+/// them by more.
 pub fn touch(a: &[P2], b: &[P2], tol: f64) -> bool {
-    let separates = |a: &[P2], b: &[P2]| edges(a).any(|(p, q)| b.iter().all(|&c| cross(p, q, c) < -tol * (q - p).norm()));
+    let separates = |a: &[P2], b: &[P2]| {
+        edges(a).any(|(p, q)| b.iter().all(|&c| cross(p, q, c) < -tol * (q - p).norm()))
+    };
     !separates(a, b) && !separates(b, a)
 }
 
@@ -166,9 +181,17 @@ mod tests {
             for turn in 0..8 {
                 let (sin, cos) = (std::f64::consts::FRAC_PI_4 * f64::from(turn)).sin_cos();
                 let at = |x: f64, y: f64| p(cos * x - sin * y, sin * x + cos * y);
-                // The third lies inside, just above the lower side; a twin of it, moved by rounding, beside it.
-                let low =
-                    [at(0.0, 0.0), at(2.0, 0.0), at(1.0, 1e-3), at(1.0 + shift, 1e-3), at(1.0, 1e-3 + shift), at(2.0, 2.0), at(0.0, 2.0)];
+                // The third lies inside, just above the lower side; a twin of it, moved by
+                // rounding, beside it.
+                let low = [
+                    at(0.0, 0.0),
+                    at(2.0, 0.0),
+                    at(1.0, 1e-3),
+                    at(1.0 + shift, 1e-3),
+                    at(1.0, 1e-3 + shift),
+                    at(2.0, 2.0),
+                    at(0.0, 2.0),
+                ];
                 let hull = hull(&low, 1e-9);
                 assert_eq!(hull.len(), 4, "{hull:?}");
                 assert!(low.iter().all(|&c| contains(&hull, c, 1e-12)));
@@ -216,11 +239,15 @@ mod tests {
     #[test]
     fn tidy_keeps_a_fine_circle_round() {
         let n = 1000;
-        let mut circle: Vec<P2> = (0..n).map(|i| (i as f64 / n as f64 * std::f64::consts::TAU).sin_cos()).map(|(s, c)| p(c, s)).collect();
+        let mut circle: Vec<P2> = (0..n)
+            .map(|i| (i as f64 / n as f64 * std::f64::consts::TAU).sin_cos())
+            .map(|(s, c)| p(c, s))
+            .collect();
         let before = area(&circle);
         tidy(&mut circle, 1e-9);
         assert_eq!(circle.len(), n);
-        // Every corner lies 2e-5 off its neighbours' chord: every second one goes, the rest lie 8e-5 off.
+        // Every corner lies 2e-5 off its neighbours' chord: every second one goes, the rest lie
+        // 8e-5 off.
         tidy(&mut circle, 3e-5);
         assert_eq!(circle.len(), n / 2);
         assert!((area(&circle) - before).abs() < 1e-4);

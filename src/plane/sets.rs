@@ -1,7 +1,7 @@
 //! Union–find.
 
-/// Disjoint sets of the numbers below `n`; each is known by its least member, with which every other agrees or disagrees
-/// (Tarjan 1975, with parity).
+/// Disjoint sets of the numbers below `n`; each is known by its least member, with which every
+/// other agrees or disagrees (Tarjan 1975, with parity).
 #[derive(Clone, Debug)]
 pub struct Sets {
     toward: Vec<usize>,
@@ -41,7 +41,8 @@ impl Sets {
         apart
     }
 
-    /// Makes one set of two whose members `a` and `b` disagree (or agree); false where that contradicts what was stated before.
+    /// Makes one set of two whose members `a` and `b` disagree (or agree); false where that
+    /// contradicts what was stated before.
     pub fn relate(&mut self, a: usize, b: usize, disagree: bool) -> bool {
         let ((a, of_a), (b, of_b)) = (self.side(a), self.side(b));
         let against = of_a ^ of_b ^ disagree;
@@ -71,7 +72,8 @@ mod tests {
     }
 
     proptest! {
-        /// Numbers of two colours, pairs stated as they are: every member is on the side of its colour, and the contrary is refused.
+        /// Numbers of two colours, pairs stated as they are: every member is on the side of its
+        /// colour, and the contrary is refused.
         #[test]
         fn members_are_on_the_side_of_their_colour(colour in prop::collection::vec(any::<bool>(), 20), pairs in prop::collection::vec((0usize..20, 0usize..20), 0..40)) {
             let mut sets = Sets::new(20);

@@ -13,7 +13,8 @@ use crate::{
 };
 use nalgebra::Vector3;
 
-/// The set in which the columns of one contact point lie. The first three are standard, self-dual cones.
+/// The set in which the columns of one contact point lie. The first three are standard, self-dual
+/// cones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BearingCone {
     /// Every column ≥ 0: a normal force alone (μ = 0), or the two edges of a plane friction cone.
@@ -26,8 +27,8 @@ pub enum BearingCone {
     Limited(Limits),
 }
 
-/// What a contact point resists beside dry friction:
-/// `‖f_t‖ ≤ μ f_n + c`, `f_n ≥ −T`, and for couples over the rolling arm `‖m_t‖ ≤ f_n`, `|m_n| ≤ f_n`.
+/// What a contact point resists beside dry friction: `‖f_t‖ ≤ μ f_n + c`, `f_n ≥ −T`, and for
+/// couples over the rolling arm `‖m_t‖ ≤ f_n`, `|m_n| ≤ f_n`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Coefficient of friction; infinite where sliding is excluded.
@@ -38,7 +39,8 @@ pub struct Limits {
     pub tension: f64,
     /// Number of tangential components: 1 in a plane, 2 in space.
     pub tangents: usize,
-    /// Number of couples: 0 without a rolling arm, 1 (rolling) in a plane, 3 (two of rolling, one of twisting) in space.
+    /// Number of couples: 0 without a rolling arm, 1 (rolling) in a plane, 3 (two of rolling, one
+    /// of twisting) in space.
     pub couples: usize,
 }
 
@@ -89,7 +91,8 @@ impl Bearing {
         0.5 * (per_corner[self.points[0]] + per_corner[self.points[1]])
     }
 
-    /// Brings columns into the cone: the nearest point of a standard cone; with limits, what exceeds them is cut.
+    /// Brings columns into the cone: the nearest point of a standard cone; with limits, what
+    /// exceeds them is cut.
     pub(super) fn admit(&self, x: &mut [f64]) {
         match self.cone {
             BearingCone::Rays => x.iter_mut().for_each(|v| *v = v.max(0.0)),
@@ -152,8 +155,8 @@ impl Disc {
         (self.slope * normal + self.constant).max(0.0)
     }
 
-    /// The rows of the limit that grows with the normal force; divided by a steep slope, so that friction of 1e6 is no number of
-    /// that size.
+    /// The rows of the limit that grows with the normal force; divided by a steep slope, so that
+    /// friction of 1e6 is no number of that size.
     pub(super) fn cone(&self, p: &mut ConicProgram) {
         let by = 1.0 / self.slope.max(1.0);
         if self.count == 1 {
@@ -179,7 +182,13 @@ impl Limits {
         let mut discs = Vec::new();
         if self.mu.is_finite() && self.tangents > 0 {
             let constant = self.cohesion / unit;
-            discs.push(Disc { normal: column, first: column + 1, count: self.tangents, slope: self.mu, constant });
+            discs.push(Disc {
+                normal: column,
+                first: column + 1,
+                count: self.tangents,
+                slope: self.mu,
+                constant,
+            });
         }
         let couples = column + 1 + self.tangents;
         let disc = |first, count| Disc { normal: column, first, count, slope: 1.0, constant: 0.0 };
@@ -205,7 +214,11 @@ impl Limits {
 }
 
 /// The bearings of every interface, in column order.
-pub(super) fn bearings(model: &Model, plane: Option<Plane>, options: StaticsOptions) -> Vec<Bearing> {
+pub(super) fn bearings(
+    model: &Model,
+    plane: Option<Plane>,
+    options: StaticsOptions,
+) -> Vec<Bearing> {
     let Model { assembly, interfaces, .. } = model;
     let mut list = Vec::new();
     let mut column = 0;
@@ -213,10 +226,17 @@ pub(super) fn bearings(model: &Model, plane: Option<Plane>, options: StaticsOpti
         let n = face.frame.n;
         let shares = if face.law.is_dry() { Vec::new() } else { strength::shares(face) };
         let (directions, cone) = friction_columns(face, plane, options);
-        let mut basis: Vec<Wrench> = directions.into_iter().map(|force| Wrench { force, moment: Vector3::zeros() }).collect();
+        let mut basis: Vec<Wrench> = directions
+            .into_iter()
+            .map(|force| Wrench { force, moment: Vector3::zeros() })
+            .collect();
         if !face.law.is_dry() && strength::rolling_arm(face) > 0.0 {
-            let axes = plane.map_or_else(|| vec![face.frame.t1, face.frame.t2, n], |p| vec![p.axis]);
-            basis.extend(axes.into_iter().map(|axis| Wrench { force: Vector3::zeros(), moment: axis * strength::rolling_arm(face) }));
+            let axes =
+                plane.map_or_else(|| vec![face.frame.t1, face.frame.t2, n], |p| vec![p.axis]);
+            basis.extend(axes.into_iter().map(|axis| Wrench {
+                force: Vector3::zeros(),
+                moment: axis * strength::rolling_arm(face),
+            }));
         }
         let points: Vec<[usize; 2]> = match plane {
             None => (0..face.points.len()).map(|k| [k, k]).collect(),
@@ -224,23 +244,47 @@ pub(super) fn bearings(model: &Model, plane: Option<Plane>, options: StaticsOpti
                 let t = p.axis.cross(&n);
                 let along = |k: &usize| t.dot(&(face.points[*k] - face.points[0]));
                 let by = |a: &usize, b: &usize| along(a).total_cmp(&along(b));
-                let (Some(low), Some(high)) = ((0..face.points.len()).min_by(by), (0..face.points.len()).max_by(by)) else { continue };
+                let (Some(low), Some(high)) =
+                    ((0..face.points.len()).min_by(by), (0..face.points.len()).max_by(by))
+                else {
+                    continue;
+                };
                 let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size);
-                let pair = |k: usize| [k, planar::mirror_of(&face.points, face.points[k], p.axis, p.offset, size).unwrap_or(k)];
-                if along(&high) - along(&low) <= f64::EPSILON * size { vec![pair(low)] } else { vec![pair(low), pair(high)] }
+                let pair = |k: usize| {
+                    [
+                        k,
+                        planar::mirror_of(&face.points, face.points[k], p.axis, p.offset, size)
+                            .unwrap_or(k),
+                    ]
+                };
+                if along(&high) - along(&low) <= f64::EPSILON * size {
+                    vec![pair(low)]
+                } else {
+                    vec![pair(low), pair(high)]
+                }
             }
         };
         for points in points {
-            let mut bearing =
-                Bearing { interface: index, points, column, basis: basis.clone(), cone, unit: 1.0, presumed: 0.0, orbit: None };
+            let mut bearing = Bearing {
+                interface: index,
+                points,
+                column,
+                basis: basis.clone(),
+                cone,
+                unit: 1.0,
+                presumed: 0.0,
+                orbit: None,
+            };
             if let BearingCone::Limited(limits) = &mut bearing.cone {
                 if shares.is_empty() {
                     list.push(bearing);
                     column += basis.len();
                     continue;
                 }
-                let share: f64 = shares[points[0]] + if points[0] == points[1] { 0.0 } else { shares[points[1]] };
-                (limits.cohesion, limits.tension) = (face.law.cohesion * share, strength::tension(face) * share);
+                let share: f64 = shares[points[0]]
+                    + if points[0] == points[1] { 0.0 } else { shares[points[1]] };
+                (limits.cohesion, limits.tension) =
+                    (face.law.cohesion * share, strength::tension(face) * share);
             }
             column += basis.len();
             list.push(bearing);
@@ -249,27 +293,44 @@ pub(super) fn bearings(model: &Model, plane: Option<Plane>, options: StaticsOpti
     list
 }
 
-/// Friction above which the edges of a cone are too flat to be coordinates: forces of common size become differences of forces μ times
-/// as large. Larger: digits are lost (at 1e6 light blocks on heavy ones came out wrong). Smaller: scenes go without programs in rates.
+/// Friction above which the edges of a cone are too flat to be coordinates: forces of common size
+/// become differences of forces μ times as large. Larger: digits are lost (at 1e6 light blocks on
+/// heavy ones came out wrong). Smaller: scenes go without programs in rates.
 const STEEP: f64 = 30.0;
 
-/// Directions of the force columns and their cone; constants of [`Limits`] are still to be filled in.
-fn friction_columns(face: &Interface, plane: Option<Plane>, options: StaticsOptions) -> (Vec<Vector3<f64>>, BearingCone) {
+/// Directions of the force columns and their cone; constants of [`Limits`] are still to be filled
+/// in.
+fn friction_columns(
+    face: &Interface,
+    plane: Option<Plane>,
+    options: StaticsOptions,
+) -> (Vec<Vector3<f64>>, BearingCone) {
     let n = face.frame.n;
-    let tangents = plane.map_or_else(|| vec![face.frame.t1, face.frame.t2], |p| vec![p.axis.cross(&n)]);
+    let tangents =
+        plane.map_or_else(|| vec![face.frame.t1, face.frame.t2], |p| vec![p.axis.cross(&n)]);
     let split = || std::iter::once(n).chain(tangents.iter().copied()).collect::<Vec<_>>();
-    let steep = !options.split && options.pyramid.is_none() && matches!(face.law.friction, Friction::Coefficient(mu) if mu > STEEP);
+    let steep = !options.split
+        && options.pyramid.is_none()
+        && matches!(face.law.friction, Friction::Coefficient(mu) if mu > STEEP);
     if !face.law.is_dry() || steep {
         let couples = match (strength::rolling_arm(face) > 0.0, plane) {
             (false, _) => 0,
             (true, Some(_)) => 1,
             (true, None) => 3,
         };
-        let limits = Limits { mu: face.law.friction.mu(), cohesion: 0.0, tension: 0.0, tangents: tangents.len(), couples };
+        let limits = Limits {
+            mu: face.law.friction.mu(),
+            cohesion: 0.0,
+            tension: 0.0,
+            tangents: tangents.len(),
+            couples,
+        };
         return (split(), BearingCone::Limited(limits));
     }
     match (plane, face.law.friction) {
-        (_, Friction::Coefficient(mu)) if mu == 0.0 && !options.keep_all => (vec![n], BearingCone::Rays),
+        (_, Friction::Coefficient(mu)) if mu == 0.0 && !options.keep_all => {
+            (vec![n], BearingCone::Rays)
+        }
         _ if options.split => (split(), BearingCone::Rough),
         (_, Friction::Infinite) => (split(), BearingCone::Rough),
         (Some(_), Friction::Coefficient(mu)) => {
@@ -277,7 +338,8 @@ fn friction_columns(face: &Interface, plane: Option<Plane>, options: StaticsOpti
             (vec![(n + t * mu) * scale, (n - t * mu) * scale], BearingCone::Rays)
         }
         (None, Friction::Coefficient(mu)) if options.pyramid.is_some_and(|p| p.facets > 2) => {
-            let Pyramid { facets, around } = options.pyramid.unwrap_or(Pyramid { facets: 3, around: false });
+            let Pyramid { facets, around } =
+                options.pyramid.unwrap_or(Pyramid { facets: 3, around: false });
             let step = std::f64::consts::TAU / facets as f64;
             let slope = if around { mu / (0.5 * step).cos() } else { mu };
             let edge = |k: usize| {

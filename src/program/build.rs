@@ -1,4 +1,5 @@
-//! The equilibrium of a scene, built: the plane it needs, the points, the part that stands for the rest, the scales, the entries.
+//! The equilibrium of a scene, built: the plane it needs, the points, the part that stands for the
+//! rest, the scales, the entries.
 
 use super::{
     bearing::{Bearing, bearings, ends_are_all},
@@ -18,8 +19,9 @@ use crate::{
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use std::collections::HashMap;
 
-/// Force unit = this × total load / number of interfaces on supports. Greater: the residual in block weights is lost.
-/// Smaller: the interior-point path is cut short before tall stacks are resolved.
+/// Force unit = this × total load / number of interfaces on supports. Greater: the residual in
+/// block weights is lost. Smaller: the interior-point path is cut short before tall stacks are
+/// resolved.
 const UNIT_SHARE: f64 = 8.0;
 
 impl Statics {
@@ -27,7 +29,13 @@ impl Statics {
     pub fn new(model: &Model, options: StaticsOptions) -> Self {
         let Model { assembly, interfaces, .. } = model;
         let (plane, mut list) = plane_and_bearings(model, options);
-        let weight = |block: usize| if options.unscaled { 1.0 } else { assembly.weight(block).max(load_size(assembly, block)) };
+        let weight = |block: usize| {
+            if options.unscaled {
+                1.0
+            } else {
+                assembly.weight(block).max(load_size(assembly, block))
+            }
+        };
         let unit = set_units(model, options, &mut list, weight);
         let dead = with_water(model);
         let mut left_out = Vec::new();
@@ -65,13 +73,19 @@ impl Statics {
         this.fill(model, &list);
         for row in 0..this.free.len() {
             let (block, first) = (this.free[row].block, this.free[row].rows.start);
-            let (dead, live) = (this.scaled(row, dead[block]), this.scaled(row, assembly.live[block]));
+            let (dead, live) =
+                (this.scaled(row, dead[block]), this.scaled(row, assembly.live[block]));
             this.dead[first..first + dead.len()].copy_from_slice(&dead);
             this.live[first..first + live.len()].copy_from_slice(&live);
         }
-        let frictionless = interfaces.list.iter().filter(|f| f.law.friction == Friction::Coefficient(0.0) && f.law.is_dry()).count();
+        let frictionless = interfaces
+            .list
+            .iter()
+            .filter(|f| f.law.friction == Friction::Coefficient(0.0) && f.law.is_dry())
+            .count();
         if frictionless > 0 && !options.keep_all {
-            this.left_out.push(format!("tangential forces of {frictionless} frictionless interfaces"));
+            this.left_out
+                .push(format!("tangential forces of {frictionless} frictionless interfaces"));
         }
         if interfaces.support_pairs > 0 {
             this.left_out.push(format!("{} contacts between supports", interfaces.support_pairs));
@@ -89,7 +103,8 @@ impl Statics {
             let face = &interfaces.list[bearing.interface];
             let point = 0.5 * (face.points[bearing.points[0]] + face.points[bearing.points[1]]);
             for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
-                // What an image of the bearing does to the block that is kept is the image of what the bearing does here.
+                // What an image of the bearing does to the block that is kept is the image of what
+                // the bearing does here.
                 let (home, element) = match &self.orbits {
                     Some(orbits) => orbits.home(block).unwrap_or((block, 0)),
                     None => (block, 0),
@@ -121,10 +136,12 @@ fn load_size(assembly: &Assembly, block: usize) -> f64 {
 /// The mirror plane that a plane scene is solved in, and its contact points.
 fn plane_and_bearings(model: &Model, options: StaticsOptions) -> (Option<Plane>, Vec<Bearing>) {
     let Model { assembly, interfaces, .. } = model;
-    let loads: &[&[Wrench]] = if options.live { &[&assembly.dead, &assembly.live] } else { &[&assembly.dead] };
+    let loads: &[&[Wrench]] =
+        if options.live { &[&assembly.dead, &assembly.live] } else { &[&assembly.dead] };
     let plane = if options.keep_all { None } else { planar::find(model, loads) };
     let list = bearings(model, plane, options);
-    // What the area resists, and compliance, are shared among all corners, not only the outermost two.
+    // What the area resists, and compliance, are shared among all corners, not only the outermost
+    // two.
     let shared = options.split || !interfaces.list.iter().all(|f| f.law.is_dry());
     if plane.is_some() && shared && !ends_are_all(&list, interfaces) {
         return (None, bearings(model, None, options));
@@ -132,11 +149,21 @@ fn plane_and_bearings(model: &Model, options: StaticsOptions) -> (Option<Plane>,
     (plane, list)
 }
 
-/// Gives the bearings their force unit, which is returned, and the load that presumably passes there.
-fn set_units(model: &Model, options: StaticsOptions, list: &mut [Bearing], weight: impl Fn(usize) -> f64) -> f64 {
+/// Gives the bearings their force unit, which is returned, and the load that presumably passes
+/// there.
+fn set_units(
+    model: &Model,
+    options: StaticsOptions,
+    list: &mut [Bearing],
+    weight: impl Fn(usize) -> f64,
+) -> f64 {
     let Model { assembly, interfaces, .. } = model;
     let total: f64 = assembly.free().map(&weight).sum();
-    let supported = interfaces.list.iter().filter(|f| assembly.blocks[f.a].support || assembly.blocks[f.b].support).count();
+    let supported = interfaces
+        .list
+        .iter()
+        .filter(|f| assembly.blocks[f.a].support || assembly.blocks[f.b].support)
+        .count();
     let unit = if options.unscaled { 1.0 } else { UNIT_SHARE * total / supported.max(1) as f64 };
     let load = carried(model, weight);
     for bearing in list {
@@ -162,10 +189,21 @@ fn with_water(model: &Model) -> Vec<Wrench> {
     loads
 }
 
-/// The part that a symmetric scene is reduced to. Bounds on crushing tie the points of a joint together: no symmetry is looked for there.
-fn part(model: &Model, options: StaticsOptions, plane: Option<Plane>, dead: &[Wrench], list: &[Bearing]) -> Option<Part> {
+/// The part that a symmetric scene is reduced to. Bounds on crushing tie the points of a joint
+/// together: no symmetry is looked for there.
+fn part(
+    model: &Model,
+    options: StaticsOptions,
+    plane: Option<Plane>,
+    dead: &[Wrench],
+    list: &[Bearing],
+) -> Option<Part> {
     let Model { assembly, interfaces, .. } = model;
-    if !options.symmetry || options.keep_all || options.unscaled || interfaces.list.iter().any(crushes) {
+    if !options.symmetry
+        || options.keep_all
+        || options.unscaled
+        || interfaces.list.iter().any(crushes)
+    {
         return None;
     }
     let loads: &[&[Wrench]] = if options.live { &[dead, &assembly.live] } else { &[dead] };
@@ -189,7 +227,11 @@ fn free_blocks(
     let free = assembly.free().filter_map(own).map(|(block, BlockOrbit { images, directions })| {
         let first = rows;
         rows += directions.as_ref().map_or(dimension, DMatrix::ncols);
-        let gyration = if options.unscaled { Gyration::new(&Matrix3::identity(), 1.0) } else { assembly.blocks[block].gyration.clone() };
+        let gyration = if options.unscaled {
+            Gyration::new(&Matrix3::identity(), 1.0)
+        } else {
+            assembly.blocks[block].gyration.clone()
+        };
         FreeBlock { block, weight: weight(block), gyration, rows: first..rows, directions, images }
     });
     free.collect()
@@ -198,7 +240,9 @@ fn free_blocks(
 fn plane_line(plane: Plane, kept: usize, interfaces: &Interfaces) -> String {
     let all: usize = interfaces.list.iter().map(|f| f.points.len()).sum();
     let name = direction_name(plane.axis);
-    format!("plane scene (mirrored about the plane normal to {name}): {kept} of {all} contact points, 3 of 6 rates a block")
+    format!(
+        "plane scene (mirrored about the plane normal to {name}): {kept} of {all} contact points, 3 of 6 rates a block"
+    )
 }
 
 fn direction_name(d: Vector3<f64>) -> String {

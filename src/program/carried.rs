@@ -1,8 +1,8 @@
 //! A rough estimate of the load each block carries, for scaling only.
 //!
-//! Loads are handed down in equal shares to the neighbours that are fewer contacts away from a support. Where it is
-//! wrong (a small keystone between large halves) the scaling is poor and a later rung of the ladder goes without it;
-//! answers never depend on it.
+//! Loads are handed down in equal shares to the neighbours that are fewer contacts away from a
+//! support. Where it is wrong (a small keystone between large halves) the scaling is poor and a
+//! later rung of the ladder goes without it; answers never depend on it.
 
 use crate::interface::Model;
 use std::collections::VecDeque;
@@ -29,9 +29,11 @@ pub fn carried(model: &Model, own: impl Fn(usize) -> f64) -> Vec<f64> {
             }
         }
     }
-    let mut load: Vec<f64> = (0..n).map(|i| if assembly.blocks[i].support { f64::INFINITY } else { own(i) }).collect();
+    let mut load: Vec<f64> =
+        (0..n).map(|i| if assembly.blocks[i].support { f64::INFINITY } else { own(i) }).collect();
     for &i in order.iter().rev().filter(|&&i| depth[i] > 0) {
-        let below: Vec<usize> = neighbours[i].iter().copied().filter(|&j| depth[j] < depth[i]).collect();
+        let below: Vec<usize> =
+            neighbours[i].iter().copied().filter(|&j| depth[j] < depth[i]).collect();
         for &j in &below {
             load[j] += load[i] / below.len() as f64;
         }

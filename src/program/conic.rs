@@ -58,7 +58,8 @@ impl Cone {
     }
 }
 
-/// `min ½ xᵀ diag(p) x + cᵀx` subject to `b − G x ∈ K`. Its multipliers `z ∈ K*` satisfy `p x + c + Gᵀ z = 0`.
+/// `min ½ xᵀ diag(p) x + cᵀx` subject to `b − G x ∈ K`. Its multipliers `z ∈ K*` satisfy `p x + c +
+/// Gᵀ z = 0`.
 #[derive(Clone, Debug)]
 pub struct ConicProgram {
     /// Diagonal `p ≥ 0` of the quadratic part; empty where there is none.
@@ -76,7 +77,13 @@ pub struct ConicProgram {
 impl ConicProgram {
     /// A program in `columns` variables with no rows yet and a zero objective.
     pub(super) fn new(columns: usize) -> Self {
-        Self { quadratic: Vec::new(), objective: vec![0.0; columns], matrix: Sparse::zeros(0, columns), rhs: Vec::new(), cones: Vec::new() }
+        Self {
+            quadratic: Vec::new(),
+            objective: vec![0.0; columns],
+            matrix: Sparse::zeros(0, columns),
+            rhs: Vec::new(),
+            cones: Vec::new(),
+        }
     }
 
     /// Appends a cone with right-hand side zero; returns its first row.
@@ -85,7 +92,8 @@ impl ConicProgram {
         self.matrix.rows += cone.rows();
         self.rhs.resize(self.matrix.rows, 0.0);
         match (self.cones.last_mut(), cone) {
-            (Some(Cone::Zero(n)), Cone::Zero(k)) | (Some(Cone::NonNegative(n)), Cone::NonNegative(k)) => *n += k,
+            (Some(Cone::Zero(n)), Cone::Zero(k))
+            | (Some(Cone::NonNegative(n)), Cone::NonNegative(k)) => *n += k,
             _ => self.cones.push(cone),
         }
         first

@@ -1,25 +1,30 @@
 //! Programs C and D: dry friction without dilatancy.
 //!
-//! *Law.* At each contact point, with `u` the rate of the joint (opening positive): `u_n ≥ 0 ⟂ f_n ≥ 0` (Signorini) and
-//! `‖f_t‖ ≤ μ f_n`, `f_t` against `u_t` and at its limit where `u_t ≠ 0` (Coulomb). Sliding does not open the joint, so there
-//! is no energy to minimise; with the friction limits `s` held fixed there is (Tresca), and Coulomb's law is `s = μ f_n`.
+//! *Law.* At each contact point, with `u` the rate of the joint (opening positive): `u_n ≥ 0 ⟂ f_n
+//! ≥ 0` (Signorini) and `‖f_t‖ ≤ μ f_n`, `f_t` against `u_t` and at its limit where `u_t ≠ 0`
+//! (Coulomb). Sliding does not open the joint, so there is no energy to minimise; with the friction
+//! limits `s` held fixed there is (Tresca), and Coulomb's law is `s = μ f_n`.
 //!
-//! *State (C).* `min ½ fᵀ C f + (1/2ε) ‖A f + w‖²` subject to `f_n ≥ 0`, `‖f_t‖ ≤ s`: always feasible, what cannot balance
-//! accelerates. `C` is a contact compliance (mean area / area of the point), which picks among admissible forces those that the
-//! loads produce; forces are in mean block loads, rows scaled by the root of each block's load × the mean one, so that the multipliers
-//! `(A f + w) / ε` are accelerations ([`Contacts::by_mass`]). The rate of a joint is the gradient, `u = C f + Aᵀ (A f + w) / ε`.
+//! *State (C).* `min ½ fᵀ C f + (1/2ε) ‖A f + w‖²` subject to `f_n ≥ 0`, `‖f_t‖ ≤ s`: always
+//! feasible, what cannot balance accelerates. `C` is a contact compliance (mean area / area of the
+//! point), which picks among admissible forces those that the loads produce; forces are in mean
+//! block loads, rows scaled by the root of each block's load × the mean one, so that the
+//! multipliers `(A f + w) / ε` are accelerations ([`Contacts::by_mass`]). The rate of a joint is
+//! the gradient, `u = C f + Aᵀ (A f + w) / ε`.
 //!
-//! *Load factor (D).* `max λ − ½ δ fᵀ C f` subject to `A f + w + λ ℓ = 0` and the same limits; `u = δ C f + Aᵀ y` with the
-//! multipliers `y`.
+//! *Load factor (D).* `max λ − ½ δ fᵀ C f` subject to `A f + w + λ ℓ = 0` and the same limits; `u =
+//! δ C f + Aᵀ y` with the multipliers `y`.
 //!
-//! *More than friction.* Cohesion `c` and tension `T` make the limit `μ f_n + c` and `f_n ≥ −T`; the couples of a rolling arm are
-//! limited by `f_n` in the same way ([`Disc`]), and what rolls or twists does not open either. Crushing bounds the normal forces
+//! *More than friction.* Cohesion `c` and tension `T` make the limit `μ f_n + c` and `f_n ≥ −T`;
+//! the couples of a rolling arm are limited by `f_n` in the same way ([`Disc`]), and what rolls or
+//! twists does not open either. Crushing bounds the normal forces
 //! ([`CrushingJoint`](super::CrushingJoint)), held and associative: what crushes closes.
 //!
-//! *Twin (De Saxcé & Feng 1998).* `f` in the friction cone with a linear term `μ‖u_t‖ f_n`: the fixed point is in the sliding
-//! rates instead of the limits. It serves as a second opinion; where dilatancy jams it does not settle.
-//! Sources: Haslinger 1983 (fixed point on the Tresca limit), Acary, Brémond & Huber 2018 (natural map), Gilbert, Casapulla &
-//! Ahmed 2006 (sequence of convex programs for non-associative limit analysis).
+//! *Twin (De Saxcé & Feng 1998).* `f` in the friction cone with a linear term `μ‖u_t‖ f_n`: the
+//! fixed point is in the sliding rates instead of the limits. It serves as a second opinion; where
+//! dilatancy jams it does not settle. Sources: Haslinger 1983 (fixed point on the Tresca limit),
+//! Acary, Brémond & Huber 2018 (natural map), Gilbert, Casapulla & Ahmed 2006 (sequence of convex
+//! programs for non-associative limit analysis).
 
 use super::{BearingCone, Cone, ConicProgram, Disc, Statics, StaticsOptions, unbalance::copy};
 use crate::{interface::Model, scene::Friction};
@@ -33,11 +38,13 @@ pub struct SlidingPoint {
     pub columns: usize,
     /// Tensile strength, in units of the forces.
     pub tension: f64,
-    /// Its limits: friction, and rolling and twisting where there is an arm. None where sliding is excluded.
+    /// Its limits: friction, and rolling and twisting where there is an arm. None where sliding is
+    /// excluded.
     pub discs: Vec<Disc>,
 }
 
-/// The equilibrium in normal and tangential forces, in mean block loads, with the compliance of the contacts.
+/// The equilibrium in normal and tangential forces, in mean block loads, with the compliance of the
+/// contacts.
 #[derive(Clone, Debug)]
 pub struct Contacts {
     /// Equilibrium, columns `(f_n, f_t…, couples…)` per point, unit = mean block load.
@@ -46,11 +53,14 @@ pub struct Contacts {
     pub points: Vec<SlidingPoint>,
     /// Compliance of each column.
     pub compliance: Vec<f64>,
-    /// The load that presumably passes each limit, in units of the forces: what a change of it is measured by.
+    /// The load that presumably passes each limit, in units of the forces: what a change of it is
+    /// measured by.
     pub passing: Vec<f64>,
-    /// The load of the lighter of the two blocks at each limit, in units of the forces: what a wrong limit accelerates.
+    /// The load of the lighter of the two blocks at each limit, in units of the forces: what a
+    /// wrong limit accelerates.
     pub lighter: Vec<f64>,
-    /// How many blocks each row, and how many bearings each column stands for: what is summed over the scene counts them.
+    /// How many blocks each row, and how many bearings each column stands for: what is summed over
+    /// the scene counts them.
     pub(super) row_images: Vec<f64>,
     pub(super) column_images: Vec<f64>,
 }
@@ -73,14 +83,15 @@ pub enum Objective {
     LoadFactor(f64, f64),
 }
 
-/// A limit is reached by forces of this share of it. More: rounding hides some. Less: sticking joints count as sliding.
+/// A limit is reached by forces of this share of it. More: rounding hides some. Less: sticking
+/// joints count as sliding.
 const REACHED: f64 = 0.999;
 
 impl Contacts {
     /// Builds the contacts of an assembly.
     ///
-    /// A plane scene is solved as plane only where every interface is wholly represented by its two ends: the compliance of
-    /// inner points would be lost.
+    /// A plane scene is solved as plane only where every interface is wholly represented by its two
+    /// ends: the compliance of inner points would be lost.
     pub fn new(model: &Model, options: StaticsOptions) -> Self {
         let Model { assembly, interfaces, .. } = model;
         let mut statics = Statics::new(model, StaticsOptions { split: true, ..options });
@@ -92,8 +103,16 @@ impl Contacts {
         };
         let areas: Vec<f64> = statics.bearings.iter().map(share).collect();
         let column_images = statics.column_images();
-        let with_area = || statics.bearings.iter().zip(&areas).filter(|(_, a)| **a > 0.0).map(|(b, a)| (column_images[b.column], a));
-        let mean_area = with_area().map(|(n, a)| n * a).sum::<f64>() / with_area().map(|(n, _)| n).sum::<f64>().max(1.0);
+        let with_area = || {
+            statics
+                .bearings
+                .iter()
+                .zip(&areas)
+                .filter(|(_, a)| **a > 0.0)
+                .map(|(b, a)| (column_images[b.column], a))
+        };
+        let mean_area = with_area().map(|(n, a)| n * a).sum::<f64>()
+            / with_area().map(|(n, _)| n).sum::<f64>().max(1.0);
         let mut compliance = Vec::with_capacity(statics.matrix.columns);
         let points: Vec<SlidingPoint> = statics
             .bearings
@@ -106,7 +125,13 @@ impl Contacts {
                 let limits = match (b.cone, interfaces.list[b.interface].law.friction) {
                     (BearingCone::Limited(limits), _) => limits.discs(b.column, b.unit),
                     (_, Friction::Coefficient(slope)) if b.basis.len() > 1 => {
-                        vec![Disc { normal: b.column, first: b.column + 1, count: b.basis.len() - 1, slope, constant: 0.0 }]
+                        vec![Disc {
+                            normal: b.column,
+                            first: b.column + 1,
+                            count: b.basis.len() - 1,
+                            slope,
+                            constant: 0.0,
+                        }]
                     }
                     _ => Vec::new(),
                 };
@@ -115,18 +140,30 @@ impl Contacts {
             })
             .collect();
         let row_images = statics.row_images();
-        let passing = points.iter().zip(&statics.bearings).flat_map(|(p, b)| p.discs.iter().map(|_| b.presumed / b.unit)).collect();
+        let passing = points
+            .iter()
+            .zip(&statics.bearings)
+            .flat_map(|(p, b)| p.discs.iter().map(|_| b.presumed / b.unit))
+            .collect();
         let weight = |block: usize| {
             let loaded = assembly.weight(block).max(assembly.dead[block].force.norm());
             if assembly.blocks[block].support { f64::INFINITY } else { loaded }
         };
-        let lighter = |b: &super::Bearing| weight(interfaces.list[b.interface].a).min(weight(interfaces.list[b.interface].b)) / b.unit;
-        let lighter = points.iter().zip(&statics.bearings).flat_map(|(p, b)| p.discs.iter().map(move |_| lighter(b))).collect();
+        let lighter = |b: &super::Bearing| {
+            weight(interfaces.list[b.interface].a).min(weight(interfaces.list[b.interface].b))
+                / b.unit
+        };
+        let lighter = points
+            .iter()
+            .zip(&statics.bearings)
+            .flat_map(|(p, b)| p.discs.iter().map(move |_| lighter(b)))
+            .collect();
         Self { statics, points, compliance, passing, lighter, row_images, column_images }
     }
 
-    /// Measures the blocks for [`Objective::State`]: what is left of a block's load over ε is then the block's acceleration, whatever the others
-    /// weigh, as if every mass were on its way for a while.
+    /// Measures the blocks for [`Objective::State`]: what is left of a block's load over ε is then
+    /// the block's acceleration, whatever the others weigh, as if every mass were on its way for a
+    /// while.
     pub fn by_mass(&mut self) {
         let mean = self.statics.unit;
         self.statics.measure(|weight| (weight * mean).sqrt());
@@ -139,7 +176,8 @@ impl Contacts {
         for b in bearings {
             passing[b.column..b.column + b.basis.len()].fill(b.presumed);
         }
-        let block: Vec<usize> = free.iter().enumerate().flat_map(|(k, f)| f.rows.clone().map(move |_| k)).collect();
+        let block: Vec<usize> =
+            free.iter().enumerate().flat_map(|(k, f)| f.rows.clone().map(move |_| k)).collect();
         let mut carried = vec![f64::MIN_POSITIVE; free.len()];
         for (&i, &j) in matrix.i.iter().zip(&matrix.j) {
             carried[block[i]] = f64::max(carried[block[i]], passing[j]);
@@ -148,7 +186,12 @@ impl Contacts {
     }
 
     /// One convex program of the sequence; `held` are the limits or the sliding rates per point.
-    pub fn program(&self, objective: Objective, quantity: HeldQuantity, held: &[f64]) -> ConicProgram {
+    pub fn program(
+        &self,
+        objective: Objective,
+        quantity: HeldQuantity,
+        held: &[f64],
+    ) -> ConicProgram {
         let (rows, forces) = (self.statics.matrix.rows, self.statics.matrix.columns);
         let extra = match objective {
             Objective::State(_) => rows,
@@ -156,7 +199,8 @@ impl Contacts {
         };
         let mut p = ConicProgram::new(forces + extra);
         let weight = if let Objective::LoadFactor(delta, _) = objective { delta } else { 1.0 };
-        p.quadratic = self.compliance.iter().zip(&self.column_images).map(|(c, n)| c * weight * n).collect();
+        p.quadratic =
+            self.compliance.iter().zip(&self.column_images).map(|(c, n)| c * weight * n).collect();
         p.cone(Cone::Zero(rows));
         copy(&mut p, &self.statics, 0, 0);
         match objective {
@@ -268,7 +312,9 @@ impl Contacts {
 
     /// The load factor at which these forces, off balance by `residual`, balance best.
     pub fn best_factor(&self, lambda: f64, residual: &[f64]) -> f64 {
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).zip(&self.row_images).map(|((a, b), n)| a * b * n).sum::<f64>();
+        let dot = |a: &[f64], b: &[f64]| {
+            a.iter().zip(b).zip(&self.row_images).map(|((a, b), n)| a * b * n).sum::<f64>()
+        };
         lambda - dot(residual, &self.statics.live) / dot(&self.statics.live, &self.statics.live)
     }
 
@@ -285,27 +331,36 @@ impl Contacts {
 
     /// Limits `μ f_n + c` of forces, per disc.
     pub fn limits(&self, forces: &[f64]) -> Vec<f64> {
-        self.points.iter().flat_map(|p| p.discs.iter().map(|d| d.limit(forces[p.column].max(-p.tension)))).collect()
+        self.points
+            .iter()
+            .flat_map(|p| p.discs.iter().map(|d| d.limit(forces[p.column].max(-p.tension))))
+            .collect()
     }
 
-    /// What limits that were held, while those of the forces are `next`, can make of accelerations at most, in multiples of gravity: only
-    /// where a limit is reached does it matter.
+    /// What limits that were held, while those of the forces are `next`, can make of accelerations
+    /// at most, in multiples of gravity: only where a limit is reached does it matter.
     pub fn unsettled(&self, forces: &[f64], held: &[f64], next: &[f64]) -> f64 {
-        let reached = |d: &Disc, s: f64| forces[d.first..d.first + d.count].iter().map(|v| v * v).sum::<f64>().sqrt() >= REACHED * s;
-        let off = self.discs().zip(held).zip(next).zip(&self.lighter).map(|(((d, &s), n), load)| {
-            let off = (n - s).abs() / load;
-            if reached(d, s) { off } else { 0.0 }
-        });
+        let reached = |d: &Disc, s: f64| {
+            forces[d.first..d.first + d.count].iter().map(|v| v * v).sum::<f64>().sqrt()
+                >= REACHED * s
+        };
+        let off =
+            self.discs().zip(held).zip(next).zip(&self.lighter).map(|(((d, &s), n), load)| {
+                let off = (n - s).abs() / load;
+                if reached(d, s) { off } else { 0.0 }
+            });
         off.fold(0.0, f64::max)
     }
 
     /// `μ‖u_t‖` of joint rates, per disc.
     pub fn sliding(&self, u: &[f64]) -> Vec<f64> {
-        let size = |d: &Disc| u[d.first..d.first + d.count].iter().map(|v| v * v).sum::<f64>().sqrt();
+        let size =
+            |d: &Disc| u[d.first..d.first + d.count].iter().map(|v| v * v).sum::<f64>().sqrt();
         self.discs().map(|d| d.slope * size(d)).collect()
     }
 
-    /// Forces with every point put back into its cone (normal part to ≥ −T, the others cut to their limits).
+    /// Forces with every point put back into its cone (normal part to ≥ −T, the others cut to their
+    /// limits).
     pub fn cut(&self, forces: &[f64]) -> Vec<f64> {
         let mut f = forces.to_vec();
         for p in &self.points {
@@ -313,7 +368,8 @@ impl Contacts {
             f[p.column] = normal;
             for disc in &p.discs {
                 let part = &mut f[disc.first..disc.first + disc.count];
-                let (size, limit) = (part.iter().map(|v| v * v).sum::<f64>().sqrt(), disc.limit(normal));
+                let (size, limit) =
+                    (part.iter().map(|v| v * v).sum::<f64>().sqrt(), disc.limit(normal));
                 if size > limit {
                     part.iter_mut().for_each(|v| *v *= limit / size);
                 }

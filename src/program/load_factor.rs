@@ -1,16 +1,21 @@
 //! Program L: the greatest load factor.
 //!
-//! `max λ` subject to `A x + w + λ ℓ = 0`, `x` in the cones; or its dual, `min −w·q` over admissible rates with `ℓ·q = 1`
-//! (the kinematic theorem of limit analysis: Drucker, Prager & Greenberg 1952; for masonry Livesley 1978).
+//! `max λ` subject to `A x + w + λ ℓ = 0`, `x` in the cones; or its dual, `min −w·q` over
+//! admissible rates with `ℓ·q = 1` (the kinematic theorem of limit analysis: Drucker, Prager &
+//! Greenberg 1952; for masonry Livesley 1978).
 
 use super::{
     Cone, ConicProgram, Positions, Statics, Unknowns,
     unbalance::{copy, force_cones, rate_cones},
 };
 
-/// Builds program L with the live load multiplied by `live_scale`; the optimal value is `−λ / live_scale` in forces and
-/// `λ / live_scale` in rates.
-pub fn load_factor(statics: &Statics, live_scale: f64, unknowns: Unknowns) -> (ConicProgram, Positions) {
+/// Builds program L with the live load multiplied by `live_scale`; the optimal value is `−λ /
+/// live_scale` in forces and `λ / live_scale` in rates.
+pub fn load_factor(
+    statics: &Statics,
+    live_scale: f64,
+    unknowns: Unknowns,
+) -> (ConicProgram, Positions) {
     let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
     let unknowns = statics.unknowns(unknowns);
     match unknowns {
@@ -37,7 +42,16 @@ pub fn load_factor(statics: &Statics, live_scale: f64, unknowns: Unknowns) -> (C
                 p.matrix.push(power, row, live_scale * l);
             }
             let first = rate_cones(&mut p, statics);
-            (p, Positions { unknowns, forces: first, force_count: forces, rates: 0, rate_count: rows })
+            (
+                p,
+                Positions {
+                    unknowns,
+                    forces: first,
+                    force_count: forces,
+                    rates: 0,
+                    rate_count: rows,
+                },
+            )
         }
     }
 }

@@ -1,13 +1,15 @@
 //! The conic programs, engine-neutral.
 //!
-//! [`Statics`] is the equilibrium of the free blocks, reduced and scaled: `A x + w + λ ℓ = 0` with `x` in a product of
-//! standard cones. Rows are divided by each block's own load (moments also by its size), columns by one force unit;
-//! with raw newtons an interior-point solver reports success on wrong answers.
-//! From it come program **V**, the least unbalance ([`unbalance`]), and program **L**, the load factor ([`load_factor`]),
-//! each in the forces or, dually, in the rates of the blocks; and program **T**, the thrust on a support ([`thrust()`]), in the forces.
+//! [`Statics`] is the equilibrium of the free blocks, reduced and scaled: `A x + w + λ ℓ = 0` with
+//! `x` in a product of standard cones. Rows are divided by each block's own load (moments also by
+//! its size), columns by one force unit; with raw newtons an interior-point solver reports success
+//! on wrong answers. From it come program **V**, the least unbalance ([`unbalance`]), and program
+//! **L**, the load factor ([`load_factor`]), each in the forces or, dually, in the rates of the
+//! blocks; and program **T**, the thrust on a support ([`thrust()`]), in the forces.
 //!
-//! Signs: a contact force acts on block `b` along `n` (from `a` into `b`); rates are power-conjugate to wrenches, so that
-//! `v = Aᵀ q` is the rate of separation and sliding of the contacts, opening positive.
+//! Signs: a contact force acts on block `b` along `n` (from `a` into `b`); rates are
+//! power-conjugate to wrenches, so that `v = Aᵀ q` is the rate of separation and sliding of the
+//! contacts, opening positive.
 
 mod bearing;
 mod build;

@@ -1,13 +1,18 @@
 //! The least motion that opens every contact.
 //!
-//! `min ½ ‖q‖²` subject to `Aᵀ q − e ∈ K*`, with `e` a unit of opening at every contact. Where there is none, forces in the cones balance
-//! without a load (Gordan's alternative).
+//! `min ½ ‖q‖²` subject to `Aᵀ q − e ∈ K*`, with `e` a unit of opening at every contact. Where
+//! there is none, forces in the cones balance without a load (Gordan's alternative).
 
 use super::{BearingCone, ConicProgram, Statics, unbalance::rate_cones};
 
-/// Builds the program; `None` where joints have strengths, for which only programs in forces exist, or exclude sliding.
+/// Builds the program; `None` where joints have strengths, for which only programs in forces exist,
+/// or exclude sliding.
 pub fn opening(statics: &Statics) -> Option<ConicProgram> {
-    if statics.bearings.iter().any(|b| matches!(b.cone, BearingCone::Limited(_) | BearingCone::Rough)) {
+    if statics
+        .bearings
+        .iter()
+        .any(|b| matches!(b.cone, BearingCone::Limited(_) | BearingCone::Rough))
+    {
         return None;
     }
     let mut p = ConicProgram::new(statics.matrix.rows);

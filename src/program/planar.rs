@@ -1,10 +1,11 @@
 //! Scenes that are mirror images of themselves about a plane need only that plane.
 //!
-//! If blocks, contacts and loads are mirrored about the plane `axis · x = offset`, any admissible forces averaged with
-//! their mirror image are admissible again (cones are convex) and have no resultant across the plane; dropping the
-//! components along `axis` keeps them inside the friction cone. Three unknown rates a block remain, each interface is a
-//! segment with two ends, and the friction cone is two rays: a linear program instead of a second-order one, with exactly
-//! the same answer. Rates in the plane are admissible in space as they stand.
+//! If blocks, contacts and loads are mirrored about the plane `axis · x = offset`, any admissible
+//! forces averaged with their mirror image are admissible again (cones are convex) and have no
+//! resultant across the plane; dropping the components along `axis` keeps them inside the friction
+//! cone. Three unknown rates a block remain, each interface is a segment with two ends, and the
+//! friction cone is two rays: a linear program instead of a second-order one, with exactly the same
+//! answer. Rates in the plane are admissible in space as they stand.
 
 use crate::{assembly::Wrench, interface::Model, tolerance};
 use nalgebra::Vector3;
@@ -22,7 +23,8 @@ pub struct Plane {
     pub e2: Vector3<f64>,
 }
 
-/// The mirror plane of a scene with its dead and live loads, if it has one with all contact normals in it.
+/// The mirror plane of a scene with its dead and live loads, if it has one with all contact normals
+/// in it.
 pub fn find(model: &Model, loads: &[&[crate::assembly::Wrench]]) -> Option<Plane> {
     candidates(model, loads).into_iter().find_map(|axis| mirrored(model, loads, axis))
 }
@@ -68,7 +70,11 @@ fn near(x: f64, size: f64) -> bool {
     x.abs() <= tolerance::MIRROR * size
 }
 
-fn mirrored(model: &Model, loads: &[&[crate::assembly::Wrench]], axis: Vector3<f64>) -> Option<Plane> {
+fn mirrored(
+    model: &Model,
+    loads: &[&[crate::assembly::Wrench]],
+    axis: Vector3<f64>,
+) -> Option<Plane> {
     let Model { assembly, interfaces, .. } = model;
     let first = assembly.free().next()?;
     let offset = axis.dot(&assembly.blocks[first].centroid);
@@ -84,14 +90,18 @@ fn mirrored(model: &Model, loads: &[&[crate::assembly::Wrench]], axis: Vector3<f
         for load in loads {
             let Wrench { force, moment } = &load[i];
             let across = moment - axis * axis.dot(moment);
-            if !in_plane(force) || across.norm() > tolerance::MIRROR * (moment.norm() + force.norm() * block.size) {
+            if !in_plane(force)
+                || across.norm() > tolerance::MIRROR * (moment.norm() + force.norm() * block.size)
+            {
                 return None;
             }
         }
     }
     for face in &interfaces.list {
         let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size);
-        if axis.dot(&face.frame.n).abs() > tolerance::MIRROR || !points_mirrored(&face.points, axis, offset, size) {
+        if axis.dot(&face.frame.n).abs() > tolerance::MIRROR
+            || !points_mirrored(&face.points, axis, offset, size)
+        {
             return None;
         }
     }
@@ -105,7 +115,13 @@ fn points_mirrored(points: &[Vector3<f64>], axis: Vector3<f64>, offset: f64, siz
 }
 
 /// Index of the mirror image of `p` among `points`.
-pub(super) fn mirror_of(points: &[Vector3<f64>], p: Vector3<f64>, axis: Vector3<f64>, offset: f64, size: f64) -> Option<usize> {
+pub(super) fn mirror_of(
+    points: &[Vector3<f64>],
+    p: Vector3<f64>,
+    axis: Vector3<f64>,
+    offset: f64,
+    size: f64,
+) -> Option<usize> {
     let image = p - axis * (2.0 * (axis.dot(&p) - offset));
     points.iter().position(|q| near((q - image).norm(), size))
 }

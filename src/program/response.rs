@@ -1,11 +1,14 @@
-//! What compliant contacts answer rates with: the state of [`coulomb`](super::coulomb) in the rates of the blocks.
+//! What compliant contacts answer rates with: the state of [`coulomb`](super::coulomb) in the rates
+//! of the blocks.
 //!
-//! *Law.* Each point has one compliance `c` for all its columns. With the rates `q = (A f + w) / ε` of the blocks and `u = Aᵀ q` of its joint
-//! (each multiplied or divided by the number of its images where a part stands for a symmetric scene),
-//! the forces of program C are therefore no unknowns: `f = P_K(−u / c)`, the nearest point of its set `K` (limits held), or
-//! `f = P_K(−(u + r n) / c)` with the friction cone as `K` (sliding rates `r` held). What remains is one equation a block,
-//! `g(q) = ε q − A f(q) − w = 0`, the gradient of a convex function that is once differentiable, and `∂g/∂q = ε + A D Aᵀ` with
-//! `D = P_K′ / c`, symmetric and positive definite (Alart & Curnier 1991; Qi & Sun 1993 for Newton's method on it).
+//! *Law.* Each point has one compliance `c` for all its columns. With the rates `q = (A f + w) / ε`
+//! of the blocks and `u = Aᵀ q` of its joint (each multiplied or divided by the number of its
+//! images where a part stands for a symmetric scene), the forces of program C are therefore no
+//! unknowns: `f = P_K(−u / c)`, the nearest point of its set `K` (limits held), or `f = P_K(−(u + r
+//! n) / c)` with the friction cone as `K` (sliding rates `r` held). What remains is one equation a
+//! block, `g(q) = ε q − A f(q) − w = 0`, the gradient of a convex function that is once
+//! differentiable, and `∂g/∂q = ε + A D Aᵀ` with `D = P_K′ / c`, symmetric and positive definite
+//! (Alart & Curnier 1991; Qi & Sun 1993 for Newton's method on it).
 
 use super::coulomb::{Contacts, HeldQuantity, SlidingPoint};
 use std::ops::Range;
@@ -39,7 +42,9 @@ impl<'a> FrictionLimits<'a> {
     /// The same for the discs of one point.
     fn of(self, joint: &Joint, point: &SlidingPoint) -> Self {
         match self {
-            Self::Held(quantity, held) => Self::Held(quantity, &held[joint.disc..joint.disc + point.discs.len()]),
+            Self::Held(quantity, held) => {
+                Self::Held(quantity, &held[joint.disc..joint.disc + point.discs.len()])
+            }
             Self::Law => Self::Law,
         }
     }
@@ -58,8 +63,8 @@ pub struct Response {
 }
 
 impl Response {
-    /// The equilibrium of contacts, point by point. `None` where forces of several points are bounded together (crushing), or a point acts
-    /// on more than two blocks.
+    /// The equilibrium of contacts, point by point. `None` where forces of several points are
+    /// bounded together (crushing), or a point acts on more than two blocks.
     pub fn new(contacts: &Contacts) -> Option<Self> {
         let (statics, matrix) = (&contacts.statics, &contacts.statics.matrix);
         if !statics.sections.is_empty() {
@@ -85,7 +90,9 @@ impl Response {
             match own {
                 [first, second] if *first == block || *second == block => {}
                 [first @ None, _] => *first = block,
-                [first, second @ None] => (*first, *second) = ((*first).min(block), (*first).max(block)),
+                [first, second @ None] => {
+                    (*first, *second) = ((*first).min(block), (*first).max(block))
+                }
                 _ => return None,
             }
         }
@@ -144,16 +151,27 @@ impl Response {
         (&self.starts, &self.entries)
     }
 
-    /// Whether forces follow from rates in closed form: with sliding rates held, only where a point has one friction cone and no couples.
+    /// Whether forces follow from rates in closed form: with sliding rates held, only where a point
+    /// has one friction cone and no couples.
     pub fn is_explicit(contacts: &Contacts, quantity: HeldQuantity) -> bool {
         quantity == HeldQuantity::Limits || contacts.points.iter().all(|p| p.discs.len() < 2)
     }
 
     /// Forces per column and `g` per row at the rates `q`.
-    pub fn forces(&self, contacts: &Contacts, epsilon: f64, friction: FrictionLimits, q: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub fn forces(
+        &self,
+        contacts: &Contacts,
+        epsilon: f64,
+        friction: FrictionLimits,
+        q: &[f64],
+    ) -> (Vec<f64>, Vec<f64>) {
         let mut forces = vec![0.0; contacts.compliance.len()];
-        let mut gradient: Vec<f64> =
-            q.iter().zip(&contacts.row_images).zip(&contacts.statics.dead).map(|((q, n), w)| epsilon * q / n - w).collect();
+        let mut gradient: Vec<f64> = q
+            .iter()
+            .zip(&contacts.row_images)
+            .zip(&contacts.statics.dead)
+            .map(|((q, n), w)| epsilon * q / n - w)
+            .collect();
         for (joint, point) in self.joints.iter().zip(&contacts.points) {
             let (n, c) = (point.columns, contacts.compliance[point.column]);
             let wanted = self.wanted(joint, n, c * contacts.column_images[point.column], q);
@@ -170,9 +188,16 @@ impl Response {
         (forces, gradient)
     }
 
-    /// `∂g/∂q` at the rates `q`, its lower triangle in the order of [`Self::pattern`]; `mirrored`: its upper triangle, entry by entry the
-    /// mirror image, which differs under Coulomb's law.
-    pub fn derivative(&self, contacts: &Contacts, epsilon: f64, friction: FrictionLimits, q: &[f64], mirrored: bool) -> Vec<f64> {
+    /// `∂g/∂q` at the rates `q`, its lower triangle in the order of [`Self::pattern`]; `mirrored`:
+    /// its upper triangle, entry by entry the mirror image, which differs under Coulomb's law.
+    pub fn derivative(
+        &self,
+        contacts: &Contacts,
+        epsilon: f64,
+        friction: FrictionLimits,
+        q: &[f64],
+        mirrored: bool,
+    ) -> Vec<f64> {
         let mut values = vec![0.0; self.entries.len()];
         for (start, n) in self.starts.iter().zip(&contacts.row_images) {
             values[*start] = epsilon / n;
@@ -204,11 +229,18 @@ impl Response {
                 for (other, columns) in joint.blocks.iter().enumerate().take(side + 1) {
                     for (i, column) in columns.clone().enumerate() {
                         let own = self.starts[column];
-                        let (start, from) = if other == side { (own, i) } else { (own + columns.len() - i + joint.after, 0) };
+                        let (start, from) = if other == side {
+                            (own, i)
+                        } else {
+                            (own + columns.len() - i + joint.after, 0)
+                        };
                         for (k, left) in left.iter().enumerate().take(n) {
                             let a = self.part(joint, other, k)[i];
                             if a != 0.0 {
-                                for (v, l) in values[start..start + rows.len() - from].iter_mut().zip(&left[from..rows.len()]) {
+                                for (v, l) in values[start..start + rows.len() - from]
+                                    .iter_mut()
+                                    .zip(&left[from..rows.len()])
+                                {
                                     *v += l * a;
                                 }
                             }
@@ -231,14 +263,21 @@ impl Response {
         let mut wanted = [0.0; MOST];
         for (side, rows) in joint.blocks.iter().enumerate() {
             for (k, w) in wanted.iter_mut().enumerate().take(n) {
-                *w -= self.part(joint, side, k).iter().zip(&q[rows.clone()]).map(|(a, q)| a * q).sum::<f64>() / c;
+                *w -= self
+                    .part(joint, side, k)
+                    .iter()
+                    .zip(&q[rows.clone()])
+                    .map(|(a, q)| a * q)
+                    .sum::<f64>()
+                    / c;
             }
         }
         wanted
     }
 }
 
-/// The forces of a point nearest to `wanted`, and with `slope` how they change with it (`slope[i][j]`: column `i` with `wanted` `j`).
+/// The forces of a point nearest to `wanted`, and with `slope` how they change with it
+/// (`slope[i][j]`: column `i` with `wanted` `j`).
 fn answer(
     point: &SlidingPoint,
     c: f64,
@@ -276,7 +315,9 @@ fn answer(
         };
         let at = disc.first - point.column..disc.first - point.column + disc.count;
         let cut = onto_disc(&mut f, at.clone(), s, slope.as_deref_mut());
-        if let (FrictionLimits::Law, true, Some(slope)) = (friction, cut && s > 0.0, slope.as_deref_mut()) {
+        if let (FrictionLimits::Law, true, Some(slope)) =
+            (friction, cut && s > 0.0, slope.as_deref_mut())
+        {
             let normal = slope[0][0];
             for i in at {
                 slope[i][0] = disc.slope * normal * f[i] / s;
@@ -287,7 +328,12 @@ fn answer(
 }
 
 /// Cuts a part of `f` to the length `s`; says whether it was longer.
-fn onto_disc(f: &mut [f64; MOST], at: std::ops::Range<usize>, s: f64, slope: Option<&mut [[f64; MOST]; MOST]>) -> bool {
+fn onto_disc(
+    f: &mut [f64; MOST],
+    at: std::ops::Range<usize>,
+    s: f64,
+    slope: Option<&mut [[f64; MOST]; MOST]>,
+) -> bool {
     let size = f[at.clone()].iter().map(|v| v * v).sum::<f64>().sqrt();
     if size <= s {
         return false;
@@ -304,8 +350,14 @@ fn onto_disc(f: &mut [f64; MOST], at: std::ops::Range<usize>, s: f64, slope: Opt
     true
 }
 
-/// The nearest point with `‖f_t‖ ≤ μ f_n + cohesion`, `f_n ≥ −tension`; law: μ, cohesion, tension (at most cohesion / μ).
-fn onto_cone(f: &mut [f64; MOST], at: std::ops::Range<usize>, law: [f64; 3], slope: Option<&mut [[f64; MOST]; MOST]>) {
+/// The nearest point with `‖f_t‖ ≤ μ f_n + cohesion`, `f_n ≥ −tension`; law: μ, cohesion, tension
+/// (at most cohesion / μ).
+fn onto_cone(
+    f: &mut [f64; MOST],
+    at: std::ops::Range<usize>,
+    law: [f64; 3],
+    slope: Option<&mut [[f64; MOST]; MOST]>,
+) {
     let [mu, cohesion, tension] = law;
     let normal = f[0];
     let size = f[at.clone()].iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -330,7 +382,8 @@ fn onto_cone(f: &mut [f64; MOST], at: std::ops::Range<usize>, law: [f64; 3], slo
                 slope[i][0] = mu * share * e;
                 for j in at.clone() {
                     let ee = e * f[j] / size;
-                    slope[i][j] = mu * mu * share * ee + length / size * (f64::from(u8::from(i == j)) - ee);
+                    slope[i][j] =
+                        mu * mu * share * ee + length / size * (f64::from(u8::from(i == j)) - ee);
                 }
             }
         }

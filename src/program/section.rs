@@ -1,7 +1,8 @@
 //! Crushing in a program: bounds on the normal forces of one joint.
 //!
-//! The bounds along the edges are second-order cones and exact where a rectangle is bent about one axis; what else the strength
-//! excludes is added as linear bounds, one by one, where forces break it ([`crushing`](crate::strength::crushing::crushing)).
+//! The bounds along the edges are second-order cones and exact where a rectangle is bent about one
+//! axis; what else the strength excludes is added as linear bounds, one by one, where forces break
+//! it ([`crushing`](crate::strength::crushing::crushing)).
 
 use super::{Cone, ConicProgram, Statics, bearing::Bearing};
 use crate::{
@@ -17,7 +18,8 @@ use crate::{
 pub struct CrushingJoint {
     /// Index of the interface.
     pub interface: usize,
-    /// Compressive and tensile strength together, Pa: normal forces count from the tensile strength on.
+    /// Compressive and tensile strength together, Pa: normal forces count from the tensile strength
+    /// on.
     strength: f64,
     /// Area, m².
     area: f64,
@@ -32,7 +34,8 @@ pub struct CrushingJoint {
 impl CrushingJoint {
     /// Adds a linear bound.
     fn add(&mut self, cut: &Cut, bearings: &[Bearing]) {
-        let weights = bearings[self.bearings.clone()].iter().map(|b| b.mean(&cut.weights)).collect();
+        let weights =
+            bearings[self.bearings.clone()].iter().map(|b| b.mean(&cut.weights)).collect();
         self.cuts.push((weights, cut.capacity));
     }
 }
@@ -49,9 +52,18 @@ pub(super) fn sections(interfaces: &Interfaces, bearings: &[Bearing]) -> Vec<Cru
             continue;
         }
         let edges = edge_bounds(face).into_iter();
-        let edges = edges.map(|(width, d)| (width, bearings[own.clone()].iter().map(|b| b.mean(&d)).collect())).collect();
+        let edges = edges
+            .map(|(width, d)| (width, bearings[own.clone()].iter().map(|b| b.mean(&d)).collect()))
+            .collect();
         let strength = face.law.compression + tension(face);
-        sections.push(CrushingJoint { interface, strength, area: face.area, bearings: own, edges, cuts: Vec::new() });
+        sections.push(CrushingJoint {
+            interface,
+            strength,
+            area: face.area,
+            bearings: own,
+            edges,
+            cuts: Vec::new(),
+        });
     }
     sections
 }
@@ -73,7 +85,10 @@ impl Statics {
             let bearings = &self.bearings[section.bearings.clone()];
             let tension = |b: &Bearing| b.limits().map_or(0.0, |l| l.tension);
             // `Σ weight × (f_n + T)` in units of `per`, on a row.
-            let add = |p: &mut ConicProgram, row: usize, weights: &mut dyn Iterator<Item = f64>, per: f64| {
+            let add = |p: &mut ConicProgram,
+                       row: usize,
+                       weights: &mut dyn Iterator<Item = f64>,
+                       per: f64| {
                 for (b, weight) in bearings.iter().zip(weights) {
                     p.matrix.push(row, column + b.column, -weight * b.unit / per);
                     p.rhs[row] += weight * tension(b) / per;

@@ -1,6 +1,9 @@
 //! The equilibrium of the free blocks, reduced and scaled.
 
-use super::{Unknowns, bearing::Bearing, conic::Sparse, planar::Plane, section::CrushingJoint, symmetry::Orbits};
+use super::{
+    Unknowns, bearing::Bearing, conic::Sparse, planar::Plane, section::CrushingJoint,
+    symmetry::Orbits,
+};
 use crate::assembly::{Gyration, Wrench};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
@@ -12,7 +15,8 @@ pub struct StaticsOptions {
     pub keep_all: bool,
     /// Whether the live load takes part (it must then lie in the plane of a plane scene).
     pub live: bool,
-    /// Whether a scene that is its own image is reduced to one part. Not where what is asked for is not symmetric itself.
+    /// Whether a scene that is its own image is reduced to one part. Not where what is asked for is
+    /// not symmetric itself.
     pub symmetry: bool,
     /// Whether columns are the normal and tangential forces themselves, friction left to the caller
     /// ([`coulomb`](super::coulomb)), instead of coordinates of the friction cone.
@@ -39,13 +43,16 @@ pub struct FreeBlock {
     pub block: usize,
     /// Force scale, N: the greatest of own weight and dead load.
     pub weight: f64,
-    /// What moments are measured by: the block's own radii of gyration, or metres ([`StaticsOptions::unscaled`]).
+    /// What moments are measured by: the block's own radii of gyration, or metres
+    /// ([`StaticsOptions::unscaled`]).
     pub gyration: Gyration,
     /// Its rows: 6 in space, 3 in a plane, fewer where the block is its own image.
     pub rows: Range<usize>,
-    /// The row coordinates among those 6 or 3 that the rows stand for, as columns; `None` for themselves.
+    /// The row coordinates among those 6 or 3 that the rows stand for, as columns; `None` for
+    /// themselves.
     pub(super) directions: Option<DMatrix<f64>>,
-    /// The blocks it stands for, itself among them, and the symmetry that takes it there; empty without symmetry.
+    /// The blocks it stands for, itself among them, and the symmetry that takes it there; empty
+    /// without symmetry.
     pub(super) images: Vec<(usize, usize)>,
 }
 
@@ -56,7 +63,8 @@ impl FreeBlock {
     }
 }
 
-/// `A x + w + λ ℓ = 0`, reduced and scaled. `A` has `d·n_free` rows, `d` = 6 in space and 3 in a plane, or fewer with symmetry.
+/// `A x + w + λ ℓ = 0`, reduced and scaled. `A` has `d·n_free` rows, `d` = 6 in space and 3 in a
+/// plane, or fewer with symmetry.
 #[derive(Clone, Debug)]
 pub struct Statics {
     /// The mirror plane, where the scene is solved in it.
@@ -99,12 +107,18 @@ impl Statics {
 
     /// How many blocks each row stands for.
     pub fn row_images(&self) -> Vec<f64> {
-        self.free.iter().flat_map(|f| std::iter::repeat_n(f.image_count() as f64, f.rows.len())).collect()
+        self.free
+            .iter()
+            .flat_map(|f| std::iter::repeat_n(f.image_count() as f64, f.rows.len()))
+            .collect()
     }
 
     /// How many bearings each column stands for.
     pub fn column_images(&self) -> Vec<f64> {
-        self.bearings.iter().flat_map(|b| std::iter::repeat_n(b.image_count() as f64, b.basis.len())).collect()
+        self.bearings
+            .iter()
+            .flat_map(|b| std::iter::repeat_n(b.image_count() as f64, b.basis.len()))
+            .collect()
     }
 
     /// A wrench on the block of `row` in its row coordinates.
@@ -127,8 +141,9 @@ impl Statics {
         }
     }
 
-    /// Multiplies the force unit by `factor`. With `local` units, no bearing's unit exceeds `LOCAL_UNIT` × the load that
-    /// presumably passes there: without it a grain on a mountain is lost in the mountain's unit.
+    /// Multiplies the force unit by `factor`. With `local` units, no bearing's unit exceeds
+    /// `LOCAL_UNIT` × the load that presumably passes there: without it a grain on a mountain is
+    /// lost in the mountain's unit.
     pub fn rescale(&mut self, factor: f64, local: bool) {
         self.unit *= factor;
         let mut by = vec![1.0; self.matrix.columns];
@@ -142,8 +157,8 @@ impl Statics {
         }
     }
 
-    /// Measures every block by the greatest load instead of its own: rates of light blocks among heavy ones then come out as exactly as
-    /// those of the heavy ones, at the cost of their forces.
+    /// Measures every block by the greatest load instead of its own: rates of light blocks among
+    /// heavy ones then come out as exactly as those of the heavy ones, at the cost of their forces.
     pub fn even(&mut self) {
         let greatest = self.free.iter().map(|f| f.weight).fold(0.0, f64::max);
         self.measure(|_| greatest);
@@ -151,7 +166,11 @@ impl Statics {
 
     /// Measures every block by what `scale` makes of its own load.
     pub fn measure(&mut self, scale: impl Fn(f64) -> f64) {
-        let by: Vec<f64> = self.free.iter().flat_map(|f| std::iter::repeat_n(f.weight / scale(f.weight), f.rows.len())).collect();
+        let by: Vec<f64> = self
+            .free
+            .iter()
+            .flat_map(|f| std::iter::repeat_n(f.weight / scale(f.weight), f.rows.len()))
+            .collect();
         for (i, v) in self.matrix.i.iter().zip(&mut self.matrix.v) {
             *v *= by[*i];
         }
@@ -173,6 +192,6 @@ impl Statics {
     }
 }
 
-/// Greatest local unit, in presumed loads. Larger: blocks 1e9 times smaller than their neighbours are lost.
-/// Smaller: ordinary walls get uneven units and stall.
+/// Greatest local unit, in presumed loads. Larger: blocks 1e9 times smaller than their neighbours
+/// are lost. Smaller: ordinary walls get uneven units and stall.
 const LOCAL_UNIT: f64 = 1e5;

@@ -1,8 +1,9 @@
 //! Program T: least and greatest thrust.
 //!
-//! `min ± c·x` subject to `A x + w = 0`, `x` in the cones, with `c·x` the component of the force on a support along a direction. Its dual
-//! moves the support along that direction at unit rate, out (least) or in (greatest), and lets the blocks follow by an admissible
-//! mechanism: the two limiting states of an arch whose abutments give way (Heyman 1966).
+//! `min ± c·x` subject to `A x + w = 0`, `x` in the cones, with `c·x` the component of the force on
+//! a support along a direction. Its dual moves the support along that direction at unit rate, out
+//! (least) or in (greatest), and lets the blocks follow by an admissible mechanism: the two
+//! limiting states of an arch whose abutments give way (Heyman 1966).
 
 use super::{
     Cone, ConicProgram, Positions, Statics, Unknowns,
@@ -12,7 +13,12 @@ use crate::interface::Interfaces;
 use nalgebra::Vector3;
 
 /// Thrust per unit of every column, N: the component along `direction` of the force on `support`.
-pub fn thrust_columns(statics: &Statics, interfaces: &Interfaces, support: usize, direction: Vector3<f64>) -> Vec<f64> {
+pub fn thrust_columns(
+    statics: &Statics,
+    interfaces: &Interfaces,
+    support: usize,
+    direction: Vector3<f64>,
+) -> Vec<f64> {
     let mut columns = vec![0.0; statics.matrix.columns];
     for bearing in &statics.bearings {
         let face = &interfaces.list[bearing.interface];
@@ -35,11 +41,20 @@ pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Positions)
         p.rhs[row] = -w;
     }
     force_cones(&mut p, statics, 0);
-    (p, Positions { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
+    (
+        p,
+        Positions {
+            unknowns: Unknowns::Forces,
+            forces: 0,
+            force_count: forces,
+            rates: 0,
+            rate_count: rows,
+        },
+    )
 }
 
-/// Can the thrust grow without end? Forces that balance by themselves with `objective · x = −1`, or what they leave:
-/// `min t`, `‖(A x)_i‖ ≤ t` per block.
+/// Can the thrust grow without end? Forces that balance by themselves with `objective · x = −1`, or
+/// what they leave: `min t`, `‖(A x)_i‖ ≤ t` per block.
 pub fn endless_thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Positions) {
     let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
     let t = forces + rows;
@@ -63,5 +78,14 @@ pub fn endless_thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Po
             p.matrix.push(first + 1 + k, forces + row, -1.0);
         }
     }
-    (p, Positions { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
+    (
+        p,
+        Positions {
+            unknowns: Unknowns::Forces,
+            forces: 0,
+            force_count: forces,
+            rates: 0,
+            rate_count: rows,
+        },
+    )
 }

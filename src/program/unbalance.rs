@@ -1,8 +1,9 @@
 //! Program V: least unbalance.
 //!
-//! `min t` subject to `‖(A x + w)_i‖ ≤ t` for every free block `i`, `x` in the cones. `t` is the largest out-of-balance
-//! acceleration in multiples of gravity. The program is always feasible and bounded, and so is its dual,
-//! `max w·q` over admissible rates with `Σ ‖q_i‖ ≤ 1`, so it answers clearly where a feasibility problem fails: near the limit.
+//! `min t` subject to `‖(A x + w)_i‖ ≤ t` for every free block `i`, `x` in the cones. `t` is the
+//! largest out-of-balance acceleration in multiples of gravity. The program is always feasible and
+//! bounded, and so is its dual, `max w·q` over admissible rates with `Σ ‖q_i‖ ≤ 1`, so it answers
+//! clearly where a feasibility problem fails: near the limit.
 
 use super::{BearingCone, Cone, ConicProgram, Positions, Statics, Unknowns};
 
@@ -17,8 +18,13 @@ pub enum LiveLoad {
     Alone,
 }
 
-/// Builds program V; the optimal value is `t`. With [`LiveLoad::AnyMultiple`] in forces, λ is the last variable.
-pub fn unbalance(statics: &Statics, live: LiveLoad, unknowns: Unknowns) -> (ConicProgram, Positions) {
+/// Builds program V; the optimal value is `t`. With [`LiveLoad::AnyMultiple`] in forces, λ is the
+/// last variable.
+pub fn unbalance(
+    statics: &Statics,
+    live: LiveLoad,
+    unknowns: Unknowns,
+) -> (ConicProgram, Positions) {
     match statics.unknowns(unknowns) {
         Unknowns::Forces => in_forces(statics, live),
         Unknowns::Rates => in_rates(statics, live),
@@ -53,7 +59,16 @@ fn in_forces(statics: &Statics, live: LiveLoad) -> (ConicProgram, Positions) {
             p.matrix.push(first + 1 + k, forces + row, -1.0);
         }
     }
-    (p, Positions { unknowns: Unknowns::Forces, forces: 0, force_count: forces, rates: 0, rate_count: rows })
+    (
+        p,
+        Positions {
+            unknowns: Unknowns::Forces,
+            forces: 0,
+            force_count: forces,
+            rates: 0,
+            rate_count: rows,
+        },
+    )
 }
 
 fn in_rates(statics: &Statics, live: LiveLoad) -> (ConicProgram, Positions) {
@@ -82,7 +97,16 @@ fn in_rates(statics: &Statics, live: LiveLoad) -> (ConicProgram, Positions) {
         p.matrix.push(sum, rows + block, 1.0);
     }
     p.rhs[sum] = 1.0;
-    (p, Positions { unknowns: Unknowns::Rates, forces, force_count: statics.matrix.columns, rates: 0, rate_count: rows })
+    (
+        p,
+        Positions {
+            unknowns: Unknowns::Rates,
+            forces,
+            force_count: statics.matrix.columns,
+            rates: 0,
+            rate_count: rows,
+        },
+    )
 }
 
 /// Copies the equilibrium operator to (`row`, `column`).
@@ -101,8 +125,8 @@ pub(super) fn force_cones(p: &mut ConicProgram, statics: &Statics, column: usize
     statics.section_rows(p, column);
 }
 
-/// `Aᵀ q` in the dual cones, rates starting at variable 0; row order = column order of the forces, so that the
-/// multipliers are the forces. Returns the first row.
+/// `Aᵀ q` in the dual cones, rates starting at variable 0; row order = column order of the forces,
+/// so that the multipliers are the forces. Returns the first row.
 pub(super) fn rate_cones(p: &mut ConicProgram, statics: &Statics) -> usize {
     let first = p.matrix.rows;
     for bearing in &statics.bearings {

@@ -5,9 +5,11 @@ use crate::{assembly::Wrench, interface::Interfaces};
 use nalgebra::{DVector, Vector3};
 
 impl Statics {
-    /// What acts on block `b` at every point of every interface, N and N·m, from scaled columns `x` brought into their cones.
+    /// What acts on block `b` at every point of every interface, N and N·m, from scaled columns `x`
+    /// brought into their cones.
     pub fn forces(&self, interfaces: &Interfaces, x: &[f64]) -> Vec<Vec<Wrench>> {
-        let mut forces: Vec<Vec<Wrench>> = interfaces.list.iter().map(|f| vec![Wrench::zero(); f.points.len()]).collect();
+        let mut forces: Vec<Vec<Wrench>> =
+            interfaces.list.iter().map(|f| vec![Wrench::zero(); f.points.len()]).collect();
         for bearing in &self.bearings {
             let mut c = x[bearing.column..bearing.column + bearing.basis.len()].to_vec();
             bearing.admit(&mut c);
@@ -23,14 +25,17 @@ impl Statics {
                         image.points.iter().for_each(|&(f, p)| forces[f][p] += force);
                     }
                 }
-                _ => bearing.points.iter().for_each(|&p| forces[bearing.interface][p] += total * 0.5),
+                _ => {
+                    bearing.points.iter().for_each(|&p| forces[bearing.interface][p] += total * 0.5)
+                }
             }
         }
         forces
     }
 
-    /// Velocity of the centre of mass and spin of every block (zero for supports) from the multipliers `y` of its rows, in units where
-    /// a velocity of 1 and a spin that moves the block's mass at 1 (root mean square) weigh the same.
+    /// Velocity of the centre of mass and spin of every block (zero for supports) from the
+    /// multipliers `y` of its rows, in units where a velocity of 1 and a spin that moves the
+    /// block's mass at 1 (root mean square) weigh the same.
     pub fn rates(&self, blocks: usize, y: &[f64]) -> Vec<(Vector3<f64>, Vector3<f64>)> {
         let mut rates = vec![(Vector3::zeros(), Vector3::zeros()); blocks];
         for free in &self.free {
@@ -38,8 +43,14 @@ impl Statics {
             let y = free.directions.as_ref().map_or_else(|| own.clone(), |q| q * &own);
             let (v, gyration) = (1.0 / free.weight, &free.gyration);
             let (velocity, spin) = match self.plane {
-                Some(p) => ((p.e1 * y[0] + p.e2 * y[1]) * v, p.axis * (y[2] * v * gyration.force(&p.axis).norm())),
-                None => (Vector3::new(y[0], y[1], y[2]) * v, gyration.spin(&Vector3::new(y[3], y[4], y[5])) * v),
+                Some(p) => (
+                    (p.e1 * y[0] + p.e2 * y[1]) * v,
+                    p.axis * (y[2] * v * gyration.force(&p.axis).norm()),
+                ),
+                None => (
+                    Vector3::new(y[0], y[1], y[2]) * v,
+                    gyration.spin(&Vector3::new(y[3], y[4], y[5])) * v,
+                ),
             };
             rates[free.block] = (velocity, spin);
             if let Some(orbits) = &self.orbits {

@@ -1,4 +1,5 @@
-//! Answers as results have them: one value of a sum, flat in JSON, where only the keys of its question stand.
+//! Answers as results have them: one value of a sum, flat in JSON, where only the keys of its
+//! question stand.
 
 use super::{critical::CriticalValue, result::DryResult, thrust::ThrustAnswer};
 use crate::{
@@ -32,7 +33,8 @@ pub enum Answer {
 pub struct VerdictAnswer {
     /// The verdict.
     pub verdict: Verdict,
-    /// It stands: for which law of sliding. With `associative` forces exist, and whether the loads produce them was not asked.
+    /// It stands: for which law of sliding. With `associative` forces exist, and whether the loads
+    /// produce them was not asked.
     pub law: Option<Law>,
     /// Bracket of the least unbalance, in multiples of gravity.
     pub unbalance: Bracket,
@@ -83,10 +85,12 @@ pub struct LoadFactorAnswer {
     /// The value to use; absent where none was found.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
-    /// Lower end of its bracket. With dry friction that slides it is computed: up to there the state was seen at rest.
+    /// Lower end of its bracket. With dry friction that slides it is computed: up to there the
+    /// state was seen at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lower: Option<f64>,
-    /// Upper end of its bracket. With dry friction that slides the least value at which the state was seen to move, or else the proved bound.
+    /// Upper end of its bracket. With dry friction that slides the least value at which the state
+    /// was seen to move, or else the proved bound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub upper: Option<f64>,
     /// How the value with dry friction was found, where that was asked.
@@ -145,23 +149,39 @@ impl Bound {
     pub(super) fn of(l: &Proved<LoadFactor>) -> Self {
         let finite = |v: f64| v.is_finite().then_some(v);
         let value = (l.outcome == Outcome::Found).then_some(l.value);
-        Self { status: l.outcome, value, lower: finite(l.bracket.lower), upper: finite(l.bracket.upper) }
+        Self {
+            status: l.outcome,
+            value,
+            lower: finite(l.bracket.lower),
+            upper: finite(l.bracket.upper),
+        }
     }
 
     /// Value and bracket, where found.
     pub fn found(&self) -> Option<(f64, f64, f64)> {
         match *self {
-            Self { status: Outcome::Found, value: Some(v), lower: Some(l), upper: Some(u) } => Some((v, l, u)),
+            Self { status: Outcome::Found, value: Some(v), lower: Some(l), upper: Some(u) } => {
+                Some((v, l, u))
+            }
             _ => None,
         }
     }
 }
 
 impl LoadFactorAnswer {
-    /// The load factor to use, from the bound and what is known with dry friction, where that was asked.
+    /// The load factor to use, from the bound and what is known with dry friction, where that was
+    /// asked.
     pub fn new(bound: Bound, dry: Option<&DryResult>) -> Self {
         let Bound { status, value, lower, upper } = bound;
-        let same = Self { status: status.into(), law: Law::Associative, value, lower, upper, found: None, associative: bound };
+        let same = Self {
+            status: status.into(),
+            law: Law::Associative,
+            value,
+            lower,
+            upper,
+            found: None,
+            associative: bound,
+        };
         let Some(dry) = dry else { return same };
         let same = Self { law: Law::Coulomb, found: Some(dry.found), ..same };
         let none = |status| Self { status, value: None, lower: None, upper: None, ..same };
@@ -173,7 +193,13 @@ impl LoadFactorAnswer {
             // A value is one only up to which the state was seen at rest.
             Found::FixedPoint | Found::Rests if dry.is_reached() => {
                 let upper = dry.moves_at.filter(|_| dry.found == Found::Rests).or(upper);
-                Self { status: FactorStatus::Found, value: dry.value, lower: dry.rests_at, upper, ..same }
+                Self {
+                    status: FactorStatus::Found,
+                    value: dry.value,
+                    lower: dry.rests_at,
+                    upper,
+                    ..same
+                }
             }
             _ => Self { lower: dry.rests_at, upper, ..none(FactorStatus::Undecided) },
         }
@@ -184,13 +210,21 @@ impl LoadFactorAnswer {
     pub fn degrees(self) -> Self {
         let angle = |v: Option<f64>| v.map(|v| v.atan().to_degrees());
         let Bound { status, value, lower, upper } = self.associative;
-        let associative = Bound { status, value: angle(value), lower: angle(lower), upper: angle(upper) };
-        Self { value: angle(self.value), lower: angle(self.lower), upper: angle(self.upper), associative, ..self }
+        let associative =
+            Bound { status, value: angle(value), lower: angle(lower), upper: angle(upper) };
+        Self {
+            value: angle(self.value),
+            lower: angle(self.lower),
+            upper: angle(self.upper),
+            associative,
+            ..self
+        }
     }
 }
 
 impl Answer {
-    /// The verdict: of a load factor, a tilt that of the scene without its live load, where it was asked.
+    /// The verdict: of a load factor, a tilt that of the scene without its live load, where it was
+    /// asked.
     pub fn verdict(&self) -> Option<Verdict> {
         match self {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => Some(a.verdict),
@@ -282,7 +316,8 @@ pub(super) struct Flat {
     /// Does it stand? Beside a load factor or a tilt: without the live load, where that was asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     verdict: Option<Verdict>,
-    /// It stands: for which law of sliding. With `associative` forces exist, and whether the loads produce them was not asked.
+    /// It stands: for which law of sliding. With `associative` forces exist, and whether the loads
+    /// produce them was not asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     law: Option<Law>,
     /// What became of it in time.
@@ -339,13 +374,21 @@ impl From<Answer> for Flat {
         };
         match answer {
             Answer::Verdict(a) => verdict(a),
-            Answer::Simulation(fate, a) => Self { fate: Some(fate), ..a.map_or_else(Self::default, verdict) },
+            Answer::Simulation(fate, a) => {
+                Self { fate: Some(fate), ..a.map_or_else(Self::default, verdict) }
+            }
             Answer::Limit(LimitAnswer { load_factor, verdict, part, proof }) => {
                 Self { verdict, part, proof, load_factor: Some(load_factor), ..Self::default() }
             }
-            Answer::Tilt(TiltAnswer { toward, tan_tilt, tilt_deg, verdict, part, proof }) => {
-                Self { verdict, part, proof, toward: Some(toward), tan_tilt: Some(tan_tilt), tilt_deg: Some(tilt_deg), ..Self::default() }
-            }
+            Answer::Tilt(TiltAnswer { toward, tan_tilt, tilt_deg, verdict, part, proof }) => Self {
+                verdict,
+                part,
+                proof,
+                toward: Some(toward),
+                tan_tilt: Some(tan_tilt),
+                tilt_deg: Some(tilt_deg),
+                ..Self::default()
+            },
             Answer::Critical(list) => Self { critical: Some(list), ..Self::default() },
             Answer::Thrust(thrust) => Self { thrust: Some(thrust), ..Self::default() },
         }
@@ -356,23 +399,49 @@ impl TryFrom<Flat> for Answer {
     type Error = &'static str;
 
     fn try_from(flat: Flat) -> Result<Self, Self::Error> {
-        const MIXED: &str = "keys of several questions stand in one answer, or some of one are missing";
-        let Flat { verdict, law, fate, unbalance, part, proof, load_factor, toward, tan_tilt, tilt_deg, critical, thrust } = flat;
+        const MIXED: &str =
+            "keys of several questions stand in one answer, or some of one are missing";
+        let Flat {
+            verdict,
+            law,
+            fate,
+            unbalance,
+            part,
+            proof,
+            load_factor,
+            toward,
+            tan_tilt,
+            tilt_deg,
+            critical,
+            thrust,
+        } = flat;
         let alone = verdict.is_none() && part.is_none() && proof.is_none();
         match (fate, load_factor, (toward, tan_tilt, tilt_deg), critical, thrust) {
-            (None, Some(load_factor), (None, None, None), None, None) if law.is_none() && unbalance.is_none() => {
+            (None, Some(load_factor), (None, None, None), None, None)
+                if law.is_none() && unbalance.is_none() =>
+            {
                 Ok(Self::Limit(LimitAnswer { load_factor, verdict, part, proof }))
             }
-            (None, None, (Some(toward), Some(tan_tilt), Some(tilt_deg)), None, None) if law.is_none() && unbalance.is_none() => {
+            (None, None, (Some(toward), Some(tan_tilt), Some(tilt_deg)), None, None)
+                if law.is_none() && unbalance.is_none() =>
+            {
                 Ok(Self::Tilt(TiltAnswer { toward, tan_tilt, tilt_deg, verdict, part, proof }))
             }
-            (None, None, (None, None, None), Some(list), None) if alone && law.is_none() && unbalance.is_none() => Ok(Self::Critical(list)),
-            (None, None, (None, None, None), None, Some(thrust)) if alone && law.is_none() && unbalance.is_none() => {
+            (None, None, (None, None, None), Some(list), None)
+                if alone && law.is_none() && unbalance.is_none() =>
+            {
+                Ok(Self::Critical(list))
+            }
+            (None, None, (None, None, None), None, Some(thrust))
+                if alone && law.is_none() && unbalance.is_none() =>
+            {
                 Ok(Self::Thrust(thrust))
             }
             (fate, None, (None, None, None), None, None) => {
                 let verdict = match (verdict, unbalance) {
-                    (Some(verdict), Some(unbalance)) => Some(VerdictAnswer { verdict, law, unbalance, part, proof }),
+                    (Some(verdict), Some(unbalance)) => {
+                        Some(VerdictAnswer { verdict, law, unbalance, part, proof })
+                    }
                     (None, None) if alone && law.is_none() => None,
                     _ => return Err(MIXED),
                 };

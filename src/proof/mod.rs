@@ -1,5 +1,5 @@
-//! Results as files, and what proves them: an answer with its evidence, complete enough to be checked from the scene alone
-//! ([`verify`](verify())). No ink here; that is what reports are for.
+//! Results as files, and what proves them: an answer with its evidence, complete enough to be
+//! checked from the scene alone ([`verify`](verify())). No ink here; that is what reports are for.
 
 pub mod answer;
 pub mod critical;

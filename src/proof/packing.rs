@@ -1,4 +1,5 @@
-//! The angle of maximum stability of a packing as a result: every round verified, names instead of indices.
+//! The angle of maximum stability of a packing as a result: every round verified, names instead of
+//! indices.
 
 use super::{
     ResultFile,
@@ -18,7 +19,9 @@ use crate::{
 use serde::{Deserialize, Serialize};
 
 /// The version of the format.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema,
+)]
 pub enum PackingFormat {
     /// Version 1.
     #[default]
@@ -65,7 +68,8 @@ pub struct PackingDirection {
     pub toward: [f64; 3],
     /// What became of the tilt.
     pub status: Outcome,
-    /// The tilt with joints that open as they slide, an upper bound for dry friction, degrees; 90 where the packing is wedged.
+    /// The tilt with joints that open as they slide, an upper bound for dry friction, degrees; 90
+    /// where the packing is wedged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt_deg: Option<f64>,
     /// Its bracket, degrees.
@@ -81,7 +85,8 @@ pub struct PackingDirection {
     pub moved: f64,
     /// Whether that is as much as was asked for.
     pub reached: bool,
-    /// Grains that move in the round with the answer, the one with the greatest tilt, the fastest first.
+    /// Grains that move in the round with the answer, the one with the greatest tilt, the fastest
+    /// first.
     pub moving: Vec<String>,
     /// The part of the packing that loses balance there, where it has several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -105,7 +110,8 @@ pub struct Removed {
 }
 
 impl PackingDirection {
-    /// The tilt that counts: with dry friction where known, else the bound. One without an answer governs: it must not hide.
+    /// The tilt that counts: with dry friction where known, else the bound. One without an answer
+    /// governs: it must not hide.
     pub fn governing(&self) -> f64 {
         if self.dry == Some(Found::NotAtRest) {
             return f64::NEG_INFINITY;
@@ -115,36 +121,55 @@ impl PackingDirection {
 }
 
 impl PackingFile {
-    /// Packs the answers of all directions about the packing of `scene`. Also gives the result of the least direction in full, which
-    /// `voussoir check` proves. `None` without any direction.
+    /// Packs the answers of all directions about the packing of `scene`. Also gives the result of
+    /// the least direction in full, which `voussoir check` proves. `None` without any direction.
     ///
     /// # Errors
     /// The scene cannot be written without the grains that fell first.
-    pub fn new(scene: &Scene, moving_mass: f64, packing: &Packing) -> Result<Option<(Self, ResultFile)>, InputError> {
+    pub fn new(
+        scene: &Scene,
+        moving_mass: f64,
+        packing: &Packing,
+    ) -> Result<Option<(Self, ResultFile)>, InputError> {
         let Packing { model, loose, directions: answers } = packing;
         let mut directions = Vec::new();
         let mut files: Vec<ResultFile> = Vec::new();
         let mut warnings: Vec<Finding> = model.findings().cloned().collect();
         for Stability { rounds, answer, reached } in answers {
-            let Some((round, total)) = rounds.get(*answer).zip(rounds.last().map(|r| r.moved)) else { continue };
+            let Some((round, total)) = rounds.get(*answer).zip(rounds.last().map(|r| r.moved))
+            else {
+                continue;
+            };
             let refused = rounds.iter().flat_map(|r| &r.tilt.load_factor.findings().fails);
             for text in refused {
-                let warning = Finding::new(FindingCode::Numerics, format!("certificate refused: {text}"));
+                let warning =
+                    Finding::new(FindingCode::Numerics, format!("certificate refused: {text}"));
                 if !warnings.contains(&warning) {
                     warnings.push(warning);
                 }
             }
             let tilt_deg = |r: &Round| Some(r.tilt.angle_deg()).filter(|a| a.is_finite());
             let removed = if rounds.len() > 1 {
-                rounds.iter().map(|r| Removed { tilt_deg: tilt_deg(r), grains: r.moving.clone() }).collect()
+                rounds
+                    .iter()
+                    .map(|r| Removed { tilt_deg: tilt_deg(r), grains: r.moving.clone() })
+                    .collect()
             } else {
                 Vec::new()
             };
             let one = Tilted { directions: vec![round.tilt.clone()], level: None };
-            let Some(file) = ResultFile::tilt(&without(scene, &round.gone)?, model, &one) else { continue };
+            let Some(file) = ResultFile::tilt(&without(scene, &round.gone)?, model, &one) else {
+                continue;
+            };
             let Some(&factor) = file.answer.bound() else { continue };
             let degrees = |v: f64| v.atan().to_degrees();
-            let count = |kinds: &[JointMotion]| file.mechanism.iter().flat_map(|m| &m.joints).filter(|j| kinds.contains(&j.motion)).count();
+            let count = |kinds: &[JointMotion]| {
+                file.mechanism
+                    .iter()
+                    .flat_map(|m| &m.joints)
+                    .filter(|j| kinds.contains(&j.motion))
+                    .count()
+            };
             directions.push(PackingDirection {
                 toward: round.tilt.toward.into(),
                 status: factor.status,
@@ -169,13 +194,16 @@ impl PackingFile {
             });
             files.push(file);
         }
-        let by_tilt = |&i: &usize, &j: &usize| directions[i].governing().total_cmp(&directions[j].governing());
+        let by_tilt = |&i: &usize, &j: &usize| {
+            directions[i].governing().total_cmp(&directions[j].governing())
+        };
         let Some(least) = (0..directions.len()).min_by(by_tilt) else { return Ok(None) };
         let file = files.swap_remove(least);
         debug_assert_eq!(file.question, QuestionKind::Tilt);
         let mut left_out = file.left_out.clone();
         if !loose.is_empty() {
-            left_out.insert(0, format!("{} grains without a contact path to a support", loose.len()));
+            left_out
+                .insert(0, format!("{} grains without a contact path to a support", loose.len()));
         }
         let packing = Self {
             format: PackingFormat::V1,

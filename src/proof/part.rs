@@ -10,7 +10,8 @@ use crate::{
 pub(super) fn verify(f: &mut Findings, model: &Model, said: Option<&Deciding>, rates: &[Rate]) {
     let Some(said) = said else { return };
     let parts = parts(model);
-    let Some(index) = (0..parts.len()).find(|&k| Deciding::new(&parts, k).as_ref() == Some(said)) else {
+    let Some(index) = (0..parts.len()).find(|&k| Deciding::new(&parts, k).as_ref() == Some(said))
+    else {
         f.fails.push(format!("the scene has no such part: {said}"));
         return;
     };

@@ -1,5 +1,6 @@
-//! The result file (`"format": "voussoir-result/2"`): the question, the answer and its evidence, complete enough to be
-//! verified from the scene: what is proved without a solver, states under dry friction by computing them again.
+//! The result file (`"format": "voussoir-result/2"`): the question, the answer and its evidence,
+//! complete enough to be verified from the scene: what is proved without a solver, states under dry
+//! friction by computing them again.
 
 use super::{
     answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
@@ -10,7 +11,8 @@ use super::{
 };
 use crate::{
     analysis::{
-        Answer as Answered, Assessment, Attempt, Claims, Deciding, Law, Limited, Outcome, Proved, Tilt, Tilted, agreement, coulomb,
+        Answer as Answered, Assessment, Attempt, Claims, Deciding, Law, Limited, Outcome, Proved,
+        Tilt, Tilted, agreement, coulomb,
     },
     dynamics::SimulationOutcome as Simulated,
     error::Finding,
@@ -26,7 +28,9 @@ use crate::{
 use serde::{Deserialize, Serialize};
 
 /// The version of the format.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema,
+)]
 pub enum ResultFormat {
     /// Version 2.
     #[default]
@@ -132,17 +136,20 @@ pub struct Certificate {
     pub claim: Option<Claim>,
     /// Static side: forces per contact.
     pub forces: Vec<ContactForces>,
-    /// Unbounded: forces at a load factor at which the scene stands. Conditional: the forces without the pre-stress.
+    /// Unbounded: forces at a load factor at which the scene stands. Conditional: the forces
+    /// without the pre-stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<Vec<ContactForces>>,
     /// Kinematic side: rates per moving block.
     pub rates: Vec<BlockRate>,
-    /// What the verification found when the answer was given. Not saved, for nobody could tell whether it was edited: `check` finds it anew.
+    /// What the verification found when the answer was given. Not saved, for nobody could tell
+    /// whether it was edited: `check` finds it anew.
     #[serde(default, skip_serializing)]
     pub verified: Vec<String>,
 }
 
-/// An answer beside the main one, with the evidence for it: one direction of a tilt, or the dead load alone.
+/// An answer beside the main one, with the evidence for it: one direction of a tilt, or the dead
+/// load alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Direction {
@@ -156,8 +163,8 @@ pub struct Direction {
 }
 
 impl Direction {
-    /// The tilt that counts, degrees: with dry friction where that is known, else the bound. A direction without an answer governs:
-    /// it must not hide behind the others.
+    /// The tilt that counts, degrees: with dry friction where that is known, else the bound. A
+    /// direction without an answer governs: it must not hide behind the others.
     pub(super) fn governing(&self) -> f64 {
         if self.dry.as_ref().is_some_and(|d| d.found == coulomb::Found::NotAtRest) {
             return f64::NEG_INFINITY;
@@ -193,8 +200,8 @@ pub struct DryResult {
     /// The value, where found.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
-    /// The greatest load factor at which the state under dry friction was seen at rest, having rested from the dead load on. Computed, not
-    /// proved.
+    /// The greatest load factor at which the state under dry friction was seen at rest, having
+    /// rested from the dead load on. Computed, not proved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rests_at: Option<f64>,
     /// The least load factor at which it was seen to move.
@@ -212,7 +219,9 @@ pub struct DryResult {
 impl DryResult {
     /// Whether the state was seen at rest just below the value.
     pub fn is_reached(&self) -> bool {
-        self.rests_at.zip(self.value).is_some_and(|(rests_at, value)| coulomb::is_reached(rests_at, value))
+        self.rests_at
+            .zip(self.value)
+            .is_some_and(|(rests_at, value)| coulomb::is_reached(rests_at, value))
     }
 }
 
@@ -254,7 +263,13 @@ impl Default for Versions {
 impl Certificate {
     /// Nothing is claimed.
     pub fn none() -> Self {
-        Self { claim: None, forces: Vec::new(), base: None, rates: Vec::new(), verified: Vec::new() }
+        Self {
+            claim: None,
+            forces: Vec::new(),
+            base: None,
+            rates: Vec::new(),
+            verified: Vec::new(),
+        }
     }
 }
 
@@ -271,7 +286,13 @@ pub fn certificate<T: Claims>(model: &Model, proved: &Proved<T>) -> Certificate 
 }
 
 impl ResultFile {
-    pub(super) fn new(question: QuestionKind, scene: &Scene, model: &Model, answer: Answer, certificate: Certificate) -> Self {
+    pub(super) fn new(
+        question: QuestionKind,
+        scene: &Scene,
+        model: &Model,
+        answer: Answer,
+        certificate: Certificate,
+    ) -> Self {
         Self {
             format: ResultFormat::V2,
             question,
@@ -302,7 +323,8 @@ impl ResultFile {
         }
     }
 
-    /// The result of a question; packings have one of their own ([`PackingFile`](super::PackingFile)).
+    /// The result of a question; packings have one of their own
+    /// ([`PackingFile`](super::PackingFile)).
     pub fn of(scene: &Scene, model: &Model, answer: &Answered) -> Option<Self> {
         Some(match answer {
             Answered::Assess(a) => Self::assessment(scene, model, a),
@@ -317,9 +339,16 @@ impl ResultFile {
 
     /// The result of `assess`. What its check refused is undecided, and the reasons are warnings.
     pub fn assessment(scene: &Scene, model: &Model, a: &Proved<Assessment>) -> Self {
-        let mut file = Self::new(QuestionKind::Assess, scene, model, Answer::Verdict(assessment(a)), certificate(model, a));
+        let mut file = Self::new(
+            QuestionKind::Assess,
+            scene,
+            model,
+            Answer::Verdict(assessment(a)),
+            certificate(model, a),
+        );
         file.mechanism = a.mechanism.as_ref().map(|m| words(model, m));
-        file.coulomb_state = a.state.as_ref().map(|s| CoulombState { motion: s.motion, steps: s.steps.clone() });
+        file.coulomb_state =
+            a.state.as_ref().map(|s| CoulombState { motion: s.motion, steps: s.steps.clone() });
         file.left_out.clone_from(&a.left_out);
         file.trace.clone_from(&a.attempts);
         file.warn(a);
@@ -336,7 +365,13 @@ impl ResultFile {
             part: l.part.clone(),
             proof: l.grade(),
         };
-        let mut file = Self::new(QuestionKind::Limit, scene, model, Answer::Limit(answer), certificate(model, l));
+        let mut file = Self::new(
+            QuestionKind::Limit,
+            scene,
+            model,
+            Answer::Limit(answer),
+            certificate(model, l),
+        );
         file.mechanism = l.mechanism.as_ref().map(|m| words(model, m));
         file.left_out.clone_from(&l.left_out);
         file.trace.clone_from(&l.attempts);
@@ -349,14 +384,22 @@ impl ResultFile {
         file
     }
 
-    /// The result of `tilt`, one entry per direction; `model` is the scene level. The least tilt is the answer.
+    /// The result of `tilt`, one entry per direction; `model` is the scene level. The least tilt is
+    /// the answer.
     pub fn tilt(scene: &Scene, model: &Model, tilted: &Tilted) -> Option<Self> {
         let list = &tilted.directions;
         let level = tilted.level.as_ref().map(|a| a.verdict);
         let directions: Vec<Direction> = list.iter().map(|tilt| direction(tilt, level)).collect();
-        let least = (0..directions.len()).min_by(|&i, &j| directions[i].governing().total_cmp(&directions[j].governing()))?;
+        let least = (0..directions.len())
+            .min_by(|&i, &j| directions[i].governing().total_cmp(&directions[j].governing()))?;
         let (tilt, direction) = (&list[least], directions[least].clone());
-        let mut file = Self::new(QuestionKind::Tilt, scene, &tilt.model, direction.answer, direction.certificate);
+        let mut file = Self::new(
+            QuestionKind::Tilt,
+            scene,
+            &tilt.model,
+            direction.answer,
+            direction.certificate,
+        );
         file.dry = direction.dry;
         file.mechanism = tilt.load_factor.mechanism.as_ref().map(|m| words(&tilt.model, m));
         file.left_out.clone_from(&tilt.load_factor.left_out);
@@ -377,17 +420,30 @@ impl ResultFile {
     /// Adds whether it stands under its dead load alone to a result of `limit`, `tilt` or `thrust`.
     #[must_use]
     pub(super) fn with_dead_load(mut self, model: &Model, a: &Proved<Assessment>) -> Self {
-        self.dead_load = Some(Direction { answer: Answer::Verdict(assessment(a)), certificate: certificate(model, a), dry: None });
+        self.dead_load = Some(Direction {
+            answer: Answer::Verdict(assessment(a)),
+            certificate: certificate(model, a),
+            dry: None,
+        });
         self.trace.extend(a.attempts.iter().cloned());
         self.warn(a);
         self
     }
 
     /// The result of `simulate`, beside the verdict where there is one.
-    pub fn simulated(scene: &Scene, model: &Model, a: Option<&Proved<Assessment>>, outcome: &Simulated) -> Self {
+    pub fn simulated(
+        scene: &Scene,
+        model: &Model,
+        a: Option<&Proved<Assessment>>,
+        outcome: &Simulated,
+    ) -> Self {
         let answer = Answer::Simulation(outcome.fate, a.map(assessment));
         let file = match a {
-            Some(a) => Self { question: QuestionKind::Simulate, answer, ..Self::assessment(scene, model, a) },
+            Some(a) => Self {
+                question: QuestionKind::Simulate,
+                answer,
+                ..Self::assessment(scene, model, a)
+            },
             None => Self::new(QuestionKind::Simulate, scene, model, answer, Certificate::none()),
         };
         file.with_simulation(model, a, outcome)
@@ -395,7 +451,12 @@ impl ResultFile {
 
     /// Adds what happened in time to a result of `assess`.
     #[must_use]
-    pub fn with_simulation(mut self, model: &Model, a: Option<&Proved<Assessment>>, outcome: &Simulated) -> Self {
+    pub fn with_simulation(
+        mut self,
+        model: &Model,
+        a: Option<&Proved<Assessment>>,
+        outcome: &Simulated,
+    ) -> Self {
         let agreement = a.map(|a| agreement(model, a, outcome));
         self.warnings.extend(outcome.findings.iter().cloned());
         self.simulation = Some(Simulation::new(model, outcome, agreement));
@@ -406,7 +467,13 @@ impl ResultFile {
     pub(super) fn warn<T>(&mut self, proved: &Proved<T>) {
         self.timings.check += proved.seconds();
         let code = crate::error::FindingCode::Numerics;
-        self.warnings.extend(proved.findings().fails.iter().map(|f| Finding::new(code, format!("certificate refused: {f}"))));
+        self.warnings.extend(
+            proved
+                .findings()
+                .fails
+                .iter()
+                .map(|f| Finding::new(code, format!("certificate refused: {f}"))),
+        );
     }
 }
 
@@ -422,7 +489,11 @@ fn direction(tilt: &Tilt, level: Option<Verdict>) -> Direction {
         part: tilt.load_factor.part.clone(),
         proof: tilt.load_factor.grade(),
     };
-    Direction { answer: Answer::Tilt(answer), certificate: certificate(&tilt.model, &tilt.load_factor), dry }
+    Direction {
+        answer: Answer::Tilt(answer),
+        certificate: certificate(&tilt.model, &tilt.load_factor),
+        dry,
+    }
 }
 
 fn finite(v: f64) -> Option<f64> {
@@ -443,8 +514,18 @@ fn dry_result(model: &Model, d: &Proved<coulomb::DryLoadFactor>) -> DryResult {
 }
 
 pub(super) fn assessment(a: &Proved<Assessment>) -> VerdictAnswer {
-    let law = (a.verdict == Verdict::Stable).then_some(if a.rests_on_statics() { Law::Associative } else { Law::Coulomb });
-    VerdictAnswer { verdict: a.verdict, law, unbalance: a.unbalance, part: a.part.clone(), proof: a.grade() }
+    let law = (a.verdict == Verdict::Stable).then_some(if a.rests_on_statics() {
+        Law::Associative
+    } else {
+        Law::Coulomb
+    });
+    VerdictAnswer {
+        verdict: a.verdict,
+        law,
+        unbalance: a.unbalance,
+        part: a.part.clone(),
+        proof: a.grade(),
+    }
 }
 
 pub(super) fn words(model: &Model, m: &Mechanism) -> MechanismWords {

@@ -29,7 +29,8 @@ pub struct Simulation {
     pub first_motion: Vec<BlockMotion>,
     /// Contact forces at the end.
     pub contacts: Vec<PairForce>,
-    /// What is left when the contact forces on the supports and all loads are added up, over the loads: 0 at rest.
+    /// What is left when the contact forces on the supports and all loads are added up, over the
+    /// loads: 0 at rest.
     pub reaction_error: f64,
     /// Where every block was at the times asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -71,7 +72,8 @@ pub struct FrameResult {
     pub run: usize,
     /// Kinetic energy of all blocks, J.
     pub energy: f64,
-    /// Centre of mass of each block (x, y, z; m) and its rotation from the start (quaternion w, x, y, z), in scene order.
+    /// Centre of mass of each block (x, y, z; m) and its rotation from the start (quaternion w, x,
+    /// y, z), in scene order.
     pub blocks: Vec<[f64; 7]>,
 }
 
@@ -98,7 +100,11 @@ impl Simulation {
             runs: outcome.runs.clone(),
             agreement,
             first_motion: moved.iter().take(MOVED).map(motion).collect(),
-            contacts: outcome.contacts.iter().map(|c| PairForce { between: [id(c.a), id(c.b)], force: c.force.into() }).collect(),
+            contacts: outcome
+                .contacts
+                .iter()
+                .map(|c| PairForce { between: [id(c.a), id(c.b)], force: c.force.into() })
+                .collect(),
             reaction_error: outcome.reaction_error,
             frames: outcome.frames.iter().map(|f| frame(f, &outcome.runs)).collect(),
             findings: outcome.findings.clone(),

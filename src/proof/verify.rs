@@ -1,5 +1,5 @@
-//! Verifying a saved result from the scene: every claim with its evidence, and every word and number of the answer
-//! against the claim. Nothing that the file says about itself is believed.
+//! Verifying a saved result from the scene: every claim with its evidence, and every word and
+//! number of the answer against the claim. Nothing that the file says about itself is believed.
 
 mod again;
 
@@ -27,8 +27,8 @@ use crate::{
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Saved and recomputed numbers of the answer agree within this × their size. Larger: edited digits pass.
-/// Smaller: rounding of another machine's arithmetic is taken for tampering.
+/// Saved and recomputed numbers of the answer agree within this × their size. Larger: edited digits
+/// pass. Smaller: rounding of another machine's arithmetic is taken for tampering.
 pub(super) const SAME: f64 = 1e-6;
 
 /// What the verification of a result found.
@@ -85,13 +85,18 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
     };
     match file.question {
         QuestionKind::Assess | QuestionKind::Limit | QuestionKind::Simulate => {
-            let (mut f, rates) = answer(model, file.question, &file.answer, &file.certificate, all.refuted());
+            let (mut f, rates) =
+                answer(model, file.question, &file.answer, &file.certificate, all.refuted());
             mechanism_words(&mut f, file, model, rates.as_deref());
             follows(&mut f, &file.answer, file.dry.as_ref());
             all.part("answer", f);
-            let stray = !file.directions.is_empty() || (file.question != QuestionKind::Limit && file.dead_load.is_some());
+            let stray = !file.directions.is_empty()
+                || (file.question != QuestionKind::Limit && file.dead_load.is_some());
             if stray {
-                all.part("form", failure("the file holds answers to a question that was not asked"));
+                all.part(
+                    "form",
+                    failure("the file holds answers to a question that was not asked"),
+                );
             }
         }
         QuestionKind::Tilt => tilts(&mut all, file, model),
@@ -106,20 +111,37 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         all.part("form", failure("the file holds answers to a question that was not asked"));
     }
     if let Some(dead) = &file.dead_load {
-        all.part("dead load alone", answer(model, QuestionKind::Assess, &dead.answer, &dead.certificate, all.refuted()).0);
+        all.part(
+            "dead load alone",
+            answer(model, QuestionKind::Assess, &dead.answer, &dead.certificate, all.refuted()).0,
+        );
     }
     if matches!(file.question, QuestionKind::Limit | QuestionKind::Tilt) {
-        let (dead, mut f) = (file.dead_load.as_ref().and_then(|d| d.answer.verdict()), Findings::default());
-        let said = file.directions.iter().map(|d| &d.answer).chain([&file.answer]).all(|a| a.verdict() == dead);
+        let (dead, mut f) =
+            (file.dead_load.as_ref().and_then(|d| d.answer.verdict()), Findings::default());
+        let said = file
+            .directions
+            .iter()
+            .map(|d| &d.answer)
+            .chain([&file.answer])
+            .all(|a| a.verdict() == dead);
         require(&mut f, said, "the verdict beside it is that of the dead load alone");
         all.part("dead load alone", f);
     }
     if let Some(dry) = file.dry.as_ref().filter(|_| file.question != QuestionKind::Tilt) {
         let findings = match file.question {
-            QuestionKind::Assess | QuestionKind::Simulate | QuestionKind::Critical | QuestionKind::Thrust => {
+            QuestionKind::Assess
+            | QuestionKind::Simulate
+            | QuestionKind::Critical
+            | QuestionKind::Thrust => {
                 failure("the file holds a load factor that was not asked for")
             }
-            _ => again::dry_friction(&|_| Ok(model.clone()), (&file.answer, &file.certificate), dry, all.refuted()),
+            _ => again::dry_friction(
+                &|_| Ok(model.clone()),
+                (&file.answer, &file.certificate),
+                dry,
+                all.refuted(),
+            ),
         };
         all.part("dry friction", findings);
     }
@@ -129,20 +151,30 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
     all
 }
 
-/// The words about a simulation agree with each other; that it went so is only known by repeating it.
+/// The words about a simulation agree with each other; that it went so is only known by repeating
+/// it.
 fn simulation(file: &ResultFile) -> Findings {
     let mut f = Findings::default();
     let Some(s) = &file.simulation else { return failure("the file holds no simulation") };
     let last = s.runs.last().map(|r| r.fate);
     require(
         &mut f,
-        last.is_none_or(|fate| fate == s.fate) && file.answer.fate().is_none_or(|fate| fate == s.fate),
+        last.is_none_or(|fate| fate == s.fate)
+            && file.answer.fate().is_none_or(|fate| fate == s.fate),
         "the outcome is that of the last run",
     );
     if let Some(a) = &s.agreement {
         let left_out = s.findings.iter().any(|f| f.code == FindingCode::LeftOut);
-        require(&mut f, a.agrees == agree(a.verdict, a.fate, left_out), "whether they agree follows from the two");
-        require(&mut f, a.fate == s.fate && Some(a.verdict) == file.answer.verdict(), "it is compared with the verdict of this result");
+        require(
+            &mut f,
+            a.agrees == agree(a.verdict, a.fate, left_out),
+            "whether they agree follows from the two",
+        );
+        require(
+            &mut f,
+            a.fate == s.fate && Some(a.verdict) == file.answer.verdict(),
+            "it is compared with the verdict of this result",
+        );
     }
     f.holds.push("observed, not proved: `voussoir simulate` on the scene repeats it".into());
     f
@@ -160,28 +192,47 @@ fn counts(file: &ResultFile, model: &Model) -> Findings {
     let mut f = Findings::default();
     let s = &file.scene;
     let supports = model.assembly.blocks.iter().filter(|b| b.support).count();
-    let here = [model.assembly.blocks.len(), supports, model.interfaces.list.len(), model.contact_points()];
+    let here = [
+        model.assembly.blocks.len(),
+        supports,
+        model.interfaces.list.len(),
+        model.contact_points(),
+    ];
     let said = [s.blocks, s.supports, s.interfaces, s.contact_points];
-    let words = |c: [usize; 4]| format!("{} blocks ({} supports), {} interfaces, {} contact points", c[0], c[1], c[2], c[3]);
+    let words = |c: [usize; 4]| {
+        format!("{} blocks ({} supports), {} interfaces, {} contact points", c[0], c[1], c[2], c[3])
+    };
     if here == said {
         f.holds.push(words(here));
     } else {
         f.fails.push(format!("the scene has {}; the result is about {}", words(here), words(said)));
     }
     if s.name != s.input.name {
-        f.fails.push(format!("the scene is called {:?}, the result says {:?}", s.input.name, s.name));
+        f.fails
+            .push(format!("the scene is called {:?}, the result says {:?}", s.input.name, s.name));
     }
     f
 }
 
 /// The directions of a tilt, each with its turned loads, and the least of them as the answer.
 fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
-    let main = Direction { answer: file.answer.clone(), certificate: file.certificate.clone(), dry: file.dry.clone() };
-    let list = if file.directions.is_empty() { std::slice::from_ref(&main) } else { &file.directions };
-    let least = (0..list.len()).min_by(|&i, &j| list[i].governing().total_cmp(&list[j].governing())).unwrap_or(0);
+    let main = Direction {
+        answer: file.answer.clone(),
+        certificate: file.certificate.clone(),
+        dry: file.dry.clone(),
+    };
+    let list =
+        if file.directions.is_empty() { std::slice::from_ref(&main) } else { &file.directions };
+    let least = (0..list.len())
+        .min_by(|&i, &j| list[i].governing().total_cmp(&list[j].governing()))
+        .unwrap_or(0);
     if !file.directions.is_empty() {
         let mut f = Findings::default();
-        require(&mut f, main == list[least], format!("the answer is the least of {} directions, with its evidence", list.len()));
+        require(
+            &mut f,
+            main == list[least],
+            format!("the answer is the least of {} directions, with its evidence", list.len()),
+        );
         all.part("answer", f);
     }
     for (index, direction) in list.iter().enumerate() {
@@ -191,7 +242,13 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
         match tilted(model, Vector3::from(toward), load_factor) {
             Err(e) => all.part(title.clone(), failure(e.to_string())),
             Ok(turned) => {
-                let (mut f, rates) = answer(&turned, QuestionKind::Tilt, &direction.answer, &direction.certificate, all.refuted());
+                let (mut f, rates) = answer(
+                    &turned,
+                    QuestionKind::Tilt,
+                    &direction.answer,
+                    &direction.certificate,
+                    all.refuted(),
+                );
                 follows(&mut f, &direction.answer, direction.dry.as_ref());
                 if index == least {
                     mechanism_words(&mut f, file, &turned, rates.as_deref());
@@ -201,13 +258,19 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
         }
         if let Some(dry) = &direction.dry {
             let at = |tilt: f64| tilted(model, Vector3::from(toward), tilt);
-            let findings = again::dry_friction(&at, (&direction.answer, &direction.certificate), dry, all.refuted());
+            let findings = again::dry_friction(
+                &at,
+                (&direction.answer, &direction.certificate),
+                dry,
+                all.refuted(),
+            );
             all.part(format!("{title}, dry friction"), findings);
         }
     }
 }
 
-/// One answer with its evidence; gives back the rates where they could be read. What is refuted already is not computed again.
+/// One answer with its evidence; gives back the rates where they could be read. What is refuted
+/// already is not computed again.
 pub(super) fn answer(
     model: &Model,
     question: QuestionKind,
@@ -233,9 +296,17 @@ pub(super) fn answer(
         f.fails.push(format!("nothing is claimed, but said to be proved ({said})"));
     }
     if let Some(claim) = &evidence.claim {
-        let claimed = check::verify(model, claim, Evidence { forces: &forces, base: base.as_ref(), rates: &rates });
+        let claimed = check::verify(
+            model,
+            claim,
+            Evidence { forces: &forces, base: base.as_ref(), rates: &rates },
+        );
         let said = answer.proof().unwrap_or(Grade::ToRounding(f64::INFINITY));
-        require(&mut f, is_no_better(said, claimed.grade), format!("the proof is {}, the answer says {said}", claimed.grade));
+        require(
+            &mut f,
+            is_no_better(said, claimed.grade),
+            format!("the proof is {}, the answer says {said}", claimed.grade),
+        );
         f.grade = claimed.grade;
         f.holds.extend(claimed.holds);
         f.fails.extend(claimed.fails);
@@ -261,11 +332,19 @@ fn is_no_better(said: Grade, here: Grade) -> bool {
 }
 
 /// The words and numbers of an answer are those of its claim.
-fn says_what_is_claimed(f: &mut Findings, question: QuestionKind, answer: &Answer, claim: Option<&Claim>) {
+fn says_what_is_claimed(
+    f: &mut Findings,
+    question: QuestionKind,
+    answer: &Answer,
+    claim: Option<&Claim>,
+) {
     let agrees = match (question, answer, claim) {
-        (QuestionKind::Assess, Answer::Verdict(a), claim) | (QuestionKind::Simulate, Answer::Simulation(_, Some(a)), claim) => {
+        (QuestionKind::Assess, Answer::Verdict(a), claim)
+        | (QuestionKind::Simulate, Answer::Simulation(_, Some(a)), claim) => {
             if a.law.is_some() && claim != Some(&Claim::Stable) {
-                f.fails.push("a law of sliding is named beside an answer that does not depend on it".into());
+                f.fails.push(
+                    "a law of sliding is named beside an answer that does not depend on it".into(),
+                );
             }
             Some(a.verdict).filter(|v| *v != Verdict::Undecided) == claim.and_then(Claim::verdict)
                 && claim.is_none_or(|c| c.verdict().is_some())
@@ -281,7 +360,8 @@ fn says_what_is_claimed(f: &mut Findings, question: QuestionKind, answer: &Answe
                 (Outcome::Found, Some(&Claim::LoadFactor { value, lower, upper })) => {
                     (said, low, high) == (Some(value), Some(lower), Some(upper))
                 }
-                (Outcome::Unbounded, Some(Claim::Unbounded { .. })) | (Outcome::Impossible, Some(Claim::Impossible)) => {
+                (Outcome::Unbounded, Some(Claim::Unbounded { .. }))
+                | (Outcome::Impossible, Some(Claim::Impossible)) => {
                     (said, low, high) == (None, None, None)
                 }
                 _ => false,
@@ -298,7 +378,9 @@ fn says_what_is_claimed(f: &mut Findings, question: QuestionKind, answer: &Answe
         Some(Claim::Conditional) => "that it stands only with a pre-stress".into(),
         Some(Claim::Unstable) => "that it falls".into(),
         Some(Claim::LoadFactor { value, .. }) => format!("the load factor {value}"),
-        Some(Claim::DryLoadFactor { value }) => format!("the load factor {value} with dry friction"),
+        Some(Claim::DryLoadFactor { value }) => {
+            format!("the load factor {value} with dry friction")
+        }
         Some(Claim::Unbounded { .. }) => "that the live load has no limit".into(),
         Some(Claim::Thrust { value, .. }) => format!("a thrust of {value} N"),
         Some(Claim::EndlessThrust { .. }) => "a thrust without end".into(),
@@ -311,7 +393,8 @@ fn says_what_is_claimed(f: &mut Findings, question: QuestionKind, answer: &Answe
     }
 }
 
-/// The load factor to use follows from the bound and what is known with dry friction; a tilt in degrees is its arc tangent.
+/// The load factor to use follows from the bound and what is known with dry friction; a tilt in
+/// degrees is its arc tangent.
 fn follows(f: &mut Findings, answer: &Answer, dry: Option<&DryResult>) {
     let Some(said) = answer.load_factor() else { return };
     require(
@@ -324,9 +407,12 @@ fn follows(f: &mut Findings, answer: &Answer, dry: Option<&DryResult>) {
             let b = l.associative;
             [l.value, l.lower, l.upper, b.value, b.lower, b.upper]
         });
-        let near = |(a, b): (Option<f64>, Option<f64>)| a == b || a.zip(b).is_some_and(|(a, b)| (a - b).abs() <= 1e-9);
+        let near = |(a, b): (Option<f64>, Option<f64>)| {
+            a == b || a.zip(b).is_some_and(|(a, b)| (a - b).abs() <= 1e-9)
+        };
         let rest = |l: &LoadFactorAnswer| (l.status, l.law, l.found, l.associative.status);
-        let same = numbers(&angle).into_iter().zip(numbers(tilt_deg)).all(near) && rest(&angle) == rest(tilt_deg);
+        let same = numbers(&angle).into_iter().zip(numbers(tilt_deg)).all(near)
+            && rest(&angle) == rest(tilt_deg);
         require(f, same, "the tilt is the arc tangent of the load factor");
     }
 }
@@ -336,50 +422,74 @@ fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, 
     let Some(VerdictAnswer { unbalance: said, .. }) = answer.as_verdict() else { return };
     // Part by part, in units in which nothing over- or underflows.
     let parts = interface::parts(model);
-    let left = |part: &Part| certificate::statics(&part.model, &part.take_forces(forces), 0.0).unbalance;
+    let left =
+        |part: &Part| certificate::statics(&part.model, &part.take_forces(forces), 0.0).unbalance;
     let upper = parts.iter().map(left).fold(0.0, f64::max);
     let rates = &certificate::at_unit_speed(&model.assembly, rates)[..];
     let k = match check::moving(model, forces, rates) {
         Some((part, own, rates)) => certificate::kinematics(&part.model, &rates, &own),
         None => certificate::kinematics(model, rates, forces),
     };
-    let (lower, slack) = if k.norm > 0.0 { (k.gain().max(0.0) / k.norm, k.slack / k.norm) } else { (0.0, 0.0) };
-    // Rates that prove nothing because they part what is pressed together bound nothing: the lower end is then 0.
-    let near = |a: f64, b: f64, extra: f64| (a - b).abs() <= SAME * a.abs() + tolerance::UNBALANCE + extra;
+    let (lower, slack) =
+        if k.norm > 0.0 { (k.gain().max(0.0) / k.norm, k.slack / k.norm) } else { (0.0, 0.0) };
+    // Rates that prove nothing because they part what is pressed together bound nothing: the lower
+    // end is then 0.
+    let near =
+        |a: f64, b: f64, extra: f64| (a - b).abs() <= SAME * a.abs() + tolerance::UNBALANCE + extra;
     let ok = near(upper, said.upper, 0.0) && (near(lower, said.lower, slack) || said.lower == 0.0);
     require(
         f,
         ok,
-        format!("least unbalance between {:.3e} and {:.3e} g, recomputed between {lower:.3e} and {upper:.3e} g", said.lower, said.upper),
+        format!(
+            "least unbalance between {:.3e} and {:.3e} g, recomputed between {lower:.3e} and {upper:.3e} g",
+            said.lower, said.upper
+        ),
     );
 }
 
-/// Whether the joints of two mechanisms lie in the same places: every one of the first next to one of the second that moves alike between
-/// the same blocks, and the other way round.
+/// Whether the joints of two mechanisms lie in the same places: every one of the first next to one
+/// of the second that moves alike between the same blocks, and the other way round.
 fn places_agree(model: &Model, said: &MechanismWords, here: &MechanismWords) -> bool {
-    let sizes: HashMap<&str, f64> = model.assembly.blocks.iter().map(|b| (b.id.as_str(), b.size)).collect();
+    let sizes: HashMap<&str, f64> =
+        model.assembly.blocks.iter().map(|b| (b.id.as_str(), b.size)).collect();
     let near = |a: &JointWords, b: &JointWords| {
-        let size = a.between.iter().filter_map(|id| sizes.get(id.as_str())).copied().fold(0.0, f64::max);
+        let size =
+            a.between.iter().filter_map(|id| sizes.get(id.as_str())).copied().fold(0.0, f64::max);
         (Vector3::from(a.at) - Vector3::from(b.at)).norm() <= SAME * size
     };
     let by_joint = |w: &'_ MechanismWords| {
         let mut map: BTreeMap<_, Vec<JointWords>> = BTreeMap::new();
-        w.joints.iter().for_each(|j| map.entry((j.between.clone(), j.motion)).or_default().push(j.clone()));
+        w.joints
+            .iter()
+            .for_each(|j| map.entry((j.between.clone(), j.motion)).or_default().push(j.clone()));
         map
     };
     let (said, here) = (by_joint(said), by_joint(here));
     let all = |a: &[JointWords], b: &[JointWords]| a.iter().all(|j| b.iter().any(|k| near(j, k)));
-    said.len() == here.len() && said.iter().zip(&here).all(|((s, a), (h, b))| s == h && a.len() == b.len() && all(a, b) && all(b, a))
+    said.len() == here.len()
+        && said
+            .iter()
+            .zip(&here)
+            .all(|((s, a), (h, b))| s == h && a.len() == b.len() && all(a, b) && all(b, a))
 }
 
 /// The mechanism in words is the one of the rates.
-pub(super) fn mechanism_words(f: &mut Findings, file: &ResultFile, model: &Model, rates: Option<&[Rate]>) {
+pub(super) fn mechanism_words(
+    f: &mut Findings,
+    file: &ResultFile,
+    model: &Model,
+    rates: Option<&[Rate]>,
+) {
     let (Some(said), Some(rates)) = (&file.mechanism, rates) else { return };
     let here = words(model, &mechanism::read(model, rates));
     let moving = |w: &MechanismWords| w.moving.iter().cloned().collect::<BTreeSet<String>>();
     require(
         f,
         moving(said) == moving(&here) && places_agree(model, said, &here),
-        format!("the mechanism in words is that of the rates: {} blocks move, {} joints", here.moving.len(), here.joints.len()),
+        format!(
+            "the mechanism in words is that of the rates: {} blocks move, {} joints",
+            here.moving.len(),
+            here.joints.len()
+        ),
     );
 }

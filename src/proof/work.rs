@@ -14,7 +14,8 @@ pub struct Work {
     pub fixed_points: usize,
     /// Iterations of the engine over all attempts.
     pub iterations: usize,
-    /// Force unknowns and equations before anything was left out: 3 per contact point, 6 per free block.
+    /// Force unknowns and equations before anything was left out: 3 per contact point, 6 per free
+    /// block.
     pub full: [usize; 2],
     /// Unknowns and rows of the largest program that was tried.
     pub largest: [usize; 2],
@@ -30,11 +31,20 @@ impl Work {
     /// The work behind a result.
     pub fn of(file: &ResultFile, model: &Model) -> Self {
         let points = model.contact_points();
-        let largest = file.trace.iter().map(|a| a.size).max_by_key(|size| size[0]).unwrap_or_default();
+        let largest =
+            file.trace.iter().map(|a| a.size).max_by_key(|size| size[0]).unwrap_or_default();
         let ends = file.answer.bound().and_then(|l| Some((l.lower?, l.upper?)));
-        let bracket = ends.or(file.answer.as_verdict().map(|a| (a.unbalance.lower, a.unbalance.upper))).map(|(lower, upper)| upper - lower);
-        let states = file.coulomb_state.iter().flat_map(|s| &s.steps).map(|s| s.solves).sum::<usize>();
-        let dry = file.dry.iter().chain(file.directions.iter().filter_map(|d| d.dry.as_ref())).map(|d| d.solves).sum::<usize>();
+        let bracket = ends
+            .or(file.answer.as_verdict().map(|a| (a.unbalance.lower, a.unbalance.upper)))
+            .map(|(lower, upper)| upper - lower);
+        let states =
+            file.coulomb_state.iter().flat_map(|s| &s.steps).map(|s| s.solves).sum::<usize>();
+        let dry = file
+            .dry
+            .iter()
+            .chain(file.directions.iter().filter_map(|d| d.dry.as_ref()))
+            .map(|d| d.solves)
+            .sum::<usize>();
         Self {
             attempts: file.trace.len(),
             fixed_points: states + dry,

@@ -1,4 +1,5 @@
-//! Tables for other programs (CSV, RFC 4180). All of them are written here, so that no cell of any is more than text or a number.
+//! Tables for other programs (CSV, RFC 4180). All of them are written here, so that no cell of any
+//! is more than text or a number.
 
 use crate::plain;
 
@@ -15,7 +16,10 @@ impl Table {
     ///
     /// # Errors
     /// It has another number of cells than the first.
-    pub fn write_record<S: AsRef<str>>(&mut self, row: impl IntoIterator<Item = S>) -> Result<(), csv::Error> {
+    pub fn write_record<S: AsRef<str>>(
+        &mut self,
+        row: impl IntoIterator<Item = S>,
+    ) -> Result<(), csv::Error> {
         for text in row {
             self.0.write_field(plain::cell(text.as_ref()).as_bytes())?;
         }

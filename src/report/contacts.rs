@@ -3,21 +3,30 @@
 use super::cells::Table;
 use crate::{analysis::fabric, interface::Model, verdict::Forces};
 
-/// The columns: blocks, centre of pressure (m), unit normal from `a` into `b`, normal and tangential force (N), share of friction used.
-const HEAD: [&str; 11] = ["a", "b", "x", "y", "z", "nx", "ny", "nz", "normal_force", "tangential_force", "mobilised"];
+/// The columns: blocks, centre of pressure (m), unit normal from `a` into `b`, normal and
+/// tangential force (N), share of friction used.
+const HEAD: [&str; 11] =
+    ["a", "b", "x", "y", "z", "nx", "ny", "nz", "normal_force", "tangential_force", "mobilised"];
 
 /// The table of contact forces.
 ///
 /// # Errors
 /// The table cannot be written.
-pub fn csv(model: &Model, forces: &Forces) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
+pub fn csv(
+    model: &Model,
+    forces: &Forces,
+) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
     let Model { assembly, interfaces, .. } = model;
     let mut writer = Table::new();
     writer.write_record(HEAD)?;
     for contact in fabric::contacts(interfaces, forces) {
         let face = &interfaces.list[contact.interface];
         let mut row = vec![assembly.blocks[face.a].id.clone(), assembly.blocks[face.b].id.clone()];
-        let numbers = contact.at.iter().chain(face.frame.n.iter()).chain([&contact.normal_force, &contact.tangential_force]);
+        let numbers = contact
+            .at
+            .iter()
+            .chain(face.frame.n.iter())
+            .chain([&contact.normal_force, &contact.tangential_force]);
         row.extend(numbers.map(f64::to_string));
         row.push(contact.mobilised.map(|m| m.to_string()).unwrap_or_default());
         writer.write_record(&row)?;

@@ -142,9 +142,13 @@ impl HeapResult {
 impl ReposeFile {
     /// The answer over all heaps; only those at rest count.
     pub fn new(protocol: &Protocol, heaps: Vec<HeapResult>) -> Self {
-        let angles: Vec<f64> = heaps.iter().filter(|h| h.rested).filter_map(|h| h.angle_deg).collect();
+        let angles: Vec<f64> =
+            heaps.iter().filter(|h| h.rested).filter_map(|h| h.angle_deg).collect();
         let mean = angles.iter().sum::<f64>() / angles.len().max(1) as f64;
-        let ends = [angles.iter().copied().fold(f64::INFINITY, f64::min), angles.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
+        let ends = [
+            angles.iter().copied().fold(f64::INFINITY, f64::min),
+            angles.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        ];
         Self {
             format: HeapsFormat::V1,
             protocol: protocol.clone(),

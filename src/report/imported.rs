@@ -1,5 +1,7 @@
-//! What an import says beside the scene: how large the thing is that was read, which of its objects are no solids and where in their file they stand, and what
-//! looks like a mistake. All of it is looked at as a question would, with stand-ins for what the file does not have (supports, friction).
+//! What an import says beside the scene: how large the thing is that was read, which of its objects
+//! are no solids and where in their file they stand, and what looks like a mistake. All of it is
+//! looked at as a question would, with stand-ins for what the file does not have (supports,
+//! friction).
 
 use crate::{
     assembly::{Polyhedron, ShapeError},
@@ -11,8 +13,9 @@ use crate::{
 };
 use nalgebra::Vector3;
 
-/// Structures whose blocks measure less than this after a scale below 1, m, were in metres before. Larger: models of 1 : 100 in millimetres are reported.
-/// Smaller: voussoirs of a metre, scaled by 0.001 for nothing, pass at 2 mm across.
+/// Structures whose blocks measure less than this after a scale below 1, m, were in metres before.
+/// Larger: models of 1 : 100 in millimetres are reported. Smaller: voussoirs of a metre, scaled by
+/// 0.001 for nothing, pass at 2 mm across.
 const SCALED_FOR_NOTHING: f64 = 0.005;
 
 /// What an import says.
@@ -20,7 +23,8 @@ const SCALED_FOR_NOTHING: f64 = 0.005;
 pub struct Examined {
     /// Size, bounding box, volume and number of blocks on one line; empty where there are none.
     pub summary: String,
-    /// The objects that are no solids, each with its place and the remedy. A scene with one of them has no answer.
+    /// The objects that are no solids, each with its place and the remedy. A scene with one of them
+    /// has no answer.
     pub broken: Vec<String>,
     /// What looks like a mistake.
     pub findings: Vec<Finding>,
@@ -34,7 +38,8 @@ pub fn examine(imported: &Imported, options: &ImportOptions) -> Examined {
         let e = solid.as_ref().err()?;
         Some(format!("{}: object {:?}: {e}; hint: {}", origin.place(e.face()), block.id, e.hint()))
     };
-    let mut broken: Vec<String> = scene.blocks.iter().zip(solids.iter().zip(&imported.origins)).filter_map(told).collect();
+    let mut broken: Vec<String> =
+        scene.blocks.iter().zip(solids.iter().zip(&imported.origins)).filter_map(told).collect();
     let volume: f64 = solids.iter().flatten().sum();
     let mut findings = Vec::new();
     if broken.is_empty() {
@@ -84,7 +89,8 @@ fn short(x: f64) -> String {
     if x != 0.0 && !(1e-4..1e7).contains(&x.abs()) { format!("{x:e}") } else { format!("{x}") }
 }
 
-/// What looks like a mistake, with stand-ins for what is not known yet. What is known to be missing has been said.
+/// What looks like a mistake, with stand-ins for what is not known yet. What is known to be missing
+/// has been said.
 fn mistakes(scene: &Scene, options: &ImportOptions) -> Result<Vec<Finding>, String> {
     let mut trial = scene.clone();
     trial.joints.default.friction.get_or_insert(Friction::Coefficient(0.6));
@@ -98,7 +104,11 @@ fn mistakes(scene: &Scene, options: &ImportOptions) -> Result<Vec<Finding>, Stri
         return Ok(Vec::new());
     }
     let model = prepare(&trial).map_err(|e| e.to_string())?;
-    let mut found: Vec<Finding> = model.findings().filter(|f| f.code.is_mistake() && (decided || !by_supports(f.code))).cloned().collect();
+    let mut found: Vec<Finding> = model
+        .findings()
+        .filter(|f| f.code.is_mistake() && (decided || !by_supports(f.code)))
+        .cloned()
+        .collect();
     if !decided {
         found.extend(on_its_side(&model));
     }

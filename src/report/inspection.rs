@@ -1,8 +1,10 @@
-//! A scene as it was resolved (`"format": "voussoir-model/1"`): blocks with their loads, interfaces with their contact points and
-//! frames. Everything another program needs to ask its own questions about the very same contacts.
+//! A scene as it was resolved (`"format": "voussoir-model/1"`): blocks with their loads, interfaces
+//! with their contact points and frames. Everything another program needs to ask its own questions
+//! about the very same contacts.
 //!
-//! Loads are forces (N) and moments (N·m) about the centre of mass. The frame `(t1, t2, n)` is right-handed, `n` points from the first
-//! block into the second; contact forces act on the second. Indices count `blocks` from 0.
+//! Loads are forces (N) and moments (N·m) about the centre of mass. The frame `(t1, t2, n)` is
+//! right-handed, `n` points from the first block into the second; contact forces act on the second.
+//! Indices count `blocks` from 0.
 
 use crate::{
     assembly::{JointLaw, Wrench},
@@ -74,14 +76,16 @@ impl<'a> Inspection<'a> {
     /// A model as it stands.
     pub fn new(model: &'a Model) -> Self {
         let Model { assembly, interfaces, .. } = model;
-        let blocks = assembly.blocks.iter().zip(assembly.dead.iter().zip(&assembly.live)).map(|(b, (dead, live))| Block {
-            id: &b.id,
-            support: b.support,
-            mass: b.mass,
-            centroid: b.centroid.into(),
-            dead: dead.into(),
-            live: live.into(),
-        });
+        let blocks = assembly.blocks.iter().zip(assembly.dead.iter().zip(&assembly.live)).map(
+            |(b, (dead, live))| Block {
+                id: &b.id,
+                support: b.support,
+                mass: b.mass,
+                centroid: b.centroid.into(),
+                dead: dead.into(),
+                live: live.into(),
+            },
+        );
         let contacts = interfaces.list.iter().map(|face| Contact {
             between: [face.a, face.b],
             kind: face.kind,

@@ -1,4 +1,5 @@
-//! JSON for people and programs: one member a line, but what fits on a line stays on it (points, forces, faces).
+//! JSON for people and programs: one member a line, but what fits on a line stays on it (points,
+//! forces, faces).
 
 use crate::plain;
 use serde::Serialize;
@@ -7,7 +8,8 @@ use serde_json::Value;
 /// Values up to this many characters stay on one line.
 const LINE: usize = 120;
 
-/// The JSON text of a value, ending in a newline. Numbers keep every digit; what is not finite becomes `null`.
+/// The JSON text of a value, ending in a newline. Numbers keep every digit; what is not finite
+/// becomes `null`.
 ///
 /// # Errors
 /// The value has no JSON form (a map with keys that are not text).
@@ -45,7 +47,8 @@ fn write(value: &Value, indent: usize, out: &mut String) {
     }
 }
 
-/// The value on one line, if it fits into `room`. Gives up as soon as it does not, so that deep values cost nothing.
+/// The value on one line, if it fits into `room`. Gives up as soon as it does not, so that deep
+/// values cost nothing.
 fn one_line(value: &Value, room: usize) -> Option<String> {
     let mut line = match value {
         Value::Array(_) => "[".to_string(),

@@ -7,9 +7,11 @@ use super::{
 use crate::{interface::ContactKind, scene::Friction, verdict::mechanism::JointMotion as Kind};
 use std::error::Error;
 
-/// Joints: the two blocks, what touches what, the centre of pressure (m; the middle where nothing presses), the unit normal from `a` into
-/// `b`, the area that touches (m²), μ, the system of forces, the force on `b` (N), its normal and tangential part, the distance of the centre
-/// of pressure from the middle (m), the shares of section and friction that are used, what the joint does in the mechanism.
+/// Joints: the two blocks, what touches what, the centre of pressure (m; the middle where nothing
+/// presses), the unit normal from `a` into `b`, the area that touches (m²), μ, the system of
+/// forces, the force on `b` (N), its normal and tangential part, the distance of the centre of
+/// pressure from the middle (m), the shares of section and friction that are used, what the joint
+/// does in the mechanism.
 const JOINTS: [&str; 21] = [
     "a",
     "b",
@@ -34,10 +36,14 @@ const JOINTS: [&str; 21] = [
     "motion",
 ];
 
-/// Blocks: name, whether it is a support, material, mass (kg), centre of mass (m), the share that its joints use of section or friction in the
-/// first system of forces, and its rate in the first mechanism (velocity of the centre of mass and spin, on a scale on which the fastest corner
-/// moves at 1).
-const BLOCKS: [&str; 14] = ["block", "support", "material", "mass", "x", "y", "z", "used", "vx", "vy", "vz", "wx", "wy", "wz"];
+/// Blocks: name, whether it is a support, material, mass (kg), centre of mass (m), the share that
+/// its joints use of section or friction in the first system of forces, and its rate in the first
+/// mechanism (velocity of the centre of mass and spin, on a scale on which the fastest corner moves
+/// at 1).
+const BLOCKS: [&str; 14] = [
+    "block", "support", "material", "mass", "x", "y", "z", "used", "vx", "vy", "vz", "wx", "wy",
+    "wz",
+];
 
 /// The table of joints.
 ///
@@ -53,7 +59,10 @@ pub fn joints(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
     for (k, joint) in view.joints.iter().enumerate() {
         if view.states.is_empty() {
             writer.write_record(
-                head(view, joint, joint.center).into_iter().chain(std::iter::repeat_n(String::new(), 9)).chain([motion(k)]),
+                head(view, joint, joint.center)
+                    .into_iter()
+                    .chain(std::iter::repeat_n(String::new(), 9))
+                    .chain([motion(k)]),
             )?;
         }
         for state in &view.states {
@@ -62,7 +71,18 @@ pub fn joints(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
             row.push(state.name.clone());
             match resultant {
                 Some(r) => {
-                    row.extend([r.force.x, r.force.y, r.force.z, r.normal, r.shear, r.eccentricity, r.used].map(|v| v.to_string()));
+                    row.extend(
+                        [
+                            r.force.x,
+                            r.force.y,
+                            r.force.z,
+                            r.normal,
+                            r.shear,
+                            r.eccentricity,
+                            r.used,
+                        ]
+                        .map(|v| v.to_string()),
+                    );
                     row.push(r.mobilised.map_or(String::new(), |m| m.to_string()));
                 }
                 None => row.extend(["0", "0", "0", "0", "0", "", "", ""].map(String::from)),
@@ -82,7 +102,8 @@ fn head(view: &View, joint: &Joint, at: nalgebra::Vector3<f64>) -> Vec<String> {
         ContactKind::Point => "point",
         ContactKind::Given => "given",
     };
-    let mut row = vec![view.bodies[joint.a].id.clone(), view.bodies[joint.b].id.clone(), kind.into()];
+    let mut row =
+        vec![view.bodies[joint.a].id.clone(), view.bodies[joint.b].id.clone(), kind.into()];
     row.extend(at.iter().chain(joint.normal.iter()).chain([&joint.area]).map(f64::to_string));
     row.push(match joint.law.friction {
         Friction::Coefficient(mu) => mu.to_string(),
@@ -109,11 +130,24 @@ pub fn blocks(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
     let mut writer = Table::new();
     writer.write_record(BLOCKS)?;
     for (i, body) in view.bodies.iter().enumerate() {
-        let mut row = vec![body.id.clone(), body.support.to_string(), body.material.clone().unwrap_or_default(), body.mass.to_string()];
+        let mut row = vec![
+            body.id.clone(),
+            body.support.to_string(),
+            body.material.clone().unwrap_or_default(),
+            body.mass.to_string(),
+        ];
         row.extend(body.center.iter().map(f64::to_string));
-        row.push(view.states.first().and_then(|s| s.used[i]).map_or(String::new(), |u| u.to_string()));
+        row.push(
+            view.states.first().and_then(|s| s.used[i]).map_or(String::new(), |u| u.to_string()),
+        );
         match view.motions.first() {
-            Some(m) => row.extend(m.rates[i].velocity.iter().chain(m.rates[i].spin.iter()).map(|v| (v / m.reach).to_string())),
+            Some(m) => row.extend(
+                m.rates[i]
+                    .velocity
+                    .iter()
+                    .chain(m.rates[i].spin.iter())
+                    .map(|v| (v / m.reach).to_string()),
+            ),
             None => row.extend(std::iter::repeat_n(String::new(), 6)),
         }
         writer.write_record(row)?;

@@ -5,14 +5,18 @@ use crate::{assembly::Assembly, dynamics::Frame};
 use std::io::Write;
 
 /// The columns.
-const HEAD: [&str; 16] = ["run", "time", "block", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"];
+const HEAD: [&str; 16] = [
+    "run", "time", "block", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy",
+    "wz",
+];
 
 /// Writes frames.
 pub struct TrajectoryWriter<W: Write>(W);
 
 impl<W: Write> TrajectoryWriter<W> {
-    /// Writes the head: `run` is `fast` or `fine`, time in s, `x, y, z` the centre of mass (m), `q…` the rotation from the start
-    /// (quaternion), `v…` its velocity (m/s), `w…` the spin (rad/s).
+    /// Writes the head: `run` is `fast` or `fine`, time in s, `x, y, z` the centre of mass (m),
+    /// `q…` the rotation from the start (quaternion), `v…` its velocity (m/s), `w…` the spin
+    /// (rad/s).
     ///
     /// # Errors
     /// The output cannot be written.
@@ -34,7 +38,12 @@ impl<W: Write> TrajectoryWriter<W> {
         for (block, pose) in assembly.blocks.iter().zip(&frame.blocks) {
             let (q, text) = (pose.turn, |v: f64| v.to_string());
             let mut row = vec![run.clone(), text(frame.time), block.id.clone()];
-            let numbers = pose.center.iter().chain([&q.w, &q.i, &q.j, &q.k]).chain(pose.velocity.iter()).chain(pose.spin.iter());
+            let numbers = pose
+                .center
+                .iter()
+                .chain([&q.w, &q.i, &q.j, &q.k])
+                .chain(pose.velocity.iter())
+                .chain(pose.spin.iter());
             row.extend(numbers.map(|&v| text(v)));
             rows.write_record(&row)?;
         }

@@ -68,7 +68,8 @@ pub enum Shape {
         /// Multiplies the coordinates of the file: 0.001 for a file in millimetres.
         #[serde(default = "one", skip_serializing_if = "is_one")]
         scale: f64,
-        /// Corners as the file has them. Results hold what was read, and so need no file; where it is given, no file is read.
+        /// Corners as the file has them. Results hold what was read, and so need no file; where it
+        /// is given, no file is read.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         vertices: Vec<[f64; 3]>,
         /// Faces as the file has them, which go with `vertices`.
@@ -87,7 +88,8 @@ pub enum Shape {
         /// Radius.
         radius: f64,
     },
-    /// Spheres rigidly joined, apart, touching or overlapping; where they overlap there is mass once.
+    /// Spheres rigidly joined, apart, touching or overlapping; where they overlap there is mass
+    /// once.
     Clump {
         /// The spheres.
         spheres: Vec<Ball>,

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 pub struct ContactSpec {
     /// Faces closer than this × size touch; 1 to 100 times it is reported as a near miss.
     pub gap: f64,
-    /// Faces touch only if their normals are opposite within this angle, degrees; faces that are not plane may lean by their twist besides.
+    /// Faces touch only if their normals are opposite within this angle, degrees; faces that are
+    /// not plane may lean by their twist besides.
     pub angle_deg: f64,
     /// Contacts smaller than this × size² are ignored and counted.
     pub min_area: f64,
@@ -18,7 +19,11 @@ pub struct ContactSpec {
 
 impl Default for ContactSpec {
     fn default() -> Self {
-        Self { gap: tolerance::CONTACT_GAP, angle_deg: tolerance::CONTACT_ANGLE_DEG, min_area: tolerance::CONTACT_MIN_AREA }
+        Self {
+            gap: tolerance::CONTACT_GAP,
+            angle_deg: tolerance::CONTACT_ANGLE_DEG,
+            min_area: tolerance::CONTACT_MIN_AREA,
+        }
     }
 }
 

@@ -25,11 +25,19 @@ pub(super) fn json_path(path: &serde_path_to_error::Path) -> JsonPath {
 }
 
 /// Why the text is not what was expected.
-pub(super) fn read_error(kind: &Kind, source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
+pub(super) fn read_error(
+    kind: &Kind,
+    source: &Source,
+    path: JsonPath,
+    error: &serde_json::Error,
+) -> InputError {
     match error.classify() {
         Category::Data => data_error(source, path, error),
-        // The reader says "syntax" also where good JSON has too many elements or keys for the type it is read into.
-        _ if serde_json::from_str::<IgnoredAny>(&source.text).is_ok() => misfit(kind, source, path, error),
+        // The reader says "syntax" also where good JSON has too many elements or keys for the type
+        // it is read into.
+        _ if serde_json::from_str::<IgnoredAny>(&source.text).is_ok() => {
+            misfit(kind, source, path, error)
+        }
         _ => syntax_error(kind, source, path, error),
     }
 }
@@ -40,10 +48,12 @@ fn misfit(kind: &Kind, source: &Source, path: JsonPath, error: &serde_json::Erro
     let value = value_at(source, &path);
     let result = match (&*message, &value) {
         ("number out of range", _) => {
-            InputError::at(path, "the number is too large for a 64-bit float").hint("numbers must be finite, at most 1.8e308")
+            InputError::at(path, "the number is too large for a 64-bit float")
+                .hint("numbers must be finite, at most 1.8e308")
         }
         (_, Some(serde_json::Value::Array(list))) => {
-            InputError::at(path, format!("too many elements: {}", list.len())).hint("a point or vector has 3, a prism's corner 2, a pair 2")
+            InputError::at(path, format!("too many elements: {}", list.len()))
+                .hint("a point or vector has 3, a prism's corner 2, a pair 2")
         }
         (_, Some(serde_json::Value::Object(map))) => {
             let keys: Vec<String> = map.keys().map(|k| format!("{k:?}")).collect();
@@ -51,7 +61,9 @@ fn misfit(kind: &Kind, source: &Source, path: JsonPath, error: &serde_json::Erro
             InputError::at(path, format!("needs exactly one kind, got {found}"))
                 .hint("for example { \"box\": { \"size\": [1, 1, 1] } } for a shape")
         }
-        ("recursion limit exceeded", _) => InputError::at(path, "lists or objects are nested too deeply").hint(too_deep(kind)),
+        ("recursion limit exceeded", _) => {
+            InputError::at(path, "lists or objects are nested too deeply").hint(too_deep(kind))
+        }
         _ => InputError::at(path, message),
     };
     let raw = source.position(source.offset(error.line(), error.column()));
@@ -60,50 +72,81 @@ fn misfit(kind: &Kind, source: &Source, path: JsonPath, error: &serde_json::Erro
 }
 
 /// Text that is not JSON.
-pub(super) fn syntax_error(kind: &Kind, source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
-    let offset = if error.classify() == Category::Eof { source.text.len() } else { source.offset(error.line(), error.column()) };
+pub(super) fn syntax_error(
+    kind: &Kind,
+    source: &Source,
+    path: JsonPath,
+    error: &serde_json::Error,
+) -> InputError {
+    let offset = if error.classify() == Category::Eof {
+        source.text.len()
+    } else {
+        source.offset(error.line(), error.column())
+    };
     let rest = source.text.get(offset..).unwrap_or("");
     let message = bare(error);
     let (message, hint) = if source.text.trim().is_empty() {
         ("the file is empty".into(), Some(kind.start()))
     } else if error.classify() == Category::Eof {
-        ("the file ends in the middle of a value".into(), Some("it is cut off, or a closing bracket or quote is missing".into()))
+        (
+            "the file ends in the middle of a value".into(),
+            Some("it is cut off, or a closing bracket or quote is missing".into()),
+        )
     } else {
         let word: String = rest.chars().take_while(|c| c.is_alphanumeric()).collect();
         let before = source.text.get(..offset).unwrap_or("").chars().next_back();
         let hint = match word.to_lowercase().as_str() {
             "nan" | "inf" | "infinity" => Some("JSON has no NaN or infinity: give a finite number"),
-            "true" | "false" | "none" | "null" => Some("JSON writes true, false, null in small letters"),
+            "true" | "false" | "none" | "null" => {
+                Some("JSON writes true, false, null in small letters")
+            }
             _ if rest.starts_with('\'') => Some("strings stand in double quotes"),
             _ if rest.starts_with('/') || rest.starts_with('#') => Some("JSON has no comments"),
-            _ if rest.starts_with('+') || rest.starts_with('.') || before.is_some_and(|c| c.is_ascii_digit() || c == '.' || c == '-') => {
+            _ if rest.starts_with('+')
+                || rest.starts_with('.')
+                || before.is_some_and(|c| c.is_ascii_digit() || c == '.' || c == '-') =>
+            {
                 Some("numbers are written like -0.5 or 1e-3")
             }
             _ => None,
         };
         let hint = hint.map(String::from);
         match message.as_str() {
-            "trailing comma" => ("a comma before a closing bracket".into(), Some("remove the comma".into())),
+            "trailing comma" => {
+                ("a comma before a closing bracket".into(), Some("remove the comma".into()))
+            }
             "trailing characters" => {
                 let noun = kind.noun;
                 (
                     format!("text after the end of the {noun}"),
-                    Some(format!("one file holds one {noun}: remove what follows its closing brace")),
+                    Some(format!(
+                        "one file holds one {noun}: remove what follows its closing brace"
+                    )),
                 )
             }
-            "recursion limit exceeded" => ("lists or objects are nested too deeply".into(), Some(too_deep(kind))),
-            "expected `,` or `}`" | "expected `,` or `]`" => {
-                (format!("not JSON: {message}"), hint.or(Some("a comma or a closing bracket is missing before this place".into())))
+            "recursion limit exceeded" => {
+                ("lists or objects are nested too deeply".into(), Some(too_deep(kind)))
             }
+            "expected `,` or `}`" | "expected `,` or `]`" => (
+                format!("not JSON: {message}"),
+                hint.or(Some("a comma or a closing bracket is missing before this place".into())),
+            ),
             "expected value" => ("not JSON: expected a value".into(), hint),
             "key must be a string" => ("not JSON: expected a key in double quotes".into(), hint),
-            m if m.starts_with("control character") => {
-                ("not JSON: a line break or control character inside a string".into(), Some("close the quotes, or write \\n".into()))
-            }
+            m if m.starts_with("control character") => (
+                "not JSON: a line break or control character inside a string".into(),
+                Some("close the quotes, or write \\n".into()),
+            ),
             _ => (format!("not JSON: {message}"), hint),
         }
     };
-    InputError { file: Some(source.name.clone()), position: Some(source.position(offset)), path, message, hint }
+    InputError {
+        file: Some(source.name.clone()),
+        position: Some(source.position(offset)),
+        path,
+        message,
+        hint,
+    }
 }
 
 /// JSON whose keys or types are not those expected.
@@ -113,31 +156,42 @@ fn data_error(source: &Source, path: JsonPath, error: &serde_json::Error) -> Inp
     let result = if message.starts_with("unknown field") {
         at_key = true;
         let key = last_key(&path).unwrap_or_default();
-        let hint = suggest(&key, expected(&message)).map_or("remove it".into(), |s| format!("{s} (or remove it)"));
+        let hint = suggest(&key, expected(&message))
+            .map_or("remove it".into(), |s| format!("{s} (or remove it)"));
         InputError::at(path, "unknown key").hint(hint)
     } else if let Some(rest) = message.strip_prefix("unknown variant `") {
         let word = rest.rsplit_once("`, expected").map_or(rest, |(w, _)| w);
         let inner = path.key(word);
         at_key = source.locate(&inner).is_some();
         let hint = suggest(word, expected(&message));
-        let error = InputError::at(if at_key { inner } else { path }, format!("unknown kind {word:?}"));
+        let error =
+            InputError::at(if at_key { inner } else { path }, format!("unknown kind {word:?}"));
         InputError { hint, ..error }
     } else if let Some(rest) = message.strip_prefix("missing field `") {
         let key = rest.trim_end_matches('`');
-        InputError::at(path, format!("the key {key:?} is missing")).hint(format!("add \"{key}\": …"))
+        InputError::at(path, format!("the key {key:?} is missing"))
+            .hint(format!("add \"{key}\": …"))
     } else if let Some(rest) = message.strip_prefix("duplicate field `") {
         at_key = true;
-        InputError::at(path.key(rest.trim_end_matches('`')), "the key is given twice").hint("keep one of them")
+        InputError::at(path.key(rest.trim_end_matches('`')), "the key is given twice")
+            .hint("keep one of them")
     } else if message.starts_with("invalid type: unit variant") {
         let kind = last_key(&path).unwrap_or_default();
         let parent = JsonPath(path.0[..path.0.len().saturating_sub(1)].to_vec());
-        InputError::at(parent, format!("{kind:?} lacks its values")).hint(format!("write {{ \"{kind}\": {{ … }} }}"))
-    } else if let Some((got, wanted)) = message.strip_prefix("invalid type: ").and_then(|m| m.split_once(", expected ")) {
+        InputError::at(parent, format!("{kind:?} lacks its values"))
+            .hint(format!("write {{ \"{kind}\": {{ … }} }}"))
+    } else if let Some((got, wanted)) =
+        message.strip_prefix("invalid type: ").and_then(|m| m.split_once(", expected "))
+    {
         let error = InputError::at(path, format!("expected {}, got {}", plain(wanted), plain(got)));
         InputError { hint: type_hint(got, wanted).map(Into::into), ..error }
-    } else if let Some((got, wanted)) = message.strip_prefix("invalid value: ").and_then(|m| m.split_once(", expected ")) {
+    } else if let Some((got, wanted)) =
+        message.strip_prefix("invalid value: ").and_then(|m| m.split_once(", expected "))
+    {
         InputError::at(path, format!("expected {}, got {}", plain(wanted), plain(got)))
-    } else if let Some((got, wanted)) = message.strip_prefix("invalid length ").and_then(|m| m.split_once(", expected an array of length "))
+    } else if let Some((got, wanted)) = message
+        .strip_prefix("invalid length ")
+        .and_then(|m| m.split_once(", expected an array of length "))
     {
         InputError::at(path, format!("expected {wanted} elements, got {got}"))
     } else if message == super::joint::GIVEN_TWICE {
@@ -146,9 +200,14 @@ fn data_error(source: &Source, path: JsonPath, error: &serde_json::Error) -> Inp
     } else {
         InputError::at(path, message)
     };
-    let position = if at_key { source.locate_key(&result.path) } else { source.locate(&result.path) };
+    let position =
+        if at_key { source.locate_key(&result.path) } else { source.locate(&result.path) };
     let raw = source.position(source.offset(error.line(), error.column()));
-    InputError { file: Some(source.name.clone()), position: Some(position.unwrap_or(raw)), ..result }
+    InputError {
+        file: Some(source.name.clone()),
+        position: Some(position.unwrap_or(raw)),
+        ..result
+    }
 }
 
 /// serde_json's message without its position.

@@ -10,16 +10,24 @@ impl Scene {
         serde_json::to_value(self).ok()?.pointer(pointer)?.as_f64()
     }
 
-    /// The same scene with another number at a pointer. What stands there must be a number (or the word `"infinite"`), or a key that
-    /// was left out.
+    /// The same scene with another number at a pointer. What stands there must be a number (or the
+    /// word `"infinite"`), or a key that was left out.
     ///
     /// # Errors
-    /// The pointer names nothing, or something that is no number; the scene with the new number cannot be read.
+    /// The pointer names nothing, or something that is no number; the scene with the new number
+    /// cannot be read.
     pub fn with_field(&self, pointer: &str, value: f64) -> Result<Self, InputError> {
-        let number = number(value).ok_or_else(|| InputError::at(JsonPath::root(), format!("{pointer}: not a finite number: {value}")))?;
-        let mut document = serde_json::to_value(self).map_err(|e| InputError::at(JsonPath::root(), e.to_string()))?;
+        let number = number(value).ok_or_else(|| {
+            InputError::at(JsonPath::root(), format!("{pointer}: not a finite number: {value}"))
+        })?;
+        let mut document = serde_json::to_value(self)
+            .map_err(|e| InputError::at(JsonPath::root(), e.to_string()))?;
         *place(&mut document, pointer)? = Value::Number(number);
-        let (scene, _) = read_str("", document.to_string()).map_err(|e| InputError { file: None, position: None, ..e })?;
+        let (scene, _) = read_str("", document.to_string()).map_err(|e| InputError {
+            file: None,
+            position: None,
+            ..e
+        })?;
         Ok(scene)
     }
 }
@@ -27,7 +35,11 @@ impl Scene {
 /// Whole numbers without a decimal point, so that counts can be read as well.
 fn number(value: f64) -> Option<Number> {
     const EXACT: f64 = 9_007_199_254_740_992.0;
-    if value.fract() == 0.0 && value.abs() < EXACT { Some(Number::from(value as i64)) } else { Number::from_f64(value) }
+    if value.fract() == 0.0 && value.abs() < EXACT {
+        Some(Number::from(value as i64))
+    } else {
+        Number::from_f64(value)
+    }
 }
 
 fn place<'a>(document: &'a mut Value, pointer: &str) -> Result<&'a mut Value, InputError> {
@@ -35,7 +47,8 @@ fn place<'a>(document: &'a mut Value, pointer: &str) -> Result<&'a mut Value, In
         let error = InputError::at(JsonPath::root(), format!("{pointer:?} is not a JSON pointer"));
         return Err(error.hint("start with a slash: /templates/0/arch/thickness"));
     };
-    let tokens: Vec<String> = rest.split('/').map(|t| t.replace("~1", "/").replace("~0", "~")).collect();
+    let tokens: Vec<String> =
+        rest.split('/').map(|t| t.replace("~1", "/").replace("~0", "~")).collect();
     let (mut here, mut path) = (document, JsonPath::root());
     for (depth, token) in tokens.iter().enumerate() {
         let next = tokens.get(depth + 1);
@@ -46,7 +59,13 @@ fn place<'a>(document: &'a mut Value, pointer: &str) -> Result<&'a mut Value, In
                 path = path.key(token);
                 match map.get_mut(token) {
                     Some(value) => value,
-                    None => return Err(missing(pointer, &path, &format!("there are {}", keys.join(", ")))),
+                    None => {
+                        return Err(missing(
+                            pointer,
+                            &path,
+                            &format!("there are {}", keys.join(", ")),
+                        ));
+                    }
                 }
             }
             Value::Array(list) => {
@@ -54,7 +73,13 @@ fn place<'a>(document: &'a mut Value, pointer: &str) -> Result<&'a mut Value, In
                 path = path.index(index.unwrap_or(usize::MAX));
                 match index.and_then(|i| list.get_mut(i)) {
                     Some(value) => value,
-                    None => return Err(missing(pointer, &path, &format!("the list has {count} entries, counted from 0"))),
+                    None => {
+                        return Err(missing(
+                            pointer,
+                            &path,
+                            &format!("the list has {count} entries, counted from 0"),
+                        ));
+                    }
                 }
             }
             _ => return Err(missing(pointer, &path.key(token), "what is above it holds no parts")),
@@ -73,8 +98,8 @@ fn place<'a>(document: &'a mut Value, pointer: &str) -> Result<&'a mut Value, In
     Err(error.hint("point at a number inside it"))
 }
 
-/// Writes out what the format lets one leave out: an origin, and the last key itself (whether there is such a key is for the reader
-/// to say).
+/// Writes out what the format lets one leave out: an origin, and the last key itself (whether there
+/// is such a key is for the reader to say).
 fn leave_in(map: &mut Map<String, Value>, token: &str, next: Option<&str>) {
     if map.contains_key(token) {
         return;
@@ -82,7 +107,9 @@ fn leave_in(map: &mut Map<String, Value>, token: &str, next: Option<&str>) {
     match next {
         None => drop(map.insert(token.to_string(), Value::Null)),
         Some(_) if token == "at" => drop(map.insert(token.to_string(), json!([0.0, 0.0, 0.0]))),
-        Some("default") if token == "joints" => drop(map.insert(token.to_string(), json!({ "default": {} }))),
+        Some("default") if token == "joints" => {
+            drop(map.insert(token.to_string(), json!({ "default": {} })))
+        }
         Some(_) => {}
     }
 }

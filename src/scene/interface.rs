@@ -10,11 +10,13 @@ use serde::{Deserialize, Serialize};
 pub struct InterfaceSpec {
     /// The ids of the two blocks.
     pub between: [String; 2],
-    /// Corners of the contact, m, in scene coordinates: a convex polygon, an edge (two points) or one point.
+    /// Corners of the contact, m, in scene coordinates: a convex polygon, an edge (two points) or
+    /// one point.
     pub points: Vec<[f64; 3]>,
-    /// Normal from the first block into the second; may be left out where three or more points span a plane,
-    /// and is then turned so that it points from the first block's centre to the second's. Where a plane is spanned and a normal given,
-    /// the plane gives the direction and the normal the side.
+    /// Normal from the first block into the second; may be left out where three or more points span
+    /// a plane, and is then turned so that it points from the first block's centre to the second's.
+    /// Where a plane is spanned and a normal given, the plane gives the direction and the normal
+    /// the side.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal: Option<[f64; 3]>,
     /// Friction of this interface; overrides the joint rules.

@@ -23,7 +23,8 @@ pub struct Joints {
     /// The rule for every joint without an exception.
     #[serde(default, skip_serializing_if = "JointSpec::is_empty")]
     pub default: JointSpec,
-    /// Exceptions; one for two blocks beats one for two materials, and among several of the same kind the last one wins.
+    /// Exceptions; one for two blocks beats one for two materials, and among several of the same
+    /// kind the last one wins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub overrides: Vec<JointOverride>,
 }
@@ -55,7 +56,8 @@ pub struct JointSpec {
     pub rolling_arm: Option<f64>,
 }
 
-/// An exception: the joints between two materials, or between two blocks. What it leaves out is as in the default.
+/// An exception: the joints between two materials, or between two blocks. What it leaves out is as
+/// in the default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointOverride {
@@ -162,7 +164,11 @@ impl<'de> Deserialize<'de> for Friction {
                 Ok(Friction::Coefficient(mu as f64))
             }
             fn visit_str<E: de::Error>(self, text: &str) -> Result<Friction, E> {
-                if text == "infinite" { Ok(Friction::Infinite) } else { Err(E::invalid_value(de::Unexpected::Str(text), &self)) }
+                if text == "infinite" {
+                    Ok(Friction::Infinite)
+                } else {
+                    Err(E::invalid_value(de::Unexpected::Str(text), &self))
+                }
             }
         }
         deserializer.deserialize_any(Visitor)
@@ -185,8 +191,11 @@ impl JsonSchema for Friction {
 /// The error about a name that a map holds twice.
 pub(super) const GIVEN_TWICE: &str = "the name is given twice";
 
-/// Reads a map and refuses a name that is given twice (serde's own maps keep the last and say nothing).
-pub(super) fn distinct_names<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<String, Material>, D::Error> {
+/// Reads a map and refuses a name that is given twice (serde's own maps keep the last and say
+/// nothing).
+pub(super) fn distinct_names<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<BTreeMap<String, Material>, D::Error> {
     /// Stands for the value of a repeated key, so that the error lies at that key.
     struct Twice;
     impl<'de> de::DeserializeSeed<'de> for Twice {

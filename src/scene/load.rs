@@ -15,7 +15,8 @@ pub struct Loads {
     pub live: Vec<Load>,
 }
 
-/// One load: a `force` and/or `moment` on a `block`, or an `acceleration` or `weight` on one block or all free blocks.
+/// One load: a `force` and/or `moment` on a `block`, or an `acceleration` or `weight` on one block
+/// or all free blocks.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
@@ -31,7 +32,8 @@ pub struct Load {
     /// Where the force acts: a point of the scene, m, or `"centroid"` (the default).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<At>,
-    /// An arm of no weight carries the force from the block to `at`, however far off that lies. Without it such a force is taken for a mistake.
+    /// An arm of no weight carries the force from the block to `at`, however far off that lies.
+    /// Without it such a force is taken for a mistake.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub arm: bool,
     /// Body force: mass × this acceleration, m/s².

@@ -1,8 +1,9 @@
 //! What a scene file says, and nothing more (`"format": "voussoir-scene/1"`).
 //!
-//! These types mirror the JSON one to one: units as written, references by name, defaults not yet applied
-//! where they depend on anything else. [`crate::assembly::resolve`] turns a [`Scene`] into an
-//! [`Assembly`](crate::assembly::Assembly). Unknown keys are refused; writing a scene and reading it back gives the same scene.
+//! These types mirror the JSON one to one: units as written, references by name, defaults not yet
+//! applied where they depend on anything else. [`crate::assembly::resolve`] turns a [`Scene`] into
+//! an [`Assembly`](crate::assembly::Assembly). Unknown keys are refused; writing a scene and
+//! reading it back gives the same scene.
 
 mod block;
 mod contact;
@@ -63,7 +64,11 @@ pub struct Scene {
     #[serde(default = "standard_gravity")]
     pub gravity: [f64; 3],
     /// Materials by name.
-    #[serde(default, deserialize_with = "joint::distinct_names", skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(
+        default,
+        deserialize_with = "joint::distinct_names",
+        skip_serializing_if = "BTreeMap::is_empty"
+    )]
     pub materials: BTreeMap<String, Material>,
     /// How joints resist.
     #[serde(default, skip_serializing_if = "Joints::is_empty")]

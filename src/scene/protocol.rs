@@ -16,7 +16,8 @@ pub struct Protocol {
     pub corners: usize,
     /// Number of free grains.
     pub grains: usize,
-    /// Mean diameter d, m: of the spheres, and of spheres of the same volume as the clumps or hulls.
+    /// Mean diameter d, m: of the spheres, and of spheres of the same volume as the clumps or
+    /// hulls.
     pub diameter: f64,
     /// Radii are spread evenly over the mean × (1 ± this).
     pub sizes: f64,
@@ -28,10 +29,11 @@ pub struct Protocol {
     pub rolling_arm: f64,
     /// Density, kg/m³.
     pub density: f64,
-    /// Length and width of the box (drain, tilt), or twice the diameter of the cylinder or of the stream of the funnel and nothing, in mean
-    /// diameters.
+    /// Length and width of the box (drain, tilt), or twice the diameter of the cylinder or of the
+    /// stream of the funnel and nothing, in mean diameters.
     pub size: [f64; 2],
-    /// Speed at which the cylinder is lifted, √(g d), or rate at which the bed is tilted, degrees per √(d/g).
+    /// Speed at which the cylinder is lifted, √(g d), or rate at which the bed is tilted, degrees
+    /// per √(d/g).
     pub rate: f64,
 }
 

@@ -32,9 +32,17 @@ pub(crate) fn text(name: impl Into<String>, bytes: Vec<u8>) -> Result<Source, In
             let bytes = e.into_bytes();
             let source = Source::new(name, String::from_utf8_lossy(&bytes[..good]));
             let utf16 = bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]);
-            let message = if utf16 { "the file is in UTF-16, not UTF-8" } else { "the file is not text in UTF-8" };
+            let message = if utf16 {
+                "the file is in UTF-16, not UTF-8"
+            } else {
+                "the file is not text in UTF-8"
+            };
             let error = InputError::at(JsonPath::root(), message).hint("save it as UTF-8");
-            Err(InputError { position: Some(source.position(source.text.len())), file: Some(source.name), ..error })
+            Err(InputError {
+                position: Some(source.position(source.text.len())),
+                file: Some(source.name),
+                ..error
+            })
         }
     }
 }
@@ -43,8 +51,14 @@ pub(crate) fn text(name: impl Into<String>, bytes: Vec<u8>) -> Result<Source, In
 ///
 /// # Errors
 /// The text is not JSON, or is not a scene.
-pub fn read_str(name: impl Into<String>, text: impl Into<String>) -> Result<(Scene, Source), InputError> {
-    debug_assert_eq!(serde_json::to_value(SceneFormat::V1).ok().as_ref().and_then(|v| v.as_str()), Some(SCENE.format));
+pub fn read_str(
+    name: impl Into<String>,
+    text: impl Into<String>,
+) -> Result<(Scene, Source), InputError> {
+    debug_assert_eq!(
+        serde_json::to_value(SceneFormat::V1).ok().as_ref().and_then(|v| v.as_str()),
+        Some(SCENE.format)
+    );
     read_as(&SCENE, Source::new(name, text))
 }
 
@@ -64,25 +78,37 @@ impl Kind {
     }
 }
 
-const SCENE: Kind = Kind { noun: "scene", format: "voussoir-scene/1", otherwise: "; `voussoir import` reads files of other programs" };
+const SCENE: Kind = Kind {
+    noun: "scene",
+    format: "voussoir-scene/1",
+    otherwise: "; `voussoir import` reads files of other programs",
+};
 
 /// Reads a JSON file of a kind.
-pub(crate) fn read_as<T: DeserializeOwned>(kind: &Kind, source: Source) -> Result<(T, Source), InputError> {
+pub(crate) fn read_as<T: DeserializeOwned>(
+    kind: &Kind,
+    source: Source,
+) -> Result<(T, Source), InputError> {
     let first = source.text.trim_start().chars().next();
     if first.is_some_and(|c| c == '[' || c == '"' || c == '-' || c.is_ascii_digit()) {
-        let error = InputError::at(JsonPath::root(), format!("a {} is a JSON object, not a list, string or number", kind.noun));
+        let error = InputError::at(
+            JsonPath::root(),
+            format!("a {} is a JSON object, not a list, string or number", kind.noun),
+        );
         return Err(error.hint(kind.start()).located(&source));
     }
     let mut deserializer = serde_json::Deserializer::from_str(&source.text);
     let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|e| {
         let path = explain::json_path(e.path());
-        wrong_format(kind, &source).unwrap_or_else(|| explain::read_error(kind, &source, path, e.inner()))
+        wrong_format(kind, &source)
+            .unwrap_or_else(|| explain::read_error(kind, &source, path, e.inner()))
     })?;
     deserializer.end().map_err(|e| explain::syntax_error(kind, &source, JsonPath::root(), &e))?;
     Ok((value, source))
 }
 
-/// What is wrong with the key `format`, which is said before anything else: a file of another format is full of strange keys.
+/// What is wrong with the key `format`, which is said before anything else: a file of another
+/// format is full of strange keys.
 fn wrong_format(kind: &Kind, source: &Source) -> Option<InputError> {
     #[derive(Deserialize)]
     struct Head {
@@ -96,19 +122,25 @@ fn wrong_format(kind: &Kind, source: &Source) -> Option<InputError> {
     let Kind { noun, format: here, otherwise } = kind;
     let is = |text: &str, prefix: &str| !here.starts_with(prefix) && text.starts_with(prefix);
     let error = match head.format {
-        None => InputError::at(JsonPath::root(), format!("not a {noun}: the key \"format\" is missing"))
-            .hint(format!("add \"format\": \"{here}\"{otherwise}")),
+        None => {
+            InputError::at(JsonPath::root(), format!("not a {noun}: the key \"format\" is missing"))
+                .hint(format!("add \"format\": \"{here}\"{otherwise}"))
+        }
         Some(serde_json::Value::String(s)) if s == *here => return None,
         Some(serde_json::Value::String(s)) if is(&s, "voussoir-result/") => {
-            InputError::at(path, format!("this is a result ({s:?}), not a {noun}")).hint("`voussoir check` reads results")
+            InputError::at(path, format!("this is a result ({s:?}), not a {noun}"))
+                .hint("`voussoir check` reads results")
         }
         Some(serde_json::Value::String(s)) if is(&s, "voussoir-sweep/") => {
-            InputError::at(path, format!("this is a sweep plan ({s:?}), not a {noun}")).hint("`voussoir sweep` reads plans")
+            InputError::at(path, format!("this is a sweep plan ({s:?}), not a {noun}"))
+                .hint("`voussoir sweep` reads plans")
         }
         Some(serde_json::Value::String(s)) if is(&s, "voussoir-scene/") => {
-            InputError::at(path, format!("this is a scene ({s:?}), not a {noun}")).hint("name it under the key \"scene\" of a plan")
+            InputError::at(path, format!("this is a scene ({s:?}), not a {noun}"))
+                .hint("name it under the key \"scene\" of a plan")
         }
-        Some(other) => InputError::at(path, format!("unknown format {other}")).hint(format!("this program reads \"{here}\"")),
+        Some(other) => InputError::at(path, format!("unknown format {other}"))
+            .hint(format!("this program reads \"{here}\"")),
     };
     Some(error.located(source))
 }

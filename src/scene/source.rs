@@ -24,17 +24,20 @@ impl Source {
         Self { name: name.into(), text }
     }
 
-    /// Line and column (counted from 1, columns in characters) of the value at `path`; `None` where the text has no such value.
+    /// Line and column (counted from 1, columns in characters) of the value at `path`; `None` where
+    /// the text has no such value.
     pub fn locate(&self, path: &JsonPath) -> Option<(usize, usize)> {
         self.descend(&path.0).map(|m| self.position(m.value))
     }
 
-    /// Line and column of the last key of `path` itself (of the value, where the last step is an array index).
+    /// Line and column of the last key of `path` itself (of the value, where the last step is an
+    /// array index).
     pub(super) fn locate_key(&self, path: &JsonPath) -> Option<(usize, usize)> {
         self.descend(&path.0).map(|m| self.position(m.key.unwrap_or(m.value)))
     }
 
-    /// Line and column of the deepest part of `path` that the text has; the start of the text if it has none.
+    /// Line and column of the deepest part of `path` that the text has; the start of the text if it
+    /// has none.
     pub fn locate_nearest(&self, path: &JsonPath) -> (usize, usize) {
         let found = (0..=path.0.len()).rev().find_map(|n| self.descend(&path.0[..n]));
         self.position(found.map_or(0, |m| m.value))
@@ -51,7 +54,8 @@ impl Source {
         (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
     }
 
-    /// The byte offset of a line and a column in bytes, both counted from 1; the end of the text where there is no such line.
+    /// The byte offset of a line and a column in bytes, both counted from 1; the end of the text
+    /// where there is no such line.
     pub(super) fn offset(&self, line: usize, column: usize) -> usize {
         let start = match line {
             0 | 1 => 0,
@@ -66,14 +70,19 @@ impl Source {
         for step in steps {
             let inner = &self.text[at.value..at.value + at.len];
             let found = child(inner, step)?;
-            at = Member { key: found.key.map(|k| k + at.value), value: found.value + at.value, len: found.len };
+            at = Member {
+                key: found.key.map(|k| k + at.value),
+                value: found.value + at.value,
+                len: found.len,
+            };
         }
         Some(at)
     }
 }
 
 impl InputError {
-    /// This error with the file's name and the position of its path (of the nearest enclosing value where the file leaves the path out).
+    /// This error with the file's name and the position of its path (of the nearest enclosing value
+    /// where the file leaves the path out).
     #[must_use]
     pub fn located(mut self, source: &Source) -> Self {
         self.position = Some(source.locate_nearest(&self.path));
@@ -131,7 +140,11 @@ impl<'de> Visitor<'de> for Find<'_> {
             let wanted = matches!(self.step, Step::Key(k) if serde_json::from_str::<String>(key.get()).is_ok_and(|name| name == *k));
             if wanted {
                 let value = map.next_value::<&'de RawValue>()?;
-                self.found.set(Some(Member { key: Some(self.offset(key)), value: self.offset(value), len: value.get().len() }));
+                self.found.set(Some(Member {
+                    key: Some(self.offset(key)),
+                    value: self.offset(value),
+                    len: value.get().len(),
+                }));
             } else {
                 map.next_value::<IgnoredAny>()?;
             }
@@ -143,7 +156,11 @@ impl<'de> Visitor<'de> for Find<'_> {
         let mut index = 0;
         while let Some(value) = seq.next_element::<&'de RawValue>()? {
             if matches!(self.step, Step::Index(n) if *n == index) {
-                self.found.set(Some(Member { key: None, value: self.offset(value), len: value.get().len() }));
+                self.found.set(Some(Member {
+                    key: None,
+                    value: self.offset(value),
+                    len: value.get().len(),
+                }));
                 break;
             }
             index += 1;
@@ -165,7 +182,10 @@ mod tests {
 
     #[test]
     fn finds_every_kind_of_step() {
-        let s = Source::new("f", "\u{feff}{\n  \"a\\u0062\": [1, {\"ü\": [true, \"x\"]}],\n  \"c\": null\n}\n");
+        let s = Source::new(
+            "f",
+            "\u{feff}{\n  \"a\\u0062\": [1, {\"ü\": [true, \"x\"]}],\n  \"c\": null\n}\n",
+        );
         assert_eq!(s.locate(&path(&[])), Some((1, 1)));
         assert_eq!(s.locate(&path(&["ab"])), Some((2, 14)));
         assert_eq!(s.locate(&path(&["ab", "1", "ü"])), Some((2, 24)));

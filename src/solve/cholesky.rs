@@ -1,4 +1,5 @@
-//! Sparse Cholesky factorisation of symmetric positive definite matrices of one pattern; with `lu.rs` the adapter to faer.
+//! Sparse Cholesky factorisation of symmetric positive definite matrices of one pattern; with
+//! `lu.rs` the adapter to faer.
 
 use faer::{
     Conj, MatMut, Par, Side,
@@ -6,7 +7,10 @@ use faer::{
     linalg::cholesky::llt::factor::LltRegularization,
     sparse::{
         SparseColMatRef, SymbolicSparseColMatRef,
-        linalg::cholesky::{CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky},
+        linalg::cholesky::{
+            CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+            factorize_symbolic_cholesky,
+        },
     },
 };
 
@@ -26,8 +30,8 @@ impl Pattern {
     }
 }
 
-/// Factors of matrices of one pattern: the ordering (approximate minimum degree) and the fill are found once. One thread, so that the
-/// same matrix always has the same factors.
+/// Factors of matrices of one pattern: the ordering (approximate minimum degree) and the fill are
+/// found once. One thread, so that the same matrix always has the same factors.
 pub struct Cholesky {
     pattern: Pattern,
     symbolic: SymbolicCholesky<usize>,
@@ -41,13 +45,26 @@ impl Cholesky {
         let n = pattern.size();
         let ascending = |k: usize| {
             let column = pattern.rows.get(pattern.starts[k]..pattern.starts[k + 1])?;
-            Some(column.windows(2).all(|w| w[0] < w[1]) && column.iter().all(|&i| (k..n).contains(&i)))
+            Some(
+                column.windows(2).all(|w| w[0] < w[1])
+                    && column.iter().all(|&i| (k..n).contains(&i)),
+            )
         };
-        if n == 0 || pattern.starts[n] != pattern.rows.len() || !(0..n).all(|k| ascending(k) == Some(true)) {
+        if n == 0
+            || pattern.starts[n] != pattern.rows.len()
+            || !(0..n).all(|k| ascending(k) == Some(true))
+        {
             return None;
         }
-        let entries = SymbolicSparseColMatRef::new_checked(n, n, &pattern.starts, None, &pattern.rows);
-        let symbolic = factorize_symbolic_cholesky(entries, Side::Lower, SymmetricOrdering::Amd, CholeskySymbolicParams::default()).ok()?;
+        let entries =
+            SymbolicSparseColMatRef::new_checked(n, n, &pattern.starts, None, &pattern.rows);
+        let symbolic = factorize_symbolic_cholesky(
+            entries,
+            Side::Lower,
+            SymmetricOrdering::Amd,
+            CholeskySymbolicParams::default(),
+        )
+        .ok()?;
         let need = StackReq::any_of(&[
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
             symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
@@ -64,14 +81,21 @@ impl Cholesky {
         self.factor.len()
     }
 
-    /// Factors the matrix with these values of the pattern; false where it is not positive definite to working precision.
+    /// Factors the matrix with these values of the pattern; false where it is not positive definite
+    /// to working precision.
     pub fn factorize(&mut self, values: &[f64]) -> bool {
         self.factorize_from(values, LltRegularization::default())
     }
 
     /// The same where pivots of at most `least` are rounding: they are replaced by 1.
     pub fn factorize_above(&mut self, values: &[f64], least: f64) -> bool {
-        self.factorize_from(values, LltRegularization { dynamic_regularization_delta: 1.0, dynamic_regularization_epsilon: least })
+        self.factorize_from(
+            values,
+            LltRegularization {
+                dynamic_regularization_delta: 1.0,
+                dynamic_regularization_epsilon: least,
+            },
+        )
     }
 
     fn factorize_from(&mut self, values: &[f64], regularization: LltRegularization<f64>) -> bool {
@@ -79,10 +103,26 @@ impl Cholesky {
         if values.len() != self.pattern.rows.len() {
             return false;
         }
-        let entries = SymbolicSparseColMatRef::new_checked(n, n, &self.pattern.starts, None, &self.pattern.rows);
+        let entries = SymbolicSparseColMatRef::new_checked(
+            n,
+            n,
+            &self.pattern.starts,
+            None,
+            &self.pattern.rows,
+        );
         let matrix = SparseColMatRef::new(entries, values);
         let (factor, stack) = (&mut self.factor, MemStack::new(&mut self.work));
-        self.symbolic.factorize_numeric_llt(factor, matrix, Side::Lower, regularization, Par::Seq, stack, Default::default()).is_ok()
+        self.symbolic
+            .factorize_numeric_llt(
+                factor,
+                matrix,
+                Side::Lower,
+                regularization,
+                Par::Seq,
+                stack,
+                Default::default(),
+            )
+            .is_ok()
     }
 
     /// Solves with the last factors, in place.

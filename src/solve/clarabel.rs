@@ -11,8 +11,8 @@ use std::{
     time::Instant,
 };
 
-/// A program that is solved several times with changed right-hand sides and objectives by clarabel's interior-point method (Goulart & Chen
-/// 2024): ordering and set-up are kept.
+/// A program that is solved several times with changed right-hand sides and objectives by
+/// clarabel's interior-point method (Goulart & Chen 2024): ordering and set-up are kept.
 pub struct Session {
     engine: DefaultSolver<f64>,
     trace: Arc<Mutex<Vec<Iteration>>>,
@@ -21,12 +21,18 @@ pub struct Session {
 
 impl Session {
     /// Sets a program up; `None` where the engine refuses it.
-    pub fn new(program: &ConicProgram, settings: &Settings, regularization: f64, equilibrate: bool) -> Option<Self> {
+    pub fn new(
+        program: &ConicProgram,
+        settings: &Settings,
+        regularization: f64,
+        equilibrate: bool,
+    ) -> Option<Self> {
         let start = Arc::new(Mutex::new(Instant::now()));
         // The engine counts the seconds of each solve anew: the callback knows better.
         let deadline = settings.deadline;
         let m = &program.matrix;
-        let matrix = CscMatrix::new_from_triplets(m.rows, m.columns, m.i.clone(), m.j.clone(), m.v.clone());
+        let matrix =
+            CscMatrix::new_from_triplets(m.rows, m.columns, m.i.clone(), m.j.clone(), m.v.clone());
         let n = m.columns;
         let quadratic = if program.quadratic.is_empty() {
             CscMatrix::zeros((n, n))
@@ -51,13 +57,22 @@ impl Session {
             equilibrate_enable: equilibrate,
             verbose: false,
             max_threads: 1,
-            // By the fill of the factor: scalar where it is sparse (walls pushed in their plane, arches), in dense blocks where it is not
-            // (heaps of grains: 4,495 spheres in 36 s instead of more than 120 s).
+            // By the fill of the factor: scalar where it is sparse (walls pushed in their plane,
+            // arches), in dense blocks where it is not (heaps of grains: 4,495 spheres in 36 s
+            // instead of more than 120 s).
             direct_solve_method: "auto".into(),
             presolve_enable: false,
             ..DefaultSettings::default()
         };
-        let mut engine = DefaultSolver::new(&quadratic, &program.objective, &matrix, &program.rhs, &cones, engine_settings).ok()?;
+        let mut engine = DefaultSolver::new(
+            &quadratic,
+            &program.objective,
+            &matrix,
+            &program.rhs,
+            &cones,
+            engine_settings,
+        )
+        .ok()?;
         let trace = Arc::new(Mutex::new(Vec::new()));
         let (recorder, clock) = (Arc::clone(&trace), Arc::clone(&start));
         engine.set_termination_callback(move |info: &DefaultInfo<f64>| {
@@ -91,14 +106,30 @@ impl Session {
         let status = match self.engine.solution.status {
             SolverStatus::Solved => Status::Solved,
             SolverStatus::AlmostSolved => Status::AlmostSolved,
-            SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => Status::PrimalInfeasible,
-            SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => Status::DualInfeasible,
-            SolverStatus::MaxIterations | SolverStatus::MaxTime | SolverStatus::CallbackTerminated => Status::Limit,
-            SolverStatus::Unsolved | SolverStatus::NumericalError | SolverStatus::InsufficientProgress => Status::Stalled,
+            SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
+                Status::PrimalInfeasible
+            }
+            SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => {
+                Status::DualInfeasible
+            }
+            SolverStatus::MaxIterations
+            | SolverStatus::MaxTime
+            | SolverStatus::CallbackTerminated => Status::Limit,
+            SolverStatus::Unsolved
+            | SolverStatus::NumericalError
+            | SolverStatus::InsufficientProgress => Status::Stalled,
         };
         let trace = self.trace.lock().map(|mut t| std::mem::take(&mut *t)).unwrap_or_default();
         // Counted from the end of the last solve: the first one includes the set-up.
-        let seconds = self.start.lock().map_or(0.0, |mut s| std::mem::replace(&mut *s, Instant::now()).elapsed().as_secs_f64());
-        Solution { x: self.engine.solution.x.clone(), z: self.engine.solution.z.clone(), status, trace, seconds }
+        let seconds = self.start.lock().map_or(0.0, |mut s| {
+            std::mem::replace(&mut *s, Instant::now()).elapsed().as_secs_f64()
+        });
+        Solution {
+            x: self.engine.solution.x.clone(),
+            z: self.engine.solution.z.clone(),
+            status,
+            trace,
+            seconds,
+        }
     }
 }

@@ -1,4 +1,5 @@
-//! A session with the engine that the settings name; clarabel takes what is not made like a program of contacts.
+//! A session with the engine that the settings name; clarabel takes what is not made like a program
+//! of contacts.
 
 use super::{EngineSettings, Settings, Solution, clarabel, interior};
 use crate::program::ConicProgram;
@@ -14,11 +15,14 @@ impl Session {
     pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
         match settings.engine {
             EngineSettings::Clarabel { regularization, equilibrate } => {
-                clarabel::Session::new(program, settings, regularization, equilibrate).map(|s| Self::Clarabel(Box::new(s)))
+                clarabel::Session::new(program, settings, regularization, equilibrate)
+                    .map(|s| Self::Clarabel(Box::new(s)))
             }
             EngineSettings::Interior => match interior::Session::new(program, settings) {
                 Some(s) => Some(Self::Interior(Box::new(s))),
-                None => Self::new(program, &Settings { engine: EngineSettings::default(), ..*settings }),
+                None => {
+                    Self::new(program, &Settings { engine: EngineSettings::default(), ..*settings })
+                }
             },
         }
     }

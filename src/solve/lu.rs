@@ -1,4 +1,5 @@
-//! Sparse LU factorisation of square matrices of a symmetric pattern and unsymmetric values; with `cholesky.rs` the adapter to faer.
+//! Sparse LU factorisation of square matrices of a symmetric pattern and unsymmetric values; with
+//! `cholesky.rs` the adapter to faer.
 
 use super::Pattern;
 use faer::{
@@ -13,7 +14,8 @@ use faer::{
     },
 };
 
-/// Factors of matrices of one pattern: the ordering is found once. One thread, so that the same matrix always has the same factors.
+/// Factors of matrices of one pattern: the ordering is found once. One thread, so that the same
+/// matrix always has the same factors.
 pub struct Lu {
     pattern: Pattern,
     /// Where each entry of the lower triangle, and its mirror image, stand in the whole matrix.
@@ -25,7 +27,8 @@ pub struct Lu {
 }
 
 impl Lu {
-    /// Prepares the pattern of which this is the lower triangle, diagonal included; `None` where it is none or does not fit into memory.
+    /// Prepares the pattern of which this is the lower triangle, diagonal included; `None` where it
+    /// is none or does not fit into memory.
     pub fn new(lower: &Pattern) -> Option<Self> {
         let n = lower.size();
         if n == 0 || lower.starts[n] != lower.rows.len() || !lower.starts.is_sorted() {
@@ -34,7 +37,9 @@ impl Lu {
         let mut columns = vec![Vec::new(); n];
         // One sweep by ascending column leaves the rows of every column in order.
         for j in 0..n {
-            for (k, &i) in lower.rows.iter().enumerate().take(lower.starts[j + 1]).skip(lower.starts[j]) {
+            for (k, &i) in
+                lower.rows.iter().enumerate().take(lower.starts[j + 1]).skip(lower.starts[j])
+            {
                 columns.get(i)?;
                 columns[j].push((i, k, 0));
                 if i != j {
@@ -58,9 +63,13 @@ impl Lu {
         if columns.iter().any(|c| !c.windows(2).all(|w| w[0].0 < w[1].0)) {
             return None;
         }
-        let entries = SymbolicSparseColMatRef::new_checked(n, n, &pattern.starts, None, &pattern.rows);
+        let entries =
+            SymbolicSparseColMatRef::new_checked(n, n, &pattern.starts, None, &pattern.rows);
         // In blocks always: column by column, faer 0.21 panics at a pivot of exactly zero.
-        let in_blocks = LuSymbolicParams { supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL, ..Default::default() };
+        let in_blocks = LuSymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
         let symbolic = factorize_symbolic_lu(entries, in_blocks).ok()?;
         let need = StackReq::any_of(&[
             symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Default::default()),
@@ -71,25 +80,46 @@ impl Lu {
         Some(Self { pattern, places, symbolic, numeric: NumericLu::new(), values, work })
     }
 
-    /// Solves with the matrix of these values of the lower triangle and, entry by entry, of its mirror image, in place; `x` are one or two
-    /// right-hand sides, one after the other. False where the matrix is singular or something does not fit.
+    /// Solves with the matrix of these values of the lower triangle and, entry by entry, of its
+    /// mirror image, in place; `x` are one or two right-hand sides, one after the other. False
+    /// where the matrix is singular or something does not fit.
     pub fn solve(&mut self, lower: &[f64], upper: &[f64], x: &mut [f64]) -> bool {
         let n = self.pattern.size();
-        if lower.len() != self.places.len() || upper.len() != self.places.len() || (x.len() != n && x.len() != 2 * n) {
+        if lower.len() != self.places.len()
+            || upper.len() != self.places.len()
+            || (x.len() != n && x.len() != 2 * n)
+        {
             return false;
         }
         for ((place, l), u) in self.places.iter().zip(lower).zip(upper) {
             self.values[place[1]] = *u;
             self.values[place[0]] = *l;
         }
-        let entries = SymbolicSparseColMatRef::new_checked(n, n, &self.pattern.starts, None, &self.pattern.rows);
+        let entries = SymbolicSparseColMatRef::new_checked(
+            n,
+            n,
+            &self.pattern.starts,
+            None,
+            &self.pattern.rows,
+        );
         let matrix = SparseColMatRef::new(entries, &self.values[..]);
         let stack = MemStack::new(&mut self.work);
-        let Ok(factors) = self.symbolic.factorize_numeric_lu(&mut self.numeric, matrix, Par::Seq, stack, Default::default()) else {
+        let Ok(factors) = self.symbolic.factorize_numeric_lu(
+            &mut self.numeric,
+            matrix,
+            Par::Seq,
+            stack,
+            Default::default(),
+        ) else {
             return false;
         };
         let columns = x.len() / n;
-        factors.solve_in_place_with_conj(Conj::No, MatMut::from_column_major_slice_mut(x, n, columns), Par::Seq, stack);
+        factors.solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(x, n, columns),
+            Par::Seq,
+            stack,
+        );
         // A pivot of exactly zero was divided by.
         x.iter().all(|v| v.is_finite())
     }
@@ -103,7 +133,11 @@ mod tests {
 
     /// `[[4, 2, 0], [1, 3, −1], [0, 1, 2]]`.
     fn three() -> (Pattern, [f64; 5], [f64; 5]) {
-        (Pattern { starts: vec![0, 2, 4, 5], rows: vec![0, 1, 1, 2, 2] }, [4.0, 1.0, 3.0, 1.0, 2.0], [4.0, 2.0, 3.0, -1.0, 2.0])
+        (
+            Pattern { starts: vec![0, 2, 4, 5], rows: vec![0, 1, 1, 2, 2] },
+            [4.0, 1.0, 3.0, 1.0, 2.0],
+            [4.0, 2.0, 3.0, -1.0, 2.0],
+        )
     }
 
     #[test]
@@ -130,7 +164,8 @@ mod tests {
     }
 
     proptest! {
-        /// Small whole numbers on random patterns: pivots cancel exactly. Against a dense factorisation.
+        /// Small whole numbers on random patterns: pivots cancel exactly. Against a dense
+        /// factorisation.
         #[test]
         fn whole_numbers_are_solved_or_singular(n in 1usize..9, seed in any::<u64>(), share in 1u64..9) {
             let mut state = seed;

@@ -1,4 +1,5 @@
-//! Solving a conic program. What comes back is a candidate, never an answer: every verdict is recomputed from the scene.
+//! Solving a conic program. What comes back is a candidate, never an answer: every verdict is
+//! recomputed from the scene.
 
 mod cholesky;
 mod clarabel;
@@ -38,13 +39,16 @@ pub enum Status {
 }
 
 /// What solves a program, by name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Engine {
     /// Clarabel: any conic program.
     #[default]
     Clarabel,
-    /// The interior-point method of this crate, on the stiffness matrix of the blocks: programs in forces.
+    /// The interior-point method of this crate, on the stiffness matrix of the blocks: programs in
+    /// forces.
     Interior,
 }
 
@@ -113,7 +117,12 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { engine: EngineSettings::default(), tolerance: 1e-10, iterations: 200, deadline: Deadline::NEVER }
+        Self {
+            engine: EngineSettings::default(),
+            tolerance: 1e-10,
+            iterations: 200,
+            deadline: Deadline::NEVER,
+        }
     }
 }
 

@@ -1,6 +1,6 @@
-//! Time limits that hold: the engine looks at the clock between iterations only, and setting up or factoring a large program
-//! can take minutes. Under a time limit it runs on a thread of its own, which is left to itself when it does not answer in time;
-//! what was found before is not lost then.
+//! Time limits that hold: the engine looks at the clock between iterations only, and setting up or
+//! factoring a large program can take minutes. Under a time limit it runs on a thread of its own,
+//! which is left to itself when it does not answer in time; what was found before is not lost then.
 
 use super::{Settings, Solution, Status, engine};
 use crate::{deadline::Deadline, program::ConicProgram};
@@ -9,8 +9,9 @@ use std::{
     time::Duration,
 };
 
-/// How long the engine is waited for once its time is past, as a share of it and in seconds. Longer: the limit means less.
-/// Shorter: the last iterate, which may close a bracket, is lost with the iteration under way.
+/// How long the engine is waited for once its time is past, as a share of it and in seconds.
+/// Longer: the limit means less. Shorter: the last iterate, which may close a bracket, is lost with
+/// the iteration under way.
 const PATIENCE: f64 = 0.05;
 const LEAST_PATIENCE: f64 = 0.1;
 /// Seconds between two looks whether it was cancelled.
@@ -18,11 +19,12 @@ const STEP: f64 = 0.05;
 
 /// Solves a program.
 pub fn solve(program: &ConicProgram, settings: &Settings) -> Solution {
-    Session::new(program, settings).map_or_else(|| none(Status::Refused), |mut session| session.solve())
+    Session::new(program, settings)
+        .map_or_else(|| none(Status::Refused), |mut session| session.solve())
 }
 
-/// A program that is solved several times with changed right-hand sides and objectives: ordering and set-up are kept. The seconds of
-/// its settings are those of all solves together.
+/// A program that is solved several times with changed right-hand sides and objectives: ordering
+/// and set-up are kept. The seconds of its settings are those of all solves together.
 pub struct Session(Runner);
 
 /// Where the engine runs.
@@ -45,14 +47,17 @@ enum Answer {
 impl Session {
     /// Sets a program up; `None` where the engine refuses it.
     pub fn new(program: &ConicProgram, settings: &Settings) -> Option<Self> {
-        let own = || engine::Session::new(program, settings).map(|s| Self(Runner::Inline(Box::new(s))));
+        let own =
+            || engine::Session::new(program, settings).map(|s| Self(Runner::Inline(Box::new(s))));
         if !settings.deadline.is_set() {
             return own();
         }
         let (orders, inbox) = channel();
         let (outbox, answers) = channel();
         let (program, own) = (program.clone(), *settings);
-        let spawned = std::thread::Builder::new().name("engine".into()).spawn(move || serve(&program, &own, &inbox, &outbox));
+        let spawned = std::thread::Builder::new()
+            .name("engine".into())
+            .spawn(move || serve(&program, &own, &inbox, &outbox));
         match spawned {
             Ok(_) => Some(Self(Runner::Threaded { orders, answers, deadline: settings.deadline })),
             Err(_) => None,
@@ -63,7 +68,9 @@ impl Session {
     pub fn set_rhs(&mut self, rhs: &[f64]) -> bool {
         match &mut self.0 {
             Runner::Inline(session) => session.set_rhs(rhs),
-            Runner::Threaded { .. } => matches!(self.ask(Order::Rhs(rhs.to_vec())), Some(Answer::Done(true))),
+            Runner::Threaded { .. } => {
+                matches!(self.ask(Order::Rhs(rhs.to_vec())), Some(Answer::Done(true)))
+            }
         }
     }
 
@@ -71,7 +78,9 @@ impl Session {
     pub fn set_objective(&mut self, objective: &[f64]) -> bool {
         match &mut self.0 {
             Runner::Inline(session) => session.set_objective(objective),
-            Runner::Threaded { .. } => matches!(self.ask(Order::Objective(objective.to_vec())), Some(Answer::Done(true))),
+            Runner::Threaded { .. } => {
+                matches!(self.ask(Order::Objective(objective.to_vec())), Some(Answer::Done(true)))
+            }
         }
     }
 
@@ -107,13 +116,20 @@ impl Session {
 }
 
 /// The engine's side; it ends with the session, or after the order under way.
-fn serve(program: &ConicProgram, settings: &Settings, inbox: &Receiver<Order>, outbox: &Sender<Answer>) {
+fn serve(
+    program: &ConicProgram,
+    settings: &Settings,
+    inbox: &Receiver<Order>,
+    outbox: &Sender<Answer>,
+) {
     let mut session = engine::Session::new(program, settings);
     while let Ok(order) = inbox.recv() {
         let answer = match (order, &mut session) {
             (Order::Solve, Some(session)) => Answer::Solved(session.solve()),
             (Order::Rhs(rhs), Some(session)) => Answer::Done(session.set_rhs(&rhs)),
-            (Order::Objective(objective), Some(session)) => Answer::Done(session.set_objective(&objective)),
+            (Order::Objective(objective), Some(session)) => {
+                Answer::Done(session.set_objective(&objective))
+            }
             (Order::Solve, None) => Answer::Solved(none(Status::Refused)),
             (Order::Rhs(_) | Order::Objective(_), None) => Answer::Done(false),
         };
@@ -137,13 +153,20 @@ mod tests {
     fn program() -> ConicProgram {
         let mut matrix = Sparse::zeros(1, 1);
         matrix.push(0, 0, -1.0);
-        ConicProgram { quadratic: Vec::new(), objective: vec![1.0], matrix, rhs: vec![-2.0], cones: vec![Cone::NonNegative(1)] }
+        ConicProgram {
+            quadratic: Vec::new(),
+            objective: vec![1.0],
+            matrix,
+            rhs: vec![-2.0],
+            cones: vec![Cone::NonNegative(1)],
+        }
     }
 
     #[test]
     fn answers_are_the_same_with_and_without_a_time_limit() {
         let solve = |deadline: Deadline| {
-            let mut session = Session::new(&program(), &Settings { deadline, ..Settings::default() }).unwrap();
+            let mut session =
+                Session::new(&program(), &Settings { deadline, ..Settings::default() }).unwrap();
             let first = session.solve();
             assert!(session.set_rhs(&[-3.0]) && session.set_objective(&[2.0]));
             [first, session.solve()].map(|s| (s.status, s.x[0].to_bits(), s.z[0].to_bits()))
@@ -155,10 +178,18 @@ mod tests {
     #[test]
     fn without_time_there_is_no_answer_and_no_waiting() {
         let start = Instant::now();
-        let mut session = Session::new(&program(), &Settings { deadline: Deadline::within(0.0), ..Settings::default() }).unwrap();
+        let mut session = Session::new(
+            &program(),
+            &Settings { deadline: Deadline::within(0.0), ..Settings::default() },
+        )
+        .unwrap();
         for _ in 0..3 {
             let solution = session.solve();
-            assert!(matches!(solution.status, Status::Limit | Status::Solved), "{:?}", solution.status);
+            assert!(
+                matches!(solution.status, Status::Limit | Status::Solved),
+                "{:?}",
+                solution.status
+            );
         }
         assert!(start.elapsed().as_secs() < 60);
     }

@@ -1,8 +1,9 @@
 //! Pressures up to a compressive strength, over the area that touches.
 //!
 //! Pressures `0 ≤ p ≤ σ` on the area `A` have a resultant `N` with first moment `m` exactly where
-//! `α N + β·m ≤ σ ∫ (α + β·x)⁺ dA` for every affine function (the support function of a moment set). On a rectangle bent about
-//! one axis this is the compressed block at the edge, `|M| ≤ N t / 2 − N² / (2 σ b)`.
+//! `α N + β·m ≤ σ ∫ (α + β·x)⁺ dA` for every affine function (the support function of a moment
+//! set). On a rectangle bent about one axis this is the compressed block at the edge, `|M| ≤ N t /
+//! 2 − N² / (2 σ b)`.
 
 use super::section::Section;
 use crate::{
@@ -14,7 +15,8 @@ use crate::{
 };
 use nalgebra::Matrix2;
 
-/// A bound on the normal forces at the corners that every admissible pressure respects: `Σ g(p_k) f_k ≤ σ ∫ g⁺ dA`, `g` affine.
+/// A bound on the normal forces at the corners that every admissible pressure respects: `Σ g(p_k)
+/// f_k ≤ σ ∫ g⁺ dA`, `g` affine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cut {
     /// `g` at each corner.
@@ -23,14 +25,16 @@ pub struct Cut {
     pub capacity: f64,
 }
 
-/// Whether the joint can crush: it has a compressive strength and an area. Edges and points have no stress to speak of.
+/// Whether the joint can crush: it has a compressive strength and an area. Edges and points have no
+/// stress to speak of.
 pub fn crushes(face: &Interface) -> bool {
     face.law.compression.is_finite() && face.points.len() > 2 && face.area > 0.0
 }
 
-/// The bounds along the edges of the hull. For every strip along an edge `∫ (s − d)⁺ dA ≤ W s² / 2` with `d` the distance from
-/// the edge and `W` the greatest width parallel to it, so `N² ≤ 2 σ W Σ d_k f_k`: exact on a rectangle bent about one axis.
-/// Each entry is `W` and the distances of the corners.
+/// The bounds along the edges of the hull. For every strip along an edge `∫ (s − d)⁺ dA ≤ W s² / 2`
+/// with `d` the distance from the edge and `W` the greatest width parallel to it, so `N² ≤ 2 σ W Σ
+/// d_k f_k`: exact on a rectangle bent about one axis. Each entry is `W` and the distances of the
+/// corners.
 pub fn edge_bounds(face: &Interface) -> Vec<(f64, Vec<f64>)> {
     let corners = Section::new(face).corners;
     edges(&corners)
@@ -43,8 +47,8 @@ pub fn edge_bounds(face: &Interface) -> Vec<(f64, Vec<f64>)> {
         .collect()
 }
 
-/// What closes of a joint whose corners close at these rates, `∫ g⁺ dA`, m³/s; `g` is the affine function nowhere below the rates and close
-/// to them: their least-squares fit, lifted.
+/// What closes of a joint whose corners close at these rates, `∫ g⁺ dA`, m³/s; `g` is the affine
+/// function nowhere below the rates and close to them: their least-squares fit, lifted.
 pub fn closing_volume(face: &Interface, rates: &[f64]) -> f64 {
     let section = Section::new(face);
     let n = rates.len() as f64;
@@ -60,9 +64,10 @@ pub fn closing_volume(face: &Interface, rates: &[f64]) -> f64 {
     section.positive(value(&P2::zeros()) + short, slope).1
 }
 
-/// How much of the strength `sigma`, Pa, the normal forces `normal ≥ 0` at the corners use, and the bound that they come
-/// nearest to (or break). At most 1 is admissible. Where a block of pressure centred on the resultant fits, its use is
-/// returned without a bound: then the true use is no more than that.
+/// How much of the strength `sigma`, Pa, the normal forces `normal ≥ 0` at the corners use, and the
+/// bound that they come nearest to (or break). At most 1 is admissible. Where a block of pressure
+/// centred on the resultant fits, its use is returned without a bound: then the true use is no more
+/// than that.
 pub fn crushing(face: &Interface, normal: &[f64], sigma: f64) -> (f64, Option<Cut>) {
     let total: f64 = normal.iter().sum();
     if total <= 0.0 {
@@ -83,15 +88,17 @@ pub fn crushing(face: &Interface, normal: &[f64], sigma: f64) -> (f64, Option<Cu
 }
 
 impl Section {
-    /// Area of the largest part that is its own mirror image about `r`; 0 where there are several pieces.
+    /// Area of the largest part that is its own mirror image about `r`; 0 where there are several
+    /// pieces.
     fn centred(&self, r: P2) -> f64 {
         let [piece] = &self.pieces[..] else { return 0.0 };
         let mirrored: Vec<P2> = piece.iter().map(|p| r * 2.0 - p).collect();
         area(&clip(piece, &mirrored, 0.0))
     }
 
-    /// The bound that a pressure resultant at `r` over at least `area` comes nearest to: its use, value at the origin and slope.
-    /// Directions are searched in coordinates in which the section is as wide as deep, so that slender ones hide nothing.
+    /// The bound that a pressure resultant at `r` over at least `area` comes nearest to: its use,
+    /// value at the origin and slope. Directions are searched in coordinates in which the section
+    /// is as wide as deep, so that slender ones hide nothing.
     fn worst(&self, area: f64, r: P2) -> (f64, f64, P2) {
         let (whole, moment) = self.area_and_moment();
         if area >= whole {
@@ -103,14 +110,20 @@ impl Section {
             spread += (p - c) * (p - c).transpose();
         }
         let root = spread.symmetric_eigen();
-        let stretch = root.eigenvectors * Matrix2::from_diagonal(&root.eigenvalues.map(|l| 1.0 / l.max(f64::MIN_POSITIVE).sqrt()));
+        let stretch = root.eigenvectors
+            * Matrix2::from_diagonal(
+                &root.eigenvalues.map(|l| 1.0 / l.max(f64::MIN_POSITIVE).sqrt()),
+            );
         let of = |angle: f64| -> (f64, f64, P2) {
             let slope = stretch * P2::new(angle.cos(), angle.sin());
             let value = self.offset(slope, area);
             ((value + slope.dot(&r)) * area / self.positive(value, slope).1, value, slope)
         };
         let step = std::f64::consts::TAU / DIRECTIONS as f64;
-        let best = (0..DIRECTIONS).map(|k| k as f64 * step).max_by(|a, b| of(*a).0.total_cmp(&of(*b).0)).unwrap_or(0.0);
+        let best = (0..DIRECTIONS)
+            .map(|k| k as f64 * step)
+            .max_by(|a, b| of(*a).0.total_cmp(&of(*b).0))
+            .unwrap_or(0.0);
         let (mut low, mut high) = (best - step, best + step);
         for _ in 0..REFINEMENTS {
             let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
@@ -122,7 +135,8 @@ impl Section {
     /// The value at the origin with which `value + slope · x` is positive on `area`.
     fn offset(&self, slope: P2, area: f64) -> f64 {
         let reach = self.pieces.iter().flatten().map(|p| -slope.dot(p));
-        let (mut low, mut high) = reach.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        let (mut low, mut high) =
+            reach.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         // The area is piecewise quadratic in the value: halving takes it to the last digit.
         for _ in 0..64 {
             let middle = 0.5 * (low + high);
@@ -132,12 +146,15 @@ impl Section {
     }
 }
 
-/// Directions looked at before the best is refined: sections have few corners, and the use is smooth between them.
+/// Directions looked at before the best is refined: sections have few corners, and the use is
+/// smooth between them.
 const DIRECTIONS: usize = 48;
-/// Steps of the refinement by thirds: (2/3)⁴⁰ = 1e-7 of a direction, and the use is flat there: its error is the square.
+/// Steps of the refinement by thirds: (2/3)⁴⁰ = 1e-7 of a direction, and the use is flat there: its
+/// error is the square.
 const REFINEMENTS: usize = 40;
 
-/// The greatest width of a convex polygon along a direction; it is reached at the height of a corner.
+/// The greatest width of a convex polygon along a direction; it is reached at the height of a
+/// corner.
 fn width(corners: &[P2], along: P2, inward: P2) -> f64 {
     let at_height = |h: f64| {
         let mut ends = (f64::INFINITY, f64::NEG_INFINITY);

@@ -3,7 +3,8 @@
 use super::crushing::crushes;
 use crate::{assembly::JointLaw, interface::Interfaces};
 
-/// Whether every joint has dry friction and nothing else: then all loads and forces may be multiplied together.
+/// Whether every joint has dry friction and nothing else: then all loads and forces may be
+/// multiplied together.
 pub fn are_dry(interfaces: &Interfaces) -> bool {
     interfaces.list.iter().all(|f| f.law.friction_only())
 }
@@ -17,14 +18,24 @@ pub fn with_stresses(interfaces: &Interfaces, by: f64) -> Interfaces {
     other
 }
 
-/// What is left of the joints for forces that may be multiplied without end: no cohesion, tension or water, and none of the
-/// joints that can crush. The second list says where each of the rest stood.
+/// What is left of the joints for forces that may be multiplied without end: no cohesion, tension
+/// or water, and none of the joints that can crush. The second list says where each of the rest
+/// stood.
 pub fn unlimited(interfaces: &Interfaces) -> (Interfaces, Vec<usize>) {
-    let kept: Vec<usize> = (0..interfaces.list.len()).filter(|&k| !crushes(&interfaces.list[k])).collect();
+    let kept: Vec<usize> =
+        (0..interfaces.list.len()).filter(|&k| !crushes(&interfaces.list[k])).collect();
     let list = kept.iter().map(|&k| {
         let mut face = interfaces.list[k].clone();
-        face.law = JointLaw { rolling_arm: face.law.rolling_arm, ..JointLaw::dry(face.law.friction) };
+        face.law =
+            JointLaw { rolling_arm: face.law.rolling_arm, ..JointLaw::dry(face.law.friction) };
         face
     });
-    (Interfaces { list: list.collect(), support_pairs: interfaces.support_pairs, findings: Vec::new() }, kept)
+    (
+        Interfaces {
+            list: list.collect(),
+            support_pairs: interfaces.support_pairs,
+            findings: Vec::new(),
+        },
+        kept,
+    )
 }

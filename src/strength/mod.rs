@@ -1,8 +1,10 @@
-//! What joints carry beside friction: cohesion, tension, couples of a rolling arm, pressures up to a compressive strength, water.
+//! What joints carry beside friction: cohesion, tension, couples of a rolling arm, pressures up to
+//! a compressive strength, water.
 //!
-//! Stresses act on the area that touches, forces at the corners of its hull; this room says what the one amounts to in the other, for the
-//! program and the dynamics. The checker may ask it for [`crushing`] and [`laws`] alone: corner shares, uplift, tension and rolling
-//! arm it derives by itself, another way ([`joint`](crate::verdict::joint)).
+//! Stresses act on the area that touches, forces at the corners of its hull; this room says what
+//! the one amounts to in the other, for the program and the dynamics. The checker may ask it for
+//! [`crushing`] and [`laws`] alone: corner shares, uplift, tension and rolling arm it derives by
+//! itself, another way ([`joint`](crate::verdict::joint)).
 
 pub mod crushing;
 pub mod laws;

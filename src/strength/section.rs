@@ -23,8 +23,15 @@ impl Section {
         if face.pieces.is_empty() {
             return Self { pieces: vec![corners.clone()], corners };
         }
-        let mut pieces: Vec<Vec<P2>> = face.pieces.iter().map(|piece| piece.iter().map(|&p| plane.flat(p)).collect()).collect();
-        pieces.iter_mut().filter(|piece| area_and_moment(piece).0 < 0.0).for_each(|piece| piece.reverse());
+        let mut pieces: Vec<Vec<P2>> = face
+            .pieces
+            .iter()
+            .map(|piece| piece.iter().map(|&p| plane.flat(p)).collect())
+            .collect();
+        pieces
+            .iter_mut()
+            .filter(|piece| area_and_moment(piece).0 < 0.0)
+            .for_each(|piece| piece.reverse());
         Self { corners, pieces }
     }
 

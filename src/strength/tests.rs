@@ -17,8 +17,18 @@ fn face(points: &[[f64; 2]]) -> Interface {
     let points: Vec<Vector3<f64>> = points.iter().map(|p| Vector3::new(p[0], p[1], 2.0)).collect();
     let frame = ContactFrame::around(Vector3::z());
     let law = JointLaw::dry(Friction::Coefficient(0.5));
-    let mut face =
-        Interface { a: 0, b: 1, kind: ContactKind::Face, frame, points, area: 0.0, patches: 1, pieces: Vec::new(), gap: 0.0, law };
+    let mut face = Interface {
+        a: 0,
+        b: 1,
+        kind: ContactKind::Face,
+        frame,
+        points,
+        area: 0.0,
+        patches: 1,
+        pieces: Vec::new(),
+        gap: 0.0,
+        law,
+    };
     face.area = Section::new(&face).area_and_moment().0;
     face
 }
@@ -40,7 +50,9 @@ fn shares_of_a_rectangle_are_quarters() {
 /// Products of so many small areas are below the least number.
 #[test]
 fn a_fine_half_disc_has_shares() {
-    let arc = (0..=300).map(|k| (f64::from(k) / 300.0 * std::f64::consts::PI).sin_cos()).map(|(s, c)| [0.01 * c, 0.01 * s]);
+    let arc = (0..=300)
+        .map(|k| (f64::from(k) / 300.0 * std::f64::consts::PI).sin_cos())
+        .map(|(s, c)| [0.01 * c, 0.01 * s]);
     let face = face(&arc.collect::<Vec<_>>());
     let sum: f64 = shares(&face).iter().sum();
     assert!((sum / face.area - 1.0).abs() < 1e-12, "{sum} of {}", face.area);
@@ -58,17 +70,22 @@ fn a_rectangle_bent_about_one_axis_carries_the_block_at_its_edge() {
         assert!(crushing(&face, &forces(1.0 - 1e-9), sigma).0 < 1.0);
         let (used, cut) = crushing(&face, &forces(1.01), sigma);
         let cut = cut.unwrap();
-        let at = |by: f64| cut.weights.iter().zip(forces(by)).map(|(w, f)| w * f).sum::<f64>() / (sigma * cut.capacity);
+        let at = |by: f64| {
+            cut.weights.iter().zip(forces(by)).map(|(w, f)| w * f).sum::<f64>()
+                / (sigma * cut.capacity)
+        };
         assert!(used > 1.0 && at(1.01) > 1.0 && at(0.98) < 1.0, "{used}");
     }
 }
 
 #[test]
 fn a_corner_carries_a_triangle() {
-    // Resultant at (c, c) near the corner of a unit square: the triangle with legs 3 c has its centroid there.
+    // Resultant at (c, c) near the corner of a unit square: the triangle with legs 3 c has its
+    // centroid there.
     let (face, sigma, c) = (rectangle(1.0, 1.0), 10.0, 0.1);
     let n = sigma * 4.5 * c * c;
-    let at = |by: f64| [(1.0 - c) * (1.0 - c), c * (1.0 - c), c * c, c * (1.0 - c)].map(|w| w * n * by);
+    let at =
+        |by: f64| [(1.0 - c) * (1.0 - c), c * (1.0 - c), c * c, c * (1.0 - c)].map(|w| w * n * by);
     assert!(crushing(&face, &at(1.0 - 1e-6), sigma).0 < 1.0);
     assert!((crushing(&face, &at(1.0), sigma).0 - 1.0).abs() < 1e-9);
     assert!(crushing(&face, &at(1.0 + 1e-6), sigma).0 > 1.0);
@@ -79,8 +96,13 @@ fn a_corner_carries_a_triangle() {
 #[test]
 fn holes_do_not_carry() {
     let mut face = rectangle(3.0, 1.0);
-    face.pieces =
-        [0.0, 2.0].map(|x| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(|p| Vector3::new(p[0], p[1], 2.0)).to_vec()).to_vec();
+    face.pieces = [0.0, 2.0]
+        .map(|x| {
+            [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]]
+                .map(|p| Vector3::new(p[0], p[1], 2.0))
+                .to_vec()
+        })
+        .to_vec();
     face.area = 2.0;
     assert!((crushing(&face, &[0.5; 4], 1.0).0 - 1.0).abs() < 1e-9);
     assert!(crushing(&face, &[0.51; 4], 1.0).0 > 1.0);

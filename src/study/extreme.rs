@@ -1,9 +1,11 @@
-//! Stiff and extreme scenes with closed forms: columns, walls pushed out of their plane, arches at their least thickness.
+//! Stiff and extreme scenes with closed forms: columns, walls pushed out of their plane, arches at
+//! their least thickness.
 //!
-//! *Columns and walls*, λ × own weight sideways: in joint `j` with contact width `b_j` at height `z_j`, weights `w_i` above it at
-//! heights `z_i`, `λ = min_j min(μ_j, (b_j / 2) Σ w / Σ w (z_i − z_j))`: contacts form a chain, so statics alone decides.
-//! *Arches* of straight-chord voussoirs stand from a critical thickness on that depends on neither density, depth, size nor (above
-//! 0.4) friction; values by the five-hinge closed form (class of Makris & Alexakis 2013).
+//! *Columns and walls*, λ × own weight sideways: in joint `j` with contact width `b_j` at height
+//! `z_j`, weights `w_i` above it at heights `z_i`, `λ = min_j min(μ_j, (b_j / 2) Σ w / Σ w (z_i −
+//! z_j))`: contacts form a chain, so statics alone decides. *Arches* of straight-chord voussoirs
+//! stand from a critical thickness on that depends on neither density, depth, size nor (above 0.4)
+//! friction; values by the five-hinge closed form (class of Makris & Alexakis 2013).
 
 use crate::{
     analysis::{Control, Law, Outcome, assess, limit},
@@ -52,7 +54,8 @@ pub struct CellAnswer {
     pub ask: CellQuestion,
     /// What became of it.
     pub grade: CellGrade,
-    /// The load factor, relative error, and bracket width over the value (absolute where the answer is 0).
+    /// The load factor, relative error, and bracket width over the value (absolute where the answer
+    /// is 0).
     pub value: Option<f64>,
     /// |value − truth| / truth.
     pub error: Option<f64>,
@@ -81,8 +84,8 @@ pub enum CellGrade {
 /// Rounding of the closed forms and of coordinates, over the truth.
 const ROUNDING: f64 = 1e-9;
 
-/// A verdict is asked only where the scene is out of balance by more than this, in multiples of gravity: below,
-/// [`tolerance::UNBALANCE`] makes no difference between standing and falling.
+/// A verdict is asked only where the scene is out of balance by more than this, in multiples of
+/// gravity: below, [`tolerance::UNBALANCE`] makes no difference between standing and falling.
 const TELLING: f64 = 100.0 * tolerance::UNBALANCE;
 
 /// The grid: some thousand cells.
@@ -126,27 +129,49 @@ pub fn grid() -> Vec<Cell> {
 /// Critical t/R of semicircular arches by number of voussoirs.
 const CRITICAL: [(usize, f64); 2] = [(16, 0.10707620314306167), (27, 0.10672090355137132)];
 
-fn around(cells: &mut Vec<Cell>, family: &'static str, what: &str, critical: f64, make: impl Fn(f64) -> Value) {
+fn around(
+    cells: &mut Vec<Cell>,
+    family: &'static str,
+    what: &str,
+    critical: f64,
+    make: impl Fn(f64) -> Value,
+) {
     for distance in [1e-2, 1e-4, 1e-6] {
         if distance * critical < TELLING {
             continue;
         }
         for (stands, factor) in [(true, 1.0 - distance), (false, 1.0 + distance)] {
-            cells.push(Cell { family, what: what.into(), ask: CellQuestion::Stands(stands, distance), scene: make(critical * factor) });
+            cells.push(Cell {
+                family,
+                what: what.into(),
+                ask: CellQuestion::Stands(stands, distance),
+                scene: make(critical * factor),
+            });
         }
     }
 }
 
 /// Blocks on a fixed one, sizes and densities in geometric progression from bottom to top.
-fn column(cells: &mut Vec<Cell>, blocks: usize, mass: f64, size: f64, slenderness: f64, friction: f64) {
-    let what = format!("{blocks} blocks, mass ratio {mass:.0e}, size ratio {size:.0e}, slenderness {slenderness}, friction {friction}");
+fn column(
+    cells: &mut Vec<Cell>,
+    blocks: usize,
+    mass: f64,
+    size: f64,
+    slenderness: f64,
+    friction: f64,
+) {
+    let what = format!(
+        "{blocks} blocks, mass ratio {mass:.0e}, size ratio {size:.0e}, slenderness {slenderness}, friction {friction}"
+    );
     let share = |k: usize| k as f64 / (blocks - 1) as f64;
     let width = |k: usize| size.powf(share(k));
     // Masses, not densities, are in the ratio: densities follow from the volumes.
     let weight = |k: usize| mass.powf(share(k));
     let (mut z, mut list) = (
         0.0,
-        vec![json!({ "id": "base", "support": true, "at": [0, 0, -0.5], "shape": { "box": { "size": [width(0), width(0), 1.0] } } })],
+        vec![
+            json!({ "id": "base", "support": true, "at": [0, 0, -0.5], "shape": { "box": { "size": [width(0), width(0), 1.0] } } }),
+        ],
     );
     let (mut heights, mut floors) = (Vec::new(), Vec::new());
     for k in 0..blocks {
@@ -173,12 +198,23 @@ fn column(cells: &mut Vec<Cell>, blocks: usize, mass: f64, size: f64, slendernes
         ask: CellQuestion::LoadFactor(critical),
         scene: scene(json!({ "live": [{ "weight": [1, 0, 0] }] })),
     });
-    around(cells, "column", &what, critical, |v| scene(json!({ "dead": [{ "weight": [v, 0, 0] }] })));
+    around(cells, "column", &what, critical, |v| {
+        scene(json!({ "dead": [{ "weight": [v, 0, 0] }] }))
+    });
 }
 
 /// A running-bond wall pushed out of its plane, course densities in geometric progression.
-fn wall(cells: &mut Vec<Cell>, courses: usize, length: usize, mass: f64, thickness: f64, friction: f64) {
-    let what = format!("{courses} × {length} blocks, mass ratio {mass:.0e}, thickness {thickness}, friction {friction}");
+fn wall(
+    cells: &mut Vec<Cell>,
+    courses: usize,
+    length: usize,
+    mass: f64,
+    thickness: f64,
+    friction: f64,
+) {
+    let what = format!(
+        "{courses} × {length} blocks, mass ratio {mass:.0e}, thickness {thickness}, friction {friction}"
+    );
     let (b, h) = (1.0, 0.4);
     let density = |c: usize| mass.powf(c as f64 / (courses - 1) as f64);
     let mut list = vec![
@@ -188,7 +224,10 @@ fn wall(cells: &mut Vec<Cell>, courses: usize, length: usize, mass: f64, thickne
         let ends: Vec<f64> = if c % 2 == 0 {
             (0..=length).map(|k| k as f64 * b).collect()
         } else {
-            std::iter::once(0.0).chain((0..length).map(|k| (k as f64 + 0.5) * b)).chain([length as f64 * b]).collect()
+            std::iter::once(0.0)
+                .chain((0..length).map(|k| (k as f64 + 0.5) * b))
+                .chain([length as f64 * b])
+                .collect()
         };
         for (k, pair) in ends.windows(2).enumerate() {
             list.push(
@@ -200,7 +239,8 @@ fn wall(cells: &mut Vec<Cell>, courses: usize, length: usize, mass: f64, thickne
     let critical = (0..courses)
         .map(|j| {
             let above: f64 = (j..courses).map(density).sum();
-            let moment: f64 = (j..courses).map(|i| density(i) * ((i as f64 + 0.5) - j as f64) * h).sum();
+            let moment: f64 =
+                (j..courses).map(|i| density(i) * ((i as f64 + 0.5) - j as f64) * h).sum();
             friction.min(0.5 * thickness * above / moment)
         })
         .fold(f64::INFINITY, f64::min);
@@ -215,13 +255,28 @@ fn wall(cells: &mut Vec<Cell>, courses: usize, length: usize, mass: f64, thickne
 }
 
 /// A semicircular arch either side of its critical thickness.
-fn arch(cells: &mut Vec<Cell>, voussoirs: usize, critical: f64, friction: f64, depth: f64, radius: f64, density: f64) {
-    let what = format!("{voussoirs} voussoirs, depth / radius {depth:.0e}, radius {radius} m, density {density:.0e}, friction {friction}");
+fn arch(
+    cells: &mut Vec<Cell>,
+    voussoirs: usize,
+    critical: f64,
+    friction: f64,
+    depth: f64,
+    radius: f64,
+    density: f64,
+) {
+    let what = format!(
+        "{voussoirs} voussoirs, depth / radius {depth:.0e}, radius {radius} m, density {density:.0e}, friction {friction}"
+    );
     for distance in [1e-2, 1e-4, 1e-6] {
         for (stands, factor) in [(true, 1.0 + distance), (false, 1.0 - distance)] {
             let scene = json!({ "format": "voussoir-scene/1", "materials": { "m": { "density": density } }, "joints": { "default": { "friction": friction } },
                 "templates": [{ "arch": { "radius": radius, "thickness": radius * critical * factor, "depth": depth * radius, "embrace_deg": 180, "voussoirs": voussoirs, "material": "m" } }] });
-            cells.push(Cell { family: "arch", what: what.clone(), ask: CellQuestion::Stands(stands, distance), scene });
+            cells.push(Cell {
+                family: "arch",
+                what: what.clone(),
+                ask: CellQuestion::Stands(stands, distance),
+                scene,
+            });
         }
     }
 }
@@ -234,7 +289,8 @@ pub fn keep(path: &Path, cells: &[Cell]) -> Result<Kept<(usize, CellAnswer)>, Ro
     Kept::open(path, "voussoir-extreme/1", json!({ "cells": cells.len() }))
 }
 
-/// Asks every cell, on all threads, but for those that are kept already; each is kept as it ends, where there is a file, and `each` hears of it.
+/// Asks every cell, on all threads, but for those that are kept already; each is kept as it ends,
+/// where there is a file, and `each` hears of it.
 ///
 /// # Errors
 /// Threads cannot be started, or the file cannot be written.
@@ -243,7 +299,8 @@ pub fn run(
     kept: Option<&Kept<(usize, CellAnswer)>>,
     each: impl Fn(&CellAnswer) + Sync,
 ) -> Result<Vec<CellAnswer>, RowsError> {
-    let there: BTreeMap<usize, &CellAnswer> = kept.iter().flat_map(|k| &k.there).map(|(index, found)| (*index, found)).collect();
+    let there: BTreeMap<usize, &CellAnswer> =
+        kept.iter().flat_map(|k| &k.there).map(|(index, found)| (*index, found)).collect();
     let numbered: Vec<(usize, &Cell)> = cells.iter().enumerate().collect();
     let found = parallel::try_map(0, &numbered, |(index, cell)| {
         if let Some(&found) = there.get(index) {
@@ -292,7 +349,9 @@ impl Cell {
                     Verdict::Stable if stands => CellGrade::Right,
                     Verdict::Unstable if !stands => CellGrade::Right,
                     // What was said and could not be proved is wrong, even where it is true.
-                    Verdict::Conditional | Verdict::Undecided if a.refused().is_none() => CellGrade::Undecided,
+                    Verdict::Conditional | Verdict::Undecided if a.refused().is_none() => {
+                        CellGrade::Undecided
+                    }
                     _ => CellGrade::Wrong,
                 };
             }
@@ -300,7 +359,8 @@ impl Cell {
                 let l = limit(model, &control);
                 found.iterations = l.attempts.iter().map(|a| a.iterations).sum();
                 if l.value.is_finite() {
-                    let inside = l.bracket.lower <= truth * (1.0 + ROUNDING) && truth * (1.0 - ROUNDING) <= l.bracket.upper;
+                    let inside = l.bracket.lower <= truth * (1.0 + ROUNDING)
+                        && truth * (1.0 - ROUNDING) <= l.bracket.upper;
                     found.value = Some(l.value);
                     found.error = Some((l.value - truth).abs() / truth);
                     found.bracket = Some(l.bracket.width() / truth).filter(|b| b.is_finite());

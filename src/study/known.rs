@@ -23,7 +23,8 @@ macro_rules! structure {
     };
 }
 
-/// Running-bond wall of 100 courses pushed out of its plane: it turns about the foot of its lowest course.
+/// Running-bond wall of 100 courses pushed out of its plane: it turns about the foot of its lowest
+/// course.
 const WALL_100: &str = r#"{ "format": "voussoir-scene/1", "name": "Wall of 100 courses pushed out of its plane",
     "joints": { "default": { "friction": 0.6 } },
     "templates": [ { "wall": { "size": [1, 0.5, 0.4], "courses": 100, "blocks": 3, "first": "half", "base": "course" } } ],
@@ -32,9 +33,27 @@ const WALL_100: &str = r#"{ "format": "voussoir-scene/1", "name": "Wall of 100 c
 /// All of them.
 pub fn known() -> Vec<Known> {
     let list: [(&str, &str, f64, Option<f64>, &str); 8] = [
-        ("arch", structure!("oppenheim-arch"), 0.37361169234365993, None, "Oppenheim (1992), linear programming"),
-        ("wall", structure!("running-bond-wall"), 0.5799986113337297, None, "geometry of Ferris & Tin-Loi (2001), linear programming"),
-        ("openings", structure!("wall-with-openings"), 0.4036941035441143, None, "geometry of Ferris & Tin-Loi (2001), linear programming"),
+        (
+            "arch",
+            structure!("oppenheim-arch"),
+            0.37361169234365993,
+            None,
+            "Oppenheim (1992), linear programming",
+        ),
+        (
+            "wall",
+            structure!("running-bond-wall"),
+            0.5799986113337297,
+            None,
+            "geometry of Ferris & Tin-Loi (2001), linear programming",
+        ),
+        (
+            "openings",
+            structure!("wall-with-openings"),
+            0.4036941035441143,
+            None,
+            "geometry of Ferris & Tin-Loi (2001), linear programming",
+        ),
         (
             "corner",
             structure!("wall-corner"),
@@ -54,7 +73,9 @@ pub fn known() -> Vec<Known> {
         ("tiny", structure!("tiny-on-huge"), 0.5, Some(0.5), "elementary statics; closed form"),
     ];
     list.into_iter()
-        .filter_map(|(name, text, truth, dry, source)| Some(Known { name, scene: read_str(name, text).ok()?.0, truth, dry, source }))
+        .filter_map(|(name, text, truth, dry, source)| {
+            Some(Known { name, scene: read_str(name, text).ok()?.0, truth, dry, source })
+        })
         .collect()
 }
 

@@ -82,13 +82,20 @@ impl StudyMethod {
 
     /// The settings of its knob that make sense for a scene.
     pub(super) fn knobs(self, known: &Known, model: &Model, quick: bool) -> Vec<f64> {
-        let plane = || Statics::new(model, StaticsOptions { live: true, ..StaticsOptions::default() }).plane.is_some();
-        let thin = |list: Vec<f64>| if quick { list.into_iter().step_by(2).collect() } else { list };
+        let plane = || {
+            Statics::new(model, StaticsOptions { live: true, ..StaticsOptions::default() })
+                .plane
+                .is_some()
+        };
+        let thin =
+            |list: Vec<f64>| if quick { list.into_iter().step_by(2).collect() } else { list };
         match self {
             Self::DryFriction | Self::Simulation if known.dry.is_none() => Vec::new(),
             Self::Ladder | Self::DryFriction => vec![0.0],
             Self::KeepAll if !plane() => Vec::new(),
-            Self::Forces | Self::Rates | Self::KeepAll | Self::Unscaled => thin((1..=6).map(|k| 10f64.powi(-2 * k)).collect()),
+            Self::Forces | Self::Rates | Self::KeepAll | Self::Unscaled => {
+                thin((1..=6).map(|k| 10f64.powi(-2 * k)).collect())
+            }
             // In a plane two edges are the cone.
             Self::PyramidInside | Self::PyramidAround if plane() => Vec::new(),
             Self::PyramidInside | Self::PyramidAround => thin(vec![4.0, 8.0, 16.0, 32.0]),
@@ -105,8 +112,11 @@ impl StudyMethod {
         let tolerance = |way: Formulation| Formulation { tolerance: knob, ..way };
         let once = |way: Formulation| Measurement::from(&limit::attempt(model, &way));
         let pyramid = |around: bool| {
-            let options =
-                StaticsOptions { pyramid: Some(Pyramid { facets: knob as usize, around }), keep_all: true, ..StaticsOptions::default() };
+            let options = StaticsOptions {
+                pyramid: Some(Pyramid { facets: knob as usize, around }),
+                keep_all: true,
+                ..StaticsOptions::default()
+            };
             once(Formulation { options, ..Formulation::usual(Unknowns::Forces) })
         };
         // What is simulated slides without opening.
@@ -114,7 +124,8 @@ impl StudyMethod {
         let truth = if dry { known.dry.unwrap_or(f64::NAN) } else { known.truth };
         let got: Measurement = match self {
             Self::Ladder => {
-                let l = limit::limit(model, &Control { law: Law::Associative, ..Control::default() });
+                let l =
+                    limit::limit(model, &Control { law: Law::Associative, ..Control::default() });
                 Measurement { value: Some(l.value), ..Measurement::from(&*l) }
             }
             Self::Forces => once(tolerance(Formulation::usual(Unknowns::Forces))),
@@ -139,7 +150,11 @@ impl StudyMethod {
                 let d = coulomb::load_factor(model, &l, &Control::default());
                 Measurement { value: Some(d.value), iterations: d.solves, ..Measurement::default() }
             }
-            Self::Simulation => simulated(model, if knob < 500.0 { Fidelity::Fast } else { Fidelity::Fine }, 2.0 * known.truth),
+            Self::Simulation => simulated(
+                model,
+                if knob < 500.0 { Fidelity::Fast } else { Fidelity::Fine },
+                2.0 * known.truth,
+            ),
         };
         let value = got.value.filter(|v| v.is_finite());
         StudyPoint {
@@ -183,27 +198,40 @@ const SIMULATIONS: usize = 8;
 
 /// Halving between 0 and `high` by what happens in time.
 fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Measurement {
-    let settings = dynamics::SimulationSettings { fidelity: Some(fidelity), ..dynamics::SimulationSettings::default() };
+    let settings = dynamics::SimulationSettings {
+        fidelity: Some(fidelity),
+        ..dynamics::SimulationSettings::default()
+    };
     let mut low = 0.0;
     for _ in 0..SIMULATIONS {
         let middle = 0.5 * (low + high);
-        match dynamics::simulate(&model.at_load_factor(middle), &settings, &mut |_| std::ops::ControlFlow::Continue(()))
-            .map(|outcome| outcome.fate)
+        match dynamics::simulate(&model.at_load_factor(middle), &settings, &mut |_| {
+            std::ops::ControlFlow::Continue(())
+        })
+        .map(|outcome| outcome.fate)
         {
             Ok(Fate::Stands) => low = middle,
             Ok(Fate::Falls) => high = middle,
             _ => break,
         }
     }
-    Measurement { value: Some(0.5 * (low + high)), bracket: Some(high - low), ..Measurement::default() }
+    Measurement {
+        value: Some(0.5 * (low + high)),
+        bracket: Some(high - low),
+        ..Measurement::default()
+    }
 }
 
-/// Halving between 0 and `high` by verdicts about the scene under its dead load and that multiple of the live load.
+/// Halving between 0 and `high` by verdicts about the scene under its dead load and that multiple
+/// of the live load.
 fn bisection(model: &Model, verdicts: usize, mut high: f64) -> Measurement {
     let (mut low, mut iterations) = (0.0, 0);
     for _ in 0..verdicts {
         let middle = 0.5 * (low + high);
-        let answer = assess(&model.at_load_factor(middle), &Control { law: Law::Associative, ..Control::default() });
+        let answer = assess(
+            &model.at_load_factor(middle),
+            &Control { law: Law::Associative, ..Control::default() },
+        );
         iterations += answer.attempts.iter().map(|a| a.iterations).sum::<usize>();
         match answer.verdict {
             Verdict::Stable | Verdict::Conditional => low = middle,
@@ -212,5 +240,10 @@ fn bisection(model: &Model, verdicts: usize, mut high: f64) -> Measurement {
             Verdict::Undecided => break,
         }
     }
-    Measurement { value: Some(0.5 * (low + high)), bracket: Some(high - low), iterations, status: None }
+    Measurement {
+        value: Some(0.5 * (low + high)),
+        bracket: Some(high - low),
+        iterations,
+        status: None,
+    }
 }

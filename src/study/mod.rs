@@ -1,10 +1,11 @@
 //! Error against run time, on scenes whose answers are known.
 //!
-//! [`run`] takes each method over its knob (the engine's tolerance, the number of facets, the number of bisections) and records
-//! what came out, how long it took, and what the engine said about it. [`extreme`] asks some thousand stiff scenes with closed
-//! forms and counts what is wrong, undecided or loosely bracketed; [`soak`] asks thousands of random ones and looks for contradictions,
-//! and [`cross`] asks each of as many in several ways that must give one answer; [`forge`] changes their results into false ones, all of which must be
-//! refused.
+//! [`run`] takes each method over its knob (the engine's tolerance, the number of facets, the
+//! number of bisections) and records what came out, how long it took, and what the engine said
+//! about it. [`extreme`] asks some thousand stiff scenes with closed forms and counts what is
+//! wrong, undecided or loosely bracketed; [`soak`] asks thousands of random ones and looks for
+//! contradictions, and [`cross`] asks each of as many in several ways that must give one answer;
+//! [`forge`] changes their results into false ones, all of which must be refused.
 
 pub mod cross;
 pub mod extreme;
@@ -37,7 +38,8 @@ pub struct StudyPoint {
     pub error: Option<f64>,
     /// Width of the recomputed bracket over the truth, where there is one.
     pub bracket: Option<f64>,
-    /// Seconds, the median of the repetitions; resolving the scene and finding its interfaces are not counted.
+    /// Seconds, the median of the repetitions; resolving the scene and finding its interfaces are
+    /// not counted.
     pub seconds: f64,
     /// Iterations of the engine.
     pub iterations: usize,
@@ -46,27 +48,35 @@ pub struct StudyPoint {
 }
 
 impl StudyPoint {
-    /// Whether the engine said "solved" of a number that is off by more than [`WRONG`], and by far more than the tolerance it was given.
+    /// Whether the engine said "solved" of a number that is off by more than [`WRONG`], and by far
+    /// more than the tolerance it was given.
     pub fn is_silently_wrong(&self) -> bool {
         let asked = if self.method.knob() == "tolerance" { 100.0 * self.knob } else { 0.0 };
         self.status == Some(Status::Solved) && self.error.is_some_and(|e| e > WRONG.max(asked))
     }
 }
 
-/// A relative error that nobody would call solved. Larger: percents pass. Smaller: honest runs with a coarse tolerance count.
+/// A relative error that nobody would call solved. Larger: percents pass. Smaller: honest runs with
+/// a coarse tolerance count.
 pub const WRONG: f64 = 1e-3;
 
 /// Runs every method over its knob on the scenes; `each` hears of every point as it is done.
 ///
 /// # Errors
 /// A scene cannot be resolved.
-pub fn run(scenes: &[Known], quick: bool, repeat: usize, mut each: impl FnMut(&StudyPoint)) -> Result<Vec<StudyPoint>, InputError> {
+pub fn run(
+    scenes: &[Known],
+    quick: bool,
+    repeat: usize,
+    mut each: impl FnMut(&StudyPoint),
+) -> Result<Vec<StudyPoint>, InputError> {
     let mut points = Vec::new();
     for known in scenes {
         let model = crate::interface::prepare(&known.scene)?;
         for method in StudyMethod::ALL {
             for knob in method.knobs(known, &model, quick) {
-                let mut runs: Vec<StudyPoint> = (0..repeat.max(1)).map(|_| method.run(known, &model, knob)).collect();
+                let mut runs: Vec<StudyPoint> =
+                    (0..repeat.max(1)).map(|_| method.run(known, &model, knob)).collect();
                 runs.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
                 let point = runs.swap_remove(runs.len() / 2);
                 each(&point);
@@ -89,8 +99,8 @@ pub fn count(scenes: &[Known], quick: bool) -> Result<usize, InputError> {
     scenes.iter().map(of).sum()
 }
 
-/// A performance profile (Dolan & Moré 2002): for each method, the share of scenes on which it reaches `error` within `ratio` times
-/// the time of the fastest method that does, at each ratio.
+/// A performance profile (Dolan & Moré 2002): for each method, the share of scenes on which it
+/// reaches `error` within `ratio` times the time of the fastest method that does, at each ratio.
 pub fn profile(points: &[StudyPoint], error: f64, ratios: &[f64]) -> Vec<(StudyMethod, Vec<f64>)> {
     let mut scenes: Vec<&str> = points.iter().map(|p| p.scene.as_str()).collect();
     scenes.sort_unstable();
@@ -98,7 +108,11 @@ pub fn profile(points: &[StudyPoint], error: f64, ratios: &[f64]) -> Vec<(StudyM
     let time = |scene: &str, method: Option<StudyMethod>| {
         points
             .iter()
-            .filter(|p| p.scene == scene && method.is_none_or(|m| p.method == m) && p.error.is_some_and(|e| e <= error))
+            .filter(|p| {
+                p.scene == scene
+                    && method.is_none_or(|m| p.method == m)
+                    && p.error.is_some_and(|e| e <= error)
+            })
             .map(|p| p.seconds)
             .fold(f64::INFINITY, f64::min)
     };
@@ -106,8 +120,10 @@ pub fn profile(points: &[StudyPoint], error: f64, ratios: &[f64]) -> Vec<(StudyM
         .into_iter()
         .filter(|m| points.iter().any(|p| p.method == *m))
         .map(|m| {
-            let slower: Vec<f64> = scenes.iter().map(|s| time(s, Some(m)) / time(s, None)).collect();
-            let share = |r: &f64| slower.iter().filter(|s| **s <= *r).count() as f64 / scenes.len() as f64;
+            let slower: Vec<f64> =
+                scenes.iter().map(|s| time(s, Some(m)) / time(s, None)).collect();
+            let share =
+                |r: &f64| slower.iter().filter(|s| **s <= *r).count() as f64 / scenes.len() as f64;
             (m, ratios.iter().map(share).collect())
         })
         .collect()

@@ -36,13 +36,22 @@ impl Omission {
 ///
 /// # Errors
 /// A scene cannot be resolved.
-pub fn omissions(scenes: &[Known], repeat: usize, mut each: impl FnMut()) -> Result<Vec<Omission>, InputError> {
+pub fn omissions(
+    scenes: &[Known],
+    repeat: usize,
+    mut each: impl FnMut(),
+) -> Result<Vec<Omission>, InputError> {
     scenes
         .iter()
         .map(|known| {
             let model = prepare(&known.scene)?;
-            let mut one =
-                Omission { scene: known.name.into(), left_out: Vec::new(), unknowns: [0; 2], seconds: [0.0; 2], values: [None; 2] };
+            let mut one = Omission {
+                scene: known.name.into(),
+                left_out: Vec::new(),
+                unknowns: [0; 2],
+                seconds: [0.0; 2],
+                values: [None; 2],
+            };
             for (k, keep_all) in [false, true].into_iter().enumerate() {
                 let control = Control { law: Law::Associative, keep_all, ..Control::default() };
                 let mut times = Vec::new();

@@ -52,48 +52,68 @@ impl Axis {
             } else {
                 format!("{} are given together", given.join(" and "))
             };
-            return Err(
-                InputError::at(JsonPath::root(), message).hint("give one of \"from\" and \"to\", \"values\", \"normal\", \"lognormal\"")
-            );
+            return Err(InputError::at(JsonPath::root(), message)
+                .hint("give one of \"from\" and \"to\", \"values\", \"normal\", \"lognormal\""));
         };
         let truncates = vary.normal.is_some() || vary.lognormal.is_some();
         for (key, given) in [("min", vary.min), ("max", vary.max)] {
             if given.is_some() && !truncates {
-                return Err(at(key, format!("cuts off normal and lognormal distributions, not {what:?}")).hint("remove it"));
+                return Err(at(
+                    key,
+                    format!("cuts off normal and lognormal distributions, not {what:?}"),
+                )
+                .hint("remove it"));
             }
         }
         let (kind, values) = match (vary.from, vary.to, &vary.values) {
             (_, _, Some(values)) if values.is_empty() => {
-                return Err(at("values", "the list is empty".into()).hint("give at least one value"));
+                return Err(
+                    at("values", "the list is empty".into()).hint("give at least one value")
+                );
             }
             (_, _, Some(values)) => (Kind::Values(values.clone()), Some(values.len())),
             (Some(from), Some(to), _) if vary.round && from.ceil() > to.floor() => {
-                return Err(
-                    at("to", format!("there is no whole number from {from} to {to}")).hint("widen the range, or leave \"round\" out")
-                );
+                return Err(at("to", format!("there is no whole number from {from} to {to}"))
+                    .hint("widen the range, or leave \"round\" out"));
             }
             (Some(from), Some(to), _) if from < to => (Kind::Interval { from, to }, None),
             (Some(from), Some(to), _) => {
-                return Err(at("to", format!("the range from {from} to {to} is empty")).hint("\"to\" must be greater than \"from\""));
+                return Err(at("to", format!("the range from {from} to {to} is empty"))
+                    .hint("\"to\" must be greater than \"from\""));
             }
-            (Some(_), None, _) => return Err(InputError::at(JsonPath::root(), "\"to\" is missing").hint("add \"to\": …")),
-            (None, Some(_), _) => return Err(InputError::at(JsonPath::root(), "\"from\" is missing").hint("add \"from\": …")),
+            (Some(_), None, _) => {
+                return Err(
+                    InputError::at(JsonPath::root(), "\"to\" is missing").hint("add \"to\": …")
+                );
+            }
+            (None, Some(_), _) => {
+                return Err(
+                    InputError::at(JsonPath::root(), "\"from\" is missing").hint("add \"from\": …")
+                );
+            }
             (None, None, None) => (gauss(vary)?, None),
         };
         let count = match (values, vary.count, grid) {
-            (Some(_), Some(_), _) => return Err(at("count", "\"values\" are counted already".into()).hint("remove it")),
+            (Some(_), Some(_), _) => {
+                return Err(at("count", "\"values\" are counted already".into()).hint("remove it"));
+            }
             (Some(n), None, _) => n,
             (None, Some(_), false) => {
-                return Err(at("count", "belongs to a grid".into()).hint("the number of rows is that of \"sampling\""));
+                return Err(at("count", "belongs to a grid".into())
+                    .hint("the number of rows is that of \"sampling\""));
             }
             (None, None, false) => 0,
             (None, Some(n), true) if n >= 2 => n,
             (None, Some(n), true) => {
-                return Err(at("count", format!("must be at least 2, got {n}")).hint("one value belongs into the scene"));
+                return Err(at("count", format!("must be at least 2, got {n}"))
+                    .hint("one value belongs into the scene"));
             }
             (None, None, true) => {
-                return Err(InputError::at(JsonPath::root(), "a grid needs to know how many values")
-                    .hint("add \"count\": 10, or another \"sampling\""));
+                return Err(InputError::at(
+                    JsonPath::root(),
+                    "a grid needs to know how many values",
+                )
+                .hint("add \"count\": 10, or another \"sampling\""));
             }
         };
         Ok(Self { kind, count, round: vary.round })
@@ -102,9 +122,13 @@ impl Axis {
     /// The value with probability `u`, 0 < u < 1, below it.
     pub fn quantile(&self, u: f64) -> f64 {
         let value = match &self.kind {
-            Kind::Interval { from, to } if self.round => (from.ceil() + u * (to.floor() - from.ceil() + 1.0)).floor().min(to.floor()),
+            Kind::Interval { from, to } if self.round => {
+                (from.ceil() + u * (to.floor() - from.ceil() + 1.0)).floor().min(to.floor())
+            }
             Kind::Interval { from, to } => from + u * (to - from),
-            Kind::Values(values) => values[((u * values.len() as f64) as usize).min(values.len() - 1)],
+            Kind::Values(values) => {
+                values[((u * values.len() as f64) as usize).min(values.len() - 1)]
+            }
             Kind::Gauss { mean, sd, low, high, exponential, min, max } => {
                 let value = mean + sd * truncated(u, *low, *high);
                 (if *exponential { value.exp() } else { value }).clamp(*min, *max)
@@ -118,7 +142,9 @@ impl Axis {
         match &self.kind {
             // Exactly its end.
             Kind::Interval { to, .. } if k + 1 >= self.count => self.rounded(*to),
-            Kind::Interval { from, to } => self.rounded(from + (to - from) * k as f64 / (self.count - 1) as f64),
+            Kind::Interval { from, to } => {
+                self.rounded(from + (to - from) * k as f64 / (self.count - 1) as f64)
+            }
             Kind::Values(values) => self.rounded(values[k.min(values.len() - 1)]),
             Kind::Gauss { .. } => self.quantile((k as f64 + 0.5) / self.count as f64),
         }
@@ -130,7 +156,9 @@ impl Axis {
         self.round
             || match &self.kind {
                 Kind::Values(values) => values.iter().all(|v| whole(*v)),
-                Kind::Interval { .. } => self.count >= 2 && (0..self.count).all(|k| whole(self.level(k))),
+                Kind::Interval { .. } => {
+                    self.count >= 2 && (0..self.count).all(|k| whole(self.level(k)))
+                }
                 Kind::Gauss { .. } => false,
             }
     }
@@ -144,20 +172,27 @@ impl Axis {
 fn gauss(vary: &Vary) -> Result<Kind, InputError> {
     let exponential = vary.lognormal.is_some();
     let key = if exponential { "lognormal" } else { "normal" };
-    let (mean, sd) = vary.lognormal.map(|l| (l.mean, l.sd)).or(vary.normal.map(|n| (n.mean, n.sd))).unwrap_or((f64::NAN, f64::NAN));
+    let (mean, sd) = vary
+        .lognormal
+        .map(|l| (l.mean, l.sd))
+        .or(vary.normal.map(|n| (n.mean, n.sd)))
+        .unwrap_or((f64::NAN, f64::NAN));
     let path = JsonPath::root().key(key);
     if !(sd > 0.0 && sd.is_finite()) {
-        return Err(
-            InputError::at(path.key("sd"), format!("must be > 0, got {sd}")).hint("a number that does not vary belongs into the scene")
-        );
+        return Err(InputError::at(path.key("sd"), format!("must be > 0, got {sd}"))
+            .hint("a number that does not vary belongs into the scene"));
     }
     if exponential && mean <= 0.0 {
-        return Err(InputError::at(path.key("mean"), format!("must be > 0, got {mean}")).hint("it is the mean of the value itself"));
+        return Err(InputError::at(path.key("mean"), format!("must be > 0, got {mean}"))
+            .hint("it is the mean of the value itself"));
     }
     let (min, max) = (vary.min.unwrap_or(f64::NEG_INFINITY), vary.max.unwrap_or(f64::INFINITY));
     if min >= max {
-        return Err(InputError::at(JsonPath::root().key("max"), format!("the range from {min} to {max} is empty"))
-            .hint("\"max\" must be greater than \"min\""));
+        return Err(InputError::at(
+            JsonPath::root().key("max"),
+            format!("the range from {min} to {max} is empty"),
+        )
+        .hint("\"max\" must be greater than \"min\""));
     }
     let (mean, sd) = if exponential {
         // Of the logarithm: σ² = ln(1 + (sd / mean)²), μ = ln mean − σ² / 2.
@@ -175,7 +210,8 @@ fn gauss(vary: &Vary) -> Result<Kind, InputError> {
     let kept = if low > 0.0 { below(-low) - below(-high) } else { below(high) - below(low) };
     if kept.is_nan() || kept < tolerance::TRUNCATION_KEEPS {
         let message = format!("only {kept:.1e} of the distribution lies between {min} and {max}");
-        return Err(InputError::at(JsonPath::root(), message).hint("the limits are far from the mean: check both"));
+        return Err(InputError::at(JsonPath::root(), message)
+            .hint("the limits are far from the mean: check both"));
     }
     Ok(Kind::Gauss { mean, sd, low, high, exponential, min, max })
 }
@@ -191,7 +227,8 @@ fn below(z: f64) -> f64 {
     }
 }
 
-/// Quantile of the standard normal distribution between two ends. Above the mean it is mirrored, where probabilities keep their digits.
+/// Quantile of the standard normal distribution between two ends. Above the mean it is mirrored,
+/// where probabilities keep their digits.
 fn truncated(u: f64, low: f64, high: f64) -> f64 {
     if low > 0.0 {
         return -truncated(1.0 - u, -high, -low);
@@ -215,30 +252,52 @@ mod tests {
 
     #[test]
     fn quantiles_are_those_of_the_tables() {
-        let normal = axis(Vary { normal: Some(Normal { mean: 10.0, sd: 2.0 }), ..Vary::default() }, false);
+        let normal =
+            axis(Vary { normal: Some(Normal { mean: 10.0, sd: 2.0 }), ..Vary::default() }, false);
         close(normal.quantile(0.5), 10.0);
         close(normal.quantile(0.975), 10.0 + 2.0 * 1.959_963_984_540_054);
         close(normal.quantile(1e-6), 10.0 - 2.0 * 4.753_424_308_822_899);
-        let lognormal = axis(Vary { lognormal: Some(Lognormal { mean: 3.0, sd: 3.0 }), ..Vary::default() }, false);
+        let lognormal = axis(
+            Vary { lognormal: Some(Lognormal { mean: 3.0, sd: 3.0 }), ..Vary::default() },
+            false,
+        );
         close(lognormal.quantile(0.5), 3.0 / 2f64.sqrt());
-        let mean = (0..100_000).map(|k| lognormal.quantile((f64::from(k) + 0.5) / 1e5)).sum::<f64>() / 1e5;
+        let mean =
+            (0..100_000).map(|k| lognormal.quantile((f64::from(k) + 0.5) / 1e5)).sum::<f64>() / 1e5;
         assert!((mean - 3.0).abs() < 2e-3, "{mean}");
     }
 
     #[test]
     fn truncation_keeps_the_shape_of_what_is_left() {
-        let half = axis(Vary { normal: Some(Normal { mean: 0.0, sd: 1.0 }), min: Some(0.0), ..Vary::default() }, false);
+        let half = axis(
+            Vary { normal: Some(Normal { mean: 0.0, sd: 1.0 }), min: Some(0.0), ..Vary::default() },
+            false,
+        );
         close(half.quantile(0.5), 0.674_489_750_196_081_7);
-        let tail = axis(Vary { normal: Some(Normal { mean: 0.0, sd: 1.0 }), min: Some(5.0), max: Some(5.5), ..Vary::default() }, false);
-        let values: Vec<f64> = (0..50).map(|k| tail.quantile((f64::from(k) + 0.5) / 50.0)).collect();
-        assert!(values.windows(2).all(|w| w[0] < w[1]) && values[0] > 5.0 && values[49] < 5.5, "{values:?}");
+        let tail = axis(
+            Vary {
+                normal: Some(Normal { mean: 0.0, sd: 1.0 }),
+                min: Some(5.0),
+                max: Some(5.5),
+                ..Vary::default()
+            },
+            false,
+        );
+        let values: Vec<f64> =
+            (0..50).map(|k| tail.quantile((f64::from(k) + 0.5) / 50.0)).collect();
+        assert!(
+            values.windows(2).all(|w| w[0] < w[1]) && values[0] > 5.0 && values[49] < 5.5,
+            "{values:?}"
+        );
     }
 
     #[test]
     fn grids_hit_both_ends_and_rounding_gives_every_count_its_share() {
-        let grid = axis(Vary { from: Some(0.1), to: Some(0.7), count: Some(4), ..Vary::default() }, true);
+        let grid =
+            axis(Vary { from: Some(0.1), to: Some(0.7), count: Some(4), ..Vary::default() }, true);
         assert_eq!((grid.level(0), grid.level(3)), (0.1, 0.7));
-        let whole = axis(Vary { from: Some(2.0), to: Some(5.0), round: true, ..Vary::default() }, false);
+        let whole =
+            axis(Vary { from: Some(2.0), to: Some(5.0), round: true, ..Vary::default() }, false);
         let mut counts = [0; 8];
         (0..1000).for_each(|k| counts[whole.quantile((f64::from(k) + 0.5) / 1000.0) as usize] += 1);
         assert_eq!(counts, [0, 0, 250, 250, 250, 250, 0, 0]);
@@ -263,7 +322,15 @@ mod tests {
             (Vary { values: Some(vec![1.0]), from: Some(0.0), to: Some(1.0), ..v() }, false),
             (Vary { normal: Some(Normal { mean: 0.0, sd: 0.0 }), ..v() }, false),
             (Vary { lognormal: Some(Lognormal { mean: 0.0, sd: 1.0 }), ..v() }, false),
-            (Vary { normal: Some(Normal { mean: 0.0, sd: 1.0 }), min: Some(1.0), max: Some(1.0), ..v() }, false),
+            (
+                Vary {
+                    normal: Some(Normal { mean: 0.0, sd: 1.0 }),
+                    min: Some(1.0),
+                    max: Some(1.0),
+                    ..v()
+                },
+                false,
+            ),
             (Vary { normal: Some(Normal { mean: 0.0, sd: 1.0 }), min: Some(50.0), ..v() }, false),
         ];
         for (vary, grid) in bad {

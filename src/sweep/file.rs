@@ -1,5 +1,6 @@
-//! The file of rows on the disk: begun, taken up again, appended to. A row is written by one call as one line, so that a killed
-//! run leaves at most one piece of a line, which is cut off when the file is taken up.
+//! The file of rows on the disk: begun, taken up again, appended to. A row is written by one call
+//! as one line, so that a killed run leaves at most one piece of a line, which is cut off when the
+//! file is taken up.
 
 use super::{
     Header, Row,
@@ -51,15 +52,18 @@ impl RowsFile {
     /// Begins a file, or takes up one with the same header.
     ///
     /// # Errors
-    /// The file cannot be written, is being written by another run, is no file of rows, or its rows answer something else.
+    /// The file cannot be written, is being written by another run, is no file of rows, or its rows
+    /// answer something else.
     pub fn open(path: &Path, header: &Header, restart: bool) -> Result<Opened, RowsError> {
         let name = path.display().to_string();
         let problem = |what, cause| RowsError::File { file: name.clone(), what, cause };
         let (mut file, bytes) = Alone::open(path)?;
         let first = line(header).map_err(|e| problem("written", e))?;
-        // What is there of a header may be the beginning of this one; anything else is somebody's file.
+        // What is there of a header may be the beginning of this one; anything else is somebody's
+        // file.
         let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
-        let nothing = restart && looks_like_rows(&bytes) || whole == 0 && first.as_bytes().starts_with(&bytes);
+        let nothing = restart && looks_like_rows(&bytes)
+            || whole == 0 && first.as_bytes().starts_with(&bytes);
         let there = if nothing { None } else { Some(taken_up(&name, &bytes, whole, header)?) };
         let (kept, mended) = if nothing { (0, 0) } else { (whole, bytes.len() - whole) };
         file.cut(kept).map_err(|e| problem("written", e))?;
@@ -72,21 +76,34 @@ impl RowsFile {
         Ok(Opened { file: Self { name, seal, file: Mutex::new(file) }, rows, mended, unchecked })
     }
 
-    /// Begins a file that nobody else has or will have: `name` in `folder`, or `name-2`, `name-3`, …, the first that is not there.
+    /// Begins a file that nobody else has or will have: `name` in `folder`, or `name-2`, `name-3`,
+    /// …, the first that is not there.
     ///
     /// # Errors
     /// The file cannot be written.
     pub fn fresh(folder: &Path, name: &str, header: &Header) -> Result<Self, RowsError> {
         let mut number = 1_u64;
         loop {
-            let own = if number == 1 { format!("{name}.{ENDING}") } else { format!("{name}-{number}.{ENDING}") };
+            let own = if number == 1 {
+                format!("{name}.{ENDING}")
+            } else {
+                format!("{name}-{number}.{ENDING}")
+            };
             let path = folder.join(own);
-            let problem = |cause| RowsError::File { file: path.display().to_string(), what: "written", cause };
+            let problem = |cause| RowsError::File {
+                file: path.display().to_string(),
+                what: "written",
+                cause,
+            };
             match Alone::fresh(&path) {
                 Ok(mut file) => {
                     let first = line(header).map_err(problem)?;
                     file.write(&first).map_err(problem)?;
-                    return Ok(Self { name: path.display().to_string(), seal: Seal::new(first.as_bytes()), file: Mutex::new(file) });
+                    return Ok(Self {
+                        name: path.display().to_string(),
+                        seal: Seal::new(first.as_bytes()),
+                        file: Mutex::new(file),
+                    });
                 }
                 Err(e) if e.kind() == std::io::ErrorKind::AlreadyExists => number += 1,
                 Err(e) => return Err(problem(e)),
@@ -115,7 +132,12 @@ fn first_line(bytes: &[u8]) -> &[u8] {
     bytes.split(|b| *b == b'\n').find(|l| !l.is_empty()).unwrap_or_default()
 }
 
-fn taken_up(name: &str, bytes: &[u8], whole: usize, header: &Header) -> Result<Contents, RowsError> {
+fn taken_up(
+    name: &str,
+    bytes: &[u8],
+    whole: usize,
+    header: &Header,
+) -> Result<Contents, RowsError> {
     let there = parse(name, bytes.get(..whole).unwrap_or_default())?;
     let old = &there.header;
     let differs = |why: String| RowsError::Differs {
@@ -161,7 +183,8 @@ fn whole(bytes: &[u8]) -> &[u8] {
     bytes.get(..end).unwrap_or_default()
 }
 
-/// What could be read of a file that another process may be writing, or whose writer lost its machine.
+/// What could be read of a file that another process may be writing, or whose writer lost its
+/// machine.
 #[derive(Debug, Default)]
 pub(super) struct Remains {
     /// Its header, where that is whole.
@@ -174,7 +197,8 @@ pub(super) struct Remains {
     pub unchecked: usize,
 }
 
-/// Reads what can be read: a half-written last line is left out, other lines that are no rows are counted.
+/// Reads what can be read: a half-written last line is left out, other lines that are no rows are
+/// counted.
 ///
 /// # Errors
 /// The file cannot be read.
@@ -190,7 +214,11 @@ pub(super) fn read_remains(path: &Path) -> Result<Remains, RowsError> {
         let checked = seal.check(line);
         let genuine = checked == Checked::Same || checked == Checked::Unknown && !header.sums;
         match serde_json::from_slice::<Row>(line) {
-            Ok(row) if genuine && row.row < header.rows && row.parameters.len() == header.plan.vary.len() => {
+            Ok(row)
+                if genuine
+                    && row.row < header.rows
+                    && row.parameters.len() == header.plan.vary.len() =>
+            {
                 remains.unchecked += usize::from(checked == Checked::Unknown);
                 remains.rows.push(row);
             }
@@ -205,19 +233,31 @@ fn parse(name: &str, bytes: &[u8]) -> Result<Contents, RowsError> {
     let damaged = |line: usize, why: String| RowsError::Damaged { file: name.into(), line, why };
     let mut lines = bytes.split(|b| *b == b'\n').enumerate().filter(|(_, l)| !l.is_empty());
     let header: Header = match lines.next() {
-        Some((_, line)) => serde_json::from_slice(line).map_err(|e| damaged(1, format!("not the beginning of a file of rows: {e}")))?,
-        None => return Err(damaged(1, "not the beginning of a file of rows: it has no whole header".into())),
+        Some((_, line)) => serde_json::from_slice(line)
+            .map_err(|e| damaged(1, format!("not the beginning of a file of rows: {e}")))?,
+        None => {
+            return Err(damaged(
+                1,
+                "not the beginning of a file of rows: it has no whole header".into(),
+            ));
+        }
     };
     let (mut rows, mut unchecked, seal) = (BTreeMap::new(), 0, Seal::new(first_line(bytes)));
     for (index, text) in lines {
         let at = |why: String| damaged(index + 1, why);
-        let row: Row =
-            serde_json::from_slice(text).map_err(|e| at(format!("not a row: {e}; remove the line to have the row computed again")))?;
-        if row.row >= header.rows || !header.shard.holds(row.row) || row.parameters.len() != header.plan.vary.len() {
+        let row: Row = serde_json::from_slice(text).map_err(|e| {
+            at(format!("not a row: {e}; remove the line to have the row computed again"))
+        })?;
+        if row.row >= header.rows
+            || !header.shard.holds(row.row)
+            || row.parameters.len() != header.plan.vary.len()
+        {
             return Err(at(format!("row {} is none of this plan", row.row)));
         }
         unchecked += usize::from(!seal.require(text, header.sums, at)?);
-        add(&mut rows, row).map_err(|number| at(format!("row {number} is there twice with different answers; remove one of them")))?;
+        add(&mut rows, row).map_err(|number| {
+            at(format!("row {number} is there twice with different answers; remove one of them"))
+        })?;
     }
     Ok(Contents { header, rows: rows.into_values().collect(), unchecked })
 }

@@ -1,7 +1,8 @@
-//! The folder of a sweep that many processes work on: what is asked (`sweep.jsonl`, a header alone), and in `rows/` one file of rows for
-//! every process that ever wrote. Nobody appends to another's file, so that no lock is needed, which not every shared file system
-//! gives; who begins reads what all the others have done. A process that was given up for lost and goes on does no harm: the rows it
-//! does twice are the same.
+//! The folder of a sweep that many processes work on: what is asked (`sweep.jsonl`, a header
+//! alone), and in `rows/` one file of rows for every process that ever wrote. Nobody appends to
+//! another's file, so that no lock is needed, which not every shared file system gives; who begins
+//! reads what all the others have done. A process that was given up for lost and goes on does no
+//! harm: the rows it does twice are the same.
 
 use super::{
     Header, Row, Shard,
@@ -41,7 +42,8 @@ pub struct Folder {
 pub struct Gathered {
     /// By number.
     pub rows: BTreeMap<usize, Row>,
-    /// Lines that are no rows, as a machine may leave behind that goes down: their rows count as not done.
+    /// Lines that are no rows, as a machine may leave behind that goes down: their rows count as
+    /// not done.
     pub damaged: usize,
     /// Rows without a check sum, as older versions wrote them.
     pub unchecked: usize,
@@ -65,13 +67,19 @@ impl Folder {
                 None => Ok(folder),
             },
             Err(RowsError::File { cause, .. }) if cause.kind() == ErrorKind::NotFound => {
-                let problem = |cause| RowsError::File { file: path.display().to_string(), what: "written", cause };
+                let problem = |cause| RowsError::File {
+                    file: path.display().to_string(),
+                    what: "written",
+                    cause,
+                };
                 for folder in [ROWS, LOG] {
                     fs::create_dir_all(path.join(folder)).map_err(problem)?;
                 }
                 // Whole or not at all: who opens the folder relies on it.
                 let text = line(&header).map_err(problem)?;
-                let mut file = tempfile::NamedTempFile::new_in(path).map_err(files::unnamed).map_err(problem)?;
+                let mut file = tempfile::NamedTempFile::new_in(path)
+                    .map_err(files::unnamed)
+                    .map_err(problem)?;
                 std::io::Write::write_all(&mut file, text.as_bytes()).map_err(problem)?;
                 file.persist(path.join(HEADER)).map_err(|e| problem(e.error))?;
                 Ok(Self { path: path.to_path_buf(), header })
@@ -95,7 +103,11 @@ impl Folder {
     /// It cannot be removed, or is no folder of rows.
     pub fn remove(path: &Path) -> Result<(), RowsError> {
         match Self::open(path) {
-            Ok(_) => fs::remove_dir_all(path).map_err(|cause| RowsError::File { file: path.display().to_string(), what: "removed", cause }),
+            Ok(_) => fs::remove_dir_all(path).map_err(|cause| RowsError::File {
+                file: path.display().to_string(),
+                what: "removed",
+                cause,
+            }),
             Err(RowsError::File { cause, .. }) if cause.kind() == ErrorKind::NotFound => Ok(()),
             Err(e) => Err(e),
         }
@@ -128,8 +140,10 @@ impl Folder {
     /// The folder cannot be read.
     pub fn files(&self) -> Result<Vec<PathBuf>, RowsError> {
         let folder = self.rows_folder();
-        let problem = |cause| RowsError::File { file: folder.display().to_string(), what: "read", cause };
-        let entries: Result<Vec<_>, _> = fs::read_dir(&folder).map_err(problem)?.map(|e| e.map(|e| e.path())).collect();
+        let problem =
+            |cause| RowsError::File { file: folder.display().to_string(), what: "read", cause };
+        let entries: Result<Vec<_>, _> =
+            fs::read_dir(&folder).map_err(problem)?.map(|e| e.map(|e| e.path())).collect();
         let mut files = entries.map_err(problem)?;
         files.retain(|path| path.extension().is_some_and(|e| e == ENDING));
         files.sort();
@@ -157,7 +171,10 @@ impl Folder {
             }
             for row in remains.rows {
                 file::add(&mut all.rows, row).map_err(|number| {
-                    differs(format!("row {number} has another answer in a file before it"), "move one of the two away")
+                    differs(
+                        format!("row {number} has another answer in a file before it"),
+                        "move one of the two away",
+                    )
                 })?;
             }
         }
@@ -185,7 +202,8 @@ impl Tally {
     pub fn count(&mut self, folder: &Folder) -> Result<usize, RowsError> {
         let mut all = 0;
         for path in folder.files()? {
-            let problem = |cause| RowsError::File { file: path.display().to_string(), what: "read", cause };
+            let problem =
+                |cause| RowsError::File { file: path.display().to_string(), what: "read", cause };
             let (at, lines) = self.seen.entry(path.clone()).or_default();
             let mut file = files::open(&path).map_err(problem)?;
             file.seek(SeekFrom::Start(*at)).map_err(problem)?;
@@ -218,7 +236,13 @@ mod tests {
     }
 
     fn row(number: usize, seconds: f64, status: RowStatus) -> Row {
-        Row { row: number, parameters: vec![0.5], answer: RowAnswer::of(status), error: None, seconds }
+        Row {
+            row: number,
+            parameters: vec![0.5],
+            answer: RowAnswer::of(status),
+            error: None,
+            seconds,
+        }
     }
 
     #[test]
@@ -229,7 +253,10 @@ mod tests {
         Folder::create(&path, &header()).unwrap();
         let mut tally = Tally::default();
         assert_eq!(tally.count(&folder).unwrap(), 0);
-        for rows in [vec![row(0, 1.0, RowStatus::Stable), row(1, 1.0, RowStatus::Error)], vec![row(1, 2.0, RowStatus::Error)]] {
+        for rows in [
+            vec![row(0, 1.0, RowStatus::Stable), row(1, 1.0, RowStatus::Error)],
+            vec![row(1, 2.0, RowStatus::Error)],
+        ] {
             let file = folder.fresh("task").unwrap();
             rows.iter().for_each(|row| file.append(row).unwrap());
         }
@@ -257,7 +284,9 @@ mod tests {
         Folder::create(&path, &header()).unwrap();
         let mut other = header();
         other.plan.seed = 7;
-        assert!(Folder::create(&path, &other).unwrap_err().to_string().contains("the seed differs"));
+        assert!(
+            Folder::create(&path, &other).unwrap_err().to_string().contains("the seed differs")
+        );
         Folder::remove(&path).unwrap();
         Folder::remove(&path).unwrap();
         assert!(!path.exists());

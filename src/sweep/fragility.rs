@@ -1,4 +1,5 @@
-//! The probability of failure against a demand or a parameter, with the uncertainty of a finite sample.
+//! The probability of failure against a demand or a parameter, with the uncertainty of a finite
+//! sample.
 
 use super::{Header, Row, RowAnswer, RowStatus, Sampling, influence::groups};
 use crate::analysis::Question;
@@ -22,7 +23,8 @@ pub struct Proportion {
 /// 97.5 % quantile of the standard normal distribution.
 const Z95: f64 = 1.959_963_984_540_054;
 
-/// The share `failed` / `of` with its 95 % interval after Wilson (1927), which holds near 0 and 1 and for small samples as well.
+/// The share `failed` / `of` with its 95 % interval after Wilson (1927), which holds near 0 and 1
+/// and for small samples as well.
 pub fn wilson(failed: usize, of: usize) -> Proportion {
     let (k, n) = (failed as f64, of as f64);
     if of == 0 {
@@ -51,7 +53,8 @@ const POINTS: usize = 21;
 
 /// Whether a row failed; nothing where that is not known.
 ///
-/// Failed is what falls or stands only with a pre-stress, a value below what the plan requires, and what no load factor lets stand.
+/// Failed is what falls or stands only with a pre-stress, a value below what the plan requires, and
+/// what no load factor lets stand.
 pub(super) fn failed(question: &Question, answer: &RowAnswer) -> Option<bool> {
     match (question.require(), answer.status) {
         (_, RowStatus::Stable | RowStatus::Unbounded) => Some(false),
@@ -61,26 +64,34 @@ pub(super) fn failed(question: &Question, answer: &RowAnswer) -> Option<bool> {
     }
 }
 
-/// The curve; a grid has none, for its rows are no sample of anything. Samples that fill the space evenly (Latin hypercube, Sobol) scatter
-/// less than independent ones: their intervals are on the wide side.
+/// The curve; a grid has none, for its rows are no sample of anything. Samples that fill the space
+/// evenly (Latin hypercube, Sobol) scatter less than independent ones: their intervals are on the
+/// wide side.
 ///
-/// Of a load factor or tilt without a requirement it runs against the demand (a structure fails where its value is below it), else
-/// against the number with index `parameter`.
+/// Of a load factor or tilt without a requirement it runs against the demand (a structure fails
+/// where its value is below it), else against the number with index `parameter`.
 pub(super) fn fragility(header: &Header, rows: &[Row], parameter: usize) -> Option<Fragility> {
     // A thrust is no resistance: nothing fails below a demand.
-    if matches!(header.plan.sampling, Sampling::Grid {}) || matches!(header.plan.question, Question::Thrust(_)) {
+    if matches!(header.plan.sampling, Sampling::Grid {})
+        || matches!(header.plan.question, Question::Thrust(_))
+    {
         return None;
     }
     match (header.plan.question.quantity(), header.plan.question.require()) {
         (Some(quantity), None) => against_demand(quantity, rows),
         _ => {
-            let known: Vec<(f64, bool)> =
-                rows.iter().filter_map(|r| Some((*r.parameters.get(parameter)?, failed(&header.plan.question, &r.answer)?))).collect();
+            let known: Vec<(f64, bool)> = rows
+                .iter()
+                .filter_map(|r| {
+                    Some((*r.parameters.get(parameter)?, failed(&header.plan.question, &r.answer)?))
+                })
+                .collect();
             let along = header.plan.vary.get(parameter)?.label().to_string();
             let points = groups(&known.iter().map(|k| k.0).collect::<Vec<_>>())
                 .into_iter()
                 .map(|group| {
-                    let middle = group.iter().map(|&i| known[i].0).sum::<f64>() / group.len() as f64;
+                    let middle =
+                        group.iter().map(|&i| known[i].0).sum::<f64>() / group.len() as f64;
                     (middle, wilson(group.iter().filter(|&&i| known[i].1).count(), group.len()))
                 })
                 .collect::<Vec<_>>();
@@ -100,12 +111,20 @@ fn against_demand(quantity: &str, rows: &[Row]) -> Option<Fragility> {
         })
         .collect();
     let found = || strengths.iter().copied().filter(|v| v.is_finite());
-    let (least, most) = (found().fold(f64::INFINITY, f64::min), found().fold(f64::NEG_INFINITY, f64::max));
+    let (least, most) =
+        (found().fold(f64::INFINITY, f64::min), found().fold(f64::NEG_INFINITY, f64::max));
     if least >= most {
         return None;
     }
     // Exactly the greatest at the end: rounding must not let it fail its own demand.
-    let at = |k: usize| if k + 1 == POINTS { most } else { least + (most - least) * k as f64 / (POINTS - 1) as f64 };
-    let point = |demand: f64| (demand, wilson(strengths.iter().filter(|s| **s < demand).count(), strengths.len()));
-    Some(Fragility { along: format!("demanded {quantity}"), points: (0..POINTS).map(|k| point(at(k))).collect() })
+    let at = |k: usize| {
+        if k + 1 == POINTS { most } else { least + (most - least) * k as f64 / (POINTS - 1) as f64 }
+    };
+    let point = |demand: f64| {
+        (demand, wilson(strengths.iter().filter(|s| **s < demand).count(), strengths.len()))
+    };
+    Some(Fragility {
+        along: format!("demanded {quantity}"),
+        points: (0..POINTS).map(|k| point(at(k))).collect(),
+    })
 }

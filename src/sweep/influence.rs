@@ -1,5 +1,6 @@
-//! Which number matters most: the correlation ratio, the share of the variance of the answer that one number explains by itself,
-//! whatever the form of the dependence (Pearson 1905; for independent numbers the first-order index of Sobol' 1993).
+//! Which number matters most: the correlation ratio, the share of the variance of the answer that
+//! one number explains by itself, whatever the form of the dependence (Pearson 1905; for
+//! independent numbers the first-order index of Sobol' 1993).
 
 use crate::tolerance;
 use serde::Serialize;
@@ -20,11 +21,13 @@ const GROUPS: usize = 10;
 /// Up to so many distinct values each is a group of its own.
 const DISTINCT: usize = 40;
 
-/// Indices of values grouped by like values, in rising order: one group a distinct value, or else groups of nearly equal size.
+/// Indices of values grouped by like values, in rising order: one group a distinct value, or else
+/// groups of nearly equal size.
 pub fn groups(values: &[f64]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&i, &j| values[i].total_cmp(&values[j]).then(i.cmp(&j)));
-    let same: Vec<Vec<usize>> = order.chunk_by(|&i, &j| values[i] == values[j]).map(<[usize]>::to_vec).collect();
+    let same: Vec<Vec<usize>> =
+        order.chunk_by(|&i, &j| values[i] == values[j]).map(<[usize]>::to_vec).collect();
     if same.len() <= DISTINCT {
         return same;
     }
@@ -36,8 +39,9 @@ fn alike(order: &[usize], groups: usize) -> Vec<Vec<usize>> {
     order.chunks(order.len().div_ceil(groups.max(1)).max(1)).map(<[usize]>::to_vec).collect()
 }
 
-/// The share of the variance of `answers` that a number with these `values` explains: η² corrected for chance to
-/// `1 − (1 − η²)(n − 1)/(n − k)` (Kelley 1935), not below 0. Nothing where the answers do not vary, or there are too few.
+/// The share of the variance of `answers` that a number with these `values` explains: η² corrected
+/// for chance to `1 − (1 − η²)(n − 1)/(n − k)` (Kelley 1935), not below 0. Nothing where the
+/// answers do not vary, or there are too few.
 pub fn influence(values: &[f64], answers: &[f64]) -> Option<f64> {
     let n = answers.len();
     let mean = |list: &mut dyn Iterator<Item = f64>, count: usize| list.sum::<f64>() / count as f64;
@@ -50,7 +54,12 @@ pub fn influence(values: &[f64], answers: &[f64]) -> Option<f64> {
     }
     let spread = answers.iter().fold(0.0_f64, |m, a| m.max((a - all).abs()));
     // Answers that differ by their rounding alone do not vary.
-    if n < 3 || groups.len() < 2 || groups.len() >= n || spread <= tolerance::SAME_ANSWER * all.abs() || total == 0.0 {
+    if n < 3
+        || groups.len() < 2
+        || groups.len() >= n
+        || spread <= tolerance::SAME_ANSWER * all.abs()
+        || total == 0.0
+    {
         return None;
     }
     let within: f64 = groups

@@ -21,7 +21,8 @@ pub struct Merged {
     pub rows: Vec<Row>,
 }
 
-/// Reads files of rows of the same plan, and [`Folder`]s of such files, which may still be written. Rows that several of them have must agree.
+/// Reads files of rows of the same plan, and [`Folder`]s of such files, which may still be written.
+/// Rows that several of them have must agree.
 ///
 /// # Errors
 /// A file cannot be read, or is about something else than the first.
@@ -57,11 +58,18 @@ pub fn merge(paths: &[impl AsRef<Path>]) -> Result<Option<Merged>, RowsError> {
             }
         }
         for row in more {
-            add(&mut rows, row).map_err(|number| differs("the files before it", format!("row {number} has another answer")))?;
+            add(&mut rows, row).map_err(|number| {
+                differs("the files before it", format!("row {number} has another answer"))
+            })?;
         }
     }
     let Some((_, header)) = header else { return Ok(None) };
-    Ok(Some(Merged { damaged, unchecked, header: Header { shard: Shard::ALL, ..header }, rows: rows.into_values().collect() }))
+    Ok(Some(Merged {
+        damaged,
+        unchecked,
+        header: Header { shard: Shard::ALL, ..header },
+        rows: rows.into_values().collect(),
+    }))
 }
 
 impl Merged {
@@ -81,7 +89,12 @@ impl Merged {
     /// Rows of the plan that none of the files has: how many, and the first.
     pub fn missing(&self) -> Option<(usize, usize)> {
         let many = self.header.rows - self.rows.len().min(self.header.rows);
-        let first = self.rows.iter().enumerate().find(|(i, r)| r.row != *i).map_or(self.rows.len(), |(i, _)| i);
+        let first = self
+            .rows
+            .iter()
+            .enumerate()
+            .find(|(i, r)| r.row != *i)
+            .map_or(self.rows.len(), |(i, _)| i);
         (many > 0).then_some((many, first))
     }
 }

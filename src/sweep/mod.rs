@@ -1,9 +1,11 @@
 //! One question over many scenes that differ in a few numbers.
 //!
-//! A [`Plan`] names a scene, a question and the numbers that vary, each by JSON pointer. [`open`] checks all of it and gives a
-//! [`Sweep`]; [`run`] answers it row by row into a file of rows ([`Header`], then one [`Row`] a line as it ends), which a later run
-//! takes up where a killed one left it. Row *i* is a function of (plan, scene, *i*) alone: not of threads, shards, or of which
-//! rows ran before. [`merge`] puts shards together, [`Folder`] and [`slurm`] spread them over the machines of a cluster, [`summarize`] says what the rows have in common.
+//! A [`Plan`] names a scene, a question and the numbers that vary, each by JSON pointer. [`open`]
+//! checks all of it and gives a [`Sweep`]; [`run`] answers it row by row into a file of rows
+//! ([`Header`], then one [`Row`] a line as it ends), which a later run takes up where a killed one
+//! left it. Row *i* is a function of (plan, scene, *i*) alone: not of threads, shards, or of which
+//! rows ran before. [`merge`] puts shards together, [`Folder`] and [`slurm`] spread them over the
+//! machines of a cluster, [`summarize`] says what the rows have in common.
 //!
 //! ```
 //! use voussoir::sweep::{self, RunOptions};

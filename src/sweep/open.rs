@@ -1,4 +1,5 @@
-//! Plan file → [`Sweep`]: everything that can be wrong before the first row is refused here, with its place in the plan.
+//! Plan file → [`Sweep`]: everything that can be wrong before the first row is refused here, with
+//! its place in the plan.
 
 use super::{
     Header, Plan, Sampling, Shard,
@@ -17,7 +18,8 @@ use crate::{
 use serde_json::Value;
 use std::path::Path;
 
-/// A plan may have this many rows. More would not fit into the memory of the summary; shards of a plan count together.
+/// A plan may have this many rows. More would not fit into the memory of the summary; shards of a
+/// plan count together.
 pub const MOST_ROWS: usize = 2_000_000;
 
 const PLAN: Kind = Kind { noun: "plan", format: "voussoir-sweep/1", otherwise: "" };
@@ -27,7 +29,8 @@ const PLAN: Kind = Kind { noun: "plan", format: "voussoir-sweep/1", otherwise: "
 pub struct Sweep {
     /// The plan as read.
     pub plan: Plan,
-    /// The scene as the file says it, with the meshes it names; every row changes a few numbers of it.
+    /// The scene as the file says it, with the meshes it names; every row changes a few numbers of
+    /// it.
     pub scene: Value,
     /// What was said when the meshes of the scene were read.
     pub findings: Vec<Finding>,
@@ -42,7 +45,12 @@ pub struct Sweep {
 /// The plan or its scene cannot be read, or the plan asks for something that has no meaning.
 pub fn open(path: &Path) -> Result<Sweep, InputError> {
     let bytes = limits::read_file(path, limits::PER_BYTE)?;
-    open_bytes(path.display().to_string(), bytes, path.parent().unwrap_or(Path::new("")), Reach::Folder)
+    open_bytes(
+        path.display().to_string(),
+        bytes,
+        path.parent().unwrap_or(Path::new("")),
+        Reach::Folder,
+    )
 }
 
 /// Reads a plan from the bytes of a file, without the scene it names.
@@ -53,12 +61,17 @@ pub fn read_plan(name: impl Into<String>, bytes: Vec<u8>) -> Result<(Plan, Sourc
     scene::read_as(&PLAN, scene::text(name, bytes)?)
 }
 
-/// Reads a plan from the bytes of a file; its scene is looked for in `folder`. The meshes that the scene names become part of it, so that
-/// rows need no file.
+/// Reads a plan from the bytes of a file; its scene is looked for in `folder`. The meshes that the
+/// scene names become part of it, so that rows need no file.
 ///
 /// # Errors
 /// As [`open`].
-pub fn open_bytes(name: impl Into<String>, bytes: Vec<u8>, folder: &Path, reach: Reach) -> Result<Sweep, InputError> {
+pub fn open_bytes(
+    name: impl Into<String>,
+    bytes: Vec<u8>,
+    folder: &Path,
+    reach: Reach,
+) -> Result<Sweep, InputError> {
     let (plan, source) = read_plan(name, bytes)?;
     let refuse = |e: InputError| e.located(&source);
     let key = JsonPath::root().key("scene");
@@ -68,12 +81,20 @@ pub fn open_bytes(name: impl Into<String>, bytes: Vec<u8>, folder: &Path, reach:
         refuse(error.hint("the path is relative to the folder of the plan"))
     })?;
     let (mut scene, scene_source) = scene::read_bytes(path.display().to_string(), bytes)?;
-    let mut value: Value = serde_json::from_str(&scene_source.text)
-        .map_err(|e| InputError { file: Some(scene_source.name.clone()), ..InputError::at(JsonPath::root(), e.to_string()) })?;
-    let findings = read_meshes(&mut scene, path.parent().unwrap_or(Path::new("")), reach).map_err(|e| e.located(&scene_source))?;
-    for (block, written) in scene.blocks.iter().zip(value.get_mut("blocks").and_then(Value::as_array_mut).into_iter().flatten()) {
+    let mut value: Value = serde_json::from_str(&scene_source.text).map_err(|e| InputError {
+        file: Some(scene_source.name.clone()),
+        ..InputError::at(JsonPath::root(), e.to_string())
+    })?;
+    let findings = read_meshes(&mut scene, path.parent().unwrap_or(Path::new("")), reach)
+        .map_err(|e| e.located(&scene_source))?;
+    for (block, written) in scene
+        .blocks
+        .iter()
+        .zip(value.get_mut("blocks").and_then(Value::as_array_mut).into_iter().flatten())
+    {
         if let (Shape::Mesh { .. }, Some(written)) = (&block.shape, written.as_object_mut()) {
-            let shape = serde_json::to_value(&block.shape).map_err(|e| InputError::at(JsonPath::root(), e.to_string()))?;
+            let shape = serde_json::to_value(&block.shape)
+                .map_err(|e| InputError::at(JsonPath::root(), e.to_string()))?;
             written.insert("shape".into(), shape);
         }
     }
@@ -89,9 +110,8 @@ impl Sweep {
         let root = JsonPath::root();
         let grid = matches!(plan.sampling, Sampling::Grid {});
         if plan.vary.is_empty() {
-            return Err(
-                InputError::at(root.key("vary"), "nothing varies").hint("add { \"pointer\": …, \"from\": …, \"to\": …, \"count\": … }")
-            );
+            return Err(InputError::at(root.key("vary"), "nothing varies")
+                .hint("add { \"pointer\": …, \"from\": …, \"to\": …, \"count\": … }"));
         }
         plan.question.check().map_err(|e| e.under(&root.key("question")))?;
         let (mut pointers, mut axes) = (Vec::new(), Vec::new());
@@ -102,7 +122,8 @@ impl Sweep {
             let pointer = Pointer::find(&vary.pointer, &scene).map_err(|e| e.under(&path))?;
             fits(&pointer, &axis, &scene).map_err(|e| e.under(&path))?;
             if pointers.contains(&pointer) {
-                return Err(InputError::at(path, format!("{:?} varies twice", vary.pointer)).hint("keep one of them"));
+                return Err(InputError::at(path, format!("{:?} varies twice", vary.pointer))
+                    .hint("keep one of them"));
             }
             pointers.push(pointer);
             axes.push(axis);
@@ -159,11 +180,14 @@ impl Sweep {
     /// `limit` without a live load would fail in every row alike.
     fn asks_about_something(&self) -> Result<(), InputError> {
         let Question::Limit(_) = self.plan.question else { return Ok(()) };
-        let first = self.scene_with(&self.parameters(0)).and_then(|scene| assembly::resolve(&scene));
+        let first =
+            self.scene_with(&self.parameters(0)).and_then(|scene| assembly::resolve(&scene));
         match first {
             Ok(assembly) if assembly.live.iter().all(|w| *w == Wrench::zero()) => {
-                let error =
-                    InputError::at(JsonPath::root().key("question"), "the scene of row 0 has no live load on a free block to ask about");
+                let error = InputError::at(
+                    JsonPath::root().key("question"),
+                    "the scene of row 0 has no live load on a free block to ask about",
+                );
                 Err(error.hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene, or ask \"tilt\""))
             }
             // Scenes that cannot be resolved are rows with their errors.
@@ -189,11 +213,17 @@ fn fits(pointer: &Pointer, axis: &Axis, scene: &Value) -> Result<(), InputError>
     let old = pointer.get(scene).and_then(Value::as_f64);
     let first = old.unwrap_or_else(|| axis.quantile(0.5));
     if let Err(e) = with(first).and(with(first.floor() + 1.0)) {
-        return Err(InputError::at(JsonPath::root(), format!("the scene has no such number: {}", e.message))
-            .hint("spell it as the scene format does"));
+        return Err(InputError::at(
+            JsonPath::root(),
+            format!("the scene has no such number: {}", e.message),
+        )
+        .hint("spell it as the scene format does"));
     }
     if !axis.is_whole() && with(first.floor() + 0.5).is_err() {
-        let message = format!("{} of the scene is a count, and not all its values are whole numbers", pointer.path);
+        let message = format!(
+            "{} of the scene is a count, and not all its values are whole numbers",
+            pointer.path
+        );
         return Err(InputError::at(JsonPath::root(), message).hint("add \"round\": true"));
     }
     Ok(())
@@ -206,8 +236,11 @@ fn rows(plan: &Plan, axes: &[Axis]) -> Result<usize, InputError> {
             let all = axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(axis.count));
             let rows = all.filter(|n| *n <= MOST_ROWS);
             return rows.ok_or_else(|| {
-                InputError::at(JsonPath::root().key("vary"), format!("the grid has more than {MOST_ROWS} rows"))
-                    .hint("take fewer values, or sample")
+                InputError::at(
+                    JsonPath::root().key("vary"),
+                    format!("the grid has more than {MOST_ROWS} rows"),
+                )
+                .hint("take fewer values, or sample")
             });
         }
         Sampling::LatinHypercube { samples } => ("latin_hypercube", samples),
@@ -216,12 +249,19 @@ fn rows(plan: &Plan, axes: &[Axis]) -> Result<usize, InputError> {
     };
     let path = path.key(key).key("samples");
     if key == "sobol" && (rows > SOBOL.0 || axes.len() > SOBOL.1) {
-        let message = format!("Sobol points go up to {} rows and {} numbers, got {rows} and {}", SOBOL.0, SOBOL.1, axes.len());
+        let message = format!(
+            "Sobol points go up to {} rows and {} numbers, got {rows} and {}",
+            SOBOL.0,
+            SOBOL.1,
+            axes.len()
+        );
         return Err(InputError::at(path, message).hint("use \"latin_hypercube\" or \"random\""));
     }
     match rows {
         0 => Err(InputError::at(path, "must be at least 1, got 0")),
-        n if n > MOST_ROWS => Err(InputError::at(path, format!("must be at most {MOST_ROWS}, got {n}"))),
+        n if n > MOST_ROWS => {
+            Err(InputError::at(path, format!("must be at most {MOST_ROWS}, got {n}")))
+        }
         n => Ok(n),
     }
 }

@@ -1,4 +1,5 @@
-//! What a plan file says, and nothing more (`"format": "voussoir-sweep/1"`). [`open`](super::open()) checks it.
+//! What a plan file says, and nothing more (`"format": "voussoir-sweep/1"`).
+//! [`open`](super::open()) checks it.
 
 use crate::analysis::Question;
 use schemars::JsonSchema;
@@ -36,11 +37,13 @@ pub struct Plan {
     pub seed: u64,
 }
 
-/// One number of the scene, and what it takes. Exactly one of `from` and `to`, `values`, `normal`, `lognormal`.
+/// One number of the scene, and what it takes. Exactly one of `from` and `to`, `values`, `normal`,
+/// `lognormal`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Vary {
-    /// JSON pointer (RFC 6901) to a number of the scene file: `/templates/0/arch/thickness`. A key that the file leaves out may be named too.
+    /// JSON pointer (RFC 6901) to a number of the scene file: `/templates/0/arch/thickness`. A key
+    /// that the file leaves out may be named too.
     pub pointer: String,
     /// What tables and charts call it; the pointer where nothing is said.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -84,7 +87,8 @@ pub struct Normal {
     pub sd: f64,
 }
 
-/// A lognormal distribution, by the mean and standard deviation of the value itself (not of its logarithm).
+/// A lognormal distribution, by the mean and standard deviation of the value itself (not of its
+/// logarithm).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Lognormal {
@@ -100,7 +104,8 @@ pub struct Lognormal {
 pub enum Sampling {
     /// Every combination; the last number of `vary` changes fastest.
     Grid {},
-    /// Latin hypercube (McKay, Beckman & Conover 1979): every number takes each of `samples` equally likely slices once.
+    /// Latin hypercube (McKay, Beckman & Conover 1979): every number takes each of `samples`
+    /// equally likely slices once.
     LatinHypercube {
         /// Rows.
         samples: usize,

@@ -36,7 +36,8 @@ impl Pointer {
             return Err(InputError::at(root(), format!("not a JSON pointer: {text:?}"))
                 .hint("a pointer starts at the root of the scene: \"/joints/default/friction\""));
         };
-        let tokens: Vec<String> = rest.split('/').map(|t| t.replace("~1", "/").replace("~0", "~")).collect();
+        let tokens: Vec<String> =
+            rest.split('/').map(|t| t.replace("~1", "/").replace("~0", "~")).collect();
         let (mut value, mut path) = (scene, root());
         for (depth, token) in tokens.iter().enumerate() {
             let last = depth + 1 == tokens.len();
@@ -55,13 +56,20 @@ impl Pointer {
                     match index.and_then(|i| list.get(i)) {
                         Some(next) => next,
                         None => {
-                            let message = format!("{text:?} leads nowhere: {token:?} is none of the {} elements of its list", list.len());
-                            return Err(InputError::at(root(), message).hint("elements are counted from 0"));
+                            let message = format!(
+                                "{text:?} leads nowhere: {token:?} is none of the {} elements of its list",
+                                list.len()
+                            );
+                            return Err(
+                                InputError::at(root(), message).hint("elements are counted from 0")
+                            );
                         }
                     }
                 }
                 _ => {
-                    let message = format!("{text:?} leads nowhere: {path} of the scene is {value}, which has no {token:?}");
+                    let message = format!(
+                        "{text:?} leads nowhere: {path} of the scene is {value}, which has no {token:?}"
+                    );
                     return Err(InputError::at(root(), message));
                 }
             };
@@ -72,11 +80,15 @@ impl Pointer {
             return Ok(Self { tokens, path });
         }
         let what = match value {
-            Value::Object(map) => format!("an object with {}", map.keys().map(|k| format!("{k:?}")).collect::<Vec<_>>().join(", ")),
+            Value::Object(map) => format!(
+                "an object with {}",
+                map.keys().map(|k| format!("{k:?}")).collect::<Vec<_>>().join(", ")
+            ),
             Value::Array(list) => format!("a list of {}", list.len()),
             scalar => scalar.to_string(),
         };
-        Err(InputError::at(root(), format!("{path} of the scene is not a number: {what}")).hint("a pointer ends at one number"))
+        Err(InputError::at(root(), format!("{path} of the scene is not a number: {what}"))
+            .hint("a pointer ends at one number"))
     }
 
     /// The number there, where there is one.
@@ -107,9 +119,11 @@ impl Pointer {
         }
     }
 
-    /// What depends on this number. Where it is not sure, everything does; interfaces given by hand take their law from many places.
+    /// What depends on this number. Where it is not sure, everything does; interfaces given by hand
+    /// take their law from many places.
     pub fn touches(&self, scene: &Value) -> Touches {
-        let given = scene.get("interfaces").and_then(Value::as_array).is_some_and(|list| !list.is_empty());
+        let given =
+            scene.get("interfaces").and_then(Value::as_array).is_some_and(|list| !list.is_empty());
         let tokens: Vec<&str> = self.tokens.iter().map(String::as_str).collect();
         match tokens[..] {
             _ if given => Touches::Shapes,
@@ -122,11 +136,18 @@ impl Pointer {
 
 fn no_key(text: &str, token: &str, map: &Map<String, Value>) -> InputError {
     let hint = suggest(token, map.keys().map(String::as_str));
-    InputError { hint, ..InputError::at(JsonPath::root(), format!("{text:?} leads nowhere: the scene has no key {token:?} there")) }
+    InputError {
+        hint,
+        ..InputError::at(
+            JsonPath::root(),
+            format!("{text:?} leads nowhere: the scene has no key {token:?} there"),
+        )
+    }
 }
 
 fn index(token: &str) -> Option<usize> {
-    let plain = token.bytes().all(|b| b.is_ascii_digit()) && (token == "0" || !token.starts_with('0'));
+    let plain =
+        token.bytes().all(|b| b.is_ascii_digit()) && (token == "0" || !token.starts_with('0'));
     if plain { token.parse().ok() } else { None }
 }
 
@@ -145,12 +166,16 @@ mod tests {
 
     #[test]
     fn leads_to_numbers_only_and_says_why_not() {
-        let scene = json!({ "a/b": [{ "m~n": 1.5 }], "t": [1, { "u": "infinite", "v": "word", "w": {} }] });
+        let scene =
+            json!({ "a/b": [{ "m~n": 1.5 }], "t": [1, { "u": "infinite", "v": "word", "w": {} }] });
         let mut changed = scene.clone();
         Pointer::find("/a~1b/0/m~0n", &scene).unwrap().set(&mut changed, 3.0);
         Pointer::find("/t/1/u", &scene).unwrap().set(&mut changed, 0.25);
         Pointer::find("/t/1/w/new", &scene).unwrap().set(&mut changed, -0.0);
-        assert_eq!(changed, json!({ "a/b": [{ "m~n": 3 }], "t": [1, { "u": 0.25, "v": "word", "w": { "new": 0 } }] }));
+        assert_eq!(
+            changed,
+            json!({ "a/b": [{ "m~n": 3 }], "t": [1, { "u": 0.25, "v": "word", "w": { "new": 0 } }] })
+        );
         for (text, word) in [
             ("t/0", "not a JSON pointer"),
             ("", "not a JSON pointer"),
@@ -173,7 +198,8 @@ mod tests {
     #[test]
     fn what_depends_on_a_number() {
         let free = json!({ "joints": { "default": {} }, "materials": { "m": { "density": 1 } }, "templates": [{ "arch": { "radius": 1 } }], "gravity": [0, 0, -9] });
-        let touches = |text: &str, scene: &Value| Pointer::find(text, scene).unwrap().touches(scene);
+        let touches =
+            |text: &str, scene: &Value| Pointer::find(text, scene).unwrap().touches(scene);
         assert_eq!(touches("/joints/default/friction", &free), Touches::Loads);
         assert_eq!(touches("/gravity/2", &free), Touches::Loads);
         assert_eq!(touches("/materials/m/density", &free), Touches::Masses);

@@ -60,7 +60,9 @@ impl Header {
     /// and whether there are check sums do not matter.
     pub fn differs(&self, other: &Self) -> Option<&'static str> {
         let (a, b) = (&self.plan, &other.plan);
-        let vary = |p: &Plan| -> Vec<super::Vary> { p.vary.iter().map(|v| super::Vary { name: None, ..v.clone() }).collect() };
+        let vary = |p: &Plan| -> Vec<super::Vary> {
+            p.vary.iter().map(|v| super::Vary { name: None, ..v.clone() }).collect()
+        };
         [
             (self.voussoir != other.voussoir, "another version of this program made them"),
             (a.question != b.question, "the question differs"),
@@ -132,7 +134,8 @@ fn finite(value: f64) -> Option<f64> {
 pub struct RowAnswer {
     /// What became of the question.
     pub status: RowStatus,
-    /// The load factor, or the tilt in degrees: with dry friction unless the plan says `associative`.
+    /// The load factor, or the tilt in degrees: with dry friction unless the plan says
+    /// `associative`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// Lower end of its bracket; of `assess` that of the least unbalance, in multiples of gravity.
@@ -158,15 +161,24 @@ impl RowAnswer {
             ..Self::of_load_factor(&t.load_factor, t.dry.as_ref().map(|d| &d.load_factor), degrees)
         };
         let least = |all: &mut dyn Iterator<Item = Self>| {
-            all.min_by(|a, b| a.governing().total_cmp(&b.governing())).unwrap_or(Self::of(RowStatus::Undecided))
+            all.min_by(|a, b| a.governing().total_cmp(&b.governing()))
+                .unwrap_or(Self::of(RowStatus::Undecided))
         };
         match answer {
             Answer::Assess(a) => Self::of_assessment(a),
             Answer::Limit(l) => Self::of_load_factor(&l.bound, l.dry.as_ref(), |lambda| lambda),
             Answer::Tilt(t) => least(&mut t.directions.iter().map(tilt)),
-            Answer::Repose(p) => least(&mut p.directions.iter().filter_map(|d| d.rounds.get(d.answer)).map(|r| tilt(&r.tilt))),
+            Answer::Repose(p) => least(
+                &mut p
+                    .directions
+                    .iter()
+                    .filter_map(|d| d.rounds.get(d.answer))
+                    .map(|r| tilt(&r.tilt)),
+            ),
             Answer::Critical(c) => Self::of_flips(c),
-            Answer::Thrust(t) => t.ends.first().map_or_else(|| Self::of_assessment(&t.standing), Self::of_thrust),
+            Answer::Thrust(t) => {
+                t.ends.first().map_or_else(|| Self::of_assessment(&t.standing), Self::of_thrust)
+            }
             Answer::Simulate(outcome) => Self::of(match outcome.fate {
                 Fate::Stands => RowStatus::Stable,
                 Fate::Falls => RowStatus::Unstable,
@@ -182,11 +194,20 @@ impl RowAnswer {
             Verdict::Unstable => RowStatus::Unstable,
             Verdict::Undecided => RowStatus::Undecided,
         };
-        Self { lower: finite(a.unbalance.lower), upper: finite(a.unbalance.upper), ..Self::of(status) }
+        Self {
+            lower: finite(a.unbalance.lower),
+            upper: finite(a.unbalance.upper),
+            ..Self::of(status)
+        }
     }
 
-    /// The bound and, where it was asked for, the load factor with dry friction; values are read through `scale`.
-    fn of_load_factor(bound: &LoadFactor, dry: Option<&Proved<DryLoadFactor>>, scale: fn(f64) -> f64) -> Self {
+    /// The bound and, where it was asked for, the load factor with dry friction; values are read
+    /// through `scale`.
+    fn of_load_factor(
+        bound: &LoadFactor,
+        dry: Option<&Proved<DryLoadFactor>>,
+        scale: fn(f64) -> f64,
+    ) -> Self {
         let answer = Self {
             value: (bound.outcome == Outcome::Found).then(|| scale(bound.value)),
             lower: finite(bound.bracket.lower).map(scale),
@@ -201,19 +222,40 @@ impl RowAnswer {
         match found {
             // The bound itself is the answer, with its bracket.
             Found::NothingSlides | Found::Unlimited => Self { dry: Some(found), ..answer },
-            Found::FixedPoint => Self { status: RowStatus::Found, value, lower: None, dry: Some(found), ..answer },
-            Found::Rests => Self { status: RowStatus::Found, value, lower: Some(scale(dry.rests_at)), dry: Some(found), ..answer },
+            Found::FixedPoint => {
+                Self { status: RowStatus::Found, value, lower: None, dry: Some(found), ..answer }
+            }
+            Found::Rests => Self {
+                status: RowStatus::Found,
+                value,
+                lower: Some(scale(dry.rests_at)),
+                dry: Some(found),
+                ..answer
+            },
             Found::NotAtRest => Self { dry: Some(found), ..Self::of(RowStatus::Conditional) },
-            Found::Undecided => Self { status: RowStatus::Undecided, value: None, lower: None, dry: Some(found), ..answer },
+            Found::Undecided => Self {
+                status: RowStatus::Undecided,
+                value: None,
+                lower: None,
+                dry: Some(found),
+                ..answer
+            },
         }
     }
 
     /// The first flip of the range; without one the verdict throughout it.
     fn of_flips(c: &Critical) -> Self {
         let Some(flip) = c.changes.first() else {
-            return c.ends.first().map_or(Self::of(RowStatus::Undecided), |end| Self::of_assessment(&end.assessment));
+            return c.ends.first().map_or(Self::of(RowStatus::Undecided), |end| {
+                Self::of_assessment(&end.assessment)
+            });
         };
-        Self { value: Some(flip.value), lower: Some(flip.below.value), upper: Some(flip.above.value), ..Self::of(RowStatus::Found) }
+        Self {
+            value: Some(flip.value),
+            lower: Some(flip.below.value),
+            upper: Some(flip.above.value),
+            ..Self::of(RowStatus::Found)
+        }
     }
 
     fn of_thrust(end: &Proved<ThrustEnd>) -> Self {

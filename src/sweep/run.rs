@@ -28,7 +28,8 @@ pub struct RunOptions {
 /// What a run sees.
 #[derive(Clone, Copy, Debug)]
 pub enum Event {
-    /// Rows of this shard, rows that were there already, bytes of a half-written line that were cut off.
+    /// Rows of this shard, rows that were there already, bytes of a half-written line that were cut
+    /// off.
     Begin {
         /// Rows of this shard.
         rows: usize,
@@ -56,15 +57,22 @@ pub struct Done {
 
 /// Answers the rows of a shard that are not in the file `path` yet, each appended as it ends.
 ///
-/// Rows that share shapes are done one after the other, so that contacts are found once for all of them.
+/// Rows that share shapes are done one after the other, so that contacts are found once for all of
+/// them.
 ///
 /// # Errors
 /// The file cannot be used. Rows that fail are rows with their error.
-pub fn run(sweep: &Sweep, path: &Path, options: &RunOptions, watch: &(dyn Fn(Event) + Sync)) -> Result<Done, RowsError> {
+pub fn run(
+    sweep: &Sweep,
+    path: &Path,
+    options: &RunOptions,
+    watch: &(dyn Fn(Event) + Sync),
+) -> Result<Done, RowsError> {
     let header = sweep.header(options.shard);
     let Opened { file, rows, mended, unchecked } = RowsFile::open(path, &header, options.restart)?;
     let there: HashSet<usize> = rows.iter().map(|r| r.row).collect();
-    let open = options.shard.rows(sweep.rows()).filter(|row| !there.contains(row)).collect::<Vec<_>>();
+    let open =
+        options.shard.rows(sweep.rows()).filter(|row| !there.contains(row)).collect::<Vec<_>>();
     watch(Event::Begin { rows: there.len() + open.len(), there: there.len(), mended, unchecked });
     let (more, computed) = answers(sweep, &file, open, options.threads, watch)?;
     let mut rows = rows;
@@ -73,8 +81,8 @@ pub fn run(sweep: &Sweep, path: &Path, options: &RunOptions, watch: &(dyn Fn(Eve
     Ok(Done { header, rows, computed })
 }
 
-/// Answers the rows of a shard that no file of the folder holds yet, each appended to a file of its own, `name` with an ending, as it
-/// ends. Returns how many there were.
+/// Answers the rows of a shard that no file of the folder holds yet, each appended to a file of its
+/// own, `name` with an ending, as it ends. Returns how many there were.
 ///
 /// # Errors
 /// A file cannot be used.
@@ -88,7 +96,12 @@ pub fn run_in(
     let there = folder.read()?.rows;
     let mine: Vec<usize> = options.shard.rows(sweep.rows()).collect();
     let open: Vec<usize> = mine.iter().copied().filter(|row| !there.contains_key(row)).collect();
-    watch(Event::Begin { rows: mine.len(), there: mine.len() - open.len(), mended: 0, unchecked: 0 });
+    watch(Event::Begin {
+        rows: mine.len(),
+        there: mine.len() - open.len(),
+        mended: 0,
+        unchecked: 0,
+    });
     if open.is_empty() {
         return Ok(0);
     }
@@ -96,12 +109,18 @@ pub fn run_in(
     Ok(answers(sweep, &file, open, options.threads, watch)?.0.len())
 }
 
-/// Rows, spread evenly over those of `open`, one after the other until there are `most` or `seconds` have passed: how long one takes.
-/// They are appended to `file`, where there is one.
+/// Rows, spread evenly over those of `open`, one after the other until there are `most` or
+/// `seconds` have passed: how long one takes. They are appended to `file`, where there is one.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn measure(sweep: &Sweep, open: &[usize], most: usize, seconds: f64, file: Option<&RowsFile>) -> Result<Option<f64>, RowsError> {
+pub fn measure(
+    sweep: &Sweep,
+    open: &[usize],
+    most: usize,
+    seconds: f64,
+    file: Option<&RowsFile>,
+) -> Result<Option<f64>, RowsError> {
     let start = Instant::now();
     let (reuse, mut done, mut sum) = (Reuse::default(), 0_usize, 0.0);
     for &number in open.iter().step_by(open.len().div_ceil(most.max(1)).max(1)) {
@@ -115,7 +134,8 @@ pub fn measure(sweep: &Sweep, open: &[usize], most: usize, seconds: f64, file: O
     Ok((done > 0).then(|| sum / done as f64))
 }
 
-/// Answers rows, each appended as it ends. Also how often blocks were resolved and contacts detected.
+/// Answers rows, each appended as it ends. Also how often blocks were resolved and contacts
+/// detected.
 fn answers(
     sweep: &Sweep,
     file: &RowsFile,
@@ -145,14 +165,18 @@ pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize) -> Row {
     let asked = || -> Result<RowAnswer, crate::error::InputError> {
         let scene = sweep.scene_with(&parameters)?;
         let model = reuse.prepare(&scene, &sweep.keys(&parameters))?;
-        let answer = ask(&sweep.plan.question.for_one_number(), &scene, &model, &Control::default())?;
+        let answer =
+            ask(&sweep.plan.question.for_one_number(), &scene, &model, &Control::default())?;
         Ok(RowAnswer::of_answer(&answer))
     };
     // A mistake in the program costs one row, not the sweep.
     let (answer, error) = match catch_unwind(AssertUnwindSafe(asked)) {
         Ok(Ok(answer)) => (answer, None),
         Ok(Err(e)) => (RowAnswer::of(RowStatus::Error), Some(e.to_string())),
-        Err(_) => (RowAnswer::of(RowStatus::Error), Some("the program failed on this scene (please report it)".into())),
+        Err(_) => (
+            RowAnswer::of(RowStatus::Error),
+            Some("the program failed on this scene (please report it)".into()),
+        ),
     };
     Row { row: number, parameters, answer, error, seconds: start.elapsed().as_secs_f64() }
 }

@@ -51,8 +51,12 @@ impl fmt::Display for Shard {
 impl FromStr for Shard {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
-        let parts = text.split_once('/').and_then(|(k, n)| Some((k.trim().parse().ok()?, n.trim().parse().ok()?)));
-        parts.and_then(|(k, n)| Self::new(k, n)).ok_or_else(|| "not of the form K/N with 1 <= K <= N, such as 2/8".into())
+        let parts = text
+            .split_once('/')
+            .and_then(|(k, n)| Some((k.trim().parse().ok()?, n.trim().parse().ok()?)));
+        parts
+            .and_then(|(k, n)| Self::new(k, n))
+            .ok_or_else(|| "not of the form K/N with 1 <= K <= N, such as 2/8".into())
     }
 }
 

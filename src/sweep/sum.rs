@@ -1,5 +1,6 @@
-//! Check sums of rows: whether a row, or the header above it, is still what the program wrote. They are there against mistakes (an editor, a
-//! merge by hand, a worn disk), not against forgery: who wants to can compute them anew.
+//! Check sums of rows: whether a row, or the header above it, is still what the program wrote. They
+//! are there against mistakes (an editor, a merge by hand, a worn disk), not against forgery: who
+//! wants to can compute them anew.
 
 use crate::{error::RowsError, plain};
 use fnv::FnvHasher;
@@ -40,27 +41,48 @@ impl Seal {
         // The brace comes back behind the sum.
         text.pop();
         let sum = sum(self.0, text.as_bytes());
-        Ok(format!("{text}{}{sum:0DIGITS$x}{}\n", String::from_utf8_lossy(KEY), String::from_utf8_lossy(END)))
+        Ok(format!(
+            "{text}{}{sum:0DIGITS$x}{}\n",
+            String::from_utf8_lossy(KEY),
+            String::from_utf8_lossy(END)
+        ))
     }
 
     /// Looks at a line without its end.
     pub fn check(self, line: &[u8]) -> Checked {
-        let parts = line.strip_suffix(END).and_then(|l| l.split_last_chunk::<DIGITS>()).and_then(|(l, s)| Some((l.strip_suffix(KEY)?, s)));
+        let parts = line
+            .strip_suffix(END)
+            .and_then(|l| l.split_last_chunk::<DIGITS>())
+            .and_then(|(l, s)| Some((l.strip_suffix(KEY)?, s)));
         let Some((text, digits)) = parts else {
-            return if line.windows(KEY.len()).any(|w| w == KEY) { Checked::Edited } else { Checked::Unknown };
+            return if line.windows(KEY.len()).any(|w| w == KEY) {
+                Checked::Edited
+            } else {
+                Checked::Unknown
+            };
         };
         let said = std::str::from_utf8(digits).ok().and_then(|d| u64::from_str_radix(d, 16).ok());
         if said == Some(sum(self.0, text)) { Checked::Same } else { Checked::Edited }
     }
 
-    /// Refuses a row that was edited. Returns whether it has a sum; where `all` rows of the file have one, it must.
-    pub fn require(self, line: &[u8], all: bool, at: impl FnOnce(String) -> RowsError) -> Result<bool, RowsError> {
+    /// Refuses a row that was edited. Returns whether it has a sum; where `all` rows of the file
+    /// have one, it must.
+    pub fn require(
+        self,
+        line: &[u8],
+        all: bool,
+        at: impl FnOnce(String) -> RowsError,
+    ) -> Result<bool, RowsError> {
         let remedy = "remove the line to have the row computed again; where the first line was edited, bring back what it was";
         match self.check(line) {
             Checked::Same => Ok(true),
             Checked::Unknown if !all => Ok(false),
-            Checked::Unknown => Err(at(format!("the check sum of the row is gone, so it was edited; {remedy}"))),
-            Checked::Edited => Err(at(format!("the row or the first line of the file was edited: its check sum is another; {remedy}"))),
+            Checked::Unknown => {
+                Err(at(format!("the check sum of the row is gone, so it was edited; {remedy}")))
+            }
+            Checked::Edited => Err(at(format!(
+                "the row or the first line of the file was edited: its check sum is another; {remedy}"
+            ))),
         }
     }
 }
@@ -93,6 +115,12 @@ mod tests {
             assert_ne!(seal.check(&other), Checked::Same, "byte {at}");
         }
         assert_eq!(seal.check(b"{\"row\":3,\"seconds\":0.25}"), Checked::Unknown);
-        assert!(seal.require(b"{\"row\":3}", true, |why| RowsError::Unreadable { file: "f".into(), why }).is_err());
+        assert!(
+            seal.require(b"{\"row\":3}", true, |why| RowsError::Unreadable {
+                file: "f".into(),
+                why
+            })
+            .is_err()
+        );
     }
 }

@@ -69,29 +69,47 @@ pub fn summarize(header: &Header, rows: &[Row]) -> Summary {
         rows: rows.len(),
         counts,
         quantiles: quantiles(rows),
-        failed: (told && !fates.is_empty()).then(|| wilson(fates.iter().filter(|f| **f).count(), fates.len())),
+        failed: (told && !fates.is_empty())
+            .then(|| wilson(fates.iter().filter(|f| **f).count(), fates.len())),
         fragility: fragility(header, rows, most),
         influence,
-        first_error: rows.iter().find(|r| r.answer.status == RowStatus::Error).map(|r| (r.row, r.error.clone().unwrap_or_default())),
+        first_error: rows
+            .iter()
+            .find(|r| r.answer.status == RowStatus::Error)
+            .map(|r| (r.row, r.error.clone().unwrap_or_default())),
         seconds: rows.iter().map(|r| r.seconds).sum(),
     }
 }
 
 fn quantiles(rows: &[Row]) -> Option<Quantiles> {
-    let mut values: Vec<(f64, usize)> = rows.iter().filter_map(|r| Some((r.answer.value.filter(|v| v.is_finite())?, r.row))).collect();
+    let mut values: Vec<(f64, usize)> = rows
+        .iter()
+        .filter_map(|r| Some((r.answer.value.filter(|v| v.is_finite())?, r.row)))
+        .collect();
     values.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let at = |p: f64| {
         let place = p * (values.len() - 1) as f64;
         let (low, high) = (place.floor() as usize, place.ceil() as usize);
         values[low].0 + (place - place.floor()) * (values[high].0 - values[low].0)
     };
-    let (least, greatest) = (extreme(&values, values.first()?.0), extreme(&values, values.last()?.0));
-    Some(Quantiles { least, p05: at(0.05), p25: at(0.25), median: at(0.5), p75: at(0.75), p95: at(0.95), greatest })
+    let (least, greatest) =
+        (extreme(&values, values.first()?.0), extreme(&values, values.last()?.0));
+    Some(Quantiles {
+        least,
+        p05: at(0.05),
+        p25: at(0.25),
+        median: at(0.5),
+        p75: at(0.75),
+        p95: at(0.95),
+        greatest,
+    })
 }
 
-/// An extreme value with the first of the rows that have it: what differs by its rounding alone is the same.
+/// An extreme value with the first of the rows that have it: what differs by its rounding alone is
+/// the same.
 fn extreme(values: &[(f64, usize)], value: f64) -> (f64, usize) {
-    let same = values.iter().filter(|v| (v.0 - value).abs() <= tolerance::SAME_ANSWER * value.abs());
+    let same =
+        values.iter().filter(|v| (v.0 - value).abs() <= tolerance::SAME_ANSWER * value.abs());
     (value, same.map(|v| v.1).min().unwrap_or(0))
 }
 
@@ -104,7 +122,8 @@ pub fn value_of(header: &Header, row: &Row) -> Option<f64> {
 }
 
 fn influences(header: &Header, rows: &[Row]) -> Vec<Influence> {
-    let known: Vec<(&Row, f64)> = rows.iter().filter_map(|r| Some((r, value_of(header, r)?))).collect();
+    let known: Vec<(&Row, f64)> =
+        rows.iter().filter_map(|r| Some((r, value_of(header, r)?))).collect();
     let answers: Vec<f64> = known.iter().map(|k| k.1).collect();
     let mut list: Vec<Influence> = header
         .plan
@@ -112,8 +131,13 @@ fn influences(header: &Header, rows: &[Row]) -> Vec<Influence> {
         .iter()
         .enumerate()
         .filter_map(|(index, vary)| {
-            let values: Vec<f64> = known.iter().filter_map(|(r, _)| r.parameters.get(index).copied()).collect();
-            let share = if values.len() == answers.len() { influence(&values, &answers)? } else { return None };
+            let values: Vec<f64> =
+                known.iter().filter_map(|(r, _)| r.parameters.get(index).copied()).collect();
+            let share = if values.len() == answers.len() {
+                influence(&values, &answers)?
+            } else {
+                return None;
+            };
             Some(Influence { parameter: vary.label().to_string(), index, share })
         })
         .collect();

@@ -1,14 +1,18 @@
 //! The worst case within ranges, and why it is the worst.
 //!
-//! * **Friction**: the lowest. A force inside the cone of a small coefficient lies inside that of every larger one, so whatever
-//!   balances at the lowest coefficient balances at all, and no load factor (associative) grows as friction falls.
-//! * **Densities and dead loads**: the worst corner, found by asking at every one. Loads are linear in each of them, so the loads at
-//!   any point of the box are a mixture of those at its corners (a multi-affine map takes a box into the convex hull of its corners'
-//!   images), and the same mixture of the corners' forces is admissible, cones and strengths being convex, and balances them. What stands at every
-//!   corner therefore stands between, and the associative load factor of live forces is a concave function, least at a corner.
+//! * **Friction**: the lowest. A force inside the cone of a small coefficient lies inside that of
+//!   every larger one, so whatever balances at the lowest coefficient balances at all, and no load
+//!   factor (associative) grows as friction falls.
+//! * **Densities and dead loads**: the worst corner, found by asking at every one. Loads are linear
+//!   in each of them, so the loads at any point of the box are a mixture of those at its corners (a
+//!   multi-affine map takes a box into the convex hull of its corners' images), and the same
+//!   mixture of the corners' forces is admissible, cones and strengths being convex, and balances
+//!   them. What stands at every corner therefore stands between, and the associative load factor of
+//!   live forces is a concave function, least at a corner.
 //! * **Other numbers**, by JSON pointer: both ends are asked, and nothing is known between them.
 //!
-//! The argument is about the existence of forces. The state under dry friction is computed at the corners alone.
+//! The argument is about the existence of forces. The state under dry friction is computed at the
+//! corners alone.
 
 use super::{RowAnswer, RowStatus, pointer::Pointer};
 use crate::{
@@ -84,7 +88,12 @@ enum What {
 ///
 /// # Errors
 /// A range names nothing in the scene, or a corner is no scene that can be asked about.
-pub fn worst(scene: &Scene, ranges: &[Between], asked: &Question, control: &Control) -> Result<Worst, InputError> {
+pub fn worst(
+    scene: &Scene,
+    ranges: &[Between],
+    asked: &Question,
+    control: &Control,
+) -> Result<Worst, InputError> {
     let mut base = scene.clone();
     let mut argument = Vec::new();
     let mut ends = Vec::new();
@@ -98,8 +107,13 @@ pub fn worst(scene: &Scene, ranges: &[Between], asked: &Question, control: &Cont
         }
     }
     if ends.len() > MOST_NUMBERS {
-        let message = format!("--worst: {} numbers have 2^{} corners, more than 2^{MOST_NUMBERS}", ends.len(), ends.len());
-        return Err(InputError::at(JsonPath::root(), message).hint("name single materials: density:NAME=LOW..HIGH"));
+        let message = format!(
+            "--worst: {} numbers have 2^{} corners, more than 2^{MOST_NUMBERS}",
+            ends.len(),
+            ends.len()
+        );
+        return Err(InputError::at(JsonPath::root(), message)
+            .hint("name single materials: density:NAME=LOW..HIGH"));
     }
     let corners = 1_usize << ends.len();
     let mut worst: Option<(Scene, RowAnswer, usize)> = None;
@@ -114,9 +128,13 @@ pub fn worst(scene: &Scene, ranges: &[Between], asked: &Question, control: &Cont
             worst = Some((scene, answer, corner));
         }
     }
-    let Some((worst, _, corner)) = worst else { return Ok(Worst { scene: base, argument, corners }) };
-    let values: Vec<String> = ends.iter().enumerate().map(|(k, e)| format!("{} {}", e.label, e.at(corner, k))).collect();
-    argument.push(format!("the worst of {corners} corners, each of them asked: {}", values.join(", ")));
+    let Some((worst, _, corner)) = worst else {
+        return Ok(Worst { scene: base, argument, corners });
+    };
+    let values: Vec<String> =
+        ends.iter().enumerate().map(|(k, e)| format!("{} {}", e.label, e.at(corner, k))).collect();
+    argument
+        .push(format!("the worst of {corners} corners, each of them asked: {}", values.join(", ")));
     argument.push(between(scene, &ends, asked));
     Ok(Worst { scene: worst, argument, corners })
 }
@@ -131,10 +149,17 @@ fn lowest_friction(scene: &mut Scene, range: &Between, law: Law) -> Result<Strin
     }
     scene.joints.default.friction = Some(Friction::Coefficient(range.low));
     scene.joints.default.friction_angle_deg = None;
-    let own = scene.joints.overrides.iter().filter(|o| o.friction.is_some() || o.friction_angle_deg.is_some()).count();
+    let own = scene
+        .joints
+        .overrides
+        .iter()
+        .filter(|o| o.friction.is_some() || o.friction_angle_deg.is_some())
+        .count();
     let given = scene.interfaces.iter().filter(|i| i.friction.is_some()).count();
-    let mut text =
-        format!("friction {}, the lowest, is the worst: every force that is admissible there is admissible at a higher one", range.low);
+    let mut text = format!(
+        "friction {}, the lowest, is the worst: every force that is admissible there is admissible at a higher one",
+        range.low
+    );
     if law == Law::Coulomb {
         text.push_str("; the state under dry friction is computed there alone");
     }
@@ -148,30 +173,50 @@ fn lowest_friction(scene: &mut Scene, range: &Between, law: Law) -> Result<Strin
 fn numbers(scene: &Scene, range: &Between) -> Result<Vec<Ends>, InputError> {
     let ends = |label: String, what: What| Ends { label, what, low: range.low, high: range.high };
     let name = range.name.as_str();
-    if let Some(material) = name.strip_prefix("density:").filter(|m| !scene.materials.contains_key(*m)) {
+    if let Some(material) =
+        name.strip_prefix("density:").filter(|m| !scene.materials.contains_key(*m))
+    {
         let error = refuse(range, &format!("no material is called {material:?}"));
-        return Err(InputError { hint: crate::scene::suggest(material, scene.materials.keys().map(String::as_str)), ..error });
+        return Err(InputError {
+            hint: crate::scene::suggest(material, scene.materials.keys().map(String::as_str)),
+            ..error
+        });
     }
     let list = match name {
         "load" if scene.loads.dead.is_empty() => {
-            return Err(refuse(range, "the scene has no dead load besides the weights").hint("`load` is a factor on \"loads\".\"dead\""));
+            return Err(refuse(range, "the scene has no dead load besides the weights")
+                .hint("`load` is a factor on \"loads\".\"dead\""));
         }
         "load" => vec![ends("factor on the dead loads".into(), What::Load)],
         _ if name == "density" || name.starts_with("density:") => {
             let wanted = |m: &str| name == "density" || name == format!("density:{m}");
-            let materials =
-                scene.materials.keys().filter(|m| wanted(m)).map(|m| ends(format!("density of {m}"), What::Material(m.clone())));
-            let blocks = scene.blocks.iter().enumerate().filter(|(_, b)| name == "density" && b.density.is_some());
-            let list: Vec<Ends> = materials.chain(blocks.map(|(i, b)| ends(format!("density of {}", b.id), What::Block(i)))).collect();
+            let materials = scene
+                .materials
+                .keys()
+                .filter(|m| wanted(m))
+                .map(|m| ends(format!("density of {m}"), What::Material(m.clone())));
+            let blocks = scene
+                .blocks
+                .iter()
+                .enumerate()
+                .filter(|(_, b)| name == "density" && b.density.is_some());
+            let list: Vec<Ends> = materials
+                .chain(blocks.map(|(i, b)| ends(format!("density of {}", b.id), What::Block(i))))
+                .collect();
             if list.is_empty() {
-                return Err(refuse(range, "the scene gives no density: all blocks have the same, which changes nothing")
-                    .hint("give blocks a material, \"materials\": { … }"));
+                return Err(refuse(
+                    range,
+                    "the scene gives no density: all blocks have the same, which changes nothing",
+                )
+                .hint("give blocks a material, \"materials\": { … }"));
             }
             list
         }
         _ if name.starts_with('/') => {
-            let pointer = Pointer::find(name, &as_json(scene)?)
-                .map_err(|e| InputError { message: format!("--worst {range}: {}", e.message), ..e })?;
+            let pointer = Pointer::find(name, &as_json(scene)?).map_err(|e| InputError {
+                message: format!("--worst {range}: {}", e.message),
+                ..e
+            })?;
             vec![ends(name.to_string(), What::Pointer(pointer))]
         }
         _ => {
@@ -180,7 +225,8 @@ fn numbers(scene: &Scene, range: &Between) -> Result<Vec<Ends>, InputError> {
             );
         }
     };
-    if list.iter().any(|e| matches!(e.what, What::Material(_) | What::Block(_))) && range.low <= 0.0 {
+    if list.iter().any(|e| matches!(e.what, What::Material(_) | What::Block(_))) && range.low <= 0.0
+    {
         return Err(refuse(range, "a density is above 0"));
     }
     Ok(list)
@@ -215,8 +261,12 @@ fn at_corner(base: &Scene, ends: &[Ends], corner: usize) -> Result<Scene, InputE
             What::Pointer(pointer) => {
                 let mut json = as_json(&scene)?;
                 pointer.set(&mut json, value);
-                scene = serde_json::from_value(json)
-                    .map_err(|e| InputError::at(JsonPath::root(), format!("--worst: {} = {value} is no scene: {e}", end.label)))?;
+                scene = serde_json::from_value(json).map_err(|e| {
+                    InputError::at(
+                        JsonPath::root(),
+                        format!("--worst: {} = {value} is no scene: {e}", end.label),
+                    )
+                })?;
             }
         }
     }
@@ -224,7 +274,10 @@ fn at_corner(base: &Scene, ends: &[Ends], corner: usize) -> Result<Scene, InputE
 }
 
 fn scale(load: &mut Load, by: f64) {
-    for vector in [&mut load.force, &mut load.moment, &mut load.acceleration, &mut load.weight].into_iter().flatten() {
+    for vector in [&mut load.force, &mut load.moment, &mut load.acceleration, &mut load.weight]
+        .into_iter()
+        .flatten()
+    {
         vector.iter_mut().for_each(|c| *c *= by);
     }
 }
@@ -256,6 +309,10 @@ fn between(scene: &Scene, ends: &[Ends], asked: &Question) -> String {
     } else {
         "forces that balance the corners mix into forces that balance every value between them"
     };
-    let dry = if asked.law() == Law::Coulomb { "; dry friction was asked at the corners alone" } else { "" };
+    let dry = if asked.law() == Law::Coulomb {
+        "; dry friction was asked at the corners alone"
+    } else {
+        ""
+    };
     format!("found by search over the corners; nothing between them is worse: {what}{dry}")
 }

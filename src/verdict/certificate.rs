@@ -1,18 +1,22 @@
 //! Re-adding forces and powers block by block.
 //!
-//! *Static side.* Contact forces inside their friction cones leave each free block the wrench
-//! `r_i = w_i + λ ℓ_i + Σ` contact wrenches. Its [`size`] is the norm of (force; moment over the radius of gyration about its
-//! axis) over the block's load, in multiples of g. *Kinematic side.* Rates `q` separate the contacts at `v`; for every
-//! admissible force `f·v ≥ −e f_n` with `e = max(0, μ‖v_t‖ − v_n)`, the inadmissibility. So for any equilibrium
-//! `w·q + λ ℓ·q ≤ Σ e f_n`: a mechanism with `e = 0` that gains power proves instability (Heyman 1966; Livesley 1978).
-//! Per newton of the whole force the bound is the size of the projection of `−v` onto the cone, `e / √(1 + μ²)` on its side
-//! (`hidden`); where friction is steep that is much less, and rounding of `v_t` is not multiplied by μ.
+//! *Static side.* Contact forces inside their friction cones leave each free block the wrench `r_i
+//! = w_i + λ ℓ_i + Σ` contact wrenches. Its [`size`] is the norm of (force; moment over the radius
+//! of gyration about its axis) over the block's load, in multiples of g. *Kinematic side.* Rates
+//! `q` separate the contacts at `v`; for every admissible force `f·v ≥ −e f_n` with `e = max(0,
+//! μ‖v_t‖ − v_n)`, the inadmissibility. So for any equilibrium `w·q + λ ℓ·q ≤ Σ e f_n`: a mechanism
+//! with `e = 0` that gains power proves instability (Heyman 1966; Livesley 1978). Per newton of the
+//! whole force the bound is the size of the projection of `−v` onto the cone, `e / √(1 + μ²)` on
+//! its side (`hidden`); where friction is steep that is much less, and rounding of `v_t` is not
+//! multiplied by μ.
 //!
-//! *Strength.* With cohesion c and tensile strength T on the corner's share a of the area, `‖f_t‖ ≤ μ f_n + c a`, `f_n ≥ −T a`;
-//! a mechanism then dissipates `c a ‖v_t‖ + T a (v_n − μ‖v_t‖)⁺` there. With a compressive strength σ, joints may close: a joint
-//! that closes at the rate g, affine over its area, dissipates at least `(σ + T) ∫ g⁺ dA` (see [`crushing`]).
-//! A rolling arm r adds couples `‖m_t‖ ≤ r f_n`, `|m_n| ≤ r f_n`, which count in `e` with the rates of rolling and twisting.
-//! Water in the joint is a load. Sources: Drucker, Prager & Greenberg 1952 (both theorems), Drucker & Prager 1952 (cohesion).
+//! *Strength.* With cohesion c and tensile strength T on the corner's share a of the area, `‖f_t‖ ≤
+//! μ f_n + c a`, `f_n ≥ −T a`; a mechanism then dissipates `c a ‖v_t‖ + T a (v_n − μ‖v_t‖)⁺` there.
+//! With a compressive strength σ, joints may close: a joint that closes at the rate g, affine over
+//! its area, dissipates at least `(σ + T) ∫ g⁺ dA` (see [`crushing`]). A rolling arm r adds couples
+//! `‖m_t‖ ≤ r f_n`, `|m_n| ≤ r f_n`, which count in `e` with the rates of rolling and twisting.
+//! Water in the joint is a load. Sources: Drucker, Prager & Greenberg 1952 (both theorems), Drucker
+//! & Prager 1952 (cohesion).
 
 use super::{
     Forces, Rate,
@@ -27,13 +31,15 @@ use crate::{
 };
 use nalgebra::Vector3;
 
-/// Force scale of a free block, N: the greater of its weight and its dead load, whose moment counts as in [`size`].
+/// Force scale of a free block, N: the greater of its weight and its dead load, whose moment counts
+/// as in [`size`].
 pub fn load_scale(assembly: &Assembly, block: usize) -> f64 {
     assembly.weight(block).max(size(assembly, block, &assembly.dead[block]))
 }
 
-/// Size of a wrench on a block, N: `‖(F; G⁻¹ M)‖`, moments measured by the radii of gyration about their own axes ([`Gyration`]).
-/// Over the mass it is the acceleration that the wrench gives the block, as a root mean square over its mass.
+/// Size of a wrench on a block, N: `‖(F; G⁻¹ M)‖`, moments measured by the radii of gyration about
+/// their own axes ([`Gyration`]). Over the mass it is the acceleration that the wrench gives the
+/// block, as a root mean square over its mass.
 ///
 /// [`Gyration`]: crate::assembly::Gyration
 pub fn size(assembly: &Assembly, block: usize, w: &Wrench) -> f64 {
@@ -48,10 +54,12 @@ pub fn speed(assembly: &Assembly, block: usize, q: &Rate) -> f64 {
 /// Speeds of which neither squares nor products with loads under- or overflow.
 const ORDINARY: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
-/// The same motion, with its fastest block at a speed near one where it was out of the ordinary (by a power of two, which rounds nothing): what
-/// is so slow that squares of speeds underflow would slide without friction.
+/// The same motion, with its fastest block at a speed near one where it was out of the ordinary (by
+/// a power of two, which rounds nothing): what is so slow that squares of speeds underflow would
+/// slide without friction.
 pub fn at_unit_speed(assembly: &Assembly, rates: &[Rate]) -> Vec<Rate> {
-    let size = |(i, q): (usize, &Rate)| q.velocity.amax().max(q.spin.amax() * assembly.blocks[i].size);
+    let size =
+        |(i, q): (usize, &Rate)| q.velocity.amax().max(q.spin.amax() * assembly.blocks[i].size);
     let fastest = rates.iter().enumerate().map(size).fold(0.0, f64::max);
     if fastest == 0.0 || !fastest.is_finite() || ORDINARY.contains(&fastest) {
         return rates.to_vec();
@@ -59,7 +67,10 @@ pub fn at_unit_speed(assembly: &Assembly, rates: &[Rate]) -> Vec<Rate> {
     // In two steps: the inverse of the smallest numbers is none.
     let half = (-0.5 * fastest.log2()).floor().exp2();
     let rest = (fastest * half).log2().floor().exp2();
-    rates.iter().map(|q| Rate { velocity: q.velocity * half / rest, spin: q.spin * half / rest }).collect()
+    rates
+        .iter()
+        .map(|q| Rate { velocity: q.velocity * half / rest, spin: q.spin * half / rest })
+        .collect()
 }
 
 /// What forces leave unbalanced.
@@ -71,10 +82,11 @@ pub struct Residuals {
     pub unbalance: f64,
     /// The block of the largest unbalance.
     pub worst: usize,
-    /// Largest distance of a force outside its friction cone, over that very force: a large force elsewhere makes no room for
-    /// a small one that pulls.
+    /// Largest distance of a force outside its friction cone, over that very force: a large force
+    /// elsewhere makes no room for a small one that pulls.
     pub cone_excess: f64,
-    /// Greatest use of a compressive strength (at most this; above 1 it is what the forces really need).
+    /// Greatest use of a compressive strength (at most this; above 1 it is what the forces really
+    /// need).
     pub crushing: f64,
     /// The interface of that.
     pub most_pressed: usize,
@@ -99,10 +111,15 @@ pub fn statics(model: &Model, forces: &Forces, lambda: f64) -> Residuals {
             moment: assembly.dead[i].moment + assembly.live[i].moment * lambda,
         })
         .collect();
-    let act = |residuals: &mut [Wrench], face: &Interface, point: &Vector3<f64>, force: &Vector3<f64>, couple: &Vector3<f64>| {
+    let act = |residuals: &mut [Wrench],
+               face: &Interface,
+               point: &Vector3<f64>,
+               force: &Vector3<f64>,
+               couple: &Vector3<f64>| {
         for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
             let arm = point - assembly.blocks[block].centroid;
-            residuals[block] += Wrench { force: force * sign, moment: (arm.cross(force) + couple) * sign };
+            residuals[block] +=
+                Wrench { force: force * sign, moment: (arm.cross(force) + couple) * sign };
         }
     };
     let (mut excess, mut crushing, mut most_pressed) = (0.0_f64, 0.0_f64, 0);
@@ -134,14 +151,23 @@ pub fn statics(model: &Model, forces: &Forces, lambda: f64) -> Residuals {
             *residual = Wrench::zero();
             continue;
         }
-        let scale = load_scale(assembly, i).max(lambda.abs() * size(assembly, i, &assembly.live[i]));
+        let scale =
+            load_scale(assembly, i).max(lambda.abs() * size(assembly, i, &assembly.live[i]));
         let u = size(assembly, i, residual) / scale;
         // A NaN is the worst there is, and stays.
         if (u > unbalance || u.is_nan()) && !f64::is_nan(unbalance) {
             (unbalance, worst) = (u, i);
         }
     }
-    Residuals { residuals, unbalance, worst, cone_excess: excess, crushing, most_pressed, balanced: unbalance <= tolerance::UNBALANCE }
+    Residuals {
+        residuals,
+        unbalance,
+        worst,
+        cone_excess: excess,
+        crushing,
+        most_pressed,
+        balanced: unbalance <= tolerance::UNBALANCE,
+    }
 }
 
 /// The bounds on crushing that forces break, with their interfaces.
@@ -159,12 +185,19 @@ pub fn crushed(interfaces: &Interfaces, forces: &Forces) -> Vec<(usize, Cut)> {
 }
 
 /// How far a force and couple lie outside their cones, N.
-fn outside(face: &Interface, force: &Vector3<f64>, couple: &Vector3<f64>, [cohesion, tension]: [f64; 2]) -> f64 {
+fn outside(
+    face: &Interface,
+    force: &Vector3<f64>,
+    couple: &Vector3<f64>,
+    [cohesion, tension]: [f64; 2],
+) -> f64 {
     let n = face.frame.n;
     let normal = n.dot(force);
     let shear = (force - n * normal).norm();
     let mut outside = match face.law.friction {
-        Friction::Coefficient(mu) => (-normal - tension).max((shear - mu * normal - cohesion) / mu.hypot(1.0)),
+        Friction::Coefficient(mu) => {
+            (-normal - tension).max((shear - mu * normal - cohesion) / mu.hypot(1.0))
+        }
         Friction::Infinite => -normal - tension,
     };
     if *couple != Vector3::zeros() {
@@ -185,22 +218,25 @@ pub struct Kinematics {
     pub live_power: f64,
     /// What cohesion, tension and crushing dissipate.
     pub dissipation: f64,
-    /// `Σ` load scale × [`speed`] over the free blocks: the power that an unbalance of 1 g everywhere would have.
+    /// `Σ` load scale × [`speed`] over the free blocks: the power that an unbalance of 1 g
+    /// everywhere would have.
     pub norm: f64,
     /// `Σ e f_n` with the given forces: the power that the inadmissibility may hide.
     pub slack: f64,
     /// Largest inadmissibility, per newton of the whole force, over the fastest speed at a contact.
     pub inadmissibility: f64,
-    /// `Σ` inadmissibility per newton: with contact forces of at most `F` each, the mechanism hides at most `F` × this.
+    /// `Σ` inadmissibility per newton: with contact forces of at most `F` each, the mechanism hides
+    /// at most `F` × this.
     pub excess: f64,
-    /// The part of `excess` from contacts where that is more than rounding of the speeds of the two blocks
-    /// ([`tolerance::ADMISSIBLE`]): blocks that should rest, or joints that are made to close.
+    /// The part of `excess` from contacts where that is more than rounding of the speeds of the two
+    /// blocks ([`tolerance::ADMISSIBLE`]): blocks that should rest, or joints that are made to
+    /// close.
     pub coarse: f64,
 }
 
 impl Kinematics {
-    /// Unless some contact force exceeds this many times the total load, the gain of the dead load cannot be balanced:
-    /// what makes a mechanism that is admissible only up to rounding a proof.
+    /// Unless some contact force exceeds this many times the total load, the gain of the dead load
+    /// cannot be balanced: what makes a mechanism that is admissible only up to rounding a proof.
     pub fn force_cap(&self, assembly: &Assembly) -> f64 {
         let total: f64 = assembly.free().map(|i| load_scale(assembly, i)).sum();
         self.gain() / (self.excess * total)
@@ -216,16 +252,17 @@ impl Kinematics {
         (self.slack - self.gain()) / self.live_power
     }
 
-    /// What the inadmissibility of the mechanism could hide of the load factor if every contact carried the largest of the forces: where they
-    /// vanish, `slack` sees none.
+    /// What the inadmissibility of the mechanism could hide of the load factor if every contact
+    /// carried the largest of the forces: where they vanish, `slack` sees none.
     pub fn behind(&self, forces: &Forces) -> f64 {
         let largest = forces.iter().flatten().map(|v| v.force.norm()).fold(0.0, f64::max);
         self.excess * largest / self.live_power
     }
 
-    /// Whether the mechanism is admissible up to rounding: small against its gain for contact forces of the size of the total
-    /// load, and, where it is not small against the speeds of the very blocks that touch, for much larger ones. A block
-    /// squeezed at low friction needs large forces; falling straight down closes none of its joints by much.
+    /// Whether the mechanism is admissible up to rounding: small against its gain for contact
+    /// forces of the size of the total load, and, where it is not small against the speeds of the
+    /// very blocks that touch, for much larger ones. A block squeezed at low friction needs large
+    /// forces; falling straight down closes none of its joints by much.
     pub fn is_admissible(&self, assembly: &Assembly) -> bool {
         let coarse = Self { excess: self.coarse, ..self.clone() };
         self.force_cap(assembly) >= tolerance::FORCE_CAP
@@ -253,8 +290,13 @@ pub fn kinematics(model: &Model, rates: &[Rate], forces: &Forces) -> Kinematics 
         k.norm += load_scale(assembly, i) * speed(assembly, i, q);
     }
     let local_speed = |i: usize, p: &Vector3<f64>| at(assembly, rates, i, p).norm();
-    let local = |face: &Interface, p: &Vector3<f64>| local_speed(face.a, p).max(local_speed(face.b, p));
-    let fastest = interfaces.list.iter().flat_map(|face| face.points.iter().map(|p| local(face, p))).fold(0.0, f64::max);
+    let local =
+        |face: &Interface, p: &Vector3<f64>| local_speed(face.a, p).max(local_speed(face.b, p));
+    let fastest = interfaces
+        .list
+        .iter()
+        .flat_map(|face| face.points.iter().map(|p| local(face, p)))
+        .fold(0.0, f64::max);
     let mut worst = 0.0_f64;
     for (face, forces) in interfaces.list.iter().zip(forces) {
         let strength = Strength::of(face);
@@ -267,14 +309,20 @@ pub fn kinematics(model: &Model, rates: &[Rate], forces: &Forces) -> Kinematics 
             Friction::Coefficient(mu) => (mu, false),
             Friction::Infinite => (0.0, true),
         };
-        let joint: Vec<Vector3<f64>> =
-            face.points.iter().map(|p| at(assembly, rates, face.b, p) - at(assembly, rates, face.a, p)).collect();
+        let joint: Vec<Vector3<f64>> = face
+            .points
+            .iter()
+            .map(|p| at(assembly, rates, face.b, p) - at(assembly, rates, face.a, p))
+            .collect();
         let sliding: Vec<f64> = joint.iter().map(|v| (v - n * n.dot(v)).norm()).collect();
-        let closing: Vec<f64> = joint.iter().zip(&sliding).map(|(v, vt)| mu * vt + rolling - n.dot(v)).collect();
-        // Joints that close by rounding alone do not crush: a large strength would make much of nothing.
+        let closing: Vec<f64> =
+            joint.iter().zip(&sliding).map(|(v, vt)| mu * vt + rolling - n.dot(v)).collect();
+        // Joints that close by rounding alone do not crush: a large strength would make much of
+        // nothing.
         let crushes = crushes(face) && closing.iter().any(|&e| e > tolerance::ADMISSIBLE * fastest);
         if crushes {
-            k.dissipation += (face.law.compression + tension(face)) * closing_volume(face, &closing);
+            k.dissipation +=
+                (face.law.compression + tension(face)) * closing_volume(face, &closing);
         }
         for (place, (point, Wrench { force, .. })) in face.points.iter().zip(forces).enumerate() {
             let [cohesion, tension] = strength.at(place);
@@ -312,10 +360,15 @@ pub fn kinematics(model: &Model, rates: &[Rate], forces: &Forces) -> Kinematics 
     k
 }
 
-/// The power that a force of 1 N inside the friction cone can have at most against a joint that separates at `normal` and slides at
-/// `sliding`, m/s: the size of the projection of the closing velocity onto the cone.
+/// The power that a force of 1 N inside the friction cone can have at most against a joint that
+/// separates at `normal` and slides at `sliding`, m/s: the size of the projection of the closing
+/// velocity onto the cone.
 fn hidden(mu: f64, normal: f64, sliding: f64) -> f64 {
-    if sliding <= -mu * normal { normal.hypot(sliding) } else { (mu * sliding - normal).max(0.0) / mu.hypot(1.0) }
+    if sliding <= -mu * normal {
+        normal.hypot(sliding)
+    } else {
+        (mu * sliding - normal).max(0.0) / mu.hypot(1.0)
+    }
 }
 
 /// Velocity of a point moving with a block.

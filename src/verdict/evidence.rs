@@ -60,7 +60,11 @@ pub fn write_forces(model: &Model, forces: &Forces) -> Vec<ContactForces> {
 pub fn write_rates(assembly: &Assembly, rates: &[Rate]) -> Vec<BlockRate> {
     (0..rates.len())
         .filter(|&i| rates[i] != Rate::zero())
-        .map(|i| BlockRate { block: assembly.blocks[i].id.clone(), velocity: rates[i].velocity.into(), spin: rates[i].spin.into() })
+        .map(|i| BlockRate {
+            block: assembly.blocks[i].id.clone(),
+            velocity: rates[i].velocity.into(),
+            spin: rates[i].spin.into(),
+        })
         .collect()
 }
 
@@ -71,19 +75,32 @@ pub fn write_rates(assembly: &Assembly, rates: &[Rate]) -> Vec<BlockRate> {
 pub fn read_forces(model: &Model, saved: &[ContactForces]) -> Result<Forces, String> {
     let Model { assembly, interfaces, .. } = model;
     let mut forces = super::no_forces(interfaces);
-    let mut by_pair: std::collections::HashMap<(&str, &str), Vec<Option<usize>>> = Default::default();
+    let mut by_pair: std::collections::HashMap<(&str, &str), Vec<Option<usize>>> =
+        Default::default();
     for (k, face) in interfaces.list.iter().enumerate() {
-        by_pair.entry((&assembly.blocks[face.a].id, &assembly.blocks[face.b].id)).or_default().push(Some(k));
+        by_pair
+            .entry((&assembly.blocks[face.a].id, &assembly.blocks[face.b].id))
+            .or_default()
+            .push(Some(k));
     }
     for contact in saved {
         let [a, b] = &contact.between;
         if contact.points.len() != contact.forces.len() {
-            return Err(format!("contact {a} | {b}: {} points but {} forces", contact.points.len(), contact.forces.len()));
+            return Err(format!(
+                "contact {a} | {b}: {} points but {} forces",
+                contact.points.len(),
+                contact.forces.len()
+            ));
         }
         if !contact.couples.is_empty() && contact.couples.len() != contact.forces.len() {
-            return Err(format!("contact {a} | {b}: {} forces but {} couples", contact.forces.len(), contact.couples.len()));
+            return Err(format!(
+                "contact {a} | {b}: {} forces but {} couples",
+                contact.forces.len(),
+                contact.couples.len()
+            ));
         }
-        let numbers = contact.points.iter().chain(&contact.forces).chain(&contact.couples).flatten();
+        let numbers =
+            contact.points.iter().chain(&contact.forces).chain(&contact.couples).flatten();
         if !numbers.clone().all(|v| v.is_finite()) {
             return Err(format!("contact {a} | {b}: a number is not finite"));
         }
@@ -92,13 +109,17 @@ pub fn read_forces(model: &Model, saved: &[ContactForces]) -> Result<Forces, Str
         }
         // The whole contact has to fit: two interfaces of a pair may share corners.
         let candidates = by_pair.get_mut(&(a.as_str(), b.as_str())).into_iter().flatten();
-        let fit = candidates.filter_map(|k| Some((places(model, (*k)?, &contact.points)?, k))).next();
+        let fit =
+            candidates.filter_map(|k| Some((places(model, (*k)?, &contact.points)?, k))).next();
         let Some((places, slot)) = fit else {
-            return Err(format!("contact {a} | {b}: the scene has no such contact, or has it twice in the result"));
+            return Err(format!(
+                "contact {a} | {b}: the scene has no such contact, or has it twice in the result"
+            ));
         };
         if let Some(k) = slot.take() {
             for (saved, place) in places.into_iter().enumerate() {
-                let moment = contact.couples.get(saved).map_or_else(Vector3::zeros, |&m| Vector3::from(m));
+                let moment =
+                    contact.couples.get(saved).map_or_else(Vector3::zeros, |&m| Vector3::from(m));
                 forces[k][place] = Wrench { force: Vector3::from(contact.forces[saved]), moment };
             }
         }
@@ -106,7 +127,8 @@ pub fn read_forces(model: &Model, saved: &[ContactForces]) -> Result<Forces, Str
     Ok(forces)
 }
 
-/// Where each saved point stands among the points of an interface; `None` unless they are the same points.
+/// Where each saved point stands among the points of an interface; `None` unless they are the same
+/// points.
 fn places(model: &Model, k: usize, saved: &[[f64; 3]]) -> Option<Vec<usize>> {
     let Model { assembly, interfaces, .. } = model;
     let face = &interfaces.list[k];
@@ -132,9 +154,12 @@ fn places(model: &Model, k: usize, saved: &[[f64; 3]]) -> Option<Vec<usize>> {
 /// A block that the scene does not have, or that is a support; numbers that are not finite.
 pub fn read_rates(assembly: &Assembly, saved: &[BlockRate]) -> Result<Vec<Rate>, String> {
     let mut rates = vec![Rate::zero(); assembly.blocks.len()];
-    let index: std::collections::HashMap<&str, usize> = assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
+    let index: std::collections::HashMap<&str, usize> =
+        assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
     for saved in saved {
-        let Some(&i) = index.get(saved.block.as_str()) else { return Err(format!("the scene has no block {}", saved.block)) };
+        let Some(&i) = index.get(saved.block.as_str()) else {
+            return Err(format!("the scene has no block {}", saved.block));
+        };
         if assembly.blocks[i].support {
             return Err(format!("block {} is a support and cannot move", saved.block));
         }

@@ -1,16 +1,20 @@
-//! What a joint carries beside friction, derived from its law and the pieces of its contact without the numbers of the program.
+//! What a joint carries beside friction, derived from its law and the pieces of its contact without
+//! the numbers of the program.
 //!
-//! *Independent.* Area and first moment are integrals around the rims of the pieces, in space (Green: `∫ dA = ½ ∮ n·(x × dx)`,
-//! `∫ x dA = ⅓ ∮ x n·(x × dx)`), where the program adds triangles up in the plane of the joint. Water pushes with its pressure times the area at
-//! the centroid, where the program has a force at each corner: `Σ a_k = A` and `Σ a_k p_k = ∫ x dA` make the two one. The shares `a_k` come
-//! from areas of the polar dual of the hull about the centroid (Ju, Schaefer, Warren & Desbrun 2005, "A geometric construction of
-//! coordinates for convex polyhedra using polar duals"), where the program multiplies areas of triangles. Which tension and which
+//! *Independent.* Area and first moment are integrals around the rims of the pieces, in space
+//! (Green: `∫ dA = ½ ∮ n·(x × dx)`, `∫ x dA = ⅓ ∮ x n·(x × dx)`), where the program adds triangles
+//! up in the plane of the joint. Water pushes with its pressure times the area at the centroid,
+//! where the program has a force at each corner: `Σ a_k = A` and `Σ a_k p_k = ∫ x dA` make the two
+//! one. The shares `a_k` come from areas of the polar dual of the hull about the centroid (Ju,
+//! Schaefer, Warren & Desbrun 2005, "A geometric construction of coordinates for convex polyhedra
+//! using polar duals"), where the program multiplies areas of triangles. Which tension and which
 //! rolling arm count is read off the law here again.
 //!
-//! *Not independent.* Corners, pieces and normal of a contact are those that detection found. On four corners and more the two sums leave
-//! `n − 3` numbers open: that the shares are Wachspress's coordinates of the centroid, and not others as true of a uniform stress, is a
-//! choice that both have to make alike. Crushing is no matter of shares but of pressures over the area: the bound is one for the program and
-//! for the checker ([`crushing`](crate::strength::crushing)).
+//! *Not independent.* Corners, pieces and normal of a contact are those that detection found. On
+//! four corners and more the two sums leave `n − 3` numbers open: that the shares are Wachspress's
+//! coordinates of the centroid, and not others as true of a uniform stress, is a choice that both
+//! have to make alike. Crushing is no matter of shares but of pressures over the area: the bound is
+//! one for the program and for the checker ([`crushing`](crate::strength::crushing)).
 
 use crate::{
     assembly::Wrench,
@@ -48,20 +52,28 @@ impl Strength {
         Some(crushing(face, &normal, sigma).0)
     }
 
-    /// Normal forces from the tensile strength on, and the strength from there; where there is a compressive strength.
+    /// Normal forces from the tensile strength on, and the strength from there; where there is a
+    /// compressive strength.
     pub fn pressed(&self, face: &Interface, forces: &[Wrench]) -> Option<(Vec<f64>, f64)> {
         if !crushes(face) {
             return None;
         }
-        let normal = forces.iter().enumerate().map(|(k, f)| (face.frame.n.dot(&f.force) + self.at(k)[1]).max(0.0)).collect();
+        let normal = forces
+            .iter()
+            .enumerate()
+            .map(|(k, f)| (face.frame.n.dot(&f.force) + self.at(k)[1]).max(0.0))
+            .collect();
         Some((normal, face.law.compression + tension(face)))
     }
 }
 
-/// Tensile strength that counts, Pa: where normal forces pull with cohesion / μ, nothing is left for shear.
+/// Tensile strength that counts, Pa: where normal forces pull with cohesion / μ, nothing is left
+/// for shear.
 pub fn tension(face: &Interface) -> f64 {
     match face.law.friction {
-        Friction::Coefficient(mu) if mu > 0.0 && mu * face.law.tension > face.law.cohesion => face.law.cohesion / mu,
+        Friction::Coefficient(mu) if mu > 0.0 && mu * face.law.tension > face.law.cohesion => {
+            face.law.cohesion / mu
+        }
         _ => face.law.tension,
     }
 }
@@ -71,7 +83,8 @@ pub fn rolling_arm(face: &Interface) -> f64 {
     if face.points.len() > 2 { 0.0 } else { face.law.rolling_arm }
 }
 
-/// The push of the water in the joint on block `b`, N, N·m about the first contact point; its opposite acts on `a`. `None` where there is no water.
+/// The push of the water in the joint on block `b`, N, N·m about the first contact point; its
+/// opposite acts on `a`. `None` where there is no water.
 pub fn water(face: &Interface) -> Option<Wrench> {
     if face.law.pore_pressure == 0.0 {
         return None;
@@ -85,7 +98,8 @@ pub fn water(face: &Interface) -> Option<Wrench> {
 fn shares(face: &Interface) -> Vec<f64> {
     let (count, n) = (face.points.len(), face.frame.n);
     let Some((area, centroid)) = touching(face) else { return vec![0.0; count] };
-    let rim: Vec<Vector3<f64>> = face.points.iter().map(|p| p - face.points[0] - centroid).collect();
+    let rim: Vec<Vector3<f64>> =
+        face.points.iter().map(|p| p - face.points[0] - centroid).collect();
     // Corners of the dual, turned by a right angle: along a side, as far out as the side is near.
     let dual: Vec<Vector3<f64>> = sides(&rim).map(|(p, q)| (q - p) / n.dot(&p.cross(&q))).collect();
     let sector = |k: usize| n.dot(&dual[(k + count - 1) % count].cross(&dual[k]));
@@ -93,7 +107,8 @@ fn shares(face: &Interface) -> Vec<f64> {
     (0..count).map(|k| area * (sector(k) / whole)).collect()
 }
 
-/// The area that touches, m², and the way from the first contact point to its centroid, m; `None` where there is no area.
+/// The area that touches, m², and the way from the first contact point to its centroid, m; `None`
+/// where there is no area.
 fn touching(face: &Interface) -> Option<(f64, Vector3<f64>)> {
     let origin = *face.points.first()?;
     let whole = std::slice::from_ref(&face.points);
@@ -130,7 +145,8 @@ mod tests {
     /// Convex contacts, whole or with a part left out, the pieces wound either way.
     fn contact() -> impl Strategy<Value = Interface> {
         (polygon(), 0usize..20, any::<bool>()).prop_map(|(mut face, out, turned)| {
-            let mut pieces: Vec<_> = face.points[1..].windows(2).map(|w| vec![face.points[0], w[0], w[1]]).collect();
+            let mut pieces: Vec<_> =
+                face.points[1..].windows(2).map(|w| vec![face.points[0], w[0], w[1]]).collect();
             if out < pieces.len() && pieces.len() > 1 {
                 pieces.remove(out);
                 pieces.iter_mut().skip(1).filter(|_| turned).for_each(|piece| piece.reverse());
@@ -174,8 +190,8 @@ mod tests {
             prop_assert!((moment - about).norm() < 1e-10);
         }
 
-        /// Were the program to give a corner some of the share of another, forces that use it would be outside their cones here, and
-        /// its water would push elsewhere.
+        /// Were the program to give a corner some of the share of another, forces that use it would
+        /// be outside their cones here, and its water would push elsewhere.
         #[test]
         fn a_wrong_share_of_the_program_is_caught(face in contact(), from in 0usize..8, on in 1usize..7, part in 1e-6f64..1.0) {
             let count = face.points.len();

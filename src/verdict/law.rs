@@ -14,33 +14,46 @@ use crate::{
 };
 use nalgebra::Vector3;
 
-/// How exactly forces and rates obey Signorini's and Coulomb's laws together: the natural map
-/// `‖f − P_K(f − ρ (u + μ‖u_t‖ n))‖ / F` (Acary, Brémond & Huber 2018), the greatest over all joints, zero for an exact solution.
+/// How exactly forces and rates obey Signorini's and Coulomb's laws together: the natural map `‖f −
+/// P_K(f − ρ (u + μ‖u_t‖ n))‖ / F` (Acary, Brémond & Huber 2018), the greatest over all joints,
+/// zero for an exact solution.
 ///
-/// `u` are the rates of the joints. The law does not change when `u` is multiplied, so `ρ` brings the greatest of them to the size `F` of
-/// the forces: a measure without units. `F` is each joint's own: the load or greatest contact force of its two blocks, of the lesser block.
-/// What large forces or heavy blocks elsewhere do makes no room for a breach here. `None` where nothing moves.
+/// `u` are the rates of the joints. The law does not change when `u` is multiplied, so `ρ` brings
+/// the greatest of them to the size `F` of the forces: a measure without units. `F` is each joint's
+/// own: the load or greatest contact force of its two blocks, of the lesser block. What large
+/// forces or heavy blocks elsewhere do makes no room for a breach here. `None` where nothing moves.
 ///
-/// Cohesion and tension move and cut the cone `K`; couples of a rolling arm count in the same way, over the arm, against the rates
-/// of rolling and twisting. Where a joint crushes, the normal forces count by what they fall short of the greatest power on the
-/// closing `g`, `√(σ ∫ g⁺ dA − Σ g f_n)`, instead: zero exactly where the pressure is σ on all that closes and nothing on what opens.
+/// Cohesion and tension move and cut the cone `K`; couples of a rolling arm count in the same way,
+/// over the arm, against the rates of rolling and twisting. Where a joint crushes, the normal
+/// forces count by what they fall short of the greatest power on the closing `g`, `√(σ ∫ g⁺ dA − Σ
+/// g f_n)`, instead: zero exactly where the pressure is σ on all that closes and nothing on what
+/// opens.
 pub fn natural_map(model: &Model, forces: &Forces, rates: &[Rate]) -> Option<f64> {
     let Model { assembly, interfaces, .. } = model;
-    let speeds = interfaces.list.iter().flat_map(|face| face.points.iter().map(move |p| joint_rate(assembly, rates, face, p).norm()));
+    let speeds = interfaces.list.iter().flat_map(|face| {
+        face.points.iter().map(move |p| joint_rate(assembly, rates, face, p).norm())
+    });
     let fastest = speeds.fold(0.0, greatest);
     (fastest > 0.0).then(|| map(model, forces, rates, 1.0 / fastest))
 }
 
-/// The same with rates as the convex program has them, not brought to the size of the forces: in multiples of the joint's own forces, for a
-/// mechanism on which the live load, brought to the size of the dead load, has the power of one mean load; sizes, loads and means are
-/// those of the blocks that the mechanism moves. Less strict than [`natural_map`] where rates are small beside forces; the measure of the
-/// literature. `None` where nothing moves, or the live load does not drive it.
+/// The same with rates as the convex program has them, not brought to the size of the forces: in
+/// multiples of the joint's own forces, for a mechanism on which the live load, brought to the size
+/// of the dead load, has the power of one mean load; sizes, loads and means are those of the blocks
+/// that the mechanism moves. Less strict than [`natural_map`] where rates are small beside forces;
+/// the measure of the literature. `None` where nothing moves, or the live load does not drive it.
 pub fn natural_map_in_loads(model: &Model, forces: &Forces, rates: &[Rate]) -> Option<f64> {
     let assembly = &model.assembly;
     let fastest = assembly.free().map(|i| speed(assembly, i, &rates[i])).fold(0.0, greatest);
-    let moving: Vec<usize> = assembly.free().filter(|&i| speed(assembly, i, &rates[i]) > tolerance::MECHANISM_REST * fastest).collect();
+    let moving: Vec<usize> = assembly
+        .free()
+        .filter(|&i| speed(assembly, i, &rates[i]) > tolerance::MECHANISM_REST * fastest)
+        .collect();
     let sum = |of: &dyn Fn(usize) -> f64| moving.iter().map(|&i| of(i)).sum::<f64>();
-    let (dead, live) = (sum(&|i| size(assembly, i, &assembly.dead[i])), sum(&|i| size(assembly, i, &assembly.live[i])));
+    let (dead, live) = (
+        sum(&|i| size(assembly, i, &assembly.dead[i])),
+        sum(&|i| size(assembly, i, &assembly.live[i])),
+    );
     let driven = sum(&|i| power(&assembly.live[i], &rates[i])) * dead / live;
     let mean = sum(&|i| load_scale(assembly, i)) / moving.len() as f64;
     (driven > 0.0).then(|| map(model, forces, rates, mean / driven))
@@ -52,12 +65,17 @@ fn greatest(a: f64, b: f64) -> f64 {
 }
 
 /// Rate of a joint at one of its points, m/s.
-fn joint_rate(assembly: &Assembly, rates: &[Rate], face: &Interface, p: &Vector3<f64>) -> Vector3<f64> {
+fn joint_rate(
+    assembly: &Assembly,
+    rates: &[Rate],
+    face: &Interface,
+    p: &Vector3<f64>,
+) -> Vector3<f64> {
     at(assembly, rates, face.b, p) - at(assembly, rates, face.a, p)
 }
 
-/// What breaches at each joint are measured by, N: of its two blocks (supports do not count) the lesser, each by the greatest of its load and
-/// of the forces of its contacts.
+/// What breaches at each joint are measured by, N: of its two blocks (supports do not count) the
+/// lesser, each by the greatest of its load and of the forces of its contacts.
 fn measures(model: &Model, forces: &Forces) -> Vec<f64> {
     let Model { assembly, interfaces, .. } = model;
     let mut own: Vec<f64> = (0..assembly.blocks.len()).map(|i| load_scale(assembly, i)).collect();
@@ -67,7 +85,12 @@ fn measures(model: &Model, forces: &Forces) -> Vec<f64> {
         }
     }
     let of = |block: usize| if assembly.blocks[block].support { f64::INFINITY } else { own[block] };
-    interfaces.list.iter().map(|face| of(face.a).min(of(face.b))).map(|size| if size > 0.0 { size } else { 1.0 }).collect()
+    interfaces
+        .list
+        .iter()
+        .map(|face| of(face.a).min(of(face.b)))
+        .map(|size| if size > 0.0 { size } else { 1.0 })
+        .collect()
 }
 
 /// The greatest breach of a joint over its own forces; rates of `1 / scale` count as much as these.
@@ -80,7 +103,8 @@ fn map(model: &Model, forces: &Forces, rates: &[Rate], scale: f64) -> f64 {
             continue;
         }
         let strength = Strength::of(face);
-        let rates: Vec<Vector3<f64>> = face.points.iter().map(|p| joint_rate(assembly, rates, face, p) * scale).collect();
+        let rates: Vec<Vector3<f64>> =
+            face.points.iter().map(|p| joint_rate(assembly, rates, face, p) * scale).collect();
         let own: Vec<Wrench> = forces.iter().map(|&w| w * (1.0 / size)).collect();
         let (mut breach, mut tangential) = (0.0, 0.0);
         for (place, (u, Wrench { force, .. })) in rates.iter().zip(&own).enumerate() {
@@ -89,7 +113,8 @@ fn map(model: &Model, forces: &Forces, rates: &[Rate], scale: f64) -> f64 {
             tangential += sliding_breach(face, force, u, cohesion);
         }
         if crushes(face) {
-            breach = breach.min(tangential + crushing_breach(face, &strength, forces, &rates) / size);
+            breach =
+                breach.min(tangential + crushing_breach(face, &strength, forces, &rates) / size);
         }
         let (n, arm) = (face.frame.n, rolling_arm(face));
         if arm > 0.0 {
@@ -97,7 +122,8 @@ fn map(model: &Model, forces: &Forces, rates: &[Rate], scale: f64) -> f64 {
             for Wrench { force, moment } in &own {
                 let limit = n.dot(force).max(0.0);
                 let part = |v: Vector3<f64>| (n.dot(&v), v - n * n.dot(&v));
-                let ((twist, roll), (twist_rate, roll_rate)) = (part(moment / arm), part(spin * arm));
+                let ((twist, roll), (twist_rate, roll_rate)) =
+                    (part(moment / arm), part(spin * arm));
                 breach += (twist - (twist - twist_rate).clamp(-limit, limit)).powi(2);
                 breach += (roll - onto_disc(roll - roll_rate, limit)).norm_squared();
             }
@@ -108,7 +134,13 @@ fn map(model: &Model, forces: &Forces, rates: &[Rate], scale: f64) -> f64 {
 }
 
 /// How far one force and the rate there are from Signorini's and Coulomb's laws, squared.
-fn contact_breach(face: &Interface, force: &Vector3<f64>, u: &Vector3<f64>, cohesion: f64, tension: f64) -> f64 {
+fn contact_breach(
+    face: &Interface,
+    force: &Vector3<f64>,
+    u: &Vector3<f64>,
+    cohesion: f64,
+    tension: f64,
+) -> f64 {
     let n = face.frame.n;
     let shift = match face.law.friction {
         Friction::Coefficient(mu) => mu * (u - n * n.dot(u)).norm(),
@@ -124,13 +156,20 @@ fn sliding_breach(face: &Interface, force: &Vector3<f64>, u: &Vector3<f64>, cohe
     let tangential = |v: &Vector3<f64>| v - n * n.dot(v);
     let (f, to) = (tangential(force), tangential(force) - tangential(u));
     match face.law.friction {
-        Friction::Coefficient(mu) => (f - onto_disc(to, (mu * n.dot(force) + cohesion).max(0.0))).norm_squared(),
+        Friction::Coefficient(mu) => {
+            (f - onto_disc(to, (mu * n.dot(force) + cohesion).max(0.0))).norm_squared()
+        }
         Friction::Infinite => (f - to).norm_squared(),
     }
 }
 
 /// What the normal forces of a joint that crushes fall short of the greatest power on its closing.
-fn crushing_breach(face: &Interface, strength: &Strength, forces: &[Wrench], rates: &[Vector3<f64>]) -> f64 {
+fn crushing_breach(
+    face: &Interface,
+    strength: &Strength,
+    forces: &[Wrench],
+    rates: &[Vector3<f64>],
+) -> f64 {
     let Some((normal, sigma)) = strength.pressed(face, forces) else { return f64::INFINITY };
     let closing: Vec<f64> = rates.iter().map(|u| -face.frame.n.dot(u)).collect();
     let greatest = sigma * closing_volume(face, &closing);
@@ -145,7 +184,13 @@ fn onto_disc(v: Vector3<f64>, radius: f64) -> Vector3<f64> {
 }
 
 /// The force nearest to `f` with `‖f_t‖ ≤ μ f_n + cohesion` and `f_n ≥ −tension` (N).
-fn onto_cone(f: Vector3<f64>, n: Vector3<f64>, friction: Friction, cohesion: f64, tension: f64) -> Vector3<f64> {
+fn onto_cone(
+    f: Vector3<f64>,
+    n: Vector3<f64>,
+    friction: Friction,
+    cohesion: f64,
+    tension: f64,
+) -> Vector3<f64> {
     let normal = n.dot(&f);
     let tangential = f - n * normal;
     let Friction::Coefficient(mu) = friction else { return tangential + n * normal.max(-tension) };
@@ -158,29 +203,35 @@ fn onto_cone(f: Vector3<f64>, n: Vector3<f64>, friction: Friction, cohesion: f64
         let on = (normal + mu * (t - cohesion)) / (1.0 + mu * mu);
         (on, radius(on))
     };
-    let (to_normal, to_t) = if to_normal < -tension { (-tension, t.min(radius(-tension).max(0.0))) } else { (to_normal, to_t) };
+    let (to_normal, to_t) = if to_normal < -tension {
+        (-tension, t.min(radius(-tension).max(0.0)))
+    } else {
+        (to_normal, to_t)
+    };
     n * to_normal + if t > 0.0 { tangential * (to_t / t) } else { Vector3::zeros() }
 }
 
 /// The motion that contact forces leave the blocks in.
 #[derive(Clone, Debug)]
 pub struct Released {
-    /// Largest acceleration, in multiples of gravity ([`Residuals::unbalance`](super::certificate::Residuals::unbalance)).
+    /// Largest acceleration, in multiples of gravity
+    /// ([`Residuals::unbalance`](super::certificate::Residuals::unbalance)).
     pub acceleration: f64,
     /// Acceleration of each block, in multiples of gravity; zero for supports.
     pub accelerations: Vec<f64>,
     /// How far forces and motion are from Coulomb's law together ([`natural_map`]).
     pub natural_map: f64,
-    /// The same with accelerations in multiples of gravity, not brought to the size of the forces: what breaches of the law could make of
-    /// the accelerations.
+    /// The same with accelerations in multiples of gravity, not brought to the size of the forces:
+    /// what breaches of the law could make of the accelerations.
     pub natural_map_in_loads: f64,
-    /// The motion, each block's unbalance over its load scale: accelerations in multiples of gravity.
+    /// The motion, each block's unbalance over its load scale: accelerations in multiples of
+    /// gravity.
     pub rates: Vec<Rate>,
 }
 
 impl Released {
-    /// Whether some block moves off, by forces and a motion that obey the law to far less than that motion: what still creeps, and forces
-    /// that are not yet those of the law, are none.
+    /// Whether some block moves off, by forces and a motion that obey the law to far less than that
+    /// motion: what still creeps, and forces that are not yet those of the law, are none.
     pub fn is_motion(&self) -> bool {
         self.acceleration >= tolerance::LEAST_MOTION
             && self.natural_map <= tolerance::MOTION_LAW
@@ -188,10 +239,11 @@ impl Released {
     }
 }
 
-/// The motion that starts from rest under contact forces, and how exactly the two obey Coulomb's law.
+/// The motion that starts from rest under contact forces, and how exactly the two obey Coulomb's
+/// law.
 ///
-/// Each block moves by its own unbalance; a block's mass is taken as its load scale, with its own radii of gyration. The law of contact does
-/// not depend on that choice, only the speeds do.
+/// Each block moves by its own unbalance; a block's mass is taken as its load scale, with its own
+/// radii of gyration. The law of contact does not depend on that choice, only the speeds do.
 pub fn motion(model: &Model, forces: &Forces) -> Released {
     let assembly = &model.assembly;
     let s = statics(model, forces, 0.0);

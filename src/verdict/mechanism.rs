@@ -12,7 +12,9 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// What a joint does in a mechanism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, schemars::JsonSchema,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum JointMotion {
     /// Turns about an edge or a corner that stays in contact.
@@ -34,7 +36,8 @@ pub struct MovingJoint {
     pub interface: usize,
     /// What it does.
     pub motion: JointMotion,
-    /// Where it keeps contact (mean of the closed or sliding corners), the middle of the crushed corners, or its middle where it parts, m.
+    /// Where it keeps contact (mean of the closed or sliding corners), the middle of the crushed
+    /// corners, or its middle where it parts, m.
     pub at: Vector3<f64>,
 }
 
@@ -52,22 +55,33 @@ pub fn read(model: &Model, rates: &[Rate]) -> Mechanism {
     let Model { assembly, interfaces, .. } = model;
     let speed = |i: usize| certificate::speed(assembly, i, &rates[i]);
     let fastest = assembly.free().map(speed).fold(0.0, f64::max);
-    let mut moving: Vec<usize> = assembly.free().filter(|&i| speed(i) > tolerance::MECHANISM_REST * fastest).collect();
+    let mut moving: Vec<usize> =
+        assembly.free().filter(|&i| speed(i) > tolerance::MECHANISM_REST * fastest).collect();
     moving.sort_by(|&i, &j| speed(j).total_cmp(&speed(i)).then(i.cmp(&j)));
-    let joints = (0..interfaces.list.len())
-        .filter_map(|k| joint(assembly, &interfaces.list[k], rates, fastest).map(|(motion, at)| MovingJoint { interface: k, motion, at }))
-        .collect();
+    let joints =
+        (0..interfaces.list.len())
+            .filter_map(|k| {
+                joint(assembly, &interfaces.list[k], rates, fastest)
+                    .map(|(motion, at)| MovingJoint { interface: k, motion, at })
+            })
+            .collect();
     Mechanism { moving, joints }
 }
 
-fn joint(assembly: &Assembly, face: &Interface, rates: &[Rate], fastest: f64) -> Option<(JointMotion, Vector3<f64>)> {
+fn joint(
+    assembly: &Assembly,
+    face: &Interface,
+    rates: &[Rate],
+    fastest: f64,
+) -> Option<(JointMotion, Vector3<f64>)> {
     let rest = tolerance::MECHANISM_REST * fastest;
     // Per corner: does it keep contact (closed or sliding), and how fast does it slide?
     let corners: Vec<(Vector3<f64>, bool, f64, f64)> = face
         .points
         .iter()
         .map(|p| {
-            let v = certificate::at(assembly, rates, face.b, p) - certificate::at(assembly, rates, face.a, p);
+            let v = certificate::at(assembly, rates, face.b, p)
+                - certificate::at(assembly, rates, face.a, p);
             let vn = face.frame.n.dot(&v);
             let vt = (v - face.frame.n * vn).norm();
             let lift = match face.law.friction {
@@ -82,7 +96,9 @@ fn joint(assembly: &Assembly, face: &Interface, rates: &[Rate], fastest: f64) ->
     }
     let kept: Vec<_> = corners.iter().filter(|c| c.1).collect();
     let crushed: Vec<_> = corners.iter().filter(|c| c.3 < -rest).collect();
-    let mean = |points: &mut dyn Iterator<Item = Vector3<f64>>, n: usize| points.sum::<Vector3<f64>>() / n as f64;
+    let mean = |points: &mut dyn Iterator<Item = Vector3<f64>>, n: usize| {
+        points.sum::<Vector3<f64>>() / n as f64
+    };
     if crushes(face) && !crushed.is_empty() {
         return Some((JointMotion::Crush, mean(&mut crushed.iter().map(|c| c.0), crushed.len())));
     }

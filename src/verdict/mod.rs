@@ -1,6 +1,6 @@
 //! Verdicts and the evidence for them, recomputed from [`Assembly`](crate::assembly::Assembly) and
-//! [`Interfaces`] alone. Nothing here knows the program or the solver. What joints carry beside friction is derived here a second
-//! time ([`joint`]), all but the bound on crushing.
+//! [`Interfaces`] alone. Nothing here knows the program or the solver. What joints carry beside
+//! friction is derived here a second time ([`joint`]), all but the bound on crushing.
 
 pub mod certificate;
 pub mod check;
@@ -22,17 +22,19 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Admissible contact forces balance the loads. Proof: the forces.
     Stable,
-    /// Admissible forces exist, but only with a pre-stress that the loads do not produce: with dry friction and none applied,
-    /// the scene moves. Proof: the forces, and a motion that obeys Coulomb's law.
+    /// Admissible forces exist, but only with a pre-stress that the loads do not produce: with dry
+    /// friction and none applied, the scene moves. Proof: the forces, and a motion that obeys
+    /// Coulomb's law.
     Conditional,
-    /// No admissible contact forces balance the loads, whatever the law of sliding inside the cone. Proof: the mechanism.
+    /// No admissible contact forces balance the loads, whatever the law of sliding inside the cone.
+    /// Proof: the mechanism.
     Unstable,
     /// The bracket straddles the tolerance.
     Undecided,
 }
 
-/// What acts on block `b` at each contact point of each interface: force, N, and couple about that point, N·m (zero unless
-/// the joint has a rolling arm).
+/// What acts on block `b` at each contact point of each interface: force, N, and couple about that
+/// point, N·m (zero unless the joint has a rolling arm).
 pub type Forces = Vec<Vec<Wrench>>;
 
 /// No contact forces at all.
@@ -45,8 +47,8 @@ pub fn no_forces(interfaces: &Interfaces) -> Forces {
 pub struct Evidence<'a> {
     /// Contact forces: the static side.
     pub forces: &'a Forces,
-    /// Unbounded: forces at a load factor at which the scene stands, beside those of the live load alone. Conditional: the forces without the
-    /// pre-stress.
+    /// Unbounded: forces at a load factor at which the scene stands, beside those of the live load
+    /// alone. Conditional: the forces without the pre-stress.
     pub base: Option<&'a Forces>,
     /// Rates of all blocks: the kinematic side.
     pub rates: &'a [Rate],

@@ -1,9 +1,12 @@
-//! Where the line of thrust passes the sections: the resultant of the contact forces at every interface.
+//! Where the line of thrust passes the sections: the resultant of the contact forces at every
+//! interface.
 //!
-//! The *centre of pressure* is where the resultant of the normal forces acts. Its *eccentricity* is the distance from the centroid of the
-//! contact's hull; its *use* of the section is the least factor by which the section, shrunk about its centroid, still contains it
-//! (2 e / t on a rectangle of depth t: 0 at the centroid, 1 at the edge, where the joint hinges). It lies in the *kern* when a linear
-//! distribution of pressure with that resultant presses everywhere (e ≤ t / 6 on a rectangle: the middle third).
+//! The *centre of pressure* is where the resultant of the normal forces acts. Its *eccentricity* is
+//! the distance from the centroid of the contact's hull; its *use* of the section is the least
+//! factor by which the section, shrunk about its centroid, still contains it (2 e / t on a
+//! rectangle of depth t: 0 at the centroid, 1 at the edge, where the joint hinges). It lies in the
+//! *kern* when a linear distribution of pressure with that resultant presses everywhere (e ≤ t / 6
+//! on a rectangle: the middle third).
 
 use super::Forces;
 use crate::{
@@ -43,7 +46,12 @@ pub fn sections(interfaces: &Interfaces, forces: &Forces) -> Vec<SectionForce> {
             let total: Vector3<f64> = forces.iter().map(|f| f.force).sum();
             let normal = n.dot(&total);
             let outline = Outline::new(face);
-            let moment: P2 = face.points.iter().zip(forces).map(|(p, f)| (flat(face, p) - outline.centroid) * n.dot(&f.force)).sum();
+            let moment: P2 = face
+                .points
+                .iter()
+                .zip(forces)
+                .map(|(p, f)| (flat(face, p) - outline.centroid) * n.dot(&f.force))
+                .sum();
             let e = if normal == 0.0 { P2::zeros() } else { moment / normal };
             let shift = face.frame.t1 * e.x + face.frame.t2 * e.y;
             SectionForce {
@@ -116,7 +124,8 @@ impl Outline {
                 let inertia = edges(&self.corners).fold(Matrix2::zeros(), |sum, (a, b)| {
                     let (a, b) = (a - self.centroid, b - self.centroid);
                     let s = a + b;
-                    sum + (a * a.transpose() + b * b.transpose() + s * s.transpose()) * (a.perp(&b) / 24.0)
+                    sum + (a * a.transpose() + b * b.transpose() + s * s.transpose())
+                        * (a.perp(&b) / 24.0)
                 });
                 let Some(inverse) = inertia.try_inverse() else { return false };
                 let slope = inverse * e * self.area;

@@ -1,9 +1,12 @@
-//! The thrust on a support: its value from forces, its bound from a mechanism, both re-added from the scene.
+//! The thrust on a support: its value from forces, its bound from a mechanism, both re-added from
+//! the scene.
 //!
-//! The thrust is the component `T` along a unit direction `d` of the force that the blocks exert on the support (water in the joints
-//! included). Let the support move at the rate `σ d`, the others rest and the free blocks follow at rates `q` with inadmissibility `e`
-//! (see [`certificate`]). Virtual work gives for all admissible forces in equilibrium `σ T = w·q + Σ f·v ≥ w·q − D − Σ e f_n`, with `D` the
-//! dissipation of cohesion, tension and crushing: a bound from below (σ = 1, the support yields) or above (σ = −1, it is pushed in).
+//! The thrust is the component `T` along a unit direction `d` of the force that the blocks exert on
+//! the support (water in the joints included). Let the support move at the rate `σ d`, the others
+//! rest and the free blocks follow at rates `q` with inadmissibility `e` (see [`certificate`]).
+//! Virtual work gives for all admissible forces in equilibrium `σ T = w·q + Σ f·v ≥ w·q − D − Σ e
+//! f_n`, with `D` the dissipation of cohesion, tension and crushing: a bound from below (σ = 1, the
+//! support yields) or above (σ = −1, it is pushed in).
 
 use super::{Forces, Rate, certificate, check::Findings, joint::water, no_forces};
 use crate::{
@@ -54,9 +57,14 @@ impl ThrustAt {
     pub fn value(&self, interfaces: &Interfaces, forces: &Forces) -> f64 {
         let mut sum = 0.0;
         for (face, forces) in interfaces.list.iter().zip(forces) {
-            let sign = f64::from(u8::from(face.b == self.support)) - f64::from(u8::from(face.a == self.support));
+            let sign = f64::from(u8::from(face.b == self.support))
+                - f64::from(u8::from(face.a == self.support));
             if sign != 0.0 {
-                let total = forces.iter().map(|f| f.force).chain(water(face).map(|w| w.force)).sum::<Vector3<f64>>();
+                let total = forces
+                    .iter()
+                    .map(|f| f.force)
+                    .chain(water(face).map(|w| w.force))
+                    .sum::<Vector3<f64>>();
                 sum += sign * self.d().dot(&total);
             }
         }
@@ -73,18 +81,27 @@ impl ThrustAt {
     }
 
     /// What forces and rates prove about an extreme.
-    pub fn bracket(&self, model: &Model, extreme: Extreme, forces: &Forces, rates: &[Rate]) -> Proof {
+    pub fn bracket(
+        &self,
+        model: &Model,
+        extreme: Extreme,
+        forces: &Forces,
+        rates: &[Rate],
+    ) -> Proof {
         let Model { assembly, interfaces, .. } = model;
         let sigma = extreme.sigma();
         let rates = self.with_support(rates, sigma);
         let s = certificate::statics(model, forces, 0.0);
         let k = certificate::kinematics(model, &rates, forces);
-        let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
+        let hidden: f64 =
+            assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
         let (value, bound) = (self.value(interfaces, forces), sigma * (k.gain() - k.slack));
         let largest = forces.iter().flatten().map(|f| f.force.norm()).fold(0.0, f64::max);
         let reached = value + sigma * hidden;
-        let (lower, upper) = if extreme == Extreme::Least { (bound, reached) } else { (reached, bound) };
-        // As if every contact carried the largest force, or the total load: forces that vanish would hide everything.
+        let (lower, upper) =
+            if extreme == Extreme::Least { (bound, reached) } else { (reached, bound) };
+        // As if every contact carried the largest force, or the total load: forces that vanish
+        // would hide everything.
         let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
         Proof { value, lower, upper, behind: k.excess * largest.max(total), statics: s }
     }
@@ -99,7 +116,8 @@ pub struct Proof {
     pub lower: f64,
     /// Upper end, N.
     pub upper: f64,
-    /// What the mechanism's inadmissibility could hide if every contact carried the largest force or the total load, N.
+    /// What the mechanism's inadmissibility could hide if every contact carried the largest force
+    /// or the total load, N.
     pub behind: f64,
     /// What the forces leave.
     pub statics: certificate::Residuals,
@@ -108,7 +126,9 @@ pub struct Proof {
 impl Proof {
     /// Whether the mechanism's inadmissibility is rounding; `total` is the total load, N.
     pub fn is_admissible(&self, total: f64) -> bool {
-        self.behind <= tolerance::LOAD_FACTOR_BEHIND * self.value.abs() + tolerance::LOAD_FACTOR_WIDTH * total
+        self.behind
+            <= tolerance::LOAD_FACTOR_BEHIND * self.value.abs()
+                + tolerance::LOAD_FACTOR_WIDTH * total
     }
 }
 
@@ -118,7 +138,8 @@ pub fn width(assembly: &Assembly, value: f64) -> f64 {
     tolerance::THRUST_WIDTH * value.abs() + tolerance::THRUST_FLOOR * total
 }
 
-/// The scene without loads, in which endless forces balance by themselves; block weights stay as the scale.
+/// The scene without loads, in which endless forces balance by themselves; block weights stay as
+/// the scale.
 pub fn unloaded(assembly: &Assembly) -> Assembly {
     let mut bare = assembly.clone();
     bare.dead.iter_mut().chain(&mut bare.live).for_each(|w| *w = Wrench::zero());
@@ -149,22 +170,45 @@ pub(super) fn verify(
         ),
     );
     let width = width(assembly, p.value);
-    f.require((p.value - value).abs() <= width, format!("their thrust is {:.9e} N, claimed {value:.9e} N", p.value));
+    f.require(
+        (p.value - value).abs() <= width,
+        format!("their thrust is {:.9e} N, claimed {value:.9e} N", p.value),
+    );
     let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
     f.require(
         p.is_admissible(total),
-        format!("the mechanism is admissible: its rounding could hide at most {:.1e} of the total load", p.behind / total),
+        format!(
+            "the mechanism is admissible: its rounding could hide at most {:.1e} of the total load",
+            p.behind / total
+        ),
     );
     let holds = p.lower >= lower - width && p.upper <= upper + width;
-    f.require(holds, format!("bracket recomputed: [{:.9e}, {:.9e}] N, claimed [{lower:.9e}, {upper:.9e}] N", p.lower, p.upper));
+    f.require(
+        holds,
+        format!(
+            "bracket recomputed: [{:.9e}, {:.9e}] N, claimed [{lower:.9e}, {upper:.9e}] N",
+            p.lower, p.upper
+        ),
+    );
     let open = p.upper - p.lower;
     if open.is_nan() || open > 2.0 * width {
-        f.fails.push(format!("the two sides do not meet: bracket {open:.1e} N wide, allowed {:.1e} N", 2.0 * width));
+        f.fails.push(format!(
+            "the two sides do not meet: bracket {open:.1e} N wide, allowed {:.1e} N",
+            2.0 * width
+        ));
     }
 }
 
-/// Verifies that a thrust has no end: forces that balance by themselves and push, beside others that balance the loads.
-pub(super) fn verify_endless(f: &mut Findings, model: &Model, forces: &Forces, base: Option<&Forces>, at: &ThrustAt, extreme: Extreme) {
+/// Verifies that a thrust has no end: forces that balance by themselves and push, beside others
+/// that balance the loads.
+pub(super) fn verify_endless(
+    f: &mut Findings,
+    model: &Model,
+    forces: &Forces,
+    base: Option<&Forces>,
+    at: &ThrustAt,
+    extreme: Extreme,
+) {
     let Model { assembly, interfaces, .. } = model;
     if !is_support(f, assembly, at) {
         return;
@@ -175,7 +219,13 @@ pub(super) fn verify_endless(f: &mut Findings, model: &Model, forces: &Forces, b
     }
     let (unlimited, kept) = unlimited(interfaces);
     let alone: Forces = kept.iter().map(|&k| forces[k].clone()).collect();
-    super::check::balanced(f, "without loads, ", &Model::new(unloaded(assembly), unlimited), &alone, 0.0);
+    super::check::balanced(
+        f,
+        "without loads, ",
+        &Model::new(unloaded(assembly), unlimited),
+        &alone,
+        0.0,
+    );
     // Forces in joints that limit them are not counted.
     let mut counted = no_forces(interfaces);
     kept.iter().zip(alone).for_each(|(&k, forces)| counted[k] = forces);

@@ -1,5 +1,6 @@
-//! Verdict against simulation over the scenes of `structures/` and real assemblies, away from their limits: two methods that share nothing but the blocks and
-//! where they touch. Where they disagree, the reason is listed here.
+//! Verdict against simulation over the scenes of `structures/` and real assemblies, away from their
+//! limits: two methods that share nothing but the blocks and where they touch. Where they disagree,
+//! the reason is listed here.
 
 use crate::ask::model;
 use nalgebra::Vector3;
@@ -38,19 +39,32 @@ const SLOW: [(&str, &str); 4] = [
 
 /// Scenes on which verdict and simulation disagree, or the simulation stays undecided, and why.
 const DISAGREE: [(&str, &str); 2] = [
-    ("mass-ratio-1e9", "a block between the ground and one of 1e9 times its mass: the iterations do not converge"),
-    ("tiny-on-huge", "a block of 1e-6 m on one of 1 km: the engine's contact distances are not that fine"),
+    (
+        "mass-ratio-1e9",
+        "a block between the ground and one of 1e9 times its mass: the iterations do not converge",
+    ),
+    (
+        "tiny-on-huge",
+        "a block of 1e-6 m on one of 1 km: the engine's contact distances are not that fine",
+    ),
 ];
 
-/// Scenes whose joints have strengths that the simulation leaves out, and says so: nothing to compare.
+/// Scenes whose joints have strengths that the simulation leaves out, and says so: nothing to
+/// compare.
 fn has_strengths(scene: &Scene) -> bool {
-    model(scene).interfaces.list.iter().any(|f| !voussoir::assembly::JointLaw { pore_pressure: 0.0, ..f.law }.friction_only())
+    model(scene)
+        .interfaces
+        .list
+        .iter()
+        .any(|f| !voussoir::assembly::JointLaw { pore_pressure: 0.0, ..f.law }.friction_only())
 }
 
 fn compare(scene: &Scene) -> (Agreement, f64) {
     let model = model(scene);
     let answer = assess(&model, &Control::default());
-    let outcome = simulate(&model, &SimulationSettings::default(), &mut |_| ControlFlow::Continue(())).expect("a simulation");
+    let outcome =
+        simulate(&model, &SimulationSettings::default(), &mut |_| ControlFlow::Continue(()))
+            .expect("a simulation");
     let seconds = outcome.runs.iter().map(|r| r.seconds).sum();
     (agreement(&model, &answer, &outcome), seconds)
 }
@@ -64,7 +78,14 @@ fn simulations_of_the_structures_agree_with_their_verdicts() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("structures");
     let mut names: Vec<String> = std::fs::read_dir(&folder)
         .expect("structures/")
-        .filter_map(|entry| entry.expect("an entry").file_name().to_string_lossy().strip_suffix(".json").map(str::to_string))
+        .filter_map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .to_string_lossy()
+                .strip_suffix(".json")
+                .map(str::to_string)
+        })
         .filter(|name| name != "expected")
         .collect();
     names.sort();
@@ -83,7 +104,10 @@ fn simulations_of_the_structures_agree_with_their_verdicts() {
         counted += 1;
         agreed += usize::from(a.agrees == Some(true));
         let forces = a.forces.as_ref().map(|f| (f.mean, f.largest, f.determinate));
-        println!("{name}: {:?}, {:?}, motion {:?}, forces {forces:?}, {seconds:.2} s", a.verdict, a.fate, a.motion);
+        println!(
+            "{name}: {:?}, {:?}, motion {:?}, forces {forces:?}, {seconds:.2} s",
+            a.verdict, a.fate, a.motion
+        );
         if (a.agrees == Some(true)) == listed(&DISAGREE, name) {
             wrong.push(format!("{name}: verdict {:?}, simulation {:?}", a.verdict, a.fate));
         }
@@ -103,15 +127,19 @@ const DISAGREE_LOADED: [(&str, &str); 2] = [
         "wall-with-two-openings at 0.95",
         "with dry friction several states are possible: the verdict's has no admissible rest, the simulation finds one",
     ),
-    ("sliver at 0.95", "a slab of 1e5 times its thickness: contacts sink in by more than the 5 % of its lean that are left"),
+    (
+        "sliver at 0.95",
+        "a slab of 1e5 times its thickness: contacts sink in by more than the 5 % of its lean that are left",
+    ),
 ];
 
-/// Scenes of `structures/` at 0.95 and 1.05 of their load factor, the verdict asked again there (with dry friction the limit may be lower),
-/// and at 0.95 and 1.05 of their tilt.
+/// Scenes of `structures/` at 0.95 and 1.05 of their load factor, the verdict asked again there
+/// (with dry friction the limit may be lower), and at 0.95 and 1.05 of their tilt.
 #[test]
 fn simulations_either_side_of_a_limit_agree_with_their_verdicts() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("structures");
-    let text = std::fs::read_to_string(folder.join("expected.json")).expect("structures/expected.json");
+    let text =
+        std::fs::read_to_string(folder.join("expected.json")).expect("structures/expected.json");
     let list: Vec<serde_json::Value> = serde_json::from_str(&text).expect("JSON");
     let (mut agreed, mut counted) = (0, 0);
     let mut wrong = Vec::new();
@@ -129,9 +157,15 @@ fn simulations_either_side_of_a_limit_agree_with_their_verdicts() {
             let mut scene = scene.clone();
             if let Some(lambda) = entry["expect"]["load_factor"].as_f64().filter(|l| *l > 0.0) {
                 scene.loads = scene.loads.fixed(share * lambda);
-            } else if let Some(tilt) = entry["expect"]["tilt_deg"].as_f64().filter(|_| scene.loads.dead.is_empty()) {
-                let toward =
-                    Vector3::new(entry["toward"][0].as_f64().expect("x"), entry["toward"][1].as_f64().expect("y"), 0.0).normalize();
+            } else if let Some(tilt) =
+                entry["expect"]["tilt_deg"].as_f64().filter(|_| scene.loads.dead.is_empty())
+            {
+                let toward = Vector3::new(
+                    entry["toward"][0].as_f64().expect("x"),
+                    entry["toward"][1].as_f64().expect("y"),
+                    0.0,
+                )
+                .normalize();
                 let (s, c) = (share * tilt).to_radians().sin_cos();
                 let strength = Vector3::from(scene.gravity).norm();
                 scene.gravity = (toward * (s * strength) - Vector3::z() * (c * strength)).into();
@@ -140,7 +174,10 @@ fn simulations_either_side_of_a_limit_agree_with_their_verdicts() {
             }
             let (a, seconds) = compare(&scene);
             let name = format!("{name} at {share}");
-            println!("{name}: {:?}, {:?}, motion {:?}, {seconds:.2} s", a.verdict, a.fate, a.motion);
+            println!(
+                "{name}: {:?}, {:?}, motion {:?}, {seconds:.2} s",
+                a.verdict, a.fate, a.motion
+            );
             if a.verdict == Verdict::Undecided {
                 continue;
             }
@@ -156,7 +193,8 @@ fn simulations_either_side_of_a_limit_agree_with_their_verdicts() {
     assert!(counted >= 40 && agreed as f64 >= 0.95 * counted as f64, "{agreed} of {counted}");
 }
 
-/// Frame H and the shelf fall although admissible forces exist; type-b and the cubes stand (facts known for these files).
+/// Frame H and the shelf fall although admissible forces exist; type-b and the cubes stand (facts
+/// known for these files).
 #[test]
 fn real_assemblies_do_what_is_known_of_them() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data/compas");
@@ -176,7 +214,9 @@ fn real_assemblies_do_what_is_known_of_them() {
             up,
             ..import::ImportOptions::default()
         };
-        let scene = import::import_file(&folder.join(format!("{name}.json")), &options).unwrap_or_else(|e| panic!("{e}")).scene;
+        let scene = import::import_file(&folder.join(format!("{name}.json")), &options)
+            .unwrap_or_else(|e| panic!("{e}"))
+            .scene;
         let (a, _) = compare(&scene);
         println!("{name}: {a:?}");
         assert_eq!(a.agrees, Some(true), "{name}: {a:?}");
@@ -202,7 +242,8 @@ fn simulations_of_the_reference_cases_agree_with_their_verdicts() {
     let (mut agreed, mut counted) = (0, 0);
     let mut wrong = Vec::new();
     for case in file["cases"].as_array().expect("cases") {
-        let (id, class) = (case["id"].as_str().expect("an id"), case["cls"].as_str().unwrap_or_default());
+        let (id, class) =
+            (case["id"].as_str().expect("an id"), case["cls"].as_str().unwrap_or_default());
         let drawn = case.get("blocks").is_some() || case.get("blocks3d").is_some();
         if !["A", "B", "E"].contains(&class) || case["query"]["type"] != "lambda_max" || !drawn {
             continue;

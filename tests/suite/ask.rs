@@ -1,9 +1,12 @@
-//! Asking questions in tests. Every answer is packed into a result, written, read back and proved from the scene alone
-//! before its value is compared: an answer without a proof fails, whatever its digits.
+//! Asking questions in tests. Every answer is packed into a result, written, read back and proved
+//! from the scene alone before its value is compared: an answer without a proof fails, whatever its
+//! digits.
 
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, Limited, LoadFactor, Outcome, Proved, Tilted, assess, coulomb, limit, tilt},
+    analysis::{
+        Control, Law, Limited, LoadFactor, Outcome, Proved, Tilted, assess, coulomb, limit, tilt,
+    },
     import::{Reach, read_meshes},
     interface::{Model, prepare},
     proof::{self, ResultFile},
@@ -12,7 +15,8 @@ use voussoir::{
     verdict::Verdict,
 };
 
-/// A scene in units of its own (density 1 kg/m³, gravity 1 m/s²) with one friction; `more` adds or replaces keys.
+/// A scene in units of its own (density 1 kg/m³, gravity 1 m/s²) with one friction; `more` adds or
+/// replaces keys.
 pub fn scene(friction: f64, blocks: Value, more: Value) -> Scene {
     let mut value = json!({
         "format": "voussoir-scene/1", "gravity": [0, 0, -1], "materials": { "unit": { "density": 1 } },
@@ -32,7 +36,8 @@ pub fn scene(friction: f64, blocks: Value, more: Value) -> Scene {
 /// A scene from a file, with the meshes it names.
 pub fn open(path: &std::path::Path) -> Scene {
     let (mut scene, _) = read_file(path).unwrap_or_else(|e| panic!("{e}"));
-    read_meshes(&mut scene, path.parent().expect("a folder"), Reach::Folder).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    read_meshes(&mut scene, path.parent().expect("a folder"), Reach::Folder)
+        .unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     scene
 }
 
@@ -94,10 +99,21 @@ pub fn model(scene: &Scene) -> Model {
 /// Writes a result, reads it back and proves it from the scene alone.
 pub fn prove(scene: &Scene, file: &ResultFile) {
     let text = report::json::pretty(file).expect("JSON");
-    let read = proof::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let read = proof::read::read_str("result", text.as_str())
+        .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     let found = proof::verify(&read, scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
-    let fails: Vec<_> = found.parts.iter().flat_map(|(part, f)| f.fails.iter().map(move |text| format!("{part}: {text}"))).collect();
-    assert!(found.proved(), "{}: not proved: {fails:#?}\nwarnings {:#?}\ntrace {:#?}", scene.name, file.warnings, file.trace);
+    let fails: Vec<_> = found
+        .parts
+        .iter()
+        .flat_map(|(part, f)| f.fails.iter().map(move |text| format!("{part}: {text}")))
+        .collect();
+    assert!(
+        found.proved(),
+        "{}: not proved: {fails:#?}\nwarnings {:#?}\ntrace {:#?}",
+        scene.name,
+        file.warnings,
+        file.trace
+    );
 }
 
 /// The verdict by a law of sliding, with proof.
@@ -105,7 +121,13 @@ pub fn verdict(scene: &Scene, law: Law) -> Verdict {
     let model = model(scene);
     let answer = assess(&model, &Control { law, ..Control::default() });
     let steps = answer.state.as_ref().map(|s| &s.steps);
-    assert_ne!(answer.verdict, Verdict::Undecided, "{}: {:?} {steps:?}", scene.name, answer.unbalance);
+    assert_ne!(
+        answer.verdict,
+        Verdict::Undecided,
+        "{}: {:?} {steps:?}",
+        scene.name,
+        answer.unbalance
+    );
     prove(scene, &ResultFile::assessment(scene, &model, &answer));
     answer.verdict
 }
@@ -136,8 +158,8 @@ pub fn load_factor(scene: &Scene) -> f64 {
     value
 }
 
-/// The load factor is `want` within a relative tolerance, and its proved bracket contains `want` up to `rounding` (relative: the digits of
-/// `want`, or of the coordinates).
+/// The load factor is `want` within a relative tolerance, and its proved bracket contains `want` up
+/// to `rounding` (relative: the digits of `want`, or of the coordinates).
 #[track_caller]
 pub fn bracketed(what: &str, scene: &Scene, want: f64, tolerance: f64, rounding: f64) {
     let answer = answer(scene);
@@ -153,7 +175,8 @@ pub fn bracketed(what: &str, scene: &Scene, want: f64, tolerance: f64, rounding:
     );
 }
 
-/// The load factor is `want` within a relative tolerance, and its proved bracket contains `want` up to 1e-10 of it.
+/// The load factor is `want` within a relative tolerance, and its proved bracket contains `want` up
+/// to 1e-10 of it.
 #[track_caller]
 pub fn exact(what: &str, scene: &Scene, want: f64, tolerance: f64) {
     bracketed(what, scene, want, tolerance, 1e-10);
@@ -169,7 +192,8 @@ pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
     angle
 }
 
-/// The load factor with dry friction, the associative one (NaN where there is no limit) and the number of convex programs, with proof.
+/// The load factor with dry friction, the associative one (NaN where there is no limit) and the
+/// number of convex programs, with proof.
 pub fn dry(scene: &Scene) -> (f64, f64, usize) {
     let model = model(scene);
     let l = limit(&model, &Control::default());
@@ -177,8 +201,20 @@ pub fn dry(scene: &Scene) -> (f64, f64, usize) {
     let limited = Limited { bound: l.clone(), dry: Some(d.clone()), dead: None };
     let file = ResultFile::load_factor(scene, &model, &limited);
     prove(scene, &file);
-    assert_eq!(file.dry.and_then(|d| d.value), Some(d.value), "{}: natural map {:.1e}", scene.name, d.natural_map);
-    assert!(l.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.value.abs(), "{}: {} above {}", scene.name, d.value, l.value);
+    assert_eq!(
+        file.dry.and_then(|d| d.value),
+        Some(d.value),
+        "{}: natural map {:.1e}",
+        scene.name,
+        d.natural_map
+    );
+    assert!(
+        l.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.value.abs(),
+        "{}: {} above {}",
+        scene.name,
+        d.value,
+        l.value
+    );
     (d.value, l.value, d.solves)
 }
 

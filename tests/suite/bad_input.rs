@@ -1,4 +1,5 @@
-//! Whatever a file holds, the program answers with a clear error (exit code 2), a finding, or a verdict; it never panics.
+//! Whatever a file holds, the program answers with a clear error (exit code 2), a finding, or a
+//! verdict; it never panics.
 
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -87,7 +88,13 @@ fn mistakes_are_errors_with_place_and_remedy_and_nothing_is_written() {
         (with("/blocks/1/shape", json!({ "box": { "size": [1, 0, 1] } })), "size"),
         (with("/blocks/1/shape", json!({ "sphere": { "radius": -1 } })), "radius"),
         (with("/blocks/1/shape", json!({ "ball": { "radius": 1 } })), "ball"),
-        (with("/blocks/1/shape", json!({ "prism": { "polygon": [[0, 0], [1, 1], [1, 0], [0, 1]], "depth": 1 } })), "polygon"),
+        (
+            with(
+                "/blocks/1/shape",
+                json!({ "prism": { "polygon": [[0, 0], [1, 1], [1, 0], [0, 1]], "depth": 1 } }),
+            ),
+            "polygon",
+        ),
         (
             with(
                 "/blocks/1/shape",
@@ -104,8 +111,20 @@ fn mistakes_are_errors_with_place_and_remedy_and_nothing_is_written() {
         ),
         (with("/loads", json!({ "live": [{ "block": "nobody", "force": [1, 0, 0] }] })), "nobody"),
         (with("/loads", json!({ "dead": [{ "block": "ground", "force": [1, 0, 0] }] })), "support"),
-        (with("/templates", json!([{ "wall": { "size": [1, 1, 1], "courses": 1000000000, "blocks": 1000000000 } }])), "wall"),
-        (with("/templates", json!([{ "arch": { "radius": 1, "thickness": 5, "depth": 1, "voussoirs": 9 } }])), "thickness"),
+        (
+            with(
+                "/templates",
+                json!([{ "wall": { "size": [1, 1, 1], "courses": 1000000000, "blocks": 1000000000 } }]),
+            ),
+            "wall",
+        ),
+        (
+            with(
+                "/templates",
+                json!([{ "arch": { "radius": 1, "thickness": 5, "depth": 1, "voussoirs": 9 } }]),
+            ),
+            "thickness",
+        ),
     ];
     let folder = tempfile::tempdir().unwrap();
     let mut wrong = Vec::new();
@@ -118,7 +137,11 @@ fn mistakes_are_errors_with_place_and_remedy_and_nothing_is_written() {
         }
         assert!(error.starts_with("error: ") && !error.contains("panicked"), "{error}");
         assert!(out.stdout.is_empty());
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "a file was left behind for {text}");
+        assert_eq!(
+            std::fs::read_dir(folder.path()).unwrap().count(),
+            0,
+            "a file was left behind for {text}"
+        );
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
@@ -154,9 +177,13 @@ fn mistakes_of_units_are_told() {
 /// An error, or an answer that verifies from its own file, or undecided.
 fn answered(scene: &Scene) {
     let Ok(m) = prepare(scene) else { return };
-    let a = assess(&m, &Control { deadline: voussoir::deadline::Deadline::within(10.0), ..Control::default() });
+    let a = assess(
+        &m,
+        &Control { deadline: voussoir::deadline::Deadline::within(10.0), ..Control::default() },
+    );
     let text = report::json::pretty(&ResultFile::assessment(scene, &m, &a)).unwrap();
-    let file = proof::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{e}\n{scene:?}"));
+    let file =
+        proof::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{e}\n{scene:?}"));
     if file.answer.verdict() != Some(Verdict::Undecided) {
         let found = proof::verify(&file, scene).unwrap();
         assert!(found.proved(), "{scene:?}: {:?}", found.parts);
@@ -172,7 +199,10 @@ fn extreme_numbers_are_errors_or_answers() {
         with("/blocks/1/density", json!(1e33)),
         with("/blocks/1/density", json!(1e-30)),
         with("/loads", json!({ "dead": [{ "block": "block", "force": [0, 0, 1e300] }] })),
-        with("/loads", json!({ "dead": [{ "block": "block", "force": [0, 0, -1e20], "at": [0.4, 0, 1] }] })),
+        with(
+            "/loads",
+            json!({ "dead": [{ "block": "block", "force": [0, 0, -1e20], "at": [0.4, 0, 1] }] }),
+        ),
         with("/joints/default/friction", json!(1e308)),
         with("/joints/default/friction", json!(1e-300)),
     ];
@@ -197,10 +227,17 @@ fn extreme_numbers_are_errors_or_answers() {
 
 fn structures() -> Vec<Vec<u8>> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/structures");
-    let mut files: Vec<_> =
-        std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).filter(|p| p.extension().is_some_and(|e| e == "json")).collect();
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|e| e.unwrap().path())
+        .filter(|p| p.extension().is_some_and(|e| e == "json"))
+        .collect();
     files.sort();
-    files.iter().map(|p| std::fs::read(p).unwrap()).filter(|b| b.len() < 20_000 && !b.windows(4).any(|w| w == b"1000")).collect()
+    files
+        .iter()
+        .map(|p| std::fs::read(p).unwrap())
+        .filter(|b| b.len() < 20_000 && !b.windows(4).any(|w| w == b"1000"))
+        .collect()
 }
 
 proptest! {

@@ -1,4 +1,5 @@
-//! Certificates: honest ones are accepted, corrupted and forged ones are not; problems built backwards from a known answer.
+//! Certificates: honest ones are accepted, corrupted and forged ones are not; problems built
+//! backwards from a known answer.
 
 use crate::ask::{cuboid, fixed, ground, model, push, scene, template};
 use nalgebra::Vector3;
@@ -21,7 +22,11 @@ use voussoir::{
 type V = Vector3<f64>;
 
 fn arch(thickness: f64) -> Scene {
-    template(0.8, json!({ "arch": { "radius": 1.0, "thickness": thickness, "depth": 1.0, "voussoirs": 16 } }), push([1.0, 0.0, 0.0]))
+    template(
+        0.8,
+        json!({ "arch": { "radius": 1.0, "thickness": thickness, "depth": 1.0, "voussoirs": 16 } }),
+        push([1.0, 0.0, 0.0]),
+    )
 }
 
 fn zeros(m: &Model) -> Forces {
@@ -55,14 +60,17 @@ fn a_stable_claim_needs_forces_that_balance_inside_their_cones() {
         (7, &|_| V::new(f64::INFINITY, 0.0, 0.0)),
     ] {
         let mut forces = a.forces.clone();
-        let point = (0..4).max_by(|&i, &j| forces[k][i].force.norm().total_cmp(&forces[k][j].force.norm())).unwrap();
+        let point = (0..4)
+            .max_by(|&i, &j| forces[k][i].force.norm().total_cmp(&forces[k][j].force.norm()))
+            .unwrap();
         forces[k][point].force = change(forces[k][point].force);
         assert!(!proved(&m, Claim::Stable, &forces, None, &a.rates), "force {k}");
     }
     // The forces of one arch do not hold another.
     let heavier = {
         let mut s = arch(0.15);
-        s.loads.dead = serde_json::from_value(json!([{ "block": "v08", "force": [0, 0, -1e-3] }])).unwrap();
+        s.loads.dead =
+            serde_json::from_value(json!([{ "block": "v08", "force": [0, 0, -1e-3] }])).unwrap();
         model(&s)
     };
     assert!(!proved(&heavier, Claim::Stable, &a.forces, None, &a.rates));
@@ -70,8 +78,12 @@ fn a_stable_claim_needs_forces_that_balance_inside_their_cones() {
     for rates in [a.rates.clone(), vec![Rate::zero(); a.rates.len()]] {
         assert!(!proved(&m, Claim::Unstable, &a.forces, None, &rates));
     }
-    let falling: Vec<Rate> =
-        m.assembly.blocks.iter().map(|b| Rate { velocity: if b.support { V::zeros() } else { -V::z() }, spin: V::zeros() }).collect();
+    let falling: Vec<Rate> = m
+        .assembly
+        .blocks
+        .iter()
+        .map(|b| Rate { velocity: if b.support { V::zeros() } else { -V::z() }, spin: V::zeros() })
+        .collect();
     assert!(!proved(&m, Claim::Unstable, &zeros(&m), None, &falling));
 }
 
@@ -94,7 +106,8 @@ fn an_unstable_claim_needs_an_admissible_mechanism_that_gains_power() {
     assert!(!proved(&m, Claim::Stable, &a.forces, None, &a.rates));
 }
 
-/// With little friction a squeezed block needs large forces: falling straight down closes no joint by much, and is no proof.
+/// With little friction a squeezed block needs large forces: falling straight down closes no joint
+/// by much, and is no proof.
 #[test]
 fn large_forces_are_not_hidden_behind_a_small_inadmissibility() {
     for mu in [0.3, 0.01, 1e-4] {
@@ -112,7 +125,10 @@ fn large_forces_are_not_hidden_behind_a_small_inadmissibility() {
         rates[m.assembly.find("bar").unwrap()].velocity = -V::z();
         for speed in [0.0, 1e3, 1e6] {
             rates[m.assembly.find("fast").unwrap()].velocity = V::x() * speed;
-            assert!(!proved(&m, Claim::Unstable, &zeros(&m), None, &rates), "μ {mu}, speed {speed}");
+            assert!(
+                !proved(&m, Claim::Unstable, &zeros(&m), None, &rates),
+                "μ {mu}, speed {speed}"
+            );
         }
     }
 }
@@ -143,10 +159,15 @@ fn load_factors_need_both_sides() {
     assert!(!proved(&m, Claim::Impossible, &l.forces, None, &l.rates));
 }
 
-/// A load factor that is too low, with honest forces and a mechanism that closes joints which those forces leave unloaded.
+/// A load factor that is too low, with honest forces and a mechanism that closes joints which those
+/// forces leave unloaded.
 #[test]
 fn a_mechanism_may_not_close_unloaded_joints() {
-    let m = model(&scene(0.5, json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [0.0; 3])]), push([1.0, 0.0, 0.0])));
+    let m = model(&scene(
+        0.5,
+        json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [0.0; 3])]),
+        push([1.0, 0.0, 0.0]),
+    ));
     let at = |x: f64| {
         let mut half = m.clone();
         half.assembly.dead[1].force.x += x * m.assembly.weight(1);
@@ -154,7 +175,8 @@ fn a_mechanism_may_not_close_unloaded_joints() {
     };
     let a = at(0.2);
     assert_eq!(a.verdict, Verdict::Stable);
-    // Turning about the middle line of the base: the lee edge sinks in. Its power ratio says λ = 0.2 for this axis.
+    // Turning about the middle line of the base: the lee edge sinks in. Its power ratio says λ =
+    // 0.2 for this axis.
     let lever = 0.1;
     let mut rates = vec![Rate::zero(); 2];
     rates[1] = Rate { spin: V::y(), velocity: V::y().cross(&V::new(-lever, 0.0, 0.5)) };
@@ -162,11 +184,18 @@ fn a_mechanism_may_not_close_unloaded_joints() {
     for (f, p) in forces[0].iter_mut().zip(&m.interfaces.list[0].points) {
         // All on the windward and lee corners in the proportion that balances at λ = 0.2.
         let share = if p.x > 0.0 { 0.3 } else { 0.2 };
-        f.force = m.interfaces.list[0].frame.n * (share * m.assembly.weight(1)) - V::x() * (0.2 * share * m.assembly.weight(1));
+        f.force = m.interfaces.list[0].frame.n * (share * m.assembly.weight(1))
+            - V::x() * (0.2 * share * m.assembly.weight(1));
     }
     let s = certificate::statics(&m, &forces, 0.2);
     assert!(s.balanced, "{}", s.unbalance);
-    assert!(!proved(&m, Claim::LoadFactor { value: 0.2, lower: 0.2, upper: 0.2 }, &forces, None, &rates));
+    assert!(!proved(
+        &m,
+        Claim::LoadFactor { value: 0.2, lower: 0.2, upper: 0.2 },
+        &forces,
+        None,
+        &rates
+    ));
 }
 
 #[test]
@@ -175,7 +204,11 @@ fn unbounded_and_impossible_are_proved_and_not_forged() {
     let roof = |live: serde_json::Value| {
         scene(
             0.4,
-            json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [0.0; 3]), fixed(cuboid("roof", [4.0, 4.0, 1.0], [0.0, 0.0, 1.0]))]),
+            json!([
+                ground(),
+                cuboid("block", [1.0, 1.0, 1.0], [0.0; 3]),
+                fixed(cuboid("roof", [4.0, 4.0, 1.0], [0.0, 0.0, 1.0]))
+            ]),
             json!({ "loads": { "live": [live] } }),
         )
     };
@@ -186,13 +219,23 @@ fn unbounded_and_impossible_are_proved_and_not_forged() {
     assert!(proved(&m, Claim::Unbounded { standing }, &l.forces, Some(&base), &l.rates));
     assert!(!proved(&m, Claim::Unbounded { standing }, &zeros(&m), Some(&base), &l.rates));
     assert!(!proved(&m, Claim::Unbounded { standing }, &l.forces, None, &l.rates));
-    assert!(!proved(&m, Claim::Unbounded { standing: standing + 1.0 }, &l.forces, Some(&base), &l.rates));
+    assert!(!proved(
+        &m,
+        Claim::Unbounded { standing: standing + 1.0 },
+        &l.forces,
+        Some(&base),
+        &l.rates
+    ));
     assert!(!proved(&m, Claim::Impossible, &l.forces, None, &l.rates));
 
     // A block beside its ground, pushed along an axis that cannot hold it up.
     let m = model(&scene(
         0.4,
-        json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [20.4, 0.0, 0.0]), cuboid("other", [1.0, 1.0, 1.0], [0.0; 3])]),
+        json!([
+            ground(),
+            cuboid("block", [1.0, 1.0, 1.0], [20.4, 0.0, 0.0]),
+            cuboid("other", [1.0, 1.0, 1.0], [0.0; 3])
+        ]),
         push([0.0, 1.0, 0.0]),
     ));
     let l = limit(&m, &Control::default());
@@ -201,28 +244,46 @@ fn unbounded_and_impossible_are_proved_and_not_forged() {
     assert!(!proved(&m, Claim::Impossible, &l.forces, None, &scaled(&l.rates, -1.0)));
     assert!(!proved(&m, Claim::Impossible, &l.forces, None, &scaled(&l.rates, 0.0)));
     // Without a live load nothing is unbounded and nothing impossible.
-    let still = model(&scene(0.4, json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [0.0; 3])]), json!({})));
+    let still = model(&scene(
+        0.4,
+        json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [0.0; 3])]),
+        json!({}),
+    ));
     let a = assess(&still, &associative());
-    assert!(!proved(&still, Claim::Unbounded { standing: 0.0 }, &zeros(&still), Some(&a.forces), &a.rates));
+    assert!(!proved(
+        &still,
+        Claim::Unbounded { standing: 0.0 },
+        &zeros(&still),
+        Some(&a.forces),
+        &a.rates
+    ));
     assert!(!proved(&still, Claim::Impossible, &a.forces, None, &a.rates));
 }
 
 #[test]
 fn forces_and_rates_forms_of_the_programs_agree() {
-    let wall =
-        template(0.6, json!({ "wall": { "size": [1, 0.5, 0.4], "courses": 5, "blocks": 5, "base": "course" } }), push([0.8, 0.6, 0.0]));
+    let wall = template(
+        0.6,
+        json!({ "wall": { "size": [1, 0.5, 0.4], "courses": 5, "blocks": 5, "base": "course" } }),
+        push([0.8, 0.6, 0.0]),
+    );
     for (name, s) in [("arch", arch(0.15)), ("thin arch", arch(0.1)), ("wall", wall)] {
         let m = model(&s);
-        let statics = Statics::new(&m, StaticsOptions { keep_all: false, live: true, ..StaticsOptions::default() });
+        let statics = Statics::new(
+            &m,
+            StaticsOptions { keep_all: false, live: true, ..StaticsOptions::default() },
+        );
         let settings = Settings { tolerance: 1e-11, ..Settings::default() };
         let value = |p: &program::ConicProgram| {
             let solution = solve::solve(p, &settings);
             p.objective.iter().zip(&solution.x).map(|(c, x)| c * x).sum::<f64>()
         };
-        let [f, r] = [Unknowns::Forces, Unknowns::Rates].map(|u| value(&program::unbalance(&statics, LiveLoad::Absent, u).0));
+        let [f, r] = [Unknowns::Forces, Unknowns::Rates]
+            .map(|u| value(&program::unbalance(&statics, LiveLoad::Absent, u).0));
         assert!((f + r).abs() < 1e-9, "{name}: least unbalance {f} and {}", -r);
         if name != "thin arch" {
-            let [f, r] = [Unknowns::Forces, Unknowns::Rates].map(|u| value(&program::load_factor(&statics, 1.0, u).0));
+            let [f, r] = [Unknowns::Forces, Unknowns::Rates]
+                .map(|u| value(&program::load_factor(&statics, 1.0, u).0));
             assert!((f + r).abs() < 1e-8, "{name}: load factor {} and {r}", -f);
         }
     }
@@ -256,7 +317,8 @@ proptest! {
     }
 }
 
-/// Half of the load factor, with honest forces at half and the true mechanism: a true bracket, but not the limit.
+/// Half of the load factor, with honest forces at half and the true mechanism: a true bracket, but
+/// not the limit.
 #[test]
 fn a_load_factor_in_a_wide_bracket_is_not_found() {
     let m = model(&arch(0.15));
@@ -269,19 +331,34 @@ fn a_load_factor_in_a_wide_bracket_is_not_found() {
     }
     let a = assess(&at_half, &associative());
     assert_eq!(a.verdict, Verdict::Stable);
-    for (lower, upper) in [(half, l.bracket.upper), (half, f64::INFINITY), (f64::NEG_INFINITY, f64::INFINITY)] {
-        let got = verify(&m, &Claim::LoadFactor { value: half, lower, upper }, Evidence::new(&a.forces, &l.rates));
+    for (lower, upper) in
+        [(half, l.bracket.upper), (half, f64::INFINITY), (f64::NEG_INFINITY, f64::INFINITY)]
+    {
+        let got = verify(
+            &m,
+            &Claim::LoadFactor { value: half, lower, upper },
+            Evidence::new(&a.forces, &l.rates),
+        );
         println!("{lower} {upper}: {got:?}");
         assert!(!got.proved(), "[{lower}, {upper}] passes for {half}; the limit is {}", l.value);
     }
 }
 
-/// Ice on ice, squeezed between two posts, on ground that slopes by 1e-4 along the posts: it slides, however it is squeezed.
+/// Ice on ice, squeezed between two posts, on ground that slopes by 1e-4 along the posts: it
+/// slides, however it is squeezed.
 #[test]
 fn a_huge_squeeze_excuses_no_unbalance() {
     let post = |id: &str, x: f64| fixed(cuboid(id, [1.0, 1.0, 1.0], [x, 0.0, 0.0]));
-    let mut s =
-        scene(0.0, json!([ground(), cuboid("block", [1.0, 1.0, 1.0], [0.0; 3]), post("left", -1.0), post("right", 1.0)]), json!({}));
+    let mut s = scene(
+        0.0,
+        json!([
+            ground(),
+            cuboid("block", [1.0, 1.0, 1.0], [0.0; 3]),
+            post("left", -1.0),
+            post("right", 1.0)
+        ]),
+        json!({}),
+    );
     s.gravity = [0.0, 1e-4, -1.0];
     let m = model(&s);
     let a = assess(&m, &associative());
@@ -291,12 +368,16 @@ fn a_huge_squeeze_excuses_no_unbalance() {
     for squeeze in [1e6, 1e9, 1e10, 1e11, 1e12, 1e14] {
         let mut forces = zeros(&m);
         for (face, forces) in m.interfaces.list.iter().zip(&mut forces) {
-            let share = if face.frame.n.x.abs() > 0.5 { squeeze } else { 1.0 } * w / face.points.len() as f64;
+            let share = if face.frame.n.x.abs() > 0.5 { squeeze } else { 1.0 } * w
+                / face.points.len() as f64;
             forces.iter_mut().for_each(|f| f.force = face.frame.n * share);
             assert!(face.a == block || face.b == block);
         }
         let got = verify(&m, &Claim::Stable, Evidence::new(&forces, &a.rates));
         println!("squeeze {squeeze:.0e}: {got:?}");
-        assert!(!got.proved(), "squeezed by {squeeze:.0e} weights an unstable block is proved stable");
+        assert!(
+            !got.proved(),
+            "squeezed by {squeeze:.0e} weights an unstable block is proved stable"
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! Dry friction: which scenes stand by themselves, and which only with a pre-stress that nobody applied.
+//! Dry friction: which scenes stand by themselves, and which only with a pre-stress that nobody
+//! applied.
 
 use crate::ask::{self, cuboid, fixed, prism, sphere, verdict};
 use proptest::prelude::*;
@@ -21,7 +22,8 @@ fn scene(mu: f64, blocks: Value) -> Scene {
     read_str("test", text.to_string()).unwrap().0
 }
 
-/// Case A22 (model H of Kao et al., Computer-Aided Design 146, 2022): a bar that just fills the gap of two posts.
+/// Case A22 (model H of Kao et al., Computer-Aided Design 146, 2022): a bar that just fills the gap
+/// of two posts.
 fn squeezed(mu: f64, density: f64) -> Scene {
     let mut bar = cuboid("bar", [1.8, 1.0, 0.8], [0.0, 0.0, 0.2]);
     bar["density"] = json!(density);
@@ -34,13 +36,22 @@ fn a_block_between_two_posts_needs_a_squeeze_at_every_density_and_friction() {
     for mu in [0.05, 0.5, 0.84, 1.4] {
         for density in [1e-3, 1.0, 1e6] {
             let scene = squeezed(mu, density);
-            assert_eq!(verdict(&scene, Law::Coulomb), Verdict::Conditional, "μ {mu}, density {density}");
-            assert_eq!(verdict(&scene, Law::Associative), Verdict::Stable, "μ {mu}, density {density}");
+            assert_eq!(
+                verdict(&scene, Law::Coulomb),
+                Verdict::Conditional,
+                "μ {mu}, density {density}"
+            );
+            assert_eq!(
+                verdict(&scene, Law::Associative),
+                Verdict::Stable,
+                "μ {mu}, density {density}"
+            );
         }
     }
 }
 
-/// Case A23 (model A, same source): a trapezoid between posts that lean inwards by 30°: forces exist from μ = tan 30° on.
+/// Case A23 (model A, same source): a trapezoid between posts that lean inwards by 30°: forces
+/// exist from μ = tan 30° on.
 #[test]
 fn a_trapezoid_between_leaning_posts_needs_a_squeeze() {
     let s = 30f64.to_radians().tan();
@@ -49,13 +60,27 @@ fn a_trapezoid_between_leaning_posts_needs_a_squeeze() {
         scene(
             mu,
             json!([
-                fixed(prism("left", &[[-3.0, -1.0], [-half(-1.0), -1.0], [-half(1.0), 1.0], [-3.0, 1.0]])),
-                fixed(prism("right", &[[half(-1.0), -1.0], [3.0, -1.0], [3.0, 1.0], [half(1.0), 1.0]])),
-                prism("block", &[[-half(-0.4), -0.4], [half(-0.4), -0.4], [half(0.4), 0.4], [-half(0.4), 0.4]]),
+                fixed(prism(
+                    "left",
+                    &[[-3.0, -1.0], [-half(-1.0), -1.0], [-half(1.0), 1.0], [-3.0, 1.0]]
+                )),
+                fixed(prism(
+                    "right",
+                    &[[half(-1.0), -1.0], [3.0, -1.0], [3.0, 1.0], [half(1.0), 1.0]]
+                )),
+                prism(
+                    "block",
+                    &[[-half(-0.4), -0.4], [half(-0.4), -0.4], [half(0.4), 0.4], [-half(0.4), 0.4]]
+                ),
             ]),
         )
     };
-    for (mu, want) in [(0.5, Verdict::Unstable), (0.65, Verdict::Conditional), (0.84, Verdict::Conditional), (2.0, Verdict::Conditional)] {
+    for (mu, want) in [
+        (0.5, Verdict::Unstable),
+        (0.65, Verdict::Conditional),
+        (0.84, Verdict::Conditional),
+        (2.0, Verdict::Conditional),
+    ] {
         assert_eq!(verdict(&at(mu), Law::Coulomb), want, "μ {mu}");
     }
 }
@@ -69,9 +94,18 @@ fn a_keystone_stands_by_its_weight() {
         let scene = scene(
             mu,
             json!([
-                fixed(prism("left", &[[-3.0, -1.0], [-half(-1.0), -1.0], [-half(1.0), 1.0], [-3.0, 1.0]])),
-                fixed(prism("right", &[[half(-1.0), -1.0], [3.0, -1.0], [3.0, 1.0], [half(1.0), 1.0]])),
-                prism("block", &[[-half(-0.4), -0.4], [half(-0.4), -0.4], [half(0.4), 0.4], [-half(0.4), 0.4]]),
+                fixed(prism(
+                    "left",
+                    &[[-3.0, -1.0], [-half(-1.0), -1.0], [-half(1.0), 1.0], [-3.0, 1.0]]
+                )),
+                fixed(prism(
+                    "right",
+                    &[[half(-1.0), -1.0], [3.0, -1.0], [3.0, 1.0], [half(1.0), 1.0]]
+                )),
+                prism(
+                    "block",
+                    &[[-half(-0.4), -0.4], [half(-0.4), -0.4], [half(0.4), 0.4], [-half(0.4), 0.4]]
+                ),
             ]),
         );
         assert_eq!(verdict(&scene, Law::Coulomb), Verdict::Stable, "μ {mu}");
@@ -81,11 +115,15 @@ fn a_keystone_stands_by_its_weight() {
 #[test]
 fn a_sphere_between_two_walls_needs_a_squeeze() {
     let wall = |id: &str, x: f64| fixed(cuboid(id, [1.0, 4.0, 4.0], [x, 0.0, -2.0]));
-    let scene = scene(0.7, json!([wall("left", -1.5), wall("right", 1.5), sphere("sphere", 1.0, [0.0, 0.0, 0.0])]));
+    let scene = scene(
+        0.7,
+        json!([wall("left", -1.5), wall("right", 1.5), sphere("sphere", 1.0, [0.0, 0.0, 0.0])]),
+    );
     assert_eq!(verdict(&scene, Law::Coulomb), Verdict::Conditional);
 }
 
-/// Frame H, shelves, bridge, cubes, wedge blocks (public samples of compas_cra 0.8; friction as there).
+/// Frame H, shelves, bridge, cubes, wedge blocks (public samples of compas_cra 0.8; friction as
+/// there).
 #[test]
 fn samples_of_coupled_rigid_block_analysis() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/compas/");
@@ -111,13 +149,16 @@ fn samples_of_coupled_rigid_block_analysis() {
                 up,
                 ..ImportOptions::default()
             };
-            let scene = import::import_file(format!("{folder}{name}.json").as_ref(), &options).unwrap().scene;
+            let scene = import::import_file(format!("{folder}{name}.json").as_ref(), &options)
+                .unwrap()
+                .scene;
             assert_eq!(verdict(&scene, Law::Coulomb), want, "{name} up {up:?} density {density}");
         }
     }
 }
 
-/// A conditional verdict is refused with the forces of another state, with other rates, or without the base.
+/// A conditional verdict is refused with the forces of another state, with other rates, or without
+/// the base.
 #[test]
 fn conditional_certificates_reject_corruption() {
     let scene = squeezed(0.5, 2400.0);
@@ -125,10 +166,13 @@ fn conditional_certificates_reject_corruption() {
     let answer = assess(&model, &Control::default());
     let state = answer.state.clone().unwrap();
     assert_eq!(state.motion, coulomb::StateMotion::Moves);
-    let proved = |base: Option<&_>, forces: &_, rates: &[_]| verify(&model, &Claim::Conditional, Evidence { forces, base, rates }).proved();
+    let proved = |base: Option<&_>, forces: &_, rates: &[_]| {
+        verify(&model, &Claim::Conditional, Evidence { forces, base, rates }).proved()
+    };
     assert!(proved(Some(&state.forces), &answer.forces, &answer.rates));
     assert!(!proved(None, &answer.forces, &answer.rates));
-    // Balanced forces leave no motion; half of them leave one that does not obey the law: the joints would slip under their limit.
+    // Balanced forces leave no motion; half of them leave one that does not obey the law: the
+    // joints would slip under their limit.
     assert!(!proved(Some(&answer.forces), &answer.forces, &answer.rates));
     let half = answer.forces.iter().map(|f| f.iter().map(|&v| v * 0.5).collect()).collect();
     assert!(!proved(Some(&half), &answer.forces, &answer.rates));
@@ -164,10 +208,12 @@ fn structure(name: &str) -> Scene {
     voussoir::scene::read_file(path.as_ref()).unwrap().0
 }
 
-/// Without sliding a hinge's corner carries all the pressure and the other one may share the shear: that is not lost.
+/// Without sliding a hinge's corner carries all the pressure and the other one may share the shear:
+/// that is not lost.
 #[test]
 fn arches_that_cannot_slide_come_to_rest() {
-    for (voussoirs, thickness) in [(27, 0.1359), (27, 0.14375), (19, 0.12), (21, 0.12), (23, 0.12)] {
+    for (voussoirs, thickness) in [(27, 0.1359), (27, 0.14375), (19, 0.12), (21, 0.12), (23, 0.12)]
+    {
         let arch = json!({ "arch": { "radius": 1.0, "thickness": thickness, "depth": 1.0, "voussoirs": voussoirs } });
         assert_eq!(
             verdict(&ask::template(f64::INFINITY, arch, json!({})), Law::Coulomb),
@@ -177,7 +223,8 @@ fn arches_that_cannot_slide_come_to_rest() {
     }
 }
 
-/// Walls of Ferris & Tin-Loi (Int. J. Mech. Sci. 43, 2001): bands of known complementary solutions (cases D02, D03, D05).
+/// Walls of Ferris & Tin-Loi (Int. J. Mech. Sci. 43, 2001): bands of known complementary solutions
+/// (cases D02, D03, D05).
 #[test]
 fn walls_that_slide_without_opening() {
     for (name, low, high) in [
@@ -192,7 +239,8 @@ fn walls_that_slide_without_opening() {
     }
 }
 
-/// Case A26: a block in a slot with a tight roof slides at λ = μ, though dilatancy would wedge it for ever.
+/// Case A26: a block in a slot with a tight roof slides at λ = μ, though dilatancy would wedge it
+/// for ever.
 #[test]
 fn a_block_under_a_roof_slides_at_its_friction() {
     let (value, bound, _) = ask::dry(&structure("block-under-roof"));
@@ -232,19 +280,27 @@ proptest! {
     }
 }
 
-/// The load factor with dry friction and its associative bound, by forces and a mechanism that obey the law.
+/// The load factor with dry friction and its associative bound, by forces and a mechanism that obey
+/// the law.
 fn dry_load_factor(scene: &Scene) -> (f64, f64) {
     let model = prepare(scene).unwrap();
     let control = Control::default();
     let bound = limit(&model, &control);
     assert_eq!(bound.outcome, Outcome::Found, "{}", scene.name);
     let dry = coulomb::load_factor(&model, &bound, &control);
-    assert_eq!(dry.found, coulomb::Found::FixedPoint, "{}: natural map {:.1e}", scene.name, dry.natural_map);
+    assert_eq!(
+        dry.found,
+        coulomb::Found::FixedPoint,
+        "{}: natural map {:.1e}",
+        scene.name,
+        dry.natural_map
+    );
     assert!(dry.natural_map <= tolerance::DRY_LAW, "{}: {:.1e}", scene.name, dry.natural_map);
     (dry.value, bound.bracket.upper)
 }
 
-/// Arches that slide at their springers as they overturn: held friction limits go round in circles there.
+/// Arches that slide at their springers as they overturn: held friction limits go round in circles
+/// there.
 #[test]
 fn arches_that_slide_have_a_dry_load_factor() {
     let at = |mu: f64| {
@@ -259,7 +315,8 @@ fn arches_that_slide_have_a_dry_load_factor() {
     assert!(values.windows(2).all(|v| v[0].0 < v[1].0), "more friction bears more: {values:?}");
 }
 
-/// Two posts under a lintel, pushed askew: slips turn a little with every iteration on held limits, and it never settled.
+/// Two posts under a lintel, pushed askew: slips turn a little with every iteration on held limits,
+/// and it never settled.
 #[test]
 fn posts_and_a_lintel_pushed_askew_have_a_dry_load_factor() {
     let at = |mirror: f64, length: f64, density: f64| {

@@ -1,4 +1,5 @@
-//! Critical values: least thickness, least friction, least width, against closed forms and linear programming.
+//! Critical values: least thickness, least friction, least width, against closed forms and linear
+//! programming.
 
 use crate::ask::{model, prove, template};
 use serde_json::{Value, json};
@@ -30,7 +31,13 @@ fn ask(scene: &Scene, pointer: &str, from: f64, to: f64, scan: usize) -> (Critic
 fn least(what: &str, scene: &Scene, pointer: &str, want: f64, tolerance: f64) -> f64 {
     let (_, file) = ask(scene, pointer, 0.5 * want, 2.0 * want, 7);
     let [found] = file.answer.critical().unwrap() else { panic!("{what}: {:?}", file.answer) };
-    println!("{what}: {:.14}, expected {want:.14}: off by {:.1e}; {} to {}", found.value, found.value - want, found.lower, found.upper);
+    println!(
+        "{what}: {:.14}, expected {want:.14}: off by {:.1e}; {} to {}",
+        found.value,
+        found.value - want,
+        found.lower,
+        found.upper
+    );
     assert_eq!((found.below, found.above), (Verdict::Unstable, Verdict::Stable), "{what}");
     assert!((found.value - want).abs() <= tolerance, "{what}: {} expected {want}", found.value);
     assert!(found.lower < want + tolerance && want - tolerance < found.upper, "{what}: {found:?}");
@@ -54,15 +61,17 @@ fn reference(case: &str, value: f64) {
         return;
     };
     let file: Value = serde_json::from_str(&text).unwrap();
-    let expected = &file["cases"].as_array().unwrap().iter().find(|c| c["id"] == case).unwrap()["expected"];
+    let expected =
+        &file["cases"].as_array().unwrap().iter().find(|c| c["id"] == case).unwrap()["expected"];
     let there = ["critical", "value", "min"].iter().find_map(|k| expected[*k].as_f64()).unwrap();
     assert_eq!(value, there, "{case}: transcribed");
 }
 
 #[test]
 fn least_thickness_of_circular_arches() {
-    // Five-hinge closed form (even N) and linear programming (odd N) for straight chords; Milankovitch, Zeitschrift für Mathematik und
-    // Physik 55 (1907): 0.107478038 for a semicircle of infinitely many voussoirs.
+    // Five-hinge closed form (even N) and linear programming (odd N) for straight chords;
+    // Milankovitch, Zeitschrift für Mathematik und Physik 55 (1907): 0.107478038 for a semicircle
+    // of infinitely many voussoirs.
     for (case, voussoirs, embrace_deg, value) in [
         ("B08", 7, 180.0, 0.09570345392150328),
         ("B01", 8, 180.0, 0.09997167404660162),
@@ -77,14 +86,20 @@ fn least_thickness_of_circular_arches() {
         let scene = arch(NO_SLIDING, json!({ "voussoirs": voussoirs, "embrace_deg": embrace_deg }));
         let found = least(case, &scene, THICKNESS, value, 1e-9 * value);
         let limit = if embrace_deg == 180.0 { 0.10747803810747632 } else { 0.06465585771655445 };
-        assert!((found - limit).abs() < 2.0 / f64::from(voussoirs), "{case}: {found} against {limit} for infinitely many");
+        assert!(
+            (found - limit).abs() < 2.0 / f64::from(voussoirs),
+            "{case}: {found} against {limit} for infinitely many"
+        );
     }
 }
 
 #[test]
 fn least_thickness_goes_to_that_of_the_ring() {
-    // B15: rings of infinitely many voussoirs by half opening angle, after Milankovitch; 96 straight voussoirs.
-    for (half, value) in [(45.0, 0.007496123448368602), (60.0, 0.02284890993937951), (90.0, 0.10747803810747632)] {
+    // B15: rings of infinitely many voussoirs by half opening angle, after Milankovitch; 96
+    // straight voussoirs.
+    for (half, value) in
+        [(45.0, 0.007496123448368602), (60.0, 0.02284890993937951), (90.0, 0.10747803810747632)]
+    {
         let scene = arch(NO_SLIDING, json!({ "voussoirs": 96, "embrace_deg": 2.0 * half }));
         let (_, file) = ask(&scene, THICKNESS, 0.5 * value, 2.0 * value, 5);
         let found = file.answer.critical().unwrap()[0].value;
@@ -95,10 +110,13 @@ fn least_thickness_goes_to_that_of_the_ring() {
 
 #[test]
 fn least_friction_of_semicircles() {
-    // Linear programming. For infinitely many voussoirs of a thick ring 0.309215 (Cocchetti & Rizzi, Frattura ed Integrità Strutturale 51, 2020).
-    for (case, voussoirs, thickness, value) in
-        [("B20", 16, 0.15, 0.35313179457625665), ("B21", 32, 0.25, 0.30918286138421536), ("B22", 16, 0.2, 0.30790408345637843)]
-    {
+    // Linear programming. For infinitely many voussoirs of a thick ring 0.309215 (Cocchetti &
+    // Rizzi, Frattura ed Integrità Strutturale 51, 2020).
+    for (case, voussoirs, thickness, value) in [
+        ("B20", 16, 0.15, 0.35313179457625665),
+        ("B21", 32, 0.25, 0.30918286138421536),
+        ("B22", 16, 0.2, 0.30790408345637843),
+    ] {
         reference(case, value);
         let scene = arch(0.5, json!({ "voussoirs": voussoirs, "thickness": thickness }));
         least(case, &scene, FRICTION, value, 1e-8);
@@ -111,18 +129,29 @@ fn least_friction_of_semicircles() {
 
 #[test]
 fn least_thickness_of_other_arches() {
-    // B26: configuration of Gilbert, Casapulla & Ahmed (2006). B32: two centres, e / R = 0.25 (class of Makris & Nikolic 2017). B34: b / a = 0.8
-    // (class of Alexakis & Makris 2013). B43: vertical joints (class of Makris & Alexakis 2013). Linear programming.
+    // B26: configuration of Gilbert, Casapulla & Ahmed (2006). B32: two centres, e / R = 0.25
+    // (class of Makris & Nikolic 2017). B34: b / a = 0.8 (class of Alexakis & Makris 2013). B43:
+    // vertical joints (class of Makris & Alexakis 2013). Linear programming.
     for (case, friction, parameters, value) in [
         ("B26", 0.36, json!({ "voussoirs": 27 }), 0.1408908492734099),
-        ("B32", NO_SLIDING, json!({ "voussoirs": 16, "profile": "pointed", "eccentricity": 0.25 }), 0.06343091660240589),
+        (
+            "B32",
+            NO_SLIDING,
+            json!({ "voussoirs": 16, "profile": "pointed", "eccentricity": 0.25 }),
+            0.06343091660240589,
+        ),
         (
             "B34",
             NO_SLIDING,
             json!({ "voussoirs": 16, "profile": "elliptical", "radius": null, "span": 2, "rise": 0.8 }),
             0.10746235331988147,
         ),
-        ("B43", NO_SLIDING, json!({ "voussoirs": 24, "joints": "vertical", "thickness_along": "normal" }), 0.10894485320760622),
+        (
+            "B43",
+            NO_SLIDING,
+            json!({ "voussoirs": 24, "joints": "vertical", "thickness_along": "normal" }),
+            0.10894485320760622,
+        ),
     ] {
         reference(case, value);
         least(case, &arch(friction, parameters), THICKNESS, value, 1e-8);
@@ -136,16 +165,26 @@ fn least_width_of_buttresses() {
     // B39: class of Ochsendorf (2002); linear programming; the same without sliding.
     reference("B39", 0.6607716013125127);
     for friction in [0.6, NO_SLIDING] {
-        let scene = arch(friction, json!({ "radius": 2, "thickness": 0.3, "voussoirs": 16, "buttresses": { "width": 1, "height": 4 } }));
+        let scene = arch(
+            friction,
+            json!({ "radius": 2, "thickness": 0.3, "voussoirs": 16, "buttresses": { "width": 1, "height": 4 } }),
+        );
         least("B39", &scene, "/templates/0/arch/buttresses/width", 0.6607716013125127, 1e-8);
     }
 }
 
 #[test]
 fn a_greatest_value_is_found_as_well() {
-    // A block of width 1 on a slope given by gravity (x, −1) slides at x = μ; the range is given downwards.
-    let scene =
-        crate::ask::scene(0.5, json!([crate::ask::ground(), crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])]), json!({}));
+    // A block of width 1 on a slope given by gravity (x, −1) slides at x = μ; the range is given
+    // downwards.
+    let scene = crate::ask::scene(
+        0.5,
+        json!([
+            crate::ask::ground(),
+            crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])
+        ]),
+        json!({}),
+    );
     let (_, file) = ask(&scene, "/gravity/0", 2.0, 0.0, 6);
     let found = file.answer.critical().unwrap()[0];
     assert!((found.value - 0.5).abs() < 1e-9, "{}", found.value);
@@ -155,8 +194,14 @@ fn a_greatest_value_is_found_as_well() {
 #[test]
 fn every_flip_of_the_scan_is_found() {
     // The same slope on both sides: it slides at −μ and at μ.
-    let scene =
-        crate::ask::scene(0.5, json!([crate::ask::ground(), crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])]), json!({}));
+    let scene = crate::ask::scene(
+        0.5,
+        json!([
+            crate::ask::ground(),
+            crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])
+        ]),
+        json!({}),
+    );
     let (_, file) = ask(&scene, "/gravity/0", -1.0, 2.0, 10);
     let values: Vec<f64> = file.answer.critical().unwrap().iter().map(|c| c.value).collect();
     assert_eq!(values.len(), 2);
@@ -166,12 +211,21 @@ fn every_flip_of_the_scan_is_found() {
 #[test]
 fn a_window_between_the_values_of_the_scan_is_not_missed() {
     // Stands between −0.02 and 0.02 only; the scan hits −1, −0.2, 0.6 and 1.4.
-    let scene =
-        crate::ask::scene(0.02, json!([crate::ask::ground(), crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])]), json!({}));
+    let scene = crate::ask::scene(
+        0.02,
+        json!([
+            crate::ask::ground(),
+            crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])
+        ]),
+        json!({}),
+    );
     let (answer, file) = ask(&scene, "/gravity/0", -1.0, 1.4, 4);
     assert!(answer.scan.iter().all(|s| matches!(s.outcome, Ok((Verdict::Unstable, _)))));
     let values: Vec<f64> = file.answer.critical().unwrap().iter().map(|c| c.value).collect();
-    assert!(values.len() == 2 && (values[0] + 0.02).abs() < 1e-9 && (values[1] - 0.02).abs() < 1e-9, "{values:?}");
+    assert!(
+        values.len() == 2 && (values[0] + 0.02).abs() < 1e-9 && (values[1] - 0.02).abs() < 1e-9,
+        "{values:?}"
+    );
 }
 
 #[test]
@@ -179,7 +233,8 @@ fn units_do_not_change_a_critical_value() {
     let base = json!({ "voussoirs": 16 });
     let value = |density: f64, scale: f64| {
         let mut parameters = base.clone();
-        (parameters["radius"], parameters["thickness"], parameters["depth"]) = (json!(scale), json!(0.2 * scale), json!(scale));
+        (parameters["radius"], parameters["thickness"], parameters["depth"]) =
+            (json!(scale), json!(0.2 * scale), json!(scale));
         let mut scene = arch(NO_SLIDING, parameters);
         for material in scene.materials.values_mut() {
             material.density = density;
@@ -190,16 +245,21 @@ fn units_do_not_change_a_critical_value() {
     let here = value(1.0, 1.0);
     for (density, scale) in [(2400.0, 1.0), (1.0, 1e3), (1e-3, 1e-3)] {
         let there = value(density, scale);
-        assert!((there / here - 1.0).abs() < 1e-9, "density {density}, scale {scale}: {there} against {here}");
+        assert!(
+            (there / here - 1.0).abs() < 1e-9,
+            "density {density}, scale {scale}: {there} against {here}"
+        );
     }
 }
 
 #[test]
 fn counts_are_counted() {
-    // Least thickness by number of voussoirs: 7 0.0957, 8 0.09997, 16 0.1071 (tables above): at 0.097 it falls from 8 on.
+    // Least thickness by number of voussoirs: 7 0.0957, 8 0.09997, 16 0.1071 (tables above): at
+    // 0.097 it falls from 8 on.
     let scene = arch(NO_SLIDING, json!({ "voussoirs": 7, "thickness": 0.097 }));
     let control = Control { law: Law::Associative, ..Control::default() };
-    let range = Range { pointer: "/templates/0/arch/voussoirs".into(), from: 7.0, to: 12.0, scan: None };
+    let range =
+        Range { pointer: "/templates/0/arch/voussoirs".into(), from: 7.0, to: 12.0, scan: None };
     let answer = critical(&scene, &range, &control).unwrap();
     assert!(answer.whole && answer.scan.len() == 6);
     let file = ResultFile::critical(&scene, &model(&scene), &answer);
@@ -224,7 +284,8 @@ fn values_without_a_scene_are_told() {
     assert!(answer.scan.iter().any(|s| s.outcome.is_err()));
     assert_eq!(file.answer.critical().unwrap().len(), 1);
     let control = Control::default();
-    let range = |pointer: &str| Range { pointer: pointer.into(), from: 5.0, to: 6.0, scan: Some(3) };
+    let range =
+        |pointer: &str| Range { pointer: pointer.into(), from: 5.0, to: 6.0, scan: Some(3) };
     assert!(critical(&scene, &range(THICKNESS), &control).is_err());
     assert!(critical(&scene, &range("/templates/0/arch/thicknes"), &control).is_err());
 }
@@ -253,7 +314,9 @@ fn forged_critical_values_are_refused() {
             let flip = &mut f.critical.as_mut().unwrap().flips[0];
             flip.below.answer = flip.above.answer.clone();
         }),
-        ("forces", |f| f.critical.as_mut().unwrap().flips[0].above.certificate.forces[0].forces[0][2] *= 1.01),
+        ("forces", |f| {
+            f.critical.as_mut().unwrap().flips[0].above.certificate.forces[0].forces[0][2] *= 1.01
+        }),
         ("the pointer", |f| f.critical.as_mut().unwrap().vary = "/templates/0/arch/radius".into()),
     ];
     for (what, forge) in forgeries {

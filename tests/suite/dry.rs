@@ -1,5 +1,5 @@
-//! What other blocks may not change: verdicts and load factors under dry friction beside soft, heavy and light ones, and a load factor up to
-//! which the scene comes to rest.
+//! What other blocks may not change: verdicts and load factors under dry friction beside soft,
+//! heavy and light ones, and a load factor up to which the scene comes to rest.
 
 use crate::ask;
 use serde_json::{Value, json};
@@ -14,7 +14,8 @@ use voussoir::{
     verdict::Verdict,
 };
 
-/// The dry load factor of a block in a groove of 45° at μ = 0.5 pushed along it: μ / √(sin² ω − μ² cos² ω) without dilatancy is 1/√2.
+/// The dry load factor of a block in a groove of 45° at μ = 0.5 pushed along it: μ / √(sin² ω − μ²
+/// cos² ω) without dilatancy is 1/√2.
 const GROOVE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 fn folder() -> std::path::PathBuf {
@@ -22,7 +23,10 @@ fn folder() -> std::path::PathBuf {
 }
 
 fn file(name: &str) -> Value {
-    serde_json::from_str(&std::fs::read_to_string(folder().join(name).with_extension("json")).unwrap()).unwrap()
+    serde_json::from_str(
+        &std::fs::read_to_string(folder().join(name).with_extension("json")).unwrap(),
+    )
+    .unwrap()
 }
 
 fn scene(value: &Value) -> Scene {
@@ -45,7 +49,8 @@ fn stretched(value: &Value, by: f64) -> Value {
             Value::Object(map) => map
                 .iter()
                 .map(|(key, v)| {
-                    let long = ["at", "size", "vertices", "polygon", "depth"].contains(&key.as_str());
+                    let long =
+                        ["at", "size", "vertices", "polygon", "depth"].contains(&key.as_str());
                     let deeper = ["shape", "box", "prism", "polyhedron"].contains(&key.as_str());
                     (key.clone(), if long || deeper { lengths(v, by) } else { v.clone() })
                 })
@@ -80,9 +85,16 @@ fn heavier(scene: &mut Value, key: &str, by: f64) {
 
 #[test]
 fn a_pivot_of_exactly_zero_ends_no_question() {
-    for name in ["pivot-of-zero-unequal-masses", "pivot-of-zero-two-blocks", "pivot-of-zero-one-density"] {
+    for name in
+        ["pivot-of-zero-unequal-masses", "pivot-of-zero-two-blocks", "pivot-of-zero-one-density"]
+    {
         let (dry, upper) = dry(&scene(&file(name)));
-        assert!(dry.found == Found::NotAtRest || dry.value <= upper, "{name}: {:?} {}", dry.found, dry.value);
+        assert!(
+            dry.found == Found::NotAtRest || dry.value <= upper,
+            "{name}: {:?} {}",
+            dry.found,
+            dry.value
+        );
     }
     let toward = nalgebra::Vector3::x();
     let control = Control::default();
@@ -102,11 +114,10 @@ fn a_soft_column_or_a_heavy_block_beside_hides_no_motion() {
     }
 }
 
-/// A block in a groove, pushed along it by `push` × its weight, beside a column of `courses` as tall as it, and a plate without friction of the
-/// given density that lies on both.
+/// A block in a groove, pushed along it by `push` × its weight, beside a column of `courses` as
+/// tall as it, and a plate without friction of the given density that lies on both.
 fn tied(push: f64, courses: usize, density: f64) -> Scene {
-    let groove =
-        |id: &str, polygon: [[f64; 2]; 3]| json!({ "id": id, "support": true, "shape": { "prism": { "polygon": polygon, "depth": 12 } } });
+    let groove = |id: &str, polygon: [[f64; 2]; 3]| json!({ "id": id, "support": true, "shape": { "prism": { "polygon": polygon, "depth": 12 } } });
     let mut blocks = vec![
         groove("left", [[-2.0, 0.0], [0.0, 0.0], [-2.0, 2.0]]),
         groove("right", [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0]]),
@@ -120,18 +131,27 @@ fn tied(push: f64, courses: usize, density: f64) -> Scene {
         blocks.push(json!({ "id": format!("c{k}"), "density": 2400, "at": [0, 7.5, (k as f64 + 0.5) * height],
             "shape": { "box": { "size": [0.2, 0.2, height] } } }));
     }
-    let slippery =
-        json!([{ "blocks": ["block", "plate"], "friction": 0 }, { "blocks": [format!("c{}", courses - 1), "plate"], "friction": 0 }]);
+    let slippery = json!([{ "blocks": ["block", "plate"], "friction": 0 }, { "blocks": [format!("c{}", courses - 1), "plate"], "friction": 0 }]);
     let weight = 9.6 * 2400.0 * 9.81;
-    scene(&json!({ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.5 }, "overrides": slippery }, "blocks": blocks,
-        "loads": { "dead": [{ "block": "block", "force": [0, push * weight, 0] }] } }))
+    scene(
+        &json!({ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.5 }, "overrides": slippery }, "blocks": blocks,
+        "loads": { "dead": [{ "block": "block", "force": [0, push * weight, 0] }] } }),
+    )
 }
 
 #[test]
 fn what_is_tied_together_by_a_light_block_is_told_block_by_block() {
     for (courses, density) in [(1, 1.0), (50, 1.0), (50, 1e-3)] {
-        assert_eq!(ask::verdict(&tied(0.73, courses, density), Law::Coulomb), Verdict::Conditional, "{courses} courses, density {density}");
-        assert_eq!(ask::verdict(&tied(0.68, courses, density), Law::Coulomb), Verdict::Stable, "{courses} courses, density {density}");
+        assert_eq!(
+            ask::verdict(&tied(0.73, courses, density), Law::Coulomb),
+            Verdict::Conditional,
+            "{courses} courses, density {density}"
+        );
+        assert_eq!(
+            ask::verdict(&tied(0.68, courses, density), Law::Coulomb),
+            Verdict::Stable,
+            "{courses} courses, density {density}"
+        );
     }
 }
 
@@ -139,10 +159,18 @@ fn what_is_tied_together_by_a_light_block_is_told_block_by_block() {
 fn verdicts_do_not_depend_on_density_and_size() {
     let wedge = file("wedge");
     for by in [1e-6, 1e-3, 1e3, 1e6] {
-        assert_eq!(ask::verdict(&scene(&denser(&wedge, by)), Law::Coulomb), Verdict::Conditional, "density × {by}");
+        assert_eq!(
+            ask::verdict(&scene(&denser(&wedge, by)), Law::Coulomb),
+            Verdict::Conditional,
+            "density × {by}"
+        );
     }
     for by in [1e-3, 1e3] {
-        assert_eq!(ask::verdict(&scene(&stretched(&wedge, by)), Law::Coulomb), Verdict::Conditional, "length × {by}");
+        assert_eq!(
+            ask::verdict(&scene(&stretched(&wedge, by)), Law::Coulomb),
+            Verdict::Conditional,
+            "length × {by}"
+        );
     }
 }
 
@@ -153,35 +181,64 @@ fn just_below_its_limit_a_wedge_creeps_and_does_not_move() {
 
 #[test]
 fn the_load_factor_is_one_up_to_which_all_of_the_scene_rests() {
-    // The slender block tips at 0.75 without sliding; the groove lets go before. A heavy block lies beside.
+    // The slender block tips at 0.75 without sliding; the groove lets go before. A heavy block lies
+    // beside.
     for name in ["groove-and-slender", "groove-and-heavy"] {
         let as_it_is = file(name);
         for by in [1.0, 1e-3, 1e3] {
             for changed in [denser(&as_it_is, by), stretched(&as_it_is, by)] {
                 let (dry, upper) = dry(&scene(&changed));
-                assert!(upper > GROOVE && dry.value <= GROOVE * (1.0 + 1e-6), "{name} × {by}: {}", dry.value);
-                assert!(dry.value >= GROOVE * (1.0 - 1e-3) && dry.rests_at <= dry.value, "{name} × {by}: {}", dry.value);
+                assert!(
+                    upper > GROOVE && dry.value <= GROOVE * (1.0 + 1e-6),
+                    "{name} × {by}: {}",
+                    dry.value
+                );
+                assert!(
+                    dry.value >= GROOVE * (1.0 - 1e-3) && dry.rests_at <= dry.value,
+                    "{name} × {by}: {}",
+                    dry.value
+                );
             }
         }
     }
     let model = ask::model(&scene(&file("groove-and-slender-tilted")));
     let toward = nalgebra::Vector3::y();
-    let dry = tilt::with_dry(&model, toward, None, &Control::default()).unwrap().dry.unwrap().load_factor;
-    assert!(dry.value <= GROOVE * (1.0 + 1e-6) && dry.value >= GROOVE * (1.0 - 1e-3), "{}", dry.value);
+    let dry =
+        tilt::with_dry(&model, toward, None, &Control::default()).unwrap().dry.unwrap().load_factor;
+    assert!(
+        dry.value <= GROOVE * (1.0 + 1e-6) && dry.value >= GROOVE * (1.0 - 1e-3),
+        "{}",
+        dry.value
+    );
 }
 
 #[test]
 fn what_does_not_rest_under_its_dead_load_has_no_load_factor() {
     let (dry, upper) = dry(&scene(&file("parabolic-arch")));
-    assert!(dry.found == Found::NotAtRest && dry.value.is_nan() && upper > 0.0, "{:?} {}", dry.found, dry.value);
+    assert!(
+        dry.found == Found::NotAtRest && dry.value.is_nan() && upper > 0.0,
+        "{:?} {}",
+        dry.found,
+        dry.value
+    );
 }
 
 #[test]
 fn no_load_factor_with_dry_friction_lies_above_the_bound() {
-    for name in ["stack-of-unequal-masses", "two-of-unequal-masses", "tetrahedra-of-unequal-masses"] {
+    for name in ["stack-of-unequal-masses", "two-of-unequal-masses", "tetrahedra-of-unequal-masses"]
+    {
         let (dry, upper) = dry(&scene(&file(name)));
-        assert!(dry.value <= upper && dry.value >= upper * (1.0 - 1e-4), "{name}: {:?} {} of at most {upper}", dry.found, dry.value);
-        assert!(dry.rests_at <= dry.value && dry.rests_at >= 0.9 * dry.value, "{name}: at rest up to {}", dry.rests_at);
+        assert!(
+            dry.value <= upper && dry.value >= upper * (1.0 - 1e-4),
+            "{name}: {:?} {} of at most {upper}",
+            dry.found,
+            dry.value
+        );
+        assert!(
+            dry.rests_at <= dry.value && dry.rests_at >= 0.9 * dry.value,
+            "{name}: at rest up to {}",
+            dry.rests_at
+        );
     }
 }
 

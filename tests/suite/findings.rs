@@ -1,4 +1,5 @@
-//! Scenes that were answered wrongly once, each with what is true about it (findings/README.md); those about dry friction are in [`dry`](crate::dry).
+//! Scenes that were answered wrongly once, each with what is true about it (findings/README.md);
+//! those about dry friction are in [`dry`](crate::dry).
 
 use crate::ask::open;
 use serde::Deserialize;
@@ -19,7 +20,8 @@ use voussoir::{
 };
 
 fn path(name: &str) -> PathBuf {
-    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/findings")).join(format!("{name}.json"))
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/findings"))
+        .join(format!("{name}.json"))
 }
 
 fn scene(name: &str) -> Scene {
@@ -45,18 +47,28 @@ fn limits(name: &str) -> (Proved<LoadFactor>, ResultFile) {
     let has_dry = matches!(bound.outcome, Outcome::Found | Outcome::Unbounded);
     let dry = has_dry.then(|| coulomb::load_factor(&model, &bound, &Control::default()));
     let file = ResultFile::load_factor(&scene, &model, &Limited { dry, ..bound.clone().into() });
-    println!("{name}: {:?} {} in {:?}, dry {:?}", bound.outcome, bound.value, bound.bracket, file.dry.as_ref().and_then(|d| d.value));
+    println!(
+        "{name}: {:?} {} in {:?}, dry {:?}",
+        bound.outcome,
+        bound.value,
+        bound.bracket,
+        file.dry.as_ref().and_then(|d| d.value)
+    );
     (bound, file)
 }
 
 #[test]
 fn nothing_hides_behind_survey_coordinates() {
-    assert!(!matches!(verdict("arch-at-survey-coordinates"), Verdict::Stable | Verdict::Conditional));
+    assert!(!matches!(
+        verdict("arch-at-survey-coordinates"),
+        Verdict::Stable | Verdict::Conditional
+    ));
 }
 
 #[test]
 fn live_loads_on_other_blocks_hide_no_wall() {
-    // Held from 19.62 on: whatever else is said of its load factor, it does not fall whatever the load.
+    // Held from 19.62 on: whatever else is said of its load factor, it does not fall whatever the
+    // load.
     assert_ne!(limits("wall-and-pressed").0.outcome, Outcome::Impossible);
     assert_eq!(verdict("wall-and-pressed-at-20"), Verdict::Stable);
 }
@@ -69,8 +81,12 @@ fn a_couple_is_measured_as_a_couple() {
 #[test]
 fn forged_results_of_the_findings_are_refused() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/cases/findings/forged");
-    let Ok(list) = std::fs::read_dir(&folder) else { return println!("skipped: no ../shared/cases/findings/forged") };
-    let forged = list.map(|f| f.unwrap().path()).filter(|p| p.file_name().is_some_and(|n| n.to_string_lossy().starts_with('F')));
+    let Ok(list) = std::fs::read_dir(&folder) else {
+        return println!("skipped: no ../shared/cases/findings/forged");
+    };
+    let forged = list
+        .map(|f| f.unwrap().path())
+        .filter(|p| p.file_name().is_some_and(|n| n.to_string_lossy().starts_with('F')));
     for path in forged {
         let text = std::fs::read_to_string(&path).unwrap();
         let error = read_str("forged", text.as_str()).unwrap_err().to_string();
@@ -78,11 +94,16 @@ fn forged_results_of_the_findings_are_refused() {
         let file = in_version_2(serde_json::from_str(&text).unwrap());
         let found = verify(&file, &file.scene.input);
         assert!(!found.as_ref().is_ok_and(|v| v.proved()), "{}", path.display());
-        println!("{}: {:?}", path.display(), found.map(|v| v.parts.into_iter().flat_map(|p| p.1.fails).collect::<Vec<_>>()));
+        println!(
+            "{}: {:?}",
+            path.display(),
+            found.map(|v| v.parts.into_iter().flat_map(|p| p.1.fails).collect::<Vec<_>>())
+        );
     }
 }
 
-/// A forgery of the first version as its maker would write it today: what follows from what, follows.
+/// A forgery of the first version as its maker would write it today: what follows from what,
+/// follows.
 fn in_version_2(mut file: Value) -> ResultFile {
     file["format"] = json!("voussoir-result/2");
     let dry = file.get("dry").map(|dry| DryResult::deserialize(dry).unwrap());
@@ -111,7 +132,11 @@ fn no_dry_load_factor_is_above_the_proved_bound() {
         assert_eq!(bound.outcome, Outcome::Found, "{name}");
         if let Some(value) = file.dry.and_then(|d| d.value) {
             let upper = bound.bracket.upper;
-            assert!(value <= upper, "{name}: {value} is above {upper} by {:.1e}", value / upper - 1.0);
+            assert!(
+                value <= upper,
+                "{name}: {value} is above {upper} by {:.1e}",
+                value / upper - 1.0
+            );
         }
     }
 }

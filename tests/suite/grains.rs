@@ -1,4 +1,5 @@
-//! Packings of grains: exact piles of 500 grains and more, rounds of loose grains, averages over contacts, heaps that flow.
+//! Packings of grains: exact piles of 500 grains and more, rounds of loose grains, averages over
+//! contacts, heaps that flow.
 
 use crate::ask::{cuboid, fixed, ground, model, prove, scene, sphere, template};
 use nalgebra::Vector3;
@@ -17,7 +18,11 @@ use voussoir::{
 };
 
 fn pile(packing: &str, layers: usize, friction: f64) -> Scene {
-    template(friction, json!({ "lattice": { "packing": packing, "radius": 1.0, "layers": layers } }), json!({}))
+    template(
+        friction,
+        json!({ "lattice": { "packing": packing, "radius": 1.0, "layers": layers } }),
+        json!({}),
+    )
 }
 
 fn associative() -> Control {
@@ -53,7 +58,10 @@ fn piles_of_spheres_fall_as_their_pockets_do() {
         ("bed", [1.0, 1.0, 0.0], 45.0),
     ] {
         let (angle, _) = falls_at(&pile(packing, 4, 0.5), toward);
-        assert!((angle - want).abs() < 1e-5, "{packing} towards {toward:?}: {angle}, expected {want}");
+        assert!(
+            (angle - want).abs() < 1e-5,
+            "{packing} towards {toward:?}: {angle}, expected {want}"
+        );
     }
 }
 
@@ -73,8 +81,11 @@ fn clump(id: &str, balls: &[[f64; 3]]) -> Value {
 fn clumps_of_spheres_have_exact_limits() {
     let one = |friction: f64, block: Value| scene(friction, json!([ground(), block]), json!({}));
     // Two spheres in a row along y: they slide or topple along it, and roll across it at once.
-    let dumbbell = |friction: f64| one(friction, clump("dumbbell", &[[0.0, -1.0, 1.0], [0.0, 1.0, 1.0]]));
-    assert!((falls_at(&dumbbell(0.5), [0.0, 1.0, 0.0]).0 - 0.5f64.atan().to_degrees()).abs() < 1e-6);
+    let dumbbell =
+        |friction: f64| one(friction, clump("dumbbell", &[[0.0, -1.0, 1.0], [0.0, 1.0, 1.0]]));
+    assert!(
+        (falls_at(&dumbbell(0.5), [0.0, 1.0, 0.0]).0 - 0.5f64.atan().to_degrees()).abs() < 1e-6
+    );
     assert!((falls_at(&dumbbell(2.0), [0.0, 1.0, 0.0]).0 - 45.0).abs() < 1e-6);
     assert!(falls_at(&dumbbell(0.5), [1.0, 0.0, 0.0]).0.abs() < 1e-6);
     // Overlapping by half a radius: the centre of mass is in the middle still, the feet are closer.
@@ -82,8 +93,10 @@ fn clumps_of_spheres_have_exact_limits() {
     assert!((falls_at(&peanut, [0.0, 1.0, 0.0]).0 - 0.5f64.atan().to_degrees()).abs() < 1e-6);
     // Three spheres and a fourth on top: over the edge between two feet.
     let (foot, rise) = (2.0 / 3f64.sqrt(), (8.0f64 / 3.0).sqrt());
-    let feet = [60.0, 180.0, 300.0f64].map(|a| [foot * a.to_radians().cos(), foot * a.to_radians().sin(), 1.0]);
-    let tetrapod = one(2.0, clump("tetrapod", &[feet[0], feet[1], feet[2], [0.0, 0.0, 1.0 + rise]]));
+    let feet = [60.0, 180.0, 300.0f64]
+        .map(|a| [foot * a.to_radians().cos(), foot * a.to_radians().sin(), 1.0]);
+    let tetrapod =
+        one(2.0, clump("tetrapod", &[feet[0], feet[1], feet[2], [0.0, 0.0, 1.0 + rise]]));
     let want = (0.5 * foot / (1.0 + rise / 4.0)).atan().to_degrees();
     assert!((falls_at(&tetrapod, [1.0, 0.0, 0.0]).0 - want).abs() < 1e-6);
     // R04 on three spheres that are one block, and turned as a whole with its frame.
@@ -100,9 +113,15 @@ fn clumps_of_spheres_have_exact_limits() {
 fn clumps_that_cannot_be_are_refused_with_their_place() {
     let bad = |spheres: Value| {
         let block = json!([{ "id": "c", "shape": { "clump": { "spheres": spheres } } }]);
-        voussoir::interface::prepare(&scene(0.5, block, json!({}))).expect_err("a refusal").to_string()
+        voussoir::interface::prepare(&scene(0.5, block, json!({})))
+            .expect_err("a refusal")
+            .to_string()
     };
-    assert!(bad(json!([])).contains("blocks[0].shape.clump.spheres: a clump needs at least one sphere"), "{}", bad(json!([])));
+    assert!(
+        bad(json!([])).contains("blocks[0].shape.clump.spheres: a clump needs at least one sphere"),
+        "{}",
+        bad(json!([]))
+    );
     assert!(bad(json!([{ "at": [0, 0, 0], "radius": 0 }])).contains("spheres[0].radius"));
     assert!(bad(json!(vec![json!({ "at": [0, 0, 0], "radius": 1 }); 201])).contains("at most 200"));
 }
@@ -110,16 +129,27 @@ fn clumps_that_cannot_be_are_refused_with_their_place() {
 #[test]
 fn grains_of_every_shape_have_the_volume_of_their_sphere() {
     for grain in [GrainKind::Sphere, GrainKind::Clump, GrainKind::Hull] {
-        let protocol = Protocol { grain, sizes: 0.0, elongation: 1.7, ..small(ProtocolKind::Drain) };
+        let protocol =
+            Protocol { grain, sizes: 0.0, elongation: 1.7, ..small(ProtocolKind::Drain) };
         let deposit = deposit(&protocol, 3).unwrap();
         let model = model(&deposit.scene);
         let want = protocol.density * std::f64::consts::PI / 6.0 * protocol.diameter.powi(3);
         assert_eq!(model.assembly.free().count(), 40);
-        assert!(model.assembly.free().all(|i| (model.assembly.blocks[i].mass / want - 1.0).abs() < 1e-12), "{grain:?}");
+        assert!(
+            model
+                .assembly
+                .free()
+                .all(|i| (model.assembly.blocks[i].mass / want - 1.0).abs() < 1e-12),
+            "{grain:?}"
+        );
         // Nothing touches before it falls, whatever its shape.
         let free = |i: usize| !model.assembly.blocks[i].support;
         assert!(!model.interfaces.list.iter().any(|f| free(f.a) || free(f.b)), "{grain:?}");
-        assert!(model.interfaces.findings.iter().all(|f| f.code != FindingCode::Overlap), "{:?}", model.interfaces.findings);
+        assert!(
+            model.interfaces.findings.iter().all(|f| f.code != FindingCode::Overlap),
+            "{:?}",
+            model.interfaces.findings
+        );
     }
 }
 
@@ -130,22 +160,42 @@ fn heaps_of_clumps_and_hulls_rest_reload_and_are_asked_about() {
         let heap = repose::heap(&protocol, 3, &mut |_| ControlFlow::Continue(())).unwrap();
         assert!(heap.rested, "{grain:?}: {:?}", heap.findings);
         let written = text::pretty(&heap.scene).unwrap();
-        assert_eq!(read_str("heap", written.as_str()).unwrap().0, heap.scene, "written and read back");
+        assert_eq!(
+            read_str("heap", written.as_str()).unwrap().0,
+            heap.scene,
+            "written and read back"
+        );
         let margin = repose::margin(&heap, &associative()).unwrap();
-        assert!(margin.tilt.model.interfaces.list.len() > heap.grains[0], "{grain:?} at rest touch");
+        assert!(
+            margin.tilt.model.interfaces.list.len() > heap.grains[0],
+            "{grain:?} at rest touch"
+        );
         assert_ne!(margin.tilt.load_factor.outcome, Outcome::Undecided, "{grain:?}");
         if grain == GrainKind::Clump {
-            assert!(margin.degrees().is_some_and(|d| d > 0.0) && margin.loose + margin.unbalanced == 0, "{:?}", margin.degrees());
+            assert!(
+                margin.degrees().is_some_and(|d| d > 0.0) && margin.loose + margin.unbalanced == 0,
+                "{:?}",
+                margin.degrees()
+            );
         }
     }
 }
 
 #[test]
 fn frictionless_heaps_and_one_layer_beds_are_told_for_what_they_are() {
-    // Without friction all but the grains that the floor holds run out; one layer has no surface to fit.
-    for protocol in [Protocol { friction: 0.0, ..small(ProtocolKind::Drain) }, Protocol { grains: 12, ..small(ProtocolKind::Tilt) }] {
+    // Without friction all but the grains that the floor holds run out; one layer has no surface to
+    // fit.
+    for protocol in [
+        Protocol { friction: 0.0, ..small(ProtocolKind::Drain) },
+        Protocol { grains: 12, ..small(ProtocolKind::Tilt) },
+    ] {
         let heap = repose::heap(&protocol, 1, &mut |_| ControlFlow::Continue(())).unwrap();
-        assert!(heap.slope.is_none() && heap.findings.iter().any(|f| f.text.contains("cells of the surface")), "{:?}", heap.findings);
+        assert!(
+            heap.slope.is_none()
+                && heap.findings.iter().any(|f| f.text.contains("cells of the surface")),
+            "{:?}",
+            heap.findings
+        );
         assert_eq!(heap.rested, !heap.findings.iter().any(|f| f.text.contains("still moves")));
     }
 }
@@ -159,7 +209,8 @@ fn frictionless_piles_and_beds_have_an_answer() {
     }
 }
 
-/// A ball on a step that rolls at a slight tilt, beside heavy boxes that slide at the friction angle.
+/// A ball on a step that rolls at a slight tilt, beside heavy boxes that slide at the friction
+/// angle.
 fn one_loose_grain() -> Scene {
     let ground = fixed(cuboid("ground", [40.0, 40.0, 1.0], [0.0, 0.0, -1.0]));
     let ridges = [-0.2, 0.2].map(|x: f64| fixed(sphere(&format!("r{x}"), 0.2, [x, 10.0, 0.2])));
@@ -183,17 +234,35 @@ fn loose_grains_are_taken_away_until_enough_moves() {
     let first = stability(&model, &[], toward, 0.0, &associative()).unwrap();
     let ball = (0.2f64 / (0.49f64 - 0.04).sqrt()).atan().to_degrees();
     assert!(first.reached && first.rounds.len() == 1);
-    assert!((first.rounds[0].tilt.angle_deg() - ball).abs() < 1e-6, "{} and not {ball}", first.rounds[0].tilt.angle_deg());
+    assert!(
+        (first.rounds[0].tilt.angle_deg() - ball).abs() < 1e-6,
+        "{} and not {ball}",
+        first.rounds[0].tilt.angle_deg()
+    );
     assert_eq!(first.rounds[0].moving, ["ball"]);
     let half = stability(&model, &[], toward, 0.5, &associative()).unwrap();
     let last = &half.rounds[half.answer];
     // The two blocks are parts of their own that slide at the same tilt: a round moves one of them.
-    assert!(half.reached && half.rounds.len() == 2 && last.moved > 0.5, "{:?}", half.rounds.iter().map(|r| &r.moving).collect::<Vec<_>>());
-    assert!((last.tilt.angle_deg() - 0.5f64.atan().to_degrees()).abs() < 1e-6, "{}", last.tilt.angle_deg());
+    assert!(
+        half.reached && half.rounds.len() == 2 && last.moved > 0.5,
+        "{:?}",
+        half.rounds.iter().map(|r| &r.moving).collect::<Vec<_>>()
+    );
+    assert!(
+        (last.tilt.angle_deg() - 0.5f64.atan().to_degrees()).abs() < 1e-6,
+        "{}",
+        last.tilt.angle_deg()
+    );
     assert_eq!(last.gone, ["ball"], "what fell is gone");
     assert!(last.tilt.model.assembly.find("ball").is_none());
     // As a result, with the grains that fell and a proof of the last round.
-    let (file, proof) = PackingFile::new(&scene, 0.5, &Packing { model, loose: Vec::new(), directions: vec![half] }).unwrap().unwrap();
+    let (file, proof) = PackingFile::new(
+        &scene,
+        0.5,
+        &Packing { model, loose: Vec::new(), directions: vec![half] },
+    )
+    .unwrap()
+    .unwrap();
     assert_eq!(file.directions[0].removed[0].grains, ["ball"]);
     assert_eq!(file.directions[0].status, Outcome::Found);
     prove(&proof.scene.input, &proof);
@@ -217,7 +286,8 @@ fn grains_that_nothing_holds_are_left_out() {
 
 #[test]
 fn the_averages_of_one_sphere_in_a_pocket() {
-    // On three spheres at 54.7° to each other's normals, frictionless: every normal force is W / (3 cos α), cos α = √(2/3).
+    // On three spheres at 54.7° to each other's normals, frictionless: every normal force is W / (3
+    // cos α), cos α = √(2/3).
     let scene = pile("fcc", 1, 0.0);
     let model = model(&scene);
     let forces = assess(&model, &associative()).forces.clone();
@@ -225,16 +295,24 @@ fn the_averages_of_one_sphere_in_a_pocket() {
     let weight = 4.0 / 3.0 * std::f64::consts::PI;
     assert_eq!((f.grains, f.contacts, f.rattlers), (1, 3, 1), "it carries only itself");
     assert_eq!((f.coordination, f.coordination_without_rattlers), (3.0, 0.0));
-    assert!((f.mean_force - weight / (3.0 * (2.0f64 / 3.0).sqrt())).abs() < 1e-8 * weight, "{}", f.mean_force);
+    assert!(
+        (f.mean_force - weight / (3.0 * (2.0f64 / 3.0).sqrt())).abs() < 1e-8 * weight,
+        "{}",
+        f.mean_force
+    );
     assert!((f.greatest_force - 1.0).abs() < 1e-8 && f.mobilised.is_none());
-    // F = diag(1/6, 1/6, 2/3); σ = Σ l ⊗ f / V with l the radius: trace = Σ R f / V, σ_zz = R cos²α Σ f / V.
+    // F = diag(1/6, 1/6, 2/3); σ = Σ l ⊗ f / V with l the radius: trace = Σ R f / V, σ_zz = R cos²α
+    // Σ f / V.
     for (k, want) in [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0].into_iter().enumerate() {
         assert!((f.tensor[k][k] - want).abs() < 1e-12, "{:?}", f.tensor);
         let stress = want * 3.0 * f.mean_force / weight;
         assert!((f.stress[k][k] - stress).abs() < 1e-8, "{:?}, expected {stress}", f.stress);
     }
     assert!((f.anisotropy - 0.5).abs() < 1e-12);
-    assert!((f.normals.iter().sum::<f64>() - 1.0).abs() < 1e-12 && (f.forces.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    assert!(
+        (f.normals.iter().sum::<f64>() - 1.0).abs() < 1e-12
+            && (f.forces.iter().sum::<f64>() - 1.0).abs() < 1e-12
+    );
     // The normals lie 35.3° from gravity: 1 − cos = 0.18, the second of nine bins.
     assert!((f.normals[1] - 1.0).abs() < 1e-12, "{:?}", f.normals);
 }
@@ -246,7 +324,8 @@ fn small(kind: ProtocolKind) -> Protocol {
 
 #[test]
 fn a_deposit_follows_from_its_seed_and_reloads_bit_for_bit() {
-    let [one, again, other] = [7, 7, 8].map(|seed| deposit(&small(ProtocolKind::Drain), seed).unwrap().scene);
+    let [one, again, other] =
+        [7, 7, 8].map(|seed| deposit(&small(ProtocolKind::Drain), seed).unwrap().scene);
     assert_eq!(one, again);
     assert_ne!(one.blocks, other.blocks);
     let written = text::pretty(&one).unwrap();
@@ -255,11 +334,15 @@ fn a_deposit_follows_from_its_seed_and_reloads_bit_for_bit() {
 
 #[test]
 fn nothing_overlaps_before_it_falls() {
-    for kind in [ProtocolKind::Drain, ProtocolKind::Funnel, ProtocolKind::Cylinder, ProtocolKind::Tilt] {
+    for kind in
+        [ProtocolKind::Drain, ProtocolKind::Funnel, ProtocolKind::Cylinder, ProtocolKind::Tilt]
+    {
         let deposit = deposit(&Protocol { grains: 300, sizes: 0.5, ..small(kind) }, 1).unwrap();
         let spheres: Vec<(Vector3<f64>, f64, bool)> = (deposit.scene.blocks.iter())
             .filter_map(|b| match b.shape {
-                voussoir::scene::Shape::Sphere { radius } => Some((Vector3::from(b.at), radius, b.support)),
+                voussoir::scene::Shape::Sphere { radius } => {
+                    Some((Vector3::from(b.at), radius, b.support))
+                }
                 _ => None,
             })
             .collect();
@@ -267,7 +350,10 @@ fn nothing_overlaps_before_it_falls() {
             let (p, q) = (&spheres[i], &spheres[j]);
             !(p.2 && q.2) && (p.0 - q.0).norm() < p.1 + q.1
         };
-        let count = (0..spheres.len()).flat_map(|i| (0..i).map(move |j| (i, j))).filter(|&(i, j)| overlaps(i, j)).count();
+        let count = (0..spheres.len())
+            .flat_map(|i| (0..i).map(move |j| (i, j)))
+            .filter(|&(i, j)| overlaps(i, j))
+            .count();
         assert_eq!(count, 0, "{kind:?}");
         assert_eq!(deposit.layers.iter().map(Vec::len).sum::<usize>(), 300);
     }

@@ -1,5 +1,6 @@
-//! Every case of `../shared/cases/granular_cases.json`, asked as the file words it and proved, against the file's own numbers.
-//! Skipped, saying so, where that folder is absent; the same cases with more digits and more variants are in `analytic` and `strength`.
+//! Every case of `../shared/cases/granular_cases.json`, asked as the file words it and proved,
+//! against the file's own numbers. Skipped, saying so, where that folder is absent; the same cases
+//! with more digits and more variants are in `analytic` and `strength`.
 
 use crate::ask::*;
 use serde_json::{Value, json};
@@ -17,9 +18,14 @@ fn ball(radius: f64, at: [f64; 3]) -> Value {
 
 /// A free sphere on fixed unit spheres.
 fn on(bed: &[[f64; 3]], free: Value, mu: f64, arm: f64) -> Scene {
-    let mut blocks: Vec<Value> = bed.iter().enumerate().map(|(k, &c)| fixed(sphere(&format!("bed{k}"), 1.0, c))).collect();
+    let mut blocks: Vec<Value> =
+        bed.iter().enumerate().map(|(k, &c)| fixed(sphere(&format!("bed{k}"), 1.0, c))).collect();
     blocks.push(free);
-    scene(mu, json!(blocks), json!({ "joints": { "default": { "friction": mu, "rolling_arm": arm } } }))
+    scene(
+        mu,
+        json!(blocks),
+        json!({ "joints": { "default": { "friction": mu, "rolling_arm": arm } } }),
+    )
 }
 
 fn groove(g: f64, mu: f64, arm: f64) -> Scene {
@@ -37,19 +43,36 @@ fn pocket(radius: f64, mu: f64) -> Scene {
 }
 
 fn four(mu: f64) -> Scene {
-    on(&[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]], ball(1.0, [0.0, 0.0, 2f64.sqrt()]), mu, 0.0)
+    on(
+        &[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]],
+        ball(1.0, [0.0, 0.0, 2f64.sqrt()]),
+        mu,
+        0.0,
+    )
 }
 
 fn pile(packing: &str, layers: usize, mu: f64) -> Scene {
-    template(mu, json!({ "lattice": { "packing": packing, "radius": 1.0, "layers": layers } }), json!({}))
+    template(
+        mu,
+        json!({ "lattice": { "packing": packing, "radius": 1.0, "layers": layers } }),
+        json!({}),
+    )
 }
 
 /// Spheres on the ground and one above, with one friction between them and another on the ground.
 fn heap(lower: &[[f64; 2]], top: f64, between: f64, below: f64) -> Scene {
     let mut blocks = vec![ground(), sphere("top", 1.0, [0.0, 0.0, top])];
-    blocks.extend(lower.iter().enumerate().map(|(k, p)| sphere(&format!("s{k}"), 1.0, [p[0], p[1], 1.0])));
-    let overrides: Vec<Value> = (0..lower.len()).map(|k| json!({ "blocks": ["ground", format!("s{k}")], "friction": below })).collect();
-    scene(0.0, json!(blocks), json!({ "joints": { "default": { "friction": between }, "overrides": overrides } }))
+    blocks.extend(
+        lower.iter().enumerate().map(|(k, p)| sphere(&format!("s{k}"), 1.0, [p[0], p[1], 1.0])),
+    );
+    let overrides: Vec<Value> = (0..lower.len())
+        .map(|k| json!({ "blocks": ["ground", format!("s{k}")], "friction": below }))
+        .collect();
+    scene(
+        0.0,
+        json!(blocks),
+        json!({ "joints": { "default": { "friction": between }, "overrides": overrides } }),
+    )
 }
 
 fn step(h: f64, mu: f64) -> Scene {
@@ -62,12 +85,19 @@ fn step(h: f64, mu: f64) -> Scene {
 fn trough(angle: f64, mu: f64) -> Scene {
     let (sin, cos) = angle.to_radians().sin_cos();
     let face = |side: f64| -> Vec<[f64; 3]> {
-        [(0.2, -5.0), (1.2, -5.0), (1.2, 5.0), (0.2, 5.0)].iter().map(|&(s, y)| [side * s * cos, y, s * sin]).collect()
+        [(0.2, -5.0), (1.2, -5.0), (1.2, 5.0), (0.2, 5.0)]
+            .iter()
+            .map(|&(s, y)| [side * s * cos, y, s * sin])
+            .collect()
     };
     let wall = |id: &str, side: f64| fixed(cuboid(id, [1.0, 10.0, 1.0], [2.0 * side, 0.0, 0.0]));
     scene(
         mu,
-        json!([wall("left", -1.0), wall("right", 1.0), cuboid("block", [1.0, 10.0, 1.0], [0.0; 3])]),
+        json!([
+            wall("left", -1.0),
+            wall("right", 1.0),
+            cuboid("block", [1.0, 10.0, 1.0], [0.0; 3])
+        ]),
         json!({ "loads": { "live": [{ "weight": [0, 1, 0] }] }, "interfaces": [
             { "between": ["left", "block"], "points": face(-1.0), "normal": [sin, 0.0, cos] },
             { "between": ["right", "block"], "points": face(1.0), "normal": [-sin, 0.0, cos] },
@@ -77,7 +107,8 @@ fn trough(angle: f64, mu: f64) -> Scene {
 
 /// One scene of every kind of case, for questions about the scenes themselves.
 pub fn scenes() -> Vec<(&'static str, Scene)> {
-    let corners = [[1.0, 0.0], [-0.5, 0.75f64.sqrt()], [-0.5, -(0.75f64.sqrt())]].map(|p| p.map(|c| 2.0 / 3f64.sqrt() * c));
+    let corners = [[1.0, 0.0], [-0.5, 0.75f64.sqrt()], [-0.5, -(0.75f64.sqrt())]]
+        .map(|p| p.map(|c| 2.0 / 3f64.sqrt() * c));
     vec![
         ("groove", groove(1.1, 0.1, 0.0)),
         ("groove with a rolling arm", groove(1.1, 0.1, 0.05)),
@@ -103,13 +134,23 @@ fn ask(id: &str, key: &str, want: &Value, tolerance: f64) {
     let tilt = |scenes: &[Scene], toward: [f64; 3]| {
         for scene in scenes {
             let (got, want) = (tilt_deg(scene, toward), number.unwrap_or(90.0));
-            assert!((got - want).abs() <= tolerance, "{what}: {got}, expected {want} within {tolerance}");
+            assert!(
+                (got - want).abs() <= tolerance,
+                "{what}: {got}, expected {want} within {tolerance}"
+            );
         }
     };
     let mu = key.strip_prefix("mu ").and_then(|t| t.parse::<f64>().ok()).unwrap_or(f64::NAN);
     let want = number.unwrap_or(f64::NAN);
     match (id, key) {
-        ("R01", _) => tilt(&[scene(mu, json!([ground(), cuboid("block", [1.0, 1.0, 1.0 / 0.5], [0.0; 3])]), json!({}))], X),
+        ("R01", _) => tilt(
+            &[scene(
+                mu,
+                json!([ground(), cuboid("block", [1.0, 1.0, 1.0 / 0.5], [0.0; 3])]),
+                json!({}),
+            )],
+            X,
+        ),
         ("R02", _) => tilt(&[groove(1.0, mu, 0.0)], X),
         ("R03", _) => tilt(&[groove(1.1, 0.1, 0.0)], X),
         ("R04", "saddle") => tilt(&[pocket(1.0, 0.0), pocket(1.0, 0.5), pocket(1.0, 1.4)], SADDLE),
@@ -117,37 +158,60 @@ fn ask(id: &str, key: &str, want: &Value, tolerance: f64) {
         ("R04", _) => tilt(&[pocket(1.0, mu)], SADDLE),
         ("R05", "saddle") => tilt(&[four(0.0), four(0.9)], X),
         ("R05", "sphere") => tilt(&[four(0.0), four(0.9)], [1.0, 1.0, 0.0]),
-        ("R06", "cylinder-cylinder") => least(&what, want, |mu| heap(&[[-1.0, 0.0], [1.0, 0.0]], 1.0 + 3f64.sqrt(), mu, 1.0)),
-        ("R06", "ground") => least(&what, want, |mu| heap(&[[-1.0, 0.0], [1.0, 0.0]], 1.0 + 3f64.sqrt(), 1.0, mu)),
+        ("R06", "cylinder-cylinder") => {
+            least(&what, want, |mu| heap(&[[-1.0, 0.0], [1.0, 0.0]], 1.0 + 3f64.sqrt(), mu, 1.0))
+        }
+        ("R06", "ground") => {
+            least(&what, want, |mu| heap(&[[-1.0, 0.0], [1.0, 0.0]], 1.0 + 3f64.sqrt(), 1.0, mu))
+        }
         ("R07", _) => {
             let lower = three().map(|c| [c[0], c[1]]);
             let top = 1.0 + (8.0f64 / 3.0).sqrt();
-            least(&what, want, |mu| if key == "ground" { heap(&lower, top, 1.0, mu) } else { heap(&lower, top, mu, 1.0) });
+            least(&what, want, |mu| {
+                if key == "ground" {
+                    heap(&lower, top, 1.0, mu)
+                } else {
+                    heap(&lower, top, mu, 1.0)
+                }
+            });
         }
-        ("R08", _) => tilt(&[(3, 0.0), (3, 0.8), (6, 0.3), (6, 1.7)].map(|(n, mu)| pile("triangular", n, mu)), X),
+        ("R08", _) => tilt(
+            &[(3, 0.0), (3, 0.8), (6, 0.3), (6, 1.7)].map(|(n, mu)| pile("triangular", n, mu)),
+            X,
+        ),
         // The lattice's bed has its upright triangles the other way round.
         ("R09", "saddle") => tilt(&[0.0, 0.5, 1.4].map(|mu| pile("fcc", 4, mu)), [0.0, -1.0, 0.0]),
         ("R09", "sphere") => tilt(&[0.0, 0.5, 1.4].map(|mu| pile("fcc", 4, mu)), [0.0, 1.0, 0.0]),
         ("R10", _) => {
-            let joints = json!({ "joints": { "default": { "friction": 0.8, "rolling_arm": 0.1 } } });
+            let joints =
+                json!({ "joints": { "default": { "friction": 0.8, "rolling_arm": 0.1 } } });
             tilt(&[scene(0.8, json!([ground(), ball(1.0, [0.0, 0.0, 1.0])]), joints)], X);
         }
         ("R11", _) => tilt(&[groove(1.0, 0.5, 0.1)], X),
-        ("R12", h) => tilt(&[step(h.parse().expect("a height"), 0.0), step(h.parse().expect("a height"), 0.05)], X),
+        ("R12", h) => tilt(
+            &[step(h.parse().expect("a height"), 0.0), step(h.parse().expect("a height"), 0.05)],
+            X,
+        ),
         ("R13", "saddle") => tilt(&[pocket(0.5, 0.1)], SADDLE),
         ("R13", "sphere") => tilt(&[pocket(0.5, 0.1)], SPHERE),
         ("R14", _) => {
-            let discs = json!([ground(), sphere("lower", 1.0, [0.0, 0.0, 1.0]), sphere("upper", 1.0, [0.0, 0.0, 3.0])]);
+            let discs = json!([
+                ground(),
+                sphere("lower", 1.0, [0.0, 0.0, 1.0]),
+                sphere("upper", 1.0, [0.0, 0.0, 3.0])
+            ]);
             let got = load_factor(&scene(0.5, discs, push(X)));
             assert!((got - want).abs() <= tolerance, "{what}: {got}");
         }
         ("R15", _) => {
             let cubes = (0..10).map(|k| cuboid(&format!("c{k}"), [1.0; 3], [0.0, 0.0, k as f64]));
-            let got = load_factor(&scene(1.0, std::iter::once(ground()).chain(cubes).collect(), push(X)));
+            let got =
+                load_factor(&scene(1.0, std::iter::once(ground()).chain(cubes).collect(), push(X)));
             assert!((got - want).abs() <= tolerance, "{what}: {got}");
         }
         ("R16" | "R17", law) => {
-            let (coulomb, associative, _) = dry(&if id == "R16" { trough(45.0, 0.5) } else { trough(30.0, 0.2) });
+            let (coulomb, associative, _) =
+                dry(&if id == "R16" { trough(45.0, 0.5) } else { trough(30.0, 0.2) });
             let tan = if law == "coulomb" { coulomb } else { associative };
             let got = if id == "R16" { tan.atan().to_degrees() } else { tan };
             assert!((got - want).abs() <= tolerance, "{what}: {got}, expected {want}");
@@ -165,7 +229,8 @@ fn every_granular_case_comes_out_as_its_file_says() {
     let file: Value = serde_json::from_str(&text).expect("JSON");
     let cases = file["cases"].as_array().expect("cases");
     for case in cases {
-        let (id, tolerance) = (case["id"].as_str().expect("an id"), case["tolerance"].as_f64().expect("a tolerance"));
+        let (id, tolerance) =
+            (case["id"].as_str().expect("an id"), case["tolerance"].as_f64().expect("a tolerance"));
         for (key, want) in case["expected"].as_object().expect("expected values") {
             ask(id, key, want, tolerance);
         }

@@ -1,14 +1,20 @@
-//! Strings of a file that want to be more than strings: markup, terminal codes, paths, formulas. They come out as text, everywhere.
+//! Strings of a file that want to be more than strings: markup, terminal codes, paths, formulas.
+//! They come out as text, everywhere.
 
 use serde_json::{Value, json};
 use std::{fs, path::Path, process::Command};
 
-/// A formula, markup, a terminal code that clears the screen and one that sets the title, an end of a comment, a path, a backspace, a terminal
-/// code of one byte, marks that reorder what follows, ends of line and paragraph.
+/// A formula, markup, a terminal code that clears the screen and one that sets the title, an end of
+/// a comment, a path, a backspace, a terminal code of one byte, marks that reorder what follows,
+/// ends of line and paragraph.
 const HOSTILE: &str = "=cmd|'/C calc'!A0<script>alert(1)</script>\"'&\u{1b}[2J\u{1b}]0;x\u{7}-->]]>../../evil\u{8}\r\n$(touch evil)`touch evil`\u{9b}2J\u{202e}\u{2066}\u{200f}\u{61c}\u{2028}\u{2029}";
 
 fn run(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_voussoir")).current_dir(folder).args(args).output().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_voussoir"))
+        .current_dir(folder)
+        .args(args)
+        .output()
+        .unwrap();
     let text = |b: &[u8]| String::from_utf8_lossy(b).into_owned();
     (output.status.code(), text(&output.stdout), text(&output.stderr))
 }
@@ -23,7 +29,9 @@ fn plain(text: &str) -> bool {
 /// No cell of a table that a spreadsheet would compute; numbers are no such thing.
 fn inert(table: &str) -> bool {
     let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(table.as_bytes());
-    let computed = |cell: &str| cell.trim_start().starts_with(['=', '+', '-', '@']) && cell.parse::<f64>().is_err();
+    let computed = |cell: &str| {
+        cell.trim_start().starts_with(['=', '+', '-', '@']) && cell.parse::<f64>().is_err()
+    };
     plain(table) && reader.records().all(|row| !row.unwrap().iter().any(computed))
 }
 
@@ -49,7 +57,17 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
     for args in [
         &["assess", "scene.json", "--verbose", "--report", "page.html", "--svg", "assess.svg"][..],
         &["assess", "scene.json", "--simulate"],
-        &["limit", "scene.json", "--verbose", "--save", "result.json", "--vtk", "limit.vtp", "--csv", "joints.csv"],
+        &[
+            "limit",
+            "scene.json",
+            "--verbose",
+            "--save",
+            "result.json",
+            "--vtk",
+            "limit.vtp",
+            "--csv",
+            "joints.csv",
+        ],
         &["limit", "scene.json", "--json"],
         &["check", "scene.json", "--json"],
         &["check", "result.json", "--json"],
@@ -58,19 +76,46 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
         &["tilt", "scene.json", "--all", "1"],
         &["repose", "scene.json", "--all", "1", "--fabric", "--csv", "contacts.csv"],
         &["thrust", "scene.json", "--direction", "1,0", "--svg", "thrust.svg"],
-        &["critical", "scene.json", "--vary", "/joints/default/friction", "--between", "0.1", "0.9", "--scan", "3"],
+        &[
+            "critical",
+            "scene.json",
+            "--vary",
+            "/joints/default/friction",
+            "--between",
+            "0.1",
+            "0.9",
+            "--scan",
+            "3",
+        ],
         &["simulate", "scene.json", "--fast", "--csv", "way.csv"],
-        &["sweep", "plan.json", "-o", "rows.jsonl", "--csv", "table.csv", "--svg", "chart.svg", "--report", "rows.html"],
+        &[
+            "sweep",
+            "plan.json",
+            "-o",
+            "rows.jsonl",
+            "--csv",
+            "table.csv",
+            "--svg",
+            "chart.svg",
+            "--report",
+            "rows.html",
+        ],
         &["sweep", "merge", "rows.jsonl", "-o", "merged.jsonl", "--json"],
     ] {
         let (code, out, err) = run(at, args);
         assert!(matches!(code, Some(0 | 1)), "{args:?}: {code:?} {err}");
-        assert!(plain(&out) && plain(&err), "{args:?} lets control characters through: {out:?} {err:?}");
+        assert!(
+            plain(&out) && plain(&err),
+            "{args:?} lets control characters through: {out:?} {err:?}"
+        );
     }
     for page in ["page.html", "rows.html"] {
         let text = fs::read_to_string(at.join(page)).unwrap();
         // Neither as markup nor inside the page's own script, where `</script>` would end it.
-        assert!(!text.contains("<script>alert") && !text.contains("alert(1)</script>"), "{page} lets markup through");
+        assert!(
+            !text.contains("<script>alert") && !text.contains("alert(1)</script>"),
+            "{page} lets markup through"
+        );
         assert!(text.contains("alert(1)") && plain(&text), "{page}");
     }
     for table in ["contacts.csv", "joints.csv", "joints.blocks.csv", "table.csv", "way.csv"] {
@@ -83,7 +128,16 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
     }
     // Strings stand there as the numbers of their bytes.
     let vtp = fs::read_to_string(at.join("limit.vtp")).unwrap();
-    let names = vtp.split("Name=\"block names\"").nth(1).unwrap().split('>').nth(1).unwrap().split('<').next().unwrap();
+    let names = vtp
+        .split("Name=\"block names\"")
+        .nth(1)
+        .unwrap()
+        .split('>')
+        .nth(1)
+        .unwrap()
+        .split('<')
+        .next()
+        .unwrap();
     let bytes: Vec<u8> = names.split_whitespace().map(|n| n.parse().unwrap()).collect();
     let names = String::from_utf8(bytes).unwrap();
     assert!(plain(&vtp) && names.contains("cmd|") && plain(&names.replace('\0', "")), "{names:?}");
@@ -93,14 +147,19 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
         // Every `&` begins an entity and every quote in a text is one.
         for (place, _) in text.match_indices('&') {
             assert!(
-                ["&amp;", "&lt;", "&gt;", "&quot;", "&apos;", "&#"].iter().any(|e| text[place..].starts_with(e)),
+                ["&amp;", "&lt;", "&gt;", "&quot;", "&apos;", "&#"]
+                    .iter()
+                    .any(|e| text[place..].starts_with(e)),
                 "{drawing}: {}",
                 &text[place..place + 20]
             );
         }
     }
     // Nothing was written elsewhere, nothing was run.
-    let mut names: Vec<String> = fs::read_dir(at).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    let mut names: Vec<String> = fs::read_dir(at)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
     names.sort();
     let wanted = [
         "assess.svg",
@@ -129,7 +188,9 @@ fn errors_quote_a_file_without_its_control_characters() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     let mut texts = Vec::new();
-    for pointer in ["/blocks/1/material", "/joints/overrides/0/blocks/0", "/loads/live/0/block", "/format"] {
+    for pointer in
+        ["/blocks/1/material", "/joints/overrides/0/blocks/0", "/loads/live/0/block", "/format"]
+    {
         let mut broken = scene();
         *broken.pointer_mut(pointer).unwrap() = json!(format!("{HOSTILE}!"));
         texts.push(broken.to_string());
@@ -152,7 +213,8 @@ fn errors_quote_a_file_without_its_control_characters() {
 
 #[test]
 fn paths_in_a_file_lead_nowhere_else() {
-    // The path of a mesh stays in the folder of the scene (see `mesh_files`), and what it names is quoted only where it is meant for a mesh.
+    // The path of a mesh stays in the folder of the scene (see `mesh_files`), and what it names is
+    // quoted only where it is meant for a mesh.
     let folder = tempfile::tempdir().unwrap();
     let mut with_path = scene();
     with_path["blocks"][1]["shape"] = json!({ "mesh": { "path": "/etc/passwd" } });

@@ -1,4 +1,5 @@
-//! Answers do not depend on units, density, place, direction, order or the triangulation of faces; nor on what is left out.
+//! Answers do not depend on units, density, place, direction, order or the triangulation of faces;
+//! nor on what is left out.
 
 use crate::ask::{push, scene, sphere, template};
 use nalgebra::{Rotation3, Vector3};
@@ -14,18 +15,22 @@ use voussoir::{
 
 type V = Vector3<f64>;
 
-/// Critical thickness over radius of the semicircular arch of 16 straight-chord voussoirs (five-hinge closed form).
+/// Critical thickness over radius of the semicircular arch of 16 straight-chord voussoirs
+/// (five-hinge closed form).
 const CRITICAL: f64 = 0.10707620314306167;
 
 fn arch(thickness: f64, mu: f64) -> Scene {
-    template(mu, json!({ "arch": { "radius": 1.0, "thickness": thickness, "depth": 1.0, "voussoirs": 16 } }), push([1.0, 0.0, 0.0]))
+    template(
+        mu,
+        json!({ "arch": { "radius": 1.0, "thickness": thickness, "depth": 1.0, "voussoirs": 16 } }),
+        push([1.0, 0.0, 0.0]),
+    )
 }
 
 /// Scenes that show every kind of geometry.
 fn scenes() -> Vec<(&'static str, Scene)> {
     let live = || push([1.0, 0.0, 0.0]);
-    let box_ =
-        |x: f64, z: f64| json!({ "id": format!("p{x}{z}"), "shape": { "box": { "size": [1, 1, 1] } }, "at": [x, 0, z], "support": true });
+    let box_ = |x: f64, z: f64| json!({ "id": format!("p{x}{z}"), "shape": { "box": { "size": [1, 1, 1] } }, "at": [x, 0, z], "support": true });
     vec![
         ("arch that stands", arch(CRITICAL * 1.001, 0.8)),
         ("arch that falls", arch(CRITICAL * 0.999, 0.8)),
@@ -45,8 +50,22 @@ fn scenes() -> Vec<(&'static str, Scene)> {
                 live(),
             ),
         ),
-        ("dome", template(0.7, json!({ "dome": { "radius": 2.0, "thickness": 0.3, "rings": 3, "segments": 8 } }), live())),
-        ("leaning stack", template(0.6, json!({ "stack": { "blocks": 6, "size": [1, 1, 0.2], "shift": 0.1 } }), live())),
+        (
+            "dome",
+            template(
+                0.7,
+                json!({ "dome": { "radius": 2.0, "thickness": 0.3, "rings": 3, "segments": 8 } }),
+                live(),
+            ),
+        ),
+        (
+            "leaning stack",
+            template(
+                0.6,
+                json!({ "stack": { "blocks": 6, "size": [1, 1, 0.2], "shift": 0.1 } }),
+                live(),
+            ),
+        ),
         (
             "spheres",
             scene(
@@ -106,15 +125,28 @@ fn faces(b: &BlockSpec) -> Option<(Vec<V>, Vec<Vec<usize>>)> {
         Shape::Prism { polygon, depth } => {
             let n = polygon.len();
             (
-                (0..2 * n).map(|k| V::new(polygon[k % n][0], if k < n { -0.5 * depth } else { 0.5 * depth }, polygon[k % n][1])).collect(),
+                (0..2 * n)
+                    .map(|k| {
+                        V::new(
+                            polygon[k % n][0],
+                            if k < n { -0.5 * depth } else { 0.5 * depth },
+                            polygon[k % n][1],
+                        )
+                    })
+                    .collect(),
                 quad(n),
             )
         }
-        Shape::Polyhedron { vertices, faces } => (vertices.iter().map(|&v| v.into()).collect(), faces.clone()),
-        Shape::Mesh { scale, vertices, faces, .. } => (vertices.iter().map(|&v| V::from(v) * *scale).collect(), faces.clone()),
+        Shape::Polyhedron { vertices, faces } => {
+            (vertices.iter().map(|&v| v.into()).collect(), faces.clone())
+        }
+        Shape::Mesh { scale, vertices, faces, .. } => {
+            (vertices.iter().map(|&v| V::from(v) * *scale).collect(), faces.clone())
+        }
     };
-    let turn =
-        b.rotation_deg.as_ref().map_or(Rotation3::identity(), |r| Rotation3::new(V::from(r.axis).normalize() * r.angle.to_radians()));
+    let turn = b.rotation_deg.as_ref().map_or(Rotation3::identity(), |r| {
+        Rotation3::new(V::from(r.axis).normalize() * r.angle.to_radians())
+    });
     Some((points.iter().map(|p| turn * p + V::from(b.at)).collect(), faces))
 }
 
@@ -159,7 +191,10 @@ fn changed(scene: &Scene, c: &Change) -> Scene {
                         }
                     })
                     .collect();
-                b.shape = Shape::Polyhedron { vertices: points.iter().map(|p| place(*p)).collect(), faces };
+                b.shape = Shape::Polyhedron {
+                    vertices: points.iter().map(|p| place(*p)).collect(),
+                    faces,
+                };
                 (b.at, b.rotation_deg) = ([0.0; 3], None);
             }
         }
@@ -199,10 +234,21 @@ fn answers(scene: &Scene, keep_all: bool) -> Answers {
 }
 
 fn same(name: &str, a: &Answers, b: &Answers, scale: f64) {
-    assert_eq!((a.verdict, a.outcome, a.interfaces), (b.verdict, b.outcome, b.interfaces), "{name}");
-    let near = |x: f64, y: f64, tol: f64| x == y || (x.is_nan() && y.is_nan()) || (x - y).abs() <= tol * x.abs().max(1e-3);
+    assert_eq!(
+        (a.verdict, a.outcome, a.interfaces),
+        (b.verdict, b.outcome, b.interfaces),
+        "{name}"
+    );
+    let near = |x: f64, y: f64, tol: f64| {
+        x == y || (x.is_nan() && y.is_nan()) || (x - y).abs() <= tol * x.abs().max(1e-3)
+    };
     assert!(near(a.value, b.value, 1e-6), "{name}: load factor {} and {}", a.value, b.value);
-    assert!(near(a.area * scale * scale, b.area, 1e-6), "{name}: area {} and {}", a.area * scale * scale, b.area);
+    assert!(
+        near(a.area * scale * scale, b.area, 1e-6),
+        "{name}: area {} and {}",
+        a.area * scale * scale,
+        b.area
+    );
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Large programs take the engine that is written for them; what it finds is proved like any other answer.
+//! Large programs take the engine that is written for them; what it finds is proved like any other
+//! answer.
 
 use voussoir::{
     analysis::{self, Control, Law, Outcome, limit::Formulation},
@@ -21,7 +22,8 @@ fn wall(courses: usize, length: usize, push: [f64; 3]) -> Model {
 
 #[test]
 fn load_factors_are_proved_and_agree_with_the_other_engine() {
-    // In its plane as a linear program; out of it with round friction cones and an exact answer, thickness over height.
+    // In its plane as a linear program; out of it with round friction cones and an exact answer,
+    // thickness over height.
     for (push, exact) in [([1.0, 0.0, 0.0], None), ([0.0, 1.0, 0.0], Some(0.5 / (20.0 * 0.4)))] {
         let model = &wall(20, 20, push);
         let answer = analysis::limit(model, &Control::default());
@@ -29,7 +31,9 @@ fn load_factors_are_proved_and_agree_with_the_other_engine() {
         assert_eq!(answer.attempts.len(), 1, "{:?}", answer.attempts);
         assert_eq!(answer.attempts[0].engine, Engine::Interior);
         assert!(answer.claim().is_some());
-        let other = exact.unwrap_or_else(|| analysis::limit::attempt(model, &Formulation::usual(Unknowns::Rates)).value);
+        let other = exact.unwrap_or_else(|| {
+            analysis::limit::attempt(model, &Formulation::usual(Unknowns::Rates)).value
+        });
         assert!((answer.value / other - 1.0).abs() < 1e-6, "{} {other}", answer.value);
     }
 }
@@ -57,9 +61,20 @@ fn a_time_limit_holds_and_what_is_given_is_true() {
     let model = &wall(20, 20, [1.0, 0.0, 0.0]);
     let exact = analysis::limit(model, &Control::default()).value;
     for seconds in [0.0, 0.05, 0.2] {
-        let answer = analysis::limit(model, &Control { deadline: Deadline::within(seconds), ..Control::default() });
-        assert!(matches!(answer.outcome, Outcome::Found | Outcome::Undecided), "{:?}", answer.outcome);
+        let answer = analysis::limit(
+            model,
+            &Control { deadline: Deadline::within(seconds), ..Control::default() },
+        );
+        assert!(
+            matches!(answer.outcome, Outcome::Found | Outcome::Undecided),
+            "{:?}",
+            answer.outcome
+        );
         let room = 2e-6 * exact;
-        assert!(answer.bracket.lower <= exact + room && answer.bracket.upper >= exact - room, "{:?} {exact}", answer.bracket);
+        assert!(
+            answer.bracket.lower <= exact + room && answer.bracket.upper >= exact - room,
+            "{:?} {exact}",
+            answer.bracket
+        );
     }
 }

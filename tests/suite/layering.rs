@@ -10,7 +10,10 @@ fn sources(folder: &str) -> Vec<(PathBuf, String)> {
             open.extend(std::fs::read_dir(&path).unwrap().map(|e| e.unwrap().path()));
         } else if path.extension().is_some_and(|e| e == "rs") {
             let text = std::fs::read_to_string(&path).unwrap();
-            list.push((path.strip_prefix(env!("CARGO_MANIFEST_DIR")).unwrap().to_path_buf(), code(&text)));
+            list.push((
+                path.strip_prefix(env!("CARGO_MANIFEST_DIR")).unwrap().to_path_buf(),
+                code(&text),
+            ));
         }
     }
     list.sort();
@@ -21,16 +24,23 @@ fn sources(folder: &str) -> Vec<(PathBuf, String)> {
 /// The program text without comments and without the tests at its foot.
 fn code(text: &str) -> String {
     let text = text.split("#[cfg(test)]").next().unwrap_or_default();
-    text.lines().map(|l| if l.trim_start().starts_with("//") { "" } else { l }).collect::<Vec<_>>().join("\n")
+    text.lines()
+        .map(|l| if l.trim_start().starts_with("//") { "" } else { l })
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 fn is_test(path: &Path) -> bool {
-    path.components().any(|c| c.as_os_str() == "tests") || path.file_stem().is_some_and(|s| s.to_string_lossy().contains("tests"))
+    path.components().any(|c| c.as_os_str() == "tests")
+        || path.file_stem().is_some_and(|s| s.to_string_lossy().contains("tests"))
 }
 
 fn order() -> Vec<String> {
     let lib = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/lib.rs")).unwrap();
-    lib.lines().filter_map(|l| l.strip_prefix("pub mod ")).map(|m| m.trim_end_matches(';').to_string()).collect()
+    lib.lines()
+        .filter_map(|l| l.strip_prefix("pub mod "))
+        .map(|m| m.trim_end_matches(';').to_string())
+        .collect()
 }
 
 /// The module of a file: `src/scene/read.rs` → `scene`.
@@ -39,7 +49,8 @@ fn module(path: &Path) -> String {
     part.trim_end_matches(".rs").to_string()
 }
 
-/// What is named after a prefix such as `crate::`, in paths and in grouped imports, with all that follows in the path.
+/// What is named after a prefix such as `crate::`, in paths and in grouped imports, with all that
+/// follows in the path.
 fn named_after(text: &str, prefix: &str) -> Vec<String> {
     let mut found = Vec::new();
     for (at, _) in text.match_indices(prefix) {
@@ -52,7 +63,9 @@ fn named_after(text: &str, prefix: &str) -> Vec<String> {
             });
             &inner[..end.unwrap_or(inner.len())]
         } else {
-            rest.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':').next().unwrap_or_default()
+            rest.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':')
+                .next()
+                .unwrap_or_default()
         };
         let mut depth = 0;
         let mut names = vec![String::new()];
@@ -75,7 +88,11 @@ fn first(path: &str) -> &str {
 
 /// Modules named after `crate::`.
 fn used(text: &str, order: &[String]) -> Vec<String> {
-    named_after(text, "crate::").iter().map(|path| first(path).to_string()).filter(|name| order.contains(name)).collect()
+    named_after(text, "crate::")
+        .iter()
+        .map(|path| first(path).to_string())
+        .filter(|name| order.contains(name))
+        .collect()
 }
 
 #[test]
@@ -87,7 +104,11 @@ fn a_module_uses_only_modules_above_it() {
         let Some(rank) = order.iter().position(|m| *m == own) else { continue };
         for other in used(&text, &order) {
             let above = order.iter().position(|m| *m == other).unwrap();
-            assert!(above <= rank || is_test(&path), "{}: {own} uses {other}, which is declared below it", path.display());
+            assert!(
+                above <= rank || is_test(&path),
+                "{}: {own} uses {other}, which is declared below it",
+                path.display()
+            );
         }
     }
 }
@@ -97,7 +118,8 @@ fn certificates_never_see_the_program() {
     for (path, text) in sources("src/verdict") {
         for word in ["program", "solve::", "Statics::new", "clarabel"] {
             assert!(
-                !text.contains(&format!("crate::{word}")) && !text.contains(&format!("    {word},")),
+                !text.contains(&format!("crate::{word}"))
+                    && !text.contains(&format!("    {word},")),
                 "{} names {word}",
                 path.display()
             );
@@ -105,31 +127,55 @@ fn certificates_never_see_the_program() {
     }
 }
 
-/// The numbers that forces are judged by are derived a second time (`verdict::joint`), not asked of the room that the program has them from.
+/// The numbers that forces are judged by are derived a second time (`verdict::joint`), not asked of
+/// the room that the program has them from.
 #[test]
 fn certificates_derive_shares_and_uplift_themselves() {
     for (path, text) in sources("src/verdict") {
         for name in named_after(&text, "strength::") {
-            assert!(["crushing", "laws"].contains(&first(&name)), "{} names strength::{name}", path.display());
+            assert!(
+                ["crushing", "laws"].contains(&first(&name)),
+                "{} names strength::{name}",
+                path.display()
+            );
         }
-        let whole = named_after(&text, "crate::").into_iter().find(|name| first(name) == "strength" && !name.contains("::"));
+        let whole = named_after(&text, "crate::")
+            .into_iter()
+            .find(|name| first(name) == "strength" && !name.contains("::"));
         assert_eq!(whole, None, "{} uses the whole room", path.display());
     }
 }
 
-/// Who holds an answer holds its check: claims are checked where answers are made and where results are read, and nowhere else.
+/// Who holds an answer holds its check: claims are checked where answers are made and where results
+/// are read, and nowhere else.
 #[test]
 fn claims_are_checked_in_one_place() {
     for (path, text) in sources("src") {
         let name = path.to_string_lossy().replace('\\', "/");
-        let known = ["src/verdict/", "src/proof/", "src/analysis/proved.rs"].iter().any(|home| name.starts_with(home));
+        let known = ["src/verdict/", "src/proof/", "src/analysis/proved.rs"]
+            .iter()
+            .any(|home| name.starts_with(home));
         // The ladder of verdicts goes on until the forces of one prove it.
         let known = known || name == "src/analysis/assess.rs";
-        assert!(known || !text.contains("check::verify("), "{name} checks a claim by itself: answers come checked (Proved)");
+        assert!(
+            known || !text.contains("check::verify("),
+            "{name} checks a claim by itself: answers come checked (Proved)"
+        );
     }
     for (path, text) in sources("src/cli") {
-        for stage in ["program", "solve", "verdict::check", "analysis::assess", "analysis::limit", "analysis::thrust"] {
-            assert!(!text.contains(&format!("{stage}::")), "{} composes stages: that is what `ask` is for", path.display());
+        for stage in [
+            "program",
+            "solve",
+            "verdict::check",
+            "analysis::assess",
+            "analysis::limit",
+            "analysis::thrust",
+        ] {
+            assert!(
+                !text.contains(&format!("{stage}::")),
+                "{} composes stages: that is what `ask` is for",
+                path.display()
+            );
         }
     }
 }
@@ -139,7 +185,17 @@ fn claims_are_checked_in_one_place() {
 fn dynamics_never_sees_program_solver_or_verdict() {
     for (path, text) in sources("src/dynamics") {
         for word in used(&text, &order()) {
-            let known = ["error", "tolerance", "plane", "scene", "assembly", "interface", "strength", "dynamics"].contains(&word.as_str());
+            let known = [
+                "error",
+                "tolerance",
+                "plane",
+                "scene",
+                "assembly",
+                "interface",
+                "strength",
+                "dynamics",
+            ]
+            .contains(&word.as_str());
             assert!(known, "{} uses {word}", path.display());
         }
     }
@@ -157,10 +213,22 @@ fn one_engine_one_adapter() {
             ("clap", "src/cli/"),
         ] {
             // Hulls of random points are made by the same library that finds candidates.
-            let home = if engine == "parry3d" && name == "src/generate/hull.rs" { "src/generate/hull.rs" } else { home };
-            let home = if engine == "faer" && name == "src/solve/lu.rs" { "src/solve/lu.rs" } else { home };
-            let named = text.contains(&format!("{engine}::")) || text.contains(&format!("use {engine}"));
-            assert!(!named || name.starts_with(home) || (engine == "clap" && name == "src/main.rs"), "{name} names {engine}");
+            let home = if engine == "parry3d" && name == "src/generate/hull.rs" {
+                "src/generate/hull.rs"
+            } else {
+                home
+            };
+            let home = if engine == "faer" && name == "src/solve/lu.rs" {
+                "src/solve/lu.rs"
+            } else {
+                home
+            };
+            let named =
+                text.contains(&format!("{engine}::")) || text.contains(&format!("use {engine}"));
+            assert!(
+                !named || name.starts_with(home) || (engine == "clap" && name == "src/main.rs"),
+                "{name} names {engine}"
+            );
         }
     }
 }
@@ -178,12 +246,21 @@ fn files_stay_small_and_main_smaller() {
 
 #[test]
 fn files_are_opened_and_tables_written_in_one_place_each() {
-    for (word, home) in [("File::open(", "src/files.rs"), ("fs::read(", "src/files.rs"), ("csv::Writer", "src/report/cells.rs")] {
+    for (word, home) in [
+        ("File::open(", "src/files.rs"),
+        ("fs::read(", "src/files.rs"),
+        ("csv::Writer", "src/report/cells.rs"),
+    ] {
         for (path, text) in sources("src") {
             let name = path.to_string_lossy().replace('\\', "/");
             // Not as the end of a longer name: `RowsFile::open`.
-            let holds = text.match_indices(word).any(|(at, _)| !text[..at].ends_with(char::is_alphanumeric));
-            assert!(is_test(&path) || name == home || !holds, "{name} holds {word}, which belongs to {home}");
+            let holds = text
+                .match_indices(word)
+                .any(|(at, _)| !text[..at].ends_with(char::is_alphanumeric));
+            assert!(
+                is_test(&path) || name == home || !holds,
+                "{name} holds {word}, which belongs to {home}"
+            );
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Meshes in files of their own: `{ "mesh": { "path": "stone.obj" } }`. They are blocks like others, results need no file, and a path
-//! leads nowhere but to a mesh in the folder of the scene.
+//! Meshes in files of their own: `{ "mesh": { "path": "stone.obj" } }`. They are blocks like
+//! others, results need no file, and a path leads nowhere but to a mesh in the folder of the scene.
 
 use serde_json::{Value, json};
 use std::{
@@ -66,13 +66,16 @@ impl Desk {
 }
 
 fn load_factor(result: &str) -> f64 {
-    serde_json::from_str::<Value>(result).unwrap()["answer"]["load_factor"]["value"].as_f64().unwrap()
+    serde_json::from_str::<Value>(result).unwrap()["answer"]["load_factor"]["value"]
+        .as_f64()
+        .unwrap()
 }
 
 #[test]
 fn a_mesh_in_a_file_is_the_block_it_would_be_in_the_scene() {
     let desk = Desk::new();
-    let corners: Vec<[f64; 3]> = FRUSTUM.lines().filter_map(|l| l.strip_prefix("v ")).map(numbers).collect();
+    let corners: Vec<[f64; 3]> =
+        FRUSTUM.lines().filter_map(|l| l.strip_prefix("v ")).map(numbers).collect();
     let faces: Vec<Vec<usize>> = FRUSTUM
         .lines()
         .filter_map(|l| l.strip_prefix("f "))
@@ -93,8 +96,12 @@ fn a_mesh_in_a_file_is_the_block_it_would_be_in_the_scene() {
     fs::write(desk.work().join("stones/frustum.ply"), ply).unwrap();
     let mut stl = "solid stone\n".to_string();
     for face in faces.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]) {
-        let points: Vec<String> = face.iter().map(|&i| format!("vertex {}", list(&corners[i]))).collect();
-        stl.push_str(&format!("facet normal 0 0 0 outer loop\n{}\nendloop\nendfacet\n", points.join("\n")).replace("outer", "\nouter"));
+        let points: Vec<String> =
+            face.iter().map(|&i| format!("vertex {}", list(&corners[i]))).collect();
+        stl.push_str(
+            &format!("facet normal 0 0 0 outer loop\n{}\nendloop\nendfacet\n", points.join("\n"))
+                .replace("outer", "\nouter"),
+        );
     }
     fs::write(desk.work().join("stones/frustum.stl"), stl + "endsolid\n").unwrap();
     desk.put("ply.json", &mesh("./stones/../stones/frustum.ply"));
@@ -105,12 +112,22 @@ fn a_mesh_in_a_file_is_the_block_it_would_be_in_the_scene() {
         assert_eq!((code, err.as_str()), (Some(0), ""), "{name}");
         assert!((load_factor(&out) / exact - 1.0).abs() < 1e-7, "{name}: {}", load_factor(&out));
         // From elsewhere the path still starts at the scene.
-        let (code, again, _) = run(desk.root.path(), &["limit", &format!("work/{name}.json"), "--json"]);
+        let (code, again, _) =
+            run(desk.root.path(), &["limit", &format!("work/{name}.json"), "--json"]);
         assert_eq!((code, load_factor(&again)), (Some(0), load_factor(&out)), "{name}");
     }
     // From standard input it starts where the program runs.
-    let mut child = command(&desk.work(), &["limit", "-", "--json"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    child.stdin.take().unwrap().write_all(mesh("stones/frustum.obj").to_string().as_bytes()).unwrap();
+    let mut child = command(&desk.work(), &["limit", "-", "--json"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child
+        .stdin
+        .take()
+        .unwrap()
+        .write_all(mesh("stones/frustum.obj").to_string().as_bytes())
+        .unwrap();
     let output = child.wait_with_output().unwrap();
     assert!((load_factor(&String::from_utf8(output.stdout).unwrap()) / exact - 1.0).abs() < 1e-7);
 }
@@ -131,12 +148,16 @@ fn a_result_with_a_mesh_needs_no_file() {
     let (code, out, err) = run(&at, &["check", "result.json"]);
     assert_eq!(code, Some(0), "{out}{err}");
     // The scene inside it is a scene, file or no file.
-    let result: Value = serde_json::from_str(&fs::read_to_string(at.join("result.json")).unwrap()).unwrap();
+    let result: Value =
+        serde_json::from_str(&fs::read_to_string(at.join("result.json")).unwrap()).unwrap();
     let inside = &result["scene"]["input"];
     assert_eq!(inside["blocks"][1]["shape"]["mesh"]["path"], "stones/frustum.obj");
     desk.put("inside.json", inside);
     let (code, out, _) = run(&at, &["limit", "inside.json", "--json"]);
-    assert_eq!((code, load_factor(&out)), (Some(0), result["answer"]["load_factor"]["value"].as_f64().unwrap()));
+    assert_eq!(
+        (code, load_factor(&out)),
+        (Some(0), result["answer"]["load_factor"]["value"].as_f64().unwrap())
+    );
     // And a stone that was made larger by hand refutes the proof.
     let mut forged = result.clone();
     forged["scene"]["input"]["blocks"][1]["shape"]["mesh"]["scale"] = json!(0.002);
@@ -180,7 +201,11 @@ fn what_the_reader_says_of_a_mesh_is_said_and_what_it_refuses_is_refused() {
     // Inside out: mended with the word that is said of every shape.
     let turned: Vec<String> = FRUSTUM
         .lines()
-        .map(|l| l.strip_prefix("f ").map_or(l.into(), |f| format!("f {}", f.split(' ').rev().collect::<Vec<_>>().join(" "))))
+        .map(|l| {
+            l.strip_prefix("f ").map_or(l.into(), |f| {
+                format!("f {}", f.split(' ').rev().collect::<Vec<_>>().join(" "))
+            })
+        })
         .collect();
     fs::write(at.join("turned.obj"), turned.join("\n")).unwrap();
     desk.put("turned.json", &mesh("turned.obj"));
@@ -202,7 +227,10 @@ fn what_the_reader_says_of_a_mesh_is_said_and_what_it_refuses_is_refused() {
         desk.put("question.json", &mesh(name));
         let (code, out, err) = run(&at, &["assess", "question.json"]);
         assert_eq!((code, out.as_str()), (Some(2), ""), "{name}: {err}");
-        assert!(err.contains(says) && err.contains("blocks[1].shape.mesh") && err.contains("hint: "), "{name}: {err}");
+        assert!(
+            err.contains(says) && err.contains("blocks[1].shape.mesh") && err.contains("hint: "),
+            "{name}: {err}"
+        );
     }
 }
 
@@ -228,7 +256,8 @@ fn a_path_leads_nowhere_but_to_a_mesh_in_the_folder() {
     ];
     #[cfg(unix)]
     {
-        std::os::unix::fs::symlink(desk.root.path().join("outside.obj"), at.join("link.obj")).unwrap();
+        std::os::unix::fs::symlink(desk.root.path().join("outside.obj"), at.join("link.obj"))
+            .unwrap();
         std::os::unix::fs::symlink(desk.root.path(), at.join("up")).unwrap();
         std::os::unix::fs::symlink("loop.obj", at.join("loop.obj")).unwrap();
         std::os::unix::fs::symlink("/dev/zero", at.join("zero.obj")).unwrap();
@@ -239,7 +268,8 @@ fn a_path_leads_nowhere_but_to_a_mesh_in_the_folder() {
             ("zero.obj".into(), link),
             ("loop.obj".into(), "cannot be read"),
         ]);
-        let made = Command::new("mkfifo").arg(at.join("pipe.obj")).status().is_ok_and(|s| s.success());
+        let made =
+            Command::new("mkfifo").arg(at.join("pipe.obj")).status().is_ok_and(|s| s.success());
         if made {
             cases.push(("pipe.obj".into(), "this is no regular file"));
         } else {
@@ -253,7 +283,10 @@ fn a_path_leads_nowhere_but_to_a_mesh_in_the_folder() {
             let (code, out, err) = run(&at, args);
             assert_eq!((code, out.as_str()), (Some(2), ""), "{path:?}: {err}");
             let placed = err.contains("blocks[1].shape.mesh.path: block \"stone\": ");
-            assert!(err.contains(says) && placed && err.contains("hint: ") && !err.contains("root:"), "{path:?}: {err}");
+            assert!(
+                err.contains(says) && placed && err.contains("hint: ") && !err.contains("root:"),
+                "{path:?}: {err}"
+            );
         }
     }
     assert_eq!(fs::read_dir(&at).unwrap().count(), before + 1, "nothing else is written");
@@ -281,7 +314,10 @@ fn a_path_leads_nowhere_but_to_a_mesh_in_the_folder() {
     // Leave to look elsewhere is no leave to hang.
     desk.put("scene.json", &mesh("/dev/zero"));
     let (code, _, err) = run(&at, &["assess", "scene.json", "--allow-outside"]);
-    assert!(code == Some(2) && (cfg!(not(unix)) || err.contains("this is no regular file")), "{err}");
+    assert!(
+        code == Some(2) && (cfg!(not(unix)) || err.contains("this is no regular file")),
+        "{err}"
+    );
 }
 
 #[test]
@@ -296,7 +332,10 @@ fn meshes_that_are_too_long_are_refused_before_they_are_read() {
     drop(sparse);
     desk.put("scene.json", &mesh("long.obj"));
     let (code, _, err) = run(&at, &["assess", "scene.json"]);
-    assert!(code == Some(2) && err.contains("the file has 10.0 GiB, at most 2.0 GiB are read"), "{err}");
+    assert!(
+        code == Some(2) && err.contains("the file has 10.0 GiB, at most 2.0 GiB are read"),
+        "{err}"
+    );
     // One file of modest length, named often.
     fs::write(at.join("long.obj"), format!("{FRUSTUM}#{}\n", " ".repeat(1 << 20))).unwrap();
     let mut many = mesh("long.obj");

@@ -1,7 +1,9 @@
-//! Meshes as they come: one file for each thing that can be wrong with one (`tests/meshes`), with what has to be said about it.
+//! Meshes as they come: one file for each thing that can be wrong with one (`tests/meshes`), with
+//! what has to be said about it.
 //!
-//! A file begins with a sentence in a comment; the comments after it are what is expected of the block called `stone`: `silent` (nothing
-//! is said), `said: …` (a finding with these words), `refused: …` (an error with these words, and a remedy), `volume: …` in m³.
+//! A file begins with a sentence in a comment; the comments after it are what is expected of the
+//! block called `stone`: `silent` (nothing is said), `said: …` (a finding with these words),
+//! `refused: …` (an error with these words, and a remedy), `volume: …` in m³.
 
 use std::path::{Path, PathBuf};
 use voussoir::{
@@ -14,7 +16,8 @@ use voussoir::{
 
 fn corpus() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
-    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
     files.sort();
     files
 }
@@ -29,7 +32,8 @@ fn differences(text: &str) -> Vec<String> {
         supports: vec!["ground".into()],
         ..ImportOptions::default()
     };
-    let result = import_bytes("mesh.obj", text.as_bytes(), &options).and_then(|imported| prepare(&imported.scene));
+    let result = import_bytes("mesh.obj", text.as_bytes(), &options)
+        .and_then(|imported| prepare(&imported.scene));
     let model = match result {
         Ok(model) => model,
         Err(e) => {
@@ -37,14 +41,21 @@ fn differences(text: &str) -> Vec<String> {
                 wrong.push(format!("no remedy: {e}"));
             }
             match expected[..] {
-                [one] if one.strip_prefix("refused: ").is_some_and(|words| e.to_string().contains(words.trim())) => {}
+                [one]
+                    if one
+                        .strip_prefix("refused: ")
+                        .is_some_and(|words| e.to_string().contains(words.trim())) => {}
                 _ => wrong.push(format!("refused: {e}")),
             }
             return wrong;
         }
     };
     // Density 1 kg/m³ is a mistake of units on purpose: masses are volumes.
-    let said: Vec<&str> = model.findings().filter(|f| !f.text.contains("density of 1.000e0")).map(|f| f.text.as_str()).collect();
+    let said: Vec<&str> = model
+        .findings()
+        .filter(|f| !f.text.contains("density of 1.000e0"))
+        .map(|f| f.text.as_str())
+        .collect();
     let stone = &model.assembly.blocks[model.assembly.find("stone").unwrap()];
     for line in expected {
         let fits = match line.split_once(": ").unwrap_or((line, "")) {
@@ -61,7 +72,10 @@ fn differences(text: &str) -> Vec<String> {
         }
     }
     // Whatever it is, a question about it has an answer.
-    assess(&model, &Control { deadline: voussoir::deadline::Deadline::within(10.0), ..Control::default() });
+    assess(
+        &model,
+        &Control { deadline: voussoir::deadline::Deadline::within(10.0), ..Control::default() },
+    );
     wrong
 }
 
@@ -80,7 +94,8 @@ fn every_bad_mesh_is_mended_with_a_word_or_refused_with_the_reason() {
 
 #[test]
 fn what_is_expected_of_a_mesh_is_really_compared() {
-    let good = std::fs::read_to_string(corpus().iter().find(|p| p.ends_with("good.obj")).unwrap()).unwrap();
+    let good = std::fs::read_to_string(corpus().iter().find(|p| p.ends_with("good.obj")).unwrap())
+        .unwrap();
     assert_eq!(differences(&good), [""; 0]);
     assert_eq!(differences(&good.replace("volume: 6", "volume: 7")).len(), 1);
     assert_eq!(differences(&good.replace("silent", "said: something")).len(), 1);
@@ -95,10 +110,16 @@ fn real_files_with_open_edges_are_refused_with_the_place_of_one() {
         return;
     };
     let mut count = 0;
-    for path in list.map(|e| e.unwrap().path()).filter(|p| p.extension().is_some_and(|e| e == "ply")) {
+    for path in
+        list.map(|e| e.unwrap().path()).filter(|p| p.extension().is_some_and(|e| e == "ply"))
+    {
         count += 1;
-        let options = ImportOptions { friction: Some(Friction::Coefficient(0.6)), ..ImportOptions::default() };
-        let mut imported = voussoir::import::import_file(&path, &options).unwrap_or_else(|e| panic!("{e}"));
+        let options = ImportOptions {
+            friction: Some(Friction::Coefficient(0.6)),
+            ..ImportOptions::default()
+        };
+        let mut imported =
+            voussoir::import::import_file(&path, &options).unwrap_or_else(|e| panic!("{e}"));
         // A table under the stone, so that there is something to prepare.
         let mut table = imported.scene.blocks[0].clone();
         table.id = "table".into();
@@ -107,8 +128,16 @@ fn real_files_with_open_edges_are_refused_with_the_place_of_one() {
         table.at = [1e3, 0.0, 0.0];
         imported.scene.blocks.push(table);
         match prepare(&imported.scene) {
-            Ok(model) => assert!(model.findings().any(|f| f.code == FindingCode::Mended), "{}: nothing is said", path.display()),
-            Err(e) => assert!(e.to_string().contains("open") && e.hint.is_some(), "{}: {e}", path.display()),
+            Ok(model) => assert!(
+                model.findings().any(|f| f.code == FindingCode::Mended),
+                "{}: nothing is said",
+                path.display()
+            ),
+            Err(e) => assert!(
+                e.to_string().contains("open") && e.hint.is_some(),
+                "{}: {e}",
+                path.display()
+            ),
         }
     }
     assert!(count >= 3, "{count}");

@@ -1,7 +1,9 @@
-//! Mistakes of units, axes, loads, meshes and ids, one file each (`tests/mistakes`), found with the right advice; and no scene that is meant as it is takes one for granted.
+//! Mistakes of units, axes, loads, meshes and ids, one file each (`tests/mistakes`), found with the
+//! right advice; and no scene that is meant as it is takes one for granted.
 //!
-//! `mistakes.json` lists them: `file`, `mistake` in words, `ask` (`check`; `refused`, an error of every verb; `import` with its options) and `says`, words that have to be
-//! on one line of what is said.
+//! `mistakes.json` lists them: `file`, `mistake` in words, `ask` (`check`; `refused`, an error of
+//! every verb; `import` with its options) and `says`, words that have to be on one line of what is
+//! said.
 
 use super::{granular, reference};
 use serde_json::Value;
@@ -19,7 +21,11 @@ fn root() -> PathBuf {
 
 /// Exit code, standard output and standard error of a command in the folder of mistakes.
 fn run(args: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_voussoir")).current_dir(root().join("tests/mistakes")).args(args).output().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_voussoir"))
+        .current_dir(root().join("tests/mistakes"))
+        .args(args)
+        .output()
+        .unwrap();
     let text = |b: &[u8]| String::from_utf8_lossy(b).into_owned();
     (output.status.code().unwrap(), text(&output.stdout), text(&output.stderr))
 }
@@ -28,13 +34,18 @@ fn run(args: &[&str]) -> (i32, String, String) {
 fn says(text: &str, words: &[&str]) -> bool {
     let lines: Vec<&str> = text.lines().collect();
     let pairs = lines.windows(2).filter(|p| p[1].starts_with("hint: ")).map(|p| p.concat());
-    lines.iter().map(|l| l.to_string()).chain(pairs).any(|line| words.iter().all(|w| line.contains(w)))
+    lines
+        .iter()
+        .map(|l| l.to_string())
+        .chain(pairs)
+        .any(|line| words.iter().all(|w| line.contains(w)))
 }
 
 /// What is not as it should be about one mistake.
 fn missed(mistake: &Value) -> Vec<String> {
     let file = mistake["file"].as_str().unwrap();
-    let words: Vec<&str> = mistake["says"].as_array().unwrap().iter().map(|w| w.as_str().unwrap()).collect();
+    let words: Vec<&str> =
+        mistake["says"].as_array().unwrap().iter().map(|w| w.as_str().unwrap()).collect();
     let mut wrong = Vec::new();
     let mut expect = |args: &[&str], code: &dyn Fn(i32) -> bool| {
         let (exit, _, said) = run(args);
@@ -53,7 +64,11 @@ fn missed(mistake: &Value) -> Vec<String> {
             let (exit, told, _) = run(&["check", file, "--json"]);
             let found: Value = serde_json::from_str(&told).unwrap();
             let found = found["findings"].as_array().unwrap();
-            if exit != 1 || !found.iter().any(|f| words.iter().all(|w| f["text"].as_str().unwrap().contains(w))) {
+            if exit != 1
+                || !found
+                    .iter()
+                    .any(|f| words.iter().all(|w| f["text"].as_str().unwrap().contains(w)))
+            {
                 wrong.push(format!("{file}: check ends with {exit} and says {found:?}"));
             }
         }
@@ -62,7 +77,10 @@ fn missed(mistake: &Value) -> Vec<String> {
             expect(&["assess", file], &|exit| exit == 2);
         }
         import => {
-            let args: Vec<&str> = ["import", file, "--output", "-"].into_iter().chain(import.split_whitespace().skip(1)).collect();
+            let args: Vec<&str> = ["import", file, "--output", "-"]
+                .into_iter()
+                .chain(import.split_whitespace().skip(1))
+                .collect();
             expect(&args, &|exit| exit < 2);
         }
     }
@@ -72,36 +90,60 @@ fn missed(mistake: &Value) -> Vec<String> {
 #[test]
 fn every_slip_is_found_with_the_right_advice() {
     let folder = root().join("tests/mistakes");
-    let list: Value = serde_json::from_str(&std::fs::read_to_string(folder.join("mistakes.json")).unwrap()).unwrap();
+    let list: Value =
+        serde_json::from_str(&std::fs::read_to_string(folder.join("mistakes.json")).unwrap())
+            .unwrap();
     let list = list.as_array().unwrap();
     let wrong: Vec<String> = list.iter().flat_map(missed).collect();
     println!("{} mistakes, {} found", list.len(), list.len() - wrong.len().min(list.len()));
     assert!(list.len() >= 40 && wrong.is_empty(), "{wrong:#?}");
     for entry in std::fs::read_dir(&folder).unwrap() {
         let name = entry.unwrap().file_name().to_string_lossy().into_owned();
-        assert!(name == "mistakes.json" || list.iter().any(|s| s["file"] == *name), "{name} is in no row");
+        assert!(
+            name == "mistakes.json" || list.iter().any(|s| s["file"] == *name),
+            "{name} is in no row"
+        );
     }
 }
 
 #[test]
 fn an_import_says_how_large_the_thing_is_and_where_objects_are_broken() {
-    let (exit, _, said) = run(&["import", "pile-in-metres.obj", "--friction", "0.6", "--support", "ground", "--output", "-"]);
+    let (exit, _, said) = run(&[
+        "import",
+        "pile-in-metres.obj",
+        "--friction",
+        "0.6",
+        "--support",
+        "ground",
+        "--output",
+        "-",
+    ]);
     assert_eq!(exit, 0, "{said}");
     assert!(said.contains("5 blocks, 1 support; 3 × 3 × 2.5 m along x, y, z, from (-1, -1, -0.5) to (2, 2, 2); volume 6.5 m³"), "{said}");
     assert!(!said.contains("warning"), "{said}");
-    let (exit, scene, said) = run(&["import", "open.obj", "--friction", "0.6", "--support", "ground", "--output", "-"]);
+    let (exit, scene, said) =
+        run(&["import", "open.obj", "--friction", "0.6", "--support", "ground", "--output", "-"]);
     assert!(exit == 1 && scene.contains("stone1"), "it can be looked at: {said}");
     let text = std::fs::read_to_string(root().join("tests/mistakes/open.obj")).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    let line: usize = said.split("open.obj:").nth(1).and_then(|t| t.split(':').next()).unwrap().parse().unwrap();
+    let line: usize =
+        said.split("open.obj:").nth(1).and_then(|t| t.split(':').next()).unwrap().parse().unwrap();
     let object = lines[..line].iter().rfind(|l| l.starts_with("o ")).unwrap();
-    assert!(lines[line - 1].starts_with("f ") && *object == "o stone1", "line {line} is {:?} of {object:?}", lines[line - 1]);
+    assert!(
+        lines[line - 1].starts_with("f ") && *object == "o stone1",
+        "line {line} is {:?} of {object:?}",
+        lines[line - 1]
+    );
 }
 
 /// What is said of a scene that is meant as it is.
 fn false_mistakes(name: &str, scene: &Scene) -> Vec<String> {
     let model = prepare(scene).unwrap_or_else(|e| panic!("{name}: {e}"));
-    model.findings().filter(|f| f.code.is_implausible()).map(|f| format!("{name}: {}", f.text)).collect()
+    model
+        .findings()
+        .filter(|f| f.code.is_implausible())
+        .map(|f| format!("{name}: {}", f.text))
+        .collect()
 }
 
 #[test]
@@ -134,16 +176,25 @@ fn no_template_as_it_is_raises_a_false_one() {
 #[test]
 fn no_reference_case_raises_a_false_one() {
     let path = root().join("../shared/cases/masonry_cases.json");
-    let Ok(text) = std::fs::read_to_string(path) else { return println!("skipped: no reference cases at ../shared/cases") };
+    let Ok(text) = std::fs::read_to_string(path) else {
+        return println!("skipped: no reference cases at ../shared/cases");
+    };
     let file: Value = serde_json::from_str(&text).unwrap();
     let mut wrong = Vec::new();
     let mut seen = 0;
     for case in file["cases"].as_array().unwrap() {
         let given = |v: &Value| v.get("blocks").or_else(|| v.get("blocks3d")).is_some();
-        let variants: Vec<&Value> = case["variants"].as_array().into_iter().flatten().chain([case]).filter(|v| given(v)).collect();
+        let variants: Vec<&Value> = case["variants"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .chain([case])
+            .filter(|v| given(v))
+            .collect();
         let mu = reference::mu_of(case);
         for variant in variants {
-            let found = false_mistakes(&case["id"].to_string(), &reference::scene(case, variant, mu));
+            let found =
+                false_mistakes(&case["id"].to_string(), &reference::scene(case, variant, mu));
             // Where a case gives contacts alone, its reader puts supports a kilometre below them.
             wrong.extend(found.into_iter().filter(|text| !text.contains("points lie up to")));
             seen += 1;
@@ -163,7 +214,12 @@ fn no_real_assembly_raises_a_false_one() {
     if !folder.is_dir() {
         return println!("skipped: no ../shared/data/compas");
     }
-    let armadillo: Vec<String> = (0..8).chain(79..89).chain(217..228).chain(328..332).map(|k: usize| k.to_string()).collect();
+    let armadillo: Vec<String> = (0..8)
+        .chain(79..89)
+        .chain(217..228)
+        .chain(328..332)
+        .map(|k: usize| k.to_string())
+        .collect();
     let armadillo: Vec<&str> = armadillo.iter().map(String::as_str).collect();
     let mut wrong = Vec::new();
     for (file, supports) in [
@@ -185,13 +241,24 @@ fn no_real_assembly_raises_a_false_one() {
         for supports in [supports, &[]] {
             let options = ImportOptions {
                 supports: supports.iter().map(|s| s.to_string()).collect(),
-                support_files: if file.starts_with("dem-pav") { vec![folder.join("dem-pavillionvault/supports.json")] } else { Vec::new() },
+                support_files: if file.starts_with("dem-pav") {
+                    vec![folder.join("dem-pavillionvault/supports.json")]
+                } else {
+                    Vec::new()
+                },
                 friction: (!supports.is_empty()).then_some(Friction::Coefficient(0.84)),
                 ..ImportOptions::default()
             };
-            let imported = import_files(&[folder.join(file)], &options).unwrap_or_else(|e| panic!("{e}"));
+            let imported =
+                import_files(&[folder.join(file)], &options).unwrap_or_else(|e| panic!("{e}"));
             let examined = examine(&imported, &options);
-            wrong.extend(examined.broken.into_iter().chain(implausible(&examined.findings)).map(|text| format!("{file}: {text}")));
+            wrong.extend(
+                examined
+                    .broken
+                    .into_iter()
+                    .chain(implausible(&examined.findings))
+                    .map(|text| format!("{file}: {text}")),
+            );
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
@@ -216,5 +283,10 @@ fn a_thousand_mistakes_of_one_kind_are_one_finding() {
     scene.loads.live = vec![load.clone(); 1000];
     scene.loads.dead = vec![load];
     let found = false_mistakes("loads", &scene);
-    assert!(found.len() == 1 && found[0].contains("loads.dead[0]") && found[0].ends_with("(and 1000 more loads)"), "{found:?}");
+    assert!(
+        found.len() == 1
+            && found[0].contains("loads.dead[0]")
+            && found[0].ends_with("(and 1000 more loads)"),
+        "{found:?}"
+    );
 }

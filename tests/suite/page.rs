@@ -1,4 +1,5 @@
-//! Report pages as files: one self-contained file a page, what it holds is what was computed, no string of a scene becomes markup.
+//! Report pages as files: one self-contained file a page, what it holds is what was computed, no
+//! string of a scene becomes markup.
 
 use data_encoding::BASE64;
 use serde_json::{Value, json};
@@ -25,25 +26,45 @@ fn structure(name: &str) -> String {
 
 /// Runs a question with `--report`; the page.
 pub fn report(arguments: &[&str], file: &std::path::Path) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_voussoir")).args(arguments).arg("--quiet").arg("--report").arg(file).output().unwrap();
-    assert!(output.status.code().is_some_and(|c| c != 2), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    let output = Command::new(env!("CARGO_BIN_EXE_voussoir"))
+        .args(arguments)
+        .arg("--quiet")
+        .arg("--report")
+        .arg(file)
+        .output()
+        .unwrap();
+    assert!(
+        output.status.code().is_some_and(|c| c != 2),
+        "{arguments:?}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     fs::read_to_string(file).unwrap_or_else(|e| panic!("{arguments:?}: {e}"))
 }
 
 /// The data of a page.
 pub fn data(page: &str) -> Value {
-    let text = page.split("id=\"data\">").nth(1).and_then(|t| t.split("</script>").next()).expect("the page has data");
+    let text = page
+        .split("id=\"data\">")
+        .nth(1)
+        .and_then(|t| t.split("</script>").next())
+        .expect("the page has data");
     serde_json::from_str(text).unwrap()
 }
 
 fn singles(value: &Value) -> Vec<f64> {
-    let text = value.as_str().and_then(|t| t.strip_prefix("f32:")).unwrap_or_else(|| panic!("no numbers: {value}"));
+    let text = value
+        .as_str()
+        .and_then(|t| t.strip_prefix("f32:"))
+        .unwrap_or_else(|| panic!("no numbers: {value}"));
     let bytes = BASE64.decode(text.as_bytes()).unwrap();
     bytes.chunks_exact(4).map(|b| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))).collect()
 }
 
 fn wholes(value: &Value) -> Vec<usize> {
-    let text = value.as_str().and_then(|t| t.strip_prefix("u16:")).unwrap_or_else(|| panic!("no numbers: {value}"));
+    let text = value
+        .as_str()
+        .and_then(|t| t.strip_prefix("u16:"))
+        .unwrap_or_else(|| panic!("no numbers: {value}"));
     let bytes = BASE64.decode(text.as_bytes()).unwrap();
     bytes.chunks_exact(2).map(|b| usize::from(u16::from_le_bytes([b[0], b[1]]))).collect()
 }
@@ -66,7 +87,17 @@ fn every_question_makes_one_file_on_its_own() {
         &["simulate", &thin, "--fast"],
         &["repose", &structure("sphere-pile"), "--toward", "1,0"],
         &["repose", "drain", "grains=60", "size=[6,4]", "--question", "repose", "--seeds", "1"],
-        &["critical", &thin, "--vary", "/joints/default/friction", "--between", "0.5", "0.9", "--scan", "3"],
+        &[
+            "critical",
+            &thin,
+            "--vary",
+            "/joints/default/friction",
+            "--between",
+            "0.5",
+            "0.9",
+            "--scan",
+            "3",
+        ],
         &[
             "sweep",
             &format!("{}/structures/sweeps/buttress-width.json", env!("CARGO_MANIFEST_DIR")),
@@ -81,11 +112,18 @@ fn every_question_makes_one_file_on_its_own() {
     for (k, question) in questions.iter().enumerate() {
         let words: Vec<&str> = question.iter().map(String::as_str).collect();
         let text = report(&words, &desk.path().join(format!("{k}.html")));
-        for foreign in [" src=", " href=", "url(", "@import", "fetch(", "XMLHttpRequest", "import(", "//cdn"] {
+        for foreign in
+            [" src=", " href=", "url(", "@import", "fetch(", "XMLHttpRequest", "import(", "//cdn"]
+        {
             let known = text.matches(foreign).count();
             assert_eq!(known, 0, "{words:?}: {foreign}");
         }
-        assert!(text.starts_with("<!DOCTYPE html>") && text.trim_end().ends_with("</html>") && !text.contains("{{"), "{words:?}");
+        assert!(
+            text.starts_with("<!DOCTYPE html>")
+                && text.trim_end().ends_with("</html>")
+                && !text.contains("{{"),
+            "{words:?}"
+        );
         assert!(text.contains("default-src 'none'"), "a browser is told to load nothing");
         data(&text);
     }
@@ -95,7 +133,8 @@ fn every_question_makes_one_file_on_its_own() {
 #[test]
 fn a_page_holds_the_numbers_of_the_answer() {
     let desk = folder();
-    let mut scene: Value = serde_json::from_str(&fs::read_to_string(structure("column")).unwrap()).unwrap();
+    let mut scene: Value =
+        serde_json::from_str(&fs::read_to_string(structure("column")).unwrap()).unwrap();
     scene["loads"] = json!({});
     let file = desk.path().join("column.json");
     fs::write(&file, scene.to_string()).unwrap();
@@ -105,27 +144,33 @@ fn a_page_holds_the_numbers_of_the_answer() {
     let model = prepare(&read_str("column", scene.to_string()).unwrap().0).unwrap();
     let blocks = &model.assembly.blocks;
     let (a, b) = (wholes(&view["joints"]["a"]), wholes(&view["joints"]["b"]));
-    let (forces, starts) = (singles(&view["states"][0]["forces"]), wholes(&view["joints"]["pointStart"]));
+    let (forces, starts) =
+        (singles(&view["states"][0]["forces"]), wholes(&view["joints"]["pointStart"]));
     assert_eq!((a.len(), starts.len()), (8, 9));
     for ((a, b), ends) in a.iter().zip(&b).zip(starts.windows(2)) {
         // Upwards on the upper block, downwards on the lower one.
         let normal = (ends[0]..ends[1]).map(|p| forces[3 * p + 2]).sum::<f64>().abs();
         let height = blocks[*a].centroid.z.min(blocks[*b].centroid.z);
-        let above: f64 = blocks.iter().filter(|b| b.centroid.z > height + 1e-9).map(|b| b.mass * 9.81).sum();
+        let above: f64 =
+            blocks.iter().filter(|b| b.centroid.z > height + 1e-9).map(|b| b.mass * 9.81).sum();
         assert!((normal * unit / above - 1.0).abs() < 1e-5, "{} {above}", normal * unit);
     }
-    let middle: Vec<f64> = view["middle"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
+    let middle: Vec<f64> =
+        view["middle"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
     let center = singles(&view["bodies"]["center"]);
     for (i, block) in blocks.iter().enumerate() {
         assert_eq!(view["bodies"]["mass"][i].as_f64().unwrap(), block.mass);
         assert_eq!(view["bodies"]["ids"][i].as_str().unwrap(), block.id);
         for k in 0..3 {
-            assert!((center[3 * i + k] * length + middle[k] - block.centroid[k]).abs() < 1e-6 * length);
+            assert!(
+                (center[3 * i + k] * length + middle[k] - block.centroid[k]).abs() < 1e-6 * length
+            );
         }
     }
 }
 
-/// The same in millimetres and with other densities, up to single precision: a picture has no units.
+/// The same in millimetres and with other densities, up to single precision: a picture has no
+/// units.
 #[test]
 fn a_picture_does_not_depend_on_units() {
     let scene = |radius: f64, density: f64| -> Scene {
@@ -138,13 +183,23 @@ fn a_picture_does_not_depend_on_units() {
         let answer = assess(&model, &Control::default());
         let file = ResultFile::assessment(scene, &model, &answer);
         let view = View::new(&model, &file, Vec::new()).unwrap();
-        let text = render(&file, Asked { scene: "s", options: "" }, TextOptions::default(), Layout::default());
+        let text = render(
+            &file,
+            Asked { scene: "s", options: "" },
+            TextOptions::default(),
+            Layout::default(),
+        );
         data(&page::page(&text, &view, &[]).unwrap())["view"].take()
     };
     let (one, other) = (view(&scene(5.0, 2400.0)), view(&scene(5e-3, 1e-3)));
     for part in [["bodies", "corners"], ["joints", "points"]] {
         let (p, q) = (singles(&one[part[0]][part[1]]), singles(&other[part[0]][part[1]]));
-        assert!(p.len() == q.len() && p.len() > 20 && p.iter().zip(&q).all(|(p, q)| (p - q).abs() < 1e-6), "{part:?}");
+        assert!(
+            p.len() == q.len()
+                && p.len() > 20
+                && p.iter().zip(&q).all(|(p, q)| (p - q).abs() < 1e-6),
+            "{part:?}"
+        );
     }
 }
 
@@ -182,7 +237,8 @@ fn a_page_of_5000_blocks_stays_below_10_mb() {
     let count = model.assembly.blocks.len();
     assert!(count > 5000);
     // No time for an attempt: any forces take the same room.
-    let control = Control { deadline: voussoir::deadline::Deadline::within(0.0), ..Control::default() };
+    let control =
+        Control { deadline: voussoir::deadline::Deadline::within(0.0), ..Control::default() };
     let bound = limit(&model, &control);
     let dead = Some(assess(&model, &control));
     let mut file = ResultFile::load_factor(&scene, &model, &Limited { dead, ..bound.into() });
@@ -198,7 +254,13 @@ fn a_page_of_5000_blocks_stays_below_10_mb() {
             spin: Default::default(),
         };
         let blocks = model.assembly.blocks.iter().map(pose).collect();
-        film.see(&Frame { time: f64::from(k), fidelity: Fidelity::Fast, relative: 0.0, energy: 0.0, blocks });
+        film.see(&Frame {
+            time: f64::from(k),
+            fidelity: Fidelity::Fast,
+            relative: 0.0,
+            energy: 0.0,
+            blocks,
+        });
     }
     let view = View::new(&model, &file, film.frames()).unwrap();
     assert!(
@@ -207,7 +269,12 @@ fn a_page_of_5000_blocks_stays_below_10_mb() {
         view.states.len(),
         view.film.len()
     );
-    let text = render(&file, Asked { scene: "s", options: "" }, TextOptions { verbose: true, brief: false }, Layout::default());
+    let text = render(
+        &file,
+        Asked { scene: "s", options: "" },
+        TextOptions { verbose: true, brief: false },
+        Layout::default(),
+    );
     let page = page::page(&text, &view, &[]).unwrap();
     println!("{count} blocks: {:.1} MB", page.len() as f64 / 1e6);
     assert!(page.len() < 10_000_000, "{}", page.len());
@@ -217,19 +284,29 @@ fn a_page_of_5000_blocks_stays_below_10_mb() {
 #[test]
 fn a_page_is_written_whole_or_not_at_all() {
     let desk = folder();
-    let run = |arguments: &[&str]| Command::new(env!("CARGO_BIN_EXE_voussoir")).args(arguments).output().unwrap();
+    let run = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_voussoir")).args(arguments).output().unwrap()
+    };
     let nowhere: PathBuf = desk.path().join("none/page.html");
     let output = run(&["assess", &structure("column"), "--report", nowhere.to_str().unwrap()]);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
     let (bad, page) = (desk.path().join("bad.json"), desk.path().join("page.html"));
     fs::write(&bad, "{").unwrap();
     fs::write(&page, "old").unwrap();
-    assert_eq!(run(&["assess", bad.to_str().unwrap(), "--report", page.to_str().unwrap()]).status.code(), Some(2));
+    assert_eq!(
+        run(&["assess", bad.to_str().unwrap(), "--report", page.to_str().unwrap()]).status.code(),
+        Some(2)
+    );
     assert_eq!(fs::read_to_string(&page).unwrap(), "old");
     assert_eq!(fs::read_dir(desk.path()).unwrap().count(), 2, "no temporary file is left");
     let scene = desk.path().join("scene.json");
     fs::copy(structure("column"), &scene).unwrap();
-    assert_eq!(run(&["assess", scene.to_str().unwrap(), "--report", scene.to_str().unwrap()]).status.code(), Some(2));
+    assert_eq!(
+        run(&["assess", scene.to_str().unwrap(), "--report", scene.to_str().unwrap()])
+            .status
+            .code(),
+        Some(2)
+    );
     // On standard output the page is all there is.
     let output = run(&["assess", &structure("column"), "--report", "-"]);
     assert!(

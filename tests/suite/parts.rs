@@ -1,4 +1,5 @@
-//! Independent parts: what stands beside a scene changes nothing about it, whatever it weighs, wherever it stands in the list.
+//! Independent parts: what stands beside a scene changes nothing about it, whatever it weighs,
+//! wherever it stands in the list.
 
 use crate::ask::model;
 use nalgebra::Vector3;
@@ -21,7 +22,9 @@ fn scene(blocks: &str, friction: &str, loads: &str) -> Scene {
 }
 
 fn block(id: &str, size: [f64; 3], at: [f64; 3], support: bool) -> String {
-    format!(r#"{{"id": "{id}", "shape": {{"box": {{"size": {size:?}}}}}, "at": {at:?}, "material": "s", "support": {support}}}"#)
+    format!(
+        r#"{{"id": "{id}", "shape": {{"box": {{"size": {size:?}}}}}, "at": {at:?}, "material": "s", "support": {support}}}"#
+    )
 }
 
 /// A column of blocks, each a little off the one below, on a slab.
@@ -29,7 +32,12 @@ fn column(count: usize, off: f64, x: f64, loads: &str) -> Model {
     let mut list = vec![block("slab", [4.0, 4.0, 1.0], [x, 0.0, -0.5], true)];
     for k in 0..count {
         let shift = off * k as f64;
-        list.push(block(&format!("c{k}"), [1.0, 0.7, 0.5], [x + shift, 0.0, 0.25 + 0.5 * k as f64], false));
+        list.push(block(
+            &format!("c{k}"),
+            [1.0, 0.7, 0.5],
+            [x + shift, 0.0, 0.25 + 0.5 * k as f64],
+            false,
+        ));
     }
     model(&scene(&list.join(","), "0.6", loads))
 }
@@ -57,7 +65,10 @@ const SIDEWAYS: &str = r#""live": [{"weight": [1, 0, 0]}]"#;
 
 /// Falls freely.
 fn loose(x: f64) -> Model {
-    let list = [block("far", [1.0; 3], [x, 0.0, 0.0], true), block("loose", [1.0; 3], [x, 0.0, 50.0], false)];
+    let list = [
+        block("far", [1.0; 3], [x, 0.0, 0.0], true),
+        block("loose", [1.0; 3], [x, 0.0, 50.0], false),
+    ];
     model(&scene(&list.join(","), "0.6", ""))
 }
 
@@ -97,7 +108,8 @@ fn both(a: &Model, b: &Model) -> [(Model, usize, usize); 2] {
     [(union(a, b), 0, 0), (union(b, a), b.assembly.blocks.len(), b.interfaces.list.len())]
 }
 
-/// Scenes that say nothing about the others: at rest, soft (a tall column), 1e9 times heavier, 1e-9 times lighter, of the least and the greatest weights.
+/// Scenes that say nothing about the others: at rest, soft (a tall column), 1e9 times heavier, 1e-9
+/// times lighter, of the least and the greatest weights.
 fn resting() -> Vec<Model> {
     let plain = || column(3, 0.1, 100.0, "");
     vec![
@@ -116,7 +128,10 @@ fn resting() -> Vec<Model> {
 }
 
 fn bits(rates: &[Rate]) -> Vec<u64> {
-    rates.iter().flat_map(|q| q.velocity.iter().chain(&q.spin).map(|v| v.to_bits()).collect::<Vec<_>>()).collect()
+    rates
+        .iter()
+        .flat_map(|q| q.velocity.iter().chain(&q.spin).map(|v| v.to_bits()).collect::<Vec<_>>())
+        .collect()
 }
 
 fn asked() -> Vec<Model> {
@@ -126,7 +141,12 @@ fn asked() -> Vec<Model> {
         squeezed(0.0),
         model(&arch(0.2, true)),
         model(&arch(0.08, false)),
-        column(2, 0.3, 0.0, r#""live": [{"block": "c1", "force": [10000, 3000, 0]}], "dead": [{"block": "c1", "moment": [0, 300, 0]}]"#),
+        column(
+            2,
+            0.3,
+            0.0,
+            r#""live": [{"block": "c1", "force": [10000, 3000, 0]}], "dead": [{"block": "c1", "moment": [0, 300, 0]}]"#,
+        ),
     ]
 }
 
@@ -144,8 +164,16 @@ fn a_stranger_at_rest_changes_no_digit_of_a_verdict() {
                 assert_eq!(got.verdict, alone.verdict, "{k} {s}");
                 let range = first..first + a.assembly.blocks.len();
                 assert_eq!(bits(&got.rates[range.clone()]), bits(&alone.rates), "{k} {s}");
-                assert!((0..got.rates.len()).all(|i| range.contains(&i) || got.rates[i] == Rate::zero()), "{k} {s}");
-                assert_eq!(got.forces[contact..contact + a.interfaces.list.len()], alone.forces, "{k} {s}");
+                assert!(
+                    (0..got.rates.len())
+                        .all(|i| range.contains(&i) || got.rates[i] == Rate::zero()),
+                    "{k} {s}"
+                );
+                assert_eq!(
+                    got.forces[contact..contact + a.interfaces.list.len()],
+                    alone.forces,
+                    "{k} {s}"
+                );
                 if alone.verdict != Verdict::Stable {
                     assert_eq!(got.unbalance, alone.unbalance, "{k} {s}");
                     let name = got.part.clone().unwrap();
@@ -159,14 +187,24 @@ fn a_stranger_at_rest_changes_no_digit_of_a_verdict() {
     }
 }
 
-/// Forces that a proof to rounding cannot measure: a light block under one of 1e9 kg/m³ that is pushed aslant. What stands beside it is too
-/// large for an exact proof, has joints whose strength leaves none, or is held by forces without room.
+/// Forces that a proof to rounding cannot measure: a light block under one of 1e9 kg/m³ that is
+/// pushed aslant. What stands beside it is too large for an exact proof, has joints whose strength
+/// leaves none, or is held by forces without room.
 #[test]
 fn a_stranger_without_an_exact_proof_takes_none_away() {
     let sizes = [(1.0, 0.5), (1e9, 1.5), (1.3, 2.5)];
     let mut list = vec![block("slab", [1.0, 0.7, 1.0], [0.0, 0.0, -0.5], true)];
-    list.extend(sizes.iter().enumerate().map(|(k, (_, z))| block(&format!("c{k}"), [1.0, 0.7, 1.0], [0.0, 0.0, *z], false)));
-    let mut a = model(&scene(&list.join(","), "0.7", r#""dead": [{"block": "c1", "force": [848.0, 254.8, 0]}]"#));
+    list.extend(
+        sizes
+            .iter()
+            .enumerate()
+            .map(|(k, (_, z))| block(&format!("c{k}"), [1.0, 0.7, 1.0], [0.0, 0.0, *z], false)),
+    );
+    let mut a = model(&scene(
+        &list.join(","),
+        "0.7",
+        r#""dead": [{"block": "c1", "force": [848.0, 254.8, 0]}]"#,
+    ));
     for (k, (density, _)) in sizes.iter().enumerate() {
         let by = density / 2000.0;
         a.assembly.blocks[k + 1].mass *= by;
@@ -175,19 +213,32 @@ fn a_stranger_without_an_exact_proof_takes_none_away() {
     }
     a.assembly.dead_forces.iter_mut().for_each(|f| f.force *= sizes[1].0 / 2000.0);
     let row = |count: usize| {
-        let mut list = vec![block("ground", [count as f64, 1.0, 1.0], [100.0 + 0.5 * count as f64, 0.0, -0.5], true)];
-        list.extend((0..count).map(|k| block(&format!("r{k}"), [1.0; 3], [100.5 + k as f64, 0.0, 0.5], false)));
+        let mut list = vec![block(
+            "ground",
+            [count as f64, 1.0, 1.0],
+            [100.0 + 0.5 * count as f64, 0.0, -0.5],
+            true,
+        )];
+        list.extend(
+            (0..count)
+                .map(|k| block(&format!("r{k}"), [1.0; 3], [100.5 + k as f64, 0.0, 0.5], false)),
+        );
         list.join(",")
     };
     let crushable = r#"0.6, "compression": 1e6"#;
-    let strangers = [model(&scene(&row(1600), "0.6", "")), model(&scene(&row(1), crushable, "")), model(&scene(&row(1), "0", ""))];
+    let strangers = [
+        model(&scene(&row(1600), "0.6", "")),
+        model(&scene(&row(1), crushable, "")),
+        model(&scene(&row(1), "0", "")),
+    ];
     let alone = analysis::assess(&a, &control());
     assert_eq!(alone.verdict, Verdict::Stable);
     for stranger in &strangers {
         for (m, ..) in both(&a, stranger) {
             let got = analysis::assess(&m, &control());
             assert_eq!(got.verdict, Verdict::Stable);
-            let proof = check::verify(&m, &check::Claim::Stable, Evidence::new(&got.forces, &got.rates));
+            let proof =
+                check::verify(&m, &check::Claim::Stable, Evidence::new(&got.forces, &got.rates));
             assert!(proof.proved(), "{:?}", proof.fails);
         }
     }
@@ -205,13 +256,23 @@ fn a_heavy_stranger_keeps_no_proof_from_several_parts_that_fall() {
         for (m, ..) in both(&a, &heavier(column(1, 0.0, 100.0, ""), by)) {
             let got = analysis::limit(&m, &control);
             assert_eq!(got.outcome, Outcome::Impossible, "{by}");
-            let proof = check::verify(&m, &check::Claim::Impossible, Evidence::new(&got.forces, &got.rates));
+            let proof = check::verify(
+                &m,
+                &check::Claim::Impossible,
+                Evidence::new(&got.forces, &got.rates),
+            );
             assert!(proof.proved(), "{by}: {:?}", proof.fails);
             // What moves beside a mechanism that is proved has to be one as well.
             let mut rates = got.rates.clone();
-            let still = (0..rates.len()).find(|&i| !m.assembly.blocks[i].support && rates[i] == Rate::zero()).unwrap();
+            let still = (0..rates.len())
+                .find(|&i| !m.assembly.blocks[i].support && rates[i] == Rate::zero())
+                .unwrap();
             rates[still].velocity = Vector3::new(0.0, 0.0, -1.0);
-            assert!(!check::verify(&m, &check::Claim::Impossible, Evidence::new(&got.forces, &rates)).proved(), "{by}");
+            assert!(
+                !check::verify(&m, &check::Claim::Impossible, Evidence::new(&got.forces, &rates))
+                    .proved(),
+                "{by}"
+            );
         }
     }
 }
@@ -235,14 +296,23 @@ fn the_worst_part_decides() {
 
 #[test]
 fn a_stranger_changes_no_digit_of_a_load_factor() {
-    for (k, a) in asked().iter().enumerate().filter(|(_, a)| a.assembly.live.iter().any(|w| w.force != Vector3::zeros())) {
+    for (k, a) in asked()
+        .iter()
+        .enumerate()
+        .filter(|(_, a)| a.assembly.live.iter().any(|w| w.force != Vector3::zeros()))
+    {
         let alone = analysis::limit(a, &control());
         assert_eq!(alone.outcome, Outcome::Found, "{k}");
         let dry = coulomb::load_factor(a, &alone, &control());
         let mut strangers = resting();
         // Bears more, and one on which the live load wedges nothing but presses.
         strangers.push(heavier(column(1, 0.0, 100.0, SIDEWAYS), 1e9));
-        strangers.push(column(1, 0.0, 100.0, r#""live": [{"block": "c0", "force": [0, 0, -1e12]}]"#));
+        strangers.push(column(
+            1,
+            0.0,
+            100.0,
+            r#""live": [{"block": "c0", "force": [0, 0, -1e12]}]"#,
+        ));
         for (s, stranger) in strangers.iter().enumerate() {
             for (m, first, _) in both(a, stranger) {
                 let got = analysis::limit(&m, &control());
@@ -254,16 +324,30 @@ fn a_stranger_changes_no_digit_of_a_load_factor() {
                     alone.value
                 );
                 assert_eq!(got.bracket, alone.bracket, "{k} {s}");
-                assert_eq!(bits(&got.rates[first..first + a.assembly.blocks.len()]), bits(&alone.rates), "{k} {s}");
+                assert_eq!(
+                    bits(&got.rates[first..first + a.assembly.blocks.len()]),
+                    bits(&alone.rates),
+                    "{k} {s}"
+                );
                 // The other part is in balance there as well.
                 let parts = interface::parts(&m);
                 for part in &parts {
                     let loads = part.units.own_load_factor(got.value);
-                    let s = voussoir::verdict::certificate::statics(&part.model, &part.take_forces(&got.forces), loads);
+                    let s = voussoir::verdict::certificate::statics(
+                        &part.model,
+                        &part.take_forces(&got.forces),
+                        loads,
+                    );
                     assert!(s.unbalance < 1e-5 && s.cone_excess < 1e-12, "{k} {s:?}");
                 }
                 let both = coulomb::load_factor(&m, &got, &control());
-                assert_eq!((both.found, both.value.to_bits()), (dry.found, dry.value.to_bits()), "{k} {s}: {} {}", both.value, dry.value);
+                assert_eq!(
+                    (both.found, both.value.to_bits()),
+                    (dry.found, dry.value.to_bits()),
+                    "{k} {s}: {} {}",
+                    both.value,
+                    dry.value
+                );
             }
         }
     }
@@ -281,14 +365,29 @@ fn parts_without_a_live_load_stand_or_leave_no_load_factor() {
     }
 }
 
-/// A block on a slope that needs the live load to stay, from λ = 10 on, beside one that slides at λ = 4.
+/// A block on a slope that needs the live load to stay, from λ = 10 on, beside one that slides at λ
+/// = 4.
 #[test]
 fn parts_that_need_and_refuse_the_live_load_leave_none() {
-    let wall = [block("wall", [1.0, 3.0, 6.0], [-1.0, 0.0, 0.0], true), block("hung", [1.0, 1.0, 1.0], [0.0, 0.0, 0.5], false)].join(",");
-    let hung = model(&scene(&wall, "0.5", r#""live": [{"block": "hung", "force": [-4000, 0, 0]}]"#));
-    let flat =
-        [block("slab", [4.0, 4.0, 1.0], [100.0, 0.0, -0.5], true), block("slides", [1.0, 1.0, 1.0], [100.0, 0.0, 0.5], false)].join(",");
-    let slides = |force: f64| model(&scene(&flat, "0.4", &format!(r#""live": [{{"block": "slides", "force": [{force}, 0, 0]}}]"#)));
+    let wall = [
+        block("wall", [1.0, 3.0, 6.0], [-1.0, 0.0, 0.0], true),
+        block("hung", [1.0, 1.0, 1.0], [0.0, 0.0, 0.5], false),
+    ]
+    .join(",");
+    let hung =
+        model(&scene(&wall, "0.5", r#""live": [{"block": "hung", "force": [-4000, 0, 0]}]"#));
+    let flat = [
+        block("slab", [4.0, 4.0, 1.0], [100.0, 0.0, -0.5], true),
+        block("slides", [1.0, 1.0, 1.0], [100.0, 0.0, 0.5], false),
+    ]
+    .join(",");
+    let slides = |force: f64| {
+        model(&scene(
+            &flat,
+            "0.4",
+            &format!(r#""live": [{{"block": "slides", "force": [{force}, 0, 0]}}]"#),
+        ))
+    };
     // It slides at 0.4 × 19620 N; the other needs 2 × 19620 N, at λ = 9.81.
     for by in [1e-6, 1.0, 1e6] {
         for (m, ..) in both(&hung, &heavier(slides(2000.0), by)) {
@@ -314,15 +413,28 @@ fn a_stranger_changes_no_digit_of_a_tilt_or_a_thrust() {
             let standing = analysis::assess(m, &control());
             [Extreme::Least, Extreme::Greatest].map(|e| {
                 let end = thrust::thrust(m, &at, e, &standing.forces, &control());
-                (end.outcome, end.value.to_bits(), end.bracket.lower.to_bits(), end.bracket.upper.to_bits())
+                (
+                    end.outcome,
+                    end.value.to_bits(),
+                    end.bracket.lower.to_bits(),
+                    end.bracket.upper.to_bits(),
+                )
             })
         };
         let thrusts = ends(a, support);
         // What is flatter stands longer.
-        for (s, stranger) in [1e-9, 1.0, 1e9].map(|by| heavier(column(1, 0.0, 100.0, ""), by)).iter().enumerate() {
+        for (s, stranger) in
+            [1e-9, 1.0, 1e9].map(|by| heavier(column(1, 0.0, 100.0, ""), by)).iter().enumerate()
+        {
             for (m, first, _) in both(a, stranger) {
                 let got = analysis::tilt(&m, toward, &control()).unwrap();
-                assert_eq!(got.angle_deg().to_bits(), alone.angle_deg().to_bits(), "{k} {s}: {} {}", got.angle_deg(), alone.angle_deg());
+                assert_eq!(
+                    got.angle_deg().to_bits(),
+                    alone.angle_deg().to_bits(),
+                    "{k} {s}: {} {}",
+                    got.angle_deg(),
+                    alone.angle_deg()
+                );
                 assert_eq!(got.load_factor.bracket, alone.load_factor.bracket);
                 assert_eq!(ends(&m, first + support), thrusts, "{k} {s}");
             }
@@ -332,20 +444,26 @@ fn a_stranger_changes_no_digit_of_a_tilt_or_a_thrust() {
 
 #[test]
 fn a_stranger_changes_no_digit_of_a_critical_value() {
-    let range = Range { pointer: "/templates/0/arch/thickness".into(), from: 0.06, to: 0.2, scan: Some(4) };
+    let range =
+        Range { pointer: "/templates/0/arch/thickness".into(), from: 0.06, to: 0.2, scan: Some(4) };
     let control = Control { law: Law::Associative, ..control() };
     let alone = analysis::critical(&arch(0.1, false), &range, &control).unwrap();
     for density in [1e-6, 2000.0, 1e12] {
         let mut more = scene(
-            &[block("slab", [4.0, 4.0, 1.0], [100.0, 0.0, -0.5], true), block("still", [1.0, 1.0, 1.0], [100.0, 0.0, 0.5], false)]
-                .join(","),
+            &[
+                block("slab", [4.0, 4.0, 1.0], [100.0, 0.0, -0.5], true),
+                block("still", [1.0, 1.0, 1.0], [100.0, 0.0, 0.5], false),
+            ]
+            .join(","),
             "0.7",
             "",
         );
         more.templates = arch(0.1, false).templates;
         more.materials.values_mut().for_each(|m| m.density = density);
         let got = analysis::critical(&more, &range, &control).unwrap();
-        let values = |c: &analysis::Critical| c.changes.iter().map(|c| c.value.to_bits()).collect::<Vec<_>>();
+        let values = |c: &analysis::Critical| {
+            c.changes.iter().map(|c| c.value.to_bits()).collect::<Vec<_>>()
+        };
         assert_eq!((values(&got), got.probes), (values(&alone), alone.probes), "{density}");
     }
 }
@@ -359,7 +477,9 @@ fn at_survey_coordinates_the_verdicts_are_the_same() {
             let mut m = a.clone();
             let shift = Vector3::new(by, -by, 0.0);
             m.assembly.blocks.iter_mut().for_each(|b| b.centroid += shift);
-            m.interfaces.list.iter_mut().for_each(|f| f.points.iter_mut().chain(f.pieces.iter_mut().flatten()).for_each(|p| *p += shift));
+            m.interfaces.list.iter_mut().for_each(|f| {
+                f.points.iter_mut().chain(f.pieces.iter_mut().flatten()).for_each(|p| *p += shift)
+            });
             assert_eq!(verdict(&m).verdict, here.verdict, "{k} {by}");
         }
     }
@@ -368,11 +488,21 @@ fn at_survey_coordinates_the_verdicts_are_the_same() {
 /// A couple of 1e11 N m on a block of one kilogramme in a socket that holds it.
 #[test]
 fn moments_count_in_the_load_of_a_block() {
-    let mut list = vec![block("floor", [3.0, 3.0, 1.0], [0.0, 0.0, -1.0], true), block("key", [1.0; 3], [0.0; 3], false)];
-    for (k, at) in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]].into_iter().enumerate() {
+    let mut list = vec![
+        block("floor", [3.0, 3.0, 1.0], [0.0, 0.0, -1.0], true),
+        block("key", [1.0; 3], [0.0; 3], false),
+    ];
+    for (k, at) in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]]
+        .into_iter()
+        .enumerate()
+    {
         list.push(block(&format!("w{k}"), [1.0; 3], at, true));
     }
-    let m = model(&scene(&list.join(","), "0.3", r#""dead": [{"block": "key", "moment": [0, 0, 1e11]}]"#));
+    let m = model(&scene(
+        &list.join(","),
+        "0.3",
+        r#""dead": [{"block": "key", "moment": [0, 0, 1e11]}]"#,
+    ));
     let a = analysis::assess(&m, &Control { law: Law::Associative, ..control() });
     assert_eq!(a.verdict, Verdict::Stable);
     assert!(check::verify(&m, &check::Claim::Stable, Evidence::new(&a.forces, &a.rates)).proved());

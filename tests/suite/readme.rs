@@ -28,8 +28,8 @@ fn examples(text: &str) -> Vec<(String, String)> {
     list
 }
 
-/// Times change from run to run: the `time` line is dropped, its continuation with it. Digits of rounding change with every
-/// change of the arithmetic: only that it is rounding is compared.
+/// Times change from run to run: the `time` line is dropped, its continuation with it. Digits of
+/// rounding change with every change of the arithmetic: only that it is rounding is compared.
 fn without_times(text: &str) -> Vec<String> {
     let mut lines = Vec::new();
     let mut skip = false;
@@ -50,9 +50,16 @@ fn without_rounding(word: &str) -> &str {
 fn run(command: &str, folder: &Path) -> String {
     let program = env!("CARGO_BIN_EXE_voussoir");
     let words = command.replace("cargo run --release -- ", "voussoir ");
-    let line: Vec<&str> = words.split(' ').map(|w| if w == "voussoir" { program } else { w }).collect();
+    let line: Vec<&str> =
+        words.split(' ').map(|w| if w == "voussoir" { program } else { w }).collect();
     let line = line.join(" ");
-    let output = Command::new("bash").args(["-c", &line]).current_dir(folder).env("NO_COLOR", "1").env_remove("COLUMNS").output().unwrap();
+    let output = Command::new("bash")
+        .args(["-c", &line])
+        .current_dir(folder)
+        .env("NO_COLOR", "1")
+        .env_remove("COLUMNS")
+        .output()
+        .unwrap();
     assert!(output.status.code().is_some_and(|c| c != 127 && c != 101), "{command}: {output:?}");
     String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap()
 }
@@ -82,7 +89,8 @@ fn every_console_block_prints_what_it_says() {
             let path = entry.unwrap().path();
             // Charts are made anew by the commands.
             if path.is_file() && path.extension().is_none_or(|e| e != "svg") {
-                std::fs::copy(&path, folder.path().join(part).join(path.file_name().unwrap())).unwrap();
+                std::fs::copy(&path, folder.path().join(part).join(path.file_name().unwrap()))
+                    .unwrap();
             }
         }
     }
@@ -99,12 +107,19 @@ fn every_console_block_prints_what_it_says() {
 
 fn drawings_are_those_of_the_commands(folder: &Path) {
     let mut drawings = 0;
-    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/structures/drawings")).unwrap() {
+    for entry in
+        std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/structures/drawings")).unwrap()
+    {
         let path = entry.unwrap().path();
         let name = Path::new("structures/drawings").join(path.file_name().unwrap());
-        let [kept, made] = [&path, &folder.join(&name)].map(|p| std::fs::read(p).unwrap_or_else(|e| panic!("{}: {e}", p.display())));
+        let [kept, made] = [&path, &folder.join(&name)]
+            .map(|p| std::fs::read(p).unwrap_or_else(|e| panic!("{}: {e}", p.display())));
         assert!(kept == made, "{} is not what the command in the README draws", name.display());
-        assert!(readme().contains(&format!("]({})", name.display())), "the README does not show {}", name.display());
+        assert!(
+            readme().contains(&format!("]({})", name.display())),
+            "the README does not show {}",
+            name.display()
+        );
         assert!(kept.len() < 30_000, "{} is large", name.display());
         drawings += 1;
     }
@@ -113,16 +128,28 @@ fn drawings_are_those_of_the_commands(folder: &Path) {
 
 fn charts_are_those_of_the_commands(folder: &Path) {
     let mut plans = 0;
-    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/structures/sweeps")).unwrap() {
+    for entry in
+        std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/structures/sweeps")).unwrap()
+    {
         let path = entry.unwrap().path();
         let is_plan = std::fs::read_to_string(&path).unwrap().contains("\"voussoir-sweep/1\"");
         if is_plan {
             plans += 1;
             let chart = path.with_extension("svg");
             let name = Path::new("structures/sweeps").join(chart.file_name().unwrap());
-            let read = |path: &Path| std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-            assert!(read(&chart) == read(&folder.join(&name)), "{} is not what the command in the README draws", name.display());
-            assert!(readme().contains(&format!("]({})", name.display())), "the README does not show {}", name.display());
+            let read = |path: &Path| {
+                std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+            };
+            assert!(
+                read(&chart) == read(&folder.join(&name)),
+                "{} is not what the command in the README draws",
+                name.display()
+            );
+            assert!(
+                readme().contains(&format!("]({})", name.display())),
+                "the README does not show {}",
+                name.display()
+            );
         }
     }
     assert!(plans >= 3);
@@ -139,7 +166,13 @@ fn the_first_screen_holds_the_two_commands() {
 #[test]
 fn the_scene_and_the_library_example_work() {
     let text = readme();
-    let block = |kind: &str| text.split(&format!("```{kind}\n")).nth(1).and_then(|t| t.split("```").next()).unwrap().to_string();
+    let block = |kind: &str| {
+        text.split(&format!("```{kind}\n"))
+            .nth(1)
+            .and_then(|t| t.split("```").next())
+            .unwrap()
+            .to_string()
+    };
     let (scene, _) = voussoir::scene::read_str("README.md", block("json")).unwrap();
     let model = voussoir::interface::prepare(&scene).unwrap();
     assert_eq!(model.assembly.blocks.len(), 30);

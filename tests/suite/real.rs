@@ -1,4 +1,5 @@
-//! Real assemblies of public projects, read where they lie; skipped, saying so, where `../shared/data` is absent.
+//! Real assemblies of public projects, read where they lie; skipped, saying so, where
+//! `../shared/data` is absent.
 
 use std::path::{Path, PathBuf};
 use voussoir::{
@@ -52,8 +53,8 @@ fn admissible(m: &Model) -> Verdict {
     assess(m, &Control { law: Law::Associative, ..Control::default() }).verdict
 }
 
-/// Facts of compas_cra 0.8.0 on its own samples: cubes λx 0.3240, λy 0.3230; bridge λx 0.5672, λy 0.8094 (density 1; 3.51 on
-/// nodes 11–15).
+/// Facts of compas_cra 0.8.0 on its own samples: cubes λx 0.3240, λy 0.3230; bridge λx 0.5672, λy
+/// 0.8094 (density 1; 3.51 on nodes 11–15).
 #[test]
 fn load_factors_of_the_cubes_and_the_bridge() {
     let Some(folder) = folder() else { return };
@@ -80,41 +81,72 @@ fn load_factors_of_the_cubes_and_the_bridge() {
 #[test]
 fn the_cross_vault_and_the_wall_stand() {
     let Some(folder) = folder() else { return };
-    // The faces of the vault are warped by millimetres: its stored polygons reach over the rims that ours leave out.
-    for (name, blocks, stored, agree) in [("assembly-crossvault", 184, 488, 0.02), ("assembly-wall", 52, 80, 1e-6)] {
+    // The faces of the vault are warped by millimetres: its stored polygons reach over the rims
+    // that ours leave out.
+    for (name, blocks, stored, agree) in
+        [("assembly-crossvault", 184, 488, 0.02), ("assembly-wall", 52, 80, 1e-6)]
+    {
         let path = folder.join(format!("{name}.json"));
         let own = read(path.clone(), &options(&[], 0.7));
         let m = ready(&own);
         let given = m.interfaces.list.iter().filter(|i| i.kind == ContactKind::Given).count();
         assert_eq!((m.assembly.blocks.len(), given), (blocks, stored), "{name}");
-        // Pairs that the file does not name may touch as well: edges along the ribs, of no area to speak of.
-        let more: f64 = m.interfaces.list.iter().filter(|i| i.kind != ContactKind::Given).map(|i| i.area).sum();
+        // Pairs that the file does not name may touch as well: edges along the ribs, of no area to
+        // speak of.
+        let more: f64 =
+            m.interfaces.list.iter().filter(|i| i.kind != ContactKind::Given).map(|i| i.area).sum();
         println!("{name}: {} more interfaces, area {more:.4}", m.interfaces.list.len() - given);
         assert_eq!(admissible(&m), Verdict::Stable, "{name}, stored interfaces");
-        // Five pairs of the vault overlap by 5e-4 … 7e-4 m, more than the usual 1e-4 of a block: told, and closed when asked.
-        let found = read(path, &ImportOptions { stored_interfaces: false, gap: Some(1e-3), ..options(&[], 0.7) });
+        // Five pairs of the vault overlap by 5e-4 … 7e-4 m, more than the usual 1e-4 of a block:
+        // told, and closed when asked.
+        let found = read(
+            path,
+            &ImportOptions { stored_interfaces: false, gap: Some(1e-3), ..options(&[], 0.7) },
+        );
         let f = ready(&found);
         let area = |m: &Model| m.interfaces.list.iter().map(|i| i.area).sum::<f64>();
-        println!("{name}: stored {} interfaces, area {:.4}; found {}, area {:.4}", stored, area(&m), f.interfaces.list.len(), area(&f));
-        assert!((area(&m) - area(&f)).abs() <= agree * area(&m), "{name}: area {} and {}", area(&m), area(&f));
+        println!(
+            "{name}: stored {} interfaces, area {:.4}; found {}, area {:.4}",
+            stored,
+            area(&m),
+            f.interfaces.list.len(),
+            area(&f)
+        );
+        assert!(
+            (area(&m) - area(&f)).abs() <= agree * area(&m),
+            "{name}: area {} and {}",
+            area(&m),
+            area(&f)
+        );
         assert_eq!(admissible(&f), Verdict::Stable, "{name}, own interfaces");
     }
 }
 
 /// The Armadillo Vault: 399 voussoirs, supports as built (nodes 0–7, 79–88, 217–227, 328–331).
 fn armadillo(folder: &Path, density: f64) -> Scene {
-    let supports: Vec<String> = (0..8).chain(79..89).chain(217..228).chain(328..332).map(|k| k.to_string()).collect();
+    let supports: Vec<String> =
+        (0..8).chain(79..89).chain(217..228).chain(328..332).map(|k| k.to_string()).collect();
     let supports: Vec<&str> = supports.iter().map(String::as_str).collect();
-    read(folder.join("cra-armadillo.json"), &ImportOptions { density: Some(density), ..options(&supports, 0.84) })
+    read(
+        folder.join("cra-armadillo.json"),
+        &ImportOptions { density: Some(density), ..options(&supports, 0.84) },
+    )
 }
 
 /// What a finding of this code says, empty where there is none.
 fn told(m: &Model, code: FindingCode) -> String {
-    m.interfaces.findings.iter().filter(|f| f.code == code).map(|f| f.text.clone()).collect::<Vec<_>>().join("; ")
+    m.interfaces
+        .findings
+        .iter()
+        .filter(|f| f.code == code)
+        .map(|f| f.text.clone())
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
-/// The joints of the Armadillo Vault are warped by centimetres, and their mean planes lean from each other by up to 4°: 74 joints
-/// were lost to the angle, whatever the gap, and voussoir 305 with them slipped out from between 297 and 304.
+/// The joints of the Armadillo Vault are warped by centimetres, and their mean planes lean from
+/// each other by up to 4°: 74 joints were lost to the angle, whatever the gap, and voussoir 305
+/// with them slipped out from between 297 and 304.
 #[test]
 fn warped_joints_of_the_armadillo_vault_are_found_at_any_gap() {
     let Some(folder) = folder() else { return };
@@ -123,9 +155,19 @@ fn warped_joints_of_the_armadillo_vault_are_found_at_any_gap() {
         (scene.contact.gap, scene.contact.min_area) = (gap, min_area);
         let m = ready(&scene);
         let faces = m.interfaces.list.iter().filter(|f| f.kind == ContactKind::Face).count();
-        assert_eq!((m.interfaces.list.len(), faces, m.interfaces.support_pairs), (1014, 1014, 29), "gap {gap}");
+        assert_eq!(
+            (m.interfaces.list.len(), faces, m.interfaces.support_pairs),
+            (1014, 1014, 29),
+            "gap {gap}"
+        );
         let id = |b: usize| m.assembly.blocks[b].id.as_str();
-        let around: Vec<_> = m.interfaces.list.iter().map(|f| [id(f.a), id(f.b)]).filter(|p| p.contains(&"305")).collect();
+        let around: Vec<_> = m
+            .interfaces
+            .list
+            .iter()
+            .map(|f| [id(f.a), id(f.b)])
+            .filter(|p| p.contains(&"305"))
+            .collect();
         assert_eq!(around.len(), 3, "gap {gap}: {around:?}");
         assert_eq!(told(&m, FindingCode::NearMiss), "", "gap {gap}");
         assert_eq!(admissible(&m), Verdict::Stable, "gap {gap}");
@@ -136,8 +178,12 @@ fn warped_joints_of_the_armadillo_vault_are_found_at_any_gap() {
 #[test]
 fn vaults_stand_under_dry_friction_at_any_density() {
     let Some(folder) = folder() else { return };
-    let vault =
-        |density: f64| read(folder.join("assembly-crossvault.json"), &ImportOptions { density: Some(density), ..options(&[], 0.7) });
+    let vault = |density: f64| {
+        read(
+            folder.join("assembly-crossvault.json"),
+            &ImportOptions { density: Some(density), ..options(&[], 0.7) },
+        )
+    };
     let mut armadillo = armadillo(&folder, 1.0);
     armadillo.contact.gap = 0.05;
     let scenes = [vault(1e-3), vault(1e6), armadillo];
@@ -145,8 +191,15 @@ fn vaults_stand_under_dry_friction_at_any_density() {
         for scene in &scenes {
             scope.spawn(move || {
                 let m = ready(scene);
-                let a = assess(&m, &Control { deadline: voussoir::deadline::Deadline::within(120.0), ..Control::default() });
-                let solves: Vec<usize> = a.state.iter().flat_map(|s| &s.steps).map(|s| s.solves).collect();
+                let a = assess(
+                    &m,
+                    &Control {
+                        deadline: voussoir::deadline::Deadline::within(120.0),
+                        ..Control::default()
+                    },
+                );
+                let solves: Vec<usize> =
+                    a.state.iter().flat_map(|s| &s.steps).map(|s| s.solves).collect();
                 println!("{}: {:?}, solves {solves:?}", scene.name, a.verdict);
                 assert_eq!(a.verdict, Verdict::Stable, "{}", scene.name);
             });
@@ -156,11 +209,16 @@ fn vaults_stand_under_dry_friction_at_any_density() {
 
 /// The number after `contact.KEY from X to`, the largest if there are several.
 fn remedy(text: &str, key: &str) -> Option<f64> {
-    let after = |rest: &str| rest.split(" to ").nth(1)?.split([' ', ';']).next()?.parse::<f64>().ok();
-    text.split(&format!("contact.{key} from ")).skip(1).filter_map(|rest| after(&format!("from {rest}"))).reduce(f64::max)
+    let after =
+        |rest: &str| rest.split(" to ").nth(1)?.split([' ', ';']).next()?.parse::<f64>().ok();
+    text.split(&format!("contact.{key} from "))
+        .skip(1)
+        .filter_map(|rest| after(&format!("from {rest}")))
+        .reduce(f64::max)
 }
 
-/// Vaults that fall because faces overlap or lie apart stand once the remedies in the findings are followed to the letter.
+/// Vaults that fall because faces overlap or lie apart stand once the remedies in the findings are
+/// followed to the letter.
 #[test]
 fn remedies_for_vaults_with_open_joints_make_them_stand() {
     let Some(folder) = folder() else { return };
@@ -170,19 +228,32 @@ fn remedies_for_vaults_with_open_joints_make_them_stand() {
     // The stored interfaces of the cross vault are 488; the other files have none.
     for (path, options, interfaces) in [
         (folder.join("assembly-crossvault.json"), own.clone(), 488),
-        (folder.join("dem-crossvault.obj"), ImportOptions { support_below: Some(1.744), ..own }, 488),
+        (
+            folder.join("dem-crossvault.obj"),
+            ImportOptions { support_below: Some(1.744), ..own },
+            488,
+        ),
         (pavilion.join("blocks.json"), held, 1141),
     ] {
         let mut scene = read(path, &options);
         let name = scene.name.clone();
         let m = ready(&scene);
         assert_eq!(admissible(&m), Verdict::Unstable, "{name}");
-        let text = format!("{}; {}", told(&m, FindingCode::NearMiss), told(&m, FindingCode::Overlap));
+        let text =
+            format!("{}; {}", told(&m, FindingCode::NearMiss), told(&m, FindingCode::Overlap));
         scene.contact.gap = remedy(&text, "gap").unwrap_or_else(|| panic!("{name}: {text}"));
         scene.contact.angle_deg = remedy(&text, "angle_deg").unwrap_or(scene.contact.angle_deg);
         let mended = ready(&scene);
-        println!("{name}: {text}: {} interfaces, then {}", m.interfaces.list.len(), mended.interfaces.list.len());
-        assert_eq!(told(&mended, FindingCode::NearMiss) + &told(&mended, FindingCode::Overlap), "", "{name}");
+        println!(
+            "{name}: {text}: {} interfaces, then {}",
+            m.interfaces.list.len(),
+            mended.interfaces.list.len()
+        );
+        assert_eq!(
+            told(&mended, FindingCode::NearMiss) + &told(&mended, FindingCode::Overlap),
+            "",
+            "{name}"
+        );
         assert_eq!(admissible(&mended), Verdict::Stable, "{name}");
         assert_eq!(mended.interfaces.list.len(), interfaces, "{name}");
     }
@@ -192,30 +263,45 @@ fn remedies_for_vaults_with_open_joints_make_them_stand() {
 #[test]
 fn frames_and_shelves_are_statically_admissible() {
     let Some(folder) = folder() else { return };
-    for (name, supports, mu) in
-        [("cra-H", &["0", "1"][..], 0.84), ("cra-shelf", &["0"], 0.9), ("cra-shelf-stable", &["0"], 0.9), ("cra-bridge", &["0", "1"], 0.9)]
-    {
+    for (name, supports, mu) in [
+        ("cra-H", &["0", "1"][..], 0.84),
+        ("cra-shelf", &["0"], 0.9),
+        ("cra-shelf-stable", &["0"], 0.9),
+        ("cra-bridge", &["0", "1"], 0.9),
+    ] {
         let m = ready(&read(folder.join(format!("{name}.json")), &options(supports, mu)));
         assert_eq!(admissible(&m), Verdict::Stable, "{name}");
     }
 }
 
-/// Files whose coordinates are rounded to three decimals: every contact is found or told, and the answer is certified.
+/// Files whose coordinates are rounded to three decimals: every contact is found or told, and the
+/// answer is certified.
 #[test]
 fn rounded_meshes_are_read_and_their_gaps_told() {
     let Some(folder) = folder() else { return };
-    let wall = read(folder.join("dem-wall.obj"), &ImportOptions { support_below: Some(0.018), ..options(&[], 0.7) });
+    let wall = read(
+        folder.join("dem-wall.obj"),
+        &ImportOptions { support_below: Some(0.018), ..options(&[], 0.7) },
+    );
     let m = ready(&wall);
     assert_eq!((m.assembly.blocks.len(), m.interfaces.list.len()), (38, 60));
     assert!(m.interfaces.findings.is_empty(), "{:?}", m.interfaces.findings);
     assert_eq!(admissible(&m), Verdict::Stable);
     // Stones scanned from nature: refused with the reason, or mended and said.
     for name in ["stone_0", "stone_1", "stone_10", "stone_2"] {
-        let mut scene = import::import_file(&folder.join(format!("rb3d-stones/{name}.ply")), &options(&[], 0.7)).unwrap().scene;
+        let mut scene = import::import_file(
+            &folder.join(format!("rb3d-stones/{name}.ply")),
+            &options(&[], 0.7),
+        )
+        .unwrap()
+        .scene;
         scene.blocks.push(voussoir::scene::BlockSpec {
             support: true,
             at: [0.0, 0.0, -1e3],
-            ..voussoir::scene::BlockSpec::new("ground", voussoir::scene::Shape::Cuboid { size: [1.0; 3] })
+            ..voussoir::scene::BlockSpec::new(
+                "ground",
+                voussoir::scene::Shape::Cuboid { size: [1.0; 3] },
+            )
         });
         match prepare(&scene) {
             Err(e) => {

@@ -1,5 +1,6 @@
-//! Every reference case of `../shared/cases/masonry_cases.json` that asks for an associative answer or a verdict.
-//! Skipped, saying so, where that folder is absent; the transcribed cases in `published.rs` always run.
+//! Every reference case of `../shared/cases/masonry_cases.json` that asks for an associative answer
+//! or a verdict. Skipped, saying so, where that folder is absent; the transcribed cases in
+//! `published.rs` always run.
 
 use serde_json::{Value, json};
 use voussoir::{
@@ -51,7 +52,9 @@ pub fn scene(case: &Value, variant: &Value, mu: f64) -> Scene {
         blocks.push(block);
     }
     for b in get("blocks3d").and_then(Value::as_array).into_iter().flatten() {
-        let at: Vec<f64> = (0..3).map(|k| b["origin"][k].as_f64().unwrap() + b["size"][k].as_f64().unwrap() / 2.0).collect();
+        let at: Vec<f64> = (0..3)
+            .map(|k| b["origin"][k].as_f64().unwrap() + b["size"][k].as_f64().unwrap() / 2.0)
+            .collect();
         blocks.push(
             json!({ "id": b["id"], "support": b["fixed"], "density": b["density"], "at": at, "shape": { "box": { "size": b["size"] } } }),
         );
@@ -59,8 +62,12 @@ pub fn scene(case: &Value, variant: &Value, mu: f64) -> Scene {
     let mut value = json!({ "format": "voussoir-scene/1", "name": case["name"], "gravity": gravity, "blocks": blocks,
         "joints": { "default": { "friction": friction(mu) } } });
     for pair in case["mu"].get("pairs").and_then(Value::as_array).into_iter().flatten() {
-        let overrides = value["joints"].as_object_mut().unwrap().entry("overrides").or_insert(json!([]));
-        overrides.as_array_mut().unwrap().push(json!({ "blocks": [pair["i"], pair["j"]], "friction": pair["mu"] }));
+        let overrides =
+            value["joints"].as_object_mut().unwrap().entry("overrides").or_insert(json!([]));
+        overrides
+            .as_array_mut()
+            .unwrap()
+            .push(json!({ "blocks": [pair["i"], pair["j"]], "friction": pair["mu"] }));
     }
     if let Some(contacts) = get("explicit_contacts").and_then(Value::as_array) {
         let mut list = Vec::new();
@@ -70,8 +77,7 @@ pub fn scene(case: &Value, variant: &Value, mu: f64) -> Scene {
                     value["blocks"].as_array_mut().unwrap().push(json!({ "id": c[side], "support": true, "at": [0.0, 0.0, -1000.0], "shape": { "box": { "size": [1.0, 1.0, 1.0] } } }));
                 }
             }
-            let mut contact =
-                json!({ "between": [c["i"], c["j"]], "points": [point(&c["point"])], "normal": point(&c["normal_from_i_to_j"]) });
+            let mut contact = json!({ "between": [c["i"], c["j"]], "points": [point(&c["point"])], "normal": point(&c["normal_from_i_to_j"]) });
             if let Some(mu) = c.get("mu").filter(|m| m.is_number()) {
                 contact["friction"] = mu.clone();
             }
@@ -83,8 +89,12 @@ pub fn scene(case: &Value, variant: &Value, mu: f64) -> Scene {
     if let Some(live) = query.get("live") {
         let load = match live["kind"].as_str().unwrap() {
             "body" => json!({ "weight": point(&live["dir"]) }),
-            "point" => json!({ "block": live["block"], "at": point(&live["at"]), "force": point(&live["force"]) }),
-            "torque_z" => json!({ "block": value["blocks"][live["block"].as_u64().unwrap() as usize]["id"], "moment": [0.0, 0.0, 1.0] }),
+            "point" => {
+                json!({ "block": live["block"], "at": point(&live["at"]), "force": point(&live["force"]) })
+            }
+            "torque_z" => {
+                json!({ "block": value["blocks"][live["block"].as_u64().unwrap() as usize]["id"], "moment": [0.0, 0.0, 1.0] })
+            }
             other => panic!("{other}"),
         };
         value["loads"] = json!({ "live": [load] });
@@ -138,7 +148,8 @@ pub fn mu_of(case: &Value) -> f64 {
 
 fn close(case: &Value, got: f64, want: f64, failures: &mut Vec<String>) {
     let e = &case["expected"];
-    let tol = e["tol_rel"].as_f64().map_or(0.0, |t| t * want.abs()) + e["tol_abs"].as_f64().unwrap_or(0.0);
+    let tol = e["tol_rel"].as_f64().map_or(0.0, |t| t * want.abs())
+        + e["tol_abs"].as_f64().unwrap_or(0.0);
     let ok = (got - want).abs() <= tol;
     println!(
         "{} {}: {got:.12} expected {want:.12} ({:.1e}, allowed {tol:.1e})",
@@ -162,9 +173,19 @@ fn masonry_cases() {
     let mut failures = Vec::new();
     let mut seen = 0;
     let mut grades = Grades::default();
-    let expect = |grades: &mut Grades, case: &Value, variant: &Value, mu: f64, want: Verdict, failures: &mut Vec<String>| {
+    let expect = |grades: &mut Grades,
+                  case: &Value,
+                  variant: &Value,
+                  mu: f64,
+                  want: Verdict,
+                  failures: &mut Vec<String>| {
         let got = grades.verdict(case, variant, mu);
-        println!("{} {}: {got:?} at mu {mu} {}", case["id"], if got == want { "met" } else { "NOT MET" }, variant["label"]);
+        println!(
+            "{} {}: {got:?} at mu {mu} {}",
+            case["id"],
+            if got == want { "met" } else { "NOT MET" },
+            variant["label"]
+        );
         if got != want {
             failures.push(format!("{}: {got:?} expected {want:?} (mu {mu})", case["id"]));
         }
@@ -193,14 +214,25 @@ fn masonry_cases() {
                 if e["static"] == "unbounded" {
                     println!("{}: {:?}", case["id"], l.outcome);
                     if l.outcome != Outcome::Unbounded {
-                        failures.push(format!("{}: {:?} expected unbounded", case["id"], l.outcome));
+                        failures
+                            .push(format!("{}: {:?} expected unbounded", case["id"], l.outcome));
                     }
                     continue;
                 }
-                let want = ["value", "associative", "corner_model", "associative_plus_x"].iter().find_map(|k| e[*k].as_f64()).unwrap();
+                let want = ["value", "associative", "corner_model", "associative_plus_x"]
+                    .iter()
+                    .find_map(|k| e[*k].as_f64())
+                    .unwrap();
                 // E11 gives torque / (μ W).
-                let got = if case["id"] == "E11" { l.value / (mu * m.assembly.weight(1)) } else { l.value };
-                if l.outcome != Outcome::Found || l.value < l.bracket.lower || l.value > l.bracket.upper {
+                let got = if case["id"] == "E11" {
+                    l.value / (mu * m.assembly.weight(1))
+                } else {
+                    l.value
+                };
+                if l.outcome != Outcome::Found
+                    || l.value < l.bracket.lower
+                    || l.value > l.bracket.upper
+                {
                     failures.push(format!("{}: {:?} {:?}", case["id"], l.outcome, l.bracket));
                     for a in &l.attempts {
                         println!("   {a:?}");
@@ -213,16 +245,32 @@ fn masonry_cases() {
                 c["query"]["live"] = json!({ "kind": "body", "dir": [1, 0] });
                 let m = model(&scene(&c, &c, mu));
                 let l = grades.limit(case, &m);
-                close(case, l.value.atan().to_degrees(), e["value"].as_f64().unwrap(), &mut failures);
+                close(
+                    case,
+                    l.value.atan().to_degrees(),
+                    e["value"].as_f64().unwrap(),
+                    &mut failures,
+                );
             }
             "verdict_flip" => {
                 for (k, variant) in case["variants"].as_array().into_iter().flatten().enumerate() {
                     println!(
                         "   variant {k}: {:?}",
-                        variant.as_object().unwrap().iter().filter(|(_, v)| !v.is_array()).collect::<Vec<_>>()
+                        variant
+                            .as_object()
+                            .unwrap()
+                            .iter()
+                            .filter(|(_, v)| !v.is_array())
+                            .collect::<Vec<_>>()
                     );
-                    let want = match variant.get("expected").or_else(|| variant.get("verdict")).and_then(Value::as_str) {
-                        Some(w) if w.contains("unstable") || w.contains("infeasible") => Verdict::Unstable,
+                    let want = match variant
+                        .get("expected")
+                        .or_else(|| variant.get("verdict"))
+                        .and_then(Value::as_str)
+                    {
+                        Some(w) if w.contains("unstable") || w.contains("infeasible") => {
+                            Verdict::Unstable
+                        }
                         Some(_) => Verdict::Stable,
                         None if k == 0 => Verdict::Stable,
                         None => Verdict::Unstable,
@@ -233,7 +281,10 @@ fn masonry_cases() {
             "mu_min" => {
                 let value = e["value"].as_f64().unwrap();
                 let tol = e["tol_abs"].as_f64().unwrap();
-                if !e["stable_with_mu"].is_null() || case.get("blocks").is_some() || case.get("explicit_contacts").is_some() {
+                if !e["stable_with_mu"].is_null()
+                    || case.get("blocks").is_some()
+                    || case.get("explicit_contacts").is_some()
+                {
                     expect(&mut grades, case, case, value + tol, Verdict::Stable, &mut failures);
                     expect(&mut grades, case, case, value - tol, Verdict::Unstable, &mut failures);
                 }
@@ -241,7 +292,14 @@ fn masonry_cases() {
             "verdict" => match query.get("mu_list") {
                 Some(list) => {
                     for mu in list.as_array().unwrap() {
-                        expect(&mut grades, case, case, mu.as_f64().unwrap(), Verdict::Stable, &mut failures);
+                        expect(
+                            &mut grades,
+                            case,
+                            case,
+                            mu.as_f64().unwrap(),
+                            Verdict::Stable,
+                            &mut failures,
+                        );
                     }
                 }
                 None if query.get("gravity_rotations").is_some() => {
@@ -253,12 +311,26 @@ fn masonry_cases() {
                 let m = model(&scene(case, case, mu));
                 let support = m.assembly.find(query["support"].as_str().unwrap()).unwrap();
                 let direction = outwards(&m, support).unwrap().into();
-                let t = answer(&m, ThrustAt { support, direction }, Ends::Both, &Control { law: Law::Associative, ..Control::default() });
+                let t = answer(
+                    &m,
+                    ThrustAt { support, direction },
+                    Ends::Both,
+                    &Control { law: Law::Associative, ..Control::default() },
+                );
                 let [least, greatest] = [0, 1].map(|k| t.ends[k].value);
-                close(case, least, e["value"].as_f64().or(e["min"].as_f64()).unwrap(), &mut failures);
+                close(
+                    case,
+                    least,
+                    e["value"].as_f64().or(e["min"].as_f64()).unwrap(),
+                    &mut failures,
+                );
                 match kind {
-                    "thrust_unique" => close(case, greatest, e["value"].as_f64().unwrap(), &mut failures),
-                    "thrust_range" => close(case, greatest, e["max"].as_f64().unwrap(), &mut failures),
+                    "thrust_unique" => {
+                        close(case, greatest, e["value"].as_f64().unwrap(), &mut failures)
+                    }
+                    "thrust_range" => {
+                        close(case, greatest, e["max"].as_f64().unwrap(), &mut failures)
+                    }
                     _ => {}
                 }
             }
@@ -268,6 +340,11 @@ fn masonry_cases() {
             }
         }
     }
-    println!("{seen} cases asked, {} not met; {} of {} proofs exact", failures.len(), grades.exact, grades.all);
+    println!(
+        "{seen} cases asked, {} not met; {} of {} proofs exact",
+        failures.len(),
+        grades.exact,
+        grades.all
+    );
     assert!(failures.is_empty(), "{failures:#?}");
 }

@@ -1,5 +1,6 @@
-//! The scenes of `structures/`: each is read, resolved and asked its question of `expected.json`; the answer is the one that
-//! stands there, and its result, saved and read back, is proved from the scene alone.
+//! The scenes of `structures/`: each is read, resolved and asked its question of `expected.json`;
+//! the answer is the one that stands there, and its result, saved and read back, is proved from the
+//! scene alone.
 
 use crate::ask::{self, close};
 use serde_json::Value;
@@ -14,7 +15,8 @@ fn folder() -> PathBuf {
 }
 
 fn expected() -> Vec<Value> {
-    let text = std::fs::read_to_string(folder().join("expected.json")).expect("structures/expected.json");
+    let text =
+        std::fs::read_to_string(folder().join("expected.json")).expect("structures/expected.json");
     serde_json::from_str(&text).expect("JSON")
 }
 
@@ -52,10 +54,17 @@ fn load_factors_are_those_expected_and_proved() {
     asked("limit", 20, |file, scene, entry| {
         let (outcome, value) = ask::outcome(scene);
         match entry["expect"]["load_factor_status"].as_str() {
-            Some(status) => assert_eq!(serde_json::to_value(outcome).expect("a word"), status, "{file}"),
+            Some(status) => {
+                assert_eq!(serde_json::to_value(outcome).expect("a word"), status, "{file}")
+            }
             None => {
                 assert_eq!(outcome, Outcome::Found, "{file}");
-                close(file, value, entry["expect"]["load_factor"].as_f64().expect("a number"), tolerance(entry));
+                close(
+                    file,
+                    value,
+                    entry["expect"]["load_factor"].as_f64().expect("a number"),
+                    tolerance(entry),
+                );
             }
         }
     });
@@ -83,5 +92,9 @@ fn every_scene_is_listed_with_its_answer() {
     for file in &files {
         assert!(table.contains(&format!("]({file})")), "{file} is not in structures/README.md");
     }
-    assert!(table.contains(&format!("{} scenes", files.len())), "structures/README.md does not say that there are {} scenes", files.len());
+    assert!(
+        table.contains(&format!("{} scenes", files.len())),
+        "structures/README.md does not say that there are {} scenes",
+        files.len()
+    );
 }

@@ -4,8 +4,13 @@ use serde_json::Value;
 use std::process::Command;
 
 fn run(args: &[&str]) -> Value {
-    let done = Command::new(env!("CARGO_BIN_EXE_voussoir")).args(args).current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
-    serde_json::from_slice(&done.stdout).unwrap_or_else(|e| panic!("{args:?}: {e}: {}", String::from_utf8_lossy(&done.stderr)))
+    let done = Command::new(env!("CARGO_BIN_EXE_voussoir"))
+        .args(args)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    serde_json::from_slice(&done.stdout)
+        .unwrap_or_else(|e| panic!("{args:?}: {e}: {}", String::from_utf8_lossy(&done.stderr)))
 }
 
 /// Where a value is not what a schema says (draft 2020-12, the words that these schemas use).
@@ -20,7 +25,13 @@ fn wrong(schema: &Value, root: &Value, value: &Value, at: &str, out: &mut Vec<St
         match word.as_str() {
             "$ref" => {
                 let target = rule.as_str().unwrap().trim_start_matches('#');
-                wrong(root.pointer(target).unwrap_or_else(|| panic!("{rule}")), root, value, at, out);
+                wrong(
+                    root.pointer(target).unwrap_or_else(|| panic!("{rule}")),
+                    root,
+                    value,
+                    at,
+                    out,
+                );
             }
             "type" => {
                 let is = |name: &str| match name {
@@ -33,23 +44,35 @@ fn wrong(schema: &Value, root: &Value, value: &Value, at: &str, out: &mut Vec<St
                     "object" => value.is_object(),
                     other => panic!("{other}"),
                 };
-                let fits = rule.as_str().map_or_else(|| rule.as_array().unwrap().iter().any(|r| is(r.as_str().unwrap())), is);
+                let fits = rule.as_str().map_or_else(
+                    || rule.as_array().unwrap().iter().any(|r| is(r.as_str().unwrap())),
+                    is,
+                );
                 if !fits {
                     out.push(format!("{at}: {value} is no {rule}"));
                 }
             }
             "properties" => {
                 for (key, rule) in rule.as_object().unwrap() {
-                    value.get(key).into_iter().for_each(|v| wrong(rule, root, v, &format!("{at}/{key}"), out));
+                    value
+                        .get(key)
+                        .into_iter()
+                        .for_each(|v| wrong(rule, root, v, &format!("{at}/{key}"), out));
                 }
             }
             "required" => {
-                let missing = rule.as_array().unwrap().iter().filter(|key| value.is_object() && value.get(key.as_str().unwrap()).is_none());
+                let missing =
+                    rule.as_array().unwrap().iter().filter(|key| {
+                        value.is_object() && value.get(key.as_str().unwrap()).is_none()
+                    });
                 out.extend(missing.map(|key| format!("{at}: {key} is missing")));
             }
             "additionalProperties" => {
-                let known = |key: &String| rules.get("properties").is_some_and(|p| p.get(key).is_some());
-                for (key, v) in value.as_object().into_iter().flatten().filter(|(key, _)| !known(key)) {
+                let known =
+                    |key: &String| rules.get("properties").is_some_and(|p| p.get(key).is_some());
+                for (key, v) in
+                    value.as_object().into_iter().flatten().filter(|(key, _)| !known(key))
+                {
                     wrong(rule, root, v, &format!("{at}/{key}"), out);
                 }
             }
@@ -59,7 +82,8 @@ fn wrong(schema: &Value, root: &Value, value: &Value, at: &str, out: &mut Vec<St
                 }
             }
             "minItems" | "maxItems" => {
-                let (count, rule) = (value.as_array().map(|a| a.len() as u64), rule.as_u64().unwrap());
+                let (count, rule) =
+                    (value.as_array().map(|a| a.len() as u64), rule.as_u64().unwrap());
                 if count.is_some_and(|n| if word == "minItems" { n < rule } else { n > rule }) {
                     out.push(format!("{at}: {word} {rule}"));
                 }
@@ -70,7 +94,9 @@ fn wrong(schema: &Value, root: &Value, value: &Value, at: &str, out: &mut Vec<St
                     out.push(format!("{at}: {word} {rule}"));
                 }
             }
-            "enum" if !rule.as_array().unwrap().contains(value) => out.push(format!("{at}: {value} is none of {rule}")),
+            "enum" if !rule.as_array().unwrap().contains(value) => {
+                out.push(format!("{at}: {value} is none of {rule}"))
+            }
             "const" if rule != value => out.push(format!("{at}: {value} is not {rule}")),
             "anyOf" | "oneOf" => {
                 let each: Vec<Vec<String>> = rule
@@ -85,11 +111,17 @@ fn wrong(schema: &Value, root: &Value, value: &Value, at: &str, out: &mut Vec<St
                     .collect();
                 let fit = each.iter().filter(|own| own.is_empty()).count();
                 if fit == 0 || (word == "oneOf" && fit > 1) {
-                    out.push(format!("{at}: fits {fit} of {word}: {:?}", each.into_iter().flatten().collect::<Vec<_>>()));
+                    out.push(format!(
+                        "{at}: fits {fit} of {word}: {:?}",
+                        each.into_iter().flatten().collect::<Vec<_>>()
+                    ));
                 }
             }
-            "allOf" => rule.as_array().unwrap().iter().for_each(|rule| wrong(rule, root, value, at, out)),
-            "enum" | "const" | "$schema" | "$defs" | "title" | "description" | "default" | "format" | "examples" => {}
+            "allOf" => {
+                rule.as_array().unwrap().iter().for_each(|rule| wrong(rule, root, value, at, out))
+            }
+            "enum" | "const" | "$schema" | "$defs" | "title" | "description" | "default"
+            | "format" | "examples" => {}
             other => panic!("this schema uses {other}, which is not checked here"),
         }
     }
@@ -145,7 +177,13 @@ fn every_verb_answers_as_the_schema_says() {
 #[test]
 fn resolved_scenes_are_what_the_schema_says() {
     let schema = run(&["schema", "model"]);
-    for name in ["oppenheim-arch", "sphere-pile", "mortared-pier", "floating-block", "column-with-closed-gap"] {
+    for name in [
+        "oppenheim-arch",
+        "sphere-pile",
+        "mortared-pier",
+        "floating-block",
+        "column-with-closed-gap",
+    ] {
         fits(&schema, &run(&["check", &format!("structures/{name}.json"), "--json"]), name);
     }
 }

@@ -1,6 +1,8 @@
 //! Joints with cohesion, tension, crushing, water and a rolling arm, each against its formula.
 
-use crate::ask::{cuboid, fixed, ground, load_factor, model, prism, push, scene, sphere, tilt_deg, verdict};
+use crate::ask::{
+    cuboid, fixed, ground, load_factor, model, prism, push, scene, sphere, tilt_deg, verdict,
+};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::{
@@ -23,7 +25,8 @@ fn block(friction: f64, joint: Value, size: [f64; 3]) -> Scene {
     scene(friction, json!([ground(), cuboid("block", size, [0.0; 3])]), more)
 }
 
-/// Case A31: the middle of three joints is weak in friction; with cohesion there the next one gives way.
+/// Case A31: the middle of three joints is weak in friction; with cohesion there the next one gives
+/// way.
 #[test]
 fn the_weakest_of_several_joints_slides() {
     let column = |middle: Value| {
@@ -50,7 +53,9 @@ fn the_weakest_of_several_joints_slides() {
 
 #[test]
 fn cohesion_adds_to_friction() {
-    for (size, cohesion) in [([1.0, 1.0, 0.1], 0.02), ([2.0, 0.5, 0.2], 1e-3), ([1.0, 1.0, 0.1], 0.5)] {
+    for (size, cohesion) in
+        [([1.0, 1.0, 0.1], 0.02), ([2.0, 0.5, 0.2], 1e-3), ([1.0, 1.0, 0.1], 0.5)]
+    {
         let weight = size[0] * size[1] * size[2];
         let lambda = load_factor(&block(0.3, json!({ "cohesion": cohesion }), size));
         // Without tension it may still turn over its edge.
@@ -82,7 +87,8 @@ fn a_block_hangs_on_its_tensile_strength() {
 #[test]
 fn tension_holds_a_block_down() {
     let (b, h, tension) = (0.5, 2.0, 0.3);
-    let lambda = load_factor(&block(5.0, json!({ "cohesion": 100.0, "tension": tension }), [b, 1.0, h]));
+    let lambda =
+        load_factor(&block(5.0, json!({ "cohesion": 100.0, "tension": tension }), [b, 1.0, h]));
     let weight = b * h;
     near(lambda, (weight * b / 2.0 + tension * b * b / 2.0) / (weight * h / 2.0), 1e-7);
 }
@@ -99,10 +105,14 @@ fn uplift_takes_its_part_off_the_friction() {
     let lambda = load_factor(&block(5.0, json!({ "pore_pressure": 0.5 }), [b, 1.0, h]));
     near(lambda, (b * h - 0.5 * b) * b / 2.0 / (b * h * h / 2.0), 1e-7);
     // It floats.
-    assert_eq!(verdict(&block(0.4, json!({ "pore_pressure": 1.001 }), [b, 1.0, h]), Law::Coulomb), Verdict::Unstable);
+    assert_eq!(
+        verdict(&block(0.4, json!({ "pore_pressure": 1.001 }), [b, 1.0, h]), Law::Coulomb),
+        Verdict::Unstable
+    );
 }
 
-/// `M = N t / 2 − N² / (2 σ b)`: a block turns about the middle of a strip that its weight fills at full strength.
+/// `M = N t / 2 − N² / (2 σ b)`: a block turns about the middle of a strip that its weight fills at
+/// full strength.
 #[test]
 fn a_hinge_crushes_by_the_hand_formula() {
     let (t, b, h) = (0.5, 1.5, 3.0);
@@ -114,11 +124,18 @@ fn a_hinge_crushes_by_the_hand_formula() {
         near(lambda, moment / (weight * h / 2.0), 1e-6);
     }
     // Its own weight is too much.
-    assert_eq!(verdict(&block(5.0, json!({ "compression": 0.999 * h }), [t, b, h]), Law::Coulomb), Verdict::Unstable);
-    assert_eq!(verdict(&block(5.0, json!({ "compression": 1.001 * h }), [t, b, h]), Law::Coulomb), Verdict::Stable);
+    assert_eq!(
+        verdict(&block(5.0, json!({ "compression": 0.999 * h }), [t, b, h]), Law::Coulomb),
+        Verdict::Unstable
+    );
+    assert_eq!(
+        verdict(&block(5.0, json!({ "compression": 1.001 * h }), [t, b, h]), Law::Coulomb),
+        Verdict::Stable
+    );
 }
 
-/// Pushed along its diagonal a square block crushes in a triangle at the corner: `N = σ 4.5 c²` with the centroid at (c, c).
+/// Pushed along its diagonal a square block crushes in a triangle at the corner: `N = σ 4.5 c²`
+/// with the centroid at (c, c).
 #[test]
 fn a_corner_crushes_in_a_triangle() {
     let (t, h) = (1.0, 2.0);
@@ -172,18 +189,24 @@ fn strengths_do_not_tilt_with_the_ground() {
     near(theta.tan(), mu * (1.0 - cohesion / h / theta.cos()), 1e-6);
 }
 
-/// Nothing that has a limit wedges: the block under a roof has a load factor when the joints can crush.
+/// Nothing that has a limit wedges: the block under a roof has a load factor when the joints can
+/// crush.
 #[test]
 fn crushing_ends_wedging() {
     let under_roof = |joint: Value| {
-        let blocks = json!([ground(), cuboid("block", [1.0, 1.0, 0.5], [0.0; 3]), fixed(cuboid("roof", [4.0, 4.0, 1.0], [0.0, 0.0, 0.5]))]);
+        let blocks = json!([
+            ground(),
+            cuboid("block", [1.0, 1.0, 0.5], [0.0; 3]),
+            fixed(cuboid("roof", [4.0, 4.0, 1.0], [0.0, 0.0, 0.5]))
+        ]);
         let mut more = push([1.0, 0.0, 0.0]);
         more["joints"] = json!({ "default": joint });
         scene(0.4, blocks, more)
     };
     let m = model(&under_roof(json!({ "friction": 0.4 })));
     assert_eq!(limit(&m, &Control::default()).outcome, Outcome::Unbounded);
-    // Squeezed to σ on both faces: λ W = μ σ A (top) + μ σ A (bottom), the weight taken off the top.
+    // Squeezed to σ on both faces: λ W = μ σ A (top) + μ σ A (bottom), the weight taken off the
+    // top.
     let sigma = 50.0;
     let lambda = load_factor(&under_roof(json!({ "friction": 0.4, "compression": sigma })));
     near(lambda, 0.4 * (2.0 * sigma - 0.5) / 0.5, 1e-6);
@@ -198,10 +221,16 @@ fn crushing_ends_wedging() {
 #[test]
 fn mortar_holds_a_block_between_posts() {
     let bar = |cohesion: f64| {
-        let post = |id: &str, x: f64| fixed(prism(id, &[[x - 0.1, -1.0], [x + 0.1, -1.0], [x + 0.1, 1.4], [x - 0.1, 1.4]]));
+        let post = |id: &str, x: f64| {
+            fixed(prism(id, &[[x - 0.1, -1.0], [x + 0.1, -1.0], [x + 0.1, 1.4], [x - 0.1, 1.4]]))
+        };
         scene(
             0.5,
-            json!([post("left", -1.0), post("right", 1.0), prism("bar", &[[-0.9, 0.0], [0.9, 0.0], [0.9, 0.5], [-0.9, 0.5]])]),
+            json!([
+                post("left", -1.0),
+                post("right", 1.0),
+                prism("bar", &[[-0.9, 0.0], [0.9, 0.0], [0.9, 0.5], [-0.9, 0.5]])
+            ]),
             json!({ "joints": { "default": { "friction": 0.5, "cohesion": cohesion } } }),
         )
     };
@@ -211,17 +240,35 @@ fn mortar_holds_a_block_between_posts() {
     assert_eq!(verdict(&bar(0.85), Law::Coulomb), Verdict::Conditional);
 }
 
-/// A result about strong joints is proved from the scene, and refuted when the scene's joints are weaker.
+/// A result about strong joints is proved from the scene, and refuted when the scene's joints are
+/// weaker.
 #[test]
 fn weaker_joints_refute_the_result() {
-    let arch =
-        |sigma: f64| block(5.0, json!({ "compression": sigma, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.01 }), [0.5, 1.0, 2.0]);
+    let arch = |sigma: f64| {
+        block(
+            5.0,
+            json!({ "compression": sigma, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.01 }),
+            [0.5, 1.0, 2.0],
+        )
+    };
     let (scene, model) = (arch(8.0), model(&arch(8.0)));
     let file = ResultFile::load_factor(&scene, &model, &limit(&model, &Control::default()).into());
     for other in [
-        block(5.0, json!({ "compression": 7.9, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.01 }), [0.5, 1.0, 2.0]),
-        block(5.0, json!({ "compression": 8.0, "cohesion": 0.1, "tension": 0.0, "pore_pressure": 0.01 }), [0.5, 1.0, 2.0]),
-        block(5.0, json!({ "compression": 8.0, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.02 }), [0.5, 1.0, 2.0]),
+        block(
+            5.0,
+            json!({ "compression": 7.9, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.01 }),
+            [0.5, 1.0, 2.0],
+        ),
+        block(
+            5.0,
+            json!({ "compression": 8.0, "cohesion": 0.1, "tension": 0.0, "pore_pressure": 0.01 }),
+            [0.5, 1.0, 2.0],
+        ),
+        block(
+            5.0,
+            json!({ "compression": 8.0, "cohesion": 0.1, "tension": 0.01, "pore_pressure": 0.02 }),
+            [0.5, 1.0, 2.0],
+        ),
     ] {
         assert!(voussoir::proof::verify(&file, &other).unwrap().refuted());
     }
@@ -231,7 +278,8 @@ fn weaker_joints_refute_the_result() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
 
-    /// The load factor does not change when lengths are multiplied and strengths with weight and length.
+    /// The load factor does not change when lengths are multiplied and strengths with weight and
+    /// length.
     #[test]
     fn strengths_scale_with_weight_and_length(
         cohesion in 0.0..0.3f64, tension in 0.0..0.2f64, sigma in 3.0..30.0f64, water in 0.0..0.5f64, length in -3.0..3.0f64, density in -3.0..6.0f64,

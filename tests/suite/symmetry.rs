@@ -1,5 +1,5 @@
-//! Scenes that are images of themselves: one part gives the answer of the whole, with a certificate of the whole; what is not
-//! quite symmetric is solved whole.
+//! Scenes that are images of themselves: one part gives the answer of the whole, with a certificate
+//! of the whole; what is not quite symmetric is solved whole.
 
 use crate::ask::{self, close, cuboid, dry, fixed, ground, model, push, scene, sphere, template};
 use serde_json::{Value, json};
@@ -15,11 +15,19 @@ fn keep_all() -> Control {
 }
 
 fn dome(thickness: f64, more: Value) -> Scene {
-    template(0.7, json!({ "dome": { "radius": 2.0, "thickness": thickness, "rings": 4, "segments": 12 } }), more)
+    template(
+        0.7,
+        json!({ "dome": { "radius": 2.0, "thickness": thickness, "rings": 4, "segments": 12 } }),
+        more,
+    )
 }
 
 fn arch(thickness: f64, voussoirs: usize) -> Scene {
-    template(0.8, json!({ "arch": { "radius": 1.0, "thickness": thickness, "depth": 1.0, "voussoirs": voussoirs } }), json!({}))
+    template(
+        0.8,
+        json!({ "arch": { "radius": 1.0, "thickness": thickness, "depth": 1.0, "voussoirs": voussoirs } }),
+        json!({}),
+    )
 }
 
 fn wall_pushed(direction: [f64; 3]) -> Scene {
@@ -30,21 +38,26 @@ fn wall_pushed(direction: [f64; 3]) -> Scene {
     )
 }
 
-/// `n` cubes around the vertical on a table with `n` sides, which makes one part of them, each turned by the same angle against its radius, so
-/// that there is no mirror; each is pushed along its own face.
+/// `n` cubes around the vertical on a table with `n` sides, which makes one part of them, each
+/// turned by the same angle against its radius, so that there is no mirror; each is pushed along
+/// its own face.
 fn pinwheel(n: usize, mu: f64) -> Scene {
     let mut blocks = vec![ground()];
     let mut loads = Vec::new();
     for k in 0..n {
         let turn = std::f64::consts::TAU * k as f64 / n as f64;
-        let mut block = cuboid(&format!("b{k}"), [1.0, 0.7, 0.5], [2.0 * turn.cos(), 2.0 * turn.sin(), 1.0]);
+        let mut block =
+            cuboid(&format!("b{k}"), [1.0, 0.7, 0.5], [2.0 * turn.cos(), 2.0 * turn.sin(), 1.0]);
         block["rotation_deg"] = json!({ "axis": [0, 0, 1], "angle": turn.to_degrees() + 20.0 });
         blocks.push(block);
         let along = turn + 20f64.to_radians();
         loads.push(json!({ "block": format!("b{k}"), "force": [along.cos(), along.sin(), 0.0] }));
     }
     let corner = |k: usize| (std::f64::consts::TAU * k as f64 / n as f64).sin_cos();
-    let mut table = ask::prism("table", &(0..n).map(|k| [6.0 * corner(k).1, 6.0 * corner(k).0]).collect::<Vec<_>>());
+    let mut table = ask::prism(
+        "table",
+        &(0..n).map(|k| [6.0 * corner(k).1, 6.0 * corner(k).0]).collect::<Vec<_>>(),
+    );
     table["rotation_deg"] = json!({ "axis": [1, 0, 0], "angle": 90 });
     table["at"] = json!([0, 0, 0.5]);
     blocks.push(table);
@@ -53,9 +66,25 @@ fn pinwheel(n: usize, mu: f64) -> Scene {
 
 fn pile(more: Value) -> Scene {
     let r = 2.0 / 3f64.sqrt();
-    let at = |k: usize| [r * (std::f64::consts::TAU * k as f64 / 3.0).cos(), r * (std::f64::consts::TAU * k as f64 / 3.0).sin(), 1.0];
+    let at = |k: usize| {
+        [
+            r * (std::f64::consts::TAU * k as f64 / 3.0).cos(),
+            r * (std::f64::consts::TAU * k as f64 / 3.0).sin(),
+            1.0,
+        ]
+    };
     let top = sphere("top", 1.0, [0.0, 0.0, 1.0 + (4.0 - r * r).sqrt()]);
-    scene(0.4, json!([ground(), sphere("a", 1.0, at(0)), sphere("b", 1.0, at(1)), sphere("c", 1.0, at(2)), top]), more)
+    scene(
+        0.4,
+        json!([
+            ground(),
+            sphere("a", 1.0, at(0)),
+            sphere("b", 1.0, at(1)),
+            sphere("c", 1.0, at(2)),
+            top
+        ]),
+        more,
+    )
 }
 
 /// A block between two posts, held by nothing but a squeeze.
@@ -73,15 +102,60 @@ fn line(left_out: &[String]) -> Option<&str> {
 fn verdicts_of_the_part_are_those_of_the_whole() {
     let critical = 0.10707620314306167;
     let cases = [
-        ("thick dome", dome(0.3, json!({})), Verdict::Stable, "12 equal parts around the vertical, each its own mirror image): 5 of 49"),
-        ("thin dome", dome(0.02, json!({})), Verdict::Unstable, "12 equal parts around the vertical, each its own mirror image): 5 of 49"),
-        ("arch with a keystone", arch(0.12, 27), Verdict::Stable, "mirror images of each other): 14 of 27"),
-        ("arch above its limit", arch(critical * (1.0 + 1e-6), 16), Verdict::Stable, "mirror images of each other): 8 of 16"),
-        ("arch below its limit", arch(critical * (1.0 - 1e-6), 16), Verdict::Unstable, "mirror images of each other): 8 of 16"),
-        ("wall", wall_pushed([0.0, 1.0, 0.0]), Verdict::Stable, "mirror images of each other): 10 of 18"),
-        ("spheres", pile(json!({})), Verdict::Stable, "3 equal parts around the vertical, each its own mirror image): 2 of 4"),
-        ("squeezed block", squeezed(), Verdict::Conditional, "mirror images of each other): 1 of 1"),
-        ("pinwheel", pinwheel(5, 0.3), Verdict::Stable, "5 equal parts around the vertical): 2 of 6"),
+        (
+            "thick dome",
+            dome(0.3, json!({})),
+            Verdict::Stable,
+            "12 equal parts around the vertical, each its own mirror image): 5 of 49",
+        ),
+        (
+            "thin dome",
+            dome(0.02, json!({})),
+            Verdict::Unstable,
+            "12 equal parts around the vertical, each its own mirror image): 5 of 49",
+        ),
+        (
+            "arch with a keystone",
+            arch(0.12, 27),
+            Verdict::Stable,
+            "mirror images of each other): 14 of 27",
+        ),
+        (
+            "arch above its limit",
+            arch(critical * (1.0 + 1e-6), 16),
+            Verdict::Stable,
+            "mirror images of each other): 8 of 16",
+        ),
+        (
+            "arch below its limit",
+            arch(critical * (1.0 - 1e-6), 16),
+            Verdict::Unstable,
+            "mirror images of each other): 8 of 16",
+        ),
+        (
+            "wall",
+            wall_pushed([0.0, 1.0, 0.0]),
+            Verdict::Stable,
+            "mirror images of each other): 10 of 18",
+        ),
+        (
+            "spheres",
+            pile(json!({})),
+            Verdict::Stable,
+            "3 equal parts around the vertical, each its own mirror image): 2 of 4",
+        ),
+        (
+            "squeezed block",
+            squeezed(),
+            Verdict::Conditional,
+            "mirror images of each other): 1 of 1",
+        ),
+        (
+            "pinwheel",
+            pinwheel(5, 0.3),
+            Verdict::Stable,
+            "5 equal parts around the vertical): 2 of 6",
+        ),
     ];
     for (name, s, want, words) in cases {
         assert_eq!(ask::verdict(&s, Law::Coulomb), want, "{name}");
@@ -91,24 +165,39 @@ fn verdicts_of_the_part_are_those_of_the_whole() {
         let line = line(&part.left_out).unwrap_or_else(|| panic!("{name}: {:?}", part.left_out));
         assert!(line.contains(words), "{name}: {line}");
         assert_eq!(part.verdict, whole.verdict, "{name}");
-        assert!((part.unbalance.lower - whole.unbalance.lower).abs() <= 1e-8, "{name}: {:?} {:?}", part.unbalance, whole.unbalance);
+        assert!(
+            (part.unbalance.lower - whole.unbalance.lower).abs() <= 1e-8,
+            "{name}: {:?} {:?}",
+            part.unbalance,
+            whole.unbalance
+        );
         assert!(part.attempts[0].size[0] < whole.attempts[0].size[0], "{name}");
-        let acceleration = |a: &voussoir::analysis::Assessment| a.state.as_ref().and_then(|s| s.steps.last()).map(|s| s.acceleration);
+        let acceleration = |a: &voussoir::analysis::Assessment| {
+            a.state.as_ref().and_then(|s| s.steps.last()).map(|s| s.acceleration)
+        };
         if want == Verdict::Conditional {
-            close(name, acceleration(&part).expect("a state"), acceleration(&whole).expect("a state"), 1e-3);
+            close(
+                name,
+                acceleration(&part).expect("a state"),
+                acceleration(&whole).expect("a state"),
+                1e-3,
+            );
         }
     }
 }
 
-/// Thousands of equal blocks far from the origin: their masses and moments, added up one by one, once put the centre 1e-12 sizes off the
-/// mirror, and the scene was solved whole.
+/// Thousands of equal blocks far from the origin: their masses and moments, added up one by one,
+/// once put the centre 1e-12 sizes off the mirror, and the scene was solved whole.
 #[test]
 fn many_blocks_far_away_are_halved() {
     let at = |k: usize| [8192.0 + (k % 60) as f64, 4096.0 + (k / 60) as f64, 0.5];
     let mut blocks = vec![fixed(cuboid("floor", [100.0, 100.0, 1.0], [8221.5, 4120.5, -0.5]))];
     blocks.extend((0..3000).map(|k| cuboid(&format!("b{k}"), [0.5, 0.5, 1.0], at(k))));
     let m = model(&scene(0.6, json!(blocks), push([1.0, 0.0, 0.0])));
-    let statics = Statics::new(&m, StaticsOptions { live: true, symmetry: true, ..StaticsOptions::default() });
+    let statics = Statics::new(
+        &m,
+        StaticsOptions { live: true, symmetry: true, ..StaticsOptions::default() },
+    );
     assert!(statics.is_part(), "{:?}", statics.left_out);
 }
 
@@ -128,7 +217,8 @@ fn load_factors_of_the_part_are_those_of_the_whole() {
         ("pinwheel", pinwheel(5, 0.3)),
         ("arch lifted", {
             let mut s = arch(0.15, 9);
-            s.loads.live = serde_json::from_value(json!([{ "block": "v04", "force": [0, 0, -1] }])).expect("a load");
+            s.loads.live = serde_json::from_value(json!([{ "block": "v04", "force": [0, 0, -1] }]))
+                .expect("a load");
             s
         }),
     ];
@@ -151,7 +241,8 @@ fn load_factors_of_the_part_are_those_of_the_whole() {
 fn dry_load_factors_of_the_part_are_those_of_the_whole() {
     let s = pinwheel(3, 0.3);
     close("pinwheel", dry(&s).0, 0.3 * 0.35, 1e-6);
-    for (name, s) in [("pinwheel", s), ("wall pulled down and out", wall_pushed([0.0, 1.0, -0.3]))] {
+    for (name, s) in [("pinwheel", s), ("wall pulled down and out", wall_pushed([0.0, 1.0, -0.3]))]
+    {
         let m = model(&s);
         let value = |control: &Control| {
             let bound = limit(&m, control);
@@ -179,7 +270,8 @@ fn scenes_that_are_not_quite_symmetric_are_solved_whole() {
     whole("one block moved by a millionth", &moved);
     let mut rough = squeezed();
     rough.joints.overrides =
-        serde_json::from_value(json!([{ "blocks": ["left", "bar"], "friction": 0.71 }])).unwrap_or_else(|e| panic!("{e}"));
+        serde_json::from_value(json!([{ "blocks": ["left", "bar"], "friction": 0.71 }]))
+            .unwrap_or_else(|e| panic!("{e}"));
     whole("one joint rougher", &rough);
     let mut crushing = arch(0.2, 9);
     crushing.joints.default.compression = Some(1e6);

@@ -1,4 +1,5 @@
-//! Thrusts on supports, lines of thrust and geometric safety factors: closed forms and linear programming, with proof.
+//! Thrusts on supports, lines of thrust and geometric safety factors: closed forms and linear
+//! programming, with proof.
 
 use crate::ask::{close, cuboid, fixed, model, prism, prove, scene, template};
 use serde_json::{Value, json};
@@ -19,12 +20,23 @@ fn associative() -> Control {
     Control { law: Law::Associative, ..Control::default() }
 }
 
-/// The answer about a support (the first, outwards, where nothing is said), proved from the scene alone.
-fn ask_at(scene: &Scene, support: Option<&str>, direction: Option<[f64; 3]>, control: &Control) -> ResultFile {
+/// The answer about a support (the first, outwards, where nothing is said), proved from the scene
+/// alone.
+fn ask_at(
+    scene: &Scene,
+    support: Option<&str>,
+    direction: Option<[f64; 3]>,
+    control: &Control,
+) -> ResultFile {
     let m = model(scene);
-    let support = support.map_or_else(|| first_support(&m), |id| m.assembly.find(id)).expect("a support");
+    let support =
+        support.map_or_else(|| first_support(&m), |id| m.assembly.find(id)).expect("a support");
     let direction = direction.unwrap_or_else(|| outwards(&m, support).expect("a direction").into());
-    let file = ResultFile::thrust(scene, &m, &answer(&m, ThrustAt { support, direction }, Ends::Both, control));
+    let file = ResultFile::thrust(
+        scene,
+        &m,
+        &answer(&m, ThrustAt { support, direction }, Ends::Both, control),
+    );
     prove(scene, &file);
     file
 }
@@ -57,10 +69,16 @@ fn flat_arch(friction: f64, center_depth: Option<f64>) -> Scene {
 
 #[test]
 fn thrust_of_arches() {
-    // B28: semicircle; B32: two centres, e / R = 0.25. Linear programming; the concept: Heyman (1966).
+    // B28: semicircle; B32: two centres, e / R = 0.25. Linear programming; the concept: Heyman
+    // (1966).
     for (case, parameters, least, greatest) in [
         ("B28", json!({}), 0.08267111462200738, 0.10680824496837434),
-        ("B32", json!({ "profile": "pointed", "eccentricity": 0.25 }), 0.04421605282336581, 0.0750615919098961),
+        (
+            "B32",
+            json!({ "profile": "pointed", "eccentricity": 0.25 }),
+            0.04421605282336581,
+            0.0750615919098961,
+        ),
     ] {
         let [low, high] = range(&arch(NO_SLIDING, parameters));
         close(case, low, least, 1e-8);
@@ -79,7 +97,8 @@ fn thrust_of_flat_arches() {
         let factor = t.geometric_factor.unwrap();
         assert!(factor.value.is_none() && factor.lower >= 999.0, "{factor:?}");
     }
-    // A29: joints through one point 2 m below: without friction the thrust is w c, the only one; with friction it may be less.
+    // A29: joints through one point 2 m below: without friction the thrust is w c, the only one;
+    // with friction it may be less.
     let [low, high] = range(&flat_arch(0.0, Some(2.0)));
     close("A29", low, 2.0, 1e-8);
     close("A29", high, 2.0, 1e-8);
@@ -88,9 +107,13 @@ fn thrust_of_flat_arches() {
 
 #[test]
 fn thrust_of_a_flying_buttress() {
-    // B41: a straight bar of vertical depth τ over a span L: w L² / (8 τ) with w = τ, whatever its slope (Heyman 1966).
-    let part = |from: f64, to: f64| [[from, 0.6 * from], [to, 0.6 * to], [to, 0.6 * to + 0.7], [from, 0.6 * from + 0.7]];
-    let mut blocks = vec![fixed(prism("left", &part(-1.0, 0.0))), fixed(prism("right", &part(6.0, 7.0)))];
+    // B41: a straight bar of vertical depth τ over a span L: w L² / (8 τ) with w = τ, whatever its
+    // slope (Heyman 1966).
+    let part = |from: f64, to: f64| {
+        [[from, 0.6 * from], [to, 0.6 * to], [to, 0.6 * to + 0.7], [from, 0.6 * from + 0.7]]
+    };
+    let mut blocks =
+        vec![fixed(prism("left", &part(-1.0, 0.0))), fixed(prism("right", &part(6.0, 7.0)))];
     blocks.extend((0..6).map(|k| prism(&format!("b{k}"), &part(f64::from(k), f64::from(k + 1)))));
     let t = ask(&scene(NO_SLIDING, json!(blocks), json!({})));
     close("B41", t.least.value.unwrap(), 4.5, 1e-8);
@@ -102,10 +125,20 @@ fn a_block_wedged_between_two_walls() {
     // Two faces of 1 m² hold the weight 1: 2 (μ N + c A) ≥ W.
     for (friction, cohesion) in [(0.5, 0.0), (0.5, 0.2)] {
         let wall = |id: &str, x: f64| fixed(cuboid(id, [1.0, 1.0, 1.0], [x, 0.0, 0.0]));
-        let blocks = json!([wall("left", -1.0), wall("right", 1.0), cuboid("block", [1.0, 1.0, 1.0], [0.0, 0.0, 0.0])]);
-        let more = json!({ "joints": { "default": { "friction": friction, "cohesion": cohesion } } });
+        let blocks = json!([
+            wall("left", -1.0),
+            wall("right", 1.0),
+            cuboid("block", [1.0, 1.0, 1.0], [0.0, 0.0, 0.0])
+        ]);
+        let more =
+            json!({ "joints": { "default": { "friction": friction, "cohesion": cohesion } } });
         let t = ask(&scene(friction, blocks, more));
-        close("wedged block", t.least.value.unwrap(), (1.0 - 2.0 * cohesion) / (2.0 * friction), 1e-7);
+        close(
+            "wedged block",
+            t.least.value.unwrap(),
+            (1.0 - 2.0 * cohesion) / (2.0 * friction),
+            1e-7,
+        );
         assert_eq!(t.greatest.status, Outcome::Unbounded);
         assert_eq!(t.geometric_factor.is_some(), cohesion == 0.0);
     }
@@ -113,7 +146,8 @@ fn a_block_wedged_between_two_walls() {
 
 #[test]
 fn a_line_of_thrust_by_hand() {
-    // A block of width b and height h, pushed sideways by H at its top: e = H h / W at the bottom, factor (b / 2) / e.
+    // A block of width b and height h, pushed sideways by H at its top: e = H h / W at the bottom,
+    // factor (b / 2) / e.
     let (b, h, push) = (1.0, 2.0, 0.3);
     let load = json!({ "loads": { "dead": [{ "block": "block", "force": [push, 0, 0], "at": [0, 0, h] }] } });
     let ground = crate::ask::ground();
@@ -134,9 +168,14 @@ fn a_line_of_thrust_by_hand() {
 
 #[test]
 fn the_factor_of_an_arch_is_its_thickness_over_the_least() {
-    // At its least thickness 0.107076203 the factor is 1; near it the weights hardly differ from those of the thinner arch.
+    // At its least thickness 0.107076203 the factor is 1; near it the weights hardly differ from
+    // those of the thinner arch.
     for thickness in [0.1075, 0.12] {
-        let factor = ask(&arch(NO_SLIDING, json!({ "thickness": thickness }))).geometric_factor.unwrap().value.unwrap();
+        let factor = ask(&arch(NO_SLIDING, json!({ "thickness": thickness })))
+            .geometric_factor
+            .unwrap()
+            .value
+            .unwrap();
         let ratio = thickness / 0.10707620314306167;
         assert!((factor / ratio - 1.0).abs() < 0.01 * (ratio - 1.0), "{factor} against {ratio}");
     }
@@ -144,11 +183,13 @@ fn the_factor_of_an_arch_is_its_thickness_over_the_least() {
 
 #[test]
 fn hinges_alternate_where_the_thrust_is_least() {
-    // Least: crown at the extrados, haunches at the intrados (Heyman 1966); the horizontal force is the same at every section.
+    // Least: crown at the extrados, haunches at the intrados (Heyman 1966); the horizontal force is
+    // the same at every section.
     let file = ask_at(&arch(NO_SLIDING, json!({})), None, None, &associative());
     let least = file.answer.thrust().unwrap().least.value.unwrap();
     let sections = file.thrust.unwrap().sections;
-    let hinges: Vec<_> = sections.iter().filter_map(|s| s.least).filter(|l| l.used > 1.0 - 1e-4).collect();
+    let hinges: Vec<_> =
+        sections.iter().filter_map(|s| s.least).filter(|l| l.used > 1.0 - 1e-4).collect();
     assert!(hinges.len() >= 3, "{}", hinges.len());
     for l in &hinges {
         let radius = l.at[0].hypot(l.at[2]);
@@ -176,7 +217,10 @@ fn every_equilibrium_lies_in_the_range() {
 fn units_directions_and_reductions_do_not_change_a_thrust() {
     let base = range(&arch(0.7, json!({})));
     let near = |what: &str, got: [f64; 2], want: [f64; 2]| {
-        assert!((0..2).all(|k| (got[k] - want[k]).abs() <= 1e-8 * want[k].abs()), "{what}: {got:?} expected {want:?}");
+        assert!(
+            (0..2).all(|k| (got[k] - want[k]).abs() <= 1e-8 * want[k].abs()),
+            "{what}: {got:?} expected {want:?}"
+        );
     };
     let large = range(&arch(0.7, json!({ "radius": 1e3, "thickness": 150, "depth": 1e3 })));
     near("size", large.map(|v| v * 1e-9), base);
@@ -246,8 +290,16 @@ fn drawings_hold_every_block_and_both_lines() {
     let text = drawing::svg(&View::new(&m, &file, Vec::new()).unwrap(), Default::default());
     assert_eq!(text.matches("<g class=\"block\">").count(), 8);
     assert_eq!(text.matches("<g class=\"support\">").count(), 2);
-    assert!(text.contains("a &lt; b &amp; c") && text.contains("class=\"line one\"") && text.contains("class=\"line two\""));
-    assert!(!text.contains("NaN") && !text.contains("inf") && text.matches("class=\"pin one\"").count() >= 3);
+    assert!(
+        text.contains("a &lt; b &amp; c")
+            && text.contains("class=\"line one\"")
+            && text.contains("class=\"line two\"")
+    );
+    assert!(
+        !text.contains("NaN")
+            && !text.contains("inf")
+            && text.matches("class=\"pin one\"").count() >= 3
+    );
     // Every element that is opened is closed.
     assert_eq!(text.matches("<g ").count(), text.matches("</g>").count());
 }

@@ -1,11 +1,17 @@
-//! Joints that crush: what bounds the fixed points of programs C and D follows from the forces that they end with.
+//! Joints that crush: what bounds the fixed points of programs C and D follows from the forces that
+//! they end with.
 
-use crate::{interface::Interfaces, program::coulomb::Contacts, solve::coulomb::FixedPoint, verdict::certificate};
+use crate::{
+    interface::Interfaces, program::coulomb::Contacts, solve::coulomb::FixedPoint,
+    verdict::certificate,
+};
 
-/// Fixed points tried with ever more bounds on crushing. Fewer: states near the strength stay undecided. More: time lost.
+/// Fixed points tried with ever more bounds on crushing. Fewer: states near the strength stay
+/// undecided. More: time lost.
 const MOST_ROUNDS: usize = 20;
 
-/// Fixed points again and again, with the bounds on crushing that the last one broke added to the contacts.
+/// Fixed points again and again, with the bounds on crushing that the last one broke added to the
+/// contacts.
 pub(super) fn within_strength(
     contacts: &mut Contacts,
     interfaces: &Interfaces,
@@ -15,7 +21,8 @@ pub(super) fn within_strength(
     for _ in 0..MOST_ROUNDS {
         let point = solve(contacts)?;
         solves += point.solves;
-        let broken = certificate::crushed(interfaces, &contacts.statics.forces(interfaces, &point.forces));
+        let broken =
+            certificate::crushed(interfaces, &contacts.statics.forces(interfaces, &point.forces));
         if broken.is_empty() {
             return Some(FixedPoint { solves, ..point });
         }

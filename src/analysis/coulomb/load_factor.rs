@@ -1,12 +1,14 @@
 //! Program D: the load factor with dry friction.
 //!
-//! Where the associative mechanism slides nowhere, it and its forces obey Coulomb's law as they stand, and the associative
-//! load factor is the answer. Otherwise the fixed point on the friction limits is followed as δ falls. What is found are
-//! forces that balance at λ and a mechanism that obeys Coulomb's law with them: *a* complementary solution. Load factors
-//! without dilatancy are not unique (Ferris & Tin-Loi 2001; Gilbert, Casapulla & Ahmed 2006); the associative value bounds
-//! them all from above. A run that does not settle is undecided and gives no number.
+//! Where the associative mechanism slides nowhere, it and its forces obey Coulomb's law as they
+//! stand, and the associative load factor is the answer. Otherwise the fixed point on the friction
+//! limits is followed as δ falls. What is found are forces that balance at λ and a mechanism that
+//! obeys Coulomb's law with them: *a* complementary solution. Load factors without dilatancy are
+//! not unique (Ferris & Tin-Loi 2001; Gilbert, Casapulla & Ahmed 2006); the associative value
+//! bounds them all from above. A run that does not settle is undecided and gives no number.
 //!
-//! Forces and a mechanism at λ say that the scene moves there, not that it comes to rest below: that is asked of the state ([`rest`](super::rest)).
+//! Forces and a mechanism at λ say that the scene moves there, not that it comes to rest below:
+//! that is asked of the state ([`rest`](super::rest)).
 
 use super::{
     crushing::within_strength,
@@ -38,11 +40,14 @@ pub enum Found {
     NothingSlides,
     /// A fixed point on the friction limits.
     FixedPoint,
-    /// The live load alone comes to rest on forces that it produces itself: no limit. Computed, not proved.
+    /// The live load alone comes to rest on forces that it produces itself: no limit. Computed, not
+    /// proved.
     Unlimited,
-    /// The state under dry friction rests up to the value, and no longer somewhat above it. Computed, not proved.
+    /// The state under dry friction rests up to the value, and no longer somewhat above it.
+    /// Computed, not proved.
     Rests,
-    /// Already under the dead load the state does not rest: it needs a pre-stress, or falls. There is no value.
+    /// Already under the dead load the state does not rest: it needs a pre-stress, or falls. There
+    /// is no value.
     NotAtRest,
     /// It did not settle: there is no value.
     Undecided,
@@ -55,8 +60,9 @@ pub struct DryLoadFactor {
     pub found: Found,
     /// The value; NaN where there is none.
     pub value: f64,
-    /// The greatest load factor at which the state under dry friction was seen at rest; it rested at all smaller ones that were asked, from
-    /// the dead load on. NaN where it was not asked, or did not come out.
+    /// The greatest load factor at which the state under dry friction was seen at rest; it rested
+    /// at all smaller ones that were asked, from the dead load on. NaN where it was not asked, or
+    /// did not come out.
     pub rests_at: f64,
     /// The least load factor at which it was seen to move; NaN where it never was.
     pub moves_at: f64,
@@ -66,7 +72,8 @@ pub struct DryLoadFactor {
     pub natural_map: f64,
     /// The same with rates as the program has them ([`law::natural_map_in_loads`]).
     pub natural_map_in_loads: f64,
-    /// Convex programs solved for the value; those of the states that were asked whether they rest are not counted.
+    /// Convex programs solved for the value; those of the states that were asked whether they rest
+    /// are not counted.
     pub solves: usize,
     /// Forces at the value, N.
     pub forces: Forces,
@@ -81,35 +88,57 @@ impl DryLoadFactor {
     }
 }
 
-/// δ, and the change of the friction limits (mean block loads) at which the next one is taken up. The error of the law falls with δ,
-/// the engine's noise in the forces grows with its tolerance / δ: the last stage, for what is not exact enough by then, has a
-/// larger δ than the one before and the engine at its finest.
+/// δ, and the change of the friction limits (mean block loads) at which the next one is taken up.
+/// The error of the law falls with δ, the engine's noise in the forces grows with its tolerance /
+/// δ: the last stage, for what is not exact enough by then, has a larger δ than the one before and
+/// the engine at its finest.
 const STAGES: [(f64, StoppingCriterion); 4] = [
     (1e-4, StoppingCriterion { change: 3e-2, solves: 20 }),
     (1e-5, StoppingCriterion { change: 3e-3, solves: 20 }),
     (6e-8, StoppingCriterion { change: 3e-5, solves: 20 }),
     (5e-7, StoppingCriterion { change: 1e-7, solves: 10 }),
 ];
-/// What δ is multiplied by for fixed points of Coulomb's law that are not exact enough for it. Smaller: rounding.
+/// What δ is multiplied by for fixed points of Coulomb's law that are not exact enough for it.
+/// Smaller: rounding.
 const FURTHER: [f64; 3] = [0.1, 1e-2, 1e-3];
 /// Stages after which a value is looked for.
 const LEAST_STAGES: usize = 3;
-/// A stage that ends with a change of this × the wanted one is lost. Larger: minutes on walls of 1,000 blocks that stay undecided.
-/// Smaller: values that the next stages would still find.
+/// A stage that ends with a change of this × the wanted one is lost. Larger: minutes on walls of
+/// 1,000 blocks that stay undecided. Smaller: values that the next stages would still find.
 const LOST: f64 = 10.0;
 /// The engine's tolerance before and after.
 const TOLERANCES: [f64; 2] = [1e-11, 1e-13];
 
-/// The load factor with dry friction of one part, up to which it comes to rest; `associative` is the answer of
-/// [`limit`](crate::analysis::limit()) for the same part, `dead` the verdict under the dead load alone, where it is known.
-pub(in crate::analysis) fn of_part(model: &Model, associative: &LoadFactor, dead: Option<Verdict>, control: &Control) -> DryLoadFactor {
+/// The load factor with dry friction of one part, up to which it comes to rest; `associative` is
+/// the answer of [`limit`](crate::analysis::limit()) for the same part, `dead` the verdict under
+/// the dead load alone, where it is known.
+pub(in crate::analysis) fn of_part(
+    model: &Model,
+    associative: &LoadFactor,
+    dead: Option<Verdict>,
+    control: &Control,
+) -> DryLoadFactor {
     let answer = complementary(model, associative, control);
-    up_to_rest(answer, &model.assembly, associative, dead, &|lambda| model.at_load_factor(lambda), control)
+    up_to_rest(
+        answer,
+        &model.assembly,
+        associative,
+        dead,
+        &|lambda| model.at_load_factor(lambda),
+        control,
+    )
 }
 
-/// Forces and a mechanism that obey Coulomb's law together at a load factor; nothing is said about what happens below.
-pub(in crate::analysis) fn complementary(model: &Model, associative: &LoadFactor, control: &Control) -> DryLoadFactor {
-    let map = |forces: &Forces, rates: &[Rate]| law::natural_map(model, forces, rates).unwrap_or(f64::INFINITY);
+/// Forces and a mechanism that obey Coulomb's law together at a load factor; nothing is said about
+/// what happens below.
+pub(in crate::analysis) fn complementary(
+    model: &Model,
+    associative: &LoadFactor,
+    control: &Control,
+) -> DryLoadFactor {
+    let map = |forces: &Forces, rates: &[Rate]| {
+        law::natural_map(model, forces, rates).unwrap_or(f64::INFINITY)
+    };
     let mut answer = DryLoadFactor {
         found: Found::Undecided,
         value: f64::NAN,
@@ -127,8 +156,11 @@ pub(in crate::analysis) fn complementary(model: &Model, associative: &LoadFactor
     }
     if associative.outcome == Outcome::Found {
         answer.natural_map = map(&associative.forces, &associative.rates);
-        answer.natural_map_in_loads = check::dry_map(model, &associative.forces, &associative.rates);
-        if answer.natural_map <= tolerance::DRY_LAW && answer.natural_map_in_loads <= tolerance::NATURAL_MAP {
+        answer.natural_map_in_loads =
+            check::dry_map(model, &associative.forces, &associative.rates);
+        if answer.natural_map <= tolerance::DRY_LAW
+            && answer.natural_map_in_loads <= tolerance::NATURAL_MAP
+        {
             (answer.found, answer.value) = (Found::NothingSlides, associative.value);
             return answer;
         }
@@ -137,7 +169,12 @@ pub(in crate::analysis) fn complementary(model: &Model, associative: &LoadFactor
         answer.found = Found::Unlimited;
         return answer;
     }
-    let options = StaticsOptions { keep_all: control.keep_all, live: true, symmetry: true, ..StaticsOptions::default() };
+    let options = StaticsOptions {
+        keep_all: control.keep_all,
+        live: true,
+        symmetry: true,
+        ..StaticsOptions::default()
+    };
     let contacts = Contacts::new(model, options);
     let is_part = contacts.statics.is_part();
     let scene = Scene { model, associative };
@@ -158,14 +195,23 @@ struct Scene<'a> {
 /// Lowers δ until the law is obeyed.
 fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mut DryLoadFactor) {
     let Model { assembly, interfaces, .. } = scene.model;
-    let settings =
-        Settings { deadline: control.deadline, tolerance: TOLERANCES[0], engine: EngineSettings::clarabel(1e-9), ..Settings::default() };
+    let settings = Settings {
+        deadline: control.deadline,
+        tolerance: TOLERANCES[0],
+        engine: EngineSettings::clarabel(1e-9),
+        ..Settings::default()
+    };
     let scale = check::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
     let first = StoppingCriterion { change: 0.0, solves: 1 };
-    let Some(mut from) =
-        iterate(&contacts, Objective::LoadFactor(STAGES[0].0, scale), HeldQuantity::SlidingRates, still, first, engine(&settings))
-    else {
+    let Some(mut from) = iterate(
+        &contacts,
+        Objective::LoadFactor(STAGES[0].0, scale),
+        HeldQuantity::SlidingRates,
+        still,
+        first,
+        engine(&settings),
+    ) else {
         return;
     };
     answer.solves += from.solves;
@@ -174,10 +220,18 @@ fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mu
         if control.deadline.is_over() {
             break;
         }
-        let settings = Settings { tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
+        let settings =
+            Settings { tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| {
             let solvers = Solvers { law: law.as_mut(), ..engine(&settings) };
-            iterate(c, Objective::LoadFactor(delta, scale), HeldQuantity::Limits, c.limits(&from.forces), stop, solvers)
+            iterate(
+                c,
+                Objective::LoadFactor(delta, scale),
+                HeldQuantity::Limits,
+                c.limits(&from.forces),
+                stop,
+                solvers,
+            )
         });
         let Some(point) = point else { break };
         answer.solves += point.solves;
@@ -186,12 +240,16 @@ fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mu
         }
         let settled = point.change == 0.0 && stage + 1 >= LEAST_STAGES;
         if let Some(law) = law.as_mut().filter(|_| settled) {
-            let further = |by: &f64| law.on(&contacts, by * delta, control.deadline).map(|p| FixedPoint { lambda: scale * p.lambda, ..p });
+            let further = |by: &f64| {
+                law.on(&contacts, by * delta, control.deadline)
+                    .map(|p| FixedPoint { lambda: scale * p.lambda, ..p })
+            };
             if FURTHER.iter().map_while(further).any(|p| accept(scene, &contacts, &p, answer)) {
                 break;
             }
         }
-        // What wanders at a large δ does not settle at a smaller one; at the smallest it may be the engine's noise.
+        // What wanders at a large δ does not settle at a smaller one; at the smallest it may be the
+        // engine's noise.
         let lost = point.change > LOST * stop.change;
         if lost && stage + 1 < LEAST_STAGES {
             break;
@@ -207,8 +265,14 @@ fn engine(settings: &Settings) -> Solvers<'_> {
     Solvers { newton: None, law: None, settings }
 }
 
-/// Takes a fixed point as the answer if it is more exact than the one before; says whether it is a value.
-fn accept(scene: &Scene, contacts: &Contacts, point: &FixedPoint, answer: &mut DryLoadFactor) -> bool {
+/// Takes a fixed point as the answer if it is more exact than the one before; says whether it is a
+/// value.
+fn accept(
+    scene: &Scene,
+    contacts: &Contacts,
+    point: &FixedPoint,
+    answer: &mut DryLoadFactor,
+) -> bool {
     let model = scene.model;
     let forces = contacts.statics.forces(&model.interfaces, &point.forces);
     let rates: Vec<Rate> = contacts
@@ -220,7 +284,8 @@ fn accept(scene: &Scene, contacts: &Contacts, point: &FixedPoint, answer: &mut D
     let natural_map = law::natural_map(model, &forces, &rates).unwrap_or(f64::INFINITY);
     let natural_map_in_loads = check::dry_map(model, &forces, &rates);
     // The forces as they are, cut to their limits, balance best at this load factor.
-    let lambda = contacts.best_factor(point.lambda, &contacts.residual(&point.forces, point.lambda));
+    let lambda =
+        contacts.best_factor(point.lambda, &contacts.residual(&point.forces, point.lambda));
     let lambda = lower_end(scene, &forces, &rates, lambda);
     let s = certificate::statics(model, &forces, lambda);
     let obeys = natural_map <= tolerance::DRY_LAW && natural_map_in_loads <= tolerance::NATURAL_MAP;
@@ -233,14 +298,22 @@ fn accept(scene: &Scene, contacts: &Contacts, point: &FixedPoint, answer: &mut D
     found
 }
 
-/// The load factor that these forces prove: what they leave off balance at `lambda` may be worth some of it, as the mechanism tells, and as
-/// that of the associative bound does, which no value passes.
-fn lower_end(Scene { model, associative }: &Scene, forces: &Forces, rates: &[Rate], lambda: f64) -> f64 {
+/// The load factor that these forces prove: what they leave off balance at `lambda` may be worth
+/// some of it, as the mechanism tells, and as that of the associative bound does, which no value
+/// passes.
+fn lower_end(
+    Scene { model, associative }: &Scene,
+    forces: &Forces,
+    rates: &[Rate],
+    lambda: f64,
+) -> f64 {
     let s = certificate::statics(model, forces, lambda);
     let assembly = &model.assembly;
     let hidden = |rates: &[Rate]| {
-        let driven: f64 = assembly.free().map(|i| certificate::power(&assembly.live[i], &rates[i])).sum();
-        let hidden: f64 = assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
+        let driven: f64 =
+            assembly.free().map(|i| certificate::power(&assembly.live[i], &rates[i])).sum();
+        let hidden: f64 =
+            assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
         if driven > 0.0 { hidden / driven } else { 0.0 }
     };
     if associative.outcome != Outcome::Found {
@@ -249,7 +322,8 @@ fn lower_end(Scene { model, associative }: &Scene, forces: &Forces, rates: &[Rat
     (lambda - hidden(rates).max(hidden(&associative.rates))).min(associative.value)
 }
 
-/// Whether the live load alone, on joints without any strength, produces the forces that balance it.
+/// Whether the live load alone, on joints without any strength, produces the forces that balance
+/// it.
 pub(in crate::analysis) fn part_rests_alone(model: &Model, control: &Control) -> bool {
     let Model { assembly, interfaces, .. } = model;
     let (alone, _) = check::live_alone(assembly);

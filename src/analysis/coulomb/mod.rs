@@ -1,4 +1,5 @@
-//! Dry friction exactly: what the fixed points of [`crate::program::coulomb`] say about state and load factor.
+//! Dry friction exactly: what the fixed points of [`crate::program::coulomb`] say about state and
+//! load factor.
 
 mod crushing;
 mod load_factor;

@@ -1,10 +1,11 @@
 //! Up to which load factor does the scene come to rest under dry friction?
 //!
-//! Forces and a mechanism that obey Coulomb's law at λ show that the scene can move there. Whether it rests below is another matter: part
-//! of it may be wedged, and stand on nothing but a pre-stress that the loads do not produce, while the mechanism moves something else. So the
-//! state ([`state`]) is asked under the dead load, on the way, and just below the value; where it does not rest, the value is no load factor
-//! of the scene, and the greatest one up to which it rests is sought by halving.
-//! *Computed, not proved:* that a state comes to rest.
+//! Forces and a mechanism that obey Coulomb's law at λ show that the scene can move there. Whether
+//! it rests below is another matter: part of it may be wedged, and stand on nothing but a
+//! pre-stress that the loads do not produce, while the mechanism moves something else. So the state
+//! ([`state`]) is asked under the dead load, on the way, and just below the value; where it does
+//! not rest, the value is no load factor of the scene, and the greatest one up to which it rests is
+//! sought by halving. *Computed, not proved:* that a state comes to rest.
 
 use super::{
     load_factor::{DryLoadFactor, Found},
@@ -18,36 +19,45 @@ use crate::{
     verdict::{Verdict, check, law},
 };
 
-/// Where the state is asked on the way to a value, in shares of it. Fewer: what comes loose on the way and wedges again is not seen.
+/// Where the state is asked on the way to a value, in shares of it. Fewer: what comes loose on the
+/// way and wedges again is not seen.
 const ON_THE_WAY: [f64; 3] = [0.25, 0.5, 0.75];
-/// The same for scenes of no more than [`FEW`] free blocks in which something slides: there the law may have both rest and motion for an answer over
-/// a whole range of load factors, and a motion anywhere in it refutes all values above.
-const ON_THE_WAY_OF_FEW: [f64; 11] = [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85, 0.95, 0.99];
+/// The same for scenes of no more than [`FEW`] free blocks in which something slides: there the law
+/// may have both rest and motion for an answer over a whole range of load factors, and a motion
+/// anywhere in it refutes all values above.
+const ON_THE_WAY_OF_FEW: [f64; 11] =
+    [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85, 0.95, 0.99];
 const FEW: usize = 100;
 /// The same for scenes of more than [`MANY`] free blocks, a state of which takes seconds.
 const ON_THE_WAY_OF_MANY: [f64; 1] = [0.5];
 const MANY: usize = 300;
 
-/// How far below the value the state is asked, in shares of it; the next one where the one before does not come out. Nearer: states that
-/// neither rest nor move. Farther: what the value says is not seen.
+/// How far below the value the state is asked, in shares of it; the next one where the one before
+/// does not come out. Nearer: states that neither rest nor move. Farther: what the value says is
+/// not seen.
 const BELOW: [f64; 4] = [tolerance::REST_BELOW, 1e-2, 0.05, 0.2];
 
-/// Without an end to the load factor: where the state is asked, in multiples of the one at which live and dead load weigh the same.
+/// Without an end to the load factor: where the state is asked, in multiples of the one at which
+/// live and dead load weigh the same.
 const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
 
-/// Most states asked while halving. Fewer: the value is known to fewer digits than [`tolerance::DRY_CRITICAL_WIDTH`].
+/// Most states asked while halving. Fewer: the value is known to fewer digits than
+/// [`tolerance::DRY_CRITICAL_WIDTH`].
 const MOST: usize = 40;
 /// The same for more than [`MANY`] free blocks.
 const MOST_OF_MANY: usize = 8;
 
-/// Most states that stay undecided where none was seen to move: without one there is no value, only how far it was seen at rest. More: minutes, for
-/// these states take longest. Fewer: it is seen at rest less far.
+/// Most states that stay undecided where none was seen to move: without one there is no value, only
+/// how far it was seen at rest. More: minutes, for these states take longest. Fewer: it is seen at
+/// rest less far.
 const MOST_OPEN: usize = 4;
 
-/// So many states on the way are asked at a time. More: those above one that moves are asked in vain. Fewer: threads wait.
+/// So many states on the way are asked at a time. More: those above one that moves are asked in
+/// vain. Fewer: threads wait.
 const AT_A_TIME: usize = 4;
 
-/// How near above a load factor up to which the state rests it does so no longer, at most, in shares of one at which it moves.
+/// How near above a load factor up to which the state rests it does so no longer, at most, in
+/// shares of one at which it moves.
 pub fn resolution(assembly: &Assembly) -> f64 {
     if assembly.free().count() > MANY { 1.0 / 64.0 } else { 4.0 * tolerance::DRY_CRITICAL_WIDTH }
 }
@@ -90,10 +100,13 @@ impl Probe<'_> {
         self.seen_to(StateMotion::Moves).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// The greatest load factor at which it rests. What rests above one at which it moves does not count.
+    /// The greatest load factor at which it rests. What rests above one at which it moves does not
+    /// count.
     fn rests(&self) -> Option<&(f64, State)> {
         let moves = self.moves().map_or(f64::INFINITY, |m| m.0);
-        self.seen_to(StateMotion::Rests).filter(|(lambda, _)| *lambda < moves).max_by(|a, b| a.0.total_cmp(&b.0))
+        self.seen_to(StateMotion::Rests)
+            .filter(|(lambda, _)| *lambda < moves)
+            .max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The same, or the dead load, at which it is known to rest.
@@ -103,15 +116,17 @@ impl Probe<'_> {
 
     /// Whether nothing more is to be had.
     fn is_hopeless(&self) -> bool {
-        self.seen_to(StateMotion::Moves).next().is_none() && self.seen_to(StateMotion::Undecided).count() >= MOST_OPEN
+        self.seen_to(StateMotion::Moves).next().is_none()
+            && self.seen_to(StateMotion::Undecided).count() >= MOST_OPEN
     }
 
-    /// Asks at these shares of a load factor, some at a time on all threads, until one moves or nothing more is to be had; false where the time is
-    /// over before.
+    /// Asks at these shares of a load factor, some at a time on all threads, until one moves or
+    /// nothing more is to be had; false where the time is over before.
     fn climb(&mut self, shares: &[f64], of: f64) -> bool {
         for some in shares.chunks(AT_A_TIME) {
             let one = |share: &f64| self.state(share * of);
-            let states = parallel::map(0, some, one).unwrap_or_else(|_| some.iter().map(one).collect());
+            let states =
+                parallel::map(0, some, one).unwrap_or_else(|_| some.iter().map(one).collect());
             let in_time = states.iter().all(Option::is_some);
             self.seen.extend(states.into_iter().flatten());
             if self.moves().is_some_and(|m| m.0 <= of) || self.is_hopeless() {
@@ -124,13 +139,22 @@ impl Probe<'_> {
         true
     }
 
-    /// Narrows what lies between rest and the rest by halving; false where the time is over before. Without a state that moves there is no value, and
-    /// no more digits are sought than a value may be off.
+    /// Narrows what lies between rest and the rest by halving; false where the time is over before.
+    /// Without a state that moves there is no value, and no more digits are sought than a value may
+    /// be off.
     fn halve(&mut self, above: f64, most: usize) -> bool {
         let rests = self.rests_at();
-        let mut above = self.seen_to(StateMotion::Undecided).map(|s| s.0).filter(|open| *open > rests).fold(above, f64::min);
+        let mut above = self
+            .seen_to(StateMotion::Undecided)
+            .map(|s| s.0)
+            .filter(|open| *open > rests)
+            .fold(above, f64::min);
         for _ in 0..most {
-            let width = if self.moves().is_some() { tolerance::DRY_CRITICAL_WIDTH } else { tolerance::REST_BELOW };
+            let width = if self.moves().is_some() {
+                tolerance::DRY_CRITICAL_WIDTH
+            } else {
+                tolerance::REST_BELOW
+            };
             let rests = self.rests_at();
             if self.is_hopeless() || above - rests <= width * above.abs() {
                 break;
@@ -146,8 +170,9 @@ impl Probe<'_> {
     }
 }
 
-/// Makes a complementary solution the load factor up to which the scene comes to rest. `dead` is the verdict under the dead load, where it is
-/// known, `at` the `assembly` under a load factor as its dead load.
+/// Makes a complementary solution the load factor up to which the scene comes to rest. `dead` is
+/// the verdict under the dead load, where it is known, `at` the `assembly` under a load factor as
+/// its dead load.
 pub(in crate::analysis) fn up_to_rest(
     mut answer: DryLoadFactor,
     assembly: &Assembly,
@@ -157,9 +182,12 @@ pub(in crate::analysis) fn up_to_rest(
     control: &Control,
 ) -> DryLoadFactor {
     let is_bounded = associative.outcome == Outcome::Found;
-    // Where contacts form no closed chain there is nothing that could be wedged, and below zero the dead load falls by itself.
+    // Where contacts form no closed chain there is nothing that could be wedged, and below zero the
+    // dead load falls by itself.
     let negative = answer.value < 0.0 || (is_bounded && associative.value <= 0.0);
-    if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) || control.deadline.is_over() {
+    if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded)
+        || control.deadline.is_over()
+    {
         return answer;
     }
     if is_forest(&at(0.0)) {
@@ -178,9 +206,13 @@ pub(in crate::analysis) fn up_to_rest(
     };
     match rests {
         Some(StateMotion::Rests) => answer.rests_at = 0.0,
-        Some(StateMotion::Moves) => (answer.found, answer.value, answer.moves_at) = (Found::NotAtRest, f64::NAN, 0.0),
+        Some(StateMotion::Moves) => {
+            (answer.found, answer.value, answer.moves_at) = (Found::NotAtRest, f64::NAN, 0.0)
+        }
         // What is not known at the dead load is not known above it.
-        Some(StateMotion::Undecided) | None => (answer.found, answer.value) = (Found::Undecided, f64::NAN),
+        Some(StateMotion::Undecided) | None => {
+            (answer.found, answer.value) = (Found::Undecided, f64::NAN)
+        }
     }
     if rests == Some(StateMotion::Rests) {
         climb(&mut probe, &mut answer, associative, assembly);
@@ -189,7 +221,12 @@ pub(in crate::analysis) fn up_to_rest(
 }
 
 /// From the dead load, at which the state rests, upwards.
-fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor, assembly: &Assembly) {
+fn climb(
+    probe: &mut Probe,
+    answer: &mut DryLoadFactor,
+    associative: &LoadFactor,
+    assembly: &Assembly,
+) {
     let blocks = assembly.free().count();
     let (most, on_the_way) = match blocks {
         _ if blocks > MANY => (MOST_OF_MANY, &ON_THE_WAY_OF_MANY[..]),
@@ -203,10 +240,14 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
             probe.climb(on_the_way, goal);
             let halfway = probe.rests_at();
             // Without a value, what does not come out far below the bound does not next to it.
-            let hopeless = answer.value.is_nan() && halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal;
+            let hopeless =
+                answer.value.is_nan() && halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal;
             for share in BELOW.into_iter().filter(|_| !hopeless) {
                 let lambda = (1.0 - share) * goal;
-                if probe.moves().is_some() || lambda <= halfway || probe.is_hopeless() || probe.ask(lambda) != Some(StateMotion::Undecided)
+                if probe.moves().is_some()
+                    || lambda <= halfway
+                    || probe.is_hopeless()
+                    || probe.ask(lambda) != Some(StateMotion::Undecided)
                 {
                     break;
                 }
@@ -221,7 +262,9 @@ fn climb(probe: &mut Probe, answer: &mut DryLoadFactor, associative: &LoadFactor
     let above = probe.moves().map(|m| m.0).or(goal.filter(|_| answer.value.is_nan()));
     let mut narrow = above.is_none_or(|above| probe.halve(above, most));
     // On the way to what came out of halving it is asked once more, until no motion refutes it.
-    while let Some(moves) = probe.moves().map(|m| m.0).filter(|_| narrow && on_the_way.len() == ON_THE_WAY_OF_FEW.len()) {
+    while let Some(moves) =
+        probe.moves().map(|m| m.0).filter(|_| narrow && on_the_way.len() == ON_THE_WAY_OF_FEW.len())
+    {
         let value = probe.rests_at();
         narrow = probe.climb(on_the_way, value);
         match probe.moves() {

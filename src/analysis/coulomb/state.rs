@@ -1,10 +1,12 @@
 //! Program C: do the loads themselves produce the forces that hold the scene?
 //!
-//! Admissible forces may need a pre-stress that nobody applied: a block between two posts is held by any squeeze, but
-//! nothing squeezes it. The state of the scene on slightly compliant contacts answers it. What balances leaves an
-//! acceleration that falls with ε; what does not keeps it, and is then a motion that obeys Coulomb's law with the forces at hand.
-//! *Proved:* a state that moves is a solution of the law (its natural map is recomputed from the forces). *Computed, not proved:*
-//! that a state at rest is the one the loads produce; rest under a pre-stress and motion are often both exact solutions.
+//! Admissible forces may need a pre-stress that nobody applied: a block between two posts is held
+//! by any squeeze, but nothing squeezes it. The state of the scene on slightly compliant contacts
+//! answers it. What balances leaves an acceleration that falls with ε; what does not keeps it, and
+//! is then a motion that obeys Coulomb's law with the forces at hand. *Proved:* a state that moves
+//! is a solution of the law (its natural map is recomputed from the forces). *Computed, not
+//! proved:* that a state at rest is the one the loads produce; rest under a pre-stress and motion
+//! are often both exact solutions.
 
 use super::crushing::within_strength;
 use crate::{
@@ -69,35 +71,39 @@ pub struct State {
     pub forces: Forces,
 }
 
-/// The ε of the continuation. Fewer: long chains of joints, an arch of 10,000 slices, still bend too far at the last one. More: the engine's noise
-/// over ε passes for an acceleration.
+/// The ε of the continuation. Fewer: long chains of joints, an arch of 10,000 slices, still bend
+/// too far at the last one. More: the engine's noise over ε passes for an acceleration.
 const EPSILONS: [f64; 7] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 
-/// The engine's tolerance per ε: the rates are the imbalance over ε, and want no more than five digits.
-/// Larger: the rates are noise. Smaller: the engine reaches its noise (3e-10 on vaults of 400 blocks) first, and crawls there for
-/// five times as many iterations as it took to come so far.
+/// The engine's tolerance per ε: the rates are the imbalance over ε, and want no more than five
+/// digits. Larger: the rates are noise. Smaller: the engine reaches its noise (3e-10 on vaults of
+/// 400 blocks) first, and crawls there for five times as many iterations as it took to come so far.
 const TOLERANCE_PER_EPSILON: f64 = 1e-5;
 
 /// The engine's tolerance at large ε. Larger: the friction limits settle no better than that.
 const COARSEST_TOLERANCE: f64 = 1e-9;
 
-/// Steps of ε before the law itself is solved where no verdict came out. Fewer: time lost on scenes that rest plainly. More: the limits of
-/// states near the edge of friction do not settle.
+/// Steps of ε before the law itself is solved where no verdict came out. Fewer: time lost on scenes
+/// that rest plainly. More: the limits of states near the edge of friction do not settle.
 const BEFORE_EXACT: usize = 2;
 
-/// Friction limits that change by more than this, in the loads that pass there, at so many ε one after the other, the law itself having been tried, do
-/// not settle at smaller ones. Less or fewer: states are lost (2 of 993 with one ε, none with two). More: minutes for states that stay open.
+/// Friction limits that change by more than this, in the loads that pass there, at so many ε one
+/// after the other, the law itself having been tried, do not settle at smaller ones. Less or fewer:
+/// states are lost (2 of 993 with one ε, none with two). More: minutes for states that stay open.
 const HOPELESS: (f64, usize) = (0.1, 2);
 
-/// An acceleration counts when it is more than this × what unsettled friction can make. Less: noise that falls passes for rest. More: time lost.
+/// An acceleration counts when it is more than this × what unsettled friction can make. Less: noise
+/// that falls passes for rest. More: time lost.
 const NOISE: f64 = 10.0;
 
 /// When a fixed point has settled.
 const STOP: StoppingCriterion = StoppingCriterion { change: 1e-5, solves: 25 };
 
-/// Computes the state; of a symmetric scene from one part of it, and where that leaves it open from the whole.
+/// Computes the state; of a symmetric scene from one part of it, and where that leaves it open from
+/// the whole.
 pub fn state(model: &Model, control: &Control) -> State {
-    let options = StaticsOptions { keep_all: control.keep_all, symmetry: true, ..StaticsOptions::default() };
+    let options =
+        StaticsOptions { keep_all: control.keep_all, symmetry: true, ..StaticsOptions::default() };
     let contacts = Contacts::new(model, options);
     let is_part = contacts.statics.is_part();
     let part = continued(model, contacts, control);
@@ -114,7 +120,8 @@ pub fn state(model: &Model, control: &Control) -> State {
 fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State {
     let interfaces = &model.interfaces;
     let settings = Settings { tolerance: 1e-10, deadline: control.deadline, ..Settings::default() };
-    let mut answer = State { motion: StateMotion::Undecided, steps: Vec::new(), forces: Vec::new() };
+    let mut answer =
+        State { motion: StateMotion::Undecided, steps: Vec::new(), forces: Vec::new() };
     let still = vec![0.0; contacts.discs().count()];
     let once = StoppingCriterion { solves: 1, ..STOP };
     let mut exact = f64::INFINITY;
@@ -125,23 +132,42 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
     let mut hopeless = 0;
     let rest = vec![0.0; contacts.statics.matrix.rows];
     // The associative state is the first guess of the friction limits.
-    let solvers = Solvers { newton: newton.as_mut().map(|n| (n, &rest[..])), law: None, settings: &settings };
-    let mut last = iterate(&contacts, Objective::State(EPSILONS[0]), HeldQuantity::SlidingRates, still, once, solvers);
+    let solvers =
+        Solvers { newton: newton.as_mut().map(|n| (n, &rest[..])), law: None, settings: &settings };
+    let mut last = iterate(
+        &contacts,
+        Objective::State(EPSILONS[0]),
+        HeldQuantity::SlidingRates,
+        still,
+        once,
+        solvers,
+    );
     for epsilon in EPSILONS {
         let Some(from) = last.take().filter(|_| !control.deadline.is_over()) else { break };
         let start = Instant::now();
-        let tolerance = (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE);
+        let tolerance =
+            (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE);
         let settings = Settings { tolerance, ..settings };
-        let point =
-            within_strength(&mut contacts, interfaces, |c| settled(c, Objective::State(epsilon), &from, newton.as_mut(), &settings));
+        let point = within_strength(&mut contacts, interfaces, |c| {
+            settled(c, Objective::State(epsilon), &from, newton.as_mut(), &settings)
+        });
         let Some(mut point) = point else { break };
         let mut forces = contacts.statics.forces(interfaces, &point.forces);
         let mut moved = law::motion(model, &forces);
         let rests = decide(&history, &point, &moved) == StateMotion::Rests;
         if history.len() >= BEFORE_EXACT && point.change > 0.0 && !rests {
             let solver = exactly.get_or_insert_with(|| Exact::new(&contacts));
-            if let Some((solved, change)) = solver.as_mut().and_then(|e| e.near(&contacts, epsilon, &point.rates, control.deadline)) {
-                point = FixedPoint { forces: contacts.cut(&solved.forces), rates: solved.rates, change, noise: change, ..point };
+            if let Some((solved, change)) = solver
+                .as_mut()
+                .and_then(|e| e.near(&contacts, epsilon, &point.rates, control.deadline))
+            {
+                point = FixedPoint {
+                    forces: contacts.cut(&solved.forces),
+                    rates: solved.rates,
+                    change,
+                    noise: change,
+                    ..point
+                };
                 forces = contacts.statics.forces(interfaces, &point.forces);
                 moved = law::motion(model, &forces);
             }
@@ -156,14 +182,31 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
             solves: point.solves,
             seconds: start.elapsed().as_secs_f64(),
         });
-        history.push(Seen { accelerations: moved.accelerations, change: point.change, noise: point.noise });
+        history.push(Seen {
+            accelerations: moved.accelerations,
+            change: point.change,
+            noise: point.noise,
+        });
         last = Some(point);
         match (answer.motion, decided) {
             // A motion once told is followed while it obeys the law more and more exactly.
-            (StateMotion::Moves, decided) if decided != StateMotion::Moves || moved.natural_map_in_loads >= exact => break,
-            (_, decided) => (answer.motion, answer.forces, exact) = (decided, forces, moved.natural_map_in_loads),
+            (StateMotion::Moves, decided)
+                if decided != StateMotion::Moves || moved.natural_map_in_loads >= exact =>
+            {
+                break;
+            }
+            (_, decided) => {
+                (answer.motion, answer.forces, exact) =
+                    (decided, forces, moved.natural_map_in_loads)
+            }
         }
-        hopeless = if history.len() > BEFORE_EXACT && history.last().is_some_and(|s| s.change > HOPELESS.0) { hopeless + 1 } else { 0 };
+        hopeless = if history.len() > BEFORE_EXACT
+            && history.last().is_some_and(|s| s.change > HOPELESS.0)
+        {
+            hopeless + 1
+        } else {
+            0
+        };
         if hopeless == HOPELESS.1
             || answer.motion == StateMotion::Rests
             || (answer.motion == StateMotion::Moves && exact <= tolerance::NATURAL_MAP)
@@ -174,7 +217,8 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
     answer
 }
 
-/// The fixed point on the limits; where it does not settle, the twin on the sliding rates has a try.
+/// The fixed point on the limits; where it does not settle, the twin on the sliding rates has a
+/// try.
 fn settled(
     contacts: &Contacts,
     objective: Objective,
@@ -182,16 +226,30 @@ fn settled(
     mut newton: Option<&mut Newton>,
     settings: &Settings,
 ) -> Option<FixedPoint> {
-    let solvers = Solvers { newton: newton.as_deref_mut().map(|n| (n, &from.rates[..])), law: None, settings };
-    let by_limits = iterate(contacts, objective, HeldQuantity::Limits, contacts.limits(&from.forces), STOP, solvers)?;
+    let solvers = Solvers {
+        newton: newton.as_deref_mut().map(|n| (n, &from.rates[..])),
+        law: None,
+        settings,
+    };
+    let by_limits = iterate(
+        contacts,
+        objective,
+        HeldQuantity::Limits,
+        contacts.limits(&from.forces),
+        STOP,
+        solvers,
+    )?;
     if by_limits.change <= tolerance::COULOMB_SETTLED {
         return Some(by_limits);
     }
     let sliding = contacts.sliding(&contacts.joint_rates(&by_limits.rates));
-    let solvers = Solvers { newton: newton.map(|n| (n, &by_limits.rates[..])), law: None, settings };
+    let solvers =
+        Solvers { newton: newton.map(|n| (n, &by_limits.rates[..])), law: None, settings };
     let by_rates = iterate(contacts, objective, HeldQuantity::SlidingRates, sliding, STOP, solvers);
     match by_rates {
-        Some(twin) if twin.change <= STOP.change => Some(FixedPoint { solves: twin.solves + by_limits.solves, ..twin }),
+        Some(twin) if twin.change <= STOP.change => {
+            Some(FixedPoint { solves: twin.solves + by_limits.solves, ..twin })
+        }
         _ => Some(by_limits),
     }
 }
@@ -210,16 +268,26 @@ fn decide(history: &[Seen], point: &FixedPoint, moved: &Released) -> StateMotion
     if before.change.max(point.change) > tolerance::COULOMB_SETTLED {
         return StateMotion::Undecided;
     }
-    // An acceleration that grew as ε fell, or that unsettled friction may have made, is no measure for the next one.
+    // An acceleration that grew as ε fell, or that unsettled friction may have made, is no measure
+    // for the next one.
     let grew = |i: usize| matches!(history, [.., earlier, _] if before.accelerations[i] > 2.0 * earlier.accelerations[i]);
     let is_measure = |i: usize| before.accelerations[i] > NOISE * before.noise && !grew(i);
     let rest = (NOISE * point.noise).clamp(tolerance::UNBALANCE, tolerance::AT_REST);
     // Every block for itself: what sinks on soft joints must not hide what moves beside it.
-    let falls = |(i, &a): (usize, &f64)| a <= rest || (is_measure(i) && a < tolerance::ACCELERATION_FALLS * before.accelerations[i]);
+    let falls = |(i, &a): (usize, &f64)| {
+        a <= rest || (is_measure(i) && a < tolerance::ACCELERATION_FALLS * before.accelerations[i])
+    };
     if moved.accelerations.iter().enumerate().all(falls) {
         return StateMotion::Rests;
     }
-    let stays =
-        |(i, &a): (usize, &f64)| a == moved.acceleration && is_measure(i) && a > tolerance::ACCELERATION_STAYS * before.accelerations[i];
-    if moved.is_motion() && moved.accelerations.iter().enumerate().any(stays) { StateMotion::Moves } else { StateMotion::Undecided }
+    let stays = |(i, &a): (usize, &f64)| {
+        a == moved.acceleration
+            && is_measure(i)
+            && a > tolerance::ACCELERATION_STAYS * before.accelerations[i]
+    };
+    if moved.is_motion() && moved.accelerations.iter().enumerate().any(stays) {
+        StateMotion::Moves
+    } else {
+        StateMotion::Undecided
+    }
 }

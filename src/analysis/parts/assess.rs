@@ -25,8 +25,8 @@ pub fn assess(model: &Model, control: &Control) -> Assessment {
     merged(model, &parts, &answers)
 }
 
-/// What the state under dry friction does: it rests where that of every part does. A part whose contacts form no closed chain has none of its own:
-/// statics alone fixes its forces.
+/// What the state under dry friction does: it rests where that of every part does. A part whose
+/// contacts form no closed chain has none of its own: statics alone fixes its forces.
 pub fn motion(model: &Model, control: &Control) -> StateMotion {
     let parts = interface::parts(model);
     let all: Vec<usize> = (0..parts.len()).collect();
@@ -35,16 +35,24 @@ pub fn motion(model: &Model, control: &Control) -> StateMotion {
         if is_forest(part) { StateMotion::Rests } else { state(part, control).motion }
     });
     let is = |motion| own.contains(&motion);
-    [StateMotion::Moves, StateMotion::Undecided].into_iter().find(|&m| is(m)).unwrap_or(StateMotion::Rests)
+    [StateMotion::Moves, StateMotion::Undecided]
+        .into_iter()
+        .find(|&m| is(m))
+        .unwrap_or(StateMotion::Rests)
 }
 
-/// Parts that touch nothing that is held fall with 1 g, which nothing else exceeds: the others are not asked.
+/// Parts that touch nothing that is held fall with 1 g, which nothing else exceeds: the others are
+/// not asked.
 fn fall_freely(model: &Model, parts: &[Part]) -> Option<Assessment> {
     let Model { assembly, interfaces, .. } = model;
     let loose = |part: &&Part| part.model.assembly.blocks.iter().all(|b| !b.support);
     let falls = |part: &Part| falls_freely(&part.model);
-    let answers: Vec<(usize, Assessment)> =
-        parts.iter().enumerate().filter(|(_, p)| loose(p)).filter_map(|(k, p)| falls(p).map(|a| (k, a))).collect();
+    let answers: Vec<(usize, Assessment)> = parts
+        .iter()
+        .enumerate()
+        .filter(|(_, p)| loose(p))
+        .filter_map(|(k, p)| falls(p).map(|a| (k, a)))
+        .collect();
     let &(decides, ref first) = answers.first()?;
     let mut rates = vec![Rate::zero(); assembly.blocks.len()];
     answers.iter().for_each(|(k, a)| put_rates(&parts[*k], &a.rates, 1.0, &mut rates));
@@ -57,7 +65,9 @@ fn fall_freely(model: &Model, parts: &[Part]) -> Option<Assessment> {
         mechanism: Some(mechanism::read(model, &rates)),
         rates,
         floating,
-        left_out: vec![format!("the whole program: {count} free blocks have no contact path to a support")],
+        left_out: vec![format!(
+            "the whole program: {count} free blocks have no contact path to a support"
+        )],
         ..first.clone()
     })
 }
@@ -77,11 +87,14 @@ fn worst(answers: &[Assessment]) -> usize {
     let measure = |a: &Assessment| match a.verdict {
         Verdict::Unstable => a.unbalance.lower,
         // What dry friction leaves is what tells them apart.
-        Verdict::Conditional => a.state.as_ref().and_then(|s| s.steps.last()).map_or(0.0, |s| s.acceleration),
+        Verdict::Conditional => {
+            a.state.as_ref().and_then(|s| s.steps.last()).map_or(0.0, |s| s.acceleration)
+        }
         Verdict::Stable | Verdict::Undecided => a.unbalance.upper,
     };
     let key = |a: &Assessment| (rank(a.verdict), measure(a));
-    (1..answers.len()).fold(0, |best, k| if key(&answers[k]) > key(&answers[best]) { k } else { best })
+    (1..answers.len())
+        .fold(0, |best, k| if key(&answers[k]) > key(&answers[best]) { k } else { best })
 }
 
 fn merged(model: &Model, parts: &[Part], answers: &[Assessment]) -> Assessment {
@@ -92,18 +105,39 @@ fn merged(model: &Model, parts: &[Part], answers: &[Assessment]) -> Assessment {
     let rates = scene_rates(assembly, part, &worst.rates);
     // Where the part that decides needed none, the one that was slowest to come to rest.
     let slowest = || {
-        let last = |a: &Assessment| a.state.as_ref().and_then(|s| s.steps.last()).map_or(f64::NEG_INFINITY, |s| s.acceleration);
-        (0..answers.len()).filter(|&k| answers[k].state.is_some()).max_by(|&j, &k| last(&answers[j]).total_cmp(&last(&answers[k])))
+        let last = |a: &Assessment| {
+            a.state
+                .as_ref()
+                .and_then(|s| s.steps.last())
+                .map_or(f64::NEG_INFINITY, |s| s.acceleration)
+        };
+        (0..answers.len())
+            .filter(|&k| answers[k].state.is_some())
+            .max_by(|&j, &k| last(&answers[j]).total_cmp(&last(&answers[k])))
     };
-    let stateful = worst.state.is_some().then_some(decides).or_else(|| slowest().filter(|_| worst.verdict == Verdict::Stable));
-    // Where a part moves, the others hold still: they are in balance exactly, not up to their compliance.
+    let stateful = worst
+        .state
+        .is_some()
+        .then_some(decides)
+        .or_else(|| slowest().filter(|_| worst.verdict == Verdict::Stable));
+    // Where a part moves, the others hold still: they are in balance exactly, not up to their
+    // compliance.
     let settled = |k: usize| Some(k) == stateful || worst.verdict == Verdict::Stable;
     let state = stateful.and_then(|k| {
-        let own =
-            |k: usize| answers[k].state.as_ref().filter(|s| settled(k) && !s.forces.is_empty()).map_or(&answers[k].forces, |s| &s.forces);
+        let own = |k: usize| {
+            answers[k]
+                .state
+                .as_ref()
+                .filter(|s| settled(k) && !s.forces.is_empty())
+                .map_or(&answers[k].forces, |s| &s.forces)
+        };
         let state = answers[k].state.as_ref()?;
-        let all = || scene_forces(interfaces, parts.iter().enumerate().map(|(k, part)| (part, own(k))));
-        Some(State { forces: if state.forces.is_empty() { Vec::new() } else { all() }, ..state.clone() })
+        let all =
+            || scene_forces(interfaces, parts.iter().enumerate().map(|(k, part)| (part, own(k))));
+        Some(State {
+            forces: if state.forces.is_empty() { Vec::new() } else { all() },
+            ..state.clone()
+        })
     });
     let floating = |(part, a): (&Part, &Assessment)| -> Vec<Vec<usize>> {
         a.floating.iter().map(|group| group.iter().map(|&i| part.blocks[i]).collect()).collect()

@@ -1,4 +1,5 @@
-//! The load factor with dry friction of a scene is the least of those of its parts, where all the others come to rest there.
+//! The load factor with dry friction of a scene is the least of those of its parts, where all the
+//! others come to rest there.
 
 use super::{
     Deciding, each,
@@ -16,19 +17,33 @@ use crate::{
     verdict::{Forces, Verdict, no_forces},
 };
 
-/// The load factor with dry friction, up to which every part comes to rest; `associative` is the answer of
-/// [`limit`](crate::analysis::limit()) for the same model.
-pub fn load_factor(model: &Model, associative: &LoadFactor, control: &Control) -> Proved<DryLoadFactor> {
+/// The load factor with dry friction, up to which every part comes to rest; `associative` is the
+/// answer of [`limit`](crate::analysis::limit()) for the same model.
+pub fn load_factor(
+    model: &Model,
+    associative: &LoadFactor,
+    control: &Control,
+) -> Proved<DryLoadFactor> {
     load_factor_from(model, associative, None, control)
 }
 
 /// The same where the verdict under the dead load alone is known.
-pub fn load_factor_from(model: &Model, associative: &LoadFactor, dead: Option<Verdict>, control: &Control) -> Proved<DryLoadFactor> {
+pub fn load_factor_from(
+    model: &Model,
+    associative: &LoadFactor,
+    dead: Option<Verdict>,
+    control: &Control,
+) -> Proved<DryLoadFactor> {
     Proved::new(model, unproved(model, associative, dead, control))
 }
 
 /// The same without the check.
-pub fn unproved(model: &Model, associative: &LoadFactor, dead: Option<Verdict>, control: &Control) -> DryLoadFactor {
+pub fn unproved(
+    model: &Model,
+    associative: &LoadFactor,
+    dead: Option<Verdict>,
+    control: &Control,
+) -> DryLoadFactor {
     // Where all stands, every part does; any other verdict is that of one of them.
     let dead = dead.filter(|&v| v == Verdict::Stable);
     let solve = |part: &Part, bound: Option<&LoadFactor>, control: &Control| match bound {
@@ -41,18 +56,33 @@ pub fn unproved(model: &Model, associative: &LoadFactor, dead: Option<Verdict>, 
     load_factor_by(model, associative, control, (solve, under))
 }
 
-/// The same with ways of one's own: what is asked of a part that the live load acts on (given its own associative answer, where that is
-/// known), in its own units, and a part by itself when the scene has this load factor.
-pub fn load_factor_by<S, A>(model: &Model, associative: &LoadFactor, control: &Control, (solve, at): (S, A)) -> DryLoadFactor
+/// The same with ways of one's own: what is asked of a part that the live load acts on (given its
+/// own associative answer, where that is known), in its own units, and a part by itself when the
+/// scene has this load factor.
+pub fn load_factor_by<S, A>(
+    model: &Model,
+    associative: &LoadFactor,
+    control: &Control,
+    (solve, at): (S, A),
+) -> DryLoadFactor
 where
     S: Fn(&Part, Option<&LoadFactor>, &Control) -> DryLoadFactor + Sync,
     A: Fn(&Part, f64) -> Model + Sync,
 {
     let parts = interface::parts(model);
-    if associative.outcome == Outcome::Impossible || control.deadline.is_over() || !parts.iter().any(Part::is_driven) {
+    if associative.outcome == Outcome::Impossible
+        || control.deadline.is_over()
+        || !parts.iter().any(Part::is_driven)
+    {
         return coulomb::complementary(model, associative, control);
     }
-    let known = |k: usize| associative.parts.get(k).filter(|_| associative.parts.len() == parts.len()).and_then(Option::as_ref);
+    let known = |k: usize| {
+        associative
+            .parts
+            .get(k)
+            .filter(|_| associative.parts.len() == parts.len())
+            .and_then(Option::as_ref)
+    };
     let driven: Vec<usize> = (0..parts.len()).filter(|&k| parts[k].is_driven()).collect();
     let answers = each(&parts, &driven, control, |k, control| solve(&parts[k], known(k), control));
     let mut own: Vec<Option<DryLoadFactor>> = parts.iter().map(|_| None).collect();
@@ -61,11 +91,14 @@ where
     scene.answer(control, &at)
 }
 
-/// Whether in every part that it acts on the live load alone produces the forces that balance it, so that no multiple of it moves anything.
+/// Whether in every part that it acts on the live load alone produces the forces that balance it,
+/// so that no multiple of it moves anything.
 pub fn rests_alone(model: &Model, control: &Control) -> bool {
     let parts = interface::parts(model);
     let driven: Vec<usize> = (0..parts.len()).filter(|&k| parts[k].is_driven()).collect();
-    let rests = each(&parts, &driven, control, |k, control| coulomb::part_rests_alone(&parts[k].model, control));
+    let rests = each(&parts, &driven, control, |k, control| {
+        coulomb::part_rests_alone(&parts[k].model, control)
+    });
     !rests.is_empty() && !rests.contains(&false)
 }
 
@@ -83,9 +116,14 @@ impl Scene<'_> {
         Some(self.parts[k].units.load_factor(own.value))
     }
 
-    fn answer(&self, control: &Control, at: &(impl Fn(&Part, f64) -> Model + Sync)) -> DryLoadFactor {
+    fn answer(
+        &self,
+        control: &Control,
+        at: &(impl Fn(&Part, f64) -> Model + Sync),
+    ) -> DryLoadFactor {
         let n = self.parts.len();
-        let driven: Vec<(usize, &DryLoadFactor)> = self.own.iter().enumerate().filter_map(|(k, a)| Some((k, a.as_ref()?))).collect();
+        let driven: Vec<(usize, &DryLoadFactor)> =
+            self.own.iter().enumerate().filter_map(|(k, a)| Some((k, a.as_ref()?))).collect();
         let values = (0..n).filter_map(|k| self.value(k).map(|v| (k, v)));
         let least = values.reduce(|a, b| if b.1 < a.1 { b } else { a });
         // Without any value: a part that is open, else any of those that have no limit.
@@ -99,7 +137,9 @@ impl Scene<'_> {
         .unwrap_or(&driven[0]);
         let lambda = least.map(|l| l.1);
         let all: Vec<usize> = (0..n).collect();
-        let beside = each(self.parts, &all, control, |k, control| self.beside(k, decides, lambda, control, at));
+        let beside = each(self.parts, &all, control, |k, control| {
+            self.beside(k, decides, lambda, control, at)
+        });
         let refused = (0..n).find(|&k| k != decides && !beside[k].1);
         let found = match refused {
             _ if own.found == Found::NotAtRest => Found::NotAtRest,
@@ -110,20 +150,27 @@ impl Scene<'_> {
         let scene = |v: f64| self.parts[decides].units.load_factor(v);
         DryLoadFactor {
             found,
-            part: Deciding::new(self.parts, refused.filter(|_| found != own.found).unwrap_or(decides)),
+            part: Deciding::new(
+                self.parts,
+                refused.filter(|_| found != own.found).unwrap_or(decides),
+            ),
             value: lambda.filter(|_| !open(found)).unwrap_or(f64::NAN),
             rests_at: if refused.is_some() { f64::NAN } else { scene(own.rests_at) },
             moves_at: scene(own.moves_at),
             natural_map: own.natural_map,
             natural_map_in_loads: own.natural_map_in_loads,
             solves: self.own.iter().flatten().map(|a| a.solves).sum(),
-            forces: scene_forces(&self.model.interfaces, self.parts.iter().zip(beside.iter().map(|b| &b.0))),
+            forces: scene_forces(
+                &self.model.interfaces,
+                self.parts.iter().zip(beside.iter().map(|b| &b.0)),
+            ),
             rates: scene_rates(&self.model.assembly, &self.parts[decides], &own.rates),
         }
     }
 
-    /// The forces of part `k` where the scene has the load factor `lambda`, whether it bears that, and whether it is known not to rest. What has a value of its own bears all
-    /// that is less, and so does what has no limit; of the others the state under dry friction has to come to rest.
+    /// The forces of part `k` where the scene has the load factor `lambda`, whether it bears that,
+    /// and whether it is known not to rest. What has a value of its own bears all that is less, and
+    /// so does what has no limit; of the others the state under dry friction has to come to rest.
     fn beside(
         &self,
         k: usize,
@@ -134,9 +181,17 @@ impl Scene<'_> {
     ) -> (Forces, bool, bool) {
         let part = &self.parts[k];
         let found = self.own[k].as_ref().map(|a| a.found);
-        let own =
-            |bears: bool| (self.own[k].as_ref().map_or_else(|| no_forces(&part.model.interfaces), |a| a.forces.clone()), bears, false);
-        let close = self.value(k).zip(lambda).is_some_and(|(v, lambda)| v - lambda <= SAME * lambda.abs());
+        let own = |bears: bool| {
+            (
+                self.own[k]
+                    .as_ref()
+                    .map_or_else(|| no_forces(&part.model.interfaces), |a| a.forces.clone()),
+                bears,
+                false,
+            )
+        };
+        let close =
+            self.value(k).zip(lambda).is_some_and(|(v, lambda)| v - lambda <= SAME * lambda.abs());
         if k == decides || close {
             return own(!found.is_some_and(open));
         }
@@ -146,7 +201,11 @@ impl Scene<'_> {
         let lambda = lambda.unwrap_or(0.0);
         let law = if found.is_none_or(open) { Law::Coulomb } else { Law::Associative };
         let a = assess_part(&at(part, lambda), &Control { law, ..*control });
-        (a.forces, a.verdict == Verdict::Stable, matches!(a.verdict, Verdict::Conditional | Verdict::Unstable))
+        (
+            a.forces,
+            a.verdict == Verdict::Stable,
+            matches!(a.verdict, Verdict::Conditional | Verdict::Unstable),
+        )
     }
 }
 

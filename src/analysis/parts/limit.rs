@@ -3,7 +3,8 @@
 use super::{Deciding, each, left_out, put_rates, scene_attempts, scene_forces, scene_rates};
 use crate::{
     analysis::{
-        Assessment, Attempt, Bracket, Control, Law, LoadFactor, Outcome, assess::of_part as assess_part, limit::of_part as limit_part,
+        Assessment, Attempt, Bracket, Control, Law, LoadFactor, Outcome,
+        assess::of_part as assess_part, limit::of_part as limit_part,
     },
     assembly::Wrench,
     interface::{self, Model, Part},
@@ -99,25 +100,35 @@ struct Scene<'a> {
     more: Vec<Attempt>,
 }
 
-/// Two load factors this close, relative to themselves, are one: the forces of the one serve for the other.
+/// Two load factors this close, relative to themselves, are one: the forces of the one serve for
+/// the other.
 pub const SAME: f64 = 1e-9;
 
 impl Scene<'_> {
-    fn answer(&mut self, control: &Control, at: &(impl Fn(&Part, f64) -> Model + Sync)) -> LoadFactor {
+    fn answer(
+        &mut self,
+        control: &Control,
+        at: &(impl Fn(&Part, f64) -> Model + Sync),
+    ) -> LoadFactor {
         if self.asked.iter().any(Asked::falls) {
             return self.impossible();
         }
         let value = |k: usize| match &self.asked[k] {
-            Asked::Driven(l) if l.outcome == Outcome::Found => Some(self.parts[k].units.load_factor(l.value)),
+            Asked::Driven(l) if l.outcome == Outcome::Found => {
+                Some(self.parts[k].units.load_factor(l.value))
+            }
             _ => None,
         };
-        let least = (0..self.parts.len()).filter_map(|k| value(k).map(|v| (k, v))).reduce(|a, b| if b.1 < a.1 { b } else { a });
+        let least = (0..self.parts.len())
+            .filter_map(|k| value(k).map(|v| (k, v)))
+            .reduce(|a, b| if b.1 < a.1 { b } else { a });
         // A part that is still open decides, unless it is proved to bear more than another.
         let open = |k: usize| match &self.asked[k] {
             Asked::Still(a) => a.verdict != Verdict::Stable,
             Asked::Driven(l) => {
                 let bears = self.parts[k].units.load_factor(l.bracket.lower);
-                l.outcome == Outcome::Undecided && least.is_none_or(|(_, v)| bears.is_nan() || bears <= v)
+                l.outcome == Outcome::Undecided
+                    && least.is_none_or(|(_, v)| bears.is_nan() || bears <= v)
             }
         };
         if let Some(k) = (0..self.parts.len()).find(|&k| open(k)) {
@@ -145,21 +156,31 @@ impl Scene<'_> {
             value: f64::NAN,
             bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
             part: Deciding::new(self.parts, decides),
-            forces: scene_forces(&self.model.interfaces, self.parts.iter().zip(self.asked.iter().map(Asked::forces))),
+            forces: scene_forces(
+                &self.model.interfaces,
+                self.parts.iter().zip(self.asked.iter().map(Asked::forces)),
+            ),
             base: None,
             rates: vec![Rate::zero(); self.model.assembly.blocks.len()],
             mechanism: None,
             attempts: attempts.collect(),
-            left_out: left_out(&self.model.interfaces, lines.iter().map(|l| &l[..]), self.parts.len()),
+            left_out: left_out(
+                &self.model.interfaces,
+                lines.iter().map(|l| &l[..]),
+                self.parts.len(),
+            ),
             parts: Vec::new(),
         }
     }
 
     /// Every part that no multiple holds moves: each of them proves it.
     fn impossible(&self) -> LoadFactor {
-        let falling: Vec<usize> = (0..self.parts.len()).filter(|&k| self.asked[k].falls()).collect();
+        let falling: Vec<usize> =
+            (0..self.parts.len()).filter(|&k| self.asked[k].falls()).collect();
         let mut answer = self.start(falling[0]);
-        falling.iter().for_each(|&k| put_rates(&self.parts[k], self.asked[k].rates(), 1.0, &mut answer.rates));
+        falling.iter().for_each(|&k| {
+            put_rates(&self.parts[k], self.asked[k].rates(), 1.0, &mut answer.rates)
+        });
         self.as_impossible(answer)
     }
 
@@ -179,14 +200,17 @@ impl Scene<'_> {
         for (part, asked) in self.parts.iter().zip(self.asked) {
             match asked {
                 Asked::Driven(l) => {
-                    let [lower, upper] = [l.bracket.lower, l.bracket.upper].map(|v| part.units.load_factor(v));
+                    let [lower, upper] =
+                        [l.bracket.lower, l.bracket.upper].map(|v| part.units.load_factor(v));
                     answer.bracket.lower = answer.bracket.lower.min(lower);
                     if upper < answer.bracket.upper {
                         answer.bracket.upper = upper;
                         answer.rates = scene_rates(&self.model.assembly, part, &l.rates);
                     }
                 }
-                Asked::Still(a) if a.verdict != Verdict::Stable => answer.bracket.lower = f64::NEG_INFINITY,
+                Asked::Still(a) if a.verdict != Verdict::Stable => {
+                    answer.bracket.lower = f64::NEG_INFINITY
+                }
                 Asked::Still(_) => {}
             }
         }
@@ -206,7 +230,9 @@ impl Scene<'_> {
                 Asked::Still(_) => None,
             })
         };
-        let base = |part: &Part, l: &LoadFactor| l.base.as_ref().map_or(f64::NEG_INFINITY, |b| part.units.load_factor(b.0));
+        let base = |part: &Part, l: &LoadFactor| {
+            l.base.as_ref().map_or(f64::NEG_INFINITY, |b| part.units.load_factor(b.0))
+        };
         // From there on all of them stand.
         let standing = driven().map(|(part, l)| base(part, l)).fold(f64::NEG_INFINITY, f64::max);
         (answer.forces, answer.outcome) = (no_forces(&self.model.interfaces), Outcome::Unbounded);
@@ -218,19 +244,38 @@ impl Scene<'_> {
                 continue;
             };
             let Some((own, base)) = &l.base else { continue };
-            part.put_forces(&combined(base, &l.forces, part.units.own_load_factor(standing) - own), &mut forces);
+            part.put_forces(
+                &combined(base, &l.forces, part.units.own_load_factor(standing) - own),
+                &mut forces,
+            );
             // Those of the live load alone: per unit of the scene's load factor.
-            part.put_forces(&combined(&no_forces(&part.model.interfaces), &l.forces, part.units.own_load_factor(1.0)), &mut answer.forces);
+            part.put_forces(
+                &combined(
+                    &no_forces(&part.model.interfaces),
+                    &l.forces,
+                    part.units.own_load_factor(1.0),
+                ),
+                &mut answer.forces,
+            );
         }
         answer.base = Some((standing, forces));
         answer
     }
 
     /// The least load factor is that of part `decides`: do the others stand there?
-    fn found(&mut self, decides: usize, value: f64, control: &Control, at: &(impl Fn(&Part, f64) -> Model + Sync)) -> LoadFactor {
+    fn found(
+        &mut self,
+        decides: usize,
+        value: f64,
+        control: &Control,
+        at: &(impl Fn(&Part, f64) -> Model + Sync),
+    ) -> LoadFactor {
         let mut answer = self.start(decides);
-        let (part, Asked::Driven(own)) = (&self.parts[decides], &self.asked[decides]) else { return answer };
-        // Forces balance at the lower end; those of the others serve where theirs is the same to the last digit.
+        let (part, Asked::Driven(own)) = (&self.parts[decides], &self.asked[decides]) else {
+            return answer;
+        };
+        // Forces balance at the lower end; those of the others serve where theirs is the same to
+        // the last digit.
         let standing_at = part.units.load_factor(own.bracket.lower);
         let bears_more = |k: usize| match &self.asked[k] {
             Asked::Driven(l) => {
@@ -240,14 +285,17 @@ impl Scene<'_> {
             Asked::Still(_) => false,
         };
         let others: Vec<usize> = (0..self.parts.len()).filter(|&k| bears_more(k)).collect();
-        let standing = each(self.parts, &others, control, |k, control| assess_part(&at(&self.parts[k], standing_at), control));
+        let standing = each(self.parts, &others, control, |k, control| {
+            assess_part(&at(&self.parts[k], standing_at), control)
+        });
         for (&k, a) in others.iter().zip(&standing) {
             self.parts[k].put_forces(&a.forces, &mut answer.forces);
             self.more.extend(a.attempts.iter().cloned());
         }
         answer.attempts.append(&mut self.more);
         answer.rates = scene_rates(&self.model.assembly, part, &own.rates);
-        for (&k, a) in others.iter().zip(&standing).filter(|(_, a)| a.verdict == Verdict::Unstable) {
+        for (&k, a) in others.iter().zip(&standing).filter(|(_, a)| a.verdict == Verdict::Unstable)
+        {
             if let Some(rates) = self.opposed([(decides, &own.rates), (k, &a.rates)]) {
                 answer.part = Deciding::new(self.parts, k);
                 answer.rates = rates;
@@ -257,7 +305,9 @@ impl Scene<'_> {
         let bracket = [own.bracket.lower, own.bracket.upper].map(|v| part.units.load_factor(v));
         answer.bracket = Bracket { lower: bracket[0], upper: bracket[1] };
         answer.value = value;
-        if let Some((&k, _)) = others.iter().zip(&standing).find(|(_, a)| a.verdict != Verdict::Stable) {
+        if let Some((&k, _)) =
+            others.iter().zip(&standing).find(|(_, a)| a.verdict != Verdict::Stable)
+        {
             // The mechanism bounds it; whether this part bears as much is not known.
             answer.part = Deciding::new(self.parts, k);
             answer.bracket.lower = f64::NEG_INFINITY;
@@ -269,13 +319,19 @@ impl Scene<'_> {
         answer
     }
 
-    /// Two mechanisms, of which the live load drives one and holds back the other, each at the speed at which these powers cancel.
+    /// Two mechanisms, of which the live load drives one and holds back the other, each at the
+    /// speed at which these powers cancel.
     fn opposed(&self, pair: [(usize, &Vec<Rate>); 2]) -> Option<Vec<Rate>> {
         let mut rates = vec![Rate::zero(); self.model.assembly.blocks.len()];
         let mut powers = [0.0; 2];
         for ((k, own), power) in pair.iter().zip(&mut powers) {
             let part = &self.parts[*k];
-            *power = part.model.assembly.free().map(|i| certificate::power(&part.model.assembly.live[i], &own[i])).sum::<f64>()
+            *power = part
+                .model
+                .assembly
+                .free()
+                .map(|i| certificate::power(&part.model.assembly.live[i], &own[i]))
+                .sum::<f64>()
                 * part.units.live;
             put_rates(part, own, 1.0 / power.abs(), &mut rates);
         }
@@ -287,7 +343,9 @@ impl Scene<'_> {
         let n = self.parts.len();
         let still = self.asked.iter().filter(|a| matches!(a, Asked::Still(_))).count();
         if still > 0 {
-            answer.left_out.push(format!("{still} of {n} independent parts: no live load acts on them, and they stand"));
+            answer.left_out.push(format!(
+                "{still} of {n} independent parts: no live load acts on them, and they stand"
+            ));
         }
         if more > 0 {
             answer.left_out.push(format!("the load factors of {more} of {n} independent parts: greater, and they stand at this one"));
@@ -297,6 +355,9 @@ impl Scene<'_> {
 
 /// `base + by × more`.
 fn combined(base: &Forces, more: &Forces, by: f64) -> Forces {
-    let sum = |(b, m): (&Wrench, &Wrench)| Wrench { force: b.force + m.force * by, moment: b.moment + m.moment * by };
+    let sum = |(b, m): (&Wrench, &Wrench)| Wrench {
+        force: b.force + m.force * by,
+        moment: b.moment + m.moment * by,
+    };
     base.iter().zip(more).map(|(b, m)| b.iter().zip(m).map(sum).collect()).collect()
 }

@@ -15,30 +15,54 @@ use crate::{
     },
 };
 
-/// The least or greatest thrust of a scene that stands; `standing` are forces that balance its loads.
-pub fn thrust(scene: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces, control: &Control) -> ThrustEnd {
+/// The least or greatest thrust of a scene that stands; `standing` are forces that balance its
+/// loads.
+pub fn thrust(
+    scene: &Model,
+    at: &ThrustAt,
+    extreme: Extreme,
+    standing: &Forces,
+    control: &Control,
+) -> ThrustEnd {
     let Model { assembly, interfaces, .. } = scene;
     let parts = interface::parts(scene);
-    let touching: Vec<(&Part, usize)> = parts.iter().filter_map(|p| p.find(at.support).map(|s| (p, s))).collect();
+    let touching: Vec<(&Part, usize)> =
+        parts.iter().filter_map(|p| p.find(at.support).map(|s| (p, s))).collect();
     if touching.is_empty() {
         return of_part(scene, at, extreme, standing, control);
     }
     let ask = |&(part, support): &(&Part, usize)| {
-        of_part(&part.model, &ThrustAt { support, ..*at }, extreme, &part.take_forces(standing), control)
+        of_part(
+            &part.model,
+            &ThrustAt { support, ..*at },
+            extreme,
+            &part.take_forces(standing),
+            control,
+        )
     };
     let ends: Vec<ThrustEnd> = touching.iter().map(ask).collect();
     let any = |outcome: Outcome| ends.iter().any(|e| e.outcome == outcome);
     // One that has no end leaves the sum without, whatever the others are.
-    let outcome = [Outcome::Unbounded, Outcome::Undecided].into_iter().find(|&o| any(o)).unwrap_or(Outcome::Found);
+    let outcome = [Outcome::Unbounded, Outcome::Undecided]
+        .into_iter()
+        .find(|&o| any(o))
+        .unwrap_or(Outcome::Found);
     let pushed = || touching.iter().map(|t| t.0).zip(&ends);
-    let sum = |number: fn(&ThrustEnd) -> f64| pushed().map(|(p, e)| number(e) * p.units.force).sum::<f64>();
+    let sum = |number: fn(&ThrustEnd) -> f64| {
+        pushed().map(|(p, e)| number(e) * p.units.force).sum::<f64>()
+    };
     let mut rates = vec![Rate::zero(); assembly.blocks.len()];
     pushed().for_each(|(part, e)| put_rates(part, &e.rates, 1.0, &mut rates));
     let forces = if outcome == Outcome::Unbounded {
-        scene_forces(interfaces, pushed().filter(|(_, e)| e.outcome == outcome).map(|(p, e)| (p, &e.forces)))
+        scene_forces(
+            interfaces,
+            pushed().filter(|(_, e)| e.outcome == outcome).map(|(p, e)| (p, &e.forces)),
+        )
     } else {
         let mut forces = standing.clone();
-        pushed().filter(|(_, e)| e.outcome != Outcome::Unbounded).for_each(|(p, e)| p.put_forces(&e.forces, &mut forces));
+        pushed()
+            .filter(|(_, e)| e.outcome != Outcome::Unbounded)
+            .for_each(|(p, e)| p.put_forces(&e.forces, &mut forces));
         forces
     };
     let bracket = match outcome {
@@ -51,11 +75,18 @@ pub fn thrust(scene: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces,
     let mut left_out = left_out(interfaces, ends.iter().map(|e| &e.left_out[..]), ends.len());
     let apart = parts.len() - touching.len();
     if apart > 0 {
-        left_out.push(format!("{apart} of {} independent parts: they do not touch the support", parts.len()));
+        left_out.push(format!(
+            "{apart} of {} independent parts: they do not touch the support",
+            parts.len()
+        ));
     }
     let attempts = pushed().flat_map(|(part, e)| {
         let end = |v: f64| v * part.units.force;
-        e.attempts.iter().map(move |a| super::Attempt { lower: end(a.lower), upper: end(a.upper), ..a.clone() })
+        e.attempts.iter().map(move |a| super::Attempt {
+            lower: end(a.lower),
+            upper: end(a.upper),
+            ..a.clone()
+        })
     });
     ThrustEnd {
         at: *at,
@@ -71,7 +102,8 @@ pub fn thrust(scene: &Model, at: &ThrustAt, extreme: Extreme, standing: &Forces,
     }
 }
 
-/// The geometric safety factor of a scene that stands: the least of those of its parts, with verdicts on the whole scene.
+/// The geometric safety factor of a scene that stands: the least of those of its parts, with
+/// verdicts on the whole scene.
 pub fn geometric_factor(scene: &Model, control: &Control) -> Geometric {
     let parts = interface::parts(scene);
     if parts.len() <= 1 {
@@ -80,7 +112,9 @@ pub fn geometric_factor(scene: &Model, control: &Control) -> Geometric {
     let mut worst: Option<Flip> = None;
     for part in &parts {
         match geometric::of_part(&part.model, control) {
-            Geometric::Found(flip) if worst.as_ref().is_none_or(|w| flip.value > w.value) => worst = Some(*flip),
+            Geometric::Found(flip) if worst.as_ref().is_none_or(|w| flip.value > w.value) => {
+                worst = Some(*flip)
+            }
             Geometric::Found(_) | Geometric::Beyond(_) => {}
             Geometric::Open(why) => return Geometric::Open(why),
         }

@@ -20,7 +20,13 @@ pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
     told.texts("joint rules")
 }
 
-fn look(spec: &JointSpec, path: &JsonPath, weights: Option<&Weights>, largest: f64, told: &mut Told) {
+fn look(
+    spec: &JointSpec,
+    path: &JsonPath,
+    weights: Option<&Weights>,
+    largest: f64,
+    told: &mut Told,
+) {
     let mut tell = |kind: &'static str, text: Option<String>| {
         if let Some(text) = text {
             told.add(kind, || text);
@@ -73,7 +79,8 @@ fn compression(strength: f64, path: &JsonPath, weights: &Weights) -> Option<Stri
     if column >= bounds::LEAST_COLUMN {
         return None;
     }
-    let (unit, factor) = unit(strength, bounds::COMPRESSION_IN_MEGAPASCALS, bounds::COMPRESSION_IN_KILOPASCALS)?;
+    let (unit, factor) =
+        unit(strength, bounds::COMPRESSION_IN_MEGAPASCALS, bounds::COMPRESSION_IN_KILOPASCALS)?;
     Some(format!(
         "{} is {} Pa: a column of this stone {} m high crushes under its own weight. It looks like {unit}: strengths are in Pa, write {:e}",
         path.key("compression"),
@@ -112,6 +119,14 @@ fn pressure(pressure: f64, path: &JsonPath, weights: &Weights) -> Option<String>
 }
 
 /// The unit that a stress was written in, and how many Pa it is.
-fn unit(stress: f64, mega: std::ops::RangeInclusive<f64>, kilo: std::ops::RangeInclusive<f64>) -> Option<(&'static str, f64)> {
-    if mega.contains(&stress) { Some(("MPa (N/mm²)", 1e6)) } else { kilo.contains(&stress).then_some(("kPa (kN/m²)", 1e3)) }
+fn unit(
+    stress: f64,
+    mega: std::ops::RangeInclusive<f64>,
+    kilo: std::ops::RangeInclusive<f64>,
+) -> Option<(&'static str, f64)> {
+    if mega.contains(&stress) {
+        Some(("MPa (N/mm²)", 1e6))
+    } else {
+        kilo.contains(&stress).then_some(("kPa (kN/m²)", 1e3))
+    }
 }

@@ -12,14 +12,17 @@ use std::collections::HashMap;
 /// What looks like a mistake in the loads of a resolved scene.
 pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
     let path = JsonPath::root().key("loads");
-    let index: HashMap<&str, usize> = assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
+    let index: HashMap<&str, usize> =
+        assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
     let on_earth = Weights::of(assembly).is_some();
     let mut told = Told::default();
     for (key, loads) in [("dead", &scene.loads.dead), ("live", &scene.loads.live)] {
         for (i, load) in loads.iter().enumerate() {
             let path = path.key(key).index(i);
-            let block = load.block.as_deref().and_then(|id| index.get(id)).map(|&i| &assembly.blocks[i]);
-            if let Some((block, off)) = block.and_then(|block| Some((block, Off::of(load, block)?))) {
+            let block =
+                load.block.as_deref().and_then(|id| index.get(id)).map(|&i| &assembly.blocks[i]);
+            if let Some((block, off)) = block.and_then(|block| Some((block, Off::of(load, block)?)))
+            {
                 told.add("off", || off.told(block, assembly, &path));
             }
             if let Some(text) = weight(load, &path) {
@@ -31,7 +34,9 @@ pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
             if let Some(text) = again(load, assembly, &path) {
                 told.add("again", || text);
             }
-            if let Some(text) = block.filter(|_| on_earth).and_then(|block| force(load, block, assembly, &path)) {
+            if let Some(text) =
+                block.filter(|_| on_earth).and_then(|block| force(load, block, assembly, &path))
+            {
                 told.add("force", || text);
             }
         }
@@ -39,14 +44,21 @@ pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
     told.texts("loads")
 }
 
-/// Refuses a force that acts far off its block, where no arm is said to carry it; `path` is that of the load.
+/// Refuses a force that acts far off its block, where no arm is said to carry it; `path` is that of
+/// the load.
 ///
 /// # Errors
 /// It does.
-pub(in crate::assembly) fn place(load: &Load, block: &Block, assembly: &Assembly, path: &JsonPath) -> Result<(), InputError> {
+pub(in crate::assembly) fn place(
+    load: &Load,
+    block: &Block,
+    assembly: &Assembly,
+    path: &JsonPath,
+) -> Result<(), InputError> {
     match Off::of(load, block) {
         Some(off) if off.distance > bounds::FAR_OFF * block.size => {
-            let meant = off.meant(block, assembly).map_or(String::new(), |meant| format!("{meant}; "));
+            let meant =
+                off.meant(block, assembly).map_or(String::new(), |meant| format!("{meant}; "));
             let hint = format!("{meant}where an arm carries it that far, say \"arm\": true");
             Err(InputError::at(path.key("at"), off.words(block)).hint(hint))
         }
@@ -71,7 +83,12 @@ impl Off {
     }
 
     fn words(&self, block: &Block) -> String {
-        format!("the force acts {} m off block {:?}, which measures {} m", short(self.distance), block.id, short(block.size))
+        format!(
+            "the force acts {} m off block {:?}, which measures {} m",
+            short(self.distance),
+            block.id,
+            short(block.size)
+        )
     }
 
     /// What may have been meant.
@@ -96,7 +113,8 @@ impl Off {
 /// A dead load that is the own weight once more.
 fn again(load: &Load, assembly: &Assembly, path: &JsonPath) -> Option<String> {
     let gravity = assembly.gravity;
-    let same = |v: [f64; 3], w: Vector3<f64>| (Vector3::from(v) - w).norm() <= bounds::SAME * w.norm();
+    let same =
+        |v: [f64; 3], w: Vector3<f64>| (Vector3::from(v) - w).norm() <= bounds::SAME * w.norm();
     let by_weight = load.weight.is_some_and(|w| same(w, gravity / gravity.norm()));
     (by_weight || load.acceleration.is_some_and(|a| same(a, gravity))).then(|| {
         format!("{path} is the blocks' own weight once more: it counts by itself, and doubled with this. Leave the load out, or raise the density")

@@ -1,9 +1,12 @@
-//! Numbers that look like mistakes: of units, of axes, of places. Findings only, each with the probable mistake and the remedy, for there are grains
-//! and there are cliffs; what is refused (a load far off its block) is refused where the load is resolved.
+//! Numbers that look like mistakes: of units, of axes, of places. Findings only, each with the
+//! probable mistake and the remedy, for there are grains and there are cliffs; what is refused (a
+//! load far off its block) is refused where the load is resolved.
 //!
-//! One number alone is rarely proof: a density of 24 is foam, a compressive strength of 5 Pa somebody's unit problem. So real weights are
-//! asked for first, under Earth's gravity and with densities of stone, and a scene in units of its own (a density of exactly 1, unit gravity) is left alone.
-//! Which way supports face can be judged only where contacts are known: `analysis::prepare` says that.
+//! One number alone is rarely proof: a density of 24 is foam, a compressive strength of 5 Pa
+//! somebody's unit problem. So real weights are asked for first, under Earth's gravity and with
+//! densities of stone, and a scene in units of its own (a density of exactly 1, unit gravity) is
+//! left alone. Which way supports face can be judged only where contacts are known:
+//! `analysis::prepare` says that.
 
 mod blocks;
 mod bounds;
@@ -22,10 +25,17 @@ use crate::{
 pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<Finding> {
     let units = blocks::mistakes(assembly).into_iter().chain(joints::mistakes(scene, assembly));
     let units = units.map(|text| Finding::new(FindingCode::Units, text));
-    units.chain(loads::mistakes(scene, assembly).into_iter().map(|text| Finding::new(FindingCode::Loads, text))).collect()
+    units
+        .chain(
+            loads::mistakes(scene, assembly)
+                .into_iter()
+                .map(|text| Finding::new(FindingCode::Loads, text)),
+        )
+        .collect()
 }
 
-/// Mistakes of several kinds, each with the first place where it is: ten thousand loads in another unit are one finding.
+/// Mistakes of several kinds, each with the first place where it is: ten thousand loads in another
+/// unit are one finding.
 #[derive(Default)]
 struct Told(Vec<(&'static str, String, usize)>);
 
@@ -38,7 +48,9 @@ impl Told {
     }
 
     fn texts(self, noun: &str) -> Vec<String> {
-        let text = |(_, text, more): (_, String, usize)| if more > 0 { format!("{text} (and {more} more {noun})") } else { text };
+        let text = |(_, text, more): (_, String, usize)| {
+            if more > 0 { format!("{text} (and {more} more {noun})") } else { text }
+        };
         self.0.into_iter().map(text).collect()
     }
 }
@@ -53,14 +65,17 @@ fn free(assembly: &Assembly) -> impl Iterator<Item = &Block> {
     assembly.blocks.iter().filter(|b| !b.support)
 }
 
-/// Whether the scene is in SI units and of this world as far as one can tell: Earth's gravity, and no density of exactly 1.
+/// Whether the scene is in SI units and of this world as far as one can tell: Earth's gravity, and
+/// no density of exactly 1.
 fn is_on_earth(assembly: &Assembly) -> bool {
     /// Mass over volume gives a density back up to rounding.
     const ROUNDING: f64 = 1e-9;
-    bounds::EARTH.contains(&assembly.gravity.norm()) && !free(assembly).any(|b| (density(b) - 1.0).abs() < ROUNDING)
+    bounds::EARTH.contains(&assembly.gravity.norm())
+        && !free(assembly).any(|b| (density(b) - 1.0).abs() < ROUNDING)
 }
 
-/// What the median free block weighs per volume (N/m³) and measures (m), where all free blocks are as heavy as things that are built.
+/// What the median free block weighs per volume (N/m³) and measures (m), where all free blocks are
+/// as heavy as things that are built.
 struct Weights {
     volume: f64,
     size: f64,
@@ -72,7 +87,10 @@ impl Weights {
             return None;
         }
         let density = median(free(assembly).map(density))?;
-        Some(Self { volume: density * assembly.gravity.norm(), size: median(free(assembly).map(|b| b.size))? })
+        Some(Self {
+            volume: density * assembly.gravity.norm(),
+            size: median(free(assembly).map(|b| b.size))?,
+        })
     }
 }
 
@@ -97,6 +115,14 @@ fn first<'a>(
 
 /// A number in few digits, as one writes it.
 fn short(value: f64) -> String {
-    let value = if value.is_finite() && value != 0.0 { format!("{value:.3e}").parse().unwrap_or(value) } else { value };
-    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) { format!("{value:e}") } else { format!("{value}") }
+    let value = if value.is_finite() && value != 0.0 {
+        format!("{value:.3e}").parse().unwrap_or(value)
+    } else {
+        value
+    };
+    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+        format!("{value:e}")
+    } else {
+        format!("{value}")
+    }
 }

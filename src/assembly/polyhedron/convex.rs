@@ -10,20 +10,23 @@ use nalgebra::Vector3;
 /// Corners in one cluster, roughly.
 const CLUSTER: usize = 64;
 
-/// Whether all corners lie on or below each facet plane, within [`tolerance::COPLANAR`] × size (the facet's warp where that is larger),
-/// and the facets cover their hull once. To be asked about a single shell.
+/// Whether all corners lie on or below each facet plane, within [`tolerance::COPLANAR`] × size (the
+/// facet's warp where that is larger), and the facets cover their hull once. To be asked about a
+/// single shell.
 pub(super) fn is_convex(surface: &Surface, regions: &[Region]) -> bool {
     let reach = tolerance::COPLANAR * surface.size;
     let clusters = clusters(surface);
     let below = |r: &Region| {
         let most = r.offset + reach.max(r.warp * (1.0 + 1e-9));
-        clusters.iter().all(|c| c.support(&r.normal) <= most || c.points.iter().all(|p| r.normal.dot(p) <= most))
+        clusters.iter().all(|c| {
+            c.support(&r.normal) <= most || c.points.iter().all(|p| r.normal.dot(p) <= most)
+        })
     };
     regions.iter().all(below) && covers_once(surface, regions)
 }
 
-/// Facets with all corners below them lie on the hull, which a closed surface may still cover twice; its shadow then has twice the area
-/// of the hull's.
+/// Facets with all corners below them lie on the hull, which a closed surface may still cover
+/// twice; its shadow then has twice the area of the hull's.
 fn covers_once(surface: &Surface, regions: &[Region]) -> bool {
     let direction = Vector3::new(0.48, 0.6, 0.64);
     let frame = Frame::around(&direction);
@@ -33,8 +36,8 @@ fn covers_once(surface: &Surface, regions: &[Region]) -> bool {
     shadow < 1.5 * polygon::area(&hull)
 }
 
-/// Corners near each other with their bounding box: a plane above the box is above all of them, so that a convex polyhedron of
-/// n corners takes far fewer than n² comparisons.
+/// Corners near each other with their bounding box: a plane above the box is above all of them, so
+/// that a convex polyhedron of n corners takes far fewer than n² comparisons.
 struct Cluster {
     low: Vector3<f64>,
     high: Vector3<f64>,
@@ -43,7 +46,8 @@ struct Cluster {
 
 impl Cluster {
     fn over(points: Vec<Vector3<f64>>) -> Self {
-        let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+        let (mut low, mut high) =
+            (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
         for p in &points {
             low = low.inf(p);
             high = high.sup(p);
@@ -64,7 +68,8 @@ fn clusters(surface: &Surface) -> Vec<Cluster> {
     }
     // A surface fills about n² of n³ cells.
     let cells = (points.len() as f64 / CLUSTER as f64).sqrt().ceil();
-    let cell = |p: &Vector3<f64>| [0, 1, 2].map(|k| ((p[k] / surface.size + 0.5) * cells).floor() as i64);
+    let cell =
+        |p: &Vector3<f64>| [0, 1, 2].map(|k| ((p[k] / surface.size + 0.5) * cells).floor() as i64);
     let mut sorted = points.clone();
     sorted.sort_by_cached_key(cell);
     sorted.chunk_by(|a, b| cell(a) == cell(b)).map(|chunk| Cluster::over(chunk.to_vec())).collect()

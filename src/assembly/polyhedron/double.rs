@@ -6,10 +6,16 @@ use super::{
 };
 use std::collections::HashMap;
 
-/// Takes faces once that go around the same corners, whichever way round, and returns the half-edges of what is left.
+/// Takes faces once that go around the same corners, whichever way round, and returns the
+/// half-edges of what is left.
 ///
-/// Only where more than two faces meet in an edge: two faces that close each other are flat, which is told as such.
-pub(super) fn take_once(surface: &mut Surface, list: Vec<HalfEdge>, mends: &mut Vec<Mend>) -> Vec<HalfEdge> {
+/// Only where more than two faces meet in an edge: two faces that close each other are flat, which
+/// is told as such.
+pub(super) fn take_once(
+    surface: &mut Surface,
+    list: Vec<HalfEdge>,
+    mends: &mut Vec<Mend>,
+) -> Vec<HalfEdge> {
     if !edges(&list).any(|edge| edge.len() > 2) {
         return list;
     }
@@ -18,7 +24,9 @@ pub(super) fn take_once(surface: &mut Surface, list: Vec<HalfEdge>, mends: &mut 
     surface.faces.retain(|face| {
         let first = *seen.entry(around(&face.corners)).or_insert(face.source);
         if first != face.source {
-            doubled = Some(doubled.map_or((1, face.source, first), |(n, one, other)| (n + 1, one, other)));
+            doubled = Some(
+                doubled.map_or((1, face.source, first), |(n, one, other)| (n + 1, one, other)),
+            );
         }
         first == face.source
     });
@@ -27,8 +35,8 @@ pub(super) fn take_once(surface: &mut Surface, list: Vec<HalfEdge>, mends: &mut 
     surface.half_edges()
 }
 
-/// The same list for every beginning and both directions: from the least corner on. Where a face passes that corner twice, at a bridge to a
-/// hole, it is only known again if it begins alike.
+/// The same list for every beginning and both directions: from the least corner on. Where a face
+/// passes that corner twice, at a bridge to a hole, it is only known again if it begins alike.
 fn around(corners: &[u32]) -> Vec<u32> {
     let from_least = |list: &[u32]| {
         let least = list.iter().enumerate().min_by_key(|(_, c)| **c).map_or(0, |(k, _)| k);

@@ -1,4 +1,5 @@
-//! From faces to facets: coplanar faces joined by an edge are one facet, whatever the way they were cut up.
+//! From faces to facets: coplanar faces joined by an edge are one facet, whatever the way they were
+//! cut up.
 
 use super::{
     Facet, MassProperties, Mend, Polyhedron, ShapeError,
@@ -27,16 +28,23 @@ pub(super) struct Region {
 
 /// Joins faces to facets.
 ///
-/// A facet grows from its largest face over edges to faces all of whose corners lie within [`tolerance::COPLANAR`] × size of one common
-/// plane: first the plane of that face, then the area-weighted plane of what was found. As the plane does not follow the growth, a fine
-/// curved surface keeps its faces.
-pub(super) fn regions(surface: &Surface, half_edges: &[HalfEdge], mends: &mut Vec<Mend>) -> Vec<Region> {
+/// A facet grows from its largest face over edges to faces all of whose corners lie within
+/// [`tolerance::COPLANAR`] × size of one common plane: first the plane of that face, then the
+/// area-weighted plane of what was found. As the plane does not follow the growth, a fine curved
+/// surface keeps its faces.
+pub(super) fn regions(
+    surface: &Surface,
+    half_edges: &[HalfEdge],
+    mends: &mut Vec<Mend>,
+) -> Vec<Region> {
     let reach = tolerance::COPLANAR * surface.size;
     let growth = Growth::new(surface, half_edges, reach);
     growth.report_warped(mends);
 
     let mut order: Vec<u32> = (0..surface.faces.len() as u32).collect();
-    order.sort_by(|&a, &b| growth.areas[b as usize].norm_squared().total_cmp(&growth.areas[a as usize].norm_squared()));
+    order.sort_by(|&a, &b| {
+        growth.areas[b as usize].norm_squared().total_cmp(&growth.areas[a as usize].norm_squared())
+    });
     let mut taken = vec![false; surface.faces.len()];
     let mut regions = Vec::with_capacity(surface.faces.len());
     for seed in order {
@@ -105,10 +113,14 @@ impl<'a> Growth<'a> {
     }
 
     fn corners<'f>(&'f self, faces: &'f [u32]) -> impl Iterator<Item = Vector3<f64>> + 'f {
-        faces.iter().flat_map(|&f| &self.surface.faces[f as usize].corners).map(|&c| self.surface.point(c))
+        faces
+            .iter()
+            .flat_map(|&f| &self.surface.faces[f as usize].corners)
+            .map(|&c| self.surface.point(c))
     }
 
-    /// The area-weighted plane through faces, midway between their outermost corners: it does not depend on how the faces are cut up.
+    /// The area-weighted plane through faces, midway between their outermost corners: it does not
+    /// depend on how the faces are cut up.
     fn plane(&self, faces: &[u32]) -> Plane {
         let sum: Vector3<f64> = faces.iter().map(|&f| self.areas[f as usize]).sum();
         let area = sum.norm();
@@ -145,7 +157,8 @@ impl<'a> Growth<'a> {
         if self.corners(corners).any(|p| (plane.normal.dot(&p) - plane.offset).abs() > self.reach) {
             return false;
         }
-        // A face folded back does not belong to the facet, but the direction of a needle means nothing.
+        // A face folded back does not belong to the facet, but the direction of a needle means
+        // nothing.
         let area = self.areas[face as usize];
         plane.normal.dot(&area) > 0.5 * area.norm() || self.is_needle(corners, area.norm())
     }
@@ -162,13 +175,19 @@ impl<'a> Growth<'a> {
 
     fn report_warped(&self, mends: &mut Vec<Mend>) {
         let mut worst = (0, 0.0, 0);
-        for (f, face) in self.surface.faces.iter().enumerate().filter(|(_, face)| face.corners.len() > 3) {
+        for (f, face) in
+            self.surface.faces.iter().enumerate().filter(|(_, face)| face.corners.len() > 3)
+        {
             if self.areas[f].norm_squared() == 0.0 {
                 continue;
             }
             let warp = self.plane(&[f as u32]).warp;
             if warp > self.reach {
-                worst = if warp > worst.1 { (worst.0 + 1, warp, face.source) } else { (worst.0 + 1, worst.1, worst.2) };
+                worst = if warp > worst.1 {
+                    (worst.0 + 1, warp, face.source)
+                } else {
+                    (worst.0 + 1, worst.1, worst.2)
+                };
             }
         }
         if worst.0 > 0 {
@@ -176,23 +195,41 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// The facet over `faces`; none where they are thinner than the tolerance, and nothing can rest on them.
+    /// The facet over `faces`; none where they are thinner than the tolerance, and nothing can rest
+    /// on them.
     fn region(&self, faces: Vec<u32>) -> Option<Region> {
         let plane = self.plane(&faces);
         if self.is_needle(&faces, plane.area) {
             return None;
         }
         let frame = Frame::around(&plane.normal);
-        let Outline { boundary, pieces } = outline(self.surface, &faces, &frame, plane.area, self.reach);
-        Some(Region { faces, normal: plane.normal, offset: plane.offset, area: plane.area, warp: plane.warp, boundary, pieces })
+        let Outline { boundary, pieces } =
+            outline(self.surface, &faces, &frame, plane.area, self.reach);
+        Some(Region {
+            faces,
+            normal: plane.normal,
+            offset: plane.offset,
+            area: plane.area,
+            warp: plane.warp,
+            boundary,
+            pieces,
+        })
     }
 }
 
 /// Refuses what is thinner than [`tolerance::FLAT`] × size.
-pub(super) fn refuse_flat(surface: &Surface, regions: &[Region], volume: f64) -> Result<(), ShapeError> {
+pub(super) fn refuse_flat(
+    surface: &Surface,
+    regions: &[Region],
+    volume: f64,
+) -> Result<(), ShapeError> {
     let largest = regions.iter().map(|r| r.area).fold(0.0, f64::max);
     let thickness = if largest > 0.0 { volume / largest } else { 0.0 };
-    if thickness > tolerance::FLAT * surface.size { Ok(()) } else { Err(ShapeError::Flat { thickness, size: surface.size }) }
+    if thickness > tolerance::FLAT * surface.size {
+        Ok(())
+    } else {
+        Err(ShapeError::Flat { thickness, size: surface.size })
+    }
 }
 
 /// The polyhedron over `regions`, with the corners that they use, as given in the file.
@@ -219,7 +256,13 @@ pub(super) fn assemble(
             for corner in pieces.iter_mut().flatten() {
                 *corner = number[*corner as usize];
             }
-            Facet { normal: r.normal, offset: r.offset + r.normal.dot(&surface.center), pieces, area: r.area, warp: r.warp }
+            Facet {
+                normal: r.normal,
+                offset: r.offset + r.normal.dot(&surface.center),
+                pieces,
+                area: r.area,
+                warp: r.warp,
+            }
         })
         .collect();
     Polyhedron { vertices: kept, facets, convex, mass }

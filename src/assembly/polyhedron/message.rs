@@ -90,14 +90,32 @@ impl fmt::Display for Mend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Mend::Welded { vertices, farthest } => {
-                write!(f, "{} with another and {} welded to it (largest distance {farthest:.3e} m)", coincide(*vertices), were(*vertices))
+                write!(
+                    f,
+                    "{} with another and {} welded to it (largest distance {farthest:.3e} m)",
+                    coincide(*vertices),
+                    were(*vertices)
+                )
             }
             Mend::Dropped { faces, first } => {
-                write!(f, "{} without extent {} left out (the first is face {first})", count(*faces, "face"), were(*faces))
+                write!(
+                    f,
+                    "{} without extent {} left out (the first is face {first})",
+                    count(*faces, "face"),
+                    were(*faces)
+                )
             }
             Mend::Doubled { faces, first, repeats } => {
-                let them = if *faces == 1 { "1 face that is".into() } else { format!("{faces} faces that are") };
-                write!(f, "{them} listed before {} left out (the first is face {first}, the same as face {repeats})", were(*faces))
+                let them = if *faces == 1 {
+                    "1 face that is".into()
+                } else {
+                    format!("{faces} faces that are")
+                };
+                write!(
+                    f,
+                    "{them} listed before {} left out (the first is face {first}, the same as face {repeats})",
+                    were(*faces)
+                )
             }
             Mend::Split { vertices, at } => write!(
                 f,
@@ -114,8 +132,12 @@ impl fmt::Display for Mend {
                     were(*faces)
                 )
             }
-            Mend::Inverted { faces } => write!(f, "all {faces} faces pointed inward and were turned outward"),
-            Mend::Bodies { bodies } => write!(f, "it consists of {bodies} separate bodies, which move as one block"),
+            Mend::Inverted { faces } => {
+                write!(f, "all {faces} faces pointed inward and were turned outward")
+            }
+            Mend::Bodies { bodies } => {
+                write!(f, "it consists of {bodies} separate bodies, which move as one block")
+            }
             Mend::Warped { faces, face, warp } => write!(
                 f,
                 "{} not plane and treated as plane where blocks touch (the worst is face {face}, whose corners lie up to {warp:.3e} m off its mean plane)",
@@ -125,7 +147,8 @@ impl fmt::Display for Mend {
     }
 }
 
-/// Why a shape cannot be used. Faces and vertices are named by their index in the lists they came in, counted from 0.
+/// Why a shape cannot be used. Faces and vertices are named by their index in the lists they came
+/// in, counted from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ShapeError {
     /// A coordinate is NaN or infinite.
@@ -135,7 +158,9 @@ pub enum ShapeError {
         vertex: usize,
     },
     /// So large or small that volumes and inertias leave the range of numbers.
-    #[error("the shape measures {size:.3e} m across, outside the range {least:e} m to {most:e} m in which it can be computed with")]
+    #[error(
+        "the shape measures {size:.3e} m across, outside the range {least:e} m to {most:e} m in which it can be computed with"
+    )]
     OutOfRange {
         /// Bounding-box diagonal, m.
         size: f64,
@@ -157,7 +182,9 @@ pub enum ShapeError {
         most: usize,
     },
     /// A face refers to a vertex that is not there.
-    #[error("face {face} refers to vertex {index}, but there are only {vertices} vertices (counted from 0)")]
+    #[error(
+        "face {face} refers to vertex {index}, but there are only {vertices} vertices (counted from 0)"
+    )]
     NoSuchVertex {
         /// The face.
         face: usize,
@@ -229,7 +256,9 @@ pub enum ShapeError {
         to: [f64; 3],
     },
     /// A surface that has no two sides.
-    #[error("the surface has no inside and outside: its faces cannot be wound consistently around face {face}")]
+    #[error(
+        "the surface has no inside and outside: its faces cannot be wound consistently around face {face}"
+    )]
     OneSided {
         /// A face where it shows.
         face: usize,
@@ -237,7 +266,8 @@ pub enum ShapeError {
     /// No volume.
     #[error("the shape is flat: {} m thick and {} m across", short(*thickness), short(*size))]
     Flat {
-        /// Thickness (distance between two planes around all corners, or volume / largest facet), m.
+        /// Thickness (distance between two planes around all corners, or volume / largest facet),
+        /// m.
         thickness: f64,
         /// Bounding-box diagonal, m.
         size: f64,
@@ -253,7 +283,9 @@ pub enum ShapeError {
         outer: usize,
     },
     /// Volume, centroid or moments that no body has.
-    #[error("the surface winds around itself: it encloses some places more than once, others backwards")]
+    #[error(
+        "the surface winds around itself: it encloses some places more than once, others backwards"
+    )]
     Tangled,
     /// Two faces that cut through each other, or lie on each other facing the same way.
     #[error("faces {first} and {second} cut through or cover each other near {}", place(at))]
@@ -271,11 +303,21 @@ impl ShapeError {
     /// A face where it shows, counted from 0; none where the shape as a whole is meant.
     pub fn face(&self) -> Option<usize> {
         match *self {
-            Self::NoSuchVertex { face, .. } | Self::TooFewCorners { face, .. } | Self::CrossedFace { face, .. } => Some(face),
-            Self::Folded { face, .. } | Self::Open { face, .. } | Self::OneSided { face } => Some(face),
-            Self::DuplicateFace { first, .. } | Self::Branching { first, .. } | Self::Overlap { first, .. } => Some(first),
+            Self::NoSuchVertex { face, .. }
+            | Self::TooFewCorners { face, .. }
+            | Self::CrossedFace { face, .. } => Some(face),
+            Self::Folded { face, .. } | Self::Open { face, .. } | Self::OneSided { face } => {
+                Some(face)
+            }
+            Self::DuplicateFace { first, .. }
+            | Self::Branching { first, .. }
+            | Self::Overlap { first, .. } => Some(first),
             Self::Nested { inner, .. } => Some(inner),
-            Self::NotFinite { .. } | Self::OutOfRange { .. } | Self::Count { .. } | Self::Flat { .. } | Self::Tangled => None,
+            Self::NotFinite { .. }
+            | Self::OutOfRange { .. }
+            | Self::Count { .. }
+            | Self::Flat { .. }
+            | Self::Tangled => None,
         }
     }
 
@@ -283,20 +325,38 @@ impl ShapeError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::NotFinite { .. } => "write coordinates as finite numbers in metres",
-            Self::OutOfRange { .. } => "coordinates are metres; check the unit and that the vertices differ",
-            Self::Count { .. } => "a block needs at least 4 faces, each a list of vertex indices; simplify scans before use",
-            Self::NoSuchVertex { .. } => "vertex indices are counted from 0; files that count from 1 need 1 subtracted",
-            Self::TooFewCorners { .. } => "leave the face out or list at least three different vertices",
+            Self::OutOfRange { .. } => {
+                "coordinates are metres; check the unit and that the vertices differ"
+            }
+            Self::Count { .. } => {
+                "a block needs at least 4 faces, each a list of vertex indices; simplify scans before use"
+            }
+            Self::NoSuchVertex { .. } => {
+                "vertex indices are counted from 0; files that count from 1 need 1 subtracted"
+            }
+            Self::TooFewCorners { .. } => {
+                "leave the face out or list at least three different vertices"
+            }
             Self::CrossedFace { .. } => "list the corners in order around the face",
             Self::Folded { .. } => "cut it into plane faces, or into triangles",
-            Self::DuplicateFace { .. } => "list the corners in order around the face, and leave one of the two out",
+            Self::DuplicateFace { .. } => {
+                "list the corners in order around the face, and leave one of the two out"
+            }
             Self::Open { .. } => {
                 "close the surface: add the missing faces or cap the holes; vertices that should coincide must agree to 1e-7 of the shape's size"
             }
-            Self::Branching { .. } => "remove faces inside the solid and split solids that share a wall into separate blocks",
-            Self::OneSided { .. } => "the mesh closes on itself with a twist; model the solid anew or export it from a solid modeller",
-            Self::Flat { .. } => "a block needs a volume: give it thickness, and check that the unit is the same along all axes",
-            Self::Nested { .. } => "wind the faces of a cavity so that they face into the cavity, or leave the inner surface out",
+            Self::Branching { .. } => {
+                "remove faces inside the solid and split solids that share a wall into separate blocks"
+            }
+            Self::OneSided { .. } => {
+                "the mesh closes on itself with a twist; model the solid anew or export it from a solid modeller"
+            }
+            Self::Flat { .. } => {
+                "a block needs a volume: give it thickness, and check that the unit is the same along all axes"
+            }
+            Self::Nested { .. } => {
+                "wind the faces of a cavity so that they face into the cavity, or leave the inner surface out"
+            }
             Self::Tangled => "model the solid anew, with plane faces that meet at their edges only",
             Self::Overlap { .. } => "make the parts one solid (boolean union) or separate blocks",
         }

@@ -1,8 +1,10 @@
 //! A closed polyhedron: facets, volume, centroid, inertia.
 //!
-//! [`Polyhedron::from_faces`] takes what a file gives and either mends it, saying how ([`Mend`]), or refuses it, saying where and why
-//! ([`ShapeError`]). The stages, one file each: weld corners, split edges, orient faces, join coplanar faces to facets, weigh, test for overlap.
-//! All of them work in coordinates about the centre of the bounding box, so that a block far from the origin loses no digits.
+//! [`Polyhedron::from_faces`] takes what a file gives and either mends it, saying how ([`Mend`]),
+//! or refuses it, saying where and why ([`ShapeError`]). The stages, one file each: weld corners,
+//! split edges, orient faces, join coplanar faces to facets, weigh, test for overlap. All of them
+//! work in coordinates about the centre of the bounding box, so that a block far from the origin
+//! loses no digits.
 
 mod check;
 mod convex;
@@ -28,26 +30,31 @@ use nalgebra::Vector3;
 pub struct Polyhedron {
     /// Corners, m.
     pub vertices: Vec<Vector3<f64>>,
-    /// Maximal plane facets. Coplanar faces joined by an edge are one facet, so that nothing depends on how a face was triangulated.
+    /// Maximal plane facets. Coplanar faces joined by an edge are one facet, so that nothing
+    /// depends on how a face was triangulated.
     pub facets: Vec<Facet>,
     /// Whether the polyhedron is convex.
     pub convex: bool,
-    /// Of the surface as given; joining facets straightens edges within tolerance and would lose digits.
+    /// Of the surface as given; joining facets straightens edges within tolerance and would lose
+    /// digits.
     mass: MassProperties,
 }
 
-/// A plane facet, possibly non-convex or with holes: a union of convex pieces that overlap at most along edges.
+/// A plane facet, possibly non-convex or with holes: a union of convex pieces that overlap at most
+/// along edges.
 #[derive(Clone, Debug)]
 pub struct Facet {
     /// Outward unit normal.
     pub normal: Vector3<f64>,
     /// The plane is `normal · x = offset`, m.
     pub offset: f64,
-    /// Convex pieces as loops of vertex indices, counter-clockwise seen from outside; one piece where the facet is convex.
+    /// Convex pieces as loops of vertex indices, counter-clockwise seen from outside; one piece
+    /// where the facet is convex.
     pub pieces: Vec<Vec<u32>>,
     /// Area, m².
     pub area: f64,
-    /// Largest distance of a corner from the plane, m (0 for a plane face; larger for a warped quadrilateral).
+    /// Largest distance of a corner from the plane, m (0 for a plane face; larger for a warped
+    /// quadrilateral).
     pub warp: f64,
 }
 
@@ -55,14 +62,20 @@ pub struct Facet {
 const FEW_FACETS: usize = 32;
 
 impl Polyhedron {
-    /// A polyhedron from corners (m) and faces, each a loop of vertex indices, ideally counter-clockwise seen from outside.
+    /// A polyhedron from corners (m) and faces, each a loop of vertex indices, ideally
+    /// counter-clockwise seen from outside.
     ///
-    /// Faces need not be convex, triangulated or plane; a face with a hole may come in parts or as one loop with a bridge to the hole.
-    /// What was mended on the way is returned beside the polyhedron.
+    /// Faces need not be convex, triangulated or plane; a face with a hole may come in parts or as
+    /// one loop with a bridge to the hole. What was mended on the way is returned beside the
+    /// polyhedron.
     ///
     /// # Errors
-    /// A surface that encloses no definite volume: open, flat, one-sided, cutting through itself, or with unusable numbers.
-    pub fn from_faces(vertices: Vec<Vector3<f64>>, faces: &[Vec<usize>]) -> Result<(Self, Vec<Mend>), ShapeError> {
+    /// A surface that encloses no definite volume: open, flat, one-sided, cutting through itself,
+    /// or with unusable numbers.
+    pub fn from_faces(
+        vertices: Vec<Vector3<f64>>,
+        faces: &[Vec<usize>],
+    ) -> Result<(Self, Vec<Mend>), ShapeError> {
         let mut mends = Vec::new();
         let (mut surface, vertices) = weld::weld(vertices, faces, &mut mends)?;
         check::refuse_plane(&surface)?;
@@ -84,13 +97,18 @@ impl Polyhedron {
         Ok((solid, mends))
     }
 
-    /// Whether a plane along one of this body's facets keeps another further than `distance` (m) away: then all of it is. Leaning slabs, whose
-    /// boxes reach across many neighbours, are told apart by their large faces. Bodies of many small facets are not tried: it would cost more
+    /// Whether a plane along one of this body's facets keeps another further than `distance` (m)
+    /// away: then all of it is. Leaning slabs, whose boxes reach across many neighbours, are told
+    /// apart by their large faces. Bodies of many small facets are not tried: it would cost more
     /// than it saves.
     pub fn is_apart_from(&self, other: &Self, distance: f64) -> bool {
         self.facets.len() <= FEW_FACETS
             && self.facets.iter().any(|facet| {
-                let own = self.vertices.iter().map(|v| facet.normal.dot(v)).fold(f64::NEG_INFINITY, f64::max);
+                let own = self
+                    .vertices
+                    .iter()
+                    .map(|v| facet.normal.dot(v))
+                    .fold(f64::NEG_INFINITY, f64::max);
                 other.vertices.iter().all(|v| facet.normal.dot(v) > own + distance)
             })
     }
@@ -101,7 +119,10 @@ impl Polyhedron {
     }
 
     /// The corners of a piece of a facet, in order.
-    pub fn points<'a>(&'a self, piece: &'a [u32]) -> impl ExactSizeIterator<Item = Vector3<f64>> + Clone + 'a {
+    pub fn points<'a>(
+        &'a self,
+        piece: &'a [u32],
+    ) -> impl ExactSizeIterator<Item = Vector3<f64>> + Clone + 'a {
         piece.iter().map(|&v| self.vertices[v as usize])
     }
 

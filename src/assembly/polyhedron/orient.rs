@@ -8,13 +8,19 @@ use crate::plane::Sets;
 use nalgebra::Vector3;
 use std::{collections::HashMap, f64::consts::PI};
 
-/// Checks that the surface with the half-edges `list` is closed, winds its faces consistently and outward, and returns the number of closed shells.
+/// Checks that the surface with the half-edges `list` is closed, winds its faces consistently and
+/// outward, and returns the number of closed shells.
 ///
 /// * Every edge must have an even number of faces.
-/// * Across an edge with two faces these must run opposite ways; faces connected so are a patch, wound as most of its faces are.
-/// * A shell (a patch closed by itself, or several that close each other) winds outward, where its signed volume is positive;
-///   one inside another winds the other way round, as a cavity.
-pub(super) fn orient(surface: &mut Surface, list: &[HalfEdge], mends: &mut Vec<Mend>) -> Result<usize, ShapeError> {
+/// * Across an edge with two faces these must run opposite ways; faces connected so are a patch,
+///   wound as most of its faces are.
+/// * A shell (a patch closed by itself, or several that close each other) winds outward, where its
+///   signed volume is positive; one inside another winds the other way round, as a cavity.
+pub(super) fn orient(
+    surface: &mut Surface,
+    list: &[HalfEdge],
+    mends: &mut Vec<Mend>,
+) -> Result<usize, ShapeError> {
     refuse_odd(surface, list)?;
 
     let count = surface.faces.len();
@@ -33,7 +39,8 @@ pub(super) fn orient(surface: &mut Surface, list: &[HalfEdge], mends: &mut Vec<M
     for &(root, against) in &patch {
         balance[root] += if against { -1 } else { 1 };
     }
-    let mut turn: Vec<bool> = patch.iter().map(|&(root, against)| against != (balance[root] < 0)).collect();
+    let mut turn: Vec<bool> =
+        patch.iter().map(|&(root, against)| against != (balance[root] < 0)).collect();
 
     let mut shells = Sets::new(count);
     for (f, &(root, _)) in patch.iter().enumerate() {
@@ -68,7 +75,12 @@ fn refuse_odd(surface: &Surface, list: &[HalfEdge]) -> Result<(), ShapeError> {
     if let Some(first) = open.next() {
         let h = &first[0];
         let (from, to) = if h.forward { (h.low, h.high) } else { (h.high, h.low) };
-        return Err(ShapeError::Open { edges: 1 + open.count(), face: source(h), from: surface.place(from), to: surface.place(to) });
+        return Err(ShapeError::Open {
+            edges: 1 + open.count(),
+            face: source(h),
+            from: surface.place(from),
+            to: surface.place(to),
+        });
     }
     match edges(list).find(|e| e.len() % 2 == 1) {
         Some(edge) => Err(branching(surface, edge)),
@@ -100,8 +112,15 @@ fn refuse_duplicates(faces: &[Face]) -> Result<(), ShapeError> {
     Ok(())
 }
 
-/// At an edge with four or more faces as many must run one way as the other; patches that close only together become one shell.
-fn pair_up(surface: &Surface, edge: &[HalfEdge], patch: &[(usize, bool)], turn: &[bool], shells: &mut Sets) -> Result<(), ShapeError> {
+/// At an edge with four or more faces as many must run one way as the other; patches that close
+/// only together become one shell.
+fn pair_up(
+    surface: &Surface,
+    edge: &[HalfEdge],
+    patch: &[(usize, bool)],
+    turn: &[bool],
+    shells: &mut Sets,
+) -> Result<(), ShapeError> {
     let sign = |h: &HalfEdge| if h.forward != turn[h.face as usize] { 1i64 } else { -1 };
     let mut sums: Vec<(usize, i64)> = Vec::with_capacity(edge.len());
     for h in edge {
@@ -132,9 +151,20 @@ struct Shell {
 }
 
 /// Turns whole shells: outer ones outward, inner ones against the shell around them.
-fn turn_outward(surface: &Surface, shell: &[usize], count: usize, turn: &mut [bool], mends: &mut Vec<Mend>) -> Result<(), ShapeError> {
+fn turn_outward(
+    surface: &Surface,
+    shell: &[usize],
+    count: usize,
+    turn: &mut [bool],
+    mends: &mut Vec<Mend>,
+) -> Result<(), ShapeError> {
     let mut shells: Vec<Shell> = (0..count)
-        .map(|_| Shell { volume: 0.0, low: Vector3::repeat(f64::INFINITY), high: Vector3::repeat(f64::NEG_INFINITY), faces: Vec::new() })
+        .map(|_| Shell {
+            volume: 0.0,
+            low: Vector3::repeat(f64::INFINITY),
+            high: Vector3::repeat(f64::NEG_INFINITY),
+            faces: Vec::new(),
+        })
         .collect();
     for (f, face) in surface.faces.iter().enumerate() {
         let shell = &mut shells[shell[f]];
@@ -154,10 +184,16 @@ fn turn_outward(surface: &Surface, shell: &[usize], count: usize, turn: &mut [bo
     let mut outward = vec![true; count];
     let mut bodies = 0;
     for (rank, &inner) in order.iter().enumerate() {
-        let around = order[..rank].iter().rev().copied().find(|&outer| inside(surface, &shells[inner], &shells[outer]));
+        let around = order[..rank]
+            .iter()
+            .rev()
+            .copied()
+            .find(|&outer| inside(surface, &shells[inner], &shells[outer]));
         match around {
             None => outward[inner] = true,
-            Some(outer) if (shells[inner].volume < 0.0) != (shells[outer].volume < 0.0) => outward[inner] = !outward[outer],
+            Some(outer) if (shells[inner].volume < 0.0) != (shells[outer].volume < 0.0) => {
+                outward[inner] = !outward[outer]
+            }
             Some(outer) => {
                 let face = |s: usize| surface.faces[shells[s].faces[0] as usize].source;
                 return Err(ShapeError::Nested { inner: face(inner), outer: face(outer) });
@@ -179,17 +215,20 @@ fn turn_outward(surface: &Surface, shell: &[usize], count: usize, turn: &mut [bo
 /// Whether one shell lies inside another. Shells that cut through each other are found later.
 fn inside(surface: &Surface, inner: &Shell, outer: &Shell) -> bool {
     let slack = crate::tolerance::WELD * surface.size;
-    if (0..3).any(|k| inner.low[k] < outer.low[k] - slack || inner.high[k] > outer.high[k] + slack) {
+    if (0..3).any(|k| inner.low[k] < outer.low[k] - slack || inner.high[k] > outer.high[k] + slack)
+    {
         return false;
     }
-    // The shells may touch, and a point on the outer one is neither in nor out: of a few points, take the one that says it most clearly.
+    // The shells may touch, and a point on the outer one is neither in nor out: of a few points,
+    // take the one that says it most clearly.
     let clearest = inner
         .faces
         .iter()
         .take(8)
         .map(|&f| {
             let corners = &surface.faces[f as usize].corners;
-            let mean = corners.iter().map(|&c| surface.point(c)).sum::<Vector3<f64>>() / corners.len() as f64;
+            let mean = corners.iter().map(|&c| surface.point(c)).sum::<Vector3<f64>>()
+                / corners.len() as f64;
             winding(surface, outer, mean)
         })
         .max_by(|a, b| (a - 0.5).abs().total_cmp(&(b - 0.5).abs()));
@@ -205,13 +244,15 @@ fn winding(surface: &Surface, shell: &Shell, point: Vector3<f64>) -> f64 {
             let (a, b, c) = (a - point, b - point, c - point);
             let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
             let det = a.dot(&b.cross(&c));
-            angle += 2.0 * det.atan2(la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb);
+            angle +=
+                2.0 * det.atan2(la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb);
         });
     }
     (angle / (4.0 * PI)).abs()
 }
 
-/// The number of each face's shell, counted from 0 in order of first faces, and how many shells there are.
+/// The number of each face's shell, counted from 0 in order of first faces, and how many shells
+/// there are.
 fn numbered(shells: &mut Sets, count: usize) -> (Vec<usize>, usize) {
     let (mut numbers, mut next) = (vec![0; count], 0);
     for f in 0..count {

@@ -1,9 +1,10 @@
 //! Facets that cut through or cover each other.
 //!
-//! Two plane facets cut through each other where each has points on both sides of the other's plane and their sections with the line
-//! common to both planes overlap. To tell cutting from touching, each section is taken twice, a tolerance above and a tolerance below the
-//! other's plane, and only what is in both counts: an edge that rests on a face has a section on one side only.
-//! Facets are tested as wholes, not triangles, so that a cut along a diagonal of the triangulation is seen.
+//! Two plane facets cut through each other where each has points on both sides of the other's plane
+//! and their sections with the line common to both planes overlap. To tell cutting from touching,
+//! each section is taken twice, a tolerance above and a tolerance below the other's plane, and only
+//! what is in both counts: an edge that rests on a face has a section on one side only. Facets are
+//! tested as wholes, not triangles, so that a cut along a diagonal of the triangulation is seen.
 
 use super::{ShapeError, facets::Region, plane::Frame, surface::Surface};
 use crate::{
@@ -16,7 +17,8 @@ use nalgebra::Vector3;
 pub(super) fn refuse_overlap(surface: &Surface, regions: &[Region]) -> Result<(), ShapeError> {
     let reach = tolerance::COPLANAR * surface.size;
     let mut sheets: Vec<Sheet> = regions.iter().map(|r| Sheet::new(surface, r, reach)).collect();
-    let size = sheets.iter().fold(Vector3::zeros(), |size: Vector3<f64>, s| size.sup(&s.high.abs()));
+    let size =
+        sheets.iter().fold(Vector3::zeros(), |size: Vector3<f64>, s| size.sup(&s.high.abs()));
     let axis = size.imax();
     sheets.sort_by(|a, b| a.low[axis].total_cmp(&b.low[axis]));
     for (i, a) in sheets.iter().enumerate() {
@@ -27,7 +29,11 @@ pub(super) fn refuse_overlap(surface: &Surface, regions: &[Region]) -> Result<()
             if let Some(at) = a.cuts(b).or_else(|| a.covers(b)) {
                 let source = |s: &Sheet| surface.faces[s.region.faces[0] as usize].source;
                 let (first, second) = (source(a).min(source(b)), source(a).max(source(b)));
-                return Err(ShapeError::Overlap { first, second, at: (at + surface.center).into() });
+                return Err(ShapeError::Overlap {
+                    first,
+                    second,
+                    at: (at + surface.center).into(),
+                });
             }
         }
     }
@@ -46,7 +52,8 @@ struct Sheet<'a> {
 
 impl<'a> Sheet<'a> {
     fn new(surface: &'a Surface, region: &'a Region, reach: f64) -> Self {
-        let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+        let (mut low, mut high) =
+            (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
         for &(c, _) in &region.boundary {
             low = low.inf(&surface.point(c));
             high = high.sup(&surface.point(c));
@@ -113,22 +120,28 @@ impl<'a> Sheet<'a> {
         crossings.chunks_exact(2).map(|c| (c[0], c[1])).collect()
     }
 
-    /// A point where two facets lie on each other: facing the same way, or folded over a common edge.
-    /// Facets that face each other without a common edge merely touch.
+    /// A point where two facets lie on each other: facing the same way, or folded over a common
+    /// edge. Facets that face each other without a common edge merely touch.
     fn covers(&self, other: &Sheet) -> Option<Vector3<f64>> {
         let slack = self.slack + other.slack;
         let (low, high) = self.heights(other);
         if low < -slack || high > slack {
             return None;
         }
-        let folded = || self.region.boundary.iter().any(|&(a, b)| other.region.boundary.binary_search(&(b, a)).is_ok());
+        let folded = || {
+            self.region
+                .boundary
+                .iter()
+                .any(|&(a, b)| other.region.boundary.binary_search(&(b, a)).is_ok())
+        };
         if self.region.normal.dot(&other.region.normal) < 0.0 && !folded() {
             return None;
         }
         let frame = Frame::around(&self.region.normal);
         let flat = |sheet: &Sheet| -> Vec<Vec<P2>> {
             let points = |p: &Vec<u32>| {
-                let mut points: Vec<P2> = p.iter().map(|&c| frame.project(&sheet.surface.point(c))).collect();
+                let mut points: Vec<P2> =
+                    p.iter().map(|&c| frame.project(&sheet.surface.point(c))).collect();
                 if area(&points) < 0.0 {
                     points.reverse();
                 }
@@ -147,7 +160,8 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Whether an edge of the convex polygon `a`, which runs counter-clockwise, has all of `b` beyond it, but for `slack`.
+/// Whether an edge of the convex polygon `a`, which runs counter-clockwise, has all of `b` beyond
+/// it, but for `slack`.
 fn apart(a: &[P2], b: &[P2], slack: f64) -> bool {
     edges(a).any(|(p, q)| b.iter().all(|&c| cross(p, q, c) <= slack * (q - p).norm()))
 }

@@ -28,11 +28,11 @@ impl Frame {
     }
 }
 
-/// The corners of a loop that is convex within `tolerance`, points on its straight edges left out; `None` where it is not convex.
-/// Positions in `points`, which run counter-clockwise.
+/// The corners of a loop that is convex within `tolerance`, points on its straight edges left out;
+/// `None` where it is not convex. Positions in `points`, which run counter-clockwise.
 pub(super) fn convex_corners(points: &[P2], tolerance: f64) -> Option<Vec<usize>> {
-    // Triangles and quadrilaterals, by far the most common: convex if every corner stands out from the line between its neighbours.
-    // (Four left turns cannot go around twice.)
+    // Triangles and quadrilaterals, by far the most common: convex if every corner stands out from
+    // the line between its neighbours. (Four left turns cannot go around twice.)
     if let 3 | 4 = points.len() {
         let n = points.len();
         let stands_out = |i: usize| {
@@ -68,10 +68,12 @@ pub(super) fn convex_corners(points: &[P2], tolerance: f64) -> Option<Vec<usize>
     (kept.len() >= 3).then(|| kept.into_iter().map(|k| corners[k]).collect())
 }
 
-/// The points of a loop that remain when points within `tolerance` of straight edges are left out. Positions, increasing.
+/// The points of a loop that remain when points within `tolerance` of straight edges are left out.
+/// Positions, increasing.
 ///
-/// Every point left out is compared with the edge that replaces it (Douglas & Peucker 1973), not with its neighbours: a fine curve is
-/// never straightened by more than the tolerance, however many points it has.
+/// Every point left out is compared with the edge that replaces it (Douglas & Peucker 1973), not
+/// with its neighbours: a fine curve is never straightened by more than the tolerance, however many
+/// points it has.
 pub(super) fn straighten(points: &[P2], tolerance: f64) -> Vec<usize> {
     let n = points.len();
     if n <= 3 {
@@ -98,14 +100,17 @@ pub(super) fn straighten(points: &[P2], tolerance: f64) -> Vec<usize> {
             open.extend([(from, worst), (worst, to)]);
         }
     }
-    // A point in an edge parallel to a chord may have been taken for its farthest point: look at each once more between its neighbours.
+    // A point in an edge parallel to a chord may have been taken for its farthest point: look at
+    // each once more between its neighbours.
     let mut previous = 0;
     for i in 1..n {
         if !kept[i] {
             continue;
         }
         let next = (i + 1..=n).find(|&j| kept[j]).unwrap_or(n);
-        if (previous + 1..next).all(|j| distance_to_segment(at(j), at(previous), at(next)) <= tolerance) {
+        if (previous + 1..next)
+            .all(|j| distance_to_segment(at(j), at(previous), at(next)) <= tolerance)
+        {
             kept[i] = false;
         } else {
             previous = i;
@@ -116,7 +121,8 @@ pub(super) fn straighten(points: &[P2], tolerance: f64) -> Vec<usize> {
     corners
 }
 
-/// Where a loop crosses itself by more than `tolerance`, if it does. Touching itself, or running back along itself, is not crossing.
+/// Where a loop crosses itself by more than `tolerance`, if it does. Touching itself, or running
+/// back along itself, is not crossing.
 pub(super) fn crossing(points: &[P2], tolerance: f64) -> Option<P2> {
     let n = points.len();
     let end = |i: usize| points[(i + 1) % n];
@@ -128,7 +134,9 @@ pub(super) fn crossing(points: &[P2], tolerance: f64) -> Option<P2> {
             let (a, b, c, d) = (points[i], end(i), points[j], end(j));
             let (ab, cd) = ((b - a).norm(), (d - c).norm());
             let (pa, pb, pc, pd) = (cross(c, d, a), cross(c, d, b), cross(a, b, c), cross(a, b, d));
-            let apart = |x: f64, y: f64, length: f64| x * y < 0.0 && x.abs().min(y.abs()) > tolerance * length;
+            let apart = |x: f64, y: f64, length: f64| {
+                x * y < 0.0 && x.abs().min(y.abs()) > tolerance * length
+            };
             if apart(pa, pb, cd) && apart(pc, pd, ab) {
                 let t = pa / (pa - pb);
                 return Some(a + (b - a) * t);
@@ -144,18 +152,21 @@ fn contains(points: &[P2], p: P2) -> bool {
     let mut inside = false;
     for i in 0..n {
         let (a, b) = (points[i], points[(i + 1) % n]);
-        if (a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]) {
+        if (a[1] > p[1]) != (b[1] > p[1])
+            && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+        {
             inside = !inside;
         }
     }
     inside
 }
 
-/// Cuts a region into convex pieces. `loops` are positions in `points`; those that run counter-clockwise bound the region from outside,
-/// the others are its holes.
+/// Cuts a region into convex pieces. `loops` are positions in `points`; those that run
+/// counter-clockwise bound the region from outside, the others are its holes.
 pub(super) fn convex_pieces(points: &[P2], loops: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let shape = |l: &[usize]| -> Vec<P2> { l.iter().map(|&i| points[i]).collect() };
-    let (outer, holes): (Vec<_>, Vec<_>) = loops.iter().map(|l| (l, shape(l))).partition(|(_, s)| area(s) > 0.0);
+    let (outer, holes): (Vec<_>, Vec<_>) =
+        loops.iter().map(|l| (l, shape(l))).partition(|(_, s)| area(s) > 0.0);
     let mut pieces = Vec::new();
     let mut ear = earcut::Earcut::new();
     for (corners, outline) in &outer {
@@ -170,7 +181,8 @@ pub(super) fn convex_pieces(points: &[P2], loops: &[Vec<usize>]) -> Vec<Vec<usiz
         let mut triangles: Vec<u32> = Vec::new();
         ear.earcut(corners.iter().map(|&c| points[c].into()), &starts, &mut triangles);
         let triangles = triangles.chunks_exact(3).filter_map(|t| {
-            let [a, b, c] = [corners[t[0] as usize], corners[t[1] as usize], corners[t[2] as usize]];
+            let [a, b, c] =
+                [corners[t[0] as usize], corners[t[1] as usize], corners[t[2] as usize]];
             let sign = cross(points[a], points[b], points[c]);
             if sign > 0.0 {
                 Some(vec![a, b, c])
@@ -185,14 +197,18 @@ pub(super) fn convex_pieces(points: &[P2], loops: &[Vec<usize>]) -> Vec<Vec<usiz
     pieces
 }
 
-/// Removes inner edges as long as the pieces stay convex (Hertel & Mehlhorn 1983: at most four times the least number of pieces).
+/// Removes inner edges as long as the pieces stay convex (Hertel & Mehlhorn 1983: at most four
+/// times the least number of pieces).
 fn join_convex(points: &[P2], mut pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
-    let edges = |piece: &[usize]| -> Vec<(usize, usize)> { (0..piece.len()).map(|i| (piece[i], piece[(i + 1) % piece.len()])).collect() };
+    let edges = |piece: &[usize]| -> Vec<(usize, usize)> {
+        (0..piece.len()).map(|i| (piece[i], piece[(i + 1) % piece.len()])).collect()
+    };
     let mut owner: HashMap<(usize, usize), usize> = HashMap::new();
     for (p, piece) in pieces.iter().enumerate() {
         owner.extend(edges(piece).into_iter().map(|e| (e, p)));
     }
-    let mut inner: Vec<(usize, usize)> = owner.keys().copied().filter(|&(u, v)| u < v && owner.contains_key(&(v, u))).collect();
+    let mut inner: Vec<(usize, usize)> =
+        owner.keys().copied().filter(|&(u, v)| u < v && owner.contains_key(&(v, u))).collect();
     // Longest first: leaves compact pieces, and does not hang on the order of the hash map.
     let length = |&(u, v): &(usize, usize)| (points[u] - points[v]).norm();
     inner.sort_unstable_by(|a, b| length(b).total_cmp(&length(a)).then(a.cmp(b)));

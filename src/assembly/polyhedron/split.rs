@@ -1,4 +1,5 @@
-//! Vertices in the middle of another face's edge: the edge is split there, so that neighbours share whole edges.
+//! Vertices in the middle of another face's edge: the edge is split there, so that neighbours share
+//! whole edges.
 
 use super::{
     Mend,
@@ -10,11 +11,12 @@ use std::collections::HashMap;
 
 /// Splits edges at corners closer to them than [`tolerance::WELD`] × size.
 ///
-/// Only edges with an odd number of faces are looked at, and only their ends can lie in the middle of another: a closed surface has none.
-/// Returns the half-edges of the result.
+/// Only edges with an odd number of faces are looked at, and only their ends can lie in the middle
+/// of another: a closed surface has none. Returns the half-edges of the result.
 pub(super) fn split_edges(surface: &mut Surface, mends: &mut Vec<Mend>) -> Vec<HalfEdge> {
     let list = surface.half_edges();
-    let odd: Vec<(u32, u32)> = edges(&list).filter(|e| e.len() % 2 == 1).map(|e| (e[0].low, e[0].high)).collect();
+    let odd: Vec<(u32, u32)> =
+        edges(&list).filter(|e| e.len() % 2 == 1).map(|e| (e[0].low, e[0].high)).collect();
     if odd.is_empty() {
         return list;
     }
@@ -56,7 +58,10 @@ pub(super) fn split_edges(surface: &mut Surface, mends: &mut Vec<Mend>) -> Vec<H
             splits.insert((a, b), inner.into_iter().map(|(_, c)| c).collect());
         }
     }
-    let Some(at) = odd.iter().find_map(|e| splits.get(e)).map(|inner| surface.place(inner[0])) else { return list };
+    let Some(at) = odd.iter().find_map(|e| splits.get(e)).map(|inner| surface.place(inner[0]))
+    else {
+        return list;
+    };
 
     for face in &mut surface.faces {
         if !face.edges().any(|(a, b)| splits.contains_key(&(a.min(b), a.max(b)))) {

@@ -50,15 +50,20 @@ impl Surface {
         let mut list = Vec::with_capacity(self.faces.iter().map(|f| f.corners.len()).sum());
         for (face, f) in self.faces.iter().enumerate() {
             for (from, to) in f.edges() {
-                list.push(HalfEdge { low: from.min(to), high: from.max(to), face: face as u32, forward: from < to });
+                list.push(HalfEdge {
+                    low: from.min(to),
+                    high: from.max(to),
+                    face: face as u32,
+                    forward: from < to,
+                });
             }
         }
         list.sort_unstable();
         list
     }
 
-    /// Newell's area vector (Sutherland, Sproull & Schumacker 1974): normal × area of the face, for a warped one of its shadow
-    /// on the plane where the shadow is largest.
+    /// Newell's area vector (Sutherland, Sproull & Schumacker 1974): normal × area of the face, for
+    /// a warped one of its shadow on the plane where the shadow is largest.
     pub fn area_vector(&self, face: &Face) -> Vector3<f64> {
         let origin = self.point(face.corners[0]);
         let mut sum = Vector3::zeros();
@@ -70,13 +75,19 @@ impl Surface {
 
     /// Calls `visit` with the corners of triangles that fill the face.
     ///
-    /// A face with more than three corners is fanned about the mean of its corners: signed, so exact for any plane polygon, and for a
-    /// warped one the same whichever way round and from whichever corner the loop is written, so that neighbours sharing it agree.
-    pub fn fan(&self, face: &Face, mut visit: impl FnMut(Vector3<f64>, Vector3<f64>, Vector3<f64>)) {
+    /// A face with more than three corners is fanned about the mean of its corners: signed, so
+    /// exact for any plane polygon, and for a warped one the same whichever way round and from
+    /// whichever corner the loop is written, so that neighbours sharing it agree.
+    pub fn fan(
+        &self,
+        face: &Face,
+        mut visit: impl FnMut(Vector3<f64>, Vector3<f64>, Vector3<f64>),
+    ) {
         if let [a, b, c] = face.corners[..] {
             return visit(self.point(a), self.point(b), self.point(c));
         }
-        let mean = face.corners.iter().map(|&c| self.point(c)).sum::<Vector3<f64>>() / face.corners.len() as f64;
+        let mean = face.corners.iter().map(|&c| self.point(c)).sum::<Vector3<f64>>()
+            / face.corners.len() as f64;
         for (from, to) in face.edges() {
             visit(mean, self.point(from), self.point(to));
         }

@@ -11,12 +11,15 @@ use std::collections::HashMap;
 /// Below this, comparing all pairs is faster than a hash grid.
 const FEW: usize = 32;
 
-/// Most vertices, and most corners of all faces together: keeps numbers of corners within 32 bits everywhere and memory within some GB.
+/// Most vertices, and most corners of all faces together: keeps numbers of corners within 32 bits
+/// everywhere and memory within some GB.
 const MOST: usize = 1 << 25;
 
-/// Checks the numbers and indices, welds vertices closer than [`tolerance::WELD`] × size, drops unused vertices and faces without extent.
+/// Checks the numbers and indices, welds vertices closer than [`tolerance::WELD`] × size, drops
+/// unused vertices and faces without extent.
 ///
-/// Returns the surface in coordinates about its centre, and the corners in scene coordinates as the file gave them.
+/// Returns the surface in coordinates about its centre, and the corners in scene coordinates as the
+/// file gave them.
 pub(super) fn weld(
     vertices: Vec<Vector3<f64>>,
     faces: &[Vec<usize>],
@@ -38,7 +41,11 @@ pub(super) fn weld(
     let center = low + (high - low) / 2.0;
     let size = (high - low).norm();
     if !(tolerance::LEAST_SIZE..=tolerance::GREATEST_SIZE).contains(&size) {
-        return Err(ShapeError::OutOfRange { size, least: tolerance::LEAST_SIZE, most: tolerance::GREATEST_SIZE });
+        return Err(ShapeError::OutOfRange {
+            size,
+            least: tolerance::LEAST_SIZE,
+            most: tolerance::GREATEST_SIZE,
+        });
     }
 
     let welder = Welder::new(vertices, used, center, tolerance::WELD * size);
@@ -131,7 +138,12 @@ struct Welder {
 }
 
 impl Welder {
-    fn new(vertices: Vec<Vector3<f64>>, used: Vec<bool>, center: Vector3<f64>, radius: f64) -> Self {
+    fn new(
+        vertices: Vec<Vector3<f64>>,
+        used: Vec<bool>,
+        center: Vector3<f64>,
+        radius: f64,
+    ) -> Self {
         let mut welder = Self {
             map: vec![u32::MAX; vertices.len()],
             points: Vec::with_capacity(vertices.len()),
@@ -142,10 +154,13 @@ impl Welder {
         let mut grid = (vertices.len() > FEW).then(|| Grid::new(radius, vertices.len()));
         for (i, v) in vertices.into_iter().enumerate().filter(|&(i, _)| used[i]) {
             let p = v - center;
-            // A vertex joins the first corner within reach, never a chain of them: a fine row of vertices does not collapse.
+            // A vertex joins the first corner within reach, never a chain of them: a fine row of
+            // vertices does not collapse.
             let found = match &grid {
                 Some(grid) => grid.find(&p, &welder.points),
-                None => welder.points.iter().position(|q| (q - p).norm() <= radius).map(|i| i as u32),
+                None => {
+                    welder.points.iter().position(|q| (q - p).norm() <= radius).map(|i| i as u32)
+                }
             };
             if let Some(corner) = found {
                 welder.welded += 1;
@@ -176,7 +191,11 @@ struct Grid {
 
 impl Grid {
     fn new(radius: f64, capacity: usize) -> Self {
-        Self { radius, heads: HashMap::with_capacity(capacity), before: Vec::with_capacity(capacity) }
+        Self {
+            radius,
+            heads: HashMap::with_capacity(capacity),
+            before: Vec::with_capacity(capacity),
+        }
     }
 
     fn cell(&self, p: &Vector3<f64>) -> [i64; 3] {
@@ -192,13 +211,16 @@ impl Grid {
     fn find(&self, p: &Vector3<f64>, points: &[Vector3<f64>]) -> Option<u32> {
         let cell = self.cell(p);
         // In each direction the ball reaches over the nearer wall only.
-        let step = [0, 1, 2].map(|k| if p[k] / (2.0 * self.radius) - (cell[k] as f64) < 0.5 { -1 } else { 1 });
+        let step = [0, 1, 2]
+            .map(|k| if p[k] / (2.0 * self.radius) - (cell[k] as f64) < 0.5 { -1 } else { 1 });
         let mut found: Option<u32> = None;
         for corner in 0..8 {
             let key = [0, 1, 2].map(|k| cell[k] + if corner >> k & 1 == 1 { step[k] } else { 0 });
             let mut next = self.heads.get(&key).copied().unwrap_or(u32::MAX);
             while next != u32::MAX {
-                if (points[next as usize] - p).norm() <= self.radius && found.is_none_or(|f| next < f) {
+                if (points[next as usize] - p).norm() <= self.radius
+                    && found.is_none_or(|f| next < f)
+                {
                     found = Some(next);
                 }
                 next = self.before[next as usize];

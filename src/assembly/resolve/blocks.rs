@@ -21,11 +21,16 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Turns a path relative to the block into one from the root: a block of a template has no keys of its own.
+    /// Turns a path relative to the block into one from the root: a block of a template has no keys
+    /// of its own.
     pub(super) fn check<T>(&self, result: Result<T, InputError>) -> Result<T, InputError> {
         result.map_err(|e| match &self.generated {
             None => e.under(&self.path),
-            Some(id) => InputError { message: format!("block {id:?}, {}: {}", e.path, e.message), path: self.path.clone(), ..e },
+            Some(id) => InputError {
+                message: format!("block {id:?}, {}: {}", e.path, e.message),
+                path: self.path.clone(),
+                ..e
+            },
         })
     }
 }
@@ -39,7 +44,11 @@ pub(super) fn from_template(path: &JsonPath) -> bool {
 pub(super) fn resolve(scene: &Scene) -> Result<(Vec<Block>, Vec<Finding>), InputError> {
     let root = JsonPath::root();
     for (name, material) in &scene.materials {
-        check::positive(material.density, &root.key("materials").key(name.as_str()).key("density"), "kg/m³")?;
+        check::positive(
+            material.density,
+            &root.key("materials").key(name.as_str()).key("density"),
+            "kg/m³",
+        )?;
     }
     let mut blocks = Vec::with_capacity(scene.blocks.len());
     let mut mended = Mended::default();
@@ -73,15 +82,25 @@ pub(super) fn resolve(scene: &Scene) -> Result<(Vec<Block>, Vec<Finding>), Input
 /// Refuses more blocks than a scene may have, or than fit into the memory.
 fn few(count: usize, path: &JsonPath) -> Result<(), InputError> {
     if count > limits::BLOCKS {
-        let message = format!("the scene has {count} blocks with these, at most {} are taken", limits::BLOCKS);
-        return Err(InputError::at(path.clone(), message).hint("give fewer blocks, or ask about a part of the structure"));
+        let message = format!(
+            "the scene has {count} blocks with these, at most {} are taken",
+            limits::BLOCKS
+        );
+        return Err(InputError::at(path.clone(), message)
+            .hint("give fewer blocks, or ask about a part of the structure"));
     }
     let each = limits::PER_BLOCK;
-    limits::afford(&format!("a scene of {count} blocks"), count as u64, each).map_err(|e| InputError { path: path.clone(), ..e })
+    limits::afford(&format!("a scene of {count} blocks"), count as u64, each)
+        .map_err(|e| InputError { path: path.clone(), ..e })
 }
 
 /// One block, and its density where the scene gives it (as such, by a material, or as a mass).
-fn block(scene: &Scene, spec: &BlockSpec, place: &Place, mended: &mut Mended) -> Result<(Block, Option<f64>), InputError> {
+fn block(
+    scene: &Scene,
+    spec: &BlockSpec,
+    place: &Place,
+    mended: &mut Mended,
+) -> Result<(Block, Option<f64>), InputError> {
     let root = JsonPath::root();
     let frame = Frame::new(spec, place)?;
     let body = shape::body(spec, &frame, place)?;
@@ -89,10 +108,18 @@ fn block(scene: &Scene, spec: &BlockSpec, place: &Place, mended: &mut Mended) ->
         mended.add(mend, &spec.id);
     }
 
-    let mass = spec.mass.map(|m| place.check(check::positive(m, &root.key("mass"), "kg"))).transpose()?;
-    let own = spec.density.map(|d| place.check(check::positive(d, &root.key("density"), "kg/m³"))).transpose()?;
+    let mass =
+        spec.mass.map(|m| place.check(check::positive(m, &root.key("mass"), "kg"))).transpose()?;
+    let own = spec
+        .density
+        .map(|d| place.check(check::positive(d, &root.key("density"), "kg/m³")))
+        .transpose()?;
     if mass.is_some() && own.is_some() {
-        return place.check(Err(InputError::at(root.key("mass"), "density and mass are both given").hint("keep one of them")));
+        return place.check(Err(InputError::at(
+            root.key("mass"),
+            "density and mass are both given",
+        )
+        .hint("keep one of them")));
     }
     let material = match &spec.material {
         None => None,
@@ -105,14 +132,21 @@ fn block(scene: &Scene, spec: &BlockSpec, place: &Place, mended: &mut Mended) ->
 
     let volume = body.properties.volume;
     let mass = mass.unwrap_or(density.unwrap_or(DEFAULT_DENSITY) * volume);
-    // A centre of mass given by hand says nothing about the spread of the mass: the shape's inertia, scaled by the mass, is kept.
+    // A centre of mass given by hand says nothing about the spread of the mass: the shape's
+    // inertia, scaled by the mass, is kept.
     let inertia = body.properties.inertia * (mass / volume);
-    let own_centroid = spec.centroid.map(|c| place.check(check::vector(c, &root.key("centroid")))).transpose()?;
+    let own_centroid =
+        spec.centroid.map(|c| place.check(check::vector(c, &root.key("centroid")))).transpose()?;
     let centroid = own_centroid.map_or(body.properties.centroid, |c| frame.apply(c));
-    let computable = volume > 0.0 && mass > 0.0 && [volume, mass, body.size].iter().chain(&centroid).chain(&inertia).all(|x| x.is_finite());
+    let computable = volume > 0.0
+        && mass > 0.0
+        && [volume, mass, body.size].iter().chain(&centroid).chain(&inertia).all(|x| x.is_finite());
     if !computable {
-        let message = format!("the block is too small or too large to compute with: volume {volume:e} m³, mass {mass:e} kg");
-        return place.check(Err(InputError::at(root.key("shape"), message).hint("lengths are in m")));
+        let message = format!(
+            "the block is too small or too large to compute with: volume {volume:e} m³, mass {mass:e} kg"
+        );
+        return place
+            .check(Err(InputError::at(root.key("shape"), message).hint("lengths are in m")));
     }
     let block = Block {
         id: spec.id.clone(),
@@ -137,23 +171,36 @@ pub(super) fn no_material(scene: &Scene, name: &str, path: &JsonPath) -> InputEr
     InputError::at(path.clone(), format!("no material is called {name:?}")).hint(hint)
 }
 
-/// Says that a density was assumed, if that can change an answer: with one density for all and no load but the weight,
-/// forces grow with it and nothing else does.
+/// Says that a density was assumed, if that can change an answer: with one density for all and no
+/// load but the weight, forces grow with it and nothing else does.
 fn assumed_density(scene: &Scene, blocks: &[Block], chosen: &[Option<f64>]) -> Option<Finding> {
     let free = || blocks.iter().zip(chosen).filter(|(b, _)| !b.support);
     let mut assumed = free().filter(|(_, density)| density.is_none());
     let (first, _) = assumed.next()?;
     let count = 1 + assumed.count();
     // Mass over volume gives a density back up to rounding.
-    let mixed = free().filter_map(|(_, density)| *density).any(|d| (d / DEFAULT_DENSITY - 1.0).abs() > 1e-12);
-    let loaded = scene.loads.dead.iter().chain(&scene.loads.live).any(|l| l.force.is_some() || l.moment.is_some());
+    let mixed = free()
+        .filter_map(|(_, density)| *density)
+        .any(|d| (d / DEFAULT_DENSITY - 1.0).abs() > 1e-12);
+    let loaded = scene
+        .loads
+        .dead
+        .iter()
+        .chain(&scene.loads.live)
+        .any(|l| l.force.is_some() || l.moment.is_some());
     let why = match (mixed, loaded) {
         (false, false) => return None,
         (true, _) => "other blocks have another density",
         (false, true) => "there are loads besides the weight",
     };
-    let who = if count == 1 { format!("Block {:?} has", first.id) } else { format!("{count} blocks have (the first is {:?})", first.id) };
-    let text = format!("{who} no density, mass or material: {DEFAULT_DENSITY} kg/m³ was assumed; this matters because {why}.");
+    let who = if count == 1 {
+        format!("Block {:?} has", first.id)
+    } else {
+        format!("{count} blocks have (the first is {:?})", first.id)
+    };
+    let text = format!(
+        "{who} no density, mass or material: {DEFAULT_DENSITY} kg/m³ was assumed; this matters because {why}."
+    );
     Some(Finding::new(FindingCode::Assumed, text))
 }
 
@@ -178,7 +225,8 @@ impl Mended {
     fn findings(self) -> Vec<Finding> {
         let tell = |text: &String| {
             let (code, id, count) = &self.blocks[text];
-            let others = if *count > 1 { format!(" (and {} more)", count - 1) } else { String::new() };
+            let others =
+                if *count > 1 { format!(" (and {} more)", count - 1) } else { String::new() };
             Finding::new(*code, format!("Block {id:?}{others}: {text}."))
         };
         self.order.iter().map(tell).collect()

@@ -8,13 +8,21 @@ use nalgebra::Vector3;
 
 /// A finite number.
 pub(super) fn finite(value: f64, path: &JsonPath) -> Result<f64, InputError> {
-    if value.is_finite() { Ok(value) } else { Err(InputError::at(path.clone(), format!("must be a finite number, got {value}"))) }
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(InputError::at(path.clone(), format!("must be a finite number, got {value}")))
+    }
 }
 
 /// A finite number greater than zero; `unit` is the remedy.
 pub(super) fn positive(value: f64, path: &JsonPath, unit: &str) -> Result<f64, InputError> {
     finite(value, path)?;
-    if value > 0.0 { Ok(value) } else { Err(InputError::at(path.clone(), format!("must be > 0, got {value}")).hint(unit)) }
+    if value > 0.0 {
+        Ok(value)
+    } else {
+        Err(InputError::at(path.clone(), format!("must be > 0, got {value}")).hint(unit))
+    }
 }
 
 /// Three finite numbers.
@@ -33,7 +41,9 @@ pub(super) fn direction(value: [f64; 3], path: &JsonPath) -> Result<Vector3<f64>
     // Dividing by the largest component first keeps the norm from overflowing or vanishing.
     let largest = value.amax();
     if largest == 0.0 {
-        return Err(InputError::at(path.clone(), "must not be zero").hint("a direction, of any length"));
+        return Err(
+            InputError::at(path.clone(), "must not be zero").hint("a direction, of any length")
+        );
     }
     Ok((value / largest).normalize())
 }
@@ -41,11 +51,27 @@ pub(super) fn direction(value: [f64; 3], path: &JsonPath) -> Result<Vector3<f64>
 /// The contact tolerances.
 pub(super) fn contact(spec: &ContactSpec, path: &JsonPath) -> Result<(), InputError> {
     let range = |key: &str, value: f64, good: bool, range: &str, hint: &str| {
-        if good { Ok(()) } else { Err(InputError::at(path.key(key), format!("must be {range}, got {value}")).hint(hint)) }
+        if good {
+            Ok(())
+        } else {
+            Err(InputError::at(path.key(key), format!("must be {range}, got {value}")).hint(hint))
+        }
     };
     let ContactSpec { gap, angle_deg, min_area } = *spec;
-    range("gap", gap, gap > 0.0 && gap < 0.5, "> 0 and < 0.5", "a fraction of the size of the smaller block; the default is 1e-4")?;
-    range("angle_deg", angle_deg, angle_deg > 0.0 && angle_deg < 45.0, "> 0 and < 45", "degrees; the default is 1")?;
+    range(
+        "gap",
+        gap,
+        gap > 0.0 && gap < 0.5,
+        "> 0 and < 0.5",
+        "a fraction of the size of the smaller block; the default is 1e-4",
+    )?;
+    range(
+        "angle_deg",
+        angle_deg,
+        angle_deg > 0.0 && angle_deg < 45.0,
+        "> 0 and < 45",
+        "degrees; the default is 1",
+    )?;
     range(
         "min_area",
         min_area,

@@ -1,7 +1,9 @@
-//! Interfaces given by hand → [`GivenInterface`]: plane, in hull order around the normal, with a normal and a friction.
+//! Interfaces given by hand → [`GivenInterface`]: plane, in hull order around the normal, with a
+//! normal and a friction.
 //!
-//! For rigid blocks with dry friction a force at an inner point of a contact is a convex combination of forces at the corners of its hull
-//! (each share of the same direction, so each in the friction cone): points inside the hull are left out, and that is said.
+//! For rigid blocks with dry friction a force at an inner point of a contact is a convex
+//! combination of forces at the corners of its hull (each share of the same direction, so each in
+//! the friction cone): points inside the hull are left out, and that is said.
 
 use super::{Names, check, joints, shape::diagonal};
 use crate::{
@@ -16,15 +18,29 @@ use nalgebra::{Vector2, Vector3};
 type Point = Vector3<f64>;
 
 /// The given interfaces and what was mended in them.
-pub(super) fn resolve(scene: &Scene, assembly: &Assembly, names: &Names) -> Result<(Vec<GivenInterface>, Vec<Finding>), InputError> {
+pub(super) fn resolve(
+    scene: &Scene,
+    assembly: &Assembly,
+    names: &Names,
+) -> Result<(Vec<GivenInterface>, Vec<Finding>), InputError> {
     let path = JsonPath::root().key("interfaces");
     let mut notes = Notes::default();
-    let given = scene.interfaces.iter().enumerate().map(|(i, spec)| one(spec, assembly, names, &path.index(i), &mut notes));
+    let given = scene
+        .interfaces
+        .iter()
+        .enumerate()
+        .map(|(i, spec)| one(spec, assembly, names, &path.index(i), &mut notes));
     let given = given.collect::<Result<Vec<_>, _>>()?;
     Ok((given, notes.findings()))
 }
 
-fn one(spec: &InterfaceSpec, assembly: &Assembly, names: &Names, path: &JsonPath, notes: &mut Notes) -> Result<GivenInterface, InputError> {
+fn one(
+    spec: &InterfaceSpec,
+    assembly: &Assembly,
+    names: &Names,
+    path: &JsonPath,
+    notes: &mut Notes,
+) -> Result<GivenInterface, InputError> {
     let (a, b) = names.pair(&spec.between, &path.key("between"))?;
     let (one, two) = (&assembly.blocks[a], &assembly.blocks[b]);
     if one.support && two.support {
@@ -34,35 +50,51 @@ fn one(spec: &InterfaceSpec, assembly: &Assembly, names: &Names, path: &JsonPath
         )
         .hint("remove the interface"));
     }
-    let law = match (joints::friction(spec.friction, None, path)?, assembly.joints.law(a, b, &assembly.blocks)) {
+    let law = match (
+        joints::friction(spec.friction, None, path)?,
+        assembly.joints.law(a, b, &assembly.blocks),
+    ) {
         (Some(friction), Some(law)) => JointLaw { friction, ..law },
         (Some(friction), None) => JointLaw::dry(friction),
         (None, Some(law)) => law,
         (None, None) => {
-            return Err(InputError::at(path.clone(), "no friction is given here or by the joint rules").hint("add \"friction\""));
+            return Err(InputError::at(
+                path.clone(),
+                "no friction is given here or by the joint rules",
+            )
+            .hint("add \"friction\""));
         }
     };
 
     let at = path.key("points");
-    let points = spec.points.iter().enumerate().map(|(k, &p)| check::vector(p, &at.index(k))).collect::<Result<Vec<_>, _>>()?;
+    let points = spec
+        .points
+        .iter()
+        .enumerate()
+        .map(|(k, &p)| check::vector(p, &at.index(k)))
+        .collect::<Result<Vec<_>, _>>()?;
     if points.is_empty() {
         return Err(InputError::at(at, "an interface needs at least one point"));
     }
     let normal = spec.normal.map(|n| check::direction(n, &path.key("normal"))).transpose()?;
     let extent = diagonal(&points);
     if !(extent * extent).is_finite() {
-        return Err(InputError::at(at, "the points are too far apart to compute with").hint("lengths are in m"));
+        return Err(InputError::at(at, "the points are too far apart to compute with")
+            .hint("lengths are in m"));
     }
     let points = distinct(points, WELD * extent, path, notes);
 
     let slack = assembly.contact.angle_deg.to_radians().sin();
     let (points, normal) = match spread(&points, WELD * extent) {
-        Spread::Point => (points, normal.ok_or_else(|| no_normal(path, "one point has no normal of its own"))?),
+        Spread::Point => {
+            (points, normal.ok_or_else(|| no_normal(path, "one point has no normal of its own"))?)
+        }
         Spread::Line(from, to) => {
             if points.len() > 2 {
                 notes.add(Note::Inner, path, (points.len() - 2) as f64);
             }
-            let normal = normal.ok_or_else(|| no_normal(path, "points on one line have no normal of their own"))?;
+            let normal = normal
+                .ok_or_else(|| no_normal(path, "points on one line have no normal of their own"))?;
             let along = (points[to] - points[from]).normalize();
             let slope = normal.dot(&along);
             if slope.abs() > slack {
@@ -92,7 +124,11 @@ fn one(spec: &InterfaceSpec, assembly: &Assembly, names: &Names, path: &JsonPath
                 Some(n) => {
                     let sine = n.cross(&plane).norm();
                     if sine > slack {
-                        return Err(off_plane(path, sine, "is not at right angles to the plane of the points"));
+                        return Err(off_plane(
+                            path,
+                            sine,
+                            "is not at right angles to the plane of the points",
+                        ));
                     }
                     plane * n.dot(&plane).signum()
                 }
@@ -144,11 +180,13 @@ fn distinct(points: Vec<Point>, near: f64, path: &JsonPath, notes: &mut Notes) -
         if repeated[i] {
             continue;
         }
-        for &j in order[k + 1..].iter().take_while(|&&j| points[j][axis] - points[i][axis] <= near) {
+        for &j in order[k + 1..].iter().take_while(|&&j| points[j][axis] - points[i][axis] <= near)
+        {
             repeated[j] |= (points[j] - points[i]).norm() <= near;
         }
     }
-    let kept: Vec<Point> = points.into_iter().zip(repeated).filter(|(_, r)| !r).map(|(p, _)| p).collect();
+    let kept: Vec<Point> =
+        points.into_iter().zip(repeated).filter(|(_, r)| !r).map(|(p, _)| p).collect();
     if kept.len() < before {
         notes.add(Note::Repeated, path, (before - kept.len()) as f64);
     }
@@ -166,7 +204,10 @@ enum Spread {
 
 fn spread(points: &[Point], near: f64) -> Spread {
     let farthest = |measure: &dyn Fn(&Point) -> f64| {
-        (0..points.len()).map(|i| (i, measure(&points[i]))).max_by(|x, y| x.1.total_cmp(&y.1)).unwrap_or((0, 0.0))
+        (0..points.len())
+            .map(|i| (i, measure(&points[i])))
+            .max_by(|x, y| x.1.total_cmp(&y.1))
+            .unwrap_or((0, 0.0))
     };
     let (from, _) = farthest(&|p| (p - points[0]).norm());
     let (to, length) = farthest(&|p| (p - points[from]).norm());
@@ -181,17 +222,28 @@ fn spread(points: &[Point], near: f64) -> Spread {
     Spread::Plane(along.cross(&(points[third] - points[from])).normalize())
 }
 
-/// The convex hull of points that span a plane, counter-clockwise about `raw`, and its unit normal on the same side.
-fn polygon(points: &[Point], raw: Point, extent: f64, path: &JsonPath, notes: &mut Notes) -> (Vec<Point>, Point) {
+/// The convex hull of points that span a plane, counter-clockwise about `raw`, and its unit normal
+/// on the same side.
+fn polygon(
+    points: &[Point],
+    raw: Point,
+    extent: f64,
+    path: &JsonPath,
+    notes: &mut Notes,
+) -> (Vec<Point>, Point) {
     let axis = Vector3::ith(raw.iamin(), 1.0);
     let u = (axis - raw * raw.dot(&axis)).normalize();
     let v = raw.cross(&u);
-    let flat: Vec<Vector2<f64>> = points.iter().map(|p| p - points[0]).map(|d| Vector2::new(u.dot(&d), v.dot(&d))).collect();
+    let flat: Vec<Vector2<f64>> =
+        points.iter().map(|p| p - points[0]).map(|d| Vector2::new(u.dot(&d), v.dot(&d))).collect();
     let hull = polygon::corners(&flat);
 
     let mut corner = vec![false; flat.len()];
     hull.iter().for_each(|&i| corner[i] = true);
-    let inner = (0..flat.len()).filter(|&i| !corner[i]).filter(|&i| depth(&flat, &hull, i) > WELD * extent).count();
+    let inner = (0..flat.len())
+        .filter(|&i| !corner[i])
+        .filter(|&i| depth(&flat, &hull, i) > WELD * extent)
+        .count();
     if inner > 0 {
         notes.add(Note::Inner, path, inner as f64);
     }
@@ -203,7 +255,8 @@ fn polygon(points: &[Point], raw: Point, extent: f64, path: &JsonPath, notes: &m
     }
     let corners: Vec<Point> = hull.iter().map(|&i| points[i]).collect();
     // Newell: twice the vector area, about the first corner.
-    let area: Point = corners.windows(2).map(|w| (w[0] - corners[0]).cross(&(w[1] - corners[0]))).sum();
+    let area: Point =
+        corners.windows(2).map(|w| (w[0] - corners[0]).cross(&(w[1] - corners[0]))).sum();
     (corners, area.normalize())
 }
 
@@ -229,8 +282,11 @@ fn away(normal: Point, one: &Block, two: &Block, path: &JsonPath) -> Result<Poin
     let height = normal.dot(&between);
     // Closer to the plane than this the sign is a matter of rounding.
     if height.abs() <= COPLANAR * (one.size + two.size) {
-        return Err(InputError::at(path.clone(), "the normal is missing: the centres of the two blocks do not tell which side is which")
-            .hint("add \"normal\": [x, y, z], from the first block into the second"));
+        return Err(InputError::at(
+            path.clone(),
+            "the normal is missing: the centres of the two blocks do not tell which side is which",
+        )
+        .hint("add \"normal\": [x, y, z], from the first block into the second"));
     }
     Ok(normal * height.signum())
 }
@@ -239,10 +295,13 @@ fn away(normal: Point, one: &Block, two: &Block, path: &JsonPath) -> Result<Poin
 fn outside(point: &Point, block: &Block) -> f64 {
     match &block.solid {
         Solid::Sphere { center, radius } => ((point - center).norm() - radius).max(0.0),
-        Solid::Clump { balls, .. } => balls.iter().map(|(c, r)| (point - c).norm() - r).fold(f64::INFINITY, f64::min).max(0.0),
+        Solid::Clump { balls, .. } => {
+            balls.iter().map(|(c, r)| (point - c).norm() - r).fold(f64::INFINITY, f64::min).max(0.0)
+        }
         Solid::Polyhedron(p) => {
             let first = p.vertices.first().copied().unwrap_or_default();
-            let (low, high) = p.vertices.iter().fold((first, first), |(l, h), v| (l.inf(v), h.sup(v)));
+            let (low, high) =
+                p.vertices.iter().fold((first, first), |(l, h), v| (l.inf(v), h.sup(v)));
             (point - point.sup(&low).inf(&high)).norm()
         }
     }
@@ -268,7 +327,14 @@ impl Notes {
     }
 
     fn findings(self) -> Vec<Finding> {
-        let kinds = [Note::Repeated, Note::Reordered, Note::Inner, Note::Warped, Note::Against, Note::Apart];
+        let kinds = [
+            Note::Repeated,
+            Note::Reordered,
+            Note::Inner,
+            Note::Warped,
+            Note::Against,
+            Note::Apart,
+        ];
         kinds.into_iter().filter_map(|kind| self.finding(kind)).collect()
     }
 
@@ -278,7 +344,8 @@ impl Notes {
         let count = hits().count();
         let worst = hits().map(|(.., v)| v.abs()).fold(0.0, f64::max);
         let total: f64 = hits().map(|(.., v)| v).sum();
-        let place = if count > 1 { format!("{path} and {} more", count - 1) } else { path.to_string() };
+        let place =
+            if count > 1 { format!("{path} and {} more", count - 1) } else { path.to_string() };
         let (code, text) = match kind {
             Note::Repeated => (FindingCode::Mended, format!("{total} repeated points were left out.")),
             Note::Reordered => {

@@ -1,7 +1,7 @@
 //! Joint specs → [`JointRules`].
 //!
-//! The rule: `joints.default` must say what friction acts, unless every contact is given by hand with a friction of its own
-//! (then detection may still meet a pair without one, and reports it).
+//! The rule: `joints.default` must say what friction acts, unless every contact is given by hand
+//! with a friction of its own (then detection may still meet a pair without one, and reports it).
 
 use super::{Names, blocks::no_material};
 use crate::{
@@ -16,7 +16,8 @@ pub(super) fn resolve(scene: &Scene, names: &Names) -> Result<JointRules, InputE
     let path = JsonPath::root().key("joints");
     let spec = &scene.joints.default;
     let default = law(spec, None, &path.key("default"))?;
-    let by_hand = !scene.interfaces.is_empty() && scene.interfaces.iter().all(|i| i.friction.is_some());
+    let by_hand =
+        !scene.interfaces.is_empty() && scene.interfaces.iter().all(|i| i.friction.is_some());
     if default.is_none() && !(by_hand && spec.is_empty()) {
         return Err(InputError::at(path.key("default"), "no friction is given")
             .hint("add \"joints\": { \"default\": { \"friction\": 0.7 } }, with the coefficient of your joints or \"infinite\""));
@@ -27,8 +28,10 @@ pub(super) fn resolve(scene: &Scene, names: &Names) -> Result<JointRules, InputE
         if rule.spec().is_empty() {
             return Err(InputError::at(path, "the exception says nothing").hint("add \"friction\""));
         }
-        let law = law(&rule.spec(), default.as_ref(), &path)?
-            .ok_or_else(|| InputError::at(path.clone(), "no friction is given here or by the default").hint("add \"friction\""))?;
+        let law = law(&rule.spec(), default.as_ref(), &path)?.ok_or_else(|| {
+            InputError::at(path.clone(), "no friction is given here or by the default")
+                .hint("add \"friction\"")
+        })?;
         match (&rule.between, &rule.blocks) {
             (Some(materials), None) => {
                 for (k, name) in materials.iter().enumerate() {
@@ -44,7 +47,9 @@ pub(super) fn resolve(scene: &Scene, names: &Names) -> Result<JointRules, InputE
             }
             (Some(_), Some(_)) => {
                 return Err(InputError::at(path, "both \"between\" and \"blocks\" are given")
-                    .hint("make two exceptions: \"between\" names materials, \"blocks\" names blocks"));
+                    .hint(
+                        "make two exceptions: \"between\" names materials, \"blocks\" names blocks",
+                    ));
             }
             (None, None) => {
                 return Err(InputError::at(path, "it is not said where the exception holds")
@@ -55,23 +60,37 @@ pub(super) fn resolve(scene: &Scene, names: &Names) -> Result<JointRules, InputE
     Ok(rules)
 }
 
-/// The law that a spec gives, what it leaves out taken from `base`. `None` where neither says what friction acts.
-fn law(spec: &JointSpec, base: Option<&JointLaw>, path: &JsonPath) -> Result<Option<JointLaw>, InputError> {
+/// The law that a spec gives, what it leaves out taken from `base`. `None` where neither says what
+/// friction acts.
+fn law(
+    spec: &JointSpec,
+    base: Option<&JointLaw>,
+    path: &JsonPath,
+) -> Result<Option<JointLaw>, InputError> {
     let given = friction(spec.friction, spec.friction_angle_deg, path)?;
     let amount = |key: &str, value: Option<f64>, unit: &str| match value {
         Some(v) if !(v >= 0.0 && v.is_finite()) => {
-            Err(InputError::at(path.key(key), format!("must be a finite number >= 0, got {v}")).hint(unit))
+            Err(InputError::at(path.key(key), format!("must be a finite number >= 0, got {v}"))
+                .hint(unit))
         }
         _ => Ok(value),
     };
     let cohesion = amount("cohesion", spec.cohesion, "cohesion is in Pa: 0.1 MPa is 1e5")?;
     let tension = amount("tension", spec.tension, "tension is a strength in Pa: 0.1 MPa is 1e5")?;
-    let compression = amount("compression", spec.compression, "compression is a strength in Pa: 5 MPa is 5e6")?;
+    let compression =
+        amount("compression", spec.compression, "compression is a strength in Pa: 5 MPa is 5e6")?;
     if compression == Some(0.0) {
-        return Err(InputError::at(path.key("compression"), "must be > 0: nothing could press on such a joint")
-            .hint("leave it out where stone does not crush"));
+        return Err(InputError::at(
+            path.key("compression"),
+            "must be > 0: nothing could press on such a joint",
+        )
+        .hint("leave it out where stone does not crush"));
     }
-    let pore_pressure = amount("pore_pressure", spec.pore_pressure, "pore_pressure is in Pa: one metre of water is 9810")?;
+    let pore_pressure = amount(
+        "pore_pressure",
+        spec.pore_pressure,
+        "pore_pressure is in Pa: one metre of water is 9810",
+    )?;
     let rolling_arm = amount("rolling_arm", spec.rolling_arm, "rolling_arm is a length in m")?;
     let Some(friction) = given.or(base.map(|b| b.friction)) else { return Ok(None) };
     let dry = JointLaw::dry(friction);
@@ -87,7 +106,11 @@ fn law(spec: &JointSpec, base: Option<&JointLaw>, path: &JsonPath) -> Result<Opt
 }
 
 /// A friction given as a coefficient or as an angle.
-pub(super) fn friction(coefficient: Option<Friction>, angle_deg: Option<f64>, path: &JsonPath) -> Result<Option<Friction>, InputError> {
+pub(super) fn friction(
+    coefficient: Option<Friction>,
+    angle_deg: Option<f64>,
+    path: &JsonPath,
+) -> Result<Option<Friction>, InputError> {
     match (coefficient, angle_deg) {
         (None, None) => Ok(None),
         (Some(Friction::Infinite), None) => Ok(Some(Friction::Infinite)),
@@ -95,18 +118,26 @@ pub(super) fn friction(coefficient: Option<Friction>, angle_deg: Option<f64>, pa
             if mu >= 0.0 && mu.is_finite() {
                 return Ok(Some(Friction::Coefficient(mu)));
             }
-            Err(InputError::at(path.key("friction"), format!("must be a finite number >= 0, got {mu}"))
-                .hint("write \"infinite\" for no sliding"))
+            Err(InputError::at(
+                path.key("friction"),
+                format!("must be a finite number >= 0, got {mu}"),
+            )
+            .hint("write \"infinite\" for no sliding"))
         }
         (None, Some(angle)) => {
             if (0.0..90.0).contains(&angle) {
                 return Ok(Some(Friction::Coefficient(angle.to_radians().tan())));
             }
-            Err(InputError::at(path.key("friction_angle_deg"), format!("must be >= 0 and < 90 degrees, got {angle}"))
-                .hint("write \"friction\": \"infinite\" for no sliding"))
+            Err(InputError::at(
+                path.key("friction_angle_deg"),
+                format!("must be >= 0 and < 90 degrees, got {angle}"),
+            )
+            .hint("write \"friction\": \"infinite\" for no sliding"))
         }
-        (Some(_), Some(_)) => {
-            Err(InputError::at(path.key("friction_angle_deg"), "friction and friction_angle_deg are both given").hint("keep one of them"))
-        }
+        (Some(_), Some(_)) => Err(InputError::at(
+            path.key("friction_angle_deg"),
+            "friction and friction_angle_deg are both given",
+        )
+        .hint("keep one of them")),
     }
 }

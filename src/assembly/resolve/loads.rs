@@ -1,7 +1,8 @@
 //! Load specs → one dead and one live [`Wrench`] per block, about its centre of mass.
 //!
-//! A load is of exactly one kind: `force` and/or `moment` on a `block` (the force `at` a point, else at the centre of mass),
-//! `acceleration` a: m·a, or `weight` w: m·|g|·w. The last two act on one block or on every free block, at the centre of mass.
+//! A load is of exactly one kind: `force` and/or `moment` on a `block` (the force `at` a point,
+//! else at the centre of mass), `acceleration` a: m·a, or `weight` w: m·|g|·w. The last two act on
+//! one block or on every free block, at the centre of mass.
 
 use super::{Names, check};
 use crate::{
@@ -24,66 +25,101 @@ pub(super) struct Resolved {
 }
 
 /// Resolves dead and live loads.
-pub(super) fn resolve(scene: &Scene, assembly: &Assembly, names: &Names) -> Result<Resolved, InputError> {
+pub(super) fn resolve(
+    scene: &Scene,
+    assembly: &Assembly,
+    names: &Names,
+) -> Result<Resolved, InputError> {
     let path = JsonPath::root().key("loads");
-    let mut dead: Vec<Wrench> = (0..assembly.blocks.len()).map(|i| assembly.self_weight(i)).collect();
+    let mut dead: Vec<Wrench> =
+        (0..assembly.blocks.len()).map(|i| assembly.self_weight(i)).collect();
     let mut live = vec![Wrench::zero(); assembly.blocks.len()];
     let (mut dead_forces, mut live_forces) = (Vec::new(), Vec::new());
-    for (key, loads, sum, forces) in
-        [("dead", &scene.loads.dead, &mut dead, &mut dead_forces), ("live", &scene.loads.live, &mut live, &mut live_forces)]
-    {
+    for (key, loads, sum, forces) in [
+        ("dead", &scene.loads.dead, &mut dead, &mut dead_forces),
+        ("live", &scene.loads.live, &mut live, &mut live_forces),
+    ] {
         for (i, load) in loads.iter().enumerate() {
             forces.extend(add(load, assembly, names, sum, &path.key(key).index(i))?);
         }
     }
     let finite = |w: &Wrench| w.force.iter().chain(&w.moment).all(|x| x.is_finite());
     if let Some(i) = (0..dead.len()).find(|&i| !finite(&dead[i]) || !finite(&live[i])) {
-        return Err(InputError::at(path, format!("the load on block {:?} is too large to compute with", assembly.blocks[i].id))
-            .hint("forces are in N, lengths in m, masses in kg"));
+        return Err(InputError::at(
+            path,
+            format!("the load on block {:?} is too large to compute with", assembly.blocks[i].id),
+        )
+        .hint("forces are in N, lengths in m, masses in kg"));
     }
     Ok(Resolved { dead, live, dead_forces, live_forces })
 }
 
 /// Adds one load to `sum`; returns its force where that acts off the centre of mass.
-fn add(load: &Load, assembly: &Assembly, names: &Names, sum: &mut [Wrench], path: &JsonPath) -> Result<Option<AppliedForce>, InputError> {
+fn add(
+    load: &Load,
+    assembly: &Assembly,
+    names: &Names,
+    sum: &mut [Wrench],
+    path: &JsonPath,
+) -> Result<Option<AppliedForce>, InputError> {
     let block = load.block.as_ref().map(|id| names.find(id, &path.key("block"))).transpose()?;
-    if let Some(id) = load.block.as_ref().filter(|_| block.is_some_and(|i| assembly.blocks[i].support)) {
-        return Err(InputError::at(path.key("block"), format!("{id:?} is a support: a load on it changes nothing")).hint("remove the load"));
+    if let Some(id) =
+        load.block.as_ref().filter(|_| block.is_some_and(|i| assembly.blocks[i].support))
+    {
+        return Err(InputError::at(
+            path.key("block"),
+            format!("{id:?} is a support: a load on it changes nothing"),
+        )
+        .hint("remove the load"));
     }
-    let given = |key: &str, value: Option<[f64; 3]>| value.map(|v| check::vector(v, &path.key(key))).transpose();
+    let given = |key: &str, value: Option<[f64; 3]>| {
+        value.map(|v| check::vector(v, &path.key(key))).transpose()
+    };
     let (force, moment) = (given("force", load.force)?, given("moment", load.moment)?);
-    let (acceleration, weight) = (given("acceleration", load.acceleration)?, given("weight", load.weight)?);
+    let (acceleration, weight) =
+        (given("acceleration", load.acceleration)?, given("weight", load.weight)?);
 
     let by_force = force.is_some() || moment.is_some();
     match (by_force, acceleration, weight) {
         (false, None, None) => {
-            return Err(
-                InputError::at(path.clone(), "the load says nothing").hint("add \"force\", \"moment\", \"acceleration\" or \"weight\"")
-            );
+            return Err(InputError::at(path.clone(), "the load says nothing")
+                .hint("add \"force\", \"moment\", \"acceleration\" or \"weight\""));
         }
         (true, None, None) | (false, Some(_), None) | (false, None, Some(_)) => {}
         _ => {
-            return Err(
-                InputError::at(path.clone(), "one load mixes force or moment, acceleration, and weight").hint("make a load of each")
-            );
+            return Err(InputError::at(
+                path.clone(),
+                "one load mixes force or moment, acceleration, and weight",
+            )
+            .hint("make a load of each"));
         }
     }
     if [force, moment, acceleration, weight].into_iter().flatten().all(|v| v == Vector3::zeros()) {
-        return Err(InputError::at(path.clone(), "the load is zero: it does nothing").hint("remove it"));
+        return Err(
+            InputError::at(path.clone(), "the load is zero: it does nothing").hint("remove it")
+        );
     }
     if load.at.is_some() && force.is_none() {
-        return Err(InputError::at(path.key("at"), "only a force acts at a point").hint("remove \"at\""));
+        return Err(
+            InputError::at(path.key("at"), "only a force acts at a point").hint("remove \"at\"")
+        );
     }
 
     if load.arm && !matches!(load.at, Some(At::Point(_))) {
-        return Err(
-            InputError::at(path.key("arm"), "only a force at a point of its own hangs on an arm").hint("remove \"arm\", or give \"at\"")
-        );
+        return Err(InputError::at(
+            path.key("arm"),
+            "only a force at a point of its own hangs on an arm",
+        )
+        .hint("remove \"arm\", or give \"at\""));
     }
 
     if by_force {
         let Some(i) = block else {
-            return Err(InputError::at(path.clone(), "it is not said which block the force or moment acts on").hint("add \"block\": id"));
+            return Err(InputError::at(
+                path.clone(),
+                "it is not said which block the force or moment acts on",
+            )
+            .hint("add \"block\": id"));
         };
         let force = force.unwrap_or_default();
         let arm = match load.at {
@@ -102,7 +138,10 @@ fn add(load: &Load, assembly: &Assembly, names: &Names, sum: &mut [Wrench], path
         // Exactly one of the two is there.
         let by_acceleration = acceleration.map(|a| a * assembly.blocks[i].mass);
         let by_weight = weight.map(|w| w * assembly.weight(i));
-        sum[i] += Wrench { force: by_acceleration.or(by_weight).unwrap_or_default(), moment: Vector3::zeros() };
+        sum[i] += Wrench {
+            force: by_acceleration.or(by_weight).unwrap_or_default(),
+            moment: Vector3::zeros(),
+        };
     }
     Ok(None)
 }

@@ -1,7 +1,9 @@
-//! [`Scene`] → [`Assembly`]: names looked up, defaults applied, shapes closed and moved into the scene, every number checked.
+//! [`Scene`] → [`Assembly`]: names looked up, defaults applied, shapes closed and moved into the
+//! scene, every number checked.
 //!
-//! Blocks come in scene order, explicit blocks before templates. Errors carry a [`JsonPath`] into the scene;
-//! [`InputError::located`] adds the line and column. What lies inside a block made by a template is reported at the template.
+//! Blocks come in scene order, explicit blocks before templates. Errors carry a [`JsonPath`] into
+//! the scene; [`InputError::located`] adds the line and column. What lies inside a block made by a
+//! template is reported at the template.
 
 mod blocks;
 mod check;
@@ -25,7 +27,8 @@ use std::collections::HashMap;
 /// Resolves a scene.
 ///
 /// # Errors
-/// Anything in the scene that has no meaning: a missing reference, a non-positive density, an open shape, no support, …
+/// Anything in the scene that has no meaning: a missing reference, a non-positive density, an open
+/// shape, no support, …
 pub fn resolve(scene: &Scene) -> Result<Assembly, InputError> {
     let root = JsonPath::root();
     gravity(scene, &root.key("gravity"))?;
@@ -61,15 +64,22 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     let Blocks { list: blocks, findings } = blocks;
     let names = Names::new(&blocks)?;
     if blocks.is_empty() {
-        return Err(InputError::at(root, "the scene has no blocks").hint("give \"blocks\" or \"templates\""));
+        return Err(InputError::at(root, "the scene has no blocks")
+            .hint("give \"blocks\" or \"templates\""));
     }
     if !blocks.iter().any(|b| b.support) {
-        return Err(InputError::at(root.key("blocks"), format!("none of the {} blocks is a support", blocks.len()))
-            .hint("set \"support\": true on the blocks that are held in place"));
+        return Err(InputError::at(
+            root.key("blocks"),
+            format!("none of the {} blocks is a support", blocks.len()),
+        )
+        .hint("set \"support\": true on the blocks that are held in place"));
     }
     if blocks.iter().all(|b| b.support) {
-        return Err(InputError::at(root.key("blocks"), format!("all of the {} blocks are supports", blocks.len()))
-            .hint("leave \"support\" out on the blocks that may move"));
+        return Err(InputError::at(
+            root.key("blocks"),
+            format!("all of the {} blocks are supports", blocks.len()),
+        )
+        .hint("leave \"support\" out on the blocks that may move"));
     }
 
     let joints = joints::resolve(scene, &names)?;
@@ -101,11 +111,16 @@ fn gravity(scene: &Scene, path: &JsonPath) -> Result<Vector3<f64>, InputError> {
     let gravity = check::vector(scene.gravity, path)?;
     // The norm decides, not the components: it is what loads are multiplied by.
     if gravity.norm() == 0.0 {
-        return Err(InputError::at(path.clone(), "gravity is zero: nothing presses the blocks together and there is nothing to decide")
-            .hint("leave the key out for 9.81 m/s² downward"));
+        return Err(InputError::at(
+            path.clone(),
+            "gravity is zero: nothing presses the blocks together and there is nothing to decide",
+        )
+        .hint("leave the key out for 9.81 m/s² downward"));
     }
     if !gravity.norm().is_finite() {
-        return Err(InputError::at(path.clone(), "gravity is too large to compute with").hint("m/s²"));
+        return Err(
+            InputError::at(path.clone(), "gravity is too large to compute with").hint("m/s²")
+        );
     }
     Ok(gravity)
 }
@@ -121,12 +136,21 @@ impl Names {
             let from_template = blocks::from_template(&block.path);
             let path = if from_template { block.path.clone() } else { block.path.key("id") };
             if block.id.trim().is_empty() {
-                return Err(InputError::at(path, "the id is empty").hint("every block needs a name of its own"));
+                return Err(InputError::at(path, "the id is empty")
+                    .hint("every block needs a name of its own"));
             }
             if let Some(first) = names.insert(block.id.clone(), i) {
                 let first = &blocks[first].path;
-                let hint = if from_template { "give the template a \"prefix\"" } else { "every block needs a name of its own" };
-                return Err(InputError::at(path, format!("the id {:?} is already that of {first}", block.id)).hint(hint));
+                let hint = if from_template {
+                    "give the template a \"prefix\""
+                } else {
+                    "every block needs a name of its own"
+                };
+                return Err(InputError::at(
+                    path,
+                    format!("the id {:?} is already that of {first}", block.id),
+                )
+                .hint(hint));
             }
         }
         Ok(Self(names))
@@ -136,7 +160,10 @@ impl Names {
     fn find(&self, id: &str, path: &JsonPath) -> Result<usize, InputError> {
         self.0.get(id).copied().ok_or_else(|| {
             let hint = suggest(id, self.0.keys().map(String::as_str));
-            InputError { hint, ..InputError::at(path.clone(), format!("no block is called {id:?}")) }
+            InputError {
+                hint,
+                ..InputError::at(path.clone(), format!("no block is called {id:?}"))
+            }
         })
     }
 
@@ -144,7 +171,11 @@ impl Names {
     fn pair(&self, ids: &[String; 2], path: &JsonPath) -> Result<(usize, usize), InputError> {
         let (a, b) = (self.find(&ids[0], &path.index(0))?, self.find(&ids[1], &path.index(1))?);
         if a == b {
-            return Err(InputError::at(path.clone(), format!("names the block {:?} twice", ids[0])).hint("a joint lies between two blocks"));
+            return Err(InputError::at(
+                path.clone(),
+                format!("names the block {:?} twice", ids[0]),
+            )
+            .hint("a joint lies between two blocks"));
         }
         Ok((a, b))
     }

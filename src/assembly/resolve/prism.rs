@@ -12,8 +12,13 @@ type Point = Vector2<f64>;
 /// Vertices, and faces as loops of their indices, counter-clockwise seen from outside.
 pub(super) type Surface = (Vec<Vector3<f64>>, Vec<Vec<usize>>);
 
-/// Vertices and outward faces of a prism; `path` is that of the polygon. The numbers are finite and the depth is positive.
-pub(super) fn faces(polygon: &[[f64; 2]], depth: f64, path: &JsonPath) -> Result<Surface, InputError> {
+/// Vertices and outward faces of a prism; `path` is that of the polygon. The numbers are finite and
+/// the depth is positive.
+pub(super) fn faces(
+    polygon: &[[f64; 2]],
+    depth: f64,
+    path: &JsonPath,
+) -> Result<Surface, InputError> {
     let mut points: Vec<Point> = polygon.iter().map(|&p| p.into()).collect();
     simple(&points, path)?;
     if area(&points) < 0.0 {
@@ -31,19 +36,26 @@ pub(super) fn faces(polygon: &[[f64; 2]], depth: f64, path: &JsonPath) -> Result
     Ok((vertices, faces))
 }
 
-/// Refuses a polygon that has fewer than three corners, repeats a corner, or touches or crosses itself.
-/// Everything closer than [`tolerance::WELD`] × the polygon's diagonal touches: the corners would be welded.
+/// Refuses a polygon that has fewer than three corners, repeats a corner, or touches or crosses
+/// itself. Everything closer than [`tolerance::WELD`] × the polygon's diagonal touches: the corners
+/// would be welded.
 fn simple(points: &[Point], path: &JsonPath) -> Result<(), InputError> {
     let n = points.len();
     if n < 3 {
-        return Err(InputError::at(path.clone(), format!("a polygon needs at least 3 corners, got {n}")));
+        return Err(InputError::at(
+            path.clone(),
+            format!("a polygon needs at least 3 corners, got {n}"),
+        ));
     }
     let (low, high) = points.iter().fold((points[0], points[0]), |(l, h), p| (l.inf(p), h.sup(p)));
     let near = tolerance::WELD * (high - low).norm();
     for i in 0..n {
         let j = (i + 1) % n;
         if (points[i] - points[j]).norm() <= near {
-            let error = InputError::at(path.index(i.max(j)), format!("the corner repeats corner {}", i.min(j)));
+            let error = InputError::at(
+                path.index(i.max(j)),
+                format!("the corner repeats corner {}", i.min(j)),
+            );
             return Err(error.hint(if j == 0 {
                 "leave the last corner out: the polygon is closed by itself"
             } else {
@@ -99,7 +111,12 @@ fn distance(one: (Point, Point), two: (Point, Point)) -> f64 {
     if split(one, two) && split(two, one) {
         return 0.0;
     }
-    [point_distance(one.0, two), point_distance(one.1, two), point_distance(two.0, one), point_distance(two.1, one)]
-        .into_iter()
-        .fold(f64::INFINITY, f64::min)
+    [
+        point_distance(one.0, two),
+        point_distance(one.1, two),
+        point_distance(two.0, one),
+        point_distance(two.1, one),
+    ]
+    .into_iter()
+    .fold(f64::INFINITY, f64::min)
 }

@@ -1,4 +1,5 @@
-//! What a scene resolves to, what is refused with which words and where, and what is said without being refused.
+//! What a scene resolves to, what is refused with which words and where, and what is said without
+//! being refused.
 
 use crate::{
     assembly::{Assembly, Solid, Wrench, resolve},
@@ -8,10 +9,14 @@ use crate::{
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
-/// Two stacked unit boxes `base` (support) and `top`, with `rest` as further lines. Line 4 holds `top`.
+/// Two stacked unit boxes `base` (support) and `top`, with `rest` as further lines. Line 4 holds
+/// `top`.
 fn text(top: &str, rest: &str) -> String {
-    let rest =
-        if rest.contains("\"joints\"") { rest.to_owned() } else { format!("{rest}\"joints\": {{ \"default\": {{ \"friction\": 0.5 }} }}") };
+    let rest = if rest.contains("\"joints\"") {
+        rest.to_owned()
+    } else {
+        format!("{rest}\"joints\": {{ \"default\": {{ \"friction\": 0.5 }} }}")
+    };
     format!(
         "{{ \"format\": \"voussoir-scene/1\",\n\"blocks\": [\n{{ \"id\": \"base\", \"shape\": {{ \"box\": {{ \"size\": [1, 1, 1] }} }}, \"support\": true }},\n{top}\n],\n{rest}\n}}"
     )
@@ -128,7 +133,10 @@ fn blocks_that_mean_nothing_are_refused_with_place_and_remedy() {
         r#"{ "id": "top", "shape": { "polyhedron": { "vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "faces": [[0,2,1],[0,1,3],[1,2,3],[0,1,2]] } } }"#,
         "",
     ));
-    assert!(open.starts_with("s.json:4:41: blocks[1].shape.polyhedron: ") && open.contains("hint: "), "{open}");
+    assert!(
+        open.starts_with("s.json:4:41: blocks[1].shape.polyhedron: ") && open.contains("hint: "),
+        "{open}"
+    );
 }
 
 #[test]
@@ -138,8 +146,14 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
             r#""gravity": [0, 0, 0],"#,
             "s.json:6:12: gravity: gravity is zero: nothing presses the blocks together and there is nothing to decide; hint: leave the key out for 9.81 m/s² downward",
         ),
-        (r#""gravity": [1e300, 1e300, 0],"#, "s.json:6:12: gravity: gravity is too large to compute with; hint: m/s²"),
-        (r#""materials": { "stone": { "density": 0 } },"#, "s.json:6:38: materials.stone.density: must be > 0, got 0; hint: kg/m³"),
+        (
+            r#""gravity": [1e300, 1e300, 0],"#,
+            "s.json:6:12: gravity: gravity is too large to compute with; hint: m/s²",
+        ),
+        (
+            r#""materials": { "stone": { "density": 0 } },"#,
+            "s.json:6:38: materials.stone.density: must be > 0, got 0; hint: kg/m³",
+        ),
         (
             r#""joints": { "default": {} }"#,
             "s.json:6:24: joints.default: no friction is given; hint: add \"joints\": { \"default\": { \"friction\": 0.7 } }, with the coefficient of your joints or \"infinite\"",
@@ -280,8 +294,10 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
             assert_eq!(error, expected, "for {rest}");
         }
     }
-    let warped =
-        error(&text(TOP, r#""interfaces": [{ "between": ["base", "top"], "points": [[0,0,0.5],[1,0,0.5],[1,1,0.6],[0,1,0.5]] }],"#));
+    let warped = error(&text(
+        TOP,
+        r#""interfaces": [{ "between": ["base", "top"], "points": [[0,0,0.5],[1,0,0.5],[1,1,0.6],[0,1,0.5]] }],"#,
+    ));
     assert!(
         warped.starts_with("s.json:6:56: interfaces[0].points: the points are not in one plane: they lie up to 2.494e-2 m off it"),
         "{warped}"
@@ -291,11 +307,20 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
 #[test]
 fn scenes_without_blocks_or_supports_are_refused() {
     let head = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": 1 } }"#;
-    assert_eq!(error(&format!("{head} }}")), "s.json:1:1: the scene has no blocks; hint: give \"blocks\" or \"templates\"");
+    assert_eq!(
+        error(&format!("{head} }}")),
+        "s.json:1:1: the scene has no blocks; hint: give \"blocks\" or \"templates\""
+    );
     let free = error(&format!("{head}, \"blocks\": [{TOP}] }}"));
-    assert!(free.contains("blocks: none of the 1 blocks is a support; hint: set \"support\": true"), "{free}");
+    assert!(
+        free.contains("blocks: none of the 1 blocks is a support; hint: set \"support\": true"),
+        "{free}"
+    );
     let supports = r#"{ "id": "top", "shape": { "sphere": { "radius": 1 } }, "support": true }, { "id": "free", "shape": { "sphere": { "radius": 1 } } }"#;
-    let both = error(&text(supports, r#""interfaces": [{ "between": ["base", "top"], "points": [[0,0,1]], "normal": [0,0,1] }],"#));
+    let both = error(&text(
+        supports,
+        r#""interfaces": [{ "between": ["base", "top"], "points": [[0,0,1]], "normal": [0,0,1] }],"#,
+    ));
     assert!(both.contains("interfaces[0].between: \"base\" and \"top\" are both supports: nothing moves between them"), "{both}");
 }
 
@@ -312,15 +337,24 @@ fn numbers_that_no_file_can_hold_are_refused() {
     let spoil: [(&str, Spoil); 10] = [
         ("gravity[2]", |s, x| s.gravity[2] = x),
         ("blocks[1].at[0]", |s, x| s.blocks[1].at[0] = x),
-        ("blocks[1].rotation_deg.axis[1]", |s, x| s.blocks[1].rotation_deg.as_mut().unwrap().axis[1] = x),
-        ("blocks[1].rotation_deg.angle", |s, x| s.blocks[1].rotation_deg.as_mut().unwrap().angle = x),
-        ("blocks[1].shape.box.size[2]", |s, x| s.blocks[1].shape = Shape::Cuboid { size: [1.0, 1.0, x] }),
+        ("blocks[1].rotation_deg.axis[1]", |s, x| {
+            s.blocks[1].rotation_deg.as_mut().unwrap().axis[1] = x
+        }),
+        ("blocks[1].rotation_deg.angle", |s, x| {
+            s.blocks[1].rotation_deg.as_mut().unwrap().angle = x
+        }),
+        ("blocks[1].shape.box.size[2]", |s, x| {
+            s.blocks[1].shape = Shape::Cuboid { size: [1.0, 1.0, x] }
+        }),
         ("blocks[1].shape.prism.polygon[1][0]", |s, x| {
-            s.blocks[1].shape = Shape::Prism { polygon: vec![[0.0, 0.0], [x, 0.0], [1.0, 1.0]], depth: 1.0 }
+            s.blocks[1].shape =
+                Shape::Prism { polygon: vec![[0.0, 0.0], [x, 0.0], [1.0, 1.0]], depth: 1.0 }
         }),
         ("blocks[1].mass", |s, x| s.blocks[1].mass = Some(x)),
         ("blocks[1].centroid[0]", |s, x| s.blocks[1].centroid = Some([x, 0.0, 0.0])),
-        ("joints.default.friction", |s, x| s.joints.default.friction = Some(Friction::Coefficient(x))),
+        ("joints.default.friction", |s, x| {
+            s.joints.default.friction = Some(Friction::Coefficient(x))
+        }),
         ("loads.live[0].force[1]", |s, x| s.loads.live[0].force = Some([0.0, x, 0.0])),
     ];
     for (path, spoil) in spoil {
@@ -343,7 +377,9 @@ fn a_block_has_the_mass_of_its_density_material_or_own_word() {
     assert!((mass("").mass - 6.0 * 2400.0).abs() < 1e-9);
     assert!((mass(r#", "material": "stone""#).mass - 12000.0).abs() < 1e-9);
     assert!((mass(r#", "material": "stone", "density": 10"#).mass - 60.0).abs() < 1e-12);
-    let heavy = mass(r#", "material": "stone", "mass": 12, "centroid": [0.1, 0, 0], "rotation_deg": { "axis": [0, 0, 2], "angle": 90 }"#);
+    let heavy = mass(
+        r#", "material": "stone", "mass": 12, "centroid": [0.1, 0, 0], "rotation_deg": { "axis": [0, 0, 2], "angle": 90 }"#,
+    );
     assert_eq!(heavy.mass, 12.0);
     assert!((heavy.centroid - Vector3::new(1.0, 1.1, 1.0)).norm() < 1e-14);
     // m/12 (b² + c²) for sides 1, 2, 3, turned by 90° about z.
@@ -354,19 +390,37 @@ fn a_block_has_the_mass_of_its_density_material_or_own_word() {
 
 #[test]
 fn spheres_and_prisms_have_their_exact_mass_properties() {
-    let sphere =
-        assembly(&text(r#"{ "id": "top", "shape": { "sphere": { "radius": 2 } }, "at": [0, 0, 3], "mass": 5 }"#, "")).blocks[1].clone();
+    let sphere = assembly(&text(
+        r#"{ "id": "top", "shape": { "sphere": { "radius": 2 } }, "at": [0, 0, 3], "mass": 5 }"#,
+        "",
+    ))
+    .blocks[1]
+        .clone();
     assert!((sphere.inertia - Matrix3::identity() * 8.0).norm() < 1e-14);
-    assert!(matches!(sphere.solid, Solid::Sphere { center, radius: 2.0 } if center == Vector3::new(0.0, 0.0, 3.0)));
+    assert!(
+        matches!(sphere.solid, Solid::Sphere { center, radius: 2.0 } if center == Vector3::new(0.0, 0.0, 3.0))
+    );
 
     // An L, either way round: area 3, centroid (5/6, 5/6).
-    for polygon in ["[[0,0],[2,0],[2,1],[1,1],[1,2],[0,2]]", "[[0,2],[1,2],[1,1],[2,1],[2,0],[0,0]]"] {
-        let prism = format!(r#"{{ "id": "top", "shape": {{ "prism": {{ "polygon": {polygon}, "depth": 4 }} }}, "density": 1 }}"#);
+    for polygon in
+        ["[[0,0],[2,0],[2,1],[1,1],[1,2],[0,2]]", "[[0,2],[1,2],[1,1],[2,1],[2,0],[0,0]]"]
+    {
+        let prism = format!(
+            r#"{{ "id": "top", "shape": {{ "prism": {{ "polygon": {polygon}, "depth": 4 }} }}, "density": 1 }}"#
+        );
         let assembly = assembly(&text(&prism, ""));
         assert!((assembly.blocks[1].mass - 12.0).abs() < 1e-13);
-        assert!((assembly.blocks[1].centroid - Vector3::new(5.0 / 6.0, 0.0, 5.0 / 6.0)).norm() < 1e-14);
-        assert!(!codes(&assembly).contains(&FindingCode::Mended), "the faces of a prism face outward: {:?}", assembly.findings);
-        let Solid::Polyhedron(p) = &assembly.blocks[1].solid else { panic!("a prism is a polyhedron") };
+        assert!(
+            (assembly.blocks[1].centroid - Vector3::new(5.0 / 6.0, 0.0, 5.0 / 6.0)).norm() < 1e-14
+        );
+        assert!(
+            !codes(&assembly).contains(&FindingCode::Mended),
+            "the faces of a prism face outward: {:?}",
+            assembly.findings
+        );
+        let Solid::Polyhedron(p) = &assembly.blocks[1].solid else {
+            panic!("a prism is a polyhedron")
+        };
         assert!(!p.convex && p.facets.len() == 8);
     }
     assert!(codes(&assembly(&text(TOP, ""))).is_empty(), "the faces of a box face outward");
@@ -382,7 +436,13 @@ fn what_was_mended_is_said_once() {
     let all = [inverted("a"), inverted("b"), inverted("c")].join(",");
     let assembly = assembly(&text(&all, ""));
     assert_eq!(codes(&assembly), [FindingCode::Mended]);
-    assert!(assembly.findings[0].text.starts_with("Block \"a\" (and 2 more): all 4 faces pointed inward"), "{}", assembly.findings[0].text);
+    assert!(
+        assembly.findings[0]
+            .text
+            .starts_with("Block \"a\" (and 2 more): all 4 faces pointed inward"),
+        "{}",
+        assembly.findings[0].text
+    );
     assert!((assembly.blocks[1].mass - 400.0).abs() < 1e-10);
 }
 
@@ -391,10 +451,14 @@ fn loads_add_up_about_the_centre_of_mass() {
     let loads = r#""gravity": [0, 0, -10], "loads": {
         "dead": [{ "block": "top", "force": [0, 0, -7], "at": [0.5, 0, 2] }, { "block": "top", "moment": [0, 0, 3] }],
         "live": [{ "weight": [1, 0, 0] }, { "acceleration": [0, 2, 0] }, { "block": "top", "weight": [0, 0, 0.5] }, { "block": "top", "force": [1, 0, 0], "at": "centroid" }] },"#;
-    let top = r#"{ "id": "top", "shape": { "box": { "size": [1, 1, 1] } }, "at": [0, 0, 1], "mass": 3 }"#;
+    let top =
+        r#"{ "id": "top", "shape": { "box": { "size": [1, 1, 1] } }, "at": [0, 0, 1], "mass": 3 }"#;
     let assembly = assembly(&text(top, loads));
     assert_eq!(assembly.weight(1), 30.0);
-    assert_eq!(assembly.self_weight(1), Wrench { force: Vector3::new(0.0, 0.0, -30.0), moment: Vector3::zeros() });
+    assert_eq!(
+        assembly.self_weight(1),
+        Wrench { force: Vector3::new(0.0, 0.0, -30.0), moment: Vector3::zeros() }
+    );
     let close = |w: Wrench, force: [f64; 3], moment: [f64; 3]| {
         (w.force - Vector3::from(force)).norm() + (w.moment - Vector3::from(moment)).norm() < 1e-12
     };
@@ -413,8 +477,15 @@ fn of_the_joint_rules_the_most_special_one_holds() {
     let mu = |a: &Assembly, i, j| a.joints.law(i, j, &a.blocks).map(|l| l.friction.mu());
     assert!((mu(&a, 0, 1).unwrap() - 1.0).abs() < 1e-15, "no material: the default");
     assert_eq!((mu(&a, 1, 2), mu(&a, 2, 1)), (Some(f64::INFINITY), Some(f64::INFINITY)));
-    let by_material = assembly(&text(top, &rules.replace(r#"{ "blocks": ["y", "x"], "friction": "infinite" }, "#, "")));
-    assert_eq!((mu(&by_material, 1, 2), mu(&by_material, 2, 1)), (Some(0.2), Some(0.2)), "the last rule for the materials");
+    let by_material = assembly(&text(
+        top,
+        &rules.replace(r#"{ "blocks": ["y", "x"], "friction": "infinite" }, "#, ""),
+    ));
+    assert_eq!(
+        (mu(&by_material, 1, 2), mu(&by_material, 2, 1)),
+        (Some(0.2), Some(0.2)),
+        "the last rule for the materials"
+    );
 }
 
 fn interface(rest: &str) -> Assembly {
@@ -425,14 +496,18 @@ fn interface(rest: &str) -> Assembly {
 fn given_interfaces_come_out_in_order_around_their_normal() {
     let turns = |a: &Assembly| {
         let g = &a.given[0];
-        let area: Vector3<f64> = g.points.windows(2).map(|w| (w[0] - g.points[0]).cross(&(w[1] - g.points[0]))).sum();
+        let area: Vector3<f64> =
+            g.points.windows(2).map(|w| (w[0] - g.points[0]).cross(&(w[1] - g.points[0]))).sum();
         area.dot(&g.normal) / 2.0
     };
     for (points, said) in [
         ("[[0,0,0.5],[0.4,0,0.5],[0.4,0.4,0.5],[0,0.4,0.5]]", vec![]),
         ("[[0,0.4,0.5],[0.4,0.4,0.5],[0.4,0,0.5],[0,0,0.5]]", vec![]),
         ("[[0,0,0.5],[0.4,0.4,0.5],[0.4,0,0.5],[0,0.4,0.5]]", vec![FindingCode::Mended]),
-        ("[[0,0,0.5],[0.4,0,0.5],[0.4,0.4,0.5],[0.1,0.1,0.5],[0,0.4,0.5],[0,0,0.5]]", vec![FindingCode::Mended, FindingCode::Mended]),
+        (
+            "[[0,0,0.5],[0.4,0,0.5],[0.4,0.4,0.5],[0.1,0.1,0.5],[0,0.4,0.5],[0,0,0.5]]",
+            vec![FindingCode::Mended, FindingCode::Mended],
+        ),
         ("[[0,0,0.5],[0.4,0,0.50004],[0.4,0.4,0.5],[0,0.4,0.50004]]", vec![FindingCode::Warped]),
         ("[[0,0,500],[400,0,500],[400,400,500],[0,400,500]]", vec![FindingCode::Units]),
     ] {
@@ -444,7 +519,9 @@ fn given_interfaces_come_out_in_order_around_their_normal() {
             assert!(turns(&a) > 0.159, "{points}");
             assert_eq!(a.given[0].law.friction, Friction::Coefficient(0.5));
         }
-        let against = interface(&format!(r#""points": {points}, "normal": [0, 0, -1], "friction": "infinite""#));
+        let against = interface(&format!(
+            r#""points": {points}, "normal": [0, 0, -1], "friction": "infinite""#
+        ));
         assert!(codes(&against).contains(&FindingCode::Orientation));
         assert!((against.given[0].normal + Vector3::z()).norm() < 1e-12 && turns(&against) > 0.159);
         assert_eq!(against.given[0].law.friction, Friction::Infinite);
@@ -455,7 +532,10 @@ fn given_interfaces_come_out_in_order_around_their_normal() {
 fn edges_and_points_may_be_given() {
     let edge = interface(r#""points": [[0,0,0.5],[0.2,0,0.5],[0.4,0,0.5]], "normal": [0.001,0,1]"#);
     assert_eq!(edge.given[0].points, [Vector3::new(0.4, 0.0, 0.5), Vector3::new(0.0, 0.0, 0.5)]);
-    assert!((edge.given[0].normal - Vector3::z()).norm() < 1e-12, "turned at right angles to the edge");
+    assert!(
+        (edge.given[0].normal - Vector3::z()).norm() < 1e-12,
+        "turned at right angles to the edge"
+    );
     let point = interface(r#""points": [[0,0,0.5]], "normal": [0,3,4]"#);
     assert!((point.given[0].normal - Vector3::new(0.0, 0.6, 0.8)).norm() < 1e-15);
 }
@@ -463,21 +543,32 @@ fn edges_and_points_may_be_given() {
 #[test]
 fn friction_may_come_from_the_interfaces_alone() {
     let rest = |friction| {
-        format!(r#""joints": {{}}, "interfaces": [{{ "between": ["base", "top"], "points": [[0,0,0.5]], "normal": [0,0,1]{friction} }}]"#)
+        format!(
+            r#""joints": {{}}, "interfaces": [{{ "between": ["base", "top"], "points": [[0,0,0.5]], "normal": [0,0,1]{friction} }}]"#
+        )
     };
     let a = assembly(&text(TOP, &rest(r#", "friction": 0.3"#)));
-    assert_eq!((a.given[0].law.friction, a.joints.law(0, 1, &a.blocks)), (Friction::Coefficient(0.3), None));
+    assert_eq!(
+        (a.given[0].law.friction, a.joints.law(0, 1, &a.blocks)),
+        (Friction::Coefficient(0.3), None)
+    );
     assert!(error(&text(TOP, &rest(""))).contains("joints.default: no friction is given"));
 }
 
 #[test]
 fn an_assumed_density_is_said_only_where_it_matters() {
-    let second = |keys: &str| format!(r#"{TOP}, {{ "id": "more", "shape": {{ "box": {{ "size": [1, 1, 1] }} }}{keys} }}"#);
+    let second = |keys: &str| {
+        format!(r#"{TOP}, {{ "id": "more", "shape": {{ "box": {{ "size": [1, 1, 1] }} }}{keys} }}"#)
+    };
     assert_eq!(codes(&assembly(&text(&second(""), ""))), []);
-    assert_eq!(codes(&assembly(&text(&second(""), r#""loads": { "live": [{ "weight": [1, 0, 0] }] },"#))), []);
+    assert_eq!(
+        codes(&assembly(&text(&second(""), r#""loads": { "live": [{ "weight": [1, 0, 0] }] },"#))),
+        []
+    );
     assert_eq!(codes(&assembly(&text(&second(", \"density\": 1000"), ""))), [FindingCode::Assumed]);
     assert_eq!(codes(&assembly(&text(&second(", \"density\": 2400"), ""))), [], "the same density");
-    let loaded = assembly(&text(TOP, r#""loads": { "live": [{ "block": "top", "force": [1, 0, 0] }] },"#));
+    let loaded =
+        assembly(&text(TOP, r#""loads": { "live": [{ "block": "top", "force": [1, 0, 0] }] },"#));
     assert_eq!(
         loaded.findings[0].text,
         "Block \"top\" has no density, mass or material: 2400 kg/m³ was assumed; this matters because there are loads besides the weight."
@@ -488,31 +579,67 @@ fn an_assumed_density_is_said_only_where_it_matters() {
 fn slips_of_units_are_findings_with_numbers() {
     let units = |top: &str, rest: &str| {
         let findings = assembly(&text(top, rest)).findings;
-        findings.into_iter().filter(|f| f.code == FindingCode::Units).map(|f| f.text).collect::<Vec<_>>()
+        findings
+            .into_iter()
+            .filter(|f| f.code == FindingCode::Units)
+            .map(|f| f.text)
+            .collect::<Vec<_>>()
     };
-    let top = |keys: &str| format!(r#"{{ "id": "top", "shape": {{ "box": {{ "size": [1, 1, 1] }} }}{keys} }}"#);
-    assert!(units(&top(", \"density\": 1"), "\"gravity\": [0, 0, -1],").is_empty(), "unit problems are no mistakes");
+    let top = |keys: &str| {
+        format!(r#"{{ "id": "top", "shape": {{ "box": {{ "size": [1, 1, 1] }} }}{keys} }}"#)
+    };
+    assert!(
+        units(&top(", \"density\": 1"), "\"gravity\": [0, 0, -1],").is_empty(),
+        "unit problems are no mistakes"
+    );
     assert!(units(&top(", \"density\": 11340"), "").is_empty(), "lead");
-    assert!(units(&top(", \"density\": 22600"), "")[0].contains("N/m³"), "the weight of concrete, not osmium");
+    assert!(
+        units(&top(", \"density\": 22600"), "")[0].contains("N/m³"),
+        "the weight of concrete, not osmium"
+    );
     let grams = &units(&top(", \"density\": 0.0024"), "")[0];
-    assert!(grams.contains("has a density of 0.0024 kg/m³") && grams.ends_with("write 2400"), "{grams}");
+    assert!(
+        grams.contains("has a density of 0.0024 kg/m³") && grams.ends_with("write 2400"),
+        "{grams}"
+    );
     assert!(units(&top(", \"density\": 2.4e6"), "")[0].contains("2.4e6"));
-    assert!(units(&top(", \"density\": 0.2"), "")[0].contains("has a density of 2.000e-1 kg/m³; stone has about 2400"));
-    assert!(units(&top(", \"density\": 24"), "\"gravity\": [0, 0, -1],").is_empty(), "weights per volume where gravity is 1");
+    assert!(
+        units(&top(", \"density\": 0.2"), "")[0]
+            .contains("has a density of 2.000e-1 kg/m³; stone has about 2400")
+    );
+    assert!(
+        units(&top(", \"density\": 24"), "\"gravity\": [0, 0, -1],").is_empty(),
+        "weights per volume where gravity is 1"
+    );
     // One unit for all, or the others real: a lot that was drawn has neither.
     let two = |a: f64, b: f64| {
-        let block = |id: &str, d: f64| format!(r#"{{ "id": "{id}", "shape": {{ "box": {{ "size": [1, 1, 1] }} }}, "density": {d} }}"#);
+        let block = |id: &str, d: f64| {
+            format!(
+                r#"{{ "id": "{id}", "shape": {{ "box": {{ "size": [1, 1, 1] }} }}, "density": {d} }}"#
+            )
+        };
         units(&format!("{}, {}", block("one", a), block("two", b)), "")
     };
     assert!(two(24.0, 2400.0)[0].contains("kN/m³") && two(24.0, 19.0)[0].contains("(and 1 more)"));
     assert!(two(24.0, 70.0).is_empty() && two(1.0, 24.0).is_empty());
     assert!(units(TOP, "\"gravity\": [0, 0, -9810],")[0].contains("Gravity is 9.810e3 m/s²"));
     let box_of = |size: f64| {
-        format!(r#"{{ "id": "top", "shape": {{ "box": {{ "size": [{size}, {size}, {size}] }} }} }}, {}"#, TOP.replace("top", "other"))
+        format!(
+            r#"{{ "id": "top", "shape": {{ "box": {{ "size": [{size}, {size}, {size}] }} }} }}, {}"#,
+            TOP.replace("top", "other")
+        )
     };
     assert!(units(&box_of(100.0), "").is_empty() && units(&box_of(1e-3), "").is_empty());
-    assert!(units(&box_of(1e6), "").iter().any(|t| t.contains("the median of all blocks 1.732e0 m")), "{:?}", units(&box_of(1e6), ""));
-    assert!(units(&box_of(1e-6), "").iter().any(|t| t.starts_with("Block \"top\" measures 1.732e-6 m across, the median")));
+    assert!(
+        units(&box_of(1e6), "").iter().any(|t| t.contains("the median of all blocks 1.732e0 m")),
+        "{:?}",
+        units(&box_of(1e6), "")
+    );
+    assert!(
+        units(&box_of(1e-6), "")
+            .iter()
+            .any(|t| t.starts_with("Block \"top\" measures 1.732e-6 m across, the median"))
+    );
 }
 
 #[test]
@@ -523,10 +650,13 @@ fn templates_follow_the_blocks_and_their_errors_name_them() {
     let a = assembly(&text(column));
     assert!(a.blocks.len() >= 5 && a.blocks[0].path.to_string() == "blocks[0]");
     assert!(a.blocks[2..].iter().all(|b| b.path.to_string() == "templates[0]"));
-    let twice = error(&text(&column.replace("}],", "}, { \"column\": { \"blocks\": 1, \"size\": [1, 1, 0.5] } }],")));
+    let twice = error(&text(
+        &column.replace("}],", "}, { \"column\": { \"blocks\": 1, \"size\": [1, 1, 0.5] } }],"),
+    ));
     assert!(
         twice.starts_with("s.json:6:67: templates[1]: the id ")
-            && twice.ends_with("is already that of templates[0]; hint: give the template a \"prefix\""),
+            && twice
+                .ends_with("is already that of templates[0]; hint: give the template a \"prefix\""),
         "{twice}"
     );
 }

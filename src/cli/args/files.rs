@@ -10,7 +10,8 @@ use voussoir::{import::Up, scene::Friction};
 
 #[derive(Debug, Args)]
 pub struct Schema {
-    /// Of what: `scene`, `plan`, `result` (what --json and --save give) or `model` (what `check SCENE --json` gives).
+    /// Of what: `scene`, `plan`, `result` (what --json and --save give) or `model` (what `check
+    /// SCENE --json` gives).
     #[arg(value_enum, default_value_t = FileFormat::Scene, hide_possible_values = true)]
     pub of: FileFormat,
 }
@@ -124,8 +125,9 @@ pub struct Check {
     pub pictures: Pictures,
     #[command(flatten)]
     pub tables: Tables,
-    /// Print one JSON object and nothing else: of a result, what holds and what fails; of a scene, its blocks with their masses and loads, its
-    /// interfaces with contact points and frames, and the findings.
+    /// Print one JSON object and nothing else: of a result, what holds and what fails; of a scene,
+    /// its blocks with their masses and loads, its interfaces with contact points and frames, and
+    /// the findings.
     #[arg(long)]
     pub json: bool,
 }

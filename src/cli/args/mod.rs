@@ -39,8 +39,9 @@ pub struct Cli {
     /// Colour of text: auto (on a terminal, unless NO_COLOR is set), always or never.
     #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = Color::Auto, hide_possible_values = true)]
     pub color: Color,
-    /// Take no more memory than this, such as 500M or 8G: what would is refused, mostly before it begins. By default estimates have to fit
-    /// into the memory that is free, and nothing is counted.
+    /// Take no more memory than this, such as 500M or 8G: what would is refused, mostly before it
+    /// begins. By default estimates have to fit into the memory that is free, and nothing is
+    /// counted.
     #[arg(long, global = true, value_name = "SIZE", value_parser = bytes)]
     pub max_memory: Option<u64>,
 }
@@ -74,73 +75,88 @@ impl From<Law> for voussoir::analysis::Law {
 pub enum Verb {
     /// Does it stand under its dead load?
     ///
-    /// Exit code 0 if it stands, 1 if it falls or stands only with a pre-stress that nobody applied, 3 if that stays open.
+    /// Exit code 0 if it stands, 1 if it falls or stands only with a pre-stress that nobody
+    /// applied, 3 if that stays open.
     Assess(Assess),
     /// How large may the live load grow?
     ///
-    /// The greatest load factor λ under which contact forces inside the friction cones balance the dead load and λ × the live load,
-    /// between a lower and an upper bound, with the mechanism by which the structure fails. Sliding is associative.
-    /// Exit code 0 if λ is found or has no limit, 1 if λ is below --require or no λ lets it stand, 3 if that stays open.
+    /// The greatest load factor λ under which contact forces inside the friction cones balance the
+    /// dead load and λ × the live load, between a lower and an upper bound, with the mechanism by
+    /// which the structure fails. Sliding is associative. Exit code 0 if λ is found or has no
+    /// limit, 1 if λ is below --require or no λ lets it stand, 3 if that stays open.
     Limit(Limit),
     /// At what tilt does it fall?
     ///
-    /// The ground is tipped towards a direction until the structure fails; own weight and dead loads turn with gravity, live loads are left
-    /// out. The least tilt of all directions is the answer. Exit codes as for `limit`.
+    /// The ground is tipped towards a direction until the structure fails; own weight and dead
+    /// loads turn with gravity, live loads are left out. The least tilt of all directions is the
+    /// answer. Exit codes as for `limit`.
     Tilt(Tilt),
     /// How steep may a packing of grains be?
     ///
-    /// The angle of maximum stability: the largest tilt of gravity, per direction, at which the packing as it lies still has an admissible
-    /// system of contact forces. It is reached when the first grain loses balance; with --moving-mass the grains that fell are taken away,
-    /// and the tilt is asked for again, until a mechanism moves as much. Exit code 0 if it is found in every direction, 3 if any stays open.
+    /// The angle of maximum stability: the largest tilt of gravity, per direction, at which the
+    /// packing as it lies still has an admissible system of contact forces. It is reached when the
+    /// first grain loses balance; with --moving-mass the grains that fell are taken away, and the
+    /// tilt is asked for again, until a mechanism moves as much. Exit code 0 if it is found in
+    /// every direction, 3 if any stays open.
     Repose(Repose),
     /// At what value of a number in the scene does the verdict flip?
     ///
-    /// The number is named by its JSON pointer, such as /templates/0/arch/thickness or /joints/default/friction. The range is scanned first,
-    /// since there may be several flips; each is narrowed to 1e-9 of its value by following the least unbalance to zero, and verdicts with
-    /// proof stand on both sides of it. Exit code 0 if there is a flip, 1 if it stands or falls throughout, 3 if that stays open.
+    /// The number is named by its JSON pointer, such as /templates/0/arch/thickness or
+    /// /joints/default/friction. The range is scanned first, since there may be several flips; each
+    /// is narrowed to 1e-9 of its value by following the least unbalance to zero, and verdicts with
+    /// proof stand on both sides of it. Exit code 0 if there is a flip, 1 if it stands or falls
+    /// throughout, 3 if that stays open.
     Critical(Critical),
     /// How hard does it push a support, at least and at most?
     ///
-    /// The thrust is the horizontal component of the force on a support. Forces inside the friction cones reach both ends of its range, and
-    /// mechanisms in which the support yields or is pushed in prove that there are no others. With them come the line of thrust at every
-    /// section and the geometric safety factor: how far all sections can be shrunk and still hold a line of thrust.
-    /// Exit code 0 if both ends are found or have no limit, 1 if the scene falls, 3 if that stays open.
+    /// The thrust is the horizontal component of the force on a support. Forces inside the friction
+    /// cones reach both ends of its range, and mechanisms in which the support yields or is pushed
+    /// in prove that there are no others. With them come the line of thrust at every section and
+    /// the geometric safety factor: how far all sections can be shrunk and still hold a line of
+    /// thrust. Exit code 0 if both ends are found or have no limit, 1 if the scene falls, 3 if that
+    /// stays open.
     Thrust(Thrust),
     /// What happens in time, and does the verdict say the same?
     ///
-    /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any pre-stress: a second opinion that shares
-    /// nothing with the verdict but the blocks and where they touch. It proves nothing; near a limit (3 % with fast steps, 1 % with fine
-    /// ones) it may err. Exit code 0 if it stands, 1 if it falls, 3 if that stays open.
+    /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any
+    /// pre-stress: a second opinion that shares nothing with the verdict but the blocks and where
+    /// they touch. It proves nothing; near a limit (3 % with fast steps, 1 % with fine ones) it may
+    /// err. Exit code 0 if it stands, 1 if it falls, 3 if that stays open.
     Simulate(Simulate),
     /// Error against run time, per method, on scenes with known answers.
     ///
-    /// Each method runs over its knob (the engine's tolerance, facets of friction pyramids, number of verdicts, time steps); medians of
-    /// repeated runs. With --soak and --cross, random scenes whose proofs are held against each other; with --forge, false
-    /// results that must be refused; with --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
-    /// answer is wrong.
+    /// Each method runs over its knob (the engine's tolerance, facets of friction pyramids, number
+    /// of verdicts, time steps); medians of repeated runs. With --soak and --cross, random scenes
+    /// whose proofs are held against each other; with --forge, false results that must be refused;
+    /// with --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit
+    /// code 1 if any answer is wrong.
     Study(Study),
     /// Make a scene from a template.
     ///
-    /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON on the right:
-    /// `voussoir generate arch voussoirs=31 thickness=0.6`. A key set to `null` is left out. `voussoir generate arch --help` lists the keys of an arch.
+    /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON
+    /// on the right: `voussoir generate arch voussoirs=31 thickness=0.6`. A key set to `null` is
+    /// left out. `voussoir generate arch --help` lists the keys of an arch.
     #[command(disable_help_flag = true)]
     Generate(Generate),
     /// Make a scene from files of other programs: COMPAS JSON, OBJ, PLY, STL.
     ///
     /// What was assumed or left out is said on standard error.
     Import(Import),
-    /// Verify a saved result from its scene (proofs without a solver), or look for mistakes in a scene.
+    /// Verify a saved result from its scene (proofs without a solver), or look for mistakes in a
+    /// scene.
     ///
-    /// A result is verified from the scene inside it, or from --scene: forces are added up block by block, powers of the mechanism joint by
-    /// joint, and every word of the answer is compared. Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing.
-    /// Of a scene, near misses, overlaps, loose blocks and mistakes of units are listed. Exit code 0 if there is none, 1 otherwise.
-    /// Pictures show what is proved, or the scene.
+    /// A result is verified from the scene inside it, or from --scene: forces are added up block by
+    /// block, powers of the mechanism joint by joint, and every word of the answer is compared.
+    /// Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing. Of a scene, near
+    /// misses, overlaps, loose blocks and mistakes of units are listed. Exit code 0 if there is
+    /// none, 1 otherwise. Pictures show what is proved, or the scene.
     Check(Check),
     /// Ask a question of many scenes that differ in a few numbers.
     ///
-    /// The plan names a scene, a question and the numbers that vary, by JSON pointer, on a grid or sampled. Every row is appended to a file as
-    /// it ends; the same command takes it up again after a kill at any point. Rows are the same whatever the threads.
-    /// Exit code 0 if all rows are done (a row whose scene fails holds its error).
+    /// The plan names a scene, a question and the numbers that vary, by JSON pointer, on a grid or
+    /// sampled. Every row is appended to a file as it ends; the same command takes it up again
+    /// after a kill at any point. Rows are the same whatever the threads. Exit code 0 if all rows
+    /// are done (a row whose scene fails holds its error).
     Sweep(Sweep),
     /// Print the JSON Schema of scenes, or of sweep plans.
     Schema(Schema),
@@ -150,7 +166,8 @@ pub enum Verb {
     Completions(Completions),
     /// Print a manual page, or write all of them.
     ///
-    /// `voussoir man limit | man -l -` shows one; `voussoir man --folder ~/.local/share/man/man1` keeps them all.
+    /// `voussoir man limit | man -l -` shows one; `voussoir man --folder ~/.local/share/man/man1`
+    /// keeps them all.
     Man(Man),
 }
 
@@ -162,8 +179,10 @@ pub struct Assess {
     pub pictures: Pictures,
     #[command(flatten)]
     pub tables: Tables,
-    /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is `friction` (of all joints without an exception),
-    /// `density` (every material by itself), `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is the worst is said.
+    /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is
+    /// `friction` (of all joints without an exception), `density` (every material by itself),
+    /// `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is
+    /// the worst is said.
     #[arg(long, value_name = "RANGES", value_delimiter = ',')]
     pub worst: Vec<Between>,
     /// Run the scene in time as well, and compare (see `voussoir simulate`).
@@ -172,7 +191,8 @@ pub struct Assess {
     /// Run the scene in time where the verdict is conditional or undecided.
     #[arg(long, conflicts_with = "simulate")]
     pub thorough: bool,
-    /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend on them.
+    /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend
+    /// on them.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     pub threads: u16,
 }
@@ -185,15 +205,17 @@ pub struct Limit {
     pub pictures: Pictures,
     #[command(flatten)]
     pub tables: Tables,
-    /// The load factor that is needed: exit code 1 if the greatest one, with dry friction too unless --law associative, is below, 3 if
-    /// that stays open.
+    /// The load factor that is needed: exit code 1 if the greatest one, with dry friction too
+    /// unless --law associative, is below, 3 if that stays open.
     #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = finite)]
     pub require: Option<f64>,
     /// Do not ask as well whether it stands without its live load.
     #[arg(long)]
     pub skip_dead: bool,
-    /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is `friction` (of all joints without an exception),
-    /// `density` (every material by itself), `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is the worst is said.
+    /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is
+    /// `friction` (of all joints without an exception), `density` (every material by itself),
+    /// `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is
+    /// the worst is said.
     #[arg(long, value_name = "RANGES", value_delimiter = ',')]
     pub worst: Vec<Between>,
 }
@@ -212,8 +234,8 @@ pub struct Tilt {
     /// Tip towards this many directions, evenly spread, the first along x.
     #[arg(long, value_name = "N", default_value_t = DIRECTIONS, conflicts_with = "toward", value_parser = clap::value_parser!(u16).range(1..=3600))]
     pub all: u16,
-    /// The tilt that is needed, in degrees: exit code 1 if the least one, with dry friction too unless --law associative, is below, 3 if
-    /// that stays open.
+    /// The tilt that is needed, in degrees: exit code 1 if the least one, with dry friction too
+    /// unless --law associative, is below, 3 if that stays open.
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = finite)]
     pub require: Option<f64>,
     /// Do not ask as well whether it stands when level.
@@ -250,7 +272,8 @@ pub struct Thrust {
     /// The support; the first one that carries a free block where none is named.
     #[arg(long, value_name = "ID")]
     pub support: Option<String>,
-    /// The direction of the thrust (its part across gravity); outwards from the blocks' centre of mass where none is given.
+    /// The direction of the thrust (its part across gravity); outwards from the blocks' centre of
+    /// mass where none is given.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub direction: Option<[f64; 3]>,
 }
@@ -266,18 +289,22 @@ pub struct Common {
     /// Write the result, with the scene and its proof, to this file for `voussoir check`.
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
-    /// Write the answer as a page for a browser, with a picture, to this file (HTML, without any connection to a network).
+    /// Write the answer as a page for a browser, with a picture, to this file (HTML, without any
+    /// connection to a network).
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
-    /// Solve the scene in full, without leaving out what symmetry or missing friction make needless.
+    /// Solve the scene in full, without leaving out what symmetry or missing friction make
+    /// needless.
     #[arg(long)]
     pub keep_all: bool,
-    /// How joints slide: `coulomb` (dry friction) also asks whether the loads produce the forces that hold the scene, and for the load
-    /// factor of joints that slide without opening (many convex programs: on large walls minutes); `associative` only whether such forces exist, and for
-    /// the bound.
+    /// How joints slide: `coulomb` (dry friction) also asks whether the loads produce the forces
+    /// that hold the scene, and for the load factor of joints that slide without opening (many
+    /// convex programs: on large walls minutes); `associative` only whether such forces exist, and
+    /// for the bound.
     #[arg(long, value_enum, value_name = "LAW", default_value_t = Law::Coulomb, hide_possible_values = true)]
     pub law: Law,
-    /// Stop trying after this many seconds, counted from the start, and answer with the best bracket so far. Exit code 3 if that decides nothing.
+    /// Stop trying after this many seconds, counted from the start, and answer with the best
+    /// bracket so far. Exit code 3 if that decides nothing.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     pub time_limit: Option<f64>,
     #[command(flatten)]

@@ -16,7 +16,11 @@ pub fn bytes(text: &str) -> Result<u64, String> {
 }
 
 pub fn finite(text: &str) -> Result<f64, String> {
-    text.trim().parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| "not a finite number".into())
+    text.trim()
+        .parse()
+        .ok()
+        .filter(|v: &f64| v.is_finite())
+        .ok_or_else(|| "not a finite number".into())
 }
 
 pub fn word(text: &str) -> Result<String, String> {
@@ -26,7 +30,8 @@ pub fn word(text: &str) -> Result<String, String> {
 
 pub fn one_line(text: &str) -> Result<String, String> {
     let ok = text.starts_with('-') && !text.chars().any(char::is_control);
-    ok.then(|| text.to_string()).ok_or_else(|| "not an option on one line, such as --account=stone".into())
+    ok.then(|| text.to_string())
+        .ok_or_else(|| "not an option on one line, such as --account=stone".into())
 }
 
 pub fn positive(text: &str) -> Result<f64, String> {
@@ -44,7 +49,9 @@ pub fn share(text: &str) -> Result<f64, String> {
 pub fn friction(text: &str) -> Result<Friction, String> {
     match text {
         "infinite" => Ok(Friction::Infinite),
-        _ => not_negative(text).map(Friction::Coefficient).map_err(|_| "not a coefficient >= 0 or `infinite`".into()),
+        _ => not_negative(text)
+            .map(Friction::Coefficient)
+            .map_err(|_| "not a coefficient >= 0 or `infinite`".into()),
     }
 }
 

@@ -20,12 +20,15 @@ pub struct Repose {
     pub common: Common,
     #[command(flatten)]
     pub pictures: Pictures,
-    /// Values of the protocol that differ from the defaults (--question repose): grain=sphere (or clump, hull) elongation=1.5 (of clumps and
-    /// hulls) corners=16 (of hulls) grains=2000 diameter=0.01 (of spheres of the same volume) sizes=0.2 friction=0.5 wall_friction=0 rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
+    /// Values of the protocol that differ from the defaults (--question repose): grain=sphere (or
+    /// clump, hull) elongation=1.5 (of clumps and hulls) corners=16 (of hulls) grains=2000
+    /// diameter=0.01 (of spheres of the same volume) sizes=0.2 friction=0.5 wall_friction=0
+    /// rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
-    /// `stability`: the greatest tilt of the packing SCENE as it lies; `repose`: the slope that a heap leaves behind which flowed, SCENE then
-    /// being the protocol: drain, funnel, cylinder or tilt.
+    /// `stability`: the greatest tilt of the packing SCENE as it lies; `repose`: the slope that a
+    /// heap leaves behind which flowed, SCENE then being the protocol: drain, funnel, cylinder or
+    /// tilt.
     #[arg(long, value_enum, value_name = "QUESTION", default_value_t = Asked::Stability, hide_possible_values = true)]
     pub question: Asked,
     /// So many heaps, each from a seed of its own (--question repose).
@@ -34,17 +37,19 @@ pub struct Repose {
     /// The first seed (--question repose).
     #[arg(long, value_name = "SEED", default_value_t = 1, value_parser = clap::value_parser!(u64).range(..=u64::MAX / 2))]
     pub seed: u64,
-    /// Heaps made at the same time; 0 for as many as there are processors. The answer does not depend on it (--question repose).
+    /// Heaps made at the same time; 0 for as many as there are processors. The answer does not
+    /// depend on it (--question repose).
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub threads: u16,
     /// Do not ask for the static margin of the heaps (--question repose).
     #[arg(long)]
     pub skip_margin: bool,
-    /// Keep every heap and its margin in this file as soon as it is there; the same command takes it up again after a kill at any point,
-    /// with more seeds too (--question repose).
+    /// Keep every heap and its margin in this file as soon as it is there; the same command takes
+    /// it up again after a kill at any point, with more seeds too (--question repose).
     #[arg(long, value_name = "FILE")]
     pub keep: Option<PathBuf>,
-    /// Write every heap at rest as a scene, FILE with the seed before its ending (--question repose).
+    /// Write every heap at rest as a scene, FILE with the seed before its ending (--question
+    /// repose).
     #[arg(long, value_name = "FILE")]
     pub heaps: Option<PathBuf>,
     /// Tip towards this direction (its part across gravity); may be given several times.
@@ -56,10 +61,12 @@ pub struct Repose {
     /// Share of the mass of the free grains that has to move, such as 0.01.
     #[arg(long, value_name = "SHARE", default_value_t = 0.0, allow_negative_numbers = true, value_parser = share)]
     pub moving_mass: f64,
-    /// Show as well how the packing carries its load when level: coordination, fabric, forces, stress, mobilised friction.
+    /// Show as well how the packing carries its load when level: coordination, fabric, forces,
+    /// stress, mobilised friction.
     #[arg(long)]
     pub fabric: bool,
-    /// Write the contact forces of the packing when level to this file (not with --question repose).
+    /// Write the contact forces of the packing when level to this file (not with --question
+    /// repose).
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
 }

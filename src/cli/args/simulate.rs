@@ -16,7 +16,8 @@ pub struct Simulate {
     /// Fast steps only: to be trusted 3 % away from a limit.
     #[arg(long, conflicts_with = "fine")]
     pub fast: bool,
-    /// Fine steps only: to be trusted 1 % away from a limit, at four times the cost. By default fine steps follow unless fast ones show that it stands.
+    /// Fine steps only: to be trusted 1 % away from a limit, at four times the cost. By default
+    /// fine steps follow unless fast ones show that it stands.
     #[arg(long)]
     pub fine: bool,
     /// Time to simulate at most, in seconds of the scene; by default ten times √(height / gravity).
@@ -28,7 +29,8 @@ pub struct Simulate {
     /// Add this factor × the live loads.
     #[arg(long, value_name = "LAMBDA", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
     pub load_factor: f64,
-    /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend on them.
+    /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend
+    /// on them.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     pub threads: u16,
     /// Write where every block is, time by time, to this file as it happens.

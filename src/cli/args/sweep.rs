@@ -14,8 +14,8 @@ pub struct Sweep {
     /// The plan (JSON), `-` for standard input.
     #[arg(required_unless_present = "attach")]
     pub plan: Option<PathBuf>,
-    /// The file of rows (JSON lines), which is continued if it holds rows of this plan; by default the plan's name with the ending
-    /// `.rows.jsonl`, in the current folder.
+    /// The file of rows (JSON lines), which is continued if it holds rows of this plan; by default
+    /// the plan's name with the ending `.rows.jsonl`, in the current folder.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Do every N-th row, starting with the K-th; `sweep merge` puts the files together.
@@ -39,15 +39,15 @@ pub struct Sweep {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "On a Slurm cluster")]
 pub struct Slurm {
-    /// Do the rows in an array of Slurm tasks, watch them arrive in the folder OUT.slurm, and merge them into OUT at the end. The
-    /// same command goes on where an array was stopped.
+    /// Do the rows in an array of Slurm tasks, watch them arrive in the folder OUT.slurm, and merge
+    /// them into OUT at the end. The same command goes on where an array was stopped.
     #[arg(long, conflicts_with_all = ["shard", "threads"])]
     pub slurm: bool,
     /// Watch an array that was submitted for this file of rows, and merge at the end.
     #[arg(long, value_name = "OUT", conflicts_with_all = ["plan", "slurm", "output", "shard", "threads", "restart"])]
     pub attach: Option<PathBuf>,
-    /// Cut the sweep into so many tasks; by default as many as keep what starting them takes below 5 % of the work, a few rows being
-    /// measured first.
+    /// Cut the sweep into so many tasks; by default as many as keep what starting them takes below
+    /// 5 % of the work, a few rows being measured first.
     #[arg(long, value_name = "N", requires = "slurm", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub tasks: Option<u32>,
     /// The partition; by default the cluster's own choice.
@@ -62,7 +62,8 @@ pub struct Slurm {
     /// Another option of sbatch, such as --sbatch-arg=--account=stone; may be given several times.
     #[arg(long, value_name = "OPTION", requires = "slurm", allow_hyphen_values = true, value_parser = one_line)]
     pub sbatch_arg: Vec<String>,
-    /// The nodes see the folder of the output under the same path, although it looks like a disk of this machine.
+    /// The nodes see the folder of the output under the same path, although it looks like a disk of
+    /// this machine.
     #[arg(long, requires = "slurm")]
     pub shared: bool,
     /// Print the batch script; submit and write nothing.
@@ -97,7 +98,8 @@ pub enum SweepVerb {
     ///
     /// Works while rows are being written. Exit code 3 if rows are missing.
     Status(SweepStatus),
-    /// Do one shard of a sweep on a cluster, from its folder alone; this is what a task of the array runs.
+    /// Do one shard of a sweep on a cluster, from its folder alone; this is what a task of the
+    /// array runs.
     ///
     /// Rows that any earlier run of any task has done are left out.
     Task(Task),
@@ -128,10 +130,12 @@ pub struct Summary {
     /// Draw a chart.
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
-    /// Write charts with values where one points, and a table to sort, as a page for a browser to this file.
+    /// Write charts with values where one points, and a table to sort, as a page for a browser to
+    /// this file.
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
-    /// Which chart: `line` (value against one number), `heat` (against two), `fragility` (share that fails); by default what suits the plan.
+    /// Which chart: `line` (value against one number), `heat` (against two), `fragility` (share
+    /// that fails); by default what suits the plan.
     #[arg(long, value_enum, value_name = "KIND", requires = "svg", hide_possible_values = true)]
     pub chart: Option<Chart>,
     /// Print the summary as one JSON object and nothing else.

@@ -12,7 +12,10 @@ use voussoir::{
 
 pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
     // Before the pictures, which are opened before anything is read.
-    [Some(&args.file), args.scene.as_ref()].into_iter().flatten().try_for_each(|file| claim::read(file))?;
+    [Some(&args.file), args.scene.as_ref()]
+        .into_iter()
+        .flatten()
+        .try_for_each(|file| claim::read(file))?;
     let pictures = Pictures::open(&args.pictures, args.tables.csv.as_deref())?;
     if pictures.printed() && args.json {
         bail!("standard output takes one of --svg, --vtk and --json");
@@ -21,11 +24,19 @@ pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
     match std::str::from_utf8(&bytes).ok().filter(|text| read::is_result(text)) {
         Some(text) => result::run(&read::read_str(name, text)?, args, &pictures, terminal),
         None if args.scene.is_some() => {
-            let error = InputError::at(JsonPath::root(), "not a result: only results are verified against a scene");
-            Err(InputError { file: Some(name), ..error.hint("save one with --save, or leave --scene out") }.into())
+            let error = InputError::at(
+                JsonPath::root(),
+                "not a result: only results are verified against a scene",
+            );
+            Err(InputError {
+                file: Some(name),
+                ..error.hint("save one with --save, or leave --scene out")
+            }
+            .into())
         }
         None => {
-            let (scene, source, said) = input::scene_of(&args.file, name, bytes, args.outside.reach())?;
+            let (scene, source, said) =
+                input::scene_of(&args.file, name, bytes, args.outside.reach())?;
             scene::run(&scene, &source, said, args, &pictures, terminal)
         }
     }

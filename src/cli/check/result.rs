@@ -13,8 +13,14 @@ use voussoir::{
     report::{self, text, view::View},
 };
 
-pub fn run(file: &ResultFile, args: &Check, pictures: &Pictures, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let other = args.scene.as_deref().map(|path| input::scene(path, args.outside.reach())).transpose()?;
+pub fn run(
+    file: &ResultFile,
+    args: &Check,
+    pictures: &Pictures,
+    terminal: &Terminal,
+) -> anyhow::Result<Exit> {
+    let other =
+        args.scene.as_deref().map(|path| input::scene(path, args.outside.reach())).transpose()?;
     terminal::notes(other.iter().flat_map(|(.., said)| said));
     let scene = other.as_ref().map_or(&file.scene.input, |(scene, ..)| scene);
     let located = |e: voussoir::error::InputError| match &other {
@@ -27,7 +33,10 @@ pub fn run(file: &ResultFile, args: &Check, pictures: &Pictures, terminal: &Term
         pictures.write(&View::new(&prepare(scene).map_err(located)?, file, Vec::new())?)?;
     }
     if args.json {
-        terminal::print(&report::json::pretty(&VerificationFile::new(&file.scene.name, &verification))?)?;
+        terminal::print(&report::json::pretty(&VerificationFile::new(
+            &file.scene.name,
+            &verification,
+        ))?)?;
     } else if !pictures.printed() || verification.refuted() {
         terminal.page(&text::verification(file, &verification, terminal.layout(&args.file)))?;
     }

@@ -23,7 +23,8 @@ pub fn run(
 ) -> anyhow::Result<Exit> {
     let mut model = prepare(scene).map_err(|e| e.located(source))?;
     model.assembly.findings.splice(0..0, said);
-    let (mistakes, notes): (Vec<Finding>, Vec<Finding>) = model.findings().cloned().partition(|f| f.code.is_mistake());
+    let (mistakes, notes): (Vec<Finding>, Vec<Finding>) =
+        model.findings().cloned().partition(|f| f.code.is_mistake());
     pictures.write(&View::bare(&model))?;
     if args.json {
         terminal::print(&report::json::pretty(&Inspection::new(&model))?)?;

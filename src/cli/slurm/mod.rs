@@ -27,7 +27,10 @@ pub fn say_damaged(damaged: usize) {
 /// Nor rows that may have been edited.
 pub fn say_unchecked(unchecked: usize) {
     if unchecked > 0 {
-        let rows = if unchecked == 1 { "1 row has".into() } else { format!("{unchecked} rows have") };
-        terminal::say(&format!("note: {rows} no check sum, as older versions wrote them: whether anybody edited them is not known"));
+        let rows =
+            if unchecked == 1 { "1 row has".into() } else { format!("{unchecked} rows have") };
+        terminal::say(&format!(
+            "note: {rows} no check sum, as older versions wrote them: whether anybody edited them is not known"
+        ));
     }
 }

@@ -24,11 +24,16 @@ pub fn run(args: &SweepStatus, terminal: &Terminal) -> anyhow::Result<Exit> {
         let jobs = match tasks(&Job::read(&place)?.unwrap_or_default()) {
             Ok(tasks) => {
                 let mut jobs: BTreeMap<(TaskState, String), usize> = BTreeMap::new();
-                tasks.into_values().for_each(|t| *jobs.entry((t.state, said(t.state, t.word, t.reason))).or_default() += 1);
+                tasks.into_values().for_each(|t| {
+                    *jobs.entry((t.state, said(t.state, t.word, t.reason))).or_default() += 1
+                });
                 jobs.into_iter().map(|((_, word), many)| (word, many)).collect()
             }
             Err(e) => {
-                terminal::say(&format!("note: what the tasks do is not known: {}", terminal::words(&e)));
+                terminal::say(&format!(
+                    "note: what the tasks do is not known: {}",
+                    terminal::words(&e)
+                ));
                 Vec::new()
             }
         };
@@ -49,7 +54,10 @@ pub fn run(args: &SweepStatus, terminal: &Terminal) -> anyhow::Result<Exit> {
 /// Slurm's word, with the reason where that helps.
 fn said(state: TaskState, word: String, reason: String) -> String {
     let word = word.to_lowercase();
-    if matches!(state, TaskState::Pending | TaskState::Ended) && reason != "None" && !reason.is_empty() {
+    if matches!(state, TaskState::Pending | TaskState::Ended)
+        && reason != "None"
+        && !reason.is_empty()
+    {
         format!("{word} ({reason})")
     } else {
         word

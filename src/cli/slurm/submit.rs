@@ -1,7 +1,10 @@
-//! `voussoir sweep PLAN --slurm`: what can be wrong is found out, then an array is submitted and watched.
+//! `voussoir sweep PLAN --slurm`: what can be wrong is found out, then an array is submitted and
+//! watched.
 
 use super::{folder_of, watch};
-use crate::cli::{args, exit::Exit, output::Sink, question::quoted, sweep::Sinks, terminal, terminal::Terminal};
+use crate::cli::{
+    args, exit::Exit, output::Sink, question::quoted, sweep::Sinks, terminal, terminal::Terminal,
+};
 use anyhow::{Context, bail};
 use std::path::Path;
 use voussoir::sweep::{
@@ -16,7 +19,13 @@ const MOST_TASKS: usize = 1000;
 /// The name of the batch script.
 const SCRIPT: &str = "job.sh";
 
-pub fn run(args: &args::Sweep, sweep: &Sweep, output: &Path, sinks: &Sinks, terminal: &Terminal) -> anyhow::Result<Exit> {
+pub fn run(
+    args: &args::Sweep,
+    sweep: &Sweep,
+    output: &Path,
+    sinks: &Sinks,
+    terminal: &Terminal,
+) -> anyhow::Result<Exit> {
     if args.slurm.dry_run {
         return dry_run(&args.slurm, sweep);
     }
@@ -31,10 +40,19 @@ pub fn run(args: &args::Sweep, sweep: &Sweep, output: &Path, sinks: &Sinks, term
         if args.restart {
             bail!("job {job} is still working on {}; `scancel {job}` stops it", path.display());
         }
-        terminal::say(&format!("note: job {job} is still working on these rows: nothing is submitted"));
-        return watch::run(&Folder::create(&path, &sweep.header(Shard::ALL))?, output, &args.summary, sinks, terminal);
+        terminal::say(&format!(
+            "note: job {job} is still working on these rows: nothing is submitted"
+        ));
+        return watch::run(
+            &Folder::create(&path, &sweep.header(Shard::ALL))?,
+            output,
+            &args.summary,
+            sinks,
+            terminal,
+        );
     }
-    // Held until all is submitted, so that nobody else does the same; and it says whether these are rows of this plan.
+    // Held until all is submitted, so that nobody else does the same; and it says whether these are
+    // rows of this plan.
     let held = RowsFile::open(output, &sweep.header(Shard::ALL), args.restart)?;
     let folder = match submitted(args, sweep, &path, &held.rows, &partition, output) {
         Ok(folder) => folder,
@@ -106,8 +124,15 @@ fn dry_run(args: &args::Slurm, sweep: &Sweep) -> anyhow::Result<Exit> {
         Some(tasks) => (tasks as usize).min(all.len()),
         None => {
             // A cluster is not needed for a look at the script.
-            let slots = slurm::partitions().ok().and_then(|all| slurm::partition(&all, args.partition.as_deref()).ok());
-            cut(args, all.len(), measure(sweep, &all, MEASURED.0, MEASURED.1, None)?, slots.map(|p| p.cpus))
+            let slots = slurm::partitions()
+                .ok()
+                .and_then(|all| slurm::partition(&all, args.partition.as_deref()).ok());
+            cut(
+                args,
+                all.len(),
+                measure(sweep, &all, MEASURED.0, MEASURED.1, None)?,
+                slots.map(|p| p.cpus),
+            )
         }
     };
     terminal::print(&script(args, sweep, tasks, &all)?.to_string())?;
@@ -119,7 +144,12 @@ fn cut(args: &args::Slurm, rows: usize, seconds: Option<f64>, cpus: Option<usize
     slurm::tasks(rows, seconds.unwrap_or(0.0), own, cpus.map(|all| all / own), MOST_TASKS)
 }
 
-fn script(args: &args::Slurm, sweep: &Sweep, tasks: usize, missing: &[usize]) -> anyhow::Result<Script> {
+fn script(
+    args: &args::Slurm,
+    sweep: &Sweep,
+    tasks: usize,
+    missing: &[usize],
+) -> anyhow::Result<Script> {
     let program = std::env::current_exe().context("the path of this program is not known")?;
     let program = program.to_str().context("the path of this program is no text")?.to_string();
     let mut open = vec![false; tasks];

@@ -7,14 +7,23 @@ use voussoir::sweep::{Folder, RunOptions, run_in};
 
 pub fn run(args: &Task) -> anyhow::Result<Exit> {
     let start = Instant::now();
-    let seen = || format!("this node finds no sweep in {}; it has to see the folder under the same path", args.folder.display());
+    let seen = || {
+        format!(
+            "this node finds no sweep in {}; it has to see the folder under the same path",
+            args.folder.display()
+        )
+    };
     let folder = Folder::open(&args.folder).with_context(seen)?;
     let sweep = folder.sweep()?;
-    let options = RunOptions { shard: args.shard, threads: args.threads.map(usize::from), restart: false };
+    let options =
+        RunOptions { shard: args.shard, threads: args.threads.map(usize::from), restart: false };
     let (number, of) = args.shard.numbers();
     let name = format!("task-{number:0width$}", width = of.to_string().len());
     let done = run_in(&sweep, &folder, &name, &options, &|_| {})?;
     let seconds = start.elapsed().as_secs_f64();
-    terminal::print(&format!("shard {}: {done} rows in {seconds:.1} s, the others of it were there\n", args.shard))?;
+    terminal::print(&format!(
+        "shard {}: {done} rows in {seconds:.1} s, the others of it were there\n",
+        args.shard
+    ))?;
     Ok(Exit::Yes)
 }

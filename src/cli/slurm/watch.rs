@@ -1,4 +1,5 @@
-//! Rows as they arrive, and what is made of them at the end. Watching may stop and begin again at any time; the job goes on.
+//! Rows as they arrive, and what is made of them at the end. Watching may stop and begin again at
+//! any time; the job goes on.
 
 use super::{folder_of, say_damaged, say_unchecked};
 use crate::cli::{
@@ -20,7 +21,8 @@ use voussoir::sweep::{
     slurm::{self, Job, Task, TaskState},
 };
 
-/// Between two looks at the rows at least, so that the end is seen soon; and so many times as long as a look takes, where folders are slow.
+/// Between two looks at the rows at least, so that the end is seen soon; and so many times as long
+/// as a look takes, where folders are slow.
 const ROWS: Duration = Duration::from_millis(100);
 const PER_LOOK: u32 = 10;
 /// Between two questions to Slurm, which many ask.
@@ -32,14 +34,21 @@ const ARRIVAL: Duration = Duration::from_secs(3);
 
 /// `voussoir sweep --attach OUT`
 pub fn attach(output: &Path, summary: &Summary, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let folder = Folder::open(&folder_of(output)).with_context(|| format!("nothing was submitted for {}", output.display()))?;
+    let folder = Folder::open(&folder_of(output))
+        .with_context(|| format!("nothing was submitted for {}", output.display()))?;
     slurm::require_commands()?;
     Sink::open(Some(output))?;
     run(&folder, output, summary, &Sinks::open(summary)?, terminal)
 }
 
 /// Watches until all rows are there or no task is left, and puts them together.
-pub fn run(folder: &Folder, output: &Path, summary: &Summary, sinks: &Sinks, terminal: &Terminal) -> anyhow::Result<Exit> {
+pub fn run(
+    folder: &Folder,
+    output: &Path,
+    summary: &Summary,
+    sinks: &Sinks,
+    terminal: &Terminal,
+) -> anyhow::Result<Exit> {
     let job = Job::read(&folder.path)?.unwrap_or_default();
     let gathered = rows(folder, &job, summary.quiet)?;
     let missing = folder.missing(&gathered);
@@ -110,7 +119,9 @@ fn rows(folder: &Folder, job: &Job, quiet: bool) -> anyhow::Result<Gathered> {
                     }
                 }
                 Err(e) if answered.elapsed() > PATIENCE => return Err(e),
-                Err(e) if !quiet => bar.suspend(|| terminal::say(&format!("note: {}; asking again", terminal::words(&e)))),
+                Err(e) if !quiet => bar.suspend(|| {
+                    terminal::say(&format!("note: {}; asking again", terminal::words(&e)))
+                }),
                 Err(_) => {}
             }
         }
@@ -131,14 +142,22 @@ pub fn tasks(job: &Job) -> anyhow::Result<BTreeMap<(u64, usize), Task>> {
 fn waiting(tasks: &BTreeMap<(u64, usize), Task>) -> String {
     let mut alive = tasks.values().filter(|t| t.state.is_alive());
     let all_wait = alive.clone().all(|t| t.state == TaskState::Pending);
-    alive.next().filter(|_| all_wait).map(|t| format!(", waiting: {}", t.reason)).unwrap_or_default()
+    alive
+        .next()
+        .filter(|_| all_wait)
+        .map(|t| format!(", waiting: {}", t.reason))
+        .unwrap_or_default()
 }
 
 /// Says of every task that was stopped, once.
 fn tell(tasks: &BTreeMap<(u64, usize), Task>, told: &mut BTreeMap<(u64, usize), String>) {
     for (&(job, k), task) in tasks.iter().filter(|t| t.1.state == TaskState::Ended) {
         if told.insert((job, k), task.word.clone()).as_ref() != Some(&task.word) {
-            let why = if task.reason == "None" || task.reason.is_empty() { String::new() } else { format!(" ({})", task.reason) };
+            let why = if task.reason == "None" || task.reason.is_empty() {
+                String::new()
+            } else {
+                format!(" ({})", task.reason)
+            };
             terminal::say(&format!("note: task {k} of job {job} was stopped: {}{why}", task.word));
         }
     }

@@ -4,8 +4,12 @@ use super::*;
 
 fn prism(polygon: &[[f64; 2]], depth: f64) -> Polyhedron {
     let n = polygon.len();
-    let vertices = [0.0, depth].iter().flat_map(|z| polygon.iter().map(|p| Vector3::new(p[0], p[1], *z))).collect();
-    let mut faces: Vec<Vec<usize>> = (0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]).collect();
+    let vertices = [0.0, depth]
+        .iter()
+        .flat_map(|z| polygon.iter().map(|p| Vector3::new(p[0], p[1], *z)))
+        .collect();
+    let mut faces: Vec<Vec<usize>> =
+        (0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]).collect();
     faces.push((0..n).rev().collect());
     faces.push((n..2 * n).collect());
     Polyhedron::from_faces(vertices, &faces).expect("a prism").0
@@ -14,13 +18,21 @@ fn prism(polygon: &[[f64; 2]], depth: f64) -> Polyhedron {
 fn volume(cell: &Cell) -> f64 {
     let middle = cell.middle();
     let cone = |f: &Face| {
-        f.points[1..].windows(2).map(|p| (p[0] - f.points[0]).cross(&(p[1] - f.points[0])).dot(&(f.points[0] - middle)) / 6.0).sum::<f64>()
+        f.points[1..]
+            .windows(2)
+            .map(|p| {
+                (p[0] - f.points[0]).cross(&(p[1] - f.points[0])).dot(&(f.points[0] - middle)) / 6.0
+            })
+            .sum::<f64>()
     };
     cell.faces.iter().map(cone).sum()
 }
 
 fn ring(corners: usize) -> Vec<[f64; 2]> {
-    (0..corners).map(|i| (std::f64::consts::TAU * i as f64 / corners as f64).sin_cos()).map(|(s, c)| [c, s]).collect()
+    (0..corners)
+        .map(|i| (std::f64::consts::TAU * i as f64 / corners as f64).sin_cos())
+        .map(|(s, c)| [c, s])
+        .collect()
 }
 
 #[track_caller]
@@ -47,7 +59,10 @@ fn a_box_is_one_piece_and_known_as_a_box() {
     }
     assert!((middle - Vector3::new(0.35, 0.35, 0.075)).norm() < 1e-14, "{middle}");
     assert!((turn * half).amax() <= 0.5 + 1e-14);
-    assert!(as_box(&filled(&prism(&[[0.0, 0.0], [2.0, 0.0], [2.5, 1.0], [0.0, 1.0]], 0.5), 1)[0]).is_none());
+    assert!(
+        as_box(&filled(&prism(&[[0.0, 0.0], [2.0, 0.0], [2.5, 1.0], [0.0, 1.0]], 0.5), 1)[0])
+            .is_none()
+    );
 }
 
 #[test]
@@ -60,8 +75,21 @@ fn a_drum_is_cut_into_four_cornered_pieces() {
 #[test]
 fn blocks_that_are_not_convex_are_filled_exactly() {
     let l = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
-    let u = [[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [2.0, 2.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
-    let star: Vec<[f64; 2]> = ring(10).iter().enumerate().map(|(i, p)| if i % 2 == 0 { *p } else { [0.4 * p[0], 0.4 * p[1]] }).collect();
+    let u = [
+        [0.0, 0.0],
+        [3.0, 0.0],
+        [3.0, 2.0],
+        [2.0, 2.0],
+        [2.0, 1.0],
+        [1.0, 1.0],
+        [1.0, 2.0],
+        [0.0, 2.0],
+    ];
+    let star: Vec<[f64; 2]> = ring(10)
+        .iter()
+        .enumerate()
+        .map(|(i, p)| if i % 2 == 0 { *p } else { [0.4 * p[0], 0.4 * p[1]] })
+        .collect();
     for (polygon, most) in [(&l[..], 2), (&u[..], 3), (&star[..], 30)] {
         let cells = filled(&prism(polygon, 1.0), most);
         assert!(cells.iter().flat_map(|c| &c.faces).any(|f| f.inner));

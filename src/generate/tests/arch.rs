@@ -47,7 +47,8 @@ fn circular_arch_has_the_known_corners() {
 #[test]
 fn segmental_arch_has_the_known_corners_and_may_be_given_by_span_and_rise() {
     // Oppenheim's arch: R 10, t 1.5, 7 voussoirs over 157.5°.
-    let by_radius = build(Template::Arch(Arch { embrace_deg: Some(157.5), ..circular(10.0, 1.5, 7) }));
+    let by_radius =
+        build(Template::Arch(Arch { embrace_deg: Some(157.5), ..circular(10.0, 1.5, 7) }));
     assert_corners(
         &by_radius,
         "v06",
@@ -111,9 +112,18 @@ fn pointed_arch_has_the_known_corners_and_may_be_given_by_span_and_rise() {
     assert_mirrored(&blocks);
     // Springing joint of the support: [0.675, 0.825] at z = 0.
     let springer = outline(find(&blocks, "springer_right"));
-    assert!(springer.iter().filter(|p| p[1] == 0.0).count() == 2 && springer.iter().all(|p| p[1] <= 0.0));
+    assert!(
+        springer.iter().filter(|p| p[1] == 0.0).count() == 2
+            && springer.iter().all(|p| p[1] <= 0.0)
+    );
     let (span, rise) = (Some(1.5), Some((1.0_f64 - 0.25 * 0.25).sqrt()));
-    let by_span = build(Template::Arch(Arch { radius: None, eccentricity: None, span, rise, ..pointed(0.15) }));
+    let by_span = build(Template::Arch(Arch {
+        radius: None,
+        eccentricity: None,
+        span,
+        rise,
+        ..pointed(0.15)
+    }));
     for (a, b) in blocks.iter().zip(&by_span) {
         assert!(same_corners(a, &outline(b)), "{}", a.id);
     }
@@ -161,17 +171,35 @@ fn parabolic_arch_with_vertical_joints_has_the_known_corners() {
         joints: JointDirection::Vertical,
         ..circular(1.0, 0.001, 20)
     }));
-    assert_corners(&blocks, "v00", &[[-5.0, -0.0005], [-4.5, 0.4745], [-4.5, 0.4755], [-5.0, 0.0005]]);
-    assert_corners(&blocks, "v02", &[[-4.0, 0.8995], [-3.5, 1.2745], [-3.5, 1.2755], [-4.0, 0.9005]]);
+    assert_corners(
+        &blocks,
+        "v00",
+        &[[-5.0, -0.0005], [-4.5, 0.4745], [-4.5, 0.4755], [-5.0, 0.0005]],
+    );
+    assert_corners(
+        &blocks,
+        "v02",
+        &[[-4.0, 0.8995], [-3.5, 1.2745], [-3.5, 1.2755], [-4.0, 0.9005]],
+    );
     assert_corners(&blocks, "v19", &[[4.5, 0.4745], [5.0, -0.0005], [5.0, 0.0005], [4.5, 0.4755]]);
     // The supports are vertical faces beside the springings.
-    assert_corners(&blocks, "springer_left", &[[-5.5, -0.0005], [-5.0, -0.0005], [-5.0, 0.0005], [-5.5, 0.0005]]);
+    assert_corners(
+        &blocks,
+        "springer_left",
+        &[[-5.5, -0.0005], [-5.0, -0.0005], [-5.0, 0.0005], [-5.5, 0.0005]],
+    );
     assert_mirrored(&blocks);
 }
 
 #[test]
 fn parabolic_arch_with_radial_joints_is_normal_to_its_mid_line() {
-    let arch = Arch { profile: Profile::Parabolic, radius: None, span: Some(10.0), rise: Some(2.5), ..circular(1.0, 0.5, 10) };
+    let arch = Arch {
+        profile: Profile::Parabolic,
+        radius: None,
+        span: Some(10.0),
+        rise: Some(2.5),
+        ..circular(1.0, 0.5, 10)
+    };
     let blocks = build(Template::Arch(arch));
     // At the springing the slope is 2 × 2.5 / 5 = 1: the joint runs at 45° through (5, 0).
     let d = 0.25 / 2.0_f64.sqrt();
@@ -232,9 +260,20 @@ fn ring_cut_by_vertical_joints_has_the_known_corners() {
 
 #[test]
 fn buttresses_stand_flush_with_the_intrados_on_the_ground() {
-    let blocks = build(Template::Arch(Arch { buttresses: Some(Buttresses { width: 1.6, height: 4.0 }), ..circular(2.0, 0.3, 16) }));
-    assert_corners(&blocks, "buttress_right", &[[1.85, -4.0], [3.45, -4.0], [3.45, 0.0], [1.85, 0.0]]);
-    assert_corners(&blocks, "buttress_left", &[[-3.45, -4.0], [-1.85, -4.0], [-1.85, 0.0], [-3.45, 0.0]]);
+    let blocks = build(Template::Arch(Arch {
+        buttresses: Some(Buttresses { width: 1.6, height: 4.0 }),
+        ..circular(2.0, 0.3, 16)
+    }));
+    assert_corners(
+        &blocks,
+        "buttress_right",
+        &[[1.85, -4.0], [3.45, -4.0], [3.45, 0.0], [1.85, 0.0]],
+    );
+    assert_corners(
+        &blocks,
+        "buttress_left",
+        &[[-3.45, -4.0], [-1.85, -4.0], [-1.85, 0.0], [-3.45, 0.0]],
+    );
     assert_corners(
         &blocks,
         "v14",
@@ -246,7 +285,10 @@ fn buttresses_stand_flush_with_the_intrados_on_the_ground() {
         ],
     );
     let ground = find(&blocks, "ground");
-    assert!(ground.support && outline(ground).iter().filter(|p| p[1] == -4.0 && p[0].abs() > 3.45).count() == 2);
+    assert!(
+        ground.support
+            && outline(ground).iter().filter(|p| p[1] == -4.0 && p[0].abs() > 3.45).count() == 2
+    );
     assert_eq!(blocks.iter().filter(|b| b.support).count(), 1);
     assert_mirrored(&blocks);
 }
@@ -283,7 +325,10 @@ fn a_clear_span_and_rise_are_those_between_the_intrados() {
             (Profile::Parabolic, JointDirection::Vertical),
         ] {
             let [span, rise] = intrados(profile, joints, thickness);
-            assert!((span - 4.0).abs() < 1e-12 && (rise - 2.5).abs() < 1e-12, "{profile:?} {joints:?}: {span} {rise}");
+            assert!(
+                (span - 4.0).abs() < 1e-12 && (rise - 2.5).abs() < 1e-12,
+                "{profile:?} {joints:?}: {span} {rise}"
+            );
         }
     }
 }

@@ -8,7 +8,9 @@ mod structures;
 mod wall;
 
 use super::*;
-use crate::scene::template::{Arch, JointDirection, Opening, Profile, ThicknessAlong, Wall, WallEnd};
+use crate::scene::template::{
+    Arch, JointDirection, Opening, Profile, ThicknessAlong, Wall, WallEnd,
+};
 use proptest::prelude::*;
 use std::collections::HashSet;
 
@@ -29,9 +31,9 @@ fn outline(block: &BlockSpec) -> Vec<[f64; 2]> {
     let [x, _, z] = block.at;
     match &block.shape {
         Shape::Prism { polygon, .. } => polygon.iter().map(|p| [p[0] + x, p[1] + z]).collect(),
-        Shape::Cuboid { size: [a, _, c] } => {
-            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[i, k]| [x + i * a / 2.0, z + k * c / 2.0]).into()
-        }
+        Shape::Cuboid { size: [a, _, c] } => [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|[i, k]| [x + i * a / 2.0, z + k * c / 2.0])
+            .into(),
         other => panic!("{other:?} is no prism"),
     }
 }
@@ -43,7 +45,9 @@ fn area2(p: &[[f64; 2]]) -> f64 {
 
 fn same_corners(block: &BlockSpec, expected: &[[f64; 2]]) -> bool {
     let outline = outline(block);
-    let near = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) <= 1e-12 * (1.0 + b[0].abs().max(b[1].abs()));
+    let near = |a: &[f64; 2], b: &[f64; 2]| {
+        (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) <= 1e-12 * (1.0 + b[0].abs().max(b[1].abs()))
+    };
     outline.len() == expected.len() && expected.iter().all(|e| outline.iter().any(|p| near(p, e)))
 }
 
@@ -77,7 +81,9 @@ fn circular(radius: f64, t: f64, voussoirs: usize) -> Arch {
 fn prefix_place_and_material_reach_every_block() {
     let json = serde_json::json!({"column": {"blocks": 2, "size": [1, 1, 1], "prefix": "north_", "at": [1, 2, 3], "material": "brick"}});
     let blocks = build(parse(json));
-    assert!(blocks.iter().all(|b| b.id.starts_with("north_") && b.material.as_deref() == Some("brick")));
+    assert!(
+        blocks.iter().all(|b| b.id.starts_with("north_") && b.material.as_deref() == Some("brick"))
+    );
     assert_eq!(blocks[1].at, [1.0, 2.0, 3.5]);
 }
 
@@ -112,13 +118,15 @@ fn defaults_are_there_under_every_name_and_round_trip() {
 
 #[test]
 fn the_documented_example_is_a_template() {
-    let blocks =
-        build(parse(serde_json::json!({ "arch": { "radius": 5, "thickness": 0.8, "depth": 1, "embrace_deg": 180, "voussoirs": 27 } })));
+    let blocks = build(parse(
+        serde_json::json!({ "arch": { "radius": 5, "thickness": 0.8, "depth": 1, "embrace_deg": 180, "voussoirs": 27 } }),
+    ));
     assert_eq!(blocks.len(), 29);
 }
 
 proptest! {
-    /// Whatever the numbers are, the answer is blocks with finite corners or an error, never a panic.
+    /// Whatever the numbers are, the answer is blocks with finite corners or an error, never a
+    /// panic.
     #[test]
     fn any_numbers_give_blocks_or_an_error(
         radius in prop_oneof![-1.0..10.0, proptest::num::f64::ANY],

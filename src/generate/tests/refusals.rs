@@ -6,18 +6,62 @@ use super::*;
 fn what_has_no_meaning_is_refused_at_its_place() {
     use serde_json::json;
     let cases = [
-        (json!({"arch": {"radius": 1, "thickness": 2, "depth": 1, "voussoirs": 9}}), "arch.thickness", "2 × radius"),
-        (json!({"arch": {"radius": 1, "thickness": 0, "depth": 1, "voussoirs": 9}}), "arch.thickness", "> 0"),
-        (json!({"arch": {"radius": -1, "thickness": 0.1, "depth": 1, "voussoirs": 9}}), "arch.radius", "got -1"),
-        (json!({"arch": {"radius": 1, "thickness": 0.1, "depth": -2, "voussoirs": 9}}), "arch.depth", "> 0"),
-        (json!({"arch": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 0}}), "arch.voussoirs", "at least 2"),
-        (json!({"arch": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 1}}), "arch.voussoirs", "at least 2"),
-        (json!({"arch": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 1_000_001}}), "arch.voussoirs", "more than"),
-        (json!({"arch": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9, "embrace_deg": 360}}), "arch.embrace_deg", "360"),
-        (json!({"arch": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9, "embrace_deg": 0}}), "arch.embrace_deg", "got 0"),
+        (
+            json!({"arch": {"radius": 1, "thickness": 2, "depth": 1, "voussoirs": 9}}),
+            "arch.thickness",
+            "2 × radius",
+        ),
+        (
+            json!({"arch": {"radius": 1, "thickness": 0, "depth": 1, "voussoirs": 9}}),
+            "arch.thickness",
+            "> 0",
+        ),
+        (
+            json!({"arch": {"radius": -1, "thickness": 0.1, "depth": 1, "voussoirs": 9}}),
+            "arch.radius",
+            "got -1",
+        ),
+        (
+            json!({"arch": {"radius": 1, "thickness": 0.1, "depth": -2, "voussoirs": 9}}),
+            "arch.depth",
+            "> 0",
+        ),
+        (
+            json!({"arch": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 0}}),
+            "arch.voussoirs",
+            "at least 2",
+        ),
+        (
+            json!({"arch": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 1}}),
+            "arch.voussoirs",
+            "at least 2",
+        ),
+        (
+            json!({"arch": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 1_000_001}}),
+            "arch.voussoirs",
+            "more than",
+        ),
+        (
+            json!({"arch": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9, "embrace_deg": 360}}),
+            "arch.embrace_deg",
+            "360",
+        ),
+        (
+            json!({"arch": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9, "embrace_deg": 0}}),
+            "arch.embrace_deg",
+            "got 0",
+        ),
         (json!({"arch": {"thickness": 0.1, "depth": 1, "voussoirs": 9}}), "arch.radius", "missing"),
-        (json!({"arch": {"radius": 1, "span": 2, "rise": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9}}), "arch.radius", "excludes"),
-        (json!({"arch": {"span": 2, "thickness": 0.1, "depth": 1, "voussoirs": 9}}), "arch.rise", "missing"),
+        (
+            json!({"arch": {"radius": 1, "span": 2, "rise": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9}}),
+            "arch.radius",
+            "excludes",
+        ),
+        (
+            json!({"arch": {"span": 2, "thickness": 0.1, "depth": 1, "voussoirs": 9}}),
+            "arch.rise",
+            "missing",
+        ),
         (
             json!({"arch": {"span": 2, "rise": 1, "embrace_deg": 90, "thickness": 0.1, "depth": 1, "voussoirs": 9}}),
             "arch.embrace_deg",
@@ -28,7 +72,11 @@ fn what_has_no_meaning_is_refused_at_its_place() {
             "arch.eccentricity",
             "radius and embrace_deg",
         ),
-        (json!({"arch": {"profile": "parabolic", "radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9}}), "arch.radius", "no radius"),
+        (
+            json!({"arch": {"profile": "parabolic", "radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9}}),
+            "arch.radius",
+            "no radius",
+        ),
         (
             json!({"arch": {"profile": "elliptical", "span": 2, "rise": 1, "embrace_deg": 90, "thickness": 0.1, "depth": 1, "voussoirs": 9}}),
             "arch.embrace_deg",
@@ -89,7 +137,11 @@ fn what_has_no_meaning_is_refused_at_its_place() {
             "arch.buttresses.width",
             "> 0",
         ),
-        (json!({"barrel": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9, "courses": 0}}), "barrel.courses", "at least 1"),
+        (
+            json!({"barrel": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9, "courses": 0}}),
+            "barrel.courses",
+            "at least 1",
+        ),
         (
             json!({"barrel": {"radius": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9000, "courses": 9000}}),
             "barrel.voussoirs",
@@ -100,19 +152,51 @@ fn what_has_no_meaning_is_refused_at_its_place() {
         (json!({"column": {"blocks": 1, "size": [1, 1, 1], "at": [1e308, 0, 0]}}), "", ""),
         (json!({"column": {"blocks": 10, "size": [1, 1, 1e308]}}), "column", "range of numbers"),
         (json!({"stack": {"blocks": 3, "size": [1, 1, 1]}}), "stack.shift", "missing"),
-        (json!({"stack": {"blocks": 3, "size": [1, 1, 1], "shift": 0.1, "harmonic": 1}}), "stack.harmonic", "exclude"),
-        (json!({"dome": {"radius": 1, "thickness": 2.5, "rings": 3, "segments": 8}}), "dome.thickness", "2 × radius"),
-        (json!({"dome": {"radius": 1, "thickness": 0.1, "rings": 3, "segments": 2}}), "dome.segments", "at least 3"),
-        (json!({"dome": {"radius": 1, "thickness": 0.1, "rings": 3, "segments": 8, "oculus_deg": 90}}), "dome.oculus_deg", "springing"),
-        (json!({"dome": {"radius": 1, "thickness": 0.1, "rings": 3, "segments": 8, "springing_deg": 180}}), "dome.springing_deg", "180"),
-        (json!({"dome": {"radius": 1, "thickness": 0.1, "rings": 1_000_000_000, "segments": 1_000_000_000}}), "dome.segments", "more than"),
+        (
+            json!({"stack": {"blocks": 3, "size": [1, 1, 1], "shift": 0.1, "harmonic": 1}}),
+            "stack.harmonic",
+            "exclude",
+        ),
+        (
+            json!({"dome": {"radius": 1, "thickness": 2.5, "rings": 3, "segments": 8}}),
+            "dome.thickness",
+            "2 × radius",
+        ),
+        (
+            json!({"dome": {"radius": 1, "thickness": 0.1, "rings": 3, "segments": 2}}),
+            "dome.segments",
+            "at least 3",
+        ),
+        (
+            json!({"dome": {"radius": 1, "thickness": 0.1, "rings": 3, "segments": 8, "oculus_deg": 90}}),
+            "dome.oculus_deg",
+            "springing",
+        ),
+        (
+            json!({"dome": {"radius": 1, "thickness": 0.1, "rings": 3, "segments": 8, "springing_deg": 180}}),
+            "dome.springing_deg",
+            "180",
+        ),
+        (
+            json!({"dome": {"radius": 1, "thickness": 0.1, "rings": 1_000_000_000, "segments": 1_000_000_000}}),
+            "dome.segments",
+            "more than",
+        ),
         (
             json!({"flat_arch": {"span": 3, "height": 1, "depth": 1, "voussoirs": 3, "center_depth": 0.5}}),
             "flat_arch.center_depth",
             "height / 2",
         ),
-        (json!({"wall": {"size": [1, 1, 1], "courses": 4, "blocks": 3, "rake_right": -0.5}}), "wall.rake_right", "≥ 0"),
-        (json!({"wall": {"size": [1, 1, 1], "courses": 7, "blocks": 3, "rake_right": 0.5}}), "wall.courses", "meet"),
+        (
+            json!({"wall": {"size": [1, 1, 1], "courses": 4, "blocks": 3, "rake_right": -0.5}}),
+            "wall.rake_right",
+            "≥ 0",
+        ),
+        (
+            json!({"wall": {"size": [1, 1, 1], "courses": 7, "blocks": 3, "rake_right": 0.5}}),
+            "wall.courses",
+            "meet",
+        ),
         (
             json!({"wall": {"size": [1, 1, 1], "courses": 4, "blocks": 3, "openings": [{"x": 1, "z": 0.5, "width": 1, "height": 1}]}}),
             "wall.openings[0].z",
@@ -144,6 +228,8 @@ fn what_has_no_meaning_is_refused_at_its_place() {
 
 #[test]
 fn unknown_fields_are_refused() {
-    let result: Result<Template, _> = serde_json::from_value(serde_json::json!({"column": {"blocks": 1, "size": [1, 1, 1], "blokcs": 2}}));
+    let result: Result<Template, _> = serde_json::from_value(
+        serde_json::json!({"column": {"blocks": 1, "size": [1, 1, 1], "blokcs": 2}}),
+    );
     assert!(result.expect_err("a typo").to_string().contains("blokcs"));
 }

@@ -26,7 +26,8 @@ fn running_bond_alternates_and_cuts_half_blocks() {
     let wall = build(Template::Wall(bricks(5, 6, WallEnd::Half)));
     assert_eq!(wall.len(), 34);
     assert_corners(&wall, "base", &[[0.0, -1.75], [20.0, -1.75], [20.0, 0.0], [0.0, 0.0]]);
-    let halves = vec![(0.0, 2.0), (2.0, 6.0), (6.0, 10.0), (10.0, 14.0), (14.0, 18.0), (18.0, 20.0)];
+    let halves =
+        vec![(0.0, 2.0), (2.0, 6.0), (6.0, 10.0), (10.0, 14.0), (14.0, 18.0), (18.0, 20.0)];
     let wholes = vec![(0.0, 4.0), (4.0, 8.0), (8.0, 12.0), (12.0, 16.0), (16.0, 20.0)];
     let rows = courses(&wall, true);
     assert_eq!(rows[0], halves);
@@ -36,7 +37,11 @@ fn running_bond_alternates_and_cuts_half_blocks() {
 
 #[test]
 fn a_course_as_base_continues_the_bond() {
-    let wall = build(Template::Wall(Wall { size: [1.0, 0.5, 0.4], base: WallBase::Course, ..bricks(100, 100, WallEnd::Half) }));
+    let wall = build(Template::Wall(Wall {
+        size: [1.0, 0.5, 0.4],
+        base: WallBase::Course,
+        ..bricks(100, 100, WallEnd::Half)
+    }));
     let base = courses(&wall, false);
     assert_eq!((base.len(), base[0].len()), (1, 100));
     let free = courses(&wall, true);
@@ -57,7 +62,10 @@ fn openings_cut_the_blocks_they_cross() {
     assert_eq!(rows[8], [(0.0, 4.0), (4.0, 8.0), (8.0, 12.0), (12.0, 16.0)]);
     // Wall 5: 61 blocks, two openings.
     let opening = |z| Opening { x: 4.0, z, width: 4.0, height: 8.75 };
-    let wall = build(Template::Wall(Wall { openings: vec![opening(5.25), opening(19.25)], ..bricks(3, 19, WallEnd::Half) }));
+    let wall = build(Template::Wall(Wall {
+        openings: vec![opening(5.25), opening(19.25)],
+        ..bricks(3, 19, WallEnd::Half)
+    }));
     assert_eq!(wall.len(), 62);
     assert_eq!(courses(&wall, true)[4], [(0.0, 2.0), (2.0, 4.0), (8.0, 10.0), (10.0, 12.0)]);
 }
@@ -66,7 +74,8 @@ fn openings_cut_the_blocks_they_cross() {
 fn an_opening_on_the_grid_leaves_no_sliver() {
     // 3 × 0.1 is not 0.3: the edge misses the joint by rounding.
     let opening = Opening { x: 0.1 * 3.0, z: 0.1 * 3.0, width: 0.3, height: 0.1 };
-    let wall = Wall { size: [0.3, 0.1, 0.1], openings: vec![opening], ..bricks(3, 5, WallEnd::Half) };
+    let wall =
+        Wall { size: [0.3, 0.1, 0.1], openings: vec![opening], ..bricks(3, 5, WallEnd::Half) };
     let rows = courses(&build(Template::Wall(wall)), true);
     assert_eq!(rows[3].len(), 2, "{:?}", rows[3]);
 }

@@ -33,8 +33,14 @@ impl<'a> Cursor<'a> {
     /// The value inside all envelopes around it.
     pub fn open(&self) -> Cursor<'a> {
         let mut at = self.clone();
-        while let Some(object) = at.value.as_object().filter(|o| o.contains_key("dtype") || o.contains_key("datatype")) {
-            let Some((key, value)) = ["data", "value"].into_iter().find_map(|k| object.get_key_value(k)) else { break };
+        while let Some(object) =
+            at.value.as_object().filter(|o| o.contains_key("dtype") || o.contains_key("datatype"))
+        {
+            let Some((key, value)) =
+                ["data", "value"].into_iter().find_map(|k| object.get_key_value(k))
+            else {
+                break;
+            };
             at = Cursor { value, path: at.path.key(key) };
         }
         at
@@ -62,18 +68,28 @@ impl<'a> Cursor<'a> {
     /// The elements of a list, not opened.
     pub fn items(&self) -> Option<Vec<Cursor<'a>>> {
         let list = self.value.as_array()?;
-        Some(list.iter().enumerate().map(|(i, value)| Cursor { value, path: self.path.index(i) }).collect())
+        Some(
+            list.iter()
+                .enumerate()
+                .map(|(i, value)| Cursor { value, path: self.path.index(i) })
+                .collect(),
+        )
     }
 
-    /// The members of an object, opened, as numbers where all keys are whole numbers, else in the order of the file.
+    /// The members of an object, opened, as numbers where all keys are whole numbers, else in the
+    /// order of the file.
     pub fn members(&self) -> Result<Vec<(&'a str, Cursor<'a>)>, InputError> {
-        let object = self
-            .value
-            .as_object()
-            .ok_or_else(|| self.error(format!("expected an object, got {}", describe(self.value))).hint("export the file again"))?;
-        let mut members: Vec<(&str, Cursor)> =
-            object.iter().map(|(k, value)| (k.as_str(), Cursor { value, path: self.path.key(k) }.open())).collect();
-        if let Some(numbers) = members.iter().map(|(k, _)| k.parse::<i64>().ok()).collect::<Option<Vec<i64>>>() {
+        let object = self.value.as_object().ok_or_else(|| {
+            self.error(format!("expected an object, got {}", describe(self.value)))
+                .hint("export the file again")
+        })?;
+        let mut members: Vec<(&str, Cursor)> = object
+            .iter()
+            .map(|(k, value)| (k.as_str(), Cursor { value, path: self.path.key(k) }.open()))
+            .collect();
+        if let Some(numbers) =
+            members.iter().map(|(k, _)| k.parse::<i64>().ok()).collect::<Option<Vec<i64>>>()
+        {
             let mut numbered: Vec<_> = numbers.into_iter().zip(members).collect();
             numbered.sort_by_key(|(number, _)| *number);
             members = numbered.into_iter().map(|(_, member)| member).collect();
@@ -87,7 +103,9 @@ impl<'a> Cursor<'a> {
         match (at.value.as_bool(), at.value.as_i64()) {
             (Some(flag), _) => Ok(Some(flag)),
             (_, Some(number @ 0..=1)) => Ok(Some(number == 1)),
-            _ => Err(at.error(format!("expected true or false, got {}", describe(at.value))).hint("write true for a support")),
+            _ => Err(at
+                .error(format!("expected true or false, got {}", describe(at.value)))
+                .hint("write true for a support")),
         }
     }
 
@@ -95,7 +113,8 @@ impl<'a> Cursor<'a> {
     pub fn number(&self) -> Result<f64, InputError> {
         // JSON numbers are finite; serde_json refuses 1e999.
         self.value.as_f64().ok_or_else(|| {
-            self.error(format!("expected a number, got {}", describe(self.value))).hint("look for missing coordinates in the export")
+            self.error(format!("expected a number, got {}", describe(self.value)))
+                .hint("look for missing coordinates in the export")
         })
     }
 
@@ -112,7 +131,9 @@ impl<'a> Cursor<'a> {
                 *value = at.need(axis)?.number()?;
             }
         } else {
-            return Err(at.error(format!("expected three coordinates, got {}", describe(at.value))).hint("export the file again"));
+            return Err(at
+                .error(format!("expected three coordinates, got {}", describe(at.value)))
+                .hint("export the file again"));
         }
         Ok(point)
     }
@@ -127,7 +148,12 @@ pub(super) fn describe(value: &Value) -> String {
         Value::Array(list) => format!("a list of {}", list.len()),
         Value::Object(object) => {
             let keys: Vec<String> = object.keys().take(6).map(|k| shorten(k)).collect();
-            format!("an object with {} keys ({}{})", object.len(), keys.join(", "), if object.len() > 6 { ", …" } else { "" })
+            format!(
+                "an object with {} keys ({}{})",
+                object.len(),
+                keys.join(", "),
+                if object.len() > 6 { ", …" } else { "" }
+            )
         }
     }
 }

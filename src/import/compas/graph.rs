@@ -18,7 +18,9 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
     let graph = graph.get("graph").unwrap_or(graph);
     let nodes = graph.get("node").map_or_else(|| graph.need("vertex"), Ok)?;
     let apart = data.get("blocks");
-    let defaults = ["default_node_attributes", "dna", "default_vertex_attributes", "dva"].into_iter().find_map(|k| graph.get(k));
+    let defaults = ["default_node_attributes", "dna", "default_vertex_attributes", "dva"]
+        .into_iter()
+        .find_map(|k| graph.get(k));
     let default_support = defaults.map_or(Ok(None), |d| d.flag("is_support"))?.unwrap_or(false);
     let mut bare = Vec::new();
     for (key, node) in nodes.members()? {
@@ -35,7 +37,8 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
         raw.say(FindingCode::LeftOut, format!("nodes without a block, left out: {}", tally(&bare)));
     }
     if let Some(edges) = graph.get("edge") {
-        let ids: Ids = raw.blocks.iter().enumerate().map(|(i, b)| (b.id.clone(), (i, b.id.clone()))).collect();
+        let ids: Ids =
+            raw.blocks.iter().enumerate().map(|(i, b)| (b.id.clone(), (i, b.id.clone()))).collect();
         interface::read(&edges, &ids, &mut raw)?;
     }
     Ok(raw)

@@ -12,8 +12,8 @@ pub(super) fn of<'a>(element: &Cursor<'a>) -> Option<Cursor<'a>> {
 
 /// The solid of a mesh.
 ///
-/// `vertex[key] = {x, y, z}`, where a missing coordinate is the one of `default_vertex_attributes` (`dva` in old files);
-/// `face[key] = [vertex keys]`.
+/// `vertex[key] = {x, y, z}`, where a missing coordinate is the one of `default_vertex_attributes`
+/// (`dva` in old files); `face[key] = [vertex keys]`.
 pub(super) fn read(at: &Cursor, id: String) -> Result<Solid, InputError> {
     let at = at.open();
     if at.has("vertices") && at.has("faces") {
@@ -47,10 +47,16 @@ pub(super) fn read(at: &Cursor, id: String) -> Result<Solid, InputError> {
 fn from_lists(at: &Cursor, id: String) -> Result<Solid, InputError> {
     let list = |key: &str| {
         let at = at.need(key)?;
-        at.items().ok_or_else(|| at.error(format!("expected a list, got {}", describe(at.value()))).hint("export the file again"))
+        at.items().ok_or_else(|| {
+            at.error(format!("expected a list, got {}", describe(at.value())))
+                .hint("export the file again")
+        })
     };
-    let vertices: Vec<[f64; 3]> = list("vertices")?.iter().map(Cursor::point).collect::<Result<_, _>>()?;
-    let lookup = |corner: &Value| corner.as_u64().and_then(|i| usize::try_from(i).ok()).filter(|&i| i < vertices.len());
+    let vertices: Vec<[f64; 3]> =
+        list("vertices")?.iter().map(Cursor::point).collect::<Result<_, _>>()?;
+    let lookup = |corner: &Value| {
+        corner.as_u64().and_then(|i| usize::try_from(i).ok()).filter(|&i| i < vertices.len())
+    };
     let faces = list("faces")?.iter().map(|f| face(f, lookup)).collect::<Result<_, _>>()?;
     Ok(Solid { id, vertices, faces, ..Solid::default() })
 }
@@ -61,11 +67,14 @@ fn coordinates(vertex: &Cursor, defaults: Option<&Cursor>) -> Result<[f64; 3], I
     }
     let mut point = [0.0; 3];
     for (value, axis) in point.iter_mut().zip(["x", "y", "z"]) {
-        let at = vertex.get(axis).or_else(|| defaults.and_then(|d| d.get(axis))).ok_or_else(|| {
-            vertex
-                .error(format!("coordinate {axis} is missing, here and in the default attributes"))
-                .hint("export the mesh again, with all coordinates")
-        })?;
+        let at =
+            vertex.get(axis).or_else(|| defaults.and_then(|d| d.get(axis))).ok_or_else(|| {
+                vertex
+                    .error(format!(
+                        "coordinate {axis} is missing, here and in the default attributes"
+                    ))
+                    .hint("export the mesh again, with all coordinates")
+            })?;
         *value = at.number()?;
     }
     Ok(point)
@@ -73,13 +82,14 @@ fn coordinates(vertex: &Cursor, defaults: Option<&Cursor>) -> Result<[f64; 3], I
 
 fn face(at: &Cursor, lookup: impl Fn(&Value) -> Option<usize>) -> Result<Vec<usize>, InputError> {
     let at = at.open();
-    let corners = at
-        .items()
-        .filter(|c| c.len() >= 3)
-        .ok_or_else(|| at.error(format!("expected three corners or more, got {}", describe(at.value()))).hint("export the mesh again"))?;
+    let corners = at.items().filter(|c| c.len() >= 3).ok_or_else(|| {
+        at.error(format!("expected three corners or more, got {}", describe(at.value())))
+            .hint("export the mesh again")
+    })?;
     let find = |c: &Cursor| {
         lookup(c.value()).ok_or_else(|| {
-            c.error(format!("the mesh has no vertex {}", describe(c.value()))).hint("every corner has to be a key of \"vertex\"")
+            c.error(format!("the mesh has no vertex {}", describe(c.value())))
+                .hint("every corner has to be a key of \"vertex\"")
         })
     };
     corners.iter().map(find).collect()

@@ -1,7 +1,8 @@
 //! JSON written by COMPAS and the packages of its family (compas_assembly, compas_cra, compas_dem).
 //!
-//! Every typed value may sit in an envelope: `{"dtype", "data"}` (COMPAS 2), `{"dtype", "value"}` (1), `{"compas", "datatype", "data"}`
-//! (0.x); [`cursor::Cursor`] takes them off wherever it steps. Below that there are three layouts:
+//! Every typed value may sit in an envelope: `{"dtype", "data"}` (COMPAS 2), `{"dtype", "value"}`
+//! (1), `{"compas", "datatype", "data"}` (0.x); [`cursor::Cursor`] takes them off wherever it
+//! steps. Below that there are three layouts:
 //!
 //! | layout | blocks | interfaces |
 //! |---|---|---|
@@ -9,8 +10,9 @@
 //! | BlockModel ([`model`]) | `elements[guid].geometry`, in old files `.shape`, key in `graph.node[key].element` | `graph.edge[u][v].contacts` |
 //! | lists of meshes, nested as they like | the meshes | none |
 //!
-//! Ids are the keys of the graph, else the place in the list. Keys are strings in no particular order; where all of them are whole numbers
-//! they are sorted as numbers, else they stay as they are.
+//! Ids are the keys of the graph, else the place in the list. Keys are strings in no particular
+//! order; where all of them are whole numbers they are sorted as numbers, else they stay as they
+//! are.
 
 mod cursor;
 mod graph;
@@ -36,8 +38,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
         InputError { position, ..InputError::at(JsonPath::root(), message).hint(hint) }
     })?;
     let root = Cursor::root(&value);
-    if let Some(format) = value.get("format").and_then(Value::as_str).filter(|f| f.starts_with("voussoir")) {
-        return Err(root.error(format!("a {format:?} file, nothing to import")).hint("use the file as it is"));
+    if let Some(format) =
+        value.get("format").and_then(Value::as_str).filter(|f| f.starts_with("voussoir"))
+    {
+        return Err(root
+            .error(format!("a {format:?} file, nothing to import"))
+            .hint("use the file as it is"));
     }
     let data = root.open();
     if data.has("elements") {
@@ -51,13 +57,17 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
     }
 }
 
-/// A mesh, an element with a mesh, or a list of such, nested in lists as deep as JSON itself may be.
+/// A mesh, an element with a mesh, or a list of such, nested in lists as deep as JSON itself may
+/// be.
 fn collect(at: &Cursor, raw: &mut Raw) -> Result<(), InputError> {
     let at = at.open();
     if let Some(list) = at.items() {
         list.iter().try_for_each(|item| collect(item, raw))
     } else if at.value().is_null() {
-        raw.say(FindingCode::LeftOut, format!("{}: null instead of a mesh was left out", at.path()));
+        raw.say(
+            FindingCode::LeftOut,
+            format!("{}: null instead of a mesh was left out", at.path()),
+        );
         Ok(())
     } else {
         let support = at.flag("is_support")?.unwrap_or(false);

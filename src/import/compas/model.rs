@@ -15,8 +15,8 @@ use std::collections::HashMap;
 
 /// The blocks and contacts of a model.
 ///
-/// An element's geometry is in its own frame; its place is model × ancestors in the tree × own transformation. Contacts are in the model's
-/// coordinates already.
+/// An element's geometry is in its own frame; its place is model × ancestors in the tree × own
+/// transformation. Contacts are in the model's coordinates already.
 pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
     let mut raw = Raw::default();
     let elements = elements(&data.need("elements")?)?;
@@ -24,7 +24,8 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
     let (keys, nodes) = names(graph.as_ref())?;
     let materials = materials(data, &mut raw)?;
     let places = places(data);
-    let by_guid: HashMap<&str, &Cursor> = elements.iter().map(|(guid, element)| (guid.as_str(), element)).collect();
+    let by_guid: HashMap<&str, &Cursor> =
+        elements.iter().map(|(guid, element)| (guid.as_str(), element)).collect();
     let model = matrix(data)?.unwrap_or_else(Matrix4::identity);
     let mut without = Vec::new();
     let mut id_of_guid = HashMap::new();
@@ -37,7 +38,8 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
             continue;
         };
         let mut solid = mesh::read(&geometry, id.clone())?;
-        let place = places.get(guid).map_or(Ok(Matrix4::identity()), |chain| product(chain, &by_guid))?;
+        let place =
+            places.get(guid).map_or(Ok(Matrix4::identity()), |chain| product(chain, &by_guid))?;
         let own = matrix(element)?.unwrap_or_else(Matrix4::identity);
         let whole = model * place * own;
         if whole != Matrix4::identity() {
@@ -46,19 +48,26 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
             }
         }
         solid.support = element.flag("is_support")?.unwrap_or(false);
-        solid.material = element.get("material").and_then(|m| materials.get(m.value().as_str()?).cloned());
+        solid.material =
+            element.get("material").and_then(|m| materials.get(m.value().as_str()?).cloned());
         id_of_guid.insert(guid.clone(), id.clone());
         // By node key where that is a number, else in the order of the file.
-        let order = key.and_then(|k| k.parse().ok()).unwrap_or_else(|| i64::try_from(number).unwrap_or(i64::MAX));
+        let order = key
+            .and_then(|k| k.parse().ok())
+            .unwrap_or_else(|| i64::try_from(number).unwrap_or(i64::MAX));
         found.push((order, solid));
     }
     found.sort_by_key(|(order, _)| *order);
     raw.blocks = found.into_iter().map(|(_, solid)| solid).collect();
     if !without.is_empty() {
-        raw.say(FindingCode::LeftOut, format!("elements without geometry, left out: {}", tally(&without)));
+        raw.say(
+            FindingCode::LeftOut,
+            format!("elements without geometry, left out: {}", tally(&without)),
+        );
     }
     if let Some(edges) = graph.and_then(|g| g.get("edge")) {
-        let index: HashMap<&str, usize> = raw.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
+        let index: HashMap<&str, usize> =
+            raw.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
         let ids: Ids = nodes
             .into_iter()
             .filter_map(|(node, guid)| {
@@ -74,10 +83,17 @@ pub(super) fn read(data: &Cursor) -> Result<Raw, InputError> {
 /// The elements with their guids: a map, or a list of envelopes with a guid each.
 fn elements<'a>(at: &Cursor<'a>) -> Result<Vec<(String, Cursor<'a>)>, InputError> {
     let Some(items) = at.items() else {
-        return Ok(at.members()?.into_iter().map(|(guid, element)| (guid.to_string(), element)).collect());
+        return Ok(at
+            .members()?
+            .into_iter()
+            .map(|(guid, element)| (guid.to_string(), element))
+            .collect());
     };
-    let guid =
-        |i: usize, item: &Cursor| item.get("guid").and_then(|g| g.value().as_str().map(String::from)).unwrap_or_else(|| i.to_string());
+    let guid = |i: usize, item: &Cursor| {
+        item.get("guid")
+            .and_then(|g| g.value().as_str().map(String::from))
+            .unwrap_or_else(|| i.to_string())
+    };
     Ok(items.iter().enumerate().map(|(i, item)| (guid(i, item), item.open())).collect())
 }
 
@@ -138,7 +154,10 @@ fn places(data: &Cursor) -> HashMap<String, Vec<String>> {
 }
 
 /// The transformation of a chain of ancestors, outermost first.
-fn product(chain: &[String], elements: &HashMap<&str, &Cursor>) -> Result<Matrix4<f64>, InputError> {
+fn product(
+    chain: &[String],
+    elements: &HashMap<&str, &Cursor>,
+) -> Result<Matrix4<f64>, InputError> {
     let mut product = Matrix4::identity();
     for guid in chain {
         if let Some(element) = elements.get(guid.as_str())
@@ -155,8 +174,11 @@ fn matrix(at: &Cursor) -> Result<Option<Matrix4<f64>>, InputError> {
     let Some(transformation) = at.get("transformation") else { return Ok(None) };
     let rows = transformation.get("matrix").unwrap_or(transformation);
     let wrong = || {
-        rows.error(format!("expected a transformation of four rows of four with the last row 0 0 0 1, got {}", describe(rows.value())))
-            .hint("apply the transformation to the meshes before the export")
+        rows.error(format!(
+            "expected a transformation of four rows of four with the last row 0 0 0 1, got {}",
+            describe(rows.value())
+        ))
+        .hint("apply the transformation to the meshes before the export")
     };
     let mut matrix = Matrix4::zeros();
     let list = rows.items().filter(|r| r.len() == 4).ok_or_else(wrong)?;

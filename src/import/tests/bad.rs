@@ -17,7 +17,11 @@ fn obj_errors_name_the_line() {
     for (old, new, expected) in [
         ("v 1 0 0", "v 1 0", "x.obj:3:1: coordinate z is missing"),
         ("v 1 0 0", "v 1 nan 0", "x.obj:3:1: coordinate y: expected a finite number, got \"nan\""),
-        ("v 1 0 0", "v 1 0 1e999", "x.obj:3:1: coordinate z: expected a finite number, got \"1e999\""),
+        (
+            "v 1 0 0",
+            "v 1 0 1e999",
+            "x.obj:3:1: coordinate z: expected a finite number, got \"1e999\"",
+        ),
         ("v 1 0 0", "v 1,5 0 0", "x.obj:3:1: coordinate x: expected a finite number, got \"1,5\""),
         ("f 1 4 3 2", "f 1 4 3 9", "x.obj:10:1: corner 9 does not exist: the file has 8 corners"),
         ("f 1 4 3 2", "f 1 4 3 0", "x.obj:10:1: face corner \"0\": there is no corner 0"),
@@ -41,7 +45,11 @@ fn ply_errors_name_the_line_or_the_element() {
     let good = ply_box();
     for (old, new, expected) in [
         ("\n1 0 0\n", "\n1 nan 0\n", "x.ply:11:1: "),
-        ("\n1 0 0\n", "\n1 1e999 0\n", "x.ply:11:1: coordinate y: expected a finite number, got inf"),
+        (
+            "\n1 0 0\n",
+            "\n1 1e999 0\n",
+            "x.ply:11:1: coordinate y: expected a finite number, got inf",
+        ),
         ("4 0 3 2 1", "4 0 3 2 8", "x.ply:18:1: corner 8 does not exist: the file has 8 corners"),
         ("4 0 3 2 1", "4 0 3 2 -1", "x.ply:18:1: corner -1 does not exist"),
         ("4 0 3 2 1", "2 0 3", "x.ply:18:1: a face with 2 corners"),
@@ -53,7 +61,11 @@ fn ply_errors_name_the_line_or_the_element() {
         ("property double z\n", "", "x.ply: PLY header: no element \"vertex\" with x, y and z"),
         ("vertex_indices", "strips", "x.ply: PLY header: no faces"),
         ("list uchar int", "list uchar float", "x.ply:18:1: "),
-        ("end_header", "element nothing 18446744073709551615\nend_header", "x.ply: PLY header: element \"nothing\" has no properties"),
+        (
+            "end_header",
+            "element nothing 18446744073709551615\nend_header",
+            "x.ply: PLY header: element \"nothing\" has no properties",
+        ),
         ("ply\n", "plz\n", "x.ply:1:1: "),
     ] {
         let text = error("x.ply", good.replacen(old, new, 1));
@@ -63,7 +75,9 @@ fn ply_errors_name_the_line_or_the_element() {
     let mut binary = ply_box_binary(true);
     let length = binary.len();
     binary[length - 4..].copy_from_slice(&u32::MAX.to_le_bytes());
-    assert!(error("x.ply", &binary).starts_with("x.ply: face[5]: corner 4294967295 does not exist"));
+    assert!(
+        error("x.ply", &binary).starts_with("x.ply: face[5]: corner 4294967295 does not exist")
+    );
     assert!(error("x.ply", &binary[..length - 1]).contains("end of file"));
 }
 
@@ -82,18 +96,28 @@ fn stl_errors_name_the_line_or_the_triangle() {
         assert!(text.starts_with(expected), "{text}\nexpected {expected}");
     }
     let binary = stl_binary("box");
-    assert!(error("x.stl", &binary[..600]).contains("the header promises 12 triangles (684 bytes), the file has 600 bytes"));
+    assert!(
+        error("x.stl", &binary[..600])
+            .contains("the header promises 12 triangles (684 bytes), the file has 600 bytes")
+    );
     let mut huge = binary.clone();
     huge[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
     assert!(error("x.stl", &huge).contains("4294967295 triangles"));
     let mut nan = binary.clone();
     nan[84 + 50 + 12..84 + 50 + 16].copy_from_slice(&f32::NAN.to_le_bytes());
-    assert!(error("x.stl", &nan).contains("triangle 1 (byte 134): expected finite coordinates, got NaN"));
+    assert!(
+        error("x.stl", &nan)
+            .contains("triangle 1 (byte 134): expected finite coordinates, got NaN")
+    );
     assert!(error("x.stl", "").contains("no triangles"));
     assert!(error("x.stl", "solid a\nendsolid a\n").contains("no blocks found"));
     let mut longer = binary;
     longer.extend([1, 2, 3]);
-    finding(&good_bytes(&longer), FindingCode::LeftOut, &["bytes after the last triangle, left out: 3"]);
+    finding(
+        &good_bytes(&longer),
+        FindingCode::LeftOut,
+        &["bytes after the last triangle, left out: 3"],
+    );
 }
 
 fn good_bytes(bytes: &[u8]) -> Imported {
@@ -114,16 +138,46 @@ fn json_errors_name_the_line_or_the_path() {
             |v| v["node"]["1"]["block"]["vertex"]["18"]["x"] = json!([1]),
             "data.graph.node.1.block.vertex.18.x: expected a number, got a list",
         ),
-        (|v| v["node"]["1"]["block"]["vertex"]["18"] = json!([1, 2]), "data.graph.node.1.block.vertex.18: expected three coordinates"),
-        (|v| v["node"]["1"]["block"]["vertex"] = json!({}), "data.graph.node.1.block.face.0[0]: the mesh has no vertex 20"),
-        (|v| v["node"]["1"]["block"]["vertex"] = json!(7), "data.graph.node.1.block.vertex: expected an object, got 7"),
-        (|v| v["node"]["1"]["block"]["face"]["0"] = json!([20, 18]), "data.graph.node.1.block.face.0: expected three corners or more"),
-        (|v| v["node"]["1"]["block"]["face"]["0"] = json!([20, 18, 5]), "data.graph.node.1.block.face.0[2]: the mesh has no vertex 5"),
-        (|v| v["node"]["1"]["is_support"] = json!("yes"), "data.graph.node.1.is_support: expected true or false, got \"yes\""),
-        (|v| v["node"]["1"]["block"] = json!({"xsize": 1}), "data.graph.node.1.block: expected a mesh"),
-        (|v| v["edge"]["0"]["5"] = v["edge"]["0"]["1"].clone(), "data.graph.edge.0.5: an interface with node \"5\", which has no block"),
-        (|v| v["edge"]["0"]["0"] = v["edge"]["0"]["1"].clone(), "data.graph.edge.0.0: an interface of block \"0\" with itself"),
-        (|v| v["edge"]["0"]["1"]["interfaces"][0]["points"] = json!("?"), "data.graph.edge.0.1.interfaces[0].points: expected a list"),
+        (
+            |v| v["node"]["1"]["block"]["vertex"]["18"] = json!([1, 2]),
+            "data.graph.node.1.block.vertex.18: expected three coordinates",
+        ),
+        (
+            |v| v["node"]["1"]["block"]["vertex"] = json!({}),
+            "data.graph.node.1.block.face.0[0]: the mesh has no vertex 20",
+        ),
+        (
+            |v| v["node"]["1"]["block"]["vertex"] = json!(7),
+            "data.graph.node.1.block.vertex: expected an object, got 7",
+        ),
+        (
+            |v| v["node"]["1"]["block"]["face"]["0"] = json!([20, 18]),
+            "data.graph.node.1.block.face.0: expected three corners or more",
+        ),
+        (
+            |v| v["node"]["1"]["block"]["face"]["0"] = json!([20, 18, 5]),
+            "data.graph.node.1.block.face.0[2]: the mesh has no vertex 5",
+        ),
+        (
+            |v| v["node"]["1"]["is_support"] = json!("yes"),
+            "data.graph.node.1.is_support: expected true or false, got \"yes\"",
+        ),
+        (
+            |v| v["node"]["1"]["block"] = json!({"xsize": 1}),
+            "data.graph.node.1.block: expected a mesh",
+        ),
+        (
+            |v| v["edge"]["0"]["5"] = v["edge"]["0"]["1"].clone(),
+            "data.graph.edge.0.5: an interface with node \"5\", which has no block",
+        ),
+        (
+            |v| v["edge"]["0"]["0"] = v["edge"]["0"]["1"].clone(),
+            "data.graph.edge.0.0: an interface of block \"0\" with itself",
+        ),
+        (
+            |v| v["edge"]["0"]["1"]["interfaces"][0]["points"] = json!("?"),
+            "data.graph.edge.0.1.interfaces[0].points: expected a list",
+        ),
     ];
     for (change, expected) in changes {
         let mut bad = good.clone();
@@ -137,14 +191,22 @@ fn json_errors_name_the_line_or_the_path() {
     assert!(error("x.json", "[".repeat(100_000)).contains("recursion limit"));
     assert!(error("x.json", "[]").contains("no blocks found in this COMPAS JSON file"));
     assert!(error("x.json", "{\"a\": 1}").contains("expected a mesh with \"vertex\" and \"face\""));
-    assert!(error("x.json", "{\"format\": \"voussoir-scene/1\", \"blocks\": []}").contains("use the file as it is"));
+    assert!(
+        error("x.json", "{\"format\": \"voussoir-scene/1\", \"blocks\": []}")
+            .contains("use the file as it is")
+    );
     let skew = json!({"elements": {"a": {"geometry": compas_mesh([0.0; 3]), "transformation": {"matrix": [[1, 0], [0, 1]]}}}});
-    assert!(error("x.json", skew.to_string()).starts_with("x.json: elements.a.transformation.matrix: expected a transformation"));
+    assert!(
+        error("x.json", skew.to_string())
+            .starts_with("x.json: elements.a.transformation.matrix: expected a transformation")
+    );
 }
 
 #[test]
 fn files_that_are_not_there_or_of_no_format_are_said() {
-    let text = import_file(Path::new("no/such.obj"), &ImportOptions::default()).expect_err("not there").to_string();
+    let text = import_file(Path::new("no/such.obj"), &ImportOptions::default())
+        .expect_err("not there")
+        .to_string();
     assert!(text.starts_with("no/such.obj: cannot be read") && text.contains("hint:"), "{text}");
     assert!(error("notes.txt", "hello\n").contains("neither the extension nor the content"));
 }
@@ -154,8 +216,7 @@ fn samples() -> Vec<(&'static str, Vec<u8>)> {
     let seam = json!({"points": [[0, 0, 3], [1, 0, 3], [1, 2, 3]], "frame": {"xaxis": [1, 0, 0], "yaxis": [0, 1, 0]}});
     let node = |z: f64| json!({"block": {"dtype": "B", "data": compas_mesh([0.0, 0.0, z])}});
     let graph = json!({"node": {"0": node(0.0), "1": node(3.0)}, "edge": {"0": {"1": {"interfaces": [seam.clone()]}}}});
-    let element =
-        json!({"geometry": compas_mesh([0.0; 3]), "transformation": {"matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}});
+    let element = json!({"geometry": compas_mesh([0.0; 3]), "transformation": {"matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}});
     let model = json!({"elements": {"a": element, "b": element}, "tree": {"root": {"children": [{"element": "a", "children": [{"element": "b"}]}]}},
         "graph": {"node": {"0": {"element": "a"}, "1": {"element": "b"}}, "edge": {"0": {"1": {"contacts": [seam]}}}}});
     vec![
@@ -174,7 +235,10 @@ fn samples() -> Vec<(&'static str, Vec<u8>)> {
 fn survives(name: &str, bytes: &[u8]) {
     match import(name, bytes) {
         Ok(imported) => check(&imported.scene),
-        Err(error) => assert!(error.file.is_some() && error.hint.is_some() && error.to_string().len() < 2000, "{error}"),
+        Err(error) => assert!(
+            error.file.is_some() && error.hint.is_some() && error.to_string().len() < 2000,
+            "{error}"
+        ),
     }
 }
 

@@ -1,4 +1,5 @@
-//! Importers, by behaviour. The files are written here, but for [`real`], which reads those of other projects where they are at hand.
+//! Importers, by behaviour. The files are written here, but for [`real`], which reads those of
+//! other projects where they are at hand.
 
 mod bad;
 mod compas;
@@ -36,8 +37,19 @@ fn check(scene: &Scene) {
     ids.sort_unstable();
     assert!(ids.windows(2).all(|pair| pair[0] != pair[1]), "ids are unique");
     for interface in &scene.interfaces {
-        assert!(interface.between.iter().all(|id| ids.binary_search(&id.as_str()).is_ok()), "{:?}", interface.between);
-        assert!(interface.points.iter().flatten().chain(interface.normal.iter().flatten()).all(|c| c.is_finite()));
+        assert!(
+            interface.between.iter().all(|id| ids.binary_search(&id.as_str()).is_ok()),
+            "{:?}",
+            interface.between
+        );
+        assert!(
+            interface
+                .points
+                .iter()
+                .flatten()
+                .chain(interface.normal.iter().flatten())
+                .all(|c| c.is_finite())
+        );
     }
     let text = serde_json::to_string(scene).expect("a scene can be written");
     assert_eq!(&serde_json::from_str::<Scene>(&text).expect("and read"), scene, "and is the same");
@@ -50,11 +62,17 @@ fn mesh(block: &BlockSpec) -> (&[[f64; 3]], &[Vec<usize>]) {
     }
 }
 
-/// Volume by the divergence theorem; positive where the faces are counter-clockwise seen from outside.
+/// Volume by the divergence theorem; positive where the faces are counter-clockwise seen from
+/// outside.
 fn volume(block: &BlockSpec) -> f64 {
     let (v, faces) = mesh(block);
     let p = |i: usize| nalgebra::Vector3::from(v[i]);
-    faces.iter().flat_map(|f| f.windows(2).skip(1).map(move |w| p(f[0]).dot(&p(w[0]).cross(&p(w[1]))) / 6.0)).sum()
+    faces
+        .iter()
+        .flat_map(|f| {
+            f.windows(2).skip(1).map(move |w| p(f[0]).dot(&p(w[0]).cross(&p(w[1]))) / 6.0)
+        })
+        .sum()
 }
 
 fn ids(imported: &Imported) -> Vec<&str> {
@@ -67,12 +85,17 @@ fn supports(imported: &Imported) -> Vec<&str> {
 
 /// The finding that contains all of these words.
 fn finding<'a>(imported: &'a Imported, code: FindingCode, words: &[&str]) -> &'a str {
-    let found = imported.findings.iter().find(|f| f.code == code && words.iter().all(|w| f.text.contains(w)));
+    let found = imported
+        .findings
+        .iter()
+        .find(|f| f.code == code && words.iter().all(|w| f.text.contains(w)));
     &found.unwrap_or_else(|| panic!("no {code:?} with {words:?} in {:#?}", imported.findings)).text
 }
 
-/// Faces of a box whose corners are numbered as in [`corners`], counter-clockwise seen from outside.
-const FACES: [[usize; 4]; 6] = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
+/// Faces of a box whose corners are numbered as in [`corners`], counter-clockwise seen from
+/// outside.
+const FACES: [[usize; 4]; 6] =
+    [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
 
 /// Corners of a box of 1 × 2 × 3 with its lowest corner at `origin`.
 fn corners([x, y, z]: [f64; 3]) -> [[f64; 3]; 8] {
@@ -89,27 +112,37 @@ fn corners([x, y, z]: [f64; 3]) -> [[f64; 3]; 8] {
     ]
 }
 
-/// A box in OBJ; `corner` writes one corner of a face from its index, counted from 1 within the box.
+/// A box in OBJ; `corner` writes one corner of a face from its index, counted from 1 within the
+/// box.
 fn obj_box(origin: [f64; 3], corner: impl Fn(usize) -> String) -> String {
     let v: String = corners(origin).iter().map(|[x, y, z]| format!("v {x} {y} {z}\n")).collect();
-    let f: String = FACES.iter().map(|f| format!("f {}\n", f.map(|i| corner(i + 1)).join(" "))).collect();
+    let f: String =
+        FACES.iter().map(|f| format!("f {}\n", f.map(|i| corner(i + 1)).join(" "))).collect();
     v + &f
 }
 
-/// A box as the data of a COMPAS mesh; the keys of its vertices do not start at 0 and are not in order.
+/// A box as the data of a COMPAS mesh; the keys of its vertices do not start at 0 and are not in
+/// order.
 fn compas_mesh(origin: [f64; 3]) -> serde_json::Value {
     let key = |i: usize| (20 - 2 * i).to_string();
-    let vertex: serde_json::Map<_, _> =
-        corners(origin).iter().enumerate().map(|(i, [x, y, z])| (key(i), serde_json::json!({"x": x, "y": y, "z": z}))).collect();
-    let face: serde_json::Map<_, _> =
-        FACES.iter().enumerate().map(|(i, f)| (i.to_string(), serde_json::json!(f.map(|c| 20 - 2 * c)))).collect();
+    let vertex: serde_json::Map<_, _> = corners(origin)
+        .iter()
+        .enumerate()
+        .map(|(i, [x, y, z])| (key(i), serde_json::json!({"x": x, "y": y, "z": z})))
+        .collect();
+    let face: serde_json::Map<_, _> = FACES
+        .iter()
+        .enumerate()
+        .map(|(i, f)| (i.to_string(), serde_json::json!(f.map(|c| 20 - 2 * c))))
+        .collect();
     serde_json::json!({"attributes": {}, "default_vertex_attributes": {"x": 0.0, "y": 0.0, "z": 0.0}, "vertex": vertex, "face": face})
 }
 
 /// An ASCII PLY of a box.
 fn ply_box() -> String {
     let v: String = corners([0.0; 3]).iter().map(|[x, y, z]| format!("{x} {y} {z}\n")).collect();
-    let f: String = FACES.iter().map(|f| format!("4 {}\n", f.map(|i| i.to_string()).join(" "))).collect();
+    let f: String =
+        FACES.iter().map(|f| format!("4 {}\n", f.map(|i| i.to_string()).join(" "))).collect();
     let header = "ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\n";
     format!("{header}element face 6\nproperty list uchar int vertex_indices\nend_header\n{v}{f}")
 }
@@ -153,7 +186,10 @@ fn stl_ascii(name: &str) -> String {
         let v = t.map(|[x, y, z]| format!("vertex {x} {y} {z}\n")).concat();
         format!("facet normal 0 0 0\nouter loop\n{v}endloop\nendfacet\n")
     };
-    format!("solid {name}\n{}endsolid {name}\n", triangles().into_iter().map(facet).collect::<String>())
+    format!(
+        "solid {name}\n{}endsolid {name}\n",
+        triangles().into_iter().map(facet).collect::<String>()
+    )
 }
 
 fn stl_binary(title: &str) -> Vec<u8> {

@@ -1,4 +1,5 @@
-//! Files of other projects (see the README of the shared data folder); every test says so where they are not at hand.
+//! Files of other projects (see the README of the shared data folder); every test says so where
+//! they are not at hand.
 
 use super::*;
 use std::path::PathBuf;
@@ -33,8 +34,15 @@ fn compas_assemblies_have_their_blocks_supports_and_interfaces() {
     ] {
         let Some(imported) = real(file, &ImportOptions::default()) else { continue };
         let scene = &imported.scene;
-        assert_eq!((scene.blocks.len(), supports(&imported).len(), scene.interfaces.len()), (blocks, supported, interfaces), "{file}");
-        assert!(scene.blocks.iter().enumerate().all(|(i, b)| b.id == i.to_string()), "{file}: ids are the keys, in numeric order");
+        assert_eq!(
+            (scene.blocks.len(), supports(&imported).len(), scene.interfaces.len()),
+            (blocks, supported, interfaces),
+            "{file}"
+        );
+        assert!(
+            scene.blocks.iter().enumerate().all(|(i, b)| b.id == i.to_string()),
+            "{file}: ids are the keys, in numeric order"
+        );
         assert!(scene.blocks.iter().all(|b| volume(b) > 0.0), "{file}: faces look outward");
         if supported == 0 {
             finding(&imported, FindingCode::Missing, &["no block is a support"]);
@@ -46,7 +54,8 @@ fn compas_assemblies_have_their_blocks_supports_and_interfaces() {
 fn stored_normals_point_from_the_first_block_into_the_second() {
     let centre = |block: &BlockSpec| {
         let (vertices, _) = mesh(block);
-        vertices.iter().map(|v| nalgebra::Vector3::from(*v)).sum::<nalgebra::Vector3<f64>>() / vertices.len() as f64
+        vertices.iter().map(|v| nalgebra::Vector3::from(*v)).sum::<nalgebra::Vector3<f64>>()
+            / vertices.len() as f64
     };
     for file in ["assembly-crossvault.json", "assembly-wall.json", "assembly-stack.json"] {
         let Some(imported) = real(file, &ImportOptions::default()) else { continue };
@@ -56,13 +65,18 @@ fn stored_normals_point_from_the_first_block_into_the_second() {
             let normal = nalgebra::Vector3::from(interface.normal.expect("stored with a frame"));
             assert!(normal.dot(&(centre(block(b)) - centre(block(a)))) > 0.0, "{file}: {a}–{b}");
         }
-        assert!(imported.findings.iter().all(|f| f.code != FindingCode::LeftOut), "{file}: {:?}", imported.findings);
+        assert!(
+            imported.findings.iter().all(|f| f.code != FindingCode::LeftOut),
+            "{file}: {:?}",
+            imported.findings
+        );
     }
 }
 
 #[test]
 fn supports_can_be_named_by_node_key() {
-    let options = ImportOptions { supports: ["0", "1"].map(String::from).into(), ..ImportOptions::default() };
+    let options =
+        ImportOptions { supports: ["0", "1"].map(String::from).into(), ..ImportOptions::default() };
     if let Some(imported) = real("cra-bridge.json", &options) {
         assert_eq!(supports(&imported), ["0", "1"]);
     }
@@ -71,14 +85,31 @@ fn supports_can_be_named_by_node_key() {
 #[test]
 fn the_proposed_supports_are_those_the_structures_have() {
     let armadillo: Vec<usize> = (0..=7).chain(79..=88).chain(217..=227).chain(328..=331).collect();
-    for (file, expected) in
-        [("cra-H.json", vec![0, 1]), ("cra-bridge.json", vec![0, 1]), ("cra-cubes.json", vec![0]), ("cra-armadillo.json", armadillo)]
-    {
+    for (file, expected) in [
+        ("cra-H.json", vec![0, 1]),
+        ("cra-bridge.json", vec![0, 1]),
+        ("cra-cubes.json", vec![0]),
+        ("cra-armadillo.json", armadillo),
+    ] {
         let Some(imported) = real(file, &ImportOptions::default()) else { continue };
         let text = finding(&imported, FindingCode::Missing, &["--support-below"]);
-        let height = text.split("--support-below ").nth(1).and_then(|t| t.split('`').next()).expect("proposed").parse().expect("a number");
-        let Some(again) = real(file, &ImportOptions { support_below: Some(height), ..ImportOptions::default() }) else { continue };
-        assert_eq!(supports(&again), expected.iter().map(usize::to_string).collect::<Vec<_>>(), "{file}");
+        let height = text
+            .split("--support-below ")
+            .nth(1)
+            .and_then(|t| t.split('`').next())
+            .expect("proposed")
+            .parse()
+            .expect("a number");
+        let Some(again) =
+            real(file, &ImportOptions { support_below: Some(height), ..ImportOptions::default() })
+        else {
+            continue;
+        };
+        assert_eq!(
+            supports(&again),
+            expected.iter().map(usize::to_string).collect::<Vec<_>>(),
+            "{file}"
+        );
     }
 }
 
@@ -95,7 +126,9 @@ fn a_height_selects_the_supports_stored_in_the_wall() {
 
 #[test]
 fn obj_files_have_one_block_per_object() {
-    for (file, blocks, first) in [("dem-crossvault.obj", 184, "Mesh 0"), ("dem-wall.obj", 38, "Mesh_0")] {
+    for (file, blocks, first) in
+        [("dem-crossvault.obj", 184, "Mesh 0"), ("dem-wall.obj", 38, "Mesh_0")]
+    {
         let Some(imported) = real(file, &ImportOptions::default()) else { continue };
         assert_eq!((imported.scene.blocks.len(), ids(&imported)[0]), (blocks, first), "{file}");
     }
@@ -103,9 +136,16 @@ fn obj_files_have_one_block_per_object() {
 
 #[test]
 fn the_pavilion_vault_comes_in_two_files() {
-    let (Some(blocks), Some(ground)) = (path("dem-pavillionvault/blocks.json"), path("dem-pavillionvault/supports.json")) else { return };
-    let imported =
-        import_file(&blocks, &ImportOptions { support_files: vec![ground], ..ImportOptions::default() }).unwrap_or_else(|e| panic!("{e}"));
+    let (Some(blocks), Some(ground)) =
+        (path("dem-pavillionvault/blocks.json"), path("dem-pavillionvault/supports.json"))
+    else {
+        return;
+    };
+    let imported = import_file(
+        &blocks,
+        &ImportOptions { support_files: vec![ground], ..ImportOptions::default() },
+    )
+    .unwrap_or_else(|e| panic!("{e}"));
     check(&imported.scene);
     assert_eq!((imported.scene.blocks.len(), supports(&imported).len()), (387, 10));
     assert!(supports(&imported).iter().all(|id| id.starts_with("supports-")));

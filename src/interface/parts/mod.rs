@@ -1,6 +1,7 @@
-//! Independent parts: free blocks that are joined by contacts. Supports do not join, for they do not move and take any force: what rests on
-//! one ground slab in two places does not feel each other. Loads, forces and rates of one part say nothing about another, so each is
-//! a problem of its own, in units and about an origin of its own ([`Units`]).
+//! Independent parts: free blocks that are joined by contacts. Supports do not join, for they do
+//! not move and take any force: what rests on one ground slab in two places does not feel each
+//! other. Loads, forces and rates of one part say nothing about another, so each is a problem of
+//! its own, in units and about an origin of its own ([`Units`]).
 
 mod units;
 
@@ -17,19 +18,20 @@ use nalgebra::Vector3;
 /// A part of a scene, made ready to be asked by itself.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Its blocks in the scene, in order: the free ones and the supports that they touch. Block `i` of the part is `blocks[i]` there.
+    /// Its blocks in the scene, in order: the free ones and the supports that they touch. Block `i`
+    /// of the part is `blocks[i]` there.
     pub blocks: Vec<usize>,
     /// Its contacts in the scene, in order.
     pub contacts: Vec<usize>,
     /// What its numbers count.
     pub units: Units,
-    /// The blocks, loads and contacts, in these units. Shapes stay behind (a solid has its volume and nothing else), and so do findings and
-    /// whatever contacts are detected by.
+    /// The blocks, loads and contacts, in these units. Shapes stay behind (a solid has its volume
+    /// and nothing else), and so do findings and whatever contacts are detected by.
     pub model: Model,
 }
 
-/// The independent parts of a scene, in the order of their first free blocks. Each free block is in one of them; a support is in as many
-/// as it touches, and in none where it touches nothing.
+/// The independent parts of a scene, in the order of their first free blocks. Each free block is in
+/// one of them; a support is in as many as it touches, and in none where it touches nothing.
 pub fn parts(model: &Model) -> Vec<Part> {
     let Model { assembly, interfaces, .. } = model;
     let members = members(model);
@@ -99,19 +101,30 @@ impl Part {
         let Members { free, contacts, dead_forces, live_forces } = members;
         let faces = || contacts.iter().map(|&k| &interfaces.list[k]);
         let units = Units::of(assembly, &free, faces().flat_map(|f| f.points.iter().copied()));
-        let mut blocks: Vec<usize> = free.iter().copied().chain(faces().flat_map(|f| [f.a, f.b])).collect();
+        let mut blocks: Vec<usize> =
+            free.iter().copied().chain(faces().flat_map(|f| [f.a, f.b])).collect();
         blocks.sort_unstable();
         blocks.dedup();
         blocks.iter().enumerate().for_each(|(own, &i)| place[i] = own);
         let list = faces().map(|f| contact(f, &units, place)).collect();
         let applied = |list: &[AppliedForce], unit: f64| {
-            list.iter().map(|a| AppliedForce { block: place[a.block], force: a.force / unit, arm: a.arm / units.length }).collect()
+            list.iter()
+                .map(|a| AppliedForce {
+                    block: place[a.block],
+                    force: a.force / unit,
+                    arm: a.arm / units.length,
+                })
+                .collect()
         };
         let assembly = Assembly {
             name: assembly.name.clone(),
             gravity: assembly.gravity / units.acceleration,
             blocks: blocks.iter().map(|&i| block(&assembly.blocks[i], &units)).collect(),
-            joints: JointRules { default: None, by_material: Vec::new(), by_blocks: Default::default() },
+            joints: JointRules {
+                default: None,
+                by_material: Vec::new(),
+                by_blocks: Default::default(),
+            },
             dead: blocks.iter().map(|&i| units.inward(&assembly.dead[i])).collect(),
             live: blocks.iter().map(|&i| units.live(&assembly.live[i])).collect(),
             dead_forces: applied(&dead_forces, units.force),
@@ -146,7 +159,10 @@ impl Part {
 
     /// Its contact forces, per contact and point, from those of the scene (N, N·m).
     pub fn take_forces(&self, scene: &[Vec<Wrench>]) -> Vec<Vec<Wrench>> {
-        self.contacts.iter().map(|&k| scene[k].iter().map(|w| self.units.inward(w)).collect()).collect()
+        self.contacts
+            .iter()
+            .map(|&k| scene[k].iter().map(|w| self.units.inward(w)).collect())
+            .collect()
     }
 
     /// Puts its contact forces among those of the scene (N, N·m).
@@ -169,7 +185,10 @@ fn block(block: &Block, units: &Units) -> Block {
         centroid: units.place(&block.centroid),
         inertia: block.inertia * density / length / length,
         gyration: block.gyration.in_units(length),
-        solid: Solid::Clump { balls: Vec::new(), volume: block.solid.volume() / length / length / length },
+        solid: Solid::Clump {
+            balls: Vec::new(),
+            volume: block.solid.volume() / length / length / length,
+        },
         size: block.size / length,
     }
 }

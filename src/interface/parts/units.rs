@@ -1,7 +1,9 @@
-//! The units that a part is computed in: powers of two, so that changing to them and back changes no digit.
+//! The units that a part is computed in: powers of two, so that changing to them and back changes
+//! no digit.
 //!
-//! With them the greatest load, the greatest block and the strength of gravity are numbers near one, so that no square of a force or of
-//! a length under- or overflows, whatever the density; and a part alone is the same numbers as a part among others.
+//! With them the greatest load, the greatest block and the strength of gravity are numbers near
+//! one, so that no square of a force or of a length under- or overflows, whatever the density; and
+//! a part alone is the same numbers as a part among others.
 
 use crate::assembly::{Assembly, Wrench};
 use nalgebra::Vector3;
@@ -21,20 +23,29 @@ pub struct Units {
     pub origin: Vector3<f64>,
 }
 
-/// A part is moved to an origin of its own along an axis where it is this many times as far from zero as it is wide. Larger: forces at
-/// survey coordinates are excused by the rounding of the coordinates. Smaller: nothing is gained.
+/// A part is moved to an origin of its own along an axis where it is this many times as far from
+/// zero as it is wide. Larger: forces at survey coordinates are excused by the rounding of the
+/// coordinates. Smaller: nothing is gained.
 const FAR: f64 = 64.0;
 
 impl Units {
     /// Units for these free blocks, whose contacts have these points.
-    pub(super) fn of(assembly: &Assembly, free: &[usize], points: impl Iterator<Item = Vector3<f64>>) -> Self {
+    pub(super) fn of(
+        assembly: &Assembly,
+        free: &[usize],
+        points: impl Iterator<Item = Vector3<f64>>,
+    ) -> Self {
         let weight = |i: usize| assembly.blocks[i].mass * assembly.gravity.amax();
-        let greatest = |loads: &[Wrench]| free.iter().map(|&i| amount(assembly, i, &loads[i])).fold(0.0, f64::max);
+        let greatest = |loads: &[Wrench]| {
+            free.iter().map(|&i| amount(assembly, i, &loads[i])).fold(0.0, f64::max)
+        };
         let own = free.iter().map(|&i| weight(i)).fold(greatest(&assembly.dead), f64::max);
         let live = greatest(&assembly.live);
         let force = power_of_two(if own > 0.0 { own } else { live });
-        let length = power_of_two(free.iter().map(|&i| assembly.blocks[i].size).fold(0.0, f64::max));
-        let places: Vec<Vector3<f64>> = free.iter().map(|&i| assembly.blocks[i].centroid).chain(points).collect();
+        let length =
+            power_of_two(free.iter().map(|&i| assembly.blocks[i].size).fold(0.0, f64::max));
+        let places: Vec<Vector3<f64>> =
+            free.iter().map(|&i| assembly.blocks[i].centroid).chain(points).collect();
         Self {
             force,
             live: if live > 0.0 { power_of_two(live) } else { force },
@@ -102,12 +113,16 @@ fn power_of_two(x: f64) -> f64 {
     if power.is_normal() { power } else { 1.0 }
 }
 
-/// The coordinate nearest to zero where all are far from it beside their spread, else zero. With `y / 2 ≤ x ≤ 2 y` for all of them `x − y` is
-/// exact (Sterbenz 1974): moving a part rounds nothing.
+/// The coordinate nearest to zero where all are far from it beside their spread, else zero. With `y
+/// / 2 ≤ x ≤ 2 y` for all of them `x − y` is exact (Sterbenz 1974): moving a part rounds nothing.
 fn origin(coordinates: impl Iterator<Item = f64>) -> f64 {
-    let (low, high) = coordinates.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    let (low, high) =
+        coordinates.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     let nearest = if low > 0.0 { low } else { high };
-    let far = low.is_finite() && high.is_finite() && low * high > 0.0 && nearest.abs() > FAR * (high - low);
+    let far = low.is_finite()
+        && high.is_finite()
+        && low * high > 0.0
+        && nearest.abs() > FAR * (high - low);
     if far { nearest } else { 0.0 }
 }
 
@@ -117,7 +132,15 @@ mod tests {
 
     #[test]
     fn powers_of_two_and_origins() {
-        for (x, power) in [(1.0, 1.0), (1.5, 1.0), (-3.0, 2.0), (0.3, 0.25), (1e-300, 2f64.powi(-997)), (0.0, 1.0), (f64::NAN, 1.0)] {
+        for (x, power) in [
+            (1.0, 1.0),
+            (1.5, 1.0),
+            (-3.0, 2.0),
+            (0.3, 0.25),
+            (1e-300, 2f64.powi(-997)),
+            (0.0, 1.0),
+            (f64::NAN, 1.0),
+        ] {
             assert_eq!(power_of_two(x), power, "{x}");
         }
         assert_eq!(origin([5e6, 5e6 + 3.0].into_iter()), 5e6);

@@ -13,7 +13,8 @@ use std::collections::{HashMap, hash_map::Entry};
 pub struct BlockOrbit {
     /// Each image once, with an element of the group that takes the block there.
     pub images: Vec<(usize, usize)>,
-    /// Orthonormal directions, as columns, of the row coordinates in which the block needs to be balanced; `None` for all.
+    /// Orthonormal directions, as columns, of the row coordinates in which the block needs to be
+    /// balanced; `None` for all.
     pub directions: Option<DMatrix<f64>>,
 }
 
@@ -59,10 +60,22 @@ pub struct Orbits {
 }
 
 impl Part {
-    /// The reduction of the free blocks and bearings of a scene; `None` where a bearing has no image among the bearings.
-    pub fn new(symmetry: &Symmetry, free: impl Iterator<Item = usize>, bearings: &[Bearing], plane: Option<Plane>) -> Option<Self> {
-        let mut orbits = Orbits { name: symmetry.name(), elements: symmetry.elements(), home: HashMap::new(), plane };
-        // A turn goes back by the rest of a whole one; whatever contains the mirror is its own inverse.
+    /// The reduction of the free blocks and bearings of a scene; `None` where a bearing has no
+    /// image among the bearings.
+    pub fn new(
+        symmetry: &Symmetry,
+        free: impl Iterator<Item = usize>,
+        bearings: &[Bearing],
+        plane: Option<Plane>,
+    ) -> Option<Self> {
+        let mut orbits = Orbits {
+            name: symmetry.name(),
+            elements: symmetry.elements(),
+            home: HashMap::new(),
+            plane,
+        };
+        // A turn goes back by the rest of a whole one; whatever contains the mirror is its own
+        // inverse.
         let turns = symmetry.turn.as_ref().map_or(1, |t| t.0);
         let inverse = |g: usize| if g < turns { (turns - g) % turns } else { g };
         let mut blocks = HashMap::new();
@@ -81,8 +94,11 @@ impl Part {
             let still: Vec<usize> = (0..all.len()).filter(|&g| all[g] == i).collect();
             blocks.insert(i, BlockOrbit { images, directions: orbits.invariant(&still) });
         }
-        let place: HashMap<(usize, usize), usize> =
-            bearings.iter().enumerate().flat_map(|(k, b)| b.points.map(|p| ((b.interface, p), k))).collect();
+        let place: HashMap<(usize, usize), usize> = bearings
+            .iter()
+            .enumerate()
+            .flat_map(|(k, b)| b.points.map(|p| ((b.interface, p), k)))
+            .collect();
         let mut seen = vec![false; bearings.len()];
         let (mut list, mut column) = (Vec::new(), 0);
         for (k, bearing) in bearings.iter().enumerate() {
@@ -137,7 +153,8 @@ impl Orbits {
         Wrench { force: turn * w.force, moment: turn * w.moment * turn.determinant() }
     }
 
-    /// An element of the group on row coordinates: force and moment over the radius of gyration, in the plane or in space.
+    /// An element of the group on row coordinates: force and moment over the radius of gyration, in
+    /// the plane or in space.
     pub fn rows(&self, element: usize) -> DMatrix<f64> {
         let turn = &self.elements[element];
         match self.plane {
@@ -154,13 +171,15 @@ impl Orbits {
         }
     }
 
-    /// An orthonormal basis of the row coordinates that none of these elements changes; `None` where that is all of them.
+    /// An orthonormal basis of the row coordinates that none of these elements changes; `None`
+    /// where that is all of them.
     fn invariant(&self, still: &[usize]) -> Option<DMatrix<f64>> {
         if still.len() < 2 {
             return None;
         }
         let d = if self.plane.is_some() { 3 } else { 6 };
-        let mean = still.iter().map(|&g| self.rows(g)).fold(DMatrix::zeros(d, d), |a, b| a + b) / still.len() as f64;
+        let mean = still.iter().map(|&g| self.rows(g)).fold(DMatrix::zeros(d, d), |a, b| a + b)
+            / still.len() as f64;
         let mut basis: Vec<DVector<f64>> = Vec::new();
         for k in 0..d {
             let mut v: DVector<f64> = mean.column(k).into();

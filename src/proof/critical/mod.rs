@@ -115,12 +115,15 @@ impl Side {
 
     /// Its verdict, where it is proved.
     pub fn verdict(&self) -> Option<Verdict> {
-        self.answer.verdict().filter(|v| *v != Verdict::Undecided && self.certificate.claim.is_some())
+        self.answer
+            .verdict()
+            .filter(|v| *v != Verdict::Undecided && self.certificate.claim.is_some())
     }
 }
 
 impl FlipResult {
-    /// The value with its ends, where both are proved and differ: near together, or the middle of what the scan leaves.
+    /// The value with its ends, where both are proved and differ: near together, or the middle of
+    /// what the scan leaves.
     pub fn proved(&self) -> Option<CriticalValue> {
         let (below, above) = (self.below.verdict()?, self.above.verdict()?);
         let (lower, upper) = (self.below.value, self.above.value);
@@ -146,7 +149,8 @@ fn middle(lower: f64, upper: f64) -> f64 {
 pub fn exhausted(file: &ResultFile) -> Option<Verdict> {
     let c = file.critical.as_ref()?;
     let first = c.ends.first()?.verdict()?;
-    let same = c.scan.iter().all(|s| s.verdict == Some(first)) && c.ends.iter().all(|e| e.verdict() == Some(first));
+    let same = c.scan.iter().all(|s| s.verdict == Some(first))
+        && c.ends.iter().all(|e| e.verdict() == Some(first));
     (same && c.flips.is_empty() && c.ends.len() == 2).then_some(first)
 }
 
@@ -159,7 +163,11 @@ impl ResultFile {
             .map(|f| {
                 // Ends that are far apart prove no more than that there is a flip between them.
                 let known = f.method != Method::Scan && is_narrow(f.below.value, f.above.value);
-                let (value, method) = if known { (f.value, f.method) } else { (middle(f.below.value, f.above.value), Method::Scan) };
+                let (value, method) = if known {
+                    (f.value, f.method)
+                } else {
+                    (middle(f.below.value, f.above.value), Method::Scan)
+                };
                 FlipResult { value, method, below: Side::of(&f.below), above: Side::of(&f.above) }
             })
             .collect();

@@ -1,4 +1,5 @@
-//! Results of `thrust`: both ends of its range, the line of thrust at every section, the geometric safety factor.
+//! Results of `thrust`: both ends of its range, the line of thrust at every section, the geometric
+//! safety factor.
 
 mod verify;
 
@@ -140,15 +141,22 @@ impl ResultFile {
     /// The result of `thrust`. Where the scene does not stand, it is the verdict.
     pub fn thrust(scene: &Scene, model: &Model, t: &Thrust) -> Self {
         let [least, greatest] = &t.ends[..] else {
-            let mut file =
-                Self::new(QuestionKind::Thrust, scene, model, Answer::Verdict(assessment(&t.standing)), certificate(model, &t.standing));
+            let mut file = Self::new(
+                QuestionKind::Thrust,
+                scene,
+                model,
+                Answer::Verdict(assessment(&t.standing)),
+                certificate(model, &t.standing),
+            );
             file.mechanism = t.standing.mechanism.as_ref().map(|m| super::result::words(model, m));
             file.trace.clone_from(&t.standing.attempts);
             file.warn(&t.standing);
             return file;
         };
         let (shrunk, without_factor, value) = match &t.factor {
-            Some(Geometric::Found(flip)) => (vec![&flip.stands, &flip.falls], None, Some(1.0 / flip.value)),
+            Some(Geometric::Found(flip)) => {
+                (vec![&flip.stands, &flip.falls], None, Some(1.0 / flip.value))
+            }
             Some(Geometric::Beyond(probe)) => (vec![&**probe], None, None),
             Some(Geometric::Open(why)) => (Vec::new(), Some(why.clone()), None),
             None => (Vec::new(), None, None),
@@ -162,10 +170,25 @@ impl ResultFile {
             greatest: greatest.into(),
             geometric_factor: factor(&shrunk, value),
         };
-        let mut file = Self::new(QuestionKind::Thrust, scene, model, Answer::Thrust(Box::new(answer)), Certificate::none());
-        let lines = table(model, [least, greatest].map(|e| (e.outcome == Outcome::Found).then_some(&e.forces)));
+        let mut file = Self::new(
+            QuestionKind::Thrust,
+            scene,
+            model,
+            Answer::Thrust(Box::new(answer)),
+            Certificate::none(),
+        );
+        let lines = table(
+            model,
+            [least, greatest].map(|e| (e.outcome == Outcome::Found).then_some(&e.forces)),
+        );
         let [low, high] = [least, greatest].map(|end| certificate(model, end));
-        file.thrust = Some(ThrustResult { least: low, greatest: high, shrunk, without_factor, sections: lines });
+        file.thrust = Some(ThrustResult {
+            least: low,
+            greatest: high,
+            shrunk,
+            without_factor,
+            sections: lines,
+        });
         file.left_out.clone_from(&least.left_out);
         file.trace = least.attempts.iter().chain(&greatest.attempts).cloned().collect();
         [least, greatest].into_iter().for_each(|end| file.warn(end));
@@ -178,23 +201,41 @@ impl From<&Proved<ThrustEnd>> for ThrustValue {
     fn from(e: &Proved<ThrustEnd>) -> Self {
         let finite = |v: f64| v.is_finite().then_some(v);
         let value = (e.outcome == Outcome::Found).then_some(e.value);
-        Self { status: e.outcome, value, lower: finite(e.bracket.lower), upper: finite(e.bracket.upper) }
+        Self {
+            status: e.outcome,
+            value,
+            lower: finite(e.bracket.lower),
+            upper: finite(e.bracket.upper),
+        }
     }
 }
 
 /// The factor that shrunk sections prove: a value only where the two sides are near each other.
 fn factor(shrunk: &[Side], value: Option<f64>) -> Option<Factor> {
     let proved = |s: &&Side| s.verdict().is_some();
-    let (lower, upper) = (1.0 / shrunk.first().filter(proved)?.value, shrunk.get(1).filter(proved).map(|s| 1.0 / s.value));
-    let is_known = |v: &f64| upper.is_some_and(|u| lower <= *v && *v <= u && u - lower <= tolerance::CRITICAL_BRACKET * u);
+    let (lower, upper) = (
+        1.0 / shrunk.first().filter(proved)?.value,
+        shrunk.get(1).filter(proved).map(|s| 1.0 / s.value),
+    );
+    let is_known = |v: &f64| {
+        upper
+            .is_some_and(|u| lower <= *v && *v <= u && u - lower <= tolerance::CRITICAL_BRACKET * u)
+    };
     Some(Factor { value: value.filter(is_known), lower, upper })
 }
 
 /// The line of thrust for up to two sets of forces.
 fn table(model: &Model, forces: [Option<&crate::verdict::Forces>; 2]) -> Vec<ThrustSection> {
     let [least, greatest] = forces.map(|f| f.map(|f| sections(&model.interfaces, f)));
-    let line = |s: &Option<Vec<SectionForce>>, k: usize| s.as_ref().and_then(|s| s.get(k)).map(Line::from);
+    let line =
+        |s: &Option<Vec<SectionForce>>, k: usize| s.as_ref().and_then(|s| s.get(k)).map(Line::from);
     let id = |i: usize| model.assembly.blocks[i].id.clone();
     let faces = model.interfaces.list.iter().enumerate();
-    faces.map(|(k, f)| ThrustSection { between: [id(f.a), id(f.b)], least: line(&least, k), greatest: line(&greatest, k) }).collect()
+    faces
+        .map(|(k, f)| ThrustSection {
+            between: [id(f.a), id(f.b)],
+            least: line(&least, k),
+            greatest: line(&greatest, k),
+        })
+        .collect()
 }

@@ -1,4 +1,5 @@
-//! Verifying thrusts: both ends from their forces and mechanisms, the factor from the shrunk sections, the table from the forces.
+//! Verifying thrusts: both ends from their forces and mechanisms, the factor from the shrunk
+//! sections, the table from the forces.
 
 use super::{ThrustSection, ThrustValue, factor, table};
 use crate::{
@@ -20,7 +21,8 @@ use crate::{
 pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     let (said, proof) = match (file.answer.thrust(), &file.thrust) {
         (None, None) => {
-            let (mut f, rates) = answer(model, QuestionKind::Assess, &file.answer, &file.certificate, all.refuted());
+            let (mut f, rates) =
+                answer(model, QuestionKind::Assess, &file.answer, &file.certificate, all.refuted());
             mechanism_words(&mut f, file, model, rates.as_deref());
             return all.part("answer", f);
         }
@@ -44,7 +46,9 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     }
     all.claimed = proof.least.claim.is_some() || proof.greatest.claim.is_some();
     let value = said.geometric_factor.and_then(|f| f.value);
-    let between = said.geometric_factor.is_none_or(|f| f.value.is_none_or(|v| f.lower <= v && f.upper.is_some_and(|u| v <= u)));
+    let between = said
+        .geometric_factor
+        .is_none_or(|f| f.value.is_none_or(|v| f.lower <= v && f.upper.is_some_and(|u| v <= u)));
     let order = match &proof.shrunk[..] {
         [stands, falls] => {
             let verdicts = (stands.verdict(), falls.verdict());
@@ -59,13 +63,24 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     );
     if let [least, greatest] = &found[..] {
         let here = table(model, [least.as_ref(), greatest.as_ref()]);
-        require(&mut form, same(&here, &proof.sections), format!("the line of thrust is that of the forces, at {} sections", here.len()));
+        require(
+            &mut form,
+            same(&here, &proof.sections),
+            format!("the line of thrust is that of the forces, at {} sections", here.len()),
+        );
     }
     all.part("answer", form);
     for side in &proof.shrunk {
         let sane = side.value > 0.0 && side.value <= 1.0;
         let findings = if sane {
-            answer(&shrunk_model(model, side.value), QuestionKind::Assess, &side.answer, &side.certificate, all.refuted()).0
+            answer(
+                &shrunk_model(model, side.value),
+                QuestionKind::Assess,
+                &side.answer,
+                &side.certificate,
+                all.refuted(),
+            )
+            .0
         } else {
             failure("sections cannot be shrunk by this")
         };
@@ -74,7 +89,13 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
 }
 
 /// One end of the range; gives back its forces where they could be read.
-fn end(model: &Model, here: ThrustAt, wanted: Extreme, said: &ThrustValue, evidence: &Certificate) -> (Findings, Option<Forces>) {
+fn end(
+    model: &Model,
+    here: ThrustAt,
+    wanted: Extreme,
+    said: &ThrustValue,
+    evidence: &Certificate,
+) -> (Findings, Option<Forces>) {
     let mut f = Findings::default();
     let numbers = (said.value, said.lower, said.upper);
     let agrees = match (&evidence.claim, said.status) {
@@ -83,7 +104,9 @@ fn end(model: &Model, here: ThrustAt, wanted: Extreme, said: &ThrustValue, evide
             return (f, None);
         }
         (Some(Claim::Thrust { at, extreme, value, lower, upper }), Outcome::Found) => {
-            *at == here && *extreme == wanted && numbers == (Some(*value), Some(*lower), Some(*upper))
+            *at == here
+                && *extreme == wanted
+                && numbers == (Some(*value), Some(*lower), Some(*upper))
         }
         (Some(Claim::EndlessThrust { at, extreme }), Outcome::Unbounded) => {
             *at == here && *extreme == wanted && numbers == (None, None, None)
@@ -98,7 +121,11 @@ fn end(model: &Model, here: ThrustAt, wanted: Extreme, said: &ThrustValue, evide
     };
     match (read(), &evidence.claim) {
         (Ok((forces, base, rates)), Some(claim)) => {
-            let claimed = check::verify(model, claim, Evidence { forces: &forces, base: base.as_ref(), rates: &rates });
+            let claimed = check::verify(
+                model,
+                claim,
+                Evidence { forces: &forces, base: base.as_ref(), rates: &rates },
+            );
             f.holds.extend(claimed.holds);
             f.fails.extend(claimed.fails);
             (f, Some(forces))
@@ -112,7 +139,12 @@ fn end(model: &Model, here: ThrustAt, wanted: Extreme, said: &ThrustValue, evide
 }
 
 fn same(here: &[ThrustSection], said: &[ThrustSection]) -> bool {
-    let largest = here.iter().flat_map(|s| [s.least, s.greatest]).flatten().map(|l| l.normal.abs()).fold(0.0, f64::max);
+    let largest = here
+        .iter()
+        .flat_map(|s| [s.least, s.greatest])
+        .flatten()
+        .map(|l| l.normal.abs())
+        .fold(0.0, f64::max);
     let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= SAME * scale.max(a.abs());
     let lines = |a: &Option<super::Line>, b: &Option<super::Line>| match (a, b) {
         (None, None) => true,
@@ -129,5 +161,7 @@ fn same(here: &[ThrustSection], said: &[ThrustSection]) -> bool {
         _ => false,
     };
     here.len() == said.len()
-        && here.iter().zip(said).all(|(a, b)| a.between == b.between && lines(&a.least, &b.least) && lines(&a.greatest, &b.greatest))
+        && here.iter().zip(said).all(|(a, b)| {
+            a.between == b.between && lines(&a.least, &b.least) && lines(&a.greatest, &b.greatest)
+        })
 }

@@ -1,7 +1,9 @@
-//! What is computed and not proved is computed again: that states under dry friction come to rest, or move.
+//! What is computed and not proved is computed again: that states under dry friction come to rest,
+//! or move.
 //!
-//! That admissible forces exist is proved from forces alone; that the loads produce such forces is not: of that there is a state, not a
-//! theorem. Nothing that a file says about it is believed either, so the state is asked again, once all else holds.
+//! That admissible forces exist is proved from forces alone; that the loads produce such forces is
+//! not: of that there is a state, not a theorem. Nothing that a file says about it is believed
+//! either, so the state is asked again, once all else holds.
 
 use super::{failure, require};
 use crate::{
@@ -25,7 +27,8 @@ use crate::{
 /// The model at a load factor or tilt, as joints with strengths are there.
 pub(super) type At<'a> = &'a dyn Fn(f64) -> Result<Model, InputError>;
 
-/// Of what stands: the loads produce such forces by themselves, or that was not asked, which is said.
+/// Of what stands: the loads produce such forces by themselves, or that was not asked, which is
+/// said.
 pub(super) fn stands(f: &mut Findings, model: &Model, law: Option<Law>) {
     if law == Some(Law::Associative) {
         return f.holds.push("whether the loads produce such forces by themselves was not asked: they may need a pre-stress".into());
@@ -42,27 +45,53 @@ pub(super) fn stands(f: &mut Findings, model: &Model, law: Option<Law>) {
     }
 }
 
-/// A load factor with dry friction: its evidence where it claims something, and what its states do; `bound` is the associative answer.
-pub(super) fn dry_friction(at: At, bound: (&Answer, &Certificate), dry: &DryResult, refuted: bool) -> Findings {
+/// A load factor with dry friction: its evidence where it claims something, and what its states do;
+/// `bound` is the associative answer.
+pub(super) fn dry_friction(
+    at: At,
+    bound: (&Answer, &Certificate),
+    dry: &DryResult,
+    refuted: bool,
+) -> Findings {
     let mut f = match (&dry.certificate.claim, dry.value) {
-        (None, None) if matches!(dry.found, Found::Undecided | Found::Unlimited | Found::NotAtRest) => Findings::default(),
-        (None, Some(_)) if dry.found == Found::Rests && dry.rests_at == dry.value => Findings::default(),
+        (None, None)
+            if matches!(dry.found, Found::Undecided | Found::Unlimited | Found::NotAtRest) =>
+        {
+            Findings::default()
+        }
+        (None, Some(_)) if dry.found == Found::Rests && dry.rests_at == dry.value => {
+            Findings::default()
+        }
         (Some(claim @ Claim::DryLoadFactor { value }), Some(said))
             if *value == said && matches!(dry.found, Found::NothingSlides | Found::FixedPoint) =>
         {
-            let is_bound = bound.0.bound().and_then(|b| b.value) == Some(said) && bound.1.rates == dry.certificate.rates;
-            match at(said).map_err(|e| e.to_string()).and_then(|model| evidence(&model, claim, dry)) {
+            let is_bound = bound.0.bound().and_then(|b| b.value) == Some(said)
+                && bound.1.rates == dry.certificate.rates;
+            match at(said).map_err(|e| e.to_string()).and_then(|model| evidence(&model, claim, dry))
+            {
                 Ok(mut f) => {
-                    require(&mut f, is_bound == (dry.found == Found::NothingSlides), words(dry.found));
+                    require(
+                        &mut f,
+                        is_bound == (dry.found == Found::NothingSlides),
+                        words(dry.found),
+                    );
                     f
                 }
                 Err(e) => failure(e),
             }
         }
-        _ => return failure("the load factor with dry friction is not the one its certificate claims"),
+        _ => {
+            return failure(
+                "the load factor with dry friction is not the one its certificate claims",
+            );
+        }
     };
     let status = bound.0.bound().map(|b| b.status);
-    require(&mut f, dry.found != Found::Unlimited || status == Some(Outcome::Unbounded), "where there is no limit, the bound has none");
+    require(
+        &mut f,
+        dry.found != Found::Unlimited || status == Some(Outcome::Unbounded),
+        "where there is no limit, the bound has none",
+    );
     if f.fails.is_empty() && dry.found == Found::Undecided {
         f.holds.push("undecided: nothing is claimed".into());
     }
@@ -108,7 +137,11 @@ fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
     if !rising {
         return Ok(());
     }
-    let ask = |f: &mut Findings, lambda: f64, wanted: StateMotion, text: String| -> Result<(), InputError> {
+    let ask = |f: &mut Findings,
+               lambda: f64,
+               wanted: StateMotion,
+               text: String|
+     -> Result<(), InputError> {
         computed(f, motion(lambda)? == wanted, text);
         Ok(())
     };
@@ -125,10 +158,15 @@ fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
         (Found::Unlimited, ..) => {
             let model = at(0.0)?;
             let rests = coulomb::rests_alone(&model, &control);
-            computed(f, rests, "the live load alone produces the forces that balance it: no limit".into());
+            computed(
+                f,
+                rests,
+                "the live load alone produces the forces that balance it: no limit".into(),
+            );
         }
         (Found::Rests, Some(value), moves_at) => {
-            let next = value + coulomb::resolution(&at(value)?.assembly) * moves_at.unwrap_or(value).abs();
+            let next =
+                value + coulomb::resolution(&at(value)?.assembly) * moves_at.unwrap_or(value).abs();
             let rests = moves_at.is_none_or(|m| next < m) && motion(next)? == StateMotion::Rests;
             let known = moves_at.is_some_and(|m| m > value);
             computed(f, known && !rests, format!("at {next} it rests no longer"));

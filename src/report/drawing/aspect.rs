@@ -31,7 +31,10 @@ impl FromStr for Aspect {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let numbers: Option<Vec<f64>> = text.split(',').map(|t| t.trim().parse().ok().filter(|v: &f64| v.is_finite())).collect();
+        let numbers: Option<Vec<f64>> = text
+            .split(',')
+            .map(|t| t.trim().parse().ok().filter(|v: &f64| v.is_finite()))
+            .collect();
         match (text, numbers.as_deref()) {
             ("auto", _) => Ok(Self::Auto),
             ("front", _) => Ok(Self::Front),
@@ -40,8 +43,13 @@ impl FromStr for Aspect {
             ("right", _) => Ok(Self::Right),
             ("top", _) => Ok(Self::Top),
             ("corner", _) => Ok(Self::Corner),
-            (_, Some(&[x, y, z])) if x != 0.0 || y != 0.0 || z != 0.0 => Ok(Self::From(Vector3::new(x, y, z))),
-            _ => Err("not auto, front, back, left, right, top, corner or a direction such as 1,-2,0.5".into()),
+            (_, Some(&[x, y, z])) if x != 0.0 || y != 0.0 || z != 0.0 => {
+                Ok(Self::From(Vector3::new(x, y, z)))
+            }
+            _ => Err(
+                "not auto, front, back, left, right, top, corner or a direction such as 1,-2,0.5"
+                    .into(),
+            ),
         }
     }
 }
@@ -59,7 +67,8 @@ pub struct Axes {
     pub level: bool,
 }
 
-/// Directions this close (as a sine) count as one when a view is chosen. A choice, not a claim: larger or smaller, another view is taken.
+/// Directions this close (as a sine) count as one when a view is chosen. A choice, not a claim:
+/// larger or smaller, another view is taken.
 const NEAR: f64 = 1e-3;
 
 impl Aspect {
@@ -68,7 +77,11 @@ impl Aspect {
         let up = view.ground;
         let across = |v: Vector3<f64>| v - up * up.dot(&v);
         // x and y of the scene as far as they lie across gravity.
-        let x = [Vector3::x(), -Vector3::z(), Vector3::y()].map(across).into_iter().find(|v| v.norm() > 0.5).unwrap_or(Vector3::x());
+        let x = [Vector3::x(), -Vector3::z(), Vector3::y()]
+            .map(across)
+            .into_iter()
+            .find(|v| v.norm() > 0.5)
+            .unwrap_or(Vector3::x());
         let x = x.normalize();
         let y = up.cross(&x);
         let eye = match self {
@@ -94,8 +107,18 @@ impl Aspect {
 }
 
 /// The normal of the vertical plane in which everything happens, if there is one.
-fn plane(view: &View, movement: Option<&Movement>, up: Vector3<f64>, sides: [Vector3<f64>; 2]) -> Option<Vector3<f64>> {
-    let turned = view.joints.iter().map(|f| up.cross(&f.normal)).find(|v| v.norm() > 0.1).map(|v| v.normalize());
+fn plane(
+    view: &View,
+    movement: Option<&Movement>,
+    up: Vector3<f64>,
+    sides: [Vector3<f64>; 2],
+) -> Option<Vector3<f64>> {
+    let turned = view
+        .joints
+        .iter()
+        .map(|f| up.cross(&f.normal))
+        .find(|v| v.norm() > 0.1)
+        .map(|v| v.normalize());
     let free = || view.bodies.iter().filter(|b| !b.support);
     let flat = |axis: &Vector3<f64>| {
         let first = free().next().map_or(0.0, |b| axis.dot(&b.center));

@@ -39,7 +39,8 @@ pub fn posed<'a>(body: &'a Body, way: &Way) -> Solid<'a> {
     let form = match &body.shape {
         ViewShape::Sphere(radius) => Form::Sphere(*radius),
         ViewShape::Surface(surface) => {
-            let points: Vec<Vector3<f64>> = surface.corners.iter().map(|p| moved(body, way, p)).collect();
+            let points: Vec<Vector3<f64>> =
+                surface.corners.iter().map(|p| moved(body, way, p)).collect();
             let normals = surface.pieces.iter().map(|piece| normal(&points, piece)).collect();
             Form::Surface { surface, points, normals }
         }
@@ -65,10 +66,12 @@ impl Solid<'_> {
     /// How far it reaches along a direction, from and to.
     pub fn reach(&self, direction: &Vector3<f64>) -> [f64; 2] {
         match &self.form {
-            Form::Surface { points, .. } => points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
-                let at = direction.dot(p);
-                [low.min(at), high.max(at)]
-            }),
+            Form::Surface { points, .. } => {
+                points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+                    let at = direction.dot(p);
+                    [low.min(at), high.max(at)]
+                })
+            }
             Form::Sphere(radius) => {
                 let at = direction.dot(&self.middle);
                 [at - radius, at + radius]
@@ -90,7 +93,9 @@ impl Body {
     pub(super) fn radius(&self) -> f64 {
         match &self.shape {
             ViewShape::Sphere(radius) => *radius,
-            ViewShape::Surface(s) => s.corners.iter().map(|p| (p - self.center).norm()).fold(0.0, f64::max),
+            ViewShape::Surface(s) => {
+                s.corners.iter().map(|p| (p - self.center).norm()).fold(0.0, f64::max)
+            }
         }
     }
 }

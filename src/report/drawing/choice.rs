@@ -14,11 +14,12 @@ const WAY: f64 = 0.07;
 const LEAST_WAY: f64 = 0.02;
 /// The greatest turn that is shown, radians, as long as the way is not the least.
 const TURN: f64 = 0.2;
-/// Blocks that turn by less are moved to first order, so that hinges between them stay closed exactly; they are 1 / cos θ too large, by 3 %
-/// at most. Blocks that turn by more are moved along their screw.
+/// Blocks that turn by less are moved to first order, so that hinges between them stay closed
+/// exactly; they are 1 / cos θ too large, by 3 % at most. Blocks that turn by more are moved along
+/// their screw.
 const FIRST_ORDER: f64 = 0.25;
-/// A block counts as moved in time beyond this × the size of the structure. Larger: slow slides look like rest. Smaller: the engine's
-/// contacts, which give way by 1e-4 of a block, do.
+/// A block counts as moved in time beyond this × the size of the structure. Larger: slow slides
+/// look like rest. Smaller: the engine's contacts, which give way by 1e-4 of a block, do.
 const MOVED: f64 = 1e-4;
 
 /// What is drawn.
@@ -54,10 +55,16 @@ pub struct Way {
 
 impl Way {
     /// Where it is.
-    pub const NONE: Self = Self { shift: Vector3::new(0.0, 0.0, 0.0), turn: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0) };
+    pub const NONE: Self = Self {
+        shift: Vector3::new(0.0, 0.0, 0.0),
+        turn: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    };
 
     fn rigid(pose: &ViewPose) -> Self {
-        Self { shift: pose.shift, turn: pose.turn.to_rotation_matrix().into_inner() - Matrix3::identity() }
+        Self {
+            shift: pose.shift,
+            turn: pose.turn.to_rotation_matrix().into_inner() - Matrix3::identity(),
+        }
     }
 
     /// How far a point at this distance from the centre goes at most.
@@ -69,7 +76,11 @@ impl Way {
 /// How far the fastest corner of a mechanism is shown to go, m.
 pub fn sized(view: &View, motion: &ViewMotion) -> f64 {
     // Of balls nobody sees how they turn.
-    let angular = view.bodies.iter().zip(&motion.rates).filter(|(b, _)| !matches!(b.shape, ViewShape::Sphere(_)));
+    let angular = view
+        .bodies
+        .iter()
+        .zip(&motion.rates)
+        .filter(|(b, _)| !matches!(b.shape, ViewShape::Sphere(_)));
     let spin = angular.map(|(_, r)| r.spin.norm()).fold(0.0, f64::max);
     (WAY * view.size()).min(TURN * motion.reach / spin).max(LEAST_WAY * view.size())
 }
@@ -78,11 +89,17 @@ impl<'a> Choice<'a> {
     /// What is drawn of a view.
     pub fn of(view: &'a View) -> Self {
         let state = |part: ViewPart| view.states.iter().find(|s| s.part == part);
-        let ends: Vec<&ViewState> = [ViewPart::Least, ViewPart::Greatest].into_iter().filter_map(state).collect();
-        let mut states = if ends.is_empty() { state(ViewPart::Dry).or(state(ViewPart::Answer)).into_iter().collect() } else { ends };
+        let ends: Vec<&ViewState> =
+            [ViewPart::Least, ViewPart::Greatest].into_iter().filter_map(state).collect();
+        let mut states = if ends.is_empty() {
+            state(ViewPart::Dry).or(state(ViewPart::Answer)).into_iter().collect()
+        } else {
+            ends
+        };
         let motion = |part: ViewPart| view.motions.iter().find(|m| m.part == part);
         let fails = motion(ViewPart::Dry).or(motion(ViewPart::Answer));
-        // What comes closest balances nothing, and a motion without a load factor proves that nothing does.
+        // What comes closest balances nothing, and a motion without a load factor proves that
+        // nothing does.
         if fails.is_some() && !states.iter().any(|s| s.balances) {
             states.clear();
         }
@@ -108,7 +125,12 @@ impl Movement {
             }
         };
         let ways: Vec<Way> = (0..view.bodies.len()).map(way).collect();
-        let moves = view.bodies.iter().zip(&ways).map(|(b, w)| w.length(b.radius()) > MECHANISM_REST * far).collect();
+        let moves = view
+            .bodies
+            .iter()
+            .zip(&ways)
+            .map(|(b, w)| w.length(b.radius()) > MECHANISM_REST * far)
+            .collect();
         let speeds = motion.rates.iter().map(|r| r.velocity).collect();
         Some(Self { name: motion.name.clone(), ways, moves, marks: motion.marks.clone(), speeds })
     }
@@ -117,21 +139,37 @@ impl Movement {
         let frame = view.film.last()?;
         let poses = || view.bodies.iter().zip(&frame.blocks);
         let ways = |by: f64| -> Vec<Way> {
-            let pose = |(b, p): (&Body, &crate::dynamics::Pose)| ViewPose { shift: (p.center - b.center) * by, turn: p.turn.powf(by) };
+            let pose = |(b, p): (&Body, &crate::dynamics::Pose)| ViewPose {
+                shift: (p.center - b.center) * by,
+                turn: p.turn.powf(by),
+            };
             poses().map(|bp| Way::rigid(&pose(bp))).collect()
         };
         let once = ways(1.0);
-        let lengths: Vec<f64> = view.bodies.iter().zip(&once).map(|(b, w)| if b.support { 0.0 } else { w.length(b.radius()) }).collect();
+        let lengths: Vec<f64> = view
+            .bodies
+            .iter()
+            .zip(&once)
+            .map(|(b, w)| if b.support { 0.0 } else { w.length(b.radius()) })
+            .collect();
         let greatest = lengths.iter().copied().fold(0.0, f64::max);
         // A block that has only begun to fall has hardly moved.
         let by = (WAY * view.size() / greatest).floor();
         let (ways, times) = match by {
-            by if greatest > MOVED * view.size() && by >= 2.0 => (ways(by), format!(", motion × {by}")),
+            by if greatest > MOVED * view.size() && by >= 2.0 => {
+                (ways(by), format!(", motion × {by}"))
+            }
             _ => (once, String::new()),
         };
         let moves = lengths.iter().map(|l| *l > MOVED * view.size()).collect();
         let speeds = ways.iter().map(|w| w.shift).collect();
-        Some(Self { name: format!("after {}{times}", seconds(frame.time)), ways, moves, marks: Vec::new(), speeds })
+        Some(Self {
+            name: format!("after {}{times}", seconds(frame.time)),
+            ways,
+            moves,
+            marks: Vec::new(),
+            speeds,
+        })
     }
 
     /// Bodies where they go.

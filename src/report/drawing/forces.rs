@@ -1,5 +1,6 @@
-//! The line of thrust: through every block from one centre of pressure to the other, or to the centre of mass where more than two joints
-//! press; as thick as the force that passes. In walls and heaps it shows the chains of forces.
+//! The line of thrust: through every block from one centre of pressure to the other, or to the
+//! centre of mass where more than two joints press; as thick as the force that passes. In walls and
+//! heaps it shows the chains of forces.
 
 use super::{
     MANY,
@@ -14,8 +15,8 @@ use std::fmt::Write;
 const THICKNESS: [f64; 2] = [0.4, 4.2];
 /// So many thicknesses are told apart.
 const STEPS: usize = 12;
-/// Forces below this × the greatest are left out. Larger: chains lose their ends. Smaller: what the solver leaves in joints that are open
-/// (1e-8 of the greatest) is drawn as if it carried.
+/// Forces below this × the greatest are left out. Larger: chains lose their ends. Smaller: what the
+/// solver leaves in joints that are open (1e-8 of the greatest) is drawn as if it carried.
 const LEAST: f64 = 1e-5;
 
 /// Draws the line of thrust.
@@ -30,19 +31,30 @@ pub fn line(sheet: &mut Sheet, paper: &Projection, state: &ViewState, class: &st
     }
     for (k, path) in paths.iter().enumerate().filter(|(_, p)| !p.is_empty()) {
         let width = THICKNESS[0] + (THICKNESS[1] - THICKNESS[0]) * (k as f64 + 1.0) / STEPS as f64;
-        sheet.put(format_args!("<path class=\"line {class}\" stroke-width=\"{width:.2}\" d=\"{path}\"/>\n"));
+        sheet.put(format_args!(
+            "<path class=\"line {class}\" stroke-width=\"{width:.2}\" d=\"{path}\"/>\n"
+        ));
     }
 }
 
 /// Marks joints that press at their edge alone.
-pub fn edges(sheet: &mut Sheet, paper: &Projection, state: &ViewState, class: &str, legend: &mut Legend) {
+pub fn edges(
+    sheet: &mut Sheet,
+    paper: &Projection,
+    state: &ViewState,
+    class: &str,
+    legend: &mut Legend,
+) {
     let pressed = || state.resultants.iter().flatten();
     let greatest = pressed().map(|r| r.normal).fold(0.0, f64::max);
-    let list = || pressed().filter(|r| r.normal > LEAST * greatest && r.used >= 1.0 - tolerance::AT_EDGE);
+    let list =
+        || pressed().filter(|r| r.normal > LEAST * greatest && r.used >= 1.0 - tolerance::AT_EDGE);
     let radius = if list().count() > MANY { 2.6 } else { 4.0 };
     for r in list() {
         let [x, y] = paper.at(&r.at);
-        sheet.put(format_args!("<circle class=\"pin {class}\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\"/>\n"));
+        sheet.put(format_args!(
+            "<circle class=\"pin {class}\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\"/>\n"
+        ));
         legend.add(Glyph::Pin("one"), "presses at its edge");
     }
 }

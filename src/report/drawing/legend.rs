@@ -41,7 +41,8 @@ impl Legend {
         }
     }
 
-    /// Draws entries in rows from `top` downwards, the scale at the end of the last one; returns where it ends.
+    /// Draws entries in rows from `top` downwards, the scale at the end of the last one; returns
+    /// where it ends.
     pub fn draw(&self, sheet: &mut Sheet, top: f64, paper: &Projection) -> f64 {
         let (mut x, mut y) = (MARGIN, top + 0.5 * LINE);
         for (glyph, words) in &self.0 {
@@ -50,7 +51,12 @@ impl Legend {
                 (x, y) = (MARGIN, y + LINE);
             }
             sign(sheet, *glyph, x, y);
-            sheet.put(format_args!("<text x=\"{:.1}\" y=\"{:.1}\">{}</text>\n", x + SIGN + 8.0, y + 5.0, markup(words)));
+            sheet.put(format_args!(
+                "<text x=\"{:.1}\" y=\"{:.1}\">{}</text>\n",
+                x + SIGN + 8.0,
+                y + 5.0,
+                markup(words)
+            ));
             x += width + GAP;
         }
         let (length, words) = scale(paper.scale);
@@ -59,8 +65,15 @@ impl Legend {
         }
         let right = WIDTH - MARGIN;
         let left = right - length;
-        sheet.put(format_args!("<path class=\"scale\" d=\"M{left:.1} {:.1}v6h{length:.1}v-6\"/>\n", y - 3.0));
-        sheet.put(format_args!("<text class=\"end\" x=\"{:.1}\" y=\"{:.1}\">{words}</text>\n", left - 8.0, y + 5.0));
+        sheet.put(format_args!(
+            "<path class=\"scale\" d=\"M{left:.1} {:.1}v6h{length:.1}v-6\"/>\n",
+            y - 3.0
+        ));
+        sheet.put(format_args!(
+            "<text class=\"end\" x=\"{:.1}\" y=\"{:.1}\">{words}</text>\n",
+            left - 8.0,
+            y + 5.0
+        ));
         y + 0.5 * LINE
     }
 }

@@ -33,16 +33,26 @@ pub fn joints(sheet: &mut Sheet, view: &View, paper: &Projection) {
 }
 
 /// The outline of a joint; seen from its edge, its longest line alone.
-fn outline(path: &mut String, joint: &Joint, at: impl Fn(&Vector3<f64>) -> [f64; 2], paper: &Projection) {
+fn outline(
+    path: &mut String,
+    joint: &Joint,
+    at: impl Fn(&Vector3<f64>) -> [f64; 2],
+    paper: &Projection,
+) {
     let points: Vec<[f64; 2]> = joint.points.iter().map(at).collect();
     // Writing to a string cannot fail.
     if joint.normal.dot(&paper.axes.eye).abs() < 1e-3 {
         let along = joint.normal.cross(&paper.axes.eye);
         let way = |k: &usize| along.dot(&joint.points[*k]);
-        let ends =
-            (0..points.len()).min_by(|a, b| way(a).total_cmp(&way(b))).zip((0..points.len()).max_by(|a, b| way(a).total_cmp(&way(b))));
+        let ends = (0..points.len())
+            .min_by(|a, b| way(a).total_cmp(&way(b)))
+            .zip((0..points.len()).max_by(|a, b| way(a).total_cmp(&way(b))));
         if let Some((a, b)) = ends {
-            let _ = write!(path, "M{:.2} {:.2}L{:.2} {:.2}", points[a][0], points[a][1], points[b][0], points[b][1]);
+            let _ = write!(
+                path,
+                "M{:.2} {:.2}L{:.2} {:.2}",
+                points[a][0], points[a][1], points[b][0], points[b][1]
+            );
         }
         return;
     }
@@ -53,10 +63,17 @@ fn outline(path: &mut String, joint: &Joint, at: impl Fn(&Vector3<f64>) -> [f64;
 }
 
 /// Loads beside the weight: arrows on the blocks where they are few, in the legend otherwise.
-pub fn loads(sheet: &mut Sheet, view: &View, paper: &Projection, state: Option<&ViewState>, legend: &mut Legend) {
+pub fn loads(
+    sheet: &mut Sheet,
+    view: &View,
+    paper: &Projection,
+    state: Option<&ViewState>,
+    legend: &mut Legend,
+) {
     let live = state.is_some_and(|s| s.live);
     for (of, word) in [(false, "load"), (true, "live load (× λ)")] {
-        let list: Vec<&ViewLoad> = view.loads.iter().filter(|l| l.live == of && (!l.live || live)).collect();
+        let list: Vec<&ViewLoad> =
+            view.loads.iter().filter(|l| l.live == of && (!l.live || live)).collect();
         let greatest = list.iter().map(|l| l.force.norm()).fold(0.0, f64::max);
         if list.is_empty() || greatest == 0.0 {
             continue;
@@ -84,8 +101,18 @@ pub fn loads(sheet: &mut Sheet, view: &View, paper: &Projection, state: Option<&
 }
 
 /// Hinges where they go, joints that slide along their length.
-pub fn mechanism(sheet: &mut Sheet, view: &View, paper: &Projection, movement: &Movement, legend: &mut Legend) {
-    let hinges = movement.marks.iter().filter(|m| m.kind == Kind::Hinge || m.kind == Kind::HingeAndSlide).count();
+pub fn mechanism(
+    sheet: &mut Sheet,
+    view: &View,
+    paper: &Projection,
+    movement: &Movement,
+    legend: &mut Legend,
+) {
+    let hinges = movement
+        .marks
+        .iter()
+        .filter(|m| m.kind == Kind::Hinge || m.kind == Kind::HingeAndSlide)
+        .count();
     let radius = if hinges > MANY { 2.6 } else { 4.0 };
     // With the block that goes less far: joints that slide open as well.
     let at = |joint: &Joint, p: &Vector3<f64>| {
@@ -93,7 +120,9 @@ pub fn mechanism(sheet: &mut Sheet, view: &View, paper: &Projection, movement: &
         paper.at(if (a - p).norm() <= (b - p).norm() { &a } else { &b })
     };
     let mut slides = String::new();
-    for mark in movement.marks.iter().filter(|m| matches!(m.kind, Kind::Slide | Kind::HingeAndSlide)) {
+    for mark in
+        movement.marks.iter().filter(|m| matches!(m.kind, Kind::Slide | Kind::HingeAndSlide))
+    {
         let joint = &view.joints[mark.joint];
         if joint.points.len() > 1 {
             outline(&mut slides, joint, |p| at(joint, p), paper);
@@ -124,6 +153,8 @@ pub fn mechanism(sheet: &mut Sheet, view: &View, paper: &Projection, movement: &
             }
             Kind::Slide | Kind::Part => continue,
         };
-        sheet.put(format_args!("<circle class=\"pin act\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{r}\"/>\n"));
+        sheet.put(format_args!(
+            "<circle class=\"pin act\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{r}\"/>\n"
+        ));
     }
 }

@@ -1,8 +1,10 @@
-//! Drawings of structures (SVG 1.1) for papers and pages: blocks, joints, the line of thrust or the chains of forces, hinges and slides,
-//! the mechanism. Legible on light and dark pages; programs that know no dark pages draw the light one.
+//! Drawings of structures (SVG 1.1) for papers and pages: blocks, joints, the line of thrust or the
+//! chains of forces, hinges and slides, the mechanism. Legible on light and dark pages; programs
+//! that know no dark pages draw the light one.
 //!
-//! Plane scenes are seen along the normal of their plane, others from a corner above ([`Aspect`]). Forces and motion stand in panels of
-//! their own: a line of thrust belongs to the blocks where they are, a mechanism to where they go.
+//! Plane scenes are seen along the normal of their plane, others from a corner above ([`Aspect`]).
+//! Forces and motion stand in panels of their own: a line of thrust belongs to the blocks where
+//! they are, a mechanism to where they go.
 
 mod aspect;
 mod blocks;
@@ -45,7 +47,8 @@ pub fn svg(view: &View, aspect: Aspect) -> String {
     let still = body::still(view);
     let moved = choice.movement.as_ref().map(|m| (m, m.bodies(view)));
     let axes = aspect.axes(view, choice.movement.as_ref());
-    let mut paper = Projection::new(view, axes, &still, moved.as_ref().map(|(_, bodies)| &bodies[..]));
+    let mut paper =
+        Projection::new(view, axes, &still, moved.as_ref().map(|(_, bodies)| &bodies[..]));
     let forces = !choice.states.is_empty() || moved.is_none();
     let beside = forces && moved.is_some() && paper.aspect() > FLAT;
     let columns = if beside { 2.0 } else { 1.0 };
@@ -81,7 +84,10 @@ fn thin(view: &View, paper: &Projection) -> String {
     match sizes.get(sizes.len() / 2).map(|size| THIN * size) {
         Some(edge) if edge < sheet::EDGE => {
             let edge = edge.max(0.1);
-            format!(".edge,circle.f1{{stroke-width:{edge:.2}}}.joint{{stroke-width:{:.2}}}", 1.5 * edge)
+            format!(
+                ".edge,circle.f1{{stroke-width:{edge:.2}}}.joint{{stroke-width:{:.2}}}",
+                1.5 * edge
+            )
         }
         _ => String::new(),
     }
@@ -94,7 +100,13 @@ struct Panel {
 }
 
 /// The blocks where they are, with the forces.
-fn statics(view: &View, choice: &Choice, paper: &Projection, still: &[body::Solid], legend: &mut Legend) -> Panel {
+fn statics(
+    view: &View,
+    choice: &Choice,
+    paper: &Projection,
+    still: &[body::Solid],
+    legend: &mut Legend,
+) -> Panel {
     let mut sheet = Sheet::default();
     let order = order::back_to_front(view, still, paper);
     blocks::draw(&mut sheet, view, paper, still, &order, &|_| "block");
@@ -124,11 +136,23 @@ fn statics(view: &View, choice: &Choice, paper: &Projection, still: &[body::Soli
 }
 
 /// The blocks where they go.
-fn kinematics(view: &View, movement: &Movement, paper: &Projection, [still, moved]: [&[body::Solid]; 2], legend: &mut Legend) -> Panel {
+fn kinematics(
+    view: &View,
+    movement: &Movement,
+    paper: &Projection,
+    [still, moved]: [&[body::Solid]; 2],
+    legend: &mut Legend,
+) -> Panel {
     let mut sheet = Sheet::default();
     let order = order::back_to_front(view, moved, paper);
-    blocks::draw(&mut sheet, view, paper, moved, &order, &|i| if movement.moves[i] { "moved" } else { "block" });
-    blocks::ghosts(&mut sheet, paper, still.iter().enumerate().filter(|(i, _)| movement.moves[*i]).map(|(_, b)| b));
+    blocks::draw(&mut sheet, view, paper, moved, &order, &|i| {
+        if movement.moves[i] { "moved" } else { "block" }
+    });
+    blocks::ghosts(
+        &mut sheet,
+        paper,
+        still.iter().enumerate().filter(|(i, _)| movement.moves[*i]).map(|(_, b)| b),
+    );
     legend.add(Glyph::Swatch("moved"), "moves");
     legend.add(Glyph::Ghost, "where it was");
     marks::mechanism(&mut sheet, view, paper, movement, legend);

@@ -9,8 +9,8 @@ use nalgebra::Vector3;
 
 /// Around what is free, over its size: room for loads and the ends of supports.
 const RIM: f64 = 0.03;
-/// So much of the supports is shown at most, over the size of what is free: a ground slab as wide as one likes would leave no room
-/// for what stands on it.
+/// So much of the supports is shown at most, over the size of what is free: a ground slab as wide
+/// as one likes would leave no room for what stands on it.
 const GROUND: f64 = 0.12;
 /// So far from where it was, over its size, what fell is followed.
 const FALLEN: f64 = 0.6;
@@ -44,7 +44,8 @@ impl Frame {
             let mut add = |p: &Vector3<f64>, r: f64| {
                 for (k, axis) in [axes.right, axes.up].iter().enumerate() {
                     let at = axis.dot(p);
-                    (frame.low[k], frame.high[k]) = (frame.low[k].min(at - r), frame.high[k].max(at + r));
+                    (frame.low[k], frame.high[k]) =
+                        (frame.low[k].min(at - r), frame.high[k].max(at + r));
                 }
             };
             match &body.form {
@@ -98,7 +99,8 @@ impl Projection {
 
     /// Fits what is shown into a width and a height.
     pub fn fit(&mut self, width: f64, height: f64) {
-        self.scale = (width / (self.high[0] - self.low[0])).min(height / (self.high[1] - self.low[1]));
+        self.scale =
+            (width / (self.high[0] - self.low[0])).min(height / (self.high[1] - self.low[1]));
     }
 
     /// Width and height on the sheet.
@@ -108,7 +110,10 @@ impl Projection {
 
     /// Where a point is seen.
     pub fn at(&self, p: &Vector3<f64>) -> [f64; 2] {
-        [(self.axes.right.dot(p) - self.low[0]) * self.scale, (self.high[1] - self.axes.up.dot(p)) * self.scale]
+        [
+            (self.axes.right.dot(p) - self.low[0]) * self.scale,
+            (self.high[1] - self.axes.up.dot(p)) * self.scale,
+        ]
     }
 
     /// Where a direction points on the sheet, its length kept.

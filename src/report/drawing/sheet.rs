@@ -5,7 +5,8 @@ use std::fmt::{Arguments, Write};
 /// Thickness of the edges in [`STYLE`].
 pub const EDGE: f64 = 0.9;
 
-/// Four shades a kind of block, the first the brightest. Programs that leave media queries out (Inkscape, librsvg) draw the light page.
+/// Four shades a kind of block, the first the brightest. Programs that leave media queries out
+/// (Inkscape, librsvg) draw the light page.
 pub const STYLE: &str = "\
 .page{fill:#ffffff}\
 .block .f0{fill:#f4f0e8}.block .f1{fill:#eae4d8}.block .f2{fill:#dcd4c5}.block .f3{fill:#cac1b0}.block .edge{stroke:#6b6558}\
@@ -46,7 +47,10 @@ impl Sheet {
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
         let length = dx.hypot(dy);
         if length < 1.0 {
-            return self.put(format_args!("<circle class=\"{class}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"2.5\"/>\n", to[0], to[1]));
+            return self.put(format_args!(
+                "<circle class=\"{class}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"2.5\"/>\n",
+                to[0], to[1]
+            ));
         }
         let head = (0.45 * length).min(9.0);
         let (ux, uy) = (dx / length, dy / length);

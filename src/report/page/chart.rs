@@ -54,7 +54,8 @@ pub struct Series {
     pub points: Vec<[f64; 2]>,
     /// What is said where one points; one for each point.
     pub hints: Vec<String>,
-    /// Lower and upper end of a band at each point, where there is one; of cells half their width and height.
+    /// Lower and upper end of a band at each point, where there is one; of cells half their width
+    /// and height.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub band: Vec<[f64; 2]>,
     /// Of cells their value.
@@ -90,9 +91,18 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
         line.points.push([spent, width]);
         line.hints.push(hint(a, spent, width));
     }
-    let states: Vec<_> = file.coulomb_state.iter().flat_map(|s| &s.steps).filter(|s| s.acceleration > 0.0 && s.seconds > 0.0).collect();
+    let states: Vec<_> = file
+        .coulomb_state
+        .iter()
+        .flat_map(|s| &s.steps)
+        .filter(|s| s.acceleration > 0.0 && s.seconds > 0.0)
+        .collect();
     if !states.is_empty() {
-        let mut line = Series { name: "acceleration left with dry friction, g".into(), line: true, ..Series::default() };
+        let mut line = Series {
+            name: "acceleration left with dry friction, g".into(),
+            line: true,
+            ..Series::default()
+        };
         let mut spent = 0.0;
         for s in states {
             spent += s.seconds;
@@ -139,7 +149,10 @@ pub fn heaps(file: &ReposeFile) -> Option<Chart> {
     let series = Series {
         name: "angle of repose".into(),
         points: there.iter().map(|(h, angle)| [h.seed as f64, *angle]).collect(),
-        hints: there.iter().map(|(h, angle)| format!("seed {}: {}°, {} grains", h.seed, short(*angle), h.grains)).collect(),
+        hints: there
+            .iter()
+            .map(|(h, angle)| format!("seed {}: {}°, {} grains", h.seed, short(*angle), h.grains))
+            .collect(),
         ..Series::default()
     };
     Some(Chart {

@@ -17,7 +17,9 @@ pub(super) fn plain_title(page: &Page) -> String {
 pub(super) fn head(page: &Page) -> String {
     let spans = page.lines.first().map(Vec::as_slice).unwrap_or_default();
     let of = |want: &dyn Fn(Role) -> bool| spans.iter().find(|s| want(s.role));
-    let name = of(&|r| r == Role::Name).map(|s| format!("<p class=\"name\">{}</p>", markup(&s.text))).unwrap_or_default();
+    let name = of(&|r| r == Role::Name)
+        .map(|s| format!("<p class=\"name\">{}</p>", markup(&s.text)))
+        .unwrap_or_default();
     let answer = of(&|r| class(r).is_some()).map(|s| {
         let text = if s.text.contains('λ') { s.text.clone() } else { capital(&s.text) };
         format!("<h1 class=\"{}\">{}</h1>", class(s.role).unwrap_or_default(), markup(&text))
@@ -61,7 +63,8 @@ pub(super) fn body(page: &Page) -> String {
                     row.lines.push(rest.iter().map(inline).collect());
                 }
             }
-            spans => paragraphs.push(format!("<p>{}</p>", spans.iter().map(inline).collect::<String>().trim())),
+            spans => paragraphs
+                .push(format!("<p>{}</p>", spans.iter().map(inline).collect::<String>().trim())),
         }
     }
     let rows: String = rows.iter().map(Row::html).collect();
@@ -79,13 +82,20 @@ fn inline(span: &Span) -> String {
 impl Row {
     fn html(&self) -> String {
         // Columns are lined up by spaces, which a fixed pitch keeps.
-        let table = self.lines.iter().any(|l| l.trim_start().contains("  ")) && !self.lines.iter().any(|l| l.contains("<code>"));
-        let lines: String = self.lines.iter().map(|l| format!("<div>{}</div>", l.trim_end())).collect();
-        let body = format!("<div class=\"{}\">{lines}</div>", if table { "columns" } else { "lines" });
-        let long = self.lines.len() > LINES || self.lines.iter().map(String::len).sum::<usize>() > LONG;
+        let table = self.lines.iter().any(|l| l.trim_start().contains("  "))
+            && !self.lines.iter().any(|l| l.contains("<code>"));
+        let lines: String =
+            self.lines.iter().map(|l| format!("<div>{}</div>", l.trim_end())).collect();
+        let body =
+            format!("<div class=\"{}\">{lines}</div>", if table { "columns" } else { "lines" });
+        let long =
+            self.lines.len() > LINES || self.lines.iter().map(String::len).sum::<usize>() > LONG;
         let body = if long {
             let first: String = self.lines.first().map(|l| short(l)).unwrap_or_default();
-            format!("<details><summary>{first} <span class=\"more\">… {}</span></summary>{body}</details>", count(self.lines.len()))
+            format!(
+                "<details><summary>{first} <span class=\"more\">… {}</span></summary>{body}</details>",
+                count(self.lines.len())
+            )
         } else {
             body
         };

@@ -3,13 +3,17 @@
 use crate::plain::document;
 use serde_json::Value;
 
-/// JSON as it may stand in a `script` element of type `application/json`: nothing in it ends the element or opens a comment.
+/// JSON as it may stand in a `script` element of type `application/json`: nothing in it ends the
+/// element or opens a comment.
 ///
 /// # Errors
 /// Only if memory runs out.
 pub(super) fn json(value: &Value) -> Result<String, serde_json::Error> {
     // Outside strings JSON has none of these characters.
-    Ok(serde_json::to_string(&shown(value))?.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026"))
+    Ok(serde_json::to_string(&shown(value))?
+        .replace('<', "\\u003c")
+        .replace('>', "\\u003e")
+        .replace('&', "\\u0026"))
 }
 
 /// The value with every text as it is to be read: scripts put it on the page as it is.
@@ -17,14 +21,17 @@ fn shown(value: &Value) -> Value {
     match value {
         Value::String(text) => document(text).into(),
         Value::Array(list) => list.iter().map(shown).collect(),
-        Value::Object(members) => members.iter().map(|(key, value)| (document(key).into_owned(), shown(value))).collect(),
+        Value::Object(members) => {
+            members.iter().map(|(key, value)| (document(key).into_owned(), shown(value))).collect()
+        }
         other => other.clone(),
     }
 }
 
 /// The template with every `{{name}}` replaced, in one pass: what is put in is not looked at again.
 pub(super) fn fill(template: &str, values: &[(&str, &str)]) -> String {
-    let mut out = String::with_capacity(template.len() + values.iter().map(|v| v.1.len()).sum::<usize>());
+    let mut out =
+        String::with_capacity(template.len() + values.iter().map(|v| v.1.len()).sum::<usize>());
     let mut rest = template;
     while let Some((before, after)) = rest.split_once("{{") {
         out.push_str(before);
@@ -50,7 +57,10 @@ mod tests {
         for text in [markup(HOSTILE), json(&Value::from(HOSTILE)).unwrap()] {
             assert!(!text.contains(['<', '>']) && !text.contains("&\""), "{text}");
         }
-        assert_eq!(serde_json::from_str::<String>(&json(&Value::from(HOSTILE)).unwrap()).unwrap(), HOSTILE);
+        assert_eq!(
+            serde_json::from_str::<String>(&json(&Value::from(HOSTILE)).unwrap()).unwrap(),
+            HOSTILE
+        );
     }
 
     #[test]

@@ -1,8 +1,10 @@
-//! A report as one page: a single HTML file without any connection to a network, for a browser of 2020 or later.
+//! A report as one page: a single HTML file without any connection to a network, for a browser of
+//! 2020 or later.
 //!
-//! The page holds the answer in words as printed on a terminal, the [`View`] as packed arrays, and charts. Its styles and scripts are
-//! in `assets/`. Without WebGL 2 the picture is drawn on a plain canvas; without scripts the words are still there. Every string that
-//! comes from a scene is escaped ([`markup`], `html::json`) or set by the script as text, never as markup.
+//! The page holds the answer in words as printed on a terminal, the [`View`] as packed arrays, and
+//! charts. Its styles and scripts are in `assets/`. Without WebGL 2 the picture is drawn on a plain
+//! canvas; without scripts the words are still there. Every string that comes from a scene is
+//! escaped ([`markup`], `html::json`) or set by the script as text, never as markup.
 
 mod chart;
 mod facts;
@@ -63,7 +65,11 @@ pub fn page(text: &Page, view: &View, charts: &[Chart]) -> Result<String, serde_
 }
 
 /// A page of charts and tables.
-fn tables(text: &Page, charts: &[Chart], tables: &[serde_json::Value]) -> Result<String, serde_json::Error> {
+fn tables(
+    text: &Page,
+    charts: &[Chart],
+    tables: &[serde_json::Value],
+) -> Result<String, serde_json::Error> {
     let data = json!({ "charts": charts, "tables": tables });
     Ok(html::fill(
         TEMPLATE,

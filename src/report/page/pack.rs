@@ -1,7 +1,8 @@
-//! The view as arrays that a browser reads without parsing: little-endian numbers in base64, each array with its kind before it (`f32:…`).
+//! The view as arrays that a browser reads without parsing: little-endian numbers in base64, each
+//! array with its kind before it (`f32:…`).
 //!
-//! Lengths are in units of the size of the view about its middle and forces in units of the greatest one, so that single precision has
-//! seven digits of each whatever the units of the scene.
+//! Lengths are in units of the size of the view about its middle and forces in units of the
+//! greatest one, so that single precision has seven digits of each whatever the units of the scene.
 
 use crate::{
     interface::ContactKind,
@@ -31,7 +32,8 @@ fn wholes(values: impl IntoIterator<Item = usize>) -> String {
 
 /// An array of numbers between −1 and 1 in two bytes each.
 fn shares(values: impl IntoIterator<Item = f64>) -> String {
-    let bytes: Vec<u8> = values.into_iter().flat_map(|v| ((v * 32767.0).round() as i16).to_le_bytes()).collect();
+    let bytes: Vec<u8> =
+        values.into_iter().flat_map(|v| ((v * 32767.0).round() as i16).to_le_bytes()).collect();
     format!("i16:{}", BASE64.encode(&bytes))
 }
 
@@ -57,7 +59,8 @@ struct Units {
 
 impl Units {
     fn points<'a>(&self, points: impl IntoIterator<Item = &'a Vector3<f64>>) -> String {
-        let list: Vec<Vector3<f64>> = points.into_iter().map(|p| (p - self.middle) / self.length).collect();
+        let list: Vec<Vector3<f64>> =
+            points.into_iter().map(|p| (p - self.middle) / self.length).collect();
         singles(flat(&list))
     }
 
@@ -68,9 +71,17 @@ impl Units {
 
 /// Everything that the page draws.
 pub(super) fn view(view: &View) -> Value {
-    let greatest = view.states.iter().flat_map(|s| s.resultants.iter().flatten()).map(|r| r.force.norm()).fold(0.0, f64::max);
-    let units =
-        Units { length: view.size(), middle: view.middle(), force: if greatest.is_finite() && greatest > 0.0 { greatest } else { 1.0 } };
+    let greatest = view
+        .states
+        .iter()
+        .flat_map(|s| s.resultants.iter().flatten())
+        .map(|r| r.force.norm())
+        .fold(0.0, f64::max);
+    let units = Units {
+        length: view.size(),
+        middle: view.middle(),
+        force: if greatest.is_finite() && greatest > 0.0 { greatest } else { 1.0 },
+    };
     json!({
         "name": view.name,
         "length": units.length,
@@ -95,11 +106,13 @@ pub(super) fn view(view: &View) -> Value {
 }
 
 fn bodies(view: &View, units: &Units) -> Value {
-    let mut materials: Vec<&str> = view.bodies.iter().filter_map(|b| b.material.as_deref()).collect();
+    let mut materials: Vec<&str> =
+        view.bodies.iter().filter_map(|b| b.material.as_deref()).collect();
     materials.sort_unstable();
     materials.dedup();
-    let material =
-        |b: &crate::report::view::Body| b.material.as_deref().and_then(|m| materials.binary_search(&m).ok()).map_or(0, |k| k + 1);
+    let material = |b: &crate::report::view::Body| {
+        b.material.as_deref().and_then(|m| materials.binary_search(&m).ok()).map_or(0, |k| k + 1)
+    };
     let surfaces: Vec<_> = view
         .bodies
         .iter()
@@ -164,7 +177,8 @@ fn joints(view: &View, units: &Units) -> Value {
 fn law(law: &crate::assembly::JointLaw) -> String {
     use crate::number::short;
     let mu = law.friction.mu();
-    let mut words = vec![if mu.is_finite() { format!("friction {}", short(mu)) } else { "no sliding".into() }];
+    let mut words =
+        vec![if mu.is_finite() { format!("friction {}", short(mu)) } else { "no sliding".into() }];
     for (name, value, unit) in [
         ("cohesion", law.cohesion, "Pa"),
         ("tensile strength", law.tension, "Pa"),
@@ -179,10 +193,14 @@ fn law(law: &crate::assembly::JointLaw) -> String {
     words.join(", ")
 }
 
-/// Resultants are the sums of the forces, which the page adds up. A share of the section that is not a number: nothing presses.
+/// Resultants are the sums of the forces, which the page adds up. A share of the section that is
+/// not a number: nothing presses.
 fn state(s: &ViewState, joints: usize, units: &Units) -> Value {
-    let of = |f: &dyn Fn(&crate::report::view::Resultant) -> f64| singles(s.resultants.iter().map(|r| r.as_ref().map_or(f64::NAN, f)));
-    let at: Vec<Vector3<f64>> = s.resultants.iter().map(|r| r.map_or(units.middle, |r| r.at)).collect();
+    let of = |f: &dyn Fn(&crate::report::view::Resultant) -> f64| {
+        singles(s.resultants.iter().map(|r| r.as_ref().map_or(f64::NAN, f)))
+    };
+    let at: Vec<Vector3<f64>> =
+        s.resultants.iter().map(|r| r.map_or(units.middle, |r| r.at)).collect();
     json!({
         "name": s.name,
         "forces": units.forces(s.forces.iter().flatten()),
@@ -222,10 +240,21 @@ fn film(view: &View, units: &Units) -> Value {
     if view.film.len() < 2 {
         return Value::Null;
     }
-    let shift: Vec<Vector3<f64>> =
-        view.film.iter().flat_map(|f| f.blocks.iter().zip(&view.bodies).map(|(p, b)| (p.center - b.center) / units.length)).collect();
-    let turn: Vec<Vector3<f64>> = view.film.iter().flat_map(|f| f.blocks.iter().map(|p| p.turn.scaled_axis())).collect();
-    let greatest = |list: &[Vector3<f64>]| list.iter().map(|v| v.amax()).filter(|m| m.is_finite()).fold(f64::MIN_POSITIVE.sqrt(), f64::max);
+    let shift: Vec<Vector3<f64>> = view
+        .film
+        .iter()
+        .flat_map(|f| {
+            f.blocks.iter().zip(&view.bodies).map(|(p, b)| (p.center - b.center) / units.length)
+        })
+        .collect();
+    let turn: Vec<Vector3<f64>> =
+        view.film.iter().flat_map(|f| f.blocks.iter().map(|p| p.turn.scaled_axis())).collect();
+    let greatest = |list: &[Vector3<f64>]| {
+        list.iter()
+            .map(|v| v.amax())
+            .filter(|m| m.is_finite())
+            .fold(f64::MIN_POSITIVE.sqrt(), f64::max)
+    };
     let (far, wide) = (greatest(&shift), greatest(&turn));
     json!({
         "times": view.film.iter().map(|f| f.time).collect::<Vec<_>>(),

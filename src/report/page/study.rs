@@ -1,4 +1,5 @@
-//! Pages of studies: error against time on every scene, the performance profile, and tables to sort.
+//! Pages of studies: error against time on every scene, the performance profile, and tables to
+//! sort.
 
 use super::{Axis, Chart, Series, tables};
 use crate::{
@@ -33,20 +34,48 @@ pub fn study(text: &Page, points: &[StudyPoint]) -> Result<String, serde_json::E
         .iter()
         .map(|p| {
             let status = p.status.map(|s| format!("{s:?}"));
-            let knob = if p.method.knob().is_empty() { Value::Null } else { json!(format!("{} {}", p.method.knob(), short(p.knob))) };
-            json!([p.scene, p.method.label(), knob, p.value, p.error, p.bracket, p.seconds, p.iterations, status])
+            let knob = if p.method.knob().is_empty() {
+                Value::Null
+            } else {
+                json!(format!("{} {}", p.method.knob(), short(p.knob)))
+            };
+            json!([
+                p.scene,
+                p.method.label(),
+                knob,
+                p.value,
+                p.error,
+                p.bracket,
+                p.seconds,
+                p.iterations,
+                status
+            ])
         })
         .collect();
-    let columns = ["scene", "method", "setting", "value", "relative error", "bracket", "seconds", "iterations", "engine says"];
+    let columns = [
+        "scene",
+        "method",
+        "setting",
+        "value",
+        "relative error",
+        "bracket",
+        "seconds",
+        "iterations",
+        "engine says",
+    ];
     tables(text, &charts, &[json!({ "title": "Runs", "columns": columns, "rows": rows })])
 }
 
 /// Error against time on one scene, a line per method.
 fn errors(scene: &str, points: &[StudyPoint]) -> Chart {
     let of = |method: StudyMethod| {
-        let mut own: Vec<&StudyPoint> = points.iter().filter(|p| p.scene == scene && p.method == method && p.seconds > 0.0).collect();
+        let mut own: Vec<&StudyPoint> = points
+            .iter()
+            .filter(|p| p.scene == scene && p.method == method && p.seconds > 0.0)
+            .collect();
         own.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-        let known: Vec<(&StudyPoint, f64)> = own.into_iter().filter_map(|p| Some((p, p.error?))).collect();
+        let known: Vec<(&StudyPoint, f64)> =
+            own.into_iter().filter_map(|p| Some((p, p.error?))).collect();
         Series {
             name: method.label().into(),
             line: true,
@@ -54,7 +83,11 @@ fn errors(scene: &str, points: &[StudyPoint]) -> Chart {
             hints: known
                 .iter()
                 .map(|(p, e)| {
-                    let knob = if method.knob().is_empty() { String::new() } else { format!(", {} {}", method.knob(), short(p.knob)) };
+                    let knob = if method.knob().is_empty() {
+                        String::new()
+                    } else {
+                        format!(", {} {}", method.knob(), short(p.knob))
+                    };
                     format!("{}{knob}: error {e:.1e} in {}", method.label(), seconds(p.seconds))
                 })
                 .collect(),
@@ -79,7 +112,14 @@ fn profiles(points: &[StudyPoint]) -> Chart {
         hints: ratios
             .iter()
             .zip(&shares)
-            .map(|(r, s)| format!("{}: {} % of the scenes within {} × the fastest", method.label(), short(100.0 * s), short(*r)))
+            .map(|(r, s)| {
+                format!(
+                    "{}: {} % of the scenes within {} × the fastest",
+                    method.label(),
+                    short(100.0 * s),
+                    short(*r)
+                )
+            })
             .collect(),
         points: ratios.iter().zip(&shares).map(|(r, s)| [*r, *s]).collect(),
         ..Series::default()
@@ -101,7 +141,17 @@ fn profiles(points: &[StudyPoint]) -> Chart {
 pub fn omissions(text: &Page, list: &[Omission]) -> Result<String, serde_json::Error> {
     let rows: Vec<Value> = list
         .iter()
-        .map(|o| json!([o.scene, o.unknowns[0], o.unknowns[1], o.seconds[0], o.seconds[1], o.values[0], o.difference()]))
+        .map(|o| {
+            json!([
+                o.scene,
+                o.unknowns[0],
+                o.unknowns[1],
+                o.seconds[0],
+                o.seconds[1],
+                o.values[0],
+                o.difference()
+            ])
+        })
         .collect();
     let columns = ["scene", "unknowns", "of", "seconds", "of", "load factor", "difference"];
     tables(text, &[], &[json!({ "title": "Scenes", "columns": columns, "rows": rows })])
@@ -113,12 +163,18 @@ pub fn omissions(text: &Page, list: &[Omission]) -> Result<String, serde_json::E
 /// Only if memory runs out.
 pub fn extreme(text: &Page, found: &[CellAnswer]) -> Result<String, serde_json::Error> {
     let series = |family: &str| {
-        let own: Vec<(&CellAnswer, f64)> =
-            found.iter().filter(|f| f.family == family && f.seconds > 0.0).filter_map(|f| Some((f, f.error?))).collect();
+        let own: Vec<(&CellAnswer, f64)> = found
+            .iter()
+            .filter(|f| f.family == family && f.seconds > 0.0)
+            .filter_map(|f| Some((f, f.error?)))
+            .collect();
         Series {
             name: family.into(),
             points: own.iter().map(|(f, e)| [f.seconds, e.clamp(FLOOR, 10.0)]).collect(),
-            hints: own.iter().map(|(f, e)| format!("{}: error {e:.1e} in {}", f.what, seconds(f.seconds))).collect(),
+            hints: own
+                .iter()
+                .map(|(f, e)| format!("{}: error {e:.1e} in {}", f.what, seconds(f.seconds)))
+                .collect(),
             ..Series::default()
         }
     };
@@ -126,7 +182,11 @@ pub fn extreme(text: &Page, found: &[CellAnswer]) -> Result<String, serde_json::
         title: "Load factors: error against time".into(),
         x: Axis::new("seconds", true),
         y: Axis::new("relative error", true),
-        series: ["column", "wall", "arch"].map(series).into_iter().filter(|s| !s.points.is_empty()).collect(),
+        series: ["column", "wall", "arch"]
+            .map(series)
+            .into_iter()
+            .filter(|s| !s.points.is_empty())
+            .collect(),
         ..Chart::default()
     };
     let asked = |ask: CellQuestion| match ask {
@@ -138,10 +198,30 @@ pub fn extreme(text: &Page, found: &[CellAnswer]) -> Result<String, serde_json::
         .iter()
         .map(|f| {
             let grade = format!("{:?}", f.grade).to_lowercase();
-            json!([f.family, f.what, asked(f.ask), grade, f.value, f.error, f.bracket, f.iterations, f.seconds])
+            json!([
+                f.family,
+                f.what,
+                asked(f.ask),
+                grade,
+                f.value,
+                f.error,
+                f.bracket,
+                f.iterations,
+                f.seconds
+            ])
         })
         .collect();
-    let columns = ["family", "what", "right answer", "grade", "value", "relative error", "bracket", "iterations", "seconds"];
+    let columns = [
+        "family",
+        "what",
+        "right answer",
+        "grade",
+        "value",
+        "relative error",
+        "bracket",
+        "iterations",
+        "seconds",
+    ];
     let charts = if chart.series.is_empty() { Vec::new() } else { vec![chart] };
     tables(text, &charts, &[json!({ "title": "Cells", "columns": columns, "rows": rows })])
 }

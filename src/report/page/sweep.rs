@@ -1,4 +1,5 @@
-//! The page of a sweep: its words, charts of the value against what varies, and a table of all rows to sort.
+//! The page of a sweep: its words, charts of the value against what varies, and a table of all rows
+//! to sort.
 
 use super::{Axis, Chart, Series, tables};
 use crate::{
@@ -20,13 +21,20 @@ const ROWS: usize = 20_000;
 ///
 /// # Errors
 /// Only if memory runs out.
-pub fn sweep(text: &Page, header: &Header, rows: &[Row], summary: &Summary) -> Result<String, serde_json::Error> {
+pub fn sweep(
+    text: &Page,
+    header: &Header,
+    rows: &[Row],
+    summary: &Summary,
+) -> Result<String, serde_json::Error> {
     let mut charts = Vec::new();
     charts.extend(summary.fragility.as_ref().map(fragility));
-    let known: Vec<(&Row, f64)> = rows.iter().filter_map(|r| Some((r, value_of(header, r)?))).collect();
+    let known: Vec<(&Row, f64)> =
+        rows.iter().filter_map(|r| Some((r, value_of(header, r)?))).collect();
     if !known.is_empty() {
         let ranked = summary.influence.iter().map(|i| i.index);
-        let rest = (0..header.plan.vary.len()).filter(|k| summary.influence.iter().all(|i| i.index != *k));
+        let rest =
+            (0..header.plan.vary.len()).filter(|k| summary.influence.iter().all(|i| i.index != *k));
         let order: Vec<usize> = ranked.chain(rest).collect();
         if let [a, b, ..] = order[..] {
             charts.push(heat(header, &known, [a.min(b), a.max(b)]));
@@ -49,11 +57,22 @@ fn column(known: &[(&Row, f64)], k: usize) -> Vec<f64> {
 }
 
 fn hint(header: &Header, row: &Row, value: f64) -> String {
-    let numbers = row.parameters.iter().enumerate().map(|(k, v)| format!("{} {}", label(header, k), short(*v)));
-    format!("row {}: {} {} at {}", row.row, what(header), short(value), numbers.collect::<Vec<_>>().join(", "))
+    let numbers = row
+        .parameters
+        .iter()
+        .enumerate()
+        .map(|(k, v)| format!("{} {}", label(header, k), short(*v)));
+    format!(
+        "row {}: {} {} at {}",
+        row.row,
+        what(header),
+        short(value),
+        numbers.collect::<Vec<_>>().join(", ")
+    )
 }
 
-/// The value against one number: every row, and their mean in a band from the least to the greatest.
+/// The value against one number: every row, and their mean in a band from the least to the
+/// greatest.
 fn along(header: &Header, known: &[(&Row, f64)], k: usize) -> Chart {
     let (xs, values) = (column(known, k), known.iter().map(|k| k.1).collect::<Vec<_>>());
     let groups = bands(&xs, &values);
@@ -63,7 +82,16 @@ fn along(header: &Header, known: &[(&Row, f64)], k: usize) -> Chart {
         points: groups.iter().map(|g| [g[0], g[2]]).collect(),
         hints: groups
             .iter()
-            .map(|g| format!("{} {}: mean {}, from {} to {}", label(header, k), short(g[0]), short(g[2]), short(g[1]), short(g[3])))
+            .map(|g| {
+                format!(
+                    "{} {}: mean {}, from {} to {}",
+                    label(header, k),
+                    short(g[0]),
+                    short(g[2]),
+                    short(g[1]),
+                    short(g[3])
+                )
+            })
             .collect(),
         band: groups.iter().map(|g| [g[1], g[3]]).collect(),
         ..Series::default()
@@ -101,7 +129,13 @@ fn heat(header: &Header, known: &[(&Row, f64)], [a, b]: [usize; 2]) -> Chart {
             .map(|c| {
                 let (x, y) = (short(middle(c.x)), short(middle(c.y)));
                 let rows = crate::number::count(c.rows, "row");
-                format!("{} {x}, {} {y}: {} {} ({rows})", label(header, a), label(header, b), what(header), short(c.mean))
+                format!(
+                    "{} {x}, {} {y}: {} {} ({rows})",
+                    label(header, a),
+                    label(header, b),
+                    what(header),
+                    short(c.mean)
+                )
             })
             .collect(),
         band: cells.iter().map(|c| [half(c.x), half(c.y)]).collect(),
@@ -129,7 +163,14 @@ fn fragility(f: &Fragility) -> Chart {
             .iter()
             .map(|(at, p)| {
                 let (low, high) = (percent(p.lower), percent(p.upper));
-                format!("{} {}: {} of {} fail, {} % ({low} to {high} %)", f.along, short(*at), p.failed, p.of, percent(p.share))
+                format!(
+                    "{} {}: {} of {} fail, {} % ({low} to {high} %)",
+                    f.along,
+                    short(*at),
+                    p.failed,
+                    p.of,
+                    percent(p.share)
+                )
             })
             .collect(),
         band: f.points.iter().map(|(_, p)| [p.lower, p.upper]).collect(),
@@ -150,7 +191,12 @@ fn table(header: &Header, rows: &[Row]) -> Value {
     let errors = rows.iter().any(|r| r.error.is_some());
     let mut columns: Vec<&str> = vec!["row"];
     columns.extend((0..header.plan.vary.len()).map(|k| label(header, k)));
-    columns.extend(["status", header.plan.question.quantity().unwrap_or("value"), "lower", "upper"]);
+    columns.extend([
+        "status",
+        header.plan.question.quantity().unwrap_or("value"),
+        "lower",
+        "upper",
+    ]);
     columns.extend(directions.then_some("towards"));
     columns.extend(errors.then_some("error"));
     columns.push("seconds");
@@ -165,6 +211,7 @@ fn table(header: &Header, rows: &[Row]) -> Value {
         cells
     };
     let left = rows.len().saturating_sub(ROWS);
-    let note = if left > 0 { format!("{left} more rows are in the file of rows.") } else { String::new() };
+    let note =
+        if left > 0 { format!("{left} more rows are in the file of rows.") } else { String::new() };
     json!({ "title": "Rows", "columns": columns, "rows": rows.iter().take(ROWS).map(line).collect::<Vec<_>>(), "note": note })
 }

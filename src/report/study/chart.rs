@@ -2,7 +2,10 @@
 
 use crate::study::{StudyMethod, StudyPoint, profile};
 use plotters::{
-    prelude::{ChartBuilder, Circle, IntoDrawingArea, IntoLogRange, PathElement, RGBColor, SVGBackend, SeriesLabelPosition, WHITE},
+    prelude::{
+        ChartBuilder, Circle, IntoDrawingArea, IntoLogRange, PathElement, RGBColor, SVGBackend,
+        SeriesLabelPosition, WHITE,
+    },
     style::{Color, IntoFont},
 };
 
@@ -37,8 +40,12 @@ fn refused(e: impl std::fmt::Display) -> StudyChartError {
 /// # Errors
 /// No point has an error.
 pub fn errors(scene: &str, points: &[StudyPoint]) -> Result<String, StudyChartError> {
-    let own: Vec<&StudyPoint> = points.iter().filter(|p| p.scene == scene && p.error.is_some()).collect();
-    let times = own.iter().map(|p| p.seconds).fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(t), h.max(t)));
+    let own: Vec<&StudyPoint> =
+        points.iter().filter(|p| p.scene == scene && p.error.is_some()).collect();
+    let times = own
+        .iter()
+        .map(|p| p.seconds)
+        .fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(t), h.max(t)));
     if own.is_empty() || times.0 <= 0.0 {
         return Err(StudyChartError(format!("no run on {scene} gave a value")));
     }
@@ -52,7 +59,10 @@ pub fn errors(scene: &str, points: &[StudyPoint]) -> Result<String, StudyChartEr
             .caption(scene, ("sans-serif", 18))
             .x_label_area_size(42)
             .y_label_area_size(70)
-            .build_cartesian_2d((0.7 * times.0..1.4 * times.1).log_scale(), (FLOOR..10.0).log_scale())
+            .build_cartesian_2d(
+                (0.7 * times.0..1.4 * times.1).log_scale(),
+                (FLOOR..10.0).log_scale(),
+            )
             .map_err(refused)?;
         chart
             .configure_mesh()
@@ -65,7 +75,8 @@ pub fn errors(scene: &str, points: &[StudyPoint]) -> Result<String, StudyChartEr
             .draw()
             .map_err(refused)?;
         for (k, method) in StudyMethod::ALL.into_iter().enumerate() {
-            let mut line: Vec<(f64, f64)> = own.iter().filter(|p| p.method == method).map(|p| (p.seconds, y(p))).collect();
+            let mut line: Vec<(f64, f64)> =
+                own.iter().filter(|p| p.method == method).map(|p| (p.seconds, y(p))).collect();
             if line.is_empty() {
                 continue;
             }
@@ -75,8 +86,12 @@ pub fn errors(scene: &str, points: &[StudyPoint]) -> Result<String, StudyChartEr
                 .draw_series([PathElement::new(line.clone(), colour.stroke_width(2))])
                 .map_err(refused)?
                 .label(method.label())
-                .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2)));
-            chart.draw_series(line.into_iter().map(|p| Circle::new(p, 3, colour.filled()))).map_err(refused)?;
+                .legend(move |(x, y)| {
+                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
+                });
+            chart
+                .draw_series(line.into_iter().map(|p| Circle::new(p, 3, colour.filled())))
+                .map_err(refused)?;
         }
         legend(&mut chart)?;
         area.present().map_err(refused)?;
@@ -84,7 +99,8 @@ pub fn errors(scene: &str, points: &[StudyPoint]) -> Result<String, StudyChartEr
     Ok(text)
 }
 
-/// The performance profile: which share of the scenes a method answers to `error` within a multiple of the fastest method's time.
+/// The performance profile: which share of the scenes a method answers to `error` within a multiple
+/// of the fastest method's time.
 ///
 /// # Errors
 /// There is nothing to draw.
@@ -117,7 +133,9 @@ pub fn profiles(points: &[StudyPoint], error: f64) -> Result<String, StudyChartE
                 .draw_series([PathElement::new(line, colour.stroke_width(2))])
                 .map_err(refused)?
                 .label(method.label())
-                .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2)));
+                .legend(move |(x, y)| {
+                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
+                });
         }
         legend(&mut chart)?;
         area.present().map_err(refused)?;
@@ -125,7 +143,11 @@ pub fn profiles(points: &[StudyPoint], error: f64) -> Result<String, StudyChartE
     Ok(text)
 }
 
-type Chart<'a, 'b, X, Y> = plotters::chart::ChartContext<'a, SVGBackend<'b>, plotters::coord::cartesian::Cartesian2d<X, Y>>;
+type Chart<'a, 'b, X, Y> = plotters::chart::ChartContext<
+    'a,
+    SVGBackend<'b>,
+    plotters::coord::cartesian::Cartesian2d<X, Y>,
+>;
 
 fn legend<'a, X, Y>(chart: &mut Chart<'a, 'a, X, Y>) -> Result<(), StudyChartError>
 where

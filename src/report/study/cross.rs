@@ -34,7 +34,9 @@ pub fn cross_csv(list: &[Crossed]) -> Result<String, csv::Error> {
         "seconds",
     ])?;
     let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
-    let lines = |list: &[Differs]| list.iter().map(|d| format!("{}: {}", d.way.word(), d.what)).collect::<Vec<_>>().join("; ");
+    let lines = |list: &[Differs]| {
+        list.iter().map(|d| format!("{}: {}", d.way.word(), d.what)).collect::<Vec<_>>().join("; ")
+    };
     for c in list {
         out.write_record([
             c.index.to_string(),
@@ -64,7 +66,10 @@ pub fn cross_text(list: &[Crossed], seed: u64, verbose: bool, layout: Layout) ->
     let all = count(list, |_| true);
     let role = if all.wrong > 0 { Role::Bad } else { Role::Good };
     let share = 100.0 * all.undecided as f64 / all.scenes.max(1) as f64;
-    let title = format!("{} scenes, {} with a contradiction, {} undecided ({share:.2} %)", all.scenes, all.wrong, all.undecided);
+    let title = format!(
+        "{} scenes, {} with a contradiction, {} undecided ({share:.2} %)",
+        all.scenes, all.wrong, all.undecided
+    );
     page.title("One scene, several ways", title, role);
     page.blank();
     for family in FAMILIES {
@@ -72,15 +77,22 @@ pub fn cross_text(list: &[Crossed], seed: u64, verbose: bool, layout: Layout) ->
     }
     page.row("all", sums(&all));
     let names = |of: &dyn Fn(&Crossed) -> &[Differs]| -> Vec<String> {
-        let lines: Vec<String> = list.iter().flat_map(|c| of(c).iter().map(|d| line(c, d, seed))).collect();
+        let lines: Vec<String> =
+            list.iter().flat_map(|c| of(c).iter().map(|d| line(c, d, seed))).collect();
         let shown = if verbose { lines.len() } else { lines.len().min(NAMED) };
-        let more = (shown < lines.len()).then(|| format!("… and {} more (--verbose for all)", lines.len() - shown));
+        let more = (shown < lines.len())
+            .then(|| format!("… and {} more (--verbose for all)", lines.len() - shown));
         lines[..shown].iter().cloned().chain(more).collect()
     };
     page.row("wrong", names(&|c| &c.wrong));
     page.row("lost", names(&|c| &c.lost));
     page.row("differ", names(&|c| &c.apart));
-    page.row("refused", list.iter().filter_map(|c| Some(format!("{seed}/{}: {}: {}", c.index, c.family, c.error.as_ref()?))));
+    page.row(
+        "refused",
+        list.iter().filter_map(|c| {
+            Some(format!("{seed}/{}: {}: {}", c.index, c.family, c.error.as_ref()?))
+        }),
+    );
     page
 }
 
@@ -97,7 +109,10 @@ fn sums(c: &CrossCount) -> Vec<String> {
     ];
     if c.simulated > 0 {
         let open = c.simulated - c.agree - c.apart;
-        lines.push(format!("{} simulated beside the load factor: {} agree, {open} open, {} differ", c.simulated, c.agree, c.apart));
+        lines.push(format!(
+            "{} simulated beside the load factor: {} agree, {open} open, {} differ",
+            c.simulated, c.agree, c.apart
+        ));
     }
     lines
 }

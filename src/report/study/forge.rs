@@ -16,7 +16,17 @@ const NAMED: usize = 12;
 /// The writer's, which has no reason to fail in memory.
 pub fn forge_csv(list: &[Forged]) -> Result<String, csv::Error> {
     let mut out = Table::new();
-    out.write_record(["scene", "family", "results", "forged", "accepted", "kinds", "error", "seconds", "verifying"])?;
+    out.write_record([
+        "scene",
+        "family",
+        "results",
+        "forged",
+        "accepted",
+        "kinds",
+        "error",
+        "seconds",
+        "verifying",
+    ])?;
     for f in list {
         out.write_record([
             f.index.to_string(),
@@ -24,7 +34,11 @@ pub fn forge_csv(list: &[Forged]) -> Result<String, csv::Error> {
             f.results.values().sum::<usize>().to_string(),
             f.count().to_string(),
             f.accepted.len().to_string(),
-            f.accepted.iter().map(|a| format!("{} {}: {}", a.question, a.kind, a.what)).collect::<Vec<_>>().join("; "),
+            f.accepted
+                .iter()
+                .map(|a| format!("{} {}: {}", a.question, a.kind, a.what))
+                .collect::<Vec<_>>()
+                .join("; "),
             f.error.clone().unwrap_or_default(),
             f.seconds.to_string(),
             f.verifying.to_string(),
@@ -39,29 +53,61 @@ pub fn forge_text(list: &[Forged], seed: u64, verbose: bool, layout: Layout) -> 
     let made: usize = list.iter().map(Forged::count).sum();
     let accepted: usize = list.iter().map(|f| f.accepted.len()).sum();
     let role = if list.iter().any(Forged::is_wrong) { Role::Bad } else { Role::Good };
-    page.title("Forged results", format!("{made} of {} scenes, {accepted} accepted", list.len()), role);
+    page.title(
+        "Forged results",
+        format!("{made} of {} scenes, {accepted} accepted", list.len()),
+        role,
+    );
     page.blank();
     let mut kinds: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
     for f in list {
         f.made.iter().for_each(|(kind, count)| kinds.entry(kind).or_default()[0] += count);
         f.accepted.iter().for_each(|a| kinds.entry(&a.kind).or_default()[1] += 1);
     }
-    page.row("kinds", kinds.into_iter().map(|(kind, [made, accepted])| format!("{kind:<20} {made:>8} made {accepted:>6} accepted")));
+    page.row(
+        "kinds",
+        kinds.into_iter().map(|(kind, [made, accepted])| {
+            format!("{kind:<20} {made:>8} made {accepted:>6} accepted")
+        }),
+    );
     let mut results: BTreeMap<&str, usize> = BTreeMap::new();
-    list.iter().flat_map(|f| &f.results).for_each(|(name, count)| *results.entry(name).or_default() += count);
-    page.row("results", [results.into_iter().map(|(name, count)| format!("{count} of {name}")).collect::<Vec<_>>().join(", ")]);
-    let (seconds, verifying): (f64, f64) = list.iter().fold((0.0, 0.0), |sum, f| (sum.0 + f.seconds, sum.1 + f.verifying));
+    list.iter()
+        .flat_map(|f| &f.results)
+        .for_each(|(name, count)| *results.entry(name).or_default() += count);
+    page.row(
+        "results",
+        [results
+            .into_iter()
+            .map(|(name, count)| format!("{count} of {name}"))
+            .collect::<Vec<_>>()
+            .join(", ")],
+    );
+    let (seconds, verifying): (f64, f64) =
+        list.iter().fold((0.0, 0.0), |sum, f| (sum.0 + f.seconds, sum.1 + f.verifying));
     page.row(
         "time",
-        [format!("{seconds:.0} s, {verifying:.0} s of them to verify: {:.2} ms a forgery", 1e3 * verifying / made.max(1) as f64)],
+        [format!(
+            "{seconds:.0} s, {verifying:.0} s of them to verify: {:.2} ms a forgery",
+            1e3 * verifying / made.max(1) as f64
+        )],
     );
     let lines: Vec<String> = list
         .iter()
-        .flat_map(|f| f.accepted.iter().map(move |a| format!("{seed}/{}: {}, {}: {}: {}", f.index, f.family, a.question, a.kind, a.what)))
+        .flat_map(|f| {
+            f.accepted.iter().map(move |a| {
+                format!("{seed}/{}: {}, {}: {}: {}", f.index, f.family, a.question, a.kind, a.what)
+            })
+        })
         .collect();
     let shown = if verbose { lines.len() } else { lines.len().min(NAMED) };
-    let more = (shown < lines.len()).then(|| format!("… and {} more (--verbose for all)", lines.len() - shown));
+    let more = (shown < lines.len())
+        .then(|| format!("… and {} more (--verbose for all)", lines.len() - shown));
     page.row("accepted", lines[..shown].iter().cloned().chain(more));
-    page.row("refused", list.iter().filter_map(|f| Some(format!("{seed}/{}: {}: {}", f.index, f.family, f.error.as_ref()?))));
+    page.row(
+        "refused",
+        list.iter().filter_map(|f| {
+            Some(format!("{seed}/{}: {}: {}", f.index, f.family, f.error.as_ref()?))
+        }),
+    );
     page
 }

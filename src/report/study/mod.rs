@@ -65,7 +65,17 @@ pub fn csv(points: &[StudyPoint]) -> Result<String, csv::Error> {
 /// As [`csv()`].
 pub fn extreme_csv(found: &[CellAnswer]) -> Result<String, csv::Error> {
     let mut out = Table::new();
-    out.write_record(["family", "what", "asked", "grade", "value", "relative_error", "bracket", "iterations", "seconds"])?;
+    out.write_record([
+        "family",
+        "what",
+        "asked",
+        "grade",
+        "value",
+        "relative_error",
+        "bracket",
+        "iterations",
+        "seconds",
+    ])?;
     let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
     for f in found {
         out.write_record([
@@ -93,22 +103,39 @@ pub fn text(points: &[StudyPoint], layout: Layout) -> Page {
         }
     }
     let wrong: Vec<&StudyPoint> = points.iter().filter(|p| p.is_silently_wrong()).collect();
-    let title = format!("{} runs on {} scenes, {} wrong although the engine said solved", points.len(), scenes.len(), wrong.len());
-    page.title("Error against run time", title, if wrong.is_empty() { Role::Good } else { Role::Value });
+    let title = format!(
+        "{} runs on {} scenes, {} wrong although the engine said solved",
+        points.len(),
+        scenes.len(),
+        wrong.len()
+    );
+    page.title(
+        "Error against run time",
+        title,
+        if wrong.is_empty() { Role::Good } else { Role::Value },
+    );
     page.blank();
     for scene in &scenes {
         let lines: Vec<String> = StudyMethod::ALL
             .into_iter()
             .filter_map(|method| {
-                let mut own: Vec<&StudyPoint> = points.iter().filter(|p| p.scene == *scene && p.method == method).collect();
-                own.sort_by(|a, b| error(a).total_cmp(&error(b)).then(a.seconds.total_cmp(&b.seconds)));
+                let mut own: Vec<&StudyPoint> =
+                    points.iter().filter(|p| p.scene == *scene && p.method == method).collect();
+                own.sort_by(|a, b| {
+                    error(a).total_cmp(&error(b)).then(a.seconds.total_cmp(&b.seconds))
+                });
                 let best = own.first()?;
                 let at = if method.knob().is_empty() {
                     String::new()
                 } else {
                     format!(", {} {}", method.knob(), crate::number::short(best.knob))
                 };
-                Some(format!("{:<28} {:>8}  {}{at}", method.label(), shown(best.error), crate::number::seconds(best.seconds)))
+                Some(format!(
+                    "{:<28} {:>8}  {}{at}",
+                    method.label(),
+                    shown(best.error),
+                    crate::number::seconds(best.seconds)
+                ))
             })
             .collect();
         page.row(scene, lines);
@@ -116,7 +143,14 @@ pub fn text(points: &[StudyPoint], layout: Layout) -> Page {
     page.row(
         "wrong",
         wrong.iter().map(|p| {
-            format!("{}: {}, {} {}: error {}", p.scene, p.method.label(), p.method.knob(), crate::number::short(p.knob), shown(p.error))
+            format!(
+                "{}: {}, {} {}: error {}",
+                p.scene,
+                p.method.label(),
+                p.method.knob(),
+                crate::number::short(p.knob),
+                shown(p.error)
+            )
         }),
     );
     page
@@ -127,13 +161,19 @@ pub fn omissions_text(list: &[Omission], layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let worst = list.iter().filter_map(Omission::difference).fold(0.0, f64::max);
     let compared = list.iter().filter(|o| o.difference().is_some()).count();
-    let title = format!("{compared} of {} load factors compared, the same to {worst:.0e}", list.len());
+    let title =
+        format!("{compared} of {} load factors compared, the same to {worst:.0e}", list.len());
     page.title("What omissions save", title, Role::Value);
     page.blank();
     for o in list {
         let seconds = o.seconds.map(crate::number::seconds);
-        let same = o.difference().map_or("one of them did not come out".into(), |d| format!("answers differ by {d:.0e}"));
-        let line = format!("{} unknowns in {} instead of {} in {}; {same}", o.unknowns[0], seconds[0], o.unknowns[1], seconds[1]);
+        let same = o.difference().map_or("one of them did not come out".into(), |d| {
+            format!("answers differ by {d:.0e}")
+        });
+        let line = format!(
+            "{} unknowns in {} instead of {} in {}; {same}",
+            o.unknowns[0], seconds[0], o.unknowns[1], seconds[1]
+        );
         page.row(&o.scene, std::iter::once(line).chain(o.left_out.iter().cloned()));
     }
     page
@@ -160,19 +200,27 @@ pub fn extreme_text(found: &[CellAnswer], verbose: bool, layout: Layout) -> Page
     }
     page.row("all", [sums(&all)]);
     let others = |grade: CellGrade| -> Vec<String> {
-        found.iter().filter(|f| f.grade == grade).map(|f| format!("{}: {}: {:?}", f.family, f.what, f.ask)).collect()
+        found
+            .iter()
+            .filter(|f| f.grade == grade)
+            .map(|f| format!("{}: {}: {:?}", f.family, f.what, f.ask))
+            .collect()
     };
     page.row("wrong", others(CellGrade::Wrong));
     let undecided = others(CellGrade::Undecided);
     let shown = if verbose { undecided.len() } else { undecided.len().min(6) };
-    let more = (shown < undecided.len()).then(|| format!("… and {} more (--verbose for all)", undecided.len() - shown));
+    let more = (shown < undecided.len())
+        .then(|| format!("… and {} more (--verbose for all)", undecided.len() - shown));
     page.row("undecided", undecided[..shown].iter().cloned().chain(more));
     page
 }
 
 fn sums(c: &CellCount) -> String {
     let share = 100.0 * c.undecided as f64 / c.cells.max(1) as f64;
-    let verdicts = format!("{} cells: {} right, {} undecided ({share:.1} %), {} wrong", c.cells, c.right, c.undecided, c.wrong);
+    let verdicts = format!(
+        "{} cells: {} right, {} undecided ({share:.1} %), {} wrong",
+        c.cells, c.right, c.undecided, c.wrong
+    );
     if c.load_factors == 0 {
         return format!("{verdicts}; at most {} iterations", c.iterations);
     }

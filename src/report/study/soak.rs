@@ -10,8 +10,14 @@ use crate::{
 };
 
 /// The perturbations, in the order of the table.
-const PERTURBATIONS: [Perturbation; 6] =
-    [Perturbation::Gaps, Perturbation::Rotations, Perturbation::Missing, Perturbation::Pushed, Perturbation::Uneven, Perturbation::Moved];
+const PERTURBATIONS: [Perturbation; 6] = [
+    Perturbation::Gaps,
+    Perturbation::Rotations,
+    Perturbation::Missing,
+    Perturbation::Pushed,
+    Perturbation::Uneven,
+    Perturbation::Moved,
+];
 
 /// How many scenes are named where not all are asked for.
 const NAMED: usize = 8;
@@ -38,7 +44,8 @@ pub fn soak_csv(list: &[Soaked]) -> Result<String, csv::Error> {
     ])?;
     for s in list {
         let perturbations: Vec<String> = s.perturbations.iter().map(|p| word(*p)).collect();
-        let verdict = |v: Option<Verdict>| v.map_or(String::new(), |v| format!("{v:?}").to_lowercase());
+        let verdict =
+            |v: Option<Verdict>| v.map_or(String::new(), |v| format!("{v:?}").to_lowercase());
         let flag = |b: Option<bool>| b.map_or("", |b| if b { "yes" } else { "no" }).to_string();
         out.write_record([
             s.index.to_string(),
@@ -64,7 +71,10 @@ pub fn soak_text(list: &[Soaked], seed: u64, verbose: bool, layout: Layout) -> P
     let all = count(list, |_| true);
     let role = if all.wrong > 0 { Role::Bad } else { Role::Good };
     let share = 100.0 * all.undecided as f64 / all.scenes.max(1) as f64;
-    let title = format!("{} scenes, {} wrong, {} undecided ({share:.2} %)", all.scenes, all.wrong, all.undecided);
+    let title = format!(
+        "{} scenes, {} wrong, {} undecided ({share:.2} %)",
+        all.scenes, all.wrong, all.undecided
+    );
     page.title("Random scenes", title, role);
     page.blank();
     for family in FAMILIES {
@@ -77,7 +87,8 @@ pub fn soak_text(list: &[Soaked], seed: u64, verbose: bool, layout: Layout) -> P
     let names = |of: &dyn Fn(&Soaked) -> bool| -> Vec<String> {
         let these: Vec<&Soaked> = list.iter().filter(|s| of(s)).collect();
         let shown = if verbose { these.len() } else { these.len().min(NAMED) };
-        let more = (shown < these.len()).then(|| format!("… and {} more (--verbose for all)", these.len() - shown));
+        let more = (shown < these.len())
+            .then(|| format!("… and {} more (--verbose for all)", these.len() - shown));
         these[..shown].iter().map(|s| line(s, seed)).chain(more).collect()
     };
     page.row("wrong", names(&Soaked::is_wrong));
@@ -108,7 +119,9 @@ fn line(s: &Soaked, seed: u64) -> String {
     if !what.is_empty() {
         text.push_str(&format!(" ({})", what.join(", ")));
     }
-    for (name, verdict) in [("", s.verdict), ("unproved: ", s.unproved), ("everything kept: ", s.kept)] {
+    for (name, verdict) in
+        [("", s.verdict), ("unproved: ", s.unproved), ("everything kept: ", s.kept)]
+    {
         text.extend(verdict.map(|v| format!("; {name}{v:?}").to_lowercase()));
     }
     text.extend(s.fate.map(|f| format!("; simulation: {f:?}").to_lowercase()));

@@ -8,14 +8,18 @@ use crate::{
 };
 use plotters::{
     coord::Shift,
-    prelude::{ChartBuilder, Circle, DrawingArea, IntoDrawingArea, PathElement, Polygon, RGBColor, Rectangle, SVGBackend, Text, WHITE},
+    prelude::{
+        ChartBuilder, Circle, DrawingArea, IntoDrawingArea, PathElement, Polygon, RGBColor,
+        Rectangle, SVGBackend, Text, WHITE,
+    },
     style::{Color, IntoFont},
 };
 
 /// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// The value against the number that matters most: mean, and the band from the least to the greatest.
+    /// The value against the number that matters most: mean, and the band from the least to the
+    /// greatest.
     Line,
     /// The mean value against the two numbers that matter most, in colours.
     Heat,
@@ -41,7 +45,9 @@ impl Kind {
     /// It needs more numbers, or a sample.
     pub fn fits(self, plan: &Plan) -> Result<(), ChartError> {
         match self {
-            Self::Heat if plan.vary.len() < 2 => Err(ChartError("a heat map needs two numbers that vary".into())),
+            Self::Heat if plan.vary.len() < 2 => {
+                Err(ChartError("a heat map needs two numbers that vary".into()))
+            }
             Self::Fragility if matches!(plan.sampling, Sampling::Grid {}) => {
                 Err(ChartError("a fragility curve needs a sample, and the plan is a grid".into()))
             }
@@ -60,8 +66,10 @@ const SIZE: (u32, u32) = (560, 360);
 const TITLE: (&str, u32) = ("sans-serif", 18);
 const WORDS: (&str, u32) = ("sans-serif", 15);
 const INK: RGBColor = RGBColor(31, 78, 121);
-/// Colours of even steps in lightness, for values from the least to the greatest (viridis; Smith & van der Walt 2015).
-const SCALE: [(u8, u8, u8); 5] = [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)];
+/// Colours of even steps in lightness, for values from the least to the greatest (viridis; Smith &
+/// van der Walt 2015).
+const SCALE: [(u8, u8, u8); 5] =
+    [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)];
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
@@ -69,17 +77,26 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 ///
 /// # Errors
 /// The plan does not fit this kind, or too few rows have a value.
-pub fn chart(header: &Header, rows: &[Row], summary: &Summary, kind: Kind) -> Result<String, ChartError> {
+pub fn chart(
+    header: &Header,
+    rows: &[Row],
+    summary: &Summary,
+    kind: Kind,
+) -> Result<String, ChartError> {
     kind.fits(&header.plan)?;
     let order: Vec<usize> = {
         let known = summary.influence.iter().map(|i| i.index);
-        let rest = (0..header.plan.vary.len()).filter(|k| summary.influence.iter().all(|i| i.index != *k));
+        let rest =
+            (0..header.plan.vary.len()).filter(|k| summary.influence.iter().all(|i| i.index != *k));
         known.chain(rest).collect()
     };
     let label = |k: usize| header.plan.vary.get(k).map_or("", |v| v.label());
     let what = header.plan.question.quantity().unwrap_or("share that stands");
-    let known: Vec<(&Row, f64)> = rows.iter().filter_map(|r| Some((r, value_of(header, r)?))).collect();
-    let column = |k: usize| -> Vec<f64> { known.iter().map(|(r, _)| r.parameters.get(k).copied().unwrap_or(f64::NAN)).collect() };
+    let known: Vec<(&Row, f64)> =
+        rows.iter().filter_map(|r| Some((r, value_of(header, r)?))).collect();
+    let column = |k: usize| -> Vec<f64> {
+        known.iter().map(|(r, _)| r.parameters.get(k).copied().unwrap_or(f64::NAN)).collect()
+    };
     let values: Vec<f64> = known.iter().map(|k| k.1).collect();
     let mut text = String::new();
     {
@@ -112,7 +129,9 @@ fn refused(e: impl std::fmt::Display) -> ChartError {
 
 /// Both ends of a list, set apart where they are equal.
 fn ends(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
-    let (low, high) = values.filter(|v| v.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+    let (low, high) = values
+        .filter(|v| v.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
     if low > high {
         return None;
     }
@@ -121,8 +140,15 @@ fn ends(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 }
 
 /// A curve in a band.
-fn curve(area: &Area, title: &str, labels: [&str; 2], y: (f64, f64), points: &[[f64; 4]]) -> Result<(), ChartError> {
-    let x = ends(points.iter().map(|p| p[0])).ok_or_else(|| ChartError("no row has a value".into()))?;
+fn curve(
+    area: &Area,
+    title: &str,
+    labels: [&str; 2],
+    y: (f64, f64),
+    points: &[[f64; 4]],
+) -> Result<(), ChartError> {
+    let x =
+        ends(points.iter().map(|p| p[0])).ok_or_else(|| ChartError("no row has a value".into()))?;
     let mut chart = ChartBuilder::on(area)
         .margin(12)
         .caption(title, TITLE)
@@ -146,21 +172,32 @@ fn curve(area: &Area, title: &str, labels: [&str; 2], y: (f64, f64), points: &[[
         .map_err(refused)?;
     let there = points.iter().map(|p| (p[0], p[1]));
     let back = points.iter().rev().map(|p| (p[0], p[3]));
-    chart.draw_series([Polygon::new(there.chain(back).collect::<Vec<_>>(), INK.mix(0.18).filled())]).map_err(refused)?;
+    chart
+        .draw_series([Polygon::new(there.chain(back).collect::<Vec<_>>(), INK.mix(0.18).filled())])
+        .map_err(refused)?;
     let middle: Vec<(f64, f64)> = points.iter().map(|p| (p[0], p[2])).collect();
     chart.draw_series([PathElement::new(middle.clone(), INK.stroke_width(2))]).map_err(refused)?;
     if middle.len() <= 40 {
-        chart.draw_series(middle.into_iter().map(|p| Circle::new(p, 2, INK.filled()))).map_err(refused)?;
+        chart
+            .draw_series(middle.into_iter().map(|p| Circle::new(p, 2, INK.filled())))
+            .map_err(refused)?;
     }
     Ok(())
 }
 
 fn fragility(area: &Area, title: &str, f: &Fragility) -> Result<(), ChartError> {
-    let points: Vec<[f64; 4]> = f.points.iter().map(|(at, p)| [*at, p.lower, p.share, p.upper]).collect();
+    let points: Vec<[f64; 4]> =
+        f.points.iter().map(|(at, p)| [*at, p.lower, p.share, p.upper]).collect();
     curve(area, title, [&f.along, "share that fails"], (0.0, 1.0), &points)
 }
 
-fn line(area: &Area, title: &str, labels: [&str; 2], xs: &[f64], values: &[f64]) -> Result<(), ChartError> {
+fn line(
+    area: &Area,
+    title: &str,
+    labels: [&str; 2],
+    xs: &[f64],
+    values: &[f64],
+) -> Result<(), ChartError> {
     let points = bands(xs, values);
     let y = ends(values.iter().copied()).ok_or_else(|| ChartError("no row has a value".into()))?;
     curve(area, title, labels, y, &points)
@@ -179,11 +216,23 @@ const BAR: u32 = 122;
 /// Steps of the colour bar.
 const STEPS: i32 = 40;
 
-fn heat(area: &Area, title: &str, labels: [&str; 3], xs: &[f64], ys: &[f64], values: &[f64]) -> Result<(), ChartError> {
+fn heat(
+    area: &Area,
+    title: &str,
+    labels: [&str; 3],
+    xs: &[f64],
+    ys: &[f64],
+    values: &[f64],
+) -> Result<(), ChartError> {
     let cells = cells(xs, ys, values);
-    let (low, high) = ends(cells.iter().map(|c| c.mean)).ok_or_else(|| ChartError("no row has a value".into()))?;
-    let hull =
-        |of: fn(&Cell) -> [f64; 2]| cells.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], [a, b]| [l.min(a), h.max(b)]);
+    let (low, high) = ends(cells.iter().map(|c| c.mean))
+        .ok_or_else(|| ChartError("no row has a value".into()))?;
+    let hull = |of: fn(&Cell) -> [f64; 2]| {
+        cells
+            .iter()
+            .map(of)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], [a, b]| [l.min(a), h.max(b)])
+    };
     let ([x0, x1], [y0, y1]) = (hull(|c| c.x), hull(|c| c.y));
     let area = area.titled(title, TITLE).map_err(refused)?;
     let (left, bar) = area.split_horizontally(SIZE.0 - BAR);

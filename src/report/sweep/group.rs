@@ -15,14 +15,18 @@ pub(in crate::report) struct Cell {
     pub rows: usize,
 }
 
-/// Groups of rows with like values of one number: mean of the number, least, mean and greatest value.
+/// Groups of rows with like values of one number: mean of the number, least, mean and greatest
+/// value.
 pub(in crate::report) fn bands(xs: &[f64], values: &[f64]) -> Vec<[f64; 4]> {
     groups(xs)
         .iter()
         .map(|group| {
             let n = group.len() as f64;
             let mean = |of: &[f64]| group.iter().map(|&i| of[i]).sum::<f64>() / n;
-            let (low, high) = group.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &i| (l.min(values[i]), h.max(values[i])));
+            let (low, high) =
+                group.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &i| {
+                    (l.min(values[i]), h.max(values[i]))
+                });
             [mean(xs), low, mean(values), high]
         })
         .collect()
@@ -30,7 +34,8 @@ pub(in crate::report) fn bands(xs: &[f64], values: &[f64]) -> Vec<[f64; 4]> {
 
 /// The cell borders along one axis: halfway between group means, as far outside at both ends.
 fn borders(xs: &[f64], groups: &[Vec<usize>]) -> Vec<f64> {
-    let means: Vec<f64> = groups.iter().map(|g| g.iter().map(|&i| xs[i]).sum::<f64>() / g.len() as f64).collect();
+    let means: Vec<f64> =
+        groups.iter().map(|g| g.iter().map(|&i| xs[i]).sum::<f64>() / g.len() as f64).collect();
     let between: Vec<f64> = means.windows(2).map(|w| (w[0] + w[1]) / 2.0).collect();
     let (Some(first), Some(last)) = (means.first(), means.last()) else { return Vec::new() };
     let (low, high) = match (between.first(), between.last()) {

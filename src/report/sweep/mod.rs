@@ -31,6 +31,12 @@ pub struct Document<'a> {
 impl<'a> Document<'a> {
     /// A summary with what it is about.
     pub fn new(header: &'a Header, summary: &'a Summary) -> Self {
-        Self { format: "voussoir-summary/1", name: &header.plan.name, question: &header.plan.question, rows: header.rows, summary }
+        Self {
+            format: "voussoir-summary/1",
+            name: &header.plan.name,
+            question: &header.plan.question,
+            rows: header.rows,
+            summary,
+        }
     }
 }

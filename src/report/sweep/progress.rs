@@ -33,14 +33,20 @@ impl SweepProgress {
     pub fn new(header: &Header, rows: &[Row], damaged: usize, tasks: Vec<(String, usize)>) -> Self {
         let mut counts = BTreeMap::new();
         rows.iter().for_each(|row| *counts.entry(row.answer.status.word()).or_default() += 1);
-        let first_missing = header.shard.rows(header.rows).zip(rows.iter().map(|r| Some(r.row)).chain(std::iter::repeat(None)));
+        let first_missing = header
+            .shard
+            .rows(header.rows)
+            .zip(rows.iter().map(|r| Some(r.row)).chain(std::iter::repeat(None)));
         Self {
             format: "voussoir-progress/1",
             name: header.plan.name.clone(),
             rows: header.shard.rows(header.rows).count(),
             done: rows.len(),
             counts,
-            first_missing: first_missing.into_iter().find(|(wanted, there)| Some(*wanted) != *there).map(|(wanted, _)| wanted),
+            first_missing: first_missing
+                .into_iter()
+                .find(|(wanted, there)| Some(*wanted) != *there)
+                .map(|(wanted, _)| wanted),
             damaged,
             tasks,
         }
@@ -59,16 +65,35 @@ pub fn progress(progress: &SweepProgress, layout: Layout) -> Page {
     let counts = list(progress.counts.iter().map(|(word, n)| format!("{n} {word}")).collect());
     let ended = if counts.is_empty() { counts } else { format!(": {counts}") };
     let role = if progress.is_complete() { Role::Value } else { Role::Unsure };
-    page.title(&progress.name, format!("{} of {}{ended}", progress.done, count(progress.rows, "row")), role);
+    page.title(
+        &progress.name,
+        format!("{} of {}{ended}", progress.done, count(progress.rows, "row")),
+        role,
+    );
     page.blank();
     if let Some(first) = progress.first_missing {
-        page.row("missing", [format!("{}, the first is row {first}", count(progress.rows - progress.done.min(progress.rows), "row"))]);
+        page.row(
+            "missing",
+            [format!(
+                "{}, the first is row {first}",
+                count(progress.rows - progress.done.min(progress.rows), "row")
+            )],
+        );
     }
     if progress.damaged > 0 {
-        page.row("damaged", [format!("{} left out; rows in them count as not done", count(progress.damaged, "line"))]);
+        page.row(
+            "damaged",
+            [format!(
+                "{} left out; rows in them count as not done",
+                count(progress.damaged, "line")
+            )],
+        );
     }
     if !progress.tasks.is_empty() {
-        page.row("tasks", [list(progress.tasks.iter().map(|(word, n)| format!("{n} {word}")).collect())]);
+        page.row(
+            "tasks",
+            [list(progress.tasks.iter().map(|(word, n)| format!("{n} {word}")).collect())],
+        );
     }
     page
 }

@@ -12,7 +12,8 @@ const SHOWN: usize = 5;
 /// The page; `brief` leaves the first line alone.
 pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) -> Page {
     let mut page = Page::new(layout);
-    let counts: Vec<String> = summary.counts.iter().map(|(word, n)| format!("{n} {word}")).collect();
+    let counts: Vec<String> =
+        summary.counts.iter().map(|(word, n)| format!("{n} {word}")).collect();
     let missing = header.rows.saturating_sub(summary.rows);
     let of = if missing > 0 { format!(" of {}", header.rows) } else { String::new() };
     let ended = if counts.is_empty() { String::new() } else { format!(": {}", counts.join(", ")) };
@@ -26,7 +27,13 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
         page.row(
             quantity,
             [
-                format!("least {} (row {}), greatest {} (row {})", short(q.least.0), q.least.1, short(q.greatest.0), q.greatest.1),
+                format!(
+                    "least {} (row {}), greatest {} (row {})",
+                    short(q.least.0),
+                    q.least.1,
+                    short(q.greatest.0),
+                    q.greatest.1
+                ),
                 format!(
                     "quantiles 5 % {}, 25 % {}, median {}, 75 % {}, 95 % {}",
                     short(q.p05),
@@ -44,14 +51,22 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
             None => String::new(),
         };
         // A grid is no sample: its share has no interval.
-        let share = if summary.fragility.is_some() { share(failed) } else { format!("{} of {}", failed.failed, failed.of) };
+        let share = if summary.fragility.is_some() {
+            share(failed)
+        } else {
+            format!("{} of {}", failed.failed, failed.of)
+        };
         page.row("failed", [format!("{share}{what}")]);
     }
     // Where one number varies there is nothing to compare.
     if header.plan.vary.len() > 1 && !summary.influence.is_empty() {
         page.row(
             "matters",
-            summary.influence.iter().take(SHOWN).map(|i| format!("{}: {:.0} % of the variance", i.parameter, 100.0 * i.share)),
+            summary
+                .influence
+                .iter()
+                .take(SHOWN)
+                .map(|i| format!("{}: {:.0} % of the variance", i.parameter, 100.0 * i.share)),
         );
         page.row(
             "",
@@ -63,7 +78,11 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
     if let Some(f) = &summary.fragility {
         // A few points of the curve; all of them are in --json and the chart.
         let every = (f.points.len() - 1).div_ceil(4).max(1);
-        let points = f.points.iter().step_by(every).map(|(at, p)| format!("{} {}: {}", f.along, short(*at), share(*p)));
+        let points = f
+            .points
+            .iter()
+            .step_by(every)
+            .map(|(at, p)| format!("{} {}: {}", f.along, short(*at), share(*p)));
         page.row("fragility", points);
     }
     if let Some((row, error)) = &summary.first_error {
@@ -74,5 +93,12 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
 }
 
 fn share(p: Proportion) -> String {
-    format!("{} of {}, {:.1} % (95 % interval {:.1} to {:.1} %)", p.failed, p.of, 100.0 * p.share, 100.0 * p.lower, 100.0 * p.upper)
+    format!(
+        "{} of {}, {:.1} % (95 % interval {:.1} to {:.1} %)",
+        p.failed,
+        p.of,
+        100.0 * p.share,
+        100.0 * p.lower,
+        100.0 * p.upper
+    )
 }

@@ -172,7 +172,8 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
 
 pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
     let answer = &file.answer;
-    let (lower, upper) = answer.as_verdict().map_or((0.0, f64::NAN), |a| (a.unbalance.lower, a.unbalance.upper));
+    let (lower, upper) =
+        answer.as_verdict().map_or((0.0, f64::NAN), |a| (a.unbalance.lower, a.unbalance.upper));
     match answer.verdict() {
         Some(Verdict::Stable) => {
             page.paragraph(&format!(
@@ -224,7 +225,11 @@ fn settled(file: &ResultFile) -> String {
 fn unit(file: &ResultFile) -> &'static str {
     let live = &file.scene.input.loads.live;
     match live.as_slice() {
-        [one] if one.weight.is_some_and(|w| (w.iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 1e-12) => {
+        [one]
+            if one
+                .weight
+                .is_some_and(|w| (w.iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 1e-12) =>
+        {
             " The live load is the weight of the blocks, so λ is an acceleration in multiples of gravity."
         }
         _ => "",
@@ -234,8 +239,13 @@ fn unit(file: &ResultFile) -> &'static str {
 /// The load factor with dry friction.
 fn dry(page: &mut Page, file: &ResultFile) {
     let Some(dry) = &file.dry else { return };
-    let words =
-        |v: f64| if file.question == QuestionKind::Tilt { format!("{:.4}°", v.atan().to_degrees()) } else { format!("λ = {v:.5}") };
+    let words = |v: f64| {
+        if file.question == QuestionKind::Tilt {
+            format!("{:.4}°", v.atan().to_degrees())
+        } else {
+            format!("λ = {v:.5}")
+        }
+    };
     let text = match (dry.found, dry.value) {
         (Found::NothingSlides, Some(_)) => {
             format!("In the mechanism nothing slides, so with dry friction it is the same{}.", rest(dry, words))
@@ -273,7 +283,10 @@ fn dry(page: &mut Page, file: &ResultFile) {
 fn rest(dry: &DryResult, words: impl Fn(f64) -> String) -> String {
     match dry.rests_at {
         _ if dry.is_reached() => String::new(),
-        Some(rests_at) => format!(" (the blocks were seen at rest up to {}; what they do from there on did not come out)", words(rests_at)),
+        Some(rests_at) => format!(
+            " (the blocks were seen at rest up to {}; what they do from there on did not come out)",
+            words(rests_at)
+        ),
         None => " (whether the blocks come to rest below it did not come out)".into(),
     }
 }
@@ -307,15 +320,21 @@ fn dry_of(file: &ResultFile) -> Dry {
 
 /// The load factor with dry friction, where it is proved to be one of its own.
 fn dry_value(file: &ResultFile) -> Option<f64> {
-    file.dry.as_ref().filter(|d| d.is_reached() && matches!(d.found, Found::FixedPoint | Found::Rests))?.value
+    file.dry
+        .as_ref()
+        .filter(|d| d.is_reached() && matches!(d.found, Found::FixedPoint | Found::Rests))?
+        .value
 }
 
 fn dead_load(page: &mut Page, file: &ResultFile) {
-    let place = if file.question == QuestionKind::Tilt { "When level" } else { "Without its live load" };
+    let place =
+        if file.question == QuestionKind::Tilt { "When level" } else { "Without its live load" };
     let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);
     let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict()) {
         Some(Verdict::Stable) => format!("{place} it stands."),
-        Some(Verdict::Conditional) => format!("{place} it stands only with a pre-stress that nobody applied."),
+        Some(Verdict::Conditional) => {
+            format!("{place} it stands only with a pre-stress that nobody applied.")
+        }
         Some(Verdict::Unstable) => format!("{place} it falls."),
         Some(Verdict::Undecided) => format!("{place} it is undecided whether it stands."),
         None if negative => format!("{place} it falls: the greatest λ is below zero."),
@@ -329,15 +348,24 @@ fn dead_load(page: &mut Page, file: &ResultFile) {
 pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOptions) {
     // Eight directions are what is asked for by default: they are shown in full.
     let options = TextOptions { verbose: options.verbose || file.directions.len() <= 8, ..options };
-    let width = file.directions.iter().filter_map(|d| d.answer.toward()).map(|d| point(d).chars().count()).max().unwrap_or(0);
+    let width = file
+        .directions
+        .iter()
+        .filter_map(|d| d.answer.toward())
+        .map(|d| point(d).chars().count())
+        .max()
+        .unwrap_or(0);
     let lines: Vec<String> = file
         .directions
         .iter()
         .map(|d| {
             let toward = d.answer.toward().map(point).unwrap_or_default();
-            let dry = d.dry.as_ref().map(|dry| (dry.found, dry.value.map(|v| v.atan().to_degrees())));
+            let dry =
+                d.dry.as_ref().map(|dry| (dry.found, dry.value.map(|v| v.atan().to_degrees())));
             let dry = match dry {
-                Some((Found::FixedPoint | Found::Rests, Some(angle))) => format!(", with dry friction {angle:.4}°"),
+                Some((Found::FixedPoint | Found::Rests, Some(angle))) => {
+                    format!(", with dry friction {angle:.4}°")
+                }
                 Some((Found::NotAtRest, _)) => ", with dry friction not even level".into(),
                 Some((Found::Undecided, _)) => ", with dry friction undecided".into(),
                 _ => String::new(),
@@ -356,9 +384,15 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOption
 
 /// The part of the scene that decides.
 pub(super) fn part(page: &mut Page, file: &ResultFile) {
-    let dry = file.dry.as_ref().filter(|_| !matches!(dry_of(file), Dry::Same)).and_then(|d| d.part.as_ref());
+    let dry = file
+        .dry
+        .as_ref()
+        .filter(|_| !matches!(dry_of(file), Dry::Same))
+        .and_then(|d| d.part.as_ref());
     let lines = match (file.answer.part(), dry) {
-        (Some(bound), Some(dry)) if bound != dry => vec![format!("{bound}"), format!("with dry friction {dry}")],
+        (Some(bound), Some(dry)) if bound != dry => {
+            vec![format!("{bound}"), format!("with dry friction {dry}")]
+        }
         (bound, dry) => bound.or(dry).map(ToString::to_string).into_iter().collect(),
     };
     page.row("decided by", lines);

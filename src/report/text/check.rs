@@ -17,10 +17,18 @@ pub fn verification(file: &ResultFile, verification: &Verification, layout: Layo
         (false, true) => ("proved", Role::Good),
         (false, false) => ("claims nothing", Role::Unsure),
     };
-    let text = if verification.refuted() || !verification.claimed { text.into() } else { format!("{text}, {}", verification.grade()) };
+    let text = if verification.refuted() || !verification.claimed {
+        text.into()
+    } else {
+        format!("{text}, {}", verification.grade())
+    };
     let text = match file.answer.as_verdict().and_then(|a| a.law) {
-        Some(Law::Associative) if !verification.refuted() => format!("{text}; whether a pre-stress is needed was not asked"),
-        _ if verification.computed() => format!("{text}; that states under dry friction rest or move is computed, not proved"),
+        Some(Law::Associative) if !verification.refuted() => {
+            format!("{text}; whether a pre-stress is needed was not asked")
+        }
+        _ if verification.computed() => {
+            format!("{text}; that states under dry friction rest or move is computed, not proved")
+        }
         _ => text,
     };
     page.title(&file.scene.name, super::answer::under(file, text), role);

@@ -47,8 +47,19 @@ fn flips(file: &ResultFile) -> Vec<(CriticalValue, Method)> {
 
 fn flip(name: &str, (v, method): &(CriticalValue, Method)) -> String {
     match method {
-        Method::Scan => format!("{} up to {name} = {}, {} from {} on", verb(v.below), v.lower, verb(v.above), v.upper),
-        _ => format!("{} below {name} = {}, {} above", verb(v.below), digits(v, *method), verb(v.above)),
+        Method::Scan => format!(
+            "{} up to {name} = {}, {} from {} on",
+            verb(v.below),
+            v.lower,
+            verb(v.above),
+            v.upper
+        ),
+        _ => format!(
+            "{} below {name} = {}, {} above",
+            verb(v.below),
+            digits(v, *method),
+            verb(v.above)
+        ),
     }
 }
 
@@ -96,23 +107,31 @@ fn unseen(c: &CriticalResult) -> String {
         return "Every whole number of the range was asked.".into();
     }
     let step = (b - a).abs() / (c.scan.len().max(2) - 1) as f64;
-    format!("Two flips closer together than {}, the step of the scan, may stay unseen; --scan and --step make it finer.", short(step))
+    format!(
+        "Two flips closer together than {}, the step of the scan, may stay unseen; --scan and --step make it finer.",
+        short(step)
+    )
 }
 
 /// The flips with their ends, and the scan.
 pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let Some(c) = &file.critical else { return };
     let sides = flips(file).into_iter().flat_map(|(v, method)| {
-        let [low, high] = if method == Method::Scan { [v.lower.to_string(), v.upper.to_string()] } else { ends(v.value, v.lower, v.upper) };
+        let [low, high] = if method == Method::Scan {
+            [v.lower.to_string(), v.upper.to_string()]
+        } else {
+            ends(v.value, v.lower, v.upper)
+        };
         [format!("{} at {low}", verb(v.below)), format!("{} at {high}", verb(v.above))]
     });
     page.row("proved", sides);
     let tally = |wanted: Option<Verdict>| c.scan.iter().filter(|s| s.verdict == wanted).count();
-    let mut words: Vec<String> = [Verdict::Unstable, Verdict::Conditional, Verdict::Stable, Verdict::Undecided]
-        .into_iter()
-        .filter(|v| tally(Some(*v)) > 0)
-        .map(|v| format!("{} at {}", verb(v), tally(Some(v))))
-        .collect();
+    let mut words: Vec<String> =
+        [Verdict::Unstable, Verdict::Conditional, Verdict::Stable, Verdict::Undecided]
+            .into_iter()
+            .filter(|v| tally(Some(*v)) > 0)
+            .map(|v| format!("{} at {}", verb(v), tally(Some(v))))
+            .collect();
     if tally(None) > 0 {
         words.push(format!("no scene at {}", tally(None)));
     }
@@ -127,12 +146,20 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             count(c.scenes, "scene")
         )],
     );
-    let errors: Vec<String> = c.scan.iter().filter_map(|s| Some(format!("{}: {}", s.value, s.error.as_ref()?))).collect();
-    let open = c.scan.iter().filter(|s| s.verdict == Some(Verdict::Undecided)).map(|s| format!("{}: undecided", s.value));
-    let lines: Vec<String> = errors.into_iter().chain(open).chain(c.notes.iter().cloned()).collect();
+    let errors: Vec<String> =
+        c.scan.iter().filter_map(|s| Some(format!("{}: {}", s.value, s.error.as_ref()?))).collect();
+    let open = c
+        .scan
+        .iter()
+        .filter(|s| s.verdict == Some(Verdict::Undecided))
+        .map(|s| format!("{}: undecided", s.value));
+    let lines: Vec<String> =
+        errors.into_iter().chain(open).chain(c.notes.iter().cloned()).collect();
     page.row("of these", cut(&lines, SHOWN, options));
     if options.verbose {
-        let all = c.scan.iter().filter_map(|s| Some(format!("{}: {}, unbalance {:.3e} g", s.value, verb(s.verdict?), s.unbalance?)));
+        let all = c.scan.iter().filter_map(|s| {
+            Some(format!("{}: {}, unbalance {:.3e} g", s.value, verb(s.verdict?), s.unbalance?))
+        });
         page.row("values", all);
     }
 }

@@ -10,11 +10,21 @@ use crate::{
 pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let p = &file.protocol;
-    let name = format!("{:?} of {} {}, friction {}", p.kind, p.grains, p.grain.plural(), short(p.friction));
+    let name = format!(
+        "{:?} of {} {}, friction {}",
+        p.kind,
+        p.grains,
+        p.grain.plural(),
+        short(p.friction)
+    );
     match (file.angle_deg, file.spread_deg) {
         (Some(angle), Some([low, high])) => {
             let seeds = count(file.at_rest, "heap");
-            page.title(&name, format!("angle of repose {angle:.1}° ({low:.1}° to {high:.1}° over {seeds})"), Role::Value);
+            page.title(
+                &name,
+                format!("angle of repose {angle:.1}° ({low:.1}° to {high:.1}° over {seeds})"),
+                Role::Value,
+            );
         }
         _ => page.title(&name, "no heap came to rest with a slope", Role::Unsure),
     }
@@ -26,8 +36,16 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
     page.blank();
     page.row("heaps", file.heaps.iter().map(row));
     page.row("margin", file.heaps.iter().filter_map(margin));
-    page.row("note", file.heaps.iter().flat_map(|h| h.warnings.iter().map(move |w| format!("seed {}: {}", h.seed, w.text))));
-    page.row("contacts", [format!("restitution {}, no damping beside the contacts'", short(file.restitution))]);
+    page.row(
+        "note",
+        file.heaps
+            .iter()
+            .flat_map(|h| h.warnings.iter().map(move |w| format!("seed {}: {}", h.seed, w.text))),
+    );
+    page.row(
+        "contacts",
+        [format!("restitution {}, no damping beside the contacts'", short(file.restitution))],
+    );
     page
 }
 
@@ -36,8 +54,15 @@ fn row(h: &HeapResult) -> String {
         (Some(angle), Some(r)) => format!("{angle:.1}°, R² {r:.3}, {} cells", h.cells),
         _ => "no slope".into(),
     };
-    let ends = (h.parts_deg.iter().copied().fold(f64::INFINITY, f64::min), h.parts_deg.iter().copied().fold(f64::NEG_INFINITY, f64::max));
-    let parts = if h.parts_deg.is_empty() { String::new() } else { format!(", parts {:.1}° to {:.1}°", ends.0, ends.1) };
+    let ends = (
+        h.parts_deg.iter().copied().fold(f64::INFINITY, f64::min),
+        h.parts_deg.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    );
+    let parts = if h.parts_deg.is_empty() {
+        String::new()
+    } else {
+        format!(", parts {:.1}° to {:.1}°", ends.0, ends.1)
+    };
     let flowed = h.avalanche_deg.map(|a| format!(", flowed at {a:.1}°")).unwrap_or_default();
     let rest = if h.rested { "at rest" } else { "STILL MOVING" };
     format!(

@@ -22,10 +22,23 @@ const FEW: usize = 2;
 pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let Some(m) = &file.mechanism else { return };
     let free = file.scene.blocks - file.scene.supports.min(file.scene.blocks);
-    let fastest: Vec<&str> = m.moving.iter().take(if options.verbose { usize::MAX } else { 4 }).map(String::as_str).collect();
+    let fastest: Vec<&str> = m
+        .moving
+        .iter()
+        .take(if options.verbose { usize::MAX } else { 4 })
+        .map(String::as_str)
+        .collect();
     let verb = if m.moving.len() == 1 { "moves" } else { "move, the fastest first" };
-    let text = format!("{} of {} {verb}: {}", m.moving.len(), count(free, "free block"), fastest.join(", "));
-    page.row("mechanism", [if fastest.len() < m.moving.len() { format!("{text}, …") } else { text }]);
+    let text = format!(
+        "{} of {} {verb}: {}",
+        m.moving.len(),
+        count(free, "free block"),
+        fastest.join(", ")
+    );
+    page.row(
+        "mechanism",
+        [if fastest.len() < m.moving.len() { format!("{text}, …") } else { text }],
+    );
     let of = |motion: JointMotion| m.joints.iter().filter(move |j| j.motion == motion);
     // Together they leave room on the screen for what follows.
     let kinds = LABELS.iter().filter(|(_, motion)| of(*motion).next().is_some()).count();
@@ -33,7 +46,8 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     for (label, motion) in LABELS {
         let joints: Vec<&JointWords> = of(motion).collect();
         let width = joints.iter().map(|j| between(j).chars().count()).max().unwrap_or(0);
-        let lines: Vec<String> = joints.iter().map(|j| format!("{:<width$}  at {}", between(j), point(j.at))).collect();
+        let lines: Vec<String> =
+            joints.iter().map(|j| format!("{:<width$}  at {}", between(j), point(j.at))).collect();
         page.row(label, cut(&lines, shown, options));
     }
 }

@@ -80,7 +80,10 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
         )],
     );
     page.row("left out", cut(&file.left_out, SHOWN, options));
-    page.row("note", cut(&file.warnings.iter().map(|f| f.text.clone()).collect::<Vec<_>>(), NOTES, options));
+    page.row(
+        "note",
+        cut(&file.warnings.iter().map(|f| f.text.clone()).collect::<Vec<_>>(), NOTES, options),
+    );
     page.row("time", [time(file)]);
     if options.verbose {
         page.row("work", file.work.iter().map(work));
@@ -112,12 +115,18 @@ fn time(file: &ResultFile) -> String {
         ("simulate", t.simulate),
         ("check", t.check),
     ];
-    let list: Vec<String> = stages.iter().filter(|s| s.1 > 0.0).map(|(name, s)| format!("{name} {}", seconds(*s))).collect();
+    let list: Vec<String> = stages
+        .iter()
+        .filter(|s| s.1 > 0.0)
+        .map(|(name, s)| format!("{name} {}", seconds(*s)))
+        .collect();
     format!("{} ({})", seconds(stages.iter().map(|s| s.1).sum()), list.join(", "))
 }
 
 fn work(w: &Work) -> String {
-    let memory = w.peak_memory.map_or(String::new(), |b| format!(", at most {:.0} MB of memory", b as f64 / 1e6));
+    let memory = w
+        .peak_memory
+        .map_or(String::new(), |b| format!(", at most {:.0} MB of memory", b as f64 / 1e6));
     format!(
         "{} and {} of fixed points, {} iterations; the largest has {} unknowns and {} rows, of {} forces and {} equations before omissions{memory}",
         count(w.attempts, "program"),
@@ -133,7 +142,9 @@ fn work(w: &Work) -> String {
 fn attempt(a: &Attempt) -> String {
     let status = format!("{:?}", a.engine_status);
     let how = match a.regularization {
-        Some(regularization) if a.engine == Engine::Clarabel => format!("regularisation {regularization:.0e}"),
+        Some(regularization) if a.engine == Engine::Clarabel => {
+            format!("regularisation {regularization:.0e}")
+        }
         _ => "on the stiffness matrix of the blocks".to_string(),
     };
     format!(
@@ -159,15 +170,19 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         QuestionKind::Thrust => "thrust",
         QuestionKind::Simulate => "simulate",
     };
-    let again =
-        if asked.options.is_empty() { format!("voussoir {verb} {scene}") } else { format!("voussoir {verb} {scene} {}", asked.options) };
+    let again = if asked.options.is_empty() {
+        format!("voussoir {verb} {scene}")
+    } else {
+        format!("voussoir {verb} {scene} {}", asked.options)
+    };
     let look = (format!("voussoir check {scene}"), "mistakes in the scene, near misses, overlaps");
     let elsewhere = file.critical.is_some() || file.thrust.is_some();
     if file.question == QuestionKind::Simulate {
         return page.commands("next", &simulation::next(file, scene, &again));
     }
     if file.certificate.claim.is_none() && !elsewhere {
-        return page.commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
+        return page
+            .commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
     }
     let mut list = Vec::new();
     if file.question == QuestionKind::Assess {

@@ -33,15 +33,32 @@ pub fn packing(file: &PackingFile, options: TextOptions, layout: Layout) -> Page
     page.blank();
     page.row("moves", [moves(least)]);
     page.row("moves in", least.part.iter().map(ToString::to_string));
-    page.row("directions", cut(&file.directions.iter().map(row).collect::<Vec<_>>(), SHOWN + 2, options));
+    page.row(
+        "directions",
+        cut(&file.directions.iter().map(row).collect::<Vec<_>>(), SHOWN + 2, options),
+    );
     if let Some(fabric) = &file.fabric {
         page.row("fabric", self::fabric(fabric, options));
     }
-    page.row("packing", [format!("{}, {}", count(file.grains, "free grain"), count(file.contacts, "contact"))]);
+    page.row(
+        "packing",
+        [format!("{}, {}", count(file.grains, "free grain"), count(file.contacts, "contact"))],
+    );
     page.row("left out", cut(&file.left_out, SHOWN, options));
-    page.row("note", cut(&file.warnings.iter().map(|f| f.text.clone()).collect::<Vec<_>>(), 3, options));
+    page.row(
+        "note",
+        cut(&file.warnings.iter().map(|f| f.text.clone()).collect::<Vec<_>>(), 3, options),
+    );
     let t = &file.timings;
-    page.row("time", [format!("contacts {}, solve {}, check {}", seconds(t.detect), seconds(t.solve), seconds(t.check))]);
+    page.row(
+        "time",
+        [format!(
+            "contacts {}, solve {}, check {}",
+            seconds(t.detect),
+            seconds(t.solve),
+            seconds(t.check)
+        )],
+    );
     page
 }
 
@@ -49,13 +66,17 @@ fn angle(d: &PackingDirection) -> String {
     let bound = match (d.status, d.tilt_deg, d.bracket_deg) {
         (Outcome::Found, Some(tilt), Some([lower, upper])) => bracketed(tilt, lower, upper),
         (Outcome::Unbounded, ..) => {
-            return dry(d).map_or("wedged: stands at every tilt below 90°".into(), |v| format!("{v:.4}° with dry friction, else wedged"));
+            return dry(d).map_or("wedged: stands at every tilt below 90°".into(), |v| {
+                format!("{v:.4}° with dry friction, else wedged")
+            });
         }
         (Outcome::Impossible, ..) => return "falls, however it is tilted".into(),
         _ => return "undecided".into(),
     };
     match (d.dry, dry(d)) {
-        (Some(Found::NotAtRest), _) => format!("not even level with dry friction, at most {bound}° with a pre-stress"),
+        (Some(Found::NotAtRest), _) => {
+            format!("not even level with dry friction, at most {bound}° with a pre-stress")
+        }
         (Some(Found::NothingSlides), _) => format!("{bound}°, with dry friction as well"),
         (_, Some(v)) => format!("{v:.4}° with dry friction, at most {bound}°"),
         (Some(_), None) => format!("at most {bound}°; with dry friction undecided"),
@@ -73,7 +94,12 @@ fn moves(d: &PackingDirection) -> String {
         0 => String::new(),
         rounds => {
             let taken: usize = d.removed.iter().map(|r| r.grains.len()).sum();
-            let first = d.removed.first().and_then(|r| r.tilt_deg).map(|t| format!(", the first at {}°", short(t))).unwrap_or_default();
+            let first = d
+                .removed
+                .first()
+                .and_then(|r| r.tilt_deg)
+                .map(|t| format!(", the first at {}°", short(t)))
+                .unwrap_or_default();
             format!("; {} in {} in all{first}", count(taken, "grain"), count(rounds, "round"))
         }
     };
@@ -86,7 +112,12 @@ fn moves(d: &PackingDirection) -> String {
 }
 
 fn row(d: &PackingDirection) -> String {
-    format!("towards {}: {}; {} % of the mass moves", point(d.toward), angle(d), short(100.0 * d.moved))
+    format!(
+        "towards {}: {}; {} % of the mass moves",
+        point(d.toward),
+        angle(d),
+        short(100.0 * d.moved)
+    )
 }
 
 fn fabric(f: &Fabric, options: TextOptions) -> Vec<String> {
@@ -101,7 +132,11 @@ fn fabric(f: &Fabric, options: TextOptions) -> Vec<String> {
             count(f.rattlers, "grain")
         ),
         format!("fabric tensor xx {x}, yy {y}, zz {z}; anisotropy {}", short(f.anisotropy)),
-        format!("normal force {} N in the mean, {} times that at most", short(f.mean_force), short(f.greatest_force)),
+        format!(
+            "normal force {} N in the mean, {} times that at most",
+            short(f.mean_force),
+            short(f.greatest_force)
+        ),
         format!("mean stress in the grains xx {sx}, yy {sy}, zz {sz} Pa"),
     ];
     if let (Some(used), Some(sliding)) = (f.mobilised, f.sliding) {
@@ -112,7 +147,9 @@ fn fabric(f: &Fabric, options: TextOptions) -> Vec<String> {
         ));
     }
     if options.verbose {
-        let share = |bins: &[f64]| bins.iter().map(|s| format!("{:.1}", 100.0 * s)).collect::<Vec<_>>().join(" ");
+        let share = |bins: &[f64]| {
+            bins.iter().map(|s| format!("{:.1}", 100.0 * s)).collect::<Vec<_>>().join(" ")
+        };
         rows.push(format!(
             "contacts (%) by the angle of their normal to gravity, equal solid angles from 0° to 90°: {}",
             share(&f.normals)

@@ -1,9 +1,11 @@
-//! Lines of text whose parts say what they are. How they look (colour, weight) is decided where they are shown.
+//! Lines of text whose parts say what they are. How they look (colour, weight) is decided where
+//! they are shown.
 
 use crate::plain::printable;
 use std::{borrow::Cow, fmt};
 
-/// Sentences are broken to lines of this many characters where nobody says how many there is room for.
+/// Sentences are broken to lines of this many characters where nobody says how many there is room
+/// for.
 const WIDTH: usize = 110;
 /// Narrower than this, more lines than words.
 const NARROW: usize = 40;
@@ -66,13 +68,21 @@ pub struct Page {
 
 impl Page {
     pub(in crate::report) fn new(layout: Layout) -> Self {
-        Self { lines: Vec::new(), unnamed: layout.unnamed.to_string(), width: layout.width.max(NARROW) }
+        Self {
+            lines: Vec::new(),
+            unnamed: layout.unnamed.to_string(),
+            width: layout.width.max(NARROW),
+        }
     }
 
     pub(in crate::report) fn title(&mut self, name: &str, answer: impl Into<String>, role: Role) {
         let name = printable(if name.is_empty() { &self.unnamed } else { name }).into_owned();
         let answer = span(answer, role);
-        let line = if name.is_empty() { vec![answer] } else { vec![span(name, Role::Name), span(": ", Role::Plain), answer] };
+        let line = if name.is_empty() {
+            vec![answer]
+        } else {
+            vec![span(name, Role::Name), span(": ", Role::Plain), answer]
+        };
         self.lines.push(line);
     }
 
@@ -92,7 +102,10 @@ impl Page {
         for item in items {
             for line in wrap(&printable(&item), self.width - COLUMN) {
                 let room = COLUMN - 2;
-                self.lines.push(vec![span(format!("  {label:<room$}"), Role::Label), span(line, Role::Plain)]);
+                self.lines.push(vec![
+                    span(format!("  {label:<room$}"), Role::Label),
+                    span(line, Role::Plain),
+                ]);
                 label = "";
             }
         }
@@ -100,16 +113,24 @@ impl Page {
 
     /// Rows with something to type and what it is good for.
     pub(super) fn commands(&mut self, label: &str, commands: &[(String, &str)]) {
-        let commands: Vec<(Cow<str>, &str)> = commands.iter().map(|(c, p)| (printable(c), *p)).collect();
-        let (room, width) = (COLUMN - 2, commands.iter().map(|(c, _)| c.chars().count()).max().unwrap_or(0));
-        let needed = commands.iter().map(|(_, p)| COLUMN + width + 3 + p.chars().count()).max().unwrap_or(0);
-        // As long as paths fit the terminal as it is, or nobody said how wide it is, purposes stand beside.
+        let commands: Vec<(Cow<str>, &str)> =
+            commands.iter().map(|(c, p)| (printable(c), *p)).collect();
+        let (room, width) =
+            (COLUMN - 2, commands.iter().map(|(c, _)| c.chars().count()).max().unwrap_or(0));
+        let needed =
+            commands.iter().map(|(_, p)| COLUMN + width + 3 + p.chars().count()).max().unwrap_or(0);
+        // As long as paths fit the terminal as it is, or nobody said how wide it is, purposes stand
+        // beside.
         let beside = self.width >= WIDTH.min(needed);
         for (i, (command, purpose)) in commands.into_iter().enumerate() {
             let label = span(format!("  {:<room$}", if i == 0 { label } else { "" }), Role::Label);
             if beside {
                 let gap = " ".repeat(width - command.chars().count() + 3);
-                self.lines.push(vec![label, span(command, Role::Command), span(format!("{gap}{purpose}"), Role::Plain)]);
+                self.lines.push(vec![
+                    label,
+                    span(command, Role::Command),
+                    span(format!("{gap}{purpose}"), Role::Plain),
+                ]);
             } else {
                 // Commands are never broken, so that they can be copied.
                 self.lines.push(vec![label, span(command, Role::Command)]);
@@ -119,7 +140,8 @@ impl Page {
     }
 }
 
-/// Whatever a page is made of comes through here: nothing of a file reaches a terminal as anything but text.
+/// Whatever a page is made of comes through here: nothing of a file reaches a terminal as anything
+/// but text.
 fn span(text: impl Into<String>, role: Role) -> Span {
     let text = text.into();
     let text = match printable(&text) {
@@ -129,7 +151,8 @@ fn span(text: impl Into<String>, role: Role) -> Span {
     Span { text, role }
 }
 
-/// Breaks a sentence at its spaces; a single word may be longer than the line. Spaces at the start of a line are kept as its indent.
+/// Breaks a sentence at its spaces; a single word may be longer than the line. Spaces at the start
+/// of a line are kept as its indent.
 fn wrap(text: &str, width: usize) -> Vec<String> {
     let indent = text.len() - text.trim_start_matches(' ').len();
     let (mut lines, mut line) = (Vec::new(), " ".repeat(indent));
@@ -168,7 +191,10 @@ mod tests {
         page.title("", "falls", Role::Bad);
         page.paragraph(LONG);
         page.row("proof", [LONG.to_string()]);
-        page.commands("next", &[("voussoir check a.json".into(), "mistakes in the scene, near misses, overlaps")]);
+        page.commands(
+            "next",
+            &[("voussoir check a.json".into(), "mistakes in the scene, near misses, overlaps")],
+        );
         page.to_string()
     }
 
@@ -178,7 +204,11 @@ mod tests {
             let text = page(width);
             assert!(text.lines().all(|l| l.chars().count() <= width), "{width}:\n{text}");
         }
-        assert!(page(80).contains("next        voussoir check a.json   mistakes in"), "{}", page(80));
+        assert!(
+            page(80).contains("next        voussoir check a.json   mistakes in"),
+            "{}",
+            page(80)
+        );
         assert!(page(60).contains("next        voussoir check a.json\n"), "{}", page(60));
         assert_eq!(page(0), page(NARROW));
     }

@@ -21,9 +21,13 @@ const NO_TURN: f64 = 1e-6;
 /// The answer in a line.
 pub(super) fn title(file: &ResultFile) -> (String, Role) {
     match (&file.simulation, file.answer.fate()) {
-        (Some(s), Some(Fate::Falls)) => {
-            (format!("falls: the first block has fallen after {}", seconds(s.collapse.unwrap_or(f64::NAN))), Role::Bad)
-        }
+        (Some(s), Some(Fate::Falls)) => (
+            format!(
+                "falls: the first block has fallen after {}",
+                seconds(s.collapse.unwrap_or(f64::NAN))
+            ),
+            Role::Bad,
+        ),
         (_, Some(Fate::Falls)) => ("falls".into(), Role::Bad),
         (_, Some(Fate::Stands)) => ("stands".into(), Role::Good),
         _ => ("undecided".into(), Role::Unsure),
@@ -36,29 +40,56 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let Some(run) = s.runs.last() else {
         return page.paragraph("Simulated in time: nothing is free, so nothing moves.");
     };
-    page.paragraph(&format!("Simulated in time, its loads applied without any pre-stress: {}", seen(s, run)));
+    page.paragraph(&format!(
+        "Simulated in time, its loads applied without any pre-stress: {}",
+        seen(s, run)
+    ));
     if let Some(a) = &s.agreement {
         page.paragraph(&beside(a, s));
     }
 }
 
 fn seen(s: &Simulation, run: &Run) -> String {
-    let far = format!("{} m, {} of its thickness", rounded(run.displacement), percent(run.relative));
+    let far =
+        format!("{} m, {} of its thickness", rounded(run.displacement), percent(run.relative));
     match (s.fate, run.stop) {
         (Fate::Falls, _) => format!("{} moved by {far}, and keeps moving.", run.farthest),
         (Fate::Stands, Stop::Rest) => {
-            format!("it came to rest within {}; no block moved farther than {} ({far}).", seconds(run.time), run.farthest)
+            format!(
+                "it came to rest within {}; no block moved farther than {} ({far}).",
+                seconds(run.time),
+                run.farthest
+            )
         }
-        (Fate::Stands, _) => format!("it hardly moved in {}; {} moved farthest ({far}).", seconds(run.time), run.farthest),
+        (Fate::Stands, _) => format!(
+            "it hardly moved in {}; {} moved farthest ({far}).",
+            seconds(run.time),
+            run.farthest
+        ),
         (Fate::Undecided, Stop::Stopped) => {
-            format!("stopped after {} of {}; until then {} moved farthest ({far}).", seconds(run.time), seconds(run.horizon), run.farthest)
+            format!(
+                "stopped after {} of {}; until then {} moved farthest ({far}).",
+                seconds(run.time),
+                seconds(run.horizon),
+                run.farthest
+            )
         }
-        (Fate::Undecided, Stop::Broken) => format!("the engine's numbers broke down after {}.", seconds(run.time)),
+        (Fate::Undecided, Stop::Broken) => {
+            format!("the engine's numbers broke down after {}.", seconds(run.time))
+        }
         (Fate::Undecided, Stop::Rest) => {
-            format!("it came to rest after {}, but only after {} had moved by {far}.", seconds(run.time), run.farthest)
+            format!(
+                "it came to rest after {}, but only after {} had moved by {far}.",
+                seconds(run.time),
+                run.farthest
+            )
         }
         (Fate::Undecided, _) => {
-            format!("after {} it neither rests nor has it fallen; {} moved farthest ({far}).", seconds(run.horizon), run.farthest)
+            format!(
+                "after {} it neither rests nor has it fallen; {} moved farthest ({far}).",
+                seconds(run.horizon),
+                run.farthest
+            )
         }
     }
 }
@@ -75,7 +106,9 @@ fn beside(a: &Agreement, s: &Simulation) -> String {
         Some(false) => format!(
             "The verdict says otherwise: {verdict}. A proof outweighs a simulation; look for joints near their limit, thin blocks or great ratios of mass and size."
         ),
-        None if a.verdict == Verdict::Undecided => "The verdict is undecided, so there is nothing to compare with.".into(),
+        None if a.verdict == Verdict::Undecided => {
+            "The verdict is undecided, so there is nothing to compare with.".into()
+        }
         None => format!("The verdict says that {verdict}."),
     };
     if let Some(motion) = a.motion {
@@ -93,7 +126,11 @@ fn beside(a: &Agreement, s: &Simulation) -> String {
         ));
     }
     if s.fate == Fate::Stands && s.reaction_error.is_finite() {
-        let left = if s.reaction_error < 1e-6 { "less than 1e-6".into() } else { format!("{:.0e}", s.reaction_error) };
+        let left = if s.reaction_error < 1e-6 {
+            "less than 1e-6".into()
+        } else {
+            format!("{:.0e}", s.reaction_error)
+        };
         text.push_str(&format!(" Reactions and loads cancel up to {left} of the loads."));
     }
     text
@@ -102,10 +139,16 @@ fn beside(a: &Agreement, s: &Simulation) -> String {
 /// First motion and runs.
 pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let Some(s) = &file.simulation else { return };
-    let width = s.first_motion.iter().take(SHOWN).map(|m| m.block.chars().count()).max().unwrap_or(0);
+    let width =
+        s.first_motion.iter().take(SHOWN).map(|m| m.block.chars().count()).max().unwrap_or(0);
     let moved = s.first_motion.iter().filter(|_| s.fate != Fate::Stands).map(|m| {
         let turn = m.turn.iter().map(|c| c * c).sum::<f64>().sqrt().to_degrees();
-        format!("{:<width$}  by {} m, turned by {}°", m.block, point(clean(m.way)), if turn > NO_TURN { rounded(turn) } else { "0".into() })
+        format!(
+            "{:<width$}  by {} m, turned by {}°",
+            m.block,
+            point(clean(m.way)),
+            if turn > NO_TURN { rounded(turn) } else { "0".into() }
+        )
     });
     page.row("moves first", cut(&moved.collect::<Vec<_>>(), SHOWN, options));
     page.row("runs", s.runs.iter().map(run));
@@ -121,7 +164,8 @@ fn run(r: &Run) -> String {
         Fate::Falls => "falls",
         Fate::Undecided => "undecided",
     };
-    let steps = format!("{} of {} and {} substeps", count(r.steps, "step"), seconds(r.step), r.substeps);
+    let steps =
+        format!("{} of {} and {} substeps", count(r.steps, "step"), seconds(r.step), r.substeps);
     format!("{fidelity}: {steps}, {} of {}: {fate}", seconds(r.time), seconds(r.horizon))
 }
 

@@ -7,14 +7,20 @@ use std::fmt::Write;
 /// Lists deeper than this are not unfolded.
 const DEPTH: usize = 2;
 
-/// What a template is, and its parameters with units, alternatives and the values that `own` (the template's own values, as
-/// [`crate::generate::default_template`] gives them) has.
+/// What a template is, and its parameters with units, alternatives and the values that `own` (the
+/// template's own values, as [`crate::generate::default_template`] gives them) has.
 pub fn template(name: &str, own: &Value) -> String {
     let schema = scene::schema();
     let kinds = schema["$defs"]["Template"]["oneOf"].as_array().into_iter().flatten();
-    let kind = kinds.map(|kind| &kind["properties"][name]).find(|kind| !kind.is_null()).unwrap_or(&Value::Null);
+    let kind = kinds
+        .map(|kind| &kind["properties"][name])
+        .find(|kind| !kind.is_null())
+        .unwrap_or(&Value::Null);
     let kind = behind(&schema, kind);
-    let mut text = format!("{name}: {}\n\nParameters, as key=value; lengths in m, angles in degrees:\n\n", said(kind));
+    let mut text = format!(
+        "{name}: {}\n\nParameters, as key=value; lengths in m, angles in degrees:\n\n",
+        said(kind)
+    );
     list(&mut text, &schema, kind, "", &own[name], DEPTH);
     text
 }
@@ -29,7 +35,9 @@ fn list(text: &mut String, schema: &Value, kind: &Value, before: &str, own: &Val
         };
         // What holds the field, in a list or behind a choice of nothing.
         let inner = [field, &field["items"], &field["anyOf"][0]].map(|f| behind(schema, f));
-        let named = [&field["$ref"], &field["items"]["$ref"], &field["anyOf"][0]["$ref"]].iter().any(|r| r.is_string());
+        let named = [&field["$ref"], &field["items"]["$ref"], &field["anyOf"][0]["$ref"]]
+            .iter()
+            .any(|r| r.is_string());
         let own_words = said(field);
         let words = if own_words.is_empty() && named {
             inner.iter().map(|f| said(f)).find(|w| !w.is_empty()).unwrap_or_default()
@@ -39,11 +47,22 @@ fn list(text: &mut String, schema: &Value, kind: &Value, before: &str, own: &Val
         // Writing into a string cannot fail.
         let _ = writeln!(text, "  {before}{key}{value}\n      {words}");
         for inner in inner {
-            for choice in inner["oneOf"].as_array().into_iter().flatten().filter(|c| c["const"].is_string()) {
-                let _ = writeln!(text, "      {}: {}", choice["const"].as_str().unwrap_or_default(), said(choice));
+            for choice in
+                inner["oneOf"].as_array().into_iter().flatten().filter(|c| c["const"].is_string())
+            {
+                let _ = writeln!(
+                    text,
+                    "      {}: {}",
+                    choice["const"].as_str().unwrap_or_default(),
+                    said(choice)
+                );
             }
             if depth > 1 && inner["properties"].is_object() {
-                let place = if field["items"]["$ref"].is_string() { format!("{before}{key}.0.") } else { format!("{before}{key}.") };
+                let place = if field["items"]["$ref"].is_string() {
+                    format!("{before}{key}.0.")
+                } else {
+                    format!("{before}{key}.")
+                };
                 list(text, schema, inner, &place, &Value::Null, depth - 1);
             }
         }
@@ -58,5 +77,10 @@ fn behind<'a>(schema: &'a Value, value: &'a Value) -> &'a Value {
 
 /// The description of a schema on one line.
 fn said(schema: &Value) -> String {
-    schema["description"].as_str().unwrap_or_default().split_whitespace().collect::<Vec<_>>().join(" ")
+    schema["description"]
+        .as_str()
+        .unwrap_or_default()
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
 }

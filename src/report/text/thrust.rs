@@ -22,7 +22,8 @@ fn value(v: &ThrustValue, least: f64) -> Option<String> {
 
 /// Smaller thrusts beside what the sections carry are rounding, N.
 fn resolution(file: &ResultFile) -> f64 {
-    let lines = file.thrust.iter().flat_map(|t| &t.sections).flat_map(|s| [s.least, s.greatest]).flatten();
+    let lines =
+        file.thrust.iter().flat_map(|t| &t.sections).flat_map(|s| [s.least, s.greatest]).flatten();
     0.5 * tolerance::THRUST_FLOOR * lines.map(|l| l.normal.abs()).fold(0.0, f64::max)
 }
 
@@ -35,11 +36,22 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         };
     };
     let (id, unit) = (&t.support, resolution(file));
-    let text = match (value(&t.least, unit), value(&t.greatest, unit), t.least.status, t.greatest.status) {
+    let text = match (
+        value(&t.least, unit),
+        value(&t.greatest, unit),
+        t.least.status,
+        t.greatest.status,
+    ) {
         (Some(low), Some(high), ..) => format!("thrust on {id} from {low} to {high}"),
-        (Some(low), None, _, Outcome::Unbounded) => format!("thrust on {id} from {low} without end"),
-        (None, Some(high), Outcome::Unbounded, _) => format!("thrust on {id} up to {high}, in the other direction without end"),
-        (None, None, Outcome::Unbounded, Outcome::Unbounded) => format!("thrust on {id} without end in both directions"),
+        (Some(low), None, _, Outcome::Unbounded) => {
+            format!("thrust on {id} from {low} without end")
+        }
+        (None, Some(high), Outcome::Unbounded, _) => {
+            format!("thrust on {id} up to {high}, in the other direction without end")
+        }
+        (None, None, Outcome::Unbounded, Outcome::Unbounded) => {
+            format!("thrust on {id} without end in both directions")
+        }
         _ => return (format!("thrust on {id} undecided"), Role::Unsure),
     };
     (text, Role::Value)
@@ -58,8 +70,12 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     }
     page.paragraph(&factor(t, file));
     let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict()) {
-        Some(Verdict::Conditional) => "It stands only with a pre-stress that nobody applied: the loads do not produce such forces.",
-        Some(Verdict::Undecided) => "Whether the loads produce such forces with dry friction stayed undecided.",
+        Some(Verdict::Conditional) => {
+            "It stands only with a pre-stress that nobody applied: the loads do not produce such forces."
+        }
+        Some(Verdict::Undecided) => {
+            "Whether the loads produce such forces with dry friction stayed undecided."
+        }
         _ => return,
     };
     page.paragraph(text);
@@ -89,7 +105,9 @@ const SECTIONS: usize = 4;
 /// Both ends, their proofs and the sections.
 pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let (Some(t), Some(proof)) = (file.answer.thrust(), &file.thrust) else { return };
-    for (label, v, certificate) in [("least", &t.least, &proof.least), ("greatest", &t.greatest, &proof.greatest)] {
+    for (label, v, certificate) in
+        [("least", &t.least, &proof.least), ("greatest", &t.greatest, &proof.greatest)]
+    {
         let text = match (v.status, v.value, v.lower, v.upper) {
             (Outcome::Found, Some(value), Some(lower), Some(upper)) => {
                 let unit = resolution(file);
@@ -100,10 +118,16 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             (Outcome::Unbounded, ..) => "without end".into(),
             _ => "undecided".into(),
         };
-        page.row(label, std::iter::once(text).chain(certificate.verified.iter().map(|v| format!("  {v}"))));
+        page.row(
+            label,
+            std::iter::once(text).chain(certificate.verified.iter().map(|v| format!("  {v}"))),
+        );
     }
-    for (label, line) in [("line, least", least as fn(&ThrustSection) -> Option<&Line>), ("greatest", greatest)] {
-        let list: Vec<(&ThrustSection, &Line)> = proof.sections.iter().filter_map(|s| Some((s, line(s)?))).collect();
+    for (label, line) in
+        [("line, least", least as fn(&ThrustSection) -> Option<&Line>), ("greatest", greatest)]
+    {
+        let list: Vec<(&ThrustSection, &Line)> =
+            proof.sections.iter().filter_map(|s| Some((s, line(s)?))).collect();
         page.row(label, cut(&table(&list), SECTIONS, options));
     }
     let legend = "normal and shear force, eccentricity (of the way to the edge), centre of pressure; kern: the whole section presses";
@@ -112,14 +136,16 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     }
 }
 
-/// One line a section: normal and shear force, eccentricity with the share of the section used, centre of pressure, where it lies.
+/// One line a section: normal and shear force, eccentricity with the share of the section used,
+/// centre of pressure, where it lies.
 fn table(list: &[(&ThrustSection, &Line)]) -> Vec<String> {
     let body = list.iter().map(|(s, l)| {
         let [normal, shear, e, at, place] = columns(l);
         [name(s), normal, shear, e, at, place]
     });
     let rows: Vec<[String; 6]> = body.collect();
-    let width: Vec<usize> = (0..6).map(|k| rows.iter().map(|r| r[k].chars().count()).max().unwrap_or(0)).collect();
+    let width: Vec<usize> =
+        (0..6).map(|k| rows.iter().map(|r| r[k].chars().count()).max().unwrap_or(0)).collect();
     let line = |r: &[String; 6]| {
         let cells: Vec<String> = r.iter().zip(&width).map(|(c, w)| format!("{c:<w$}")).collect();
         cells.join("  ").trim_end().to_string()
@@ -148,5 +174,11 @@ fn columns(l: &Line) -> [String; 5] {
         _ => "inside",
     };
     let share = format!("{} m ({:.1} %)", short(l.eccentricity), 100.0 * l.used);
-    [format!("{} N", short(l.normal)), format!("{} N", short(l.shear)), share, point(l.at), place.into()]
+    [
+        format!("{} N", short(l.normal)),
+        format!("{} N", short(l.shear)),
+        share,
+        point(l.at),
+        place.into(),
+    ]
 }

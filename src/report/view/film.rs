@@ -1,4 +1,5 @@
-//! A film of a simulation: a limited number of frames, evenly spread over the time that it took, whatever that turns out to be.
+//! A film of a simulation: a limited number of frames, evenly spread over the time that it took,
+//! whatever that turns out to be.
 
 use crate::dynamics::{Fidelity, Frame};
 
@@ -28,7 +29,8 @@ impl Film {
         Self::new((POSES / blocks.max(1)).min(FRAMES))
     }
 
-    /// Looks at the next moment. Where there are too many frames, every other one is dropped; where a new run begins, all are.
+    /// Looks at the next moment. Where there are too many frames, every other one is dropped; where
+    /// a new run begins, all are.
     pub fn see(&mut self, frame: &Frame) {
         if self.run().is_some_and(|r| r != frame.fidelity) {
             *self = Self::new(self.most);
@@ -74,10 +76,16 @@ mod tests {
             film.see(&frame(3, Fidelity::Fast));
             (0..count).for_each(|t| film.see(&frame(t, Fidelity::Fine)));
             let times: Vec<f64> = film.frames().iter().map(|f| f.time).collect();
-            assert!(times[0] == 0.0 && times.len() <= 8 && times.len() >= count.min(4), "{count}: {times:?}");
+            assert!(
+                times[0] == 0.0 && times.len() <= 8 && times.len() >= count.min(4),
+                "{count}: {times:?}"
+            );
             let apart: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
             let left = count as f64 - 1.0 - times[times.len() - 1];
-            assert!(apart.iter().all(|d| *d == apart[0]) && left < apart.last().copied().unwrap_or(1.0), "{times:?}");
+            assert!(
+                apart.iter().all(|d| *d == apart[0]) && left < apart.last().copied().unwrap_or(1.0),
+                "{times:?}"
+            );
         }
     }
 }

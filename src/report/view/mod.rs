@@ -1,8 +1,9 @@
-//! What there is to see of an answer: blocks as surfaces, where they touch, the forces, the lines of thrust, the mechanisms and what
-//! happened in time. One plain value that pages and drawings share, so that all of them show the same.
+//! What there is to see of an answer: blocks as surfaces, where they touch, the forces, the lines
+//! of thrust, the mechanisms and what happened in time. One plain value that pages and drawings
+//! share, so that all of them show the same.
 //!
-//! Lengths in m, forces in N on the second block of a joint, in the coordinates of the scene. Forces and rates are those of the
-//! certificates in the result, fitted to the scene again.
+//! Lengths in m, forces in N on the second block of a joint, in the coordinates of the scene.
+//! Forces and rates are those of the certificates in the result, fitted to the scene again.
 
 mod film;
 mod motion;
@@ -36,7 +37,8 @@ pub struct View {
     pub name: String,
     /// Unit vector against gravity; of a tilt, as the ground is tipped when it falls.
     pub up: Vector3<f64>,
-    /// What is seen, where that is not the scene as it is: tipped, or with another number in it. May be empty.
+    /// What is seen, where that is not the scene as it is: tipped, or with another number in it.
+    /// May be empty.
     pub caption: String,
     /// Unit vector against gravity as the scene has it.
     pub ground: Vector3<f64>,
@@ -112,7 +114,8 @@ pub struct ViewLoad {
 }
 
 impl View {
-    /// What there is to see of a result; `model` is that of its scene, `film` what was taken of its simulation.
+    /// What there is to see of a result; `model` is that of its scene, `film` what was taken of its
+    /// simulation.
     ///
     /// # Errors
     /// A certificate that does not belong to the scene.
@@ -175,7 +178,8 @@ impl View {
         }
     }
 
-    /// The length by which drawings measure: the diagonal of the box to look at, m; 1 where there is nothing to see.
+    /// The length by which drawings measure: the diagonal of the box to look at, m; 1 where there
+    /// is nothing to see.
     pub fn size(&self) -> f64 {
         let size = (self.high - self.low).norm();
         if size.is_finite() && size > 0.0 { size } else { 1.0 }
@@ -190,19 +194,26 @@ impl View {
 /// The ground of a tilt as it is tipped when the answer says that it falls.
 fn tipped(up: Vector3<f64>, file: &ResultFile) -> Option<Vector3<f64>> {
     match (file.question, file.answer.toward(), file.answer.bound().and_then(|b| b.value)) {
-        (QuestionKind::Tilt, Some(toward), Some(tangent)) => Some((up - Vector3::from(toward) * tangent).normalize()),
+        (QuestionKind::Tilt, Some(toward), Some(tangent)) => {
+            Some((up - Vector3::from(toward) * tangent).normalize())
+        }
         _ => None,
     }
 }
 
-/// A support is shown as far as this × the extent of the free blocks; a ground slab as wide as one likes would leave no room for them.
+/// A support is shown as far as this × the extent of the free blocks; a ground slab as wide as one
+/// likes would leave no room for them.
 const AROUND: f64 = 0.15;
 
 /// The box of the free blocks, grown towards supports that reach beyond it.
 fn extent(bodies: &[Body]) -> (Vector3<f64>, Vector3<f64>) {
     let inf = Vector3::repeat(f64::INFINITY);
     let hull = |want: bool| {
-        bodies.iter().filter(|b| b.support == want).map(Body::extent).fold((inf, -inf), |(l, h), (bl, bh)| (l.inf(&bl), h.sup(&bh)))
+        bodies
+            .iter()
+            .filter(|b| b.support == want)
+            .map(Body::extent)
+            .fold((inf, -inf), |(l, h), (bl, bh)| (l.inf(&bl), h.sup(&bh)))
     };
     let (free, held) = (hull(false), hull(true));
     if free.0.x > free.1.x {
@@ -216,7 +227,9 @@ impl Body {
     /// Its bounding box.
     pub fn extent(&self) -> (Vector3<f64>, Vector3<f64>) {
         match &self.shape {
-            ViewShape::Sphere(radius) => (self.center.add_scalar(-radius), self.center.add_scalar(*radius)),
+            ViewShape::Sphere(radius) => {
+                (self.center.add_scalar(-radius), self.center.add_scalar(*radius))
+            }
             ViewShape::Surface(s) => {
                 let inf = Vector3::repeat(f64::INFINITY);
                 s.corners.iter().fold((inf, -inf), |(l, h), p| (l.inf(p), h.sup(p)))
@@ -225,11 +238,14 @@ impl Body {
     }
 }
 
-/// The horizontal axis along which the scene is thinnest; −y where there is none, as one looks at elevations.
+/// The horizontal axis along which the scene is thinnest; −y where there is none, as one looks at
+/// elevations.
 fn front(up: Vector3<f64>, extent: Vector3<f64>) -> Vector3<f64> {
     let axes = [-Vector3::y(), Vector3::x(), -Vector3::z()];
     let level = axes.into_iter().filter(|a| a.dot(&up).abs() < 0.5);
-    let thin = level.min_by(|a, b| a.dot(&extent).abs().total_cmp(&b.dot(&extent).abs())).unwrap_or(axes[0]);
+    let thin = level
+        .min_by(|a, b| a.dot(&extent).abs().total_cmp(&b.dot(&extent).abs()))
+        .unwrap_or(axes[0]);
     (thin - up * up.dot(&thin)).normalize()
 }
 
@@ -239,15 +255,31 @@ fn loads(model: &Model) -> Vec<ViewLoad> {
     for (forces, live) in [(&assembly.dead_forces, false), (&assembly.live_forces, true)] {
         let at = |f: &AppliedForce| assembly.blocks[f.block].centroid + f.arm;
         // Each where it acts, however many there are on a block.
-        list.extend(forces.iter().map(|f| ViewLoad { body: f.block, at: at(f), force: f.force, live }));
+        list.extend(forces.iter().map(|f| ViewLoad {
+            body: f.block,
+            at: at(f),
+            force: f.force,
+            live,
+        }));
         for i in assembly.free() {
-            let elsewhere: Vec<f64> = forces.iter().filter(|f| f.block == i).map(|f| f.force.norm()).collect();
+            let elsewhere: Vec<f64> =
+                forces.iter().filter(|f| f.block == i).map(|f| f.force.norm()).collect();
             let off: Vector3<f64> = forces.iter().filter(|f| f.block == i).map(|f| f.force).sum();
-            let whole = if live { assembly.live[i].force } else { assembly.dead[i].force - assembly.self_weight(i).force };
+            let whole = if live {
+                assembly.live[i].force
+            } else {
+                assembly.dead[i].force - assembly.self_weight(i).force
+            };
             // Sums leave their rounding.
-            let least = 1e-9 * (elsewhere.iter().sum::<f64>() + if live { 0.0 } else { assembly.weight(i) });
+            let least = 1e-9
+                * (elsewhere.iter().sum::<f64>() + if live { 0.0 } else { assembly.weight(i) });
             if (whole - off).norm() > least {
-                list.push(ViewLoad { body: i, at: assembly.blocks[i].centroid, force: whole - off, live });
+                list.push(ViewLoad {
+                    body: i,
+                    at: assembly.blocks[i].centroid,
+                    force: whole - off,
+                    live,
+                });
             }
         }
     }

@@ -1,9 +1,11 @@
 //! Mechanisms as motions that can be followed.
 //!
-//! The rates of a mechanism say how a motion begins. A block with velocity `v` of its centre of mass and spin `ω` is followed along
-//! the screw that they span, the exponential of its twist: after `s` it is turned by `s‖ω‖` about the axis through the point of its body
-//! (or beyond) that does not move across `ω`, and shifted along it. So a block that pivots about a hinge keeps that hinge exactly, and
-//! no block is deformed, however large `s`; between two blocks that both turn gaps open in the second order of `s`.
+//! The rates of a mechanism say how a motion begins. A block with velocity `v` of its centre of
+//! mass and spin `ω` is followed along the screw that they span, the exponential of its twist:
+//! after `s` it is turned by `s‖ω‖` about the axis through the point of its body (or beyond) that
+//! does not move across `ω`, and shifted along it. So a block that pivots about a hinge keeps that
+//! hinge exactly, and no block is deformed, however large `s`; between two blocks that both turn
+//! gaps open in the second order of `s`.
 //!
 //! R. S. Ball, *A Treatise on the Theory of Screws*, Cambridge 1900.
 
@@ -31,7 +33,8 @@ pub struct ViewMotion {
     pub name: String,
     /// The rate of each block (arbitrary common scale).
     pub rates: Vec<Rate>,
-    /// The greatest speed of a corner on that scale, over 1 m: `s / reach` moves no corner farther than `s`, to first order.
+    /// The greatest speed of a corner on that scale, over 1 m: `s / reach` moves no corner farther
+    /// than `s`, to first order.
     pub reach: f64,
     /// Joints that move.
     pub marks: Vec<Mark>,
@@ -58,19 +61,31 @@ pub struct ViewPose {
 }
 
 impl ViewMotion {
-    fn new(model: &Model, part: ViewPart, name: &str, rates: Vec<Rate>, bodies: &[Body]) -> Option<Self> {
+    fn new(
+        model: &Model,
+        part: ViewPart,
+        name: &str,
+        rates: Vec<Rate>,
+        bodies: &[Body],
+    ) -> Option<Self> {
         let reach = bodies.iter().zip(&rates).map(|(b, r)| speed(b, r)).fold(0.0, f64::max);
         if !(reach.is_finite() && reach > 0.0) {
             return None;
         }
         let read = mechanism::read(model, &rates);
-        let marks = read.joints.iter().map(|j| Mark { joint: j.interface, kind: j.motion, at: j.at }).collect();
+        let marks = read
+            .joints
+            .iter()
+            .map(|j| Mark { joint: j.interface, kind: j.motion, at: j.at })
+            .collect();
         Some(Self { part, name: name.into(), rates, reach, marks })
     }
 
     /// Where a block is when the corner that moves fastest would have gone `way` m straight on.
     pub fn pose(&self, body: usize, way: f64) -> ViewPose {
-        let Some(rate) = self.rates.get(body) else { return ViewPose { shift: Vector3::zeros(), turn: UnitQuaternion::identity() } };
+        let Some(rate) = self.rates.get(body) else {
+            return ViewPose { shift: Vector3::zeros(), turn: UnitQuaternion::identity() };
+        };
         let s = way / self.reach;
         let spin = rate.spin.norm();
         if spin * s.abs() < 1e-12 {
@@ -88,15 +103,28 @@ impl ViewMotion {
 fn speed(body: &Body, rate: &Rate) -> f64 {
     match &body.shape {
         ViewShape::Sphere(radius) => rate.velocity.norm() + radius * rate.spin.norm(),
-        ViewShape::Surface(s) => s.corners.iter().map(|p| (rate.velocity + rate.spin.cross(&(p - body.center))).norm()).fold(0.0, f64::max),
+        ViewShape::Surface(s) => s
+            .corners
+            .iter()
+            .map(|p| (rate.velocity + rate.spin.cross(&(p - body.center))).norm())
+            .fold(0.0, f64::max),
     }
 }
 
 /// Every mechanism that a result holds.
-pub(super) fn of(model: &Model, file: &ResultFile, bodies: &[Body]) -> Result<Vec<ViewMotion>, String> {
+pub(super) fn of(
+    model: &Model,
+    file: &ResultFile,
+    bodies: &[Body],
+) -> Result<Vec<ViewMotion>, String> {
     let mut list: Vec<(ViewPart, &str, &Certificate)> = Vec::new();
-    let moves = |c: &Certificate| !matches!(c.claim, None | Some(Claim::Stable | Claim::Unbounded { .. }));
-    list.push((ViewPart::Answer, if file.answer.as_verdict().is_some() { "how it moves" } else { "how it fails" }, &file.certificate));
+    let moves =
+        |c: &Certificate| !matches!(c.claim, None | Some(Claim::Stable | Claim::Unbounded { .. }));
+    list.push((
+        ViewPart::Answer,
+        if file.answer.as_verdict().is_some() { "how it moves" } else { "how it fails" },
+        &file.certificate,
+    ));
     if let Some(dry) = file.dry.as_ref().filter(|d| d.found != Found::NothingSlides) {
         list.push((ViewPart::Dry, "how it fails with dry friction", &dry.certificate));
     }
@@ -154,6 +182,9 @@ mod tests {
         assert_eq!((p.shift, p.turn), (Vector3::new(2.0, 4.0, 6.0), UnitQuaternion::identity()));
         // Along its axis it only screws.
         let p = motion([0.0, 0.0, 1.0], [0.0, 0.0, 2.0]).pose(0, 0.5);
-        assert!((p.shift - Vector3::new(0.0, 0.0, 0.5)).norm() < 1e-15 && (p.turn.angle() - 1.0).abs() < 1e-15);
+        assert!(
+            (p.shift - Vector3::new(0.0, 0.0, 0.5)).norm() < 1e-15
+                && (p.turn.angle() - 1.0).abs() < 1e-15
+        );
     }
 }

@@ -20,7 +20,8 @@ use nalgebra::Vector3;
 pub enum ViewPart {
     /// It goes with the answer.
     Answer,
-    /// Forces that stand beside it: without the pre-stress, or at a load factor at which the scene stands.
+    /// Forces that stand beside it: without the pre-stress, or at a load factor at which the scene
+    /// stands.
     Base,
     /// With dry friction.
     Dry,
@@ -49,7 +50,8 @@ pub struct ViewState {
     pub forces: Vec<Vec<Vector3<f64>>>,
     /// Resultant at each joint; `None` where it carries nothing.
     pub resultants: Vec<Option<Resultant>>,
-    /// Share of its joints that each block uses: the greatest of its joints; `None` where nothing presses on it.
+    /// Share of its joints that each block uses: the greatest of its joints; `None` where nothing
+    /// presses on it.
     pub used: Vec<Option<f64>>,
     /// The line of thrust.
     pub line: Vec<Segment>,
@@ -103,7 +105,8 @@ pub struct Segment {
 impl ViewState {
     fn new(model: &Model, part: ViewPart, name: String, forces: &Forces) -> Self {
         let list = sections(&model.interfaces, forces);
-        let mean = list.iter().map(|s| s.normal.hypot(s.shear)).sum::<f64>() / list.len().max(1) as f64;
+        let mean =
+            list.iter().map(|s| s.normal.hypot(s.shear)).sum::<f64>() / list.len().max(1) as f64;
         let resultants: Vec<Option<Resultant>> = list
             .iter()
             .zip(forces)
@@ -119,7 +122,11 @@ impl ViewState {
                     used: s.used,
                     in_kern: s.in_kern,
                     mobilised: match law.friction {
-                        Friction::Coefficient(mu) if mu > 0.0 && s.normal > 0.0 && law.friction_only() => Some(s.shear / (mu * s.normal)),
+                        Friction::Coefficient(mu)
+                            if mu > 0.0 && s.normal > 0.0 && law.friction_only() =>
+                        {
+                            Some(s.shear / (mu * s.normal))
+                        }
                         _ => None,
                     },
                 })
@@ -133,9 +140,14 @@ impl ViewState {
 }
 
 /// Block, joint and resultant wherever one presses on the other.
-fn pressed<'a>(model: &'a Model, resultants: &'a [Option<Resultant>]) -> impl Iterator<Item = (usize, usize, &'a Resultant)> {
+fn pressed<'a>(
+    model: &'a Model,
+    resultants: &'a [Option<Resultant>],
+) -> impl Iterator<Item = (usize, usize, &'a Resultant)> {
     let there = resultants.iter().enumerate().filter_map(|(k, r)| Some((k, r.as_ref()?)));
-    there.flat_map(|(k, r)| [model.interfaces.list[k].a, model.interfaces.list[k].b].into_iter().map(move |i| (i, k, r)))
+    there.flat_map(|(k, r)| {
+        [model.interfaces.list[k].a, model.interfaces.list[k].b].into_iter().map(move |i| (i, k, r))
+    })
 }
 
 fn used(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Option<f64>> {
@@ -146,24 +158,36 @@ fn used(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Option<f64>> {
     used
 }
 
-/// Loads act off the centre of mass when they do by this × the block's size. Larger: small loads far out are drawn through the centre. Smaller: rounding bends
-/// every line.
+/// Loads act off the centre of mass when they do by this × the block's size. Larger: small loads
+/// far out are drawn through the centre. Smaller: rounding bends every line.
 const OFF_CENTRE: f64 = 1e-3;
 
-/// Where the loads of a block act: the point of their line of action next to the centre of mass, and their force. Both follow from the joints, which balance them,
-/// so that it does not matter what they are multiplied by. `None` where that point lies off the block by more than its size: what is left of forces that nearly
-/// cancel has no place.
-fn action(model: &Model, body: usize, joints: &[(usize, &Resultant)]) -> Option<(Vector3<f64>, Vector3<f64>)> {
+/// Where the loads of a block act: the point of their line of action next to the centre of mass,
+/// and their force. Both follow from the joints, which balance them, so that it does not matter
+/// what they are multiplied by. `None` where that point lies off the block by more than its size:
+/// what is left of forces that nearly cancel has no place.
+fn action(
+    model: &Model,
+    body: usize,
+    joints: &[(usize, &Resultant)],
+) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let block = &model.assembly.blocks[body];
     let on = |joint: usize| if model.interfaces.list[joint].b == body { 1.0 } else { -1.0 };
     let force: Vector3<f64> = joints.iter().map(|&(k, r)| r.force * -on(k)).sum();
-    let moment: Vector3<f64> = joints.iter().map(|&(k, r)| (r.at - block.centroid).cross(&r.force) * -on(k)).sum();
+    let moment: Vector3<f64> =
+        joints.iter().map(|&(k, r)| (r.at - block.centroid).cross(&r.force) * -on(k)).sum();
     let off = force.cross(&moment) / force.norm_squared();
     (off.norm() <= block.size).then_some((block.centroid + off, force))
 }
 
-/// Where the line through a centre of pressure meets the line of action of the loads, inside or near the block.
-fn meeting(r: &Resultant, (at, load): (Vector3<f64>, Vector3<f64>), near: Vector3<f64>, size: f64) -> Option<Vector3<f64>> {
+/// Where the line through a centre of pressure meets the line of action of the loads, inside or
+/// near the block.
+fn meeting(
+    r: &Resultant,
+    (at, load): (Vector3<f64>, Vector3<f64>),
+    near: Vector3<f64>,
+    size: f64,
+) -> Option<Vector3<f64>> {
     let (u, v) = (r.force.normalize(), load.normalize());
     let cos = u.dot(&v);
     // Parallel lines meet nowhere, and nearly parallel ones far away.
@@ -172,8 +196,9 @@ fn meeting(r: &Resultant, (at, load): (Vector3<f64>, Vector3<f64>), near: Vector
     (along.is_finite() && (point - near).norm() <= size).then_some(point)
 }
 
-/// Through every block from one centre of pressure to the other, over the line of action of its loads where they act off the centre of mass; where more or fewer than
-/// two joints press, from there to the place where its loads act.
+/// Through every block from one centre of pressure to the other, over the line of action of its
+/// loads where they act off the centre of mass; where more or fewer than two joints press, from
+/// there to the place where its loads act.
 fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
     let mut joints: Vec<Vec<(usize, &Resultant)>> = vec![Vec::new(); model.assembly.blocks.len()];
     for (body, joint, r) in pressed(model, resultants) {
@@ -187,9 +212,19 @@ fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
         let off = (hub - block.centroid).norm() > OFF_CENTRE * block.size;
         match joints[body][..] {
             [(joint, r), (other, s)] => {
-                if let Some(to) = action.filter(|_| off).and_then(|action| meeting(r, action, block.centroid, block.size)) {
+                if let Some(to) = action
+                    .filter(|_| off)
+                    .and_then(|action| meeting(r, action, block.centroid, block.size))
+                {
                     for (joint, r) in [(joint, r), (other, s)] {
-                        line.push(Segment { body, joint, other: None, from: r.at, to, force: r.force.norm() });
+                        line.push(Segment {
+                            body,
+                            joint,
+                            other: None,
+                            from: r.at,
+                            to,
+                            force: r.force.norm(),
+                        });
                     }
                     continue;
                 }
@@ -217,7 +252,9 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
     let mut list: Vec<(ViewPart, String, &[ContactForces])> = Vec::new();
     let own = |c: &Certificate| !c.forces.is_empty();
     let lambda = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at λ = {}", short(v)));
-    let tilt = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at {}°", short(v.atan().to_degrees())));
+    let tilt = |v: Option<f64>| {
+        v.map_or(String::new(), |v| format!(" at {}°", short(v.atan().to_degrees())))
+    };
     let at = |v: Option<f64>| if file.question == QuestionKind::Tilt { tilt(v) } else { lambda(v) };
     if own(&file.certificate) {
         let name = match (file.answer.verdict(), file.answer.bound()) {
@@ -241,32 +278,56 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         list.push((ViewPart::Base, name.into(), base));
     }
     // Where nothing slides they are the same.
-    if let Some(dry) = file.dry.as_ref().filter(|d| own(&d.certificate) && d.value.is_some() && d.found != Found::NothingSlides) {
-        list.push((ViewPart::Dry, format!("forces with dry friction{}", at(dry.value)), &dry.certificate.forces));
+    if let Some(dry) = file
+        .dry
+        .as_ref()
+        .filter(|d| own(&d.certificate) && d.value.is_some() && d.found != Found::NothingSlides)
+    {
+        list.push((
+            ViewPart::Dry,
+            format!("forces with dry friction{}", at(dry.value)),
+            &dry.certificate.forces,
+        ));
     }
     if let (Some(thrust), Some(answer)) = (&file.thrust, file.answer.thrust()) {
         let ends = [
             (ViewPart::Least, "forces of the least thrust", &thrust.least, &answer.least),
-            (ViewPart::Greatest, "forces of the greatest thrust", &thrust.greatest, &answer.greatest),
+            (
+                ViewPart::Greatest,
+                "forces of the greatest thrust",
+                &thrust.greatest,
+                &answer.greatest,
+            ),
         ];
-        for (part, name, certificate, end) in ends.into_iter().filter(|(_, _, c, _)| own(c) && c.claim.is_some()) {
+        for (part, name, certificate, end) in
+            ends.into_iter().filter(|(_, _, c, _)| own(c) && c.claim.is_some())
+        {
             let value = end.value.map_or(String::new(), |v| format!(", {} N", short(v)));
             list.push((part, format!("{name}{value}"), &certificate.forces));
         }
     }
     if let Some(dead) = file.dead_load.as_ref().filter(|d| own(&d.certificate)) {
         let stands = matches!(dead.answer.verdict(), Some(Verdict::Stable));
-        let name = if stands { "forces under the dead load" } else { "forces that come closest under the dead load" };
+        let name = if stands {
+            "forces under the dead load"
+        } else {
+            "forces that come closest under the dead load"
+        };
         list.push((ViewPart::Dead, name.into(), &dead.certificate.forces));
     }
     let tangent = |part: ViewPart| match (file.question, part) {
-        (QuestionKind::Tilt, ViewPart::Answer) => file.answer.bound().and_then(|b| b.value).unwrap_or(0.0),
-        (QuestionKind::Tilt, ViewPart::Dry) => file.dry.as_ref().and_then(|d| d.value).unwrap_or(0.0),
+        (QuestionKind::Tilt, ViewPart::Answer) => {
+            file.answer.bound().and_then(|b| b.value).unwrap_or(0.0)
+        }
+        (QuestionKind::Tilt, ViewPart::Dry) => {
+            file.dry.as_ref().and_then(|d| d.value).unwrap_or(0.0)
+        }
         _ => 0.0,
     };
     let state = |(part, name, saved): (ViewPart, String, &[_])| {
         let mut forces = read_forces(model, saved)?;
-        // Forces of a tilt are divided by its cosine, so that gravity keeps its part across the ground.
+        // Forces of a tilt are divided by its cosine, so that gravity keeps its part across the
+        // ground.
         let tangent = tangent(part);
         forces.iter_mut().flatten().for_each(|w| *w = *w * (1.0 / 1f64.hypot(tangent)));
         let mut state = ViewState::new(model, part, name, &forces);

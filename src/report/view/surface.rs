@@ -34,10 +34,12 @@ impl ViewShape {
                 pieces: p.facets.iter().flat_map(|f| f.pieces.iter().cloned()).collect(),
                 edges: edges(p),
             }),
-            Solid::Clump { balls, .. } => Self::Surface(balls.iter().fold(Surface::default(), |mut all, (center, radius)| {
-                all.add_ball(center, *radius);
-                all
-            })),
+            Solid::Clump { balls, .. } => {
+                Self::Surface(balls.iter().fold(Surface::default(), |mut all, (center, radius)| {
+                    all.add_ball(center, *radius);
+                    all
+                }))
+            }
         }
     }
 }
@@ -65,14 +67,20 @@ impl Surface {
         for k in 0..around {
             self.pieces.push(vec![first, at(1, k), at(1, k + 1)]);
             for ring in 1..rings - 1 {
-                self.pieces.push(vec![at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), at(ring, k + 1)]);
+                self.pieces.push(vec![
+                    at(ring, k),
+                    at(ring + 1, k),
+                    at(ring + 1, k + 1),
+                    at(ring, k + 1),
+                ]);
             }
             self.pieces.push(vec![last, at(rings - 1, k + 1), at(rings - 1, k)]);
         }
     }
 }
 
-/// Edges between facets: those that a facet has once. Cuts that divide a facet into pieces are no edges.
+/// Edges between facets: those that a facet has once. Cuts that divide a facet into pieces are no
+/// edges.
 fn edges(p: &Polyhedron) -> Vec<[u32; 2]> {
     let mut all = BTreeSet::new();
     for facet in &p.facets {
@@ -96,10 +104,19 @@ mod tests {
     #[test]
     fn balls_of_a_clump_are_closed_and_face_outwards() {
         let balls = vec![(Vector3::new(1.0, 2.0, 3.0), 0.5), (Vector3::new(1.6, 2.0, 3.0), 0.4)];
-        let ViewShape::Surface(s) = ViewShape::of(&Solid::Clump { balls: balls.clone(), volume: 1.0 }) else { panic!() };
+        let ViewShape::Surface(s) =
+            ViewShape::of(&Solid::Clump { balls: balls.clone(), volume: 1.0 })
+        else {
+            panic!()
+        };
         let p = |i: u32| s.corners[i as usize];
-        let volume: f64 = s.pieces.iter().flat_map(|f| (2..f.len()).map(|k| p(f[0]).dot(&p(f[k - 1]).cross(&p(f[k]))) / 6.0)).sum();
-        let round: f64 = balls.iter().map(|(_, r)| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3)).sum();
+        let volume: f64 = s
+            .pieces
+            .iter()
+            .flat_map(|f| (2..f.len()).map(|k| p(f[0]).dot(&p(f[k - 1]).cross(&p(f[k]))) / 6.0))
+            .sum();
+        let round: f64 =
+            balls.iter().map(|(_, r)| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3)).sum();
         assert!(volume < round && volume > 0.9 * round, "{volume} {round}");
     }
 }

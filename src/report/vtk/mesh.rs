@@ -65,7 +65,12 @@ impl Mesh {
         mesh
     }
 
-    fn point(&mut self, at: Vector3<f64>, block: Option<usize>, contact: Option<(usize, usize)>) -> u32 {
+    fn point(
+        &mut self,
+        at: Vector3<f64>,
+        block: Option<usize>,
+        contact: Option<(usize, usize)>,
+    ) -> u32 {
         self.points.push(Point { at, block, contact, load: None });
         self.points.len() as u32 - 1
     }
@@ -76,17 +81,37 @@ impl Mesh {
         for (i, body) in view.bodies.iter().enumerate() {
             let part = if body.support { VtkPart::Support } else { VtkPart::Block };
             let first = self.points.len() as u32;
-            let mut face =
-                |points: Vec<u32>| self.polys.push(Cell { part, block: Some(i), other: None, joint: None, segment: None, points });
+            let mut face = |points: Vec<u32>| {
+                self.polys.push(Cell {
+                    part,
+                    block: Some(i),
+                    other: None,
+                    joint: None,
+                    segment: None,
+                    points,
+                })
+            };
             match &body.shape {
                 ViewShape::Surface(s) => {
-                    s.pieces.iter().for_each(|piece| face(piece.iter().map(|v| first + v).collect()));
-                    self.points.extend(s.corners.iter().map(|&at| Point { at, block: Some(i), contact: None, load: None }));
+                    s.pieces
+                        .iter()
+                        .for_each(|piece| face(piece.iter().map(|v| first + v).collect()));
+                    self.points.extend(s.corners.iter().map(|&at| Point {
+                        at,
+                        block: Some(i),
+                        contact: None,
+                        load: None,
+                    }));
                 }
                 ViewShape::Sphere(radius) => {
                     faces.iter().for_each(|f| face(f.iter().map(|v| first + v).collect()));
                     let at = |c: &Vector3<f64>| body.center + c * *radius;
-                    self.points.extend(corners.iter().map(|c| Point { at: at(c), block: Some(i), contact: None, load: None }));
+                    self.points.extend(corners.iter().map(|c| Point {
+                        at: at(c),
+                        block: Some(i),
+                        contact: None,
+                        load: None,
+                    }));
                 }
             }
         }
@@ -94,8 +119,20 @@ impl Mesh {
 
     fn joints(&mut self, view: &View) {
         for (k, joint) in view.joints.iter().enumerate() {
-            let points: Vec<u32> = joint.points.iter().enumerate().map(|(c, &at)| self.point(at, None, Some((k, c)))).collect();
-            let cell = |part, points| Cell { part, block: Some(joint.b), other: Some(joint.a), joint: Some(k), segment: None, points };
+            let points: Vec<u32> = joint
+                .points
+                .iter()
+                .enumerate()
+                .map(|(c, &at)| self.point(at, None, Some((k, c))))
+                .collect();
+            let cell = |part, points| Cell {
+                part,
+                block: Some(joint.b),
+                other: Some(joint.a),
+                joint: Some(k),
+                segment: None,
+                points,
+            };
             for &p in &points {
                 self.verts.push(cell(VtkPart::Force, vec![p]));
             }
@@ -114,7 +151,14 @@ impl Mesh {
             let point = self.points.len() as u32;
             self.points.push(Point { at: load.at, block: None, contact: None, load: Some(k) });
             let part = if load.live { VtkPart::LiveLoad } else { VtkPart::Load };
-            self.verts.push(Cell { part, block: Some(load.body), other: None, joint: None, segment: None, points: vec![point] });
+            self.verts.push(Cell {
+                part,
+                block: Some(load.body),
+                other: None,
+                joint: None,
+                segment: None,
+                points: vec![point],
+            });
         }
     }
 
@@ -123,7 +167,14 @@ impl Mesh {
             for part in &state.line {
                 let points = [part.from, part.to].map(|at| self.point(at, None, None)).to_vec();
                 let (block, segment) = (Some(part.body), Some((k, part.force)));
-                self.lines.push(Cell { part: VtkPart::Thrust, block, other: None, joint: None, segment, points });
+                self.lines.push(Cell {
+                    part: VtkPart::Thrust,
+                    block,
+                    other: None,
+                    joint: None,
+                    segment,
+                    points,
+                });
             }
         }
     }

@@ -1,15 +1,18 @@
-//! Answers for ParaView and everything else that is built on VTK: one file of XML PolyData (`.vtp`) with blocks, joints, contact forces,
-//! lines of thrust and mechanisms.
+//! Answers for ParaView and everything else that is built on VTK: one file of XML PolyData (`.vtp`)
+//! with blocks, joints, contact forces, lines of thrust and mechanisms.
 //!
-//! Cells of all kinds stand in one file and are told apart by the cell array `part` ([`VtkPart`]); `block`, `other block` and `joint` are indices in
-//! scene order (−1: none), the names of blocks stand in the field data. Arrays that belong to a system of forces or
-//! a mechanism carry its name in parentheses: `force (…)`, N, on the points of contact forces; `load`, N, on the places of loads (live ones not yet multiplied by λ); `normal force (…)`, N, and `used (…)`, the
-//! share of the section or of the friction, on joints and blocks; `displacement (…)`, m, on the points of blocks, to first order and as far
-//! as it is seen well. A simulation is a collection (`.pvd`) of such files, one a time, that hold the blocks alone with their velocity: readers
-//! of VTK 9 add up the cells of all times that stand in one file.
+//! Cells of all kinds stand in one file and are told apart by the cell array `part` ([`VtkPart`]);
+//! `block`, `other block` and `joint` are indices in scene order (−1: none), the names of blocks
+//! stand in the field data. Arrays that belong to a system of forces or a mechanism carry its name
+//! in parentheses: `force (…)`, N, on the points of contact forces; `load`, N, on the places of
+//! loads (live ones not yet multiplied by λ); `normal force (…)`, N, and `used (…)`, the share of
+//! the section or of the friction, on joints and blocks; `displacement (…)`, m, on the points of
+//! blocks, to first order and as far as it is seen well. A simulation is a collection (`.pvd`) of
+//! such files, one a time, that hold the blocks alone with their velocity: readers of VTK 9 add up
+//! the cells of all times that stand in one file.
 //!
-//! W. Schroeder, K. Martin, B. Lorensen, *The Visualization Toolkit*, 4th ed., Kitware 2006; file formats of VTK,
-//! <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
+//! W. Schroeder, K. Martin, B. Lorensen, *The Visualization Toolkit*, 4th ed., Kitware 2006; file
+//! formats of VTK, <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 
 mod ball;
 mod mesh;
@@ -54,7 +57,10 @@ pub fn moment(view: &View, frame: &Frame) -> String {
 pub fn collection(view: &View, named: impl Fn(usize) -> String) -> String {
     let mut xml = Xml::new("Collection");
     for (k, frame) in view.film.iter().enumerate() {
-        xml.open("DataSet", &format!(" timestep=\"{}\" file=\"{}\"", frame.time, markup(&named(k))));
+        xml.open(
+            "DataSet",
+            &format!(" timestep=\"{}\" file=\"{}\"", frame.time, markup(&named(k))),
+        );
         xml.close("DataSet");
     }
     xml.end("Collection")
@@ -83,7 +89,10 @@ fn document(view: &View, mesh: &Mesh, frame: Option<&Frame>) -> String {
     xml.close("Points");
     for (name, cells) in [("Verts", &mesh.verts), ("Lines", &mesh.lines), ("Polys", &mesh.polys)] {
         xml.open(name, "");
-        xml.integers("connectivity", cells.iter().flat_map(|c| c.points.iter().map(|&p| i64::from(p))));
+        xml.integers(
+            "connectivity",
+            cells.iter().flat_map(|c| c.points.iter().map(|&p| i64::from(p))),
+        );
         let mut end = 0;
         let ends = cells.iter().map(|c| {
             end += c.points.len() as i64;
@@ -99,7 +108,9 @@ fn document(view: &View, mesh: &Mesh, frame: Option<&Frame>) -> String {
 /// Where a point is.
 fn place(view: &View, p: &mesh::Point, frame: Option<&Frame>) -> Vector3<f64> {
     match (p.block, frame) {
-        (Some(i), Some(frame)) => frame.blocks[i].center + frame.blocks[i].turn * (p.at - view.bodies[i].center),
+        (Some(i), Some(frame)) => {
+            frame.blocks[i].center + frame.blocks[i].turn * (p.at - view.bodies[i].center)
+        }
         _ => p.at,
     }
 }
@@ -107,7 +118,12 @@ fn place(view: &View, p: &mesh::Point, frame: Option<&Frame>) -> Vector3<f64> {
 fn velocities(xml: &mut Xml, view: &View, mesh: &Mesh, frame: &Frame) {
     xml.open("PointData", "");
     let velocity = |p: &mesh::Point| match p.block {
-        Some(i) => frame.blocks[i].velocity + frame.blocks[i].spin.cross(&(place(view, p, Some(frame)) - frame.blocks[i].center)),
+        Some(i) => {
+            frame.blocks[i].velocity
+                + frame.blocks[i]
+                    .spin
+                    .cross(&(place(view, p, Some(frame)) - frame.blocks[i].center))
+        }
         None => Vector3::zeros(),
     };
     xml.vectors("velocity", mesh.points.iter().map(velocity));
@@ -130,7 +146,11 @@ fn point_data(xml: &mut Xml, view: &View, mesh: &Mesh) {
     for motion in &view.motions {
         let by = sized(view, motion) / motion.reach;
         let way = |p: &mesh::Point| match p.block {
-            Some(i) => (motion.rates[i].velocity + motion.rates[i].spin.cross(&(p.at - view.bodies[i].center))) * by,
+            Some(i) => {
+                (motion.rates[i].velocity
+                    + motion.rates[i].spin.cross(&(p.at - view.bodies[i].center)))
+                    * by
+            }
             None => Vector3::zeros(),
         };
         xml.vectors(&named("displacement", &motion.name), mesh.points.iter().map(way));

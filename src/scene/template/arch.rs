@@ -3,11 +3,13 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// An arch of straight-chord voussoirs, `v00`, `v01`, … from left (x < 0) to right, on two supports `springer_left` and `springer_right`.
+/// An arch of straight-chord voussoirs, `v00`, `v01`, … from left (x < 0) to right, on two supports
+/// `springer_left` and `springer_right`.
 ///
-/// The mid-line lies in the x–z plane, symmetric about x = 0. A circular arch has the centre of its circle at the origin; the other profiles
-/// have the ends of their mid-line at z = 0. The mid-line is divided equally in angle (circular, pointed), in the eccentric angle s of
-/// (a sin s, b cos s) (elliptical) or in x (parabolic, and every profile with vertical joints).
+/// The mid-line lies in the x–z plane, symmetric about x = 0. A circular arch has the centre of its
+/// circle at the origin; the other profiles have the ends of their mid-line at z = 0. The mid-line
+/// is divided equally in angle (circular, pointed), in the eccentric angle s of (a sin s, b cos s)
+/// (elliptical) or in x (parabolic, and every profile with vertical joints).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Arch {
@@ -26,22 +28,26 @@ pub struct Arch {
     /// Radius of the mid-line, m (circular and pointed).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
-    /// Angle at the centre between the two springing joints (circular, with `radius`); 180 where absent.
+    /// Angle at the centre between the two springing joints (circular, with `radius`); 180 where
+    /// absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub embrace_deg: Option<f64>,
     /// Distance of the two centres from the axis, m (pointed, with `radius`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eccentricity: Option<f64>,
-    /// Span of the mid-line: distance between its ends, m (every profile; then `rise` too). The clear span is smaller: `intrados_span`.
+    /// Span of the mid-line: distance between its ends, m (every profile; then `rise` too). The
+    /// clear span is smaller: `intrados_span`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub span: Option<f64>,
     /// Rise of the mid-line: height of its crown above its ends, m (with `span`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rise: Option<f64>,
-    /// Clear span: distance between the ends of the intrados, m, in place of `span` (then `intrados_rise` too).
+    /// Clear span: distance between the ends of the intrados, m, in place of `span` (then
+    /// `intrados_rise` too).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub intrados_span: Option<f64>,
-    /// Clear rise: height of the crown of the intrados (of its curve, where it is drawn with chords) above its ends, m (with `intrados_span`).
+    /// Clear rise: height of the crown of the intrados (of its curve, where it is drawn with
+    /// chords) above its ends, m (with `intrados_span`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub intrados_rise: Option<f64>,
     /// Direction of the joints.
@@ -49,12 +55,14 @@ pub struct Arch {
     pub joints: JointDirection,
     /// Thickness, m, measured as `thickness_along` says.
     pub thickness: f64,
-    /// How the thickness is measured; `normal` with radial joints, `vertical` with vertical joints where absent.
+    /// How the thickness is measured; `normal` with radial joints, `vertical` with vertical joints
+    /// where absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness_along: Option<ThicknessAlong>,
     /// Length along y, m.
     pub depth: f64,
-    /// Number of voussoirs in the whole arch; even for a pointed arch, whose crown joint is vertical.
+    /// Number of voussoirs in the whole arch; even for a pointed arch, whose crown joint is
+    /// vertical.
     pub voussoirs: usize,
     /// Free blocks under the springings in place of the springers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -91,14 +99,17 @@ pub enum JointDirection {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ThicknessAlong {
-    /// Normal to the mid-line. With vertical joints (circular arches up to 180°): a ring between two circles, cut by vertical joints at equal
-    /// angles of the intrados; the springing joints stay radial, the extrados is drawn as 4 chords a voussoir, 8 in the two outer ones.
+    /// Normal to the mid-line. With vertical joints (circular arches up to 180°): a ring between
+    /// two circles, cut by vertical joints at equal angles of the intrados; the springing joints
+    /// stay radial, the extrados is drawn as 4 chords a voussoir, 8 in the two outer ones.
     Normal,
-    /// Along z (vertical joints only): intrados and extrados are the mid-line moved down and up by half of it.
+    /// Along z (vertical joints only): intrados and extrados are the mid-line moved down and up by
+    /// half of it.
     Vertical,
 }
 
-/// Free rectangular blocks `buttress_left` and `buttress_right` under the springings, inner face flush with the intrados, on a support `ground`.
+/// Free rectangular blocks `buttress_left` and `buttress_right` under the springings, inner face
+/// flush with the intrados, on a support `ground`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Buttresses {

@@ -4,10 +4,12 @@ use super::Profile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A barrel vault: an arch with radial joints drawn out along y, in running bond, on two continuous supports `springer_left` and `springer_right`.
+/// A barrel vault: an arch with radial joints drawn out along y, in running bond, on two continuous
+/// supports `springer_left` and `springer_right`.
 ///
-/// Strip `i` (from left to right) runs along the vault between two bed joints; its blocks are `v<i>_<k>` with `k` along y.
-/// Every other strip, starting with the second, has half blocks at both ends.
+/// Strip `i` (from left to right) runs along the vault between two bed joints; its blocks are
+/// `v<i>_<k>` with `k` along y. Every other strip, starting with the second, has half blocks at
+/// both ends.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Barrel {
@@ -26,22 +28,26 @@ pub struct Barrel {
     /// Radius of the mid-line, m (circular and pointed).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
-    /// Angle at the centre between the two springing joints (circular, with `radius`); 180 where absent.
+    /// Angle at the centre between the two springing joints (circular, with `radius`); 180 where
+    /// absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub embrace_deg: Option<f64>,
     /// Distance of the two centres from the axis, m (pointed, with `radius`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eccentricity: Option<f64>,
-    /// Span of the mid-line: distance between its ends, m (every profile; then `rise` too). The clear span is smaller: `intrados_span`.
+    /// Span of the mid-line: distance between its ends, m (every profile; then `rise` too). The
+    /// clear span is smaller: `intrados_span`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub span: Option<f64>,
     /// Rise of the mid-line: height of its crown above its ends, m (with `span`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rise: Option<f64>,
-    /// Clear span: distance between the ends of the intrados, m, in place of `span` (then `intrados_rise` too).
+    /// Clear span: distance between the ends of the intrados, m, in place of `span` (then
+    /// `intrados_rise` too).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub intrados_span: Option<f64>,
-    /// Clear rise: height of the crown of the intrados (of its curve, where it is drawn with chords) above its ends, m (with `intrados_span`).
+    /// Clear rise: height of the crown of the intrados (of its curve, where it is drawn with
+    /// chords) above its ends, m (with `intrados_span`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub intrados_rise: Option<f64>,
     /// Thickness normal to the mid-line, m.

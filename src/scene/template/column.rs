@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Equal boxes `b00`, `b01`, … from the bottom up on a support `base`; the axis is x = y = 0, the foot z = 0.
+/// Equal boxes `b00`, `b01`, … from the bottom up on a support `base`; the axis is x = y = 0, the
+/// foot z = 0.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Column {

@@ -3,12 +3,14 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A spherical dome of rings on a ring of supports, closed by a keystone or open at an oculus; the centre of the sphere is the origin.
+/// A spherical dome of rings on a ring of supports, closed by a keystone or open at an oculus; the
+/// centre of the sphere is the origin.
 ///
-/// The corners of the blocks lie on the spheres of radius ± thickness / 2. Every ring is cut into the same number of segments and the cuts
-/// of all rings lie in the same meridian planes: only so are the bed joints, which lie on cones, met by plane faces that fit each other
-/// exactly. Blocks are `r<ring>_<segment>`, rings from the bottom up, segments counter-clockwise from the x axis; the supports are
-/// `springer_<segment>`, the closing block is `keystone`.
+/// The corners of the blocks lie on the spheres of radius ± thickness / 2. Every ring is cut into
+/// the same number of segments and the cuts of all rings lie in the same meridian planes: only so
+/// are the bed joints, which lie on cones, met by plane faces that fit each other exactly. Blocks
+/// are `r<ring>_<segment>`, rings from the bottom up, segments counter-clockwise from the x axis;
+/// the supports are `springer_<segment>`, the closing block is `keystone`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Dome {
@@ -32,7 +34,8 @@ pub struct Dome {
     /// Angle between the axis and the lowest bed joint; 90 (a hemisphere) where absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub springing_deg: Option<f64>,
-    /// Angle between the axis and the edge of the oculus; where absent the dome is closed by a keystone as wide as a ring is high.
+    /// Angle between the axis and the edge of the oculus; where absent the dome is closed by a
+    /// keystone as wide as a ring is high.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub oculus_deg: Option<f64>,
 }

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A flat arch (platbande) of voussoirs `v00`, `v01`, … from left to right between the supports `abutment_left` and `abutment_right`;
-/// intrados at z = 0, extrados at z = `height`.
+/// A flat arch (platbande) of voussoirs `v00`, `v01`, … from left to right between the supports
+/// `abutment_left` and `abutment_right`; intrados at z = 0, extrados at z = `height`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlatArch {
@@ -25,7 +25,8 @@ pub struct FlatArch {
     pub depth: f64,
     /// Number of voussoirs, equally wide at mid-height.
     pub voussoirs: usize,
-    /// Depth below mid-height of the point through which all joints pass, m; more than half the height. Vertical joints where absent.
+    /// Depth below mid-height of the point through which all joints pass, m; more than half the
+    /// height. Vertical joints where absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_depth: Option<f64>,
 }

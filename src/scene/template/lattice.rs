@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Equal touching spheres `g000`, `g001`, … on a fixed layer `bed00`, …, layer by layer from below. The centres of the bed lie at z = 0.
+/// Equal touching spheres `g000`, `g001`, … on a fixed layer `bed00`, …, layer by layer from below.
+/// The centres of the bed lie at z = 0.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Lattice {
@@ -23,7 +24,8 @@ pub struct Lattice {
     pub radius: f64,
     /// Free layers above the bed.
     pub layers: usize,
-    /// Spheres along a side of the bed; by default one more than there are layers, so that a pile ends in one sphere.
+    /// Spheres along a side of the bed; by default one more than there are layers, so that a pile
+    /// ends in one sphere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side: Option<usize>,
 }
@@ -32,10 +34,12 @@ pub struct Lattice {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Packing {
-    /// A tetrahedral pile of close-packed triangular layers (face-centred cubic); two edges of the bed point along x and 60° from it.
+    /// A tetrahedral pile of close-packed triangular layers (face-centred cubic); two edges of the
+    /// bed point along x and 60° from it.
     #[default]
     Fcc,
-    /// A pyramid of square layers, each in the pockets of the one below (the same lattice, seen along a cube's side).
+    /// A pyramid of square layers, each in the pockets of the one below (the same lattice, seen
+    /// along a cube's side).
     Square,
     /// A triangular pile of discs: one row above the other in the x–z plane.
     Triangular,

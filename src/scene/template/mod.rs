@@ -1,8 +1,9 @@
 //! Templates: structures given by a few numbers. The geometry is made in [`crate::generate`].
 //!
-//! Lengths in m, angles in degrees, z up, the span of arches and walls along x and their depth along y, centred on y = 0.
-//! Every template takes three optional fields of its own: `prefix` (put before the ids of its blocks, so that one scene can hold
-//! two arches), `at` (where its origin lies) and `material` (of all its blocks).
+//! Lengths in m, angles in degrees, z up, the span of arches and walls along x and their depth
+//! along y, centred on y = 0. Every template takes three optional fields of its own: `prefix` (put
+//! before the ids of its blocks, so that one scene can hold two arches), `at` (where its origin
+//! lies) and `material` (of all its blocks).
 
 mod arch;
 mod barrel;

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A wall of one leaf in running bond; its foot reaches from x = 0 to `blocks` × length at z = 0. Blocks are `c<course>_<block>` from the bottom
-/// up and from left to right. The joints of a course lie on the block grid, moved by half a block from course to course; ends, rakes and openings cut
+/// A wall of one leaf in running bond; its foot reaches from x = 0 to `blocks` × length at z = 0.
+/// Blocks are `c<course>_<block>` from the bottom up and from left to right. The joints of a course
+/// lie on the block grid, moved by half a block from course to course; ends, rakes and openings cut
 /// the blocks they cross.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -36,7 +37,8 @@ pub struct Wall {
     /// How far the right end moves in from one course to the next, in blocks.
     #[serde(default, skip_serializing_if = "super::is_zero")]
     pub rake_right: f64,
-    /// Rectangular openings. Nothing is added above them: a wide opening needs the bond, or the reader, to carry what is over it.
+    /// Rectangular openings. Nothing is added above them: a wide opening needs the bond, or the
+    /// reader, to carry what is over it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub openings: Vec<Opening>,
 }

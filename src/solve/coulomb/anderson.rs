@@ -1,13 +1,15 @@
-//! Anderson acceleration (type II) of a fixed-point iteration `x = G(x)` (Anderson 1965; Walker & Ni 2011).
+//! Anderson acceleration (type II) of a fixed-point iteration `x = G(x)` (Anderson 1965; Walker &
+//! Ni 2011).
 
 use nalgebra::{DMatrix, DVector};
 use std::collections::VecDeque;
 
-/// How many earlier steps are combined. More: near-parallel steps spoil the least squares. Fewer: slow tails.
+/// How many earlier steps are combined. More: near-parallel steps spoil the least squares. Fewer:
+/// slow tails.
 const MEMORY: usize = 6;
 
-/// Singular values below this × the largest are ignored in the least squares. Larger: good directions are lost.
-/// Smaller: rounding in near-parallel steps throws the iterate far off.
+/// Singular values below this × the largest are ignored in the least squares. Larger: good
+/// directions are lost. Smaller: rounding in near-parallel steps throws the iterate far off.
 const RANK: f64 = 1e-10;
 
 /// The history of an accelerated iteration over non-negative vectors.
@@ -30,7 +32,8 @@ impl Anderson {
         }
         let mut next = &x + &f;
         if !self.steps.is_empty() {
-            let df = DMatrix::from_columns(&self.steps.iter().map(|s| s.1.clone()).collect::<Vec<_>>());
+            let df =
+                DMatrix::from_columns(&self.steps.iter().map(|s| s.1.clone()).collect::<Vec<_>>());
             let svd = df.svd(true, true);
             let cut = RANK * svd.singular_values.max();
             if let Ok(gamma) = svd.solve(&f, cut) {

@@ -1,9 +1,11 @@
-//! The state to the last digit: Newton's method on Coulomb's law itself ([`FrictionLimits::Law`]), started where the fixed point on the friction
-//! limits ended.
+//! The state to the last digit: Newton's method on Coulomb's law itself ([`FrictionLimits::Law`]),
+//! started where the fixed point on the friction limits ended.
 //!
-//! The limits of a fixed point are those of the iterate before, off by what the last step changed; near the edge of friction that is as much
-//! as the acceleration that decides. Here each limit follows from the normal force of the same rates, and the error falls to rounding in a
-//! few steps. The derivative is not symmetric (Alart & Curnier 1991): a step costs several of those with limits held, so this comes last.
+//! The limits of a fixed point are those of the iterate before, off by what the last step changed;
+//! near the edge of friction that is as much as the acceleration that decides. Here each limit
+//! follows from the normal force of the same rates, and the error falls to rounding in a few steps.
+//! The derivative is not symmetric (Alart & Curnier 1991): a step costs several of those with
+//! limits held, so this comes last.
 
 use super::newton::Solved;
 use crate::{
@@ -15,14 +17,17 @@ use crate::{
     solve::{Lu, Pattern},
 };
 
-/// Most steps. Fewer: states of many joints that stick and slip by turns go back to the fixed point. More: time lost where it leads nowhere.
+/// Most steps. Fewer: states of many joints that stick and slip by turns go back to the fixed
+/// point. More: time lost where it leads nowhere.
 const STEPS: usize = 20;
 /// Shares of a step that are looked at, each half of the one before.
 const SHARES: usize = 8;
-/// The imbalance aimed at, in the loads that pass the blocks, over ε. Larger: digits of the acceleration. Smaller: rounding keeps from it.
+/// The imbalance aimed at, in the loads that pass the blocks, over ε. Larger: digits of the
+/// acceleration. Smaller: rounding keeps from it.
 const EXACT: f64 = 1e-6;
-/// Rounding of the imbalance for each of the rates, which are large where something moves. Larger: noise in the acceleration. Smaller: motions
-/// at small ε, which rounding keeps from the imbalance aimed at, go back to the fixed point.
+/// Rounding of the imbalance for each of the rates, which are large where something moves. Larger:
+/// noise in the acceleration. Smaller: motions at small ε, which rounding keeps from the imbalance
+/// aimed at, go back to the fixed point.
 const ROUNDING: f64 = 1e-14;
 /// Where no step leads further, this many times as much is good enough.
 const ENOUGH: f64 = 100.0;
@@ -48,11 +53,18 @@ impl Exact {
         Some(Self { response, lu, carried: contacts.carried() })
     }
 
-    /// The state at ε near `rates`, and the imbalance it leaves, in the loads that pass the blocks; `None` where it does not get there, or not
-    /// before `end`.
-    pub fn near(&mut self, contacts: &Contacts, epsilon: f64, rates: &[f64], end: Deadline) -> Option<(Solved, f64)> {
+    /// The state at ε near `rates`, and the imbalance it leaves, in the loads that pass the blocks;
+    /// `None` where it does not get there, or not before `end`.
+    pub fn near(
+        &mut self,
+        contacts: &Contacts,
+        epsilon: f64,
+        rates: &[f64],
+        end: Deadline,
+    ) -> Option<(Solved, f64)> {
         let mut q = rates.to_vec();
-        let (mut forces, mut imbalance) = self.response.forces(contacts, epsilon, FrictionLimits::Law, &q);
+        let (mut forces, mut imbalance) =
+            self.response.forces(contacts, epsilon, FrictionLimits::Law, &q);
         for _ in 0..STEPS {
             let size = self.size(&imbalance);
             let allowed = EXACT * epsilon + ROUNDING * q.iter().map(|q| q * q).sum::<f64>().sqrt();
@@ -62,8 +74,9 @@ impl Exact {
             if !size.is_finite() || end.is_over() {
                 return None;
             }
-            let [lower, upper] =
-                [false, true].map(|mirrored| self.response.derivative(contacts, epsilon, FrictionLimits::Law, &q, mirrored));
+            let [lower, upper] = [false, true].map(|mirrored| {
+                self.response.derivative(contacts, epsilon, FrictionLimits::Law, &q, mirrored)
+            });
             let mut step: Vec<f64> = imbalance.iter().map(|g| -g).collect();
             if !self.lu.solve(&lower, &upper, &mut step) {
                 return None;
@@ -78,7 +91,10 @@ impl Exact {
             });
             match better {
                 Some(better) => (q, forces, imbalance) = better,
-                None => return (size <= ENOUGH * allowed).then_some((Solved { forces, rates: q }, size)),
+                None => {
+                    return (size <= ENOUGH * allowed)
+                        .then_some((Solved { forces, rates: q }, size));
+                }
             }
         }
         None

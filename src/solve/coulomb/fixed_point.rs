@@ -29,8 +29,9 @@ pub struct FixedPoint {
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
 pub struct StoppingCriterion {
-    /// Change of what is held, in the load that presumably passes there: a measure relative to the current value would let blocks that
-    /// are squeezed by ever smaller forces hang, one that is the same everywhere overlooks light blocks among heavy ones.
+    /// Change of what is held, in the load that presumably passes there: a measure relative to the
+    /// current value would let blocks that are squeezed by ever smaller forces hang, one that is
+    /// the same everywhere overlooks light blocks among heavy ones.
     pub change: f64,
     /// Most convex programs.
     pub solves: usize,
@@ -38,7 +39,8 @@ pub struct StoppingCriterion {
 
 /// What solves the programs of one fixed point.
 pub struct Solvers<'a> {
-    /// Newton's method, where the program can be written in the rates, and the rates it starts from.
+    /// Newton's method, where the program can be written in the rates, and the rates it starts
+    /// from.
     pub newton: Option<(&'a mut Newton, &'a [f64])>,
     /// Coulomb's law itself, for load factors.
     pub law: Option<&'a mut Law>,
@@ -46,7 +48,8 @@ pub struct Solvers<'a> {
     pub settings: &'a Settings,
 }
 
-/// Iterates from the limits or sliding rates `start`. `None` where the engine refuses the program or leaves no numbers.
+/// Iterates from the limits or sliding rates `start`. `None` where the engine refuses the program
+/// or leaves no numbers.
 pub fn iterate(
     contacts: &Contacts,
     objective: Objective,
@@ -69,7 +72,9 @@ pub fn iterate(
     }
     for k in 1..=stop.solves {
         let solved = match (&mut newton, objective) {
-            (Some((newton, _)), Objective::State(epsilon)) => newton.solve(contacts, (epsilon, quantity, &held), &rates, end),
+            (Some((newton, _)), Objective::State(epsilon)) => {
+                newton.solve(contacts, (epsilon, quantity, &held), &rates, end)
+            }
             _ => None,
         };
         let (forces, lambda);
@@ -81,7 +86,11 @@ pub fn iterate(
             newton = None;
             let solution = match &mut engine {
                 Some(engine) => engine.again(contacts, quantity, &held),
-                None => engine.insert(Engine::new(contacts, (objective, quantity, &held), settings)?).session.solve().into(),
+                None => engine
+                    .insert(Engine::new(contacts, (objective, quantity, &held), settings)?)
+                    .session
+                    .solve()
+                    .into(),
             };
             let Some(solution) = solution.filter(Solution::is_finite) else { break };
             (forces, rates, lambda) = read(contacts, objective, &solution);
@@ -100,31 +109,48 @@ pub fn iterate(
         }
         let next = match quantity {
             HeldQuantity::Limits => contacts.limits(&forces),
-            HeldQuantity::SlidingRates => contacts.sliding(&joint_rates(contacts, objective, &forces, &rates)),
+            HeldQuantity::SlidingRates => {
+                contacts.sliding(&joint_rates(contacts, objective, &forces, &rates))
+            }
         };
-        let local = |x: &[f64]| -> Vec<f64> { x.iter().zip(&contacts.passing).map(|(x, p)| x / p).collect() };
+        let local = |x: &[f64]| -> Vec<f64> {
+            x.iter().zip(&contacts.passing).map(|(x, p)| x / p).collect()
+        };
         let (now, then) = (local(&held), local(&next));
         let change = now.iter().zip(&then).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         if !then.iter().all(|x| x.is_finite()) {
             break;
         }
-        // The last iterate is kept unless an earlier one was much better: near the end the change is the engine's noise.
+        // The last iterate is kept unless an earlier one was much better: near the end the change
+        // is the engine's noise.
         if best.as_ref().is_none_or(|b| change < 10.0 * b.change) {
-            let noise = if quantity == HeldQuantity::Limits { contacts.unsettled(&forces, &held, &next) } else { change };
-            best = Some(FixedPoint { forces: contacts.cut(&forces), rates: rates.clone(), lambda, change, noise, solves: k });
+            let noise = if quantity == HeldQuantity::Limits {
+                contacts.unsettled(&forces, &held, &next)
+            } else {
+                change
+            };
+            best = Some(FixedPoint {
+                forces: contacts.cut(&forces),
+                rates: rates.clone(),
+                lambda,
+                change,
+                noise,
+                solves: k,
+            });
         } else if let Some(best) = &mut best {
             best.solves = k;
         }
         if change <= stop.change {
             break;
         }
-        held = anderson.next(&now, &then).iter().zip(&contacts.passing).map(|(x, p)| x * p).collect();
+        held =
+            anderson.next(&now, &then).iter().zip(&contacts.passing).map(|(x, p)| x * p).collect();
     }
     best
 }
 
-/// Forces of a load factor that leave more of a block's load than this are no solution: the program has none. Larger: such forces are taken
-/// for one. Smaller: the engine's noise ends iterations.
+/// Forces of a load factor that leave more of a block's load than this are no solution: the program
+/// has none. Larger: such forces are taken for one. Smaller: the engine's noise ends iterations.
 const UNBALANCED: f64 = 1e-2;
 
 /// The engine with the program of one fixed point.
@@ -134,14 +160,23 @@ struct Engine {
 }
 
 impl Engine {
-    fn new(contacts: &Contacts, (objective, quantity, held): (Objective, HeldQuantity, &[f64]), settings: &Settings) -> Option<Self> {
+    fn new(
+        contacts: &Contacts,
+        (objective, quantity, held): (Objective, HeldQuantity, &[f64]),
+        settings: &Settings,
+    ) -> Option<Self> {
         let program = contacts.program(objective, quantity, held);
         let session = Session::new(&program, settings)?;
         Some(Self { program, session })
     }
 
     /// Solves with something else held.
-    fn again(&mut self, contacts: &Contacts, quantity: HeldQuantity, held: &[f64]) -> Option<Solution> {
+    fn again(
+        &mut self,
+        contacts: &Contacts,
+        quantity: HeldQuantity,
+        held: &[f64],
+    ) -> Option<Solution> {
         contacts.hold(&mut self.program, quantity, held);
         let accepted = match quantity {
             HeldQuantity::Limits => self.session.set_rhs(&self.program.rhs),
@@ -151,19 +186,31 @@ impl Engine {
     }
 }
 
-fn read(contacts: &Contacts, objective: Objective, solution: &Solution) -> (Vec<f64>, Vec<f64>, f64) {
+fn read(
+    contacts: &Contacts,
+    objective: Objective,
+    solution: &Solution,
+) -> (Vec<f64>, Vec<f64>, f64) {
     let forces = solution.x[..contacts.statics.matrix.columns].to_vec();
     let (rates, lambda) = match objective {
-        Objective::State(epsilon) => (contacts.multipliers(&contacts.residual(&forces, 0.0), epsilon), 0.0),
-        Objective::LoadFactor(_, scale) => {
-            (solution.z[..contacts.statics.matrix.rows].to_vec(), scale * solution.x[contacts.statics.matrix.columns])
+        Objective::State(epsilon) => {
+            (contacts.multipliers(&contacts.residual(&forces, 0.0), epsilon), 0.0)
         }
+        Objective::LoadFactor(_, scale) => (
+            solution.z[..contacts.statics.matrix.rows].to_vec(),
+            scale * solution.x[contacts.statics.matrix.columns],
+        ),
     };
     (forces, rates, lambda)
 }
 
 /// `u`, the compliance of the contacts included.
-fn joint_rates(contacts: &Contacts, objective: Objective, forces: &[f64], rates: &[f64]) -> Vec<f64> {
+fn joint_rates(
+    contacts: &Contacts,
+    objective: Objective,
+    forces: &[f64],
+    rates: &[f64],
+) -> Vec<f64> {
     let weight = if let Objective::LoadFactor(delta, _) = objective { delta } else { 1.0 };
     let mut u = contacts.joint_rates(rates);
     for ((u, c), f) in u.iter_mut().zip(&contacts.compliance).zip(forces) {

@@ -1,11 +1,14 @@
-//! Newton's method on Coulomb's law itself, for the load factor: no friction limit is held, each follows from the normal force of the same rates.
+//! Newton's method on Coulomb's law itself, for the load factor: no friction limit is held, each
+//! follows from the normal force of the same rates.
 //!
-//! *Law.* With the displacements `z = y / δ` of the blocks on compliant joints, forces follow from them ([`Response`], [`FrictionLimits::Law`]), and
-//! program D at its fixed point is `g(z, λ) = −(A f(z) + w + λ ℓ) = 0` with `ℓ·z = 1 / δ`, the way of the live load. A smaller δ is a longer way:
-//! what the blocks then move by is the mechanism. The derivative is not symmetric (Alart & Curnier 1991), and the law need not be the
-//! gradient of anything: steps count by the imbalance they leave, and where one leaves more, a spring on each block holds the next one back
-//! (Levenberg 1944). It settles where the iteration on the limits goes round in circles, and gains all digits at once; from afar it does not
-//! get there, and is tried only beside that iteration.
+//! *Law.* With the displacements `z = y / δ` of the blocks on compliant joints, forces follow from
+//! them ([`Response`], [`FrictionLimits::Law`]), and program D at its fixed point is `g(z, λ) = −(A
+//! f(z) + w + λ ℓ) = 0` with `ℓ·z = 1 / δ`, the way of the live load. A smaller δ is a longer way:
+//! what the blocks then move by is the mechanism. The derivative is not symmetric (Alart & Curnier
+//! 1991), and the law need not be the gradient of anything: steps count by the imbalance they
+//! leave, and where one leaves more, a spring on each block holds the next one back (Levenberg
+//! 1944). It settles where the iteration on the limits goes round in circles, and gains all digits
+//! at once; from afar it does not get there, and is tried only beside that iteration.
 
 use super::fixed_point::FixedPoint;
 use crate::{
@@ -19,16 +22,19 @@ use crate::{
 
 /// Most steps to one way. Fewer: walls go back to the limits. More: time lost from afar.
 const STEPS: usize = 12;
-/// Shares of a step that are looked at, each half of the one before. Fewer: too much spring. More: steps that hardly move.
+/// Shares of a step that are looked at, each half of the one before. Fewer: too much spring. More:
+/// steps that hardly move.
 const SHARES: usize = 6;
-/// Springs held against: least, first after a step that leads nowhere, and greatest, in mean block loads per displacement. A larger least:
-/// it resists the mechanism itself on long ways. Smaller: rounding. A larger greatest: steps that hardly move.
+/// Springs held against: least, first after a step that leads nowhere, and greatest, in mean block
+/// loads per displacement. A larger least: it resists the mechanism itself on long ways. Smaller:
+/// rounding. A larger greatest: steps that hardly move.
 const SPRINGS: [f64; 3] = [1e-12, 1e-5, 1.0];
-/// The imbalance aimed at, in block loads, and that of rounding, for each displacement. Larger: digits of the load factor. Smaller: rounding
-/// keeps from it.
+/// The imbalance aimed at, in block loads, and that of rounding, for each displacement. Larger:
+/// digits of the load factor. Smaller: rounding keeps from it.
 const EXACT: f64 = 1e-8;
 const ROUNDING: f64 = 1e-14;
-/// The least growth of a way that is tried in one go. Larger: walls go back to the limits. Smaller: time lost where the way turns back.
+/// The least growth of a way that is tried in one go. Larger: walls go back to the limits. Smaller:
+/// time lost where the way turns back.
 const LEAST_GROWTH: f64 = 1.01;
 /// Most pushes on the way to one δ. Fewer: walls go back to the limits. More: time lost.
 const PUSHES: usize = 200;
@@ -51,7 +57,8 @@ struct PathPoint {
 }
 
 impl Law {
-    /// `None` where the forces do not follow from the rates, or the factors do not fit into memory; `scale` multiplies the live load.
+    /// `None` where the forces do not follow from the rates, or the factors do not fit into memory;
+    /// `scale` multiplies the live load.
     pub fn new(contacts: &Contacts, scale: f64) -> Option<Self> {
         let response = Response::new(contacts)?;
         let (starts, rows) = response.pattern();
@@ -61,8 +68,16 @@ impl Law {
     }
 
     /// The fixed point at δ near rates and load factor (over the scale) of one of its programs.
-    pub fn near(&mut self, contacts: &Contacts, delta: f64, rates: &[f64], lambda: f64, end: Deadline) -> Option<FixedPoint> {
-        let start = PathPoint { z: rates.iter().map(|y| y / delta).collect(), lambda, way: 1.0 / delta };
+    pub fn near(
+        &mut self,
+        contacts: &Contacts,
+        delta: f64,
+        rates: &[f64],
+        lambda: f64,
+        end: Deadline,
+    ) -> Option<FixedPoint> {
+        let start =
+            PathPoint { z: rates.iter().map(|y| y / delta).collect(), lambda, way: 1.0 / delta };
         let way = start.way;
         self.to(contacts, start, way, end)
     }
@@ -90,7 +105,13 @@ impl Law {
     }
 
     /// Newton's method from a place to a way.
-    fn to(&mut self, contacts: &Contacts, start: PathPoint, way: f64, end: Deadline) -> Option<FixedPoint> {
+    fn to(
+        &mut self,
+        contacts: &Contacts,
+        start: PathPoint,
+        way: f64,
+        end: Deadline,
+    ) -> Option<FixedPoint> {
         let PathPoint { mut z, mut lambda, .. } = start;
         let (mut forces, mut imbalance) = self.look(contacts, &z, lambda);
         // The first step goes all the way, whatever it leaves.
@@ -119,7 +140,8 @@ impl Law {
             match best {
                 Some((q, l, f, g, left)) => {
                     (z, lambda, forces, imbalance, size) = (q, l, f, g, left);
-                    spring = if share == 1.0 { (0.01 * spring).max(SPRINGS[0]) } else { 10.0 * spring };
+                    spring =
+                        if share == 1.0 { (0.01 * spring).max(SPRINGS[0]) } else { 10.0 * spring };
                 }
                 None if spring < SPRINGS[2] => spring = (100.0 * spring).max(SPRINGS[1]),
                 None => return None,
@@ -127,7 +149,14 @@ impl Law {
             if size <= EXACT + ROUNDING * norm(&z) {
                 let rates = z.iter().map(|z| z / way).collect();
                 self.last = Some(PathPoint { z, lambda, way });
-                return Some(FixedPoint { forces, rates, lambda, change: 0.0, noise: 0.0, solves: 0 });
+                return Some(FixedPoint {
+                    forces,
+                    rates,
+                    lambda,
+                    change: 0.0,
+                    noise: 0.0,
+                    solves: 0,
+                });
             }
         }
         None
@@ -140,11 +169,20 @@ impl Law {
         (forces, imbalance)
     }
 
-    /// Newton's step in the displacements and the load factor: what balances, and what the live load adds, one factorisation for both.
-    fn step(&mut self, contacts: &Contacts, z: &[f64], imbalance: &[f64], way: f64, spring: f64) -> Option<(Vec<f64>, f64)> {
+    /// Newton's step in the displacements and the load factor: what balances, and what the live
+    /// load adds, one factorisation for both.
+    fn step(
+        &mut self,
+        contacts: &Contacts,
+        z: &[f64],
+        imbalance: &[f64],
+        way: f64,
+        spring: f64,
+    ) -> Option<(Vec<f64>, f64)> {
         let lower = self.response.derivative(contacts, spring, FrictionLimits::Law, z, false);
         let upper = self.response.derivative(contacts, spring, FrictionLimits::Law, z, true);
-        let mut both: Vec<f64> = imbalance.iter().map(|g| -g).chain(self.live.iter().copied()).collect();
+        let mut both: Vec<f64> =
+            imbalance.iter().map(|g| -g).chain(self.live.iter().copied()).collect();
         if !self.lu.solve(&lower, &upper, &mut both) {
             return None;
         }

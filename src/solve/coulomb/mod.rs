@@ -1,7 +1,9 @@
-//! Dry friction: fixed points of the convex programs of [`crate::program::coulomb`], and Newton's method on Coulomb's law itself.
+//! Dry friction: fixed points of the convex programs of [`crate::program::coulomb`], and Newton's
+//! method on Coulomb's law itself.
 //!
-//! [`iterate`] holds friction, solves, and holds it anew; each program is solved by [`Newton`] in the rates where that can be, by an engine
-//! where not. [`Exact`] and [`Law`] hold nothing: Coulomb's law itself, for the state and for the load factor. What any of them finds is a
+//! [`iterate`] holds friction, solves, and holds it anew; each program is solved by [`Newton`] in
+//! the rates where that can be, by an engine where not. [`Exact`] and [`Law`] hold nothing:
+//! Coulomb's law itself, for the state and for the load factor. What any of them finds is a
 //! candidate; [`crate::analysis::coulomb`] asks the questions and decides.
 
 mod anderson;

@@ -1,6 +1,8 @@
-//! Newton's method for one program of a fixed point on the state: the rates of the blocks are the unknowns, the forces follow from them
-//! ([`Response`]), and each step is one sparse factorisation with as many rows as the blocks have rates. Started from the solution before,
-//! which differs by a little friction, it takes two to five steps, where the interior-point engine starts from scratch each time.
+//! Newton's method for one program of a fixed point on the state: the rates of the blocks are the
+//! unknowns, the forces follow from them ([`Response`]), and each step is one sparse factorisation
+//! with as many rows as the blocks have rates. Started from the solution before, which differs by a
+//! little friction, it takes two to five steps, where the interior-point engine starts from scratch
+//! each time.
 
 use crate::{
     deadline::Deadline,
@@ -11,25 +13,29 @@ use crate::{
     solve::{Cholesky, Pattern},
 };
 
-/// Most steps. Fewer: scenes of which many contacts open and close at the first ε go back to the engine. More: the engine, whose twelve to
-/// twenty iterations cost two to four steps each, would have been there before.
+/// Most steps. Fewer: scenes of which many contacts open and close at the first ε go back to the
+/// engine. More: the engine, whose twelve to twenty iterations cost two to four steps each, would
+/// have been there before.
 const STEPS: usize = 60;
 
-/// A full step is taken that leaves less than this of the imbalance. Larger: steps that lead nowhere. Smaller: many searches along the line.
+/// A full step is taken that leaves less than this of the imbalance. Larger: steps that lead
+/// nowhere. Smaller: many searches along the line.
 const FALL: f64 = 0.5;
 
-/// A search along the line ends where the slope is this × the one at its start. Larger: short steps. Smaller: many looks at the forces.
+/// A search along the line ends where the slope is this × the one at its start. Larger: short
+/// steps. Smaller: many looks at the forces.
 const SLOPE: f64 = 0.1;
 
 /// Most looks along a line.
 const LOOKS: usize = 40;
 
-/// The imbalance aimed at, in the loads that pass the blocks, over ε: that of the rates. Larger: the friction limits settle no better.
-/// Smaller: one more step for nothing.
+/// The imbalance aimed at, in the loads that pass the blocks, over ε: that of the rates. Larger:
+/// the friction limits settle no better. Smaller: one more step for nothing.
 const EXACT: f64 = 1e-8;
 
-/// The imbalance, in the same loads, that is good enough where rounding allows no better. Larger: noise in the rates at small ε, and the
-/// engine would have done better. Smaller: scenes of large forces, which it does no better either, go back to it.
+/// The imbalance, in the same loads, that is good enough where rounding allows no better. Larger:
+/// noise in the rates at small ε, and the engine would have done better. Smaller: scenes of large
+/// forces, which it does no better either, go back to it.
 const ENOUGH: f64 = 1e-10;
 
 /// A solver of the programs of one scene.
@@ -49,7 +55,8 @@ pub struct Solved {
 }
 
 impl Newton {
-    /// `None` where the forces do not follow from the rates, or the factor does not fit into memory.
+    /// `None` where the forces do not follow from the rates, or the factor does not fit into
+    /// memory.
     pub fn new(contacts: &Contacts) -> Option<Self> {
         let response = Response::new(contacts)?;
         let (starts, rows) = response.pattern();
@@ -57,7 +64,8 @@ impl Newton {
         Some(Self { response, cholesky, carried: contacts.carried() })
     }
 
-    /// Solves one program from the rates `start`; `None` where it does not get there, or not before `end`.
+    /// Solves one program from the rates `start`; `None` where it does not get there, or not before
+    /// `end`.
     pub fn solve(
         &mut self,
         contacts: &Contacts,
@@ -70,7 +78,9 @@ impl Newton {
         }
         let friction = FrictionLimits::Held(quantity, held);
         let look = |q: &[f64]| self.response.forces(contacts, epsilon, friction, q);
-        let left = |g: &[f64]| g.iter().zip(&self.carried).map(|(g, c)| (g / c).powi(2)).sum::<f64>().sqrt();
+        let left = |g: &[f64]| {
+            g.iter().zip(&self.carried).map(|(g, c)| (g / c).powi(2)).sum::<f64>().sqrt()
+        };
         let mut rates = start.to_vec();
         let (mut forces, mut gradient) = look(&rates);
         for _ in 0..STEPS {
@@ -81,12 +91,17 @@ impl Newton {
             if !size.is_finite() || end.is_over() {
                 return None;
             }
-            if !self.cholesky.factorize(&self.response.derivative(contacts, epsilon, friction, &rates, false)) {
+            if !self
+                .cholesky
+                .factorize(&self.response.derivative(contacts, epsilon, friction, &rates, false))
+            {
                 return None;
             }
             let mut step: Vec<f64> = gradient.iter().map(|g| -g).collect();
             self.cholesky.solve(&mut step);
-            let at = |share: f64| rates.iter().zip(&step).map(|(q, s)| q + share * s).collect::<Vec<f64>>();
+            let at = |share: f64| {
+                rates.iter().zip(&step).map(|(q, s)| q + share * s).collect::<Vec<f64>>()
+            };
             let mut best = at(1.0);
             let (mut f, mut g) = look(&best);
             if left(&g) > FALL * size {
@@ -101,7 +116,8 @@ impl Newton {
                     if high.1 <= 0.0 || last.abs() <= SLOPE * first.abs() {
                         break;
                     }
-                    let share = low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1)).clamp(0.1, 0.9);
+                    let share =
+                        low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1)).clamp(0.1, 0.9);
                     best = at(share);
                     (f, g) = look(&best);
                     last = dot(&g, &step);
@@ -168,16 +184,23 @@ mod tests {
             let response = Response::new(contacts).unwrap();
             let n = contacts.statics.matrix.rows;
             let (starts, rows) = response.pattern();
-            let held: Vec<f64> = numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
-            let (limits, sliding) =
-                (FrictionLimits::Held(HeldQuantity::Limits, &held), FrictionLimits::Held(HeldQuantity::SlidingRates, &held));
-            for (friction, size) in [limits, sliding, FrictionLimits::Law].into_iter().flat_map(|f| [(f, 0.5), (f, 3.0)]) {
+            let held: Vec<f64> =
+                numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
+            let (limits, sliding) = (
+                FrictionLimits::Held(HeldQuantity::Limits, &held),
+                FrictionLimits::Held(HeldQuantity::SlidingRates, &held),
+            );
+            for (friction, size) in [limits, sliding, FrictionLimits::Law]
+                .into_iter()
+                .flat_map(|f| [(f, 0.5), (f, 3.0)])
+            {
                 let (q, step) = (numbers(n, 1.0, size), numbers(n, 2.0, 1e-7));
                 let imbalance = |sign: f64| {
                     let q: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + sign * s).collect();
                     response.forces(contacts, 1e-3, friction, &q).1
                 };
-                let [lower, upper] = [false, true].map(|mirrored| response.derivative(contacts, 1e-3, friction, &q, mirrored));
+                let [lower, upper] = [false, true]
+                    .map(|mirrored| response.derivative(contacts, 1e-3, friction, &q, mirrored));
                 let mut predicted = vec![0.0; n];
                 for column in 0..n {
                     for at in starts[column]..starts[column + 1] {
@@ -187,9 +210,18 @@ mod tests {
                         }
                     }
                 }
-                let seen: Vec<f64> = imbalance(1.0).iter().zip(imbalance(-1.0)).map(|(a, b)| 0.5 * (a - b)).collect();
+                let seen: Vec<f64> = imbalance(1.0)
+                    .iter()
+                    .zip(imbalance(-1.0))
+                    .map(|(a, b)| 0.5 * (a - b))
+                    .collect();
                 let apart: Vec<f64> = seen.iter().zip(&predicted).map(|(a, b)| a - b).collect();
-                assert!(norm(&apart) < 1e-5 * norm(&seen), "scene {which} {friction:?} {size}: {} of {}", norm(&apart), norm(&seen));
+                assert!(
+                    norm(&apart) < 1e-5 * norm(&seen),
+                    "scene {which} {friction:?} {size}: {} of {}",
+                    norm(&apart),
+                    norm(&seen)
+                );
             }
         }
     }
@@ -199,14 +231,27 @@ mod tests {
         for (which, contacts) in scenes().iter().enumerate() {
             let mut newton = Newton::new(contacts).unwrap();
             let start = vec![0.0; contacts.statics.matrix.rows];
-            for (quantity, epsilon) in [(HeldQuantity::Limits, 1e-3), (HeldQuantity::Limits, 1e-6), (HeldQuantity::SlidingRates, 1e-3)] {
-                let held: Vec<f64> = numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
-                let found = newton.solve(contacts, (epsilon, quantity, &held), &start, Deadline::NEVER).unwrap();
+            for (quantity, epsilon) in [
+                (HeldQuantity::Limits, 1e-3),
+                (HeldQuantity::Limits, 1e-6),
+                (HeldQuantity::SlidingRates, 1e-3),
+            ] {
+                let held: Vec<f64> =
+                    numbers(contacts.discs().count(), 0.3, 0.4).iter().map(|v| v.abs()).collect();
+                let found = newton
+                    .solve(contacts, (epsilon, quantity, &held), &start, Deadline::NEVER)
+                    .unwrap();
                 let settings = Settings { tolerance: 1e-12, ..Settings::default() };
-                let engine = solve::solve(&contacts.program(Objective::State(epsilon), quantity, &held), &settings);
+                let engine = solve::solve(
+                    &contacts.program(Objective::State(epsilon), quantity, &held),
+                    &settings,
+                );
                 let size = norm(&found.forces);
                 for (a, b) in found.forces.iter().zip(&engine.x) {
-                    assert!((a - b).abs() < 1e-5 * size, "scene {which} {quantity:?} {epsilon}: {a} and {b} of {size}");
+                    assert!(
+                        (a - b).abs() < 1e-5 * size,
+                        "scene {which} {quantity:?} {epsilon}: {a} and {b} of {size}"
+                    );
                 }
             }
         }
@@ -217,7 +262,12 @@ mod tests {
         let contacts = contacts(r#"{ "friction": 0.5 }"#, "");
         let start = vec![0.0; contacts.statics.matrix.rows];
         let held = vec![0.1; contacts.discs().count()];
-        let solved = Newton::new(&contacts).unwrap().solve(&contacts, (1e-3, HeldQuantity::Limits, &held), &start, Deadline::within(0.0));
+        let solved = Newton::new(&contacts).unwrap().solve(
+            &contacts,
+            (1e-3, HeldQuantity::Limits, &held),
+            &start,
+            Deadline::within(0.0),
+        );
         assert!(solved.is_none());
     }
 }

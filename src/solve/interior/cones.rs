@@ -1,7 +1,8 @@
 //! Cones of a program and their Nesterov–Todd scaling.
 //!
-//! For `s` and `z` inside a cone there is one symmetric `W` of the cone's own group with `W z = W⁻¹ s = λ` (Nesterov & Todd 1997).
-//! Of a ray it is `√(s / z)`; of a second-order cone `η (w̄, with w̄ᵀ J w̄ = 1, J = diag(1, −1, …))`, as in Vandenberghe 2010.
+//! For `s` and `z` inside a cone there is one symmetric `W` of the cone's own group with `W z = W⁻¹
+//! s = λ` (Nesterov & Todd 1997). Of a ray it is `√(s / z)`; of a second-order cone `η (w̄, with
+//! w̄ᵀ J w̄ = 1, J = diag(1, −1, …))`, as in Vandenberghe 2010.
 
 /// A cone on consecutive rows.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +45,8 @@ impl Cones {
                 _ => list.push(*cone),
             }
         }
-        let mut this = Self { list, scale: vec![1.0; rows], eta: vec![1.0; rows], lambda: vec![0.0; rows] };
+        let mut this =
+            Self { list, scale: vec![1.0; rows], eta: vec![1.0; rows], lambda: vec![0.0; rows] };
         this.reset();
         this
     }
@@ -111,7 +113,12 @@ impl Cones {
         self.each(v, undo, |w| 1.0 / w);
     }
 
-    fn each(&self, v: &mut [f64], round: impl Fn(&[f64], f64, &[f64], &mut [f64]), ray: impl Fn(f64) -> f64) {
+    fn each(
+        &self,
+        v: &mut [f64],
+        round: impl Fn(&[f64], f64, &[f64], &mut [f64]),
+        ray: impl Fn(f64) -> f64,
+    ) {
         let mut from = Vec::new();
         for cone in &self.list {
             let to = &mut v[cone.rows()];
@@ -137,7 +144,11 @@ impl Cones {
         let mut unit = [0.0; MOST_ROWS];
         unit[k] = 1.0;
         let unit = &unit[..cone.size];
-        if inverse { undo(w, self.eta[cone.first], unit, to) } else { apply(w, self.eta[cone.first], unit, to) }
+        if inverse {
+            undo(w, self.eta[cone.first], unit, to)
+        } else {
+            apply(w, self.eta[cone.first], unit, to)
+        }
     }
 
     /// Jordan product `u ∘ v`, into `v`.
@@ -174,7 +185,8 @@ impl Cones {
         }
     }
 
-    /// What brings products to between `low` and `high`, but no farther than `high`; into `v` (Gondzio 1996, by eigenvalues).
+    /// What brings products to between `low` and `high`, but no farther than `high`; into `v`
+    /// (Gondzio 1996, by eigenvalues).
     pub fn towards(&self, low: f64, high: f64, v: &mut [f64]) {
         let lack = |v: f64| (v.clamp(low, high) - v).max(-high);
         for cone in &self.list {
@@ -206,7 +218,11 @@ impl Cones {
     pub fn outside(&self, v: &[f64]) -> f64 {
         let of = |cone: &ConeAt| {
             let v = &v[cone.rows()];
-            if cone.round { norm(&v[1..]) - v[0] } else { v.iter().fold(f64::NEG_INFINITY, |t, v| t.max(-v)) }
+            if cone.round {
+                norm(&v[1..]) - v[0]
+            } else {
+                v.iter().fold(f64::NEG_INFINITY, |t, v| t.max(-v))
+            }
         };
         self.list.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
     }
@@ -267,7 +283,10 @@ fn step_rays(v: &[f64], d: &[f64]) -> f64 {
             *most = greater(*most, *v, *d);
         }
     }
-    let most = last_v.iter().zip(last_d).fold(most.into_iter().fold(0.0, f64::max), |most, (v, d)| greater(most, *v, *d));
+    let most = last_v
+        .iter()
+        .zip(last_d)
+        .fold(most.into_iter().fold(0.0, f64::max), |most, (v, d)| greater(most, *v, *d));
     1.0 / most
 }
 
@@ -321,7 +340,12 @@ mod tests {
     #[test]
     fn a_full_step_ends_on_the_boundary() {
         let c = cones();
-        for d in [[-1.0, -1.0, -2.0, 1.0, 0.5], [0.0, 0.0, 1.0, 4.0, 0.0], [1.0, 1.0, -6.0, 0.0, 0.0], [0.0, 0.0, -1.0, -1.0, 0.0]] {
+        for d in [
+            [-1.0, -1.0, -2.0, 1.0, 0.5],
+            [0.0, 0.0, 1.0, 4.0, 0.0],
+            [1.0, 1.0, -6.0, 0.0, 0.0],
+            [0.0, 0.0, -1.0, -1.0, 0.0],
+        ] {
             let t = c.step(&S, &d);
             let end: Vec<f64> = S.iter().zip(&d).map(|(s, d)| s + t * d).collect();
             assert!(c.outside(&end).abs() < 1e-12, "{d:?} {t} {end:?}");
@@ -332,6 +356,8 @@ mod tests {
     #[test]
     fn points_outside_have_no_scaling() {
         let mut c = cones();
-        assert!(!c.scale(&[1.0, -1.0, 5.0, 0.0, 0.0], &Z) && !c.scale(&[1.0, 1.0, 5.0, 4.0, 3.0], &Z));
+        assert!(
+            !c.scale(&[1.0, -1.0, 5.0, 0.0, 0.0], &Z) && !c.scale(&[1.0, 1.0, 5.0, 4.0, 3.0], &Z)
+        );
     }
 }

@@ -1,15 +1,18 @@
-//! Further correctors of one factorisation (Gondzio 1996; weighted as in Colombo & Gondzio 2008): products of `s` and `z` that stray from
-//! the central path hold up the step, and a solve costs a tenth of a factorisation.
+//! Further correctors of one factorisation (Gondzio 1996; weighted as in Colombo & Gondzio 2008):
+//! products of `s` and `z` that stray from the central path hold up the step, and a solve costs a
+//! tenth of a factorisation.
 
 use super::{
     newton::{Newton, Point, ROUGH},
     path::{TO_THE_BOUNDARY, add, slack, steps},
 };
 
-/// Further correctors towards products of one size (Gondzio 1996). Fewer: more factorisations. More: time for little.
+/// Further correctors towards products of one size (Gondzio 1996). Fewer: more factorisations.
+/// More: time for little.
 const MOST_CORRECTORS: usize = 2;
 
-/// They aim this much farther than the step that is possible, and are kept when both steps multiplied grow by this share.
+/// They aim this much farther than the step that is possible, and are kept when both steps
+/// multiplied grow by this share.
 const REACH: f64 = 0.3;
 const WORTH: f64 = 0.05;
 
@@ -20,7 +23,8 @@ const HIGH: f64 = 10.0;
 /// Steps this long need no further corrector.
 const FAR_ENOUGH: f64 = 0.9;
 
-/// Improves a direction `(d, ds)` from `(s, z)` that aims at products `target`, and its steps on both sides.
+/// Improves a direction `(d, ds)` from `(s, z)` that aims at products `target`, and its steps on
+/// both sides.
 pub(super) fn further(
     newton: &mut Newton,
     (s, z): (&[f64], &[f64]),

@@ -1,9 +1,10 @@
 //! An interior-point method for programs of contacts.
 //!
-//! `min ½ xᵀ P x + cᵀ x` subject to `E x = b`, `G x + s = h`, `s` in rays and second-order cones: primal–dual path following with
-//! Nesterov–Todd scaling and Mehrotra's predictor and corrector (Mehrotra 1992, Vandenberghe 2010), from an infeasible start. It is
-//! written for one reason: in these programs the cones are eliminated contact by contact, and what is left ([`reduced`]) is the
-//! stiffness matrix of the blocks.
+//! `min ½ xᵀ P x + cᵀ x` subject to `E x = b`, `G x + s = h`, `s` in rays and second-order cones:
+//! primal–dual path following with Nesterov–Todd scaling and Mehrotra's predictor and corrector
+//! (Mehrotra 1992, Vandenberghe 2010), from an infeasible start. It is written for one reason: in
+//! these programs the cones are eliminated contact by contact, and what is left ([`reduced`]) is
+//! the stiffness matrix of the blocks.
 //!
 //! Like every engine it is believed in nothing: forces and rates are recomputed from the scene.
 
@@ -20,7 +21,8 @@ use super::{Settings, Solution};
 use crate::program::ConicProgram;
 use std::time::Instant;
 
-/// A program that is solved several times with changed right-hand sides and objectives: pattern and ordering are kept.
+/// A program that is solved several times with changed right-hand sides and objectives: pattern and
+/// ordering are kept.
 pub struct Session {
     structure: Structure,
     reduced: Reduced,
@@ -80,11 +82,21 @@ impl Session {
             b: pick(&self.rhs, &s.equalities),
             h: pick(&self.rhs, &s.cone_rows),
         };
-        let (found, status) = path::follow(s, &mut self.reduced, &data, &self.settings, self.start, &mut self.warm, &mut trace);
+        let (found, status) = path::follow(
+            s,
+            &mut self.reduced,
+            &data,
+            &self.settings,
+            self.start,
+            &mut self.warm,
+            &mut trace,
+        );
         let (mut x, mut z) = (Vec::new(), Vec::new());
         if let Some(p) = found {
             (x, z) = (vec![0.0; self.objective.len()], vec![0.0; self.rhs.len()]);
-            let put = |to: &mut [f64], at: &[usize], from: &[f64]| at.iter().zip(from).for_each(|(&k, v)| to[k] = *v);
+            let put = |to: &mut [f64], at: &[usize], from: &[f64]| {
+                at.iter().zip(from).for_each(|(&k, v)| to[k] = *v)
+            };
             put(&mut x, &s.variables, &p.x);
             put(&mut x, &s.border, &p.t);
             put(&mut z, &s.equalities, &p.y);

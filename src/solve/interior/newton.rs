@@ -1,7 +1,8 @@
 //! Newton's step of the interior-point method, by way of the reduced system.
 //!
-//! `P dx + Eᵀ dy + Gᵀ dz = a_x`, `E dx = a_y`, `G dx − W² dz = a_z`, with the variables of the border `t` apart. With
-//! `K = P + Gᵀ W⁻² G`, `M = Gᵀ W⁻² G_t` and `N = E_t − E K⁻¹ M` it is `S dy − N dt = E K⁻¹ b − a_y`, `Nᵀ dy + Q dt = b_t − Mᵀ K⁻¹ b`.
+//! `P dx + Eᵀ dy + Gᵀ dz = a_x`, `E dx = a_y`, `G dx − W² dz = a_z`, with the variables of the
+//! border `t` apart. With `K = P + Gᵀ W⁻² G`, `M = Gᵀ W⁻² G_t` and `N = E_t − E K⁻¹ M` it is `S dy
+//! − N dt = E K⁻¹ b − a_y`, `Nᵀ dy + Q dt = b_t − Mᵀ K⁻¹ b`.
 
 use super::{cones::Cones, reduced::Reduced, structure::Structure};
 
@@ -25,11 +26,12 @@ impl Point {
     }
 }
 
-/// Corrections of one solve. Fewer: late steps leave the equilibrium. More: time, once rounding is reached.
+/// Corrections of one solve. Fewer: late steps leave the equilibrium. More: time, once rounding is
+/// reached.
 const MOST_CORRECTIONS: usize = 4;
 
-/// A direction is exact when its equations hold to this × what they lacked at first. Larger: residuals outlive the gap. Smaller:
-/// corrections at the level of rounding.
+/// A direction is exact when its equations hold to this × what they lacked at first. Larger:
+/// residuals outlive the gap. Smaller: corrections at the level of rounding.
 pub(super) const EXACT: f64 = 1e-11;
 
 /// The same for a direction that only tells how far one could go.
@@ -64,7 +66,11 @@ fn greatest(v: &[f64]) -> f64 {
 
 impl<'a> Newton<'a> {
     /// Factors the system; `None` where that fails.
-    pub fn new(structure: &'a Structure, reduced: &'a mut Reduced, cones: &'a Cones) -> Option<Self> {
+    pub fn new(
+        structure: &'a Structure,
+        reduced: &'a mut Reduced,
+        cones: &'a Cones,
+    ) -> Option<Self> {
         if !reduced.factor(structure, cones) {
             return None;
         }
@@ -107,7 +113,11 @@ impl<'a> Newton<'a> {
             let mut flexed = this.m[i].clone();
             this.reduced.flex(structure, &mut flexed);
             let own: Vec<f64> = (0..count).map(|j| dot(&stiff, &this.g_border[j])).collect();
-            this.schur.push((0..count).map(|j| own[j] - dot(&flexed, &this.m[j]) + dot(&this.s_n[i], &this.n[j])).collect());
+            this.schur.push(
+                (0..count)
+                    .map(|j| own[j] - dot(&flexed, &this.m[j]) + dot(&this.s_n[i], &this.n[j]))
+                    .collect(),
+            );
             this.k_border.push(own);
         }
         Some(this)
@@ -121,8 +131,8 @@ impl<'a> Newton<'a> {
         v
     }
 
-    /// Solves for one right-hand side, to `exact` × what its equations lack at first; where `enough` is given, all equations hold to
-    /// that if rounding allows.
+    /// Solves for one right-hand side, to `exact` × what its equations lack at first; where
+    /// `enough` is given, all equations hold to that if rounding allows.
     pub fn solve(&mut self, a: &Point, exact: f64, enough: f64) -> Point {
         let mut d = self.once(a, exact, enough);
         if enough == 0.0 {
@@ -137,7 +147,12 @@ impl<'a> Newton<'a> {
             }
             let more = self.once(&rest, exact, enough);
             let mut better = d.clone();
-            for (to, by) in [(&mut better.x, &more.x), (&mut better.t, &more.t), (&mut better.y, &more.y), (&mut better.z, &more.z)] {
+            for (to, by) in [
+                (&mut better.x, &more.x),
+                (&mut better.t, &more.t),
+                (&mut better.y, &more.y),
+                (&mut better.z, &more.z),
+            ] {
                 to.iter_mut().zip(by).for_each(|(t, b)| *t += b);
             }
             let now = self.lacking(a, &better);
@@ -171,7 +186,8 @@ impl<'a> Newton<'a> {
         r
     }
 
-    /// By the reduced system, corrected until equalities and border hold: rounding of `W⁻²` may be left in the others.
+    /// By the reduced system, corrected until equalities and border hold: rounding of `W⁻²` may be
+    /// left in the others.
     fn once(&mut self, a: &Point, exact: f64, enough: f64) -> Point {
         let s = self.structure;
         // Right-hand sides without the cone rows.
@@ -222,8 +238,14 @@ impl<'a> Newton<'a> {
         let mut r = a.y.clone();
         s.e.add(-1.0, &d.x, &mut r);
         s.e_border.add(-1.0, &d.t, &mut r);
-        let rt =
-            (0..bt.len()).map(|k| bt[k] - dot(&self.m[k], &d.x) - dot(&self.k_border[k], &d.t) - dot(&self.e_border[k], &d.y)).collect();
+        let rt = (0..bt.len())
+            .map(|k| {
+                bt[k]
+                    - dot(&self.m[k], &d.x)
+                    - dot(&self.k_border[k], &d.t)
+                    - dot(&self.e_border[k], &d.y)
+            })
+            .collect();
         (r, rt)
     }
 
@@ -250,7 +272,8 @@ impl<'a> Newton<'a> {
     }
 }
 
-/// A small symmetric system by elimination with diagonal pivots; a pivot of zero leaves its unknown at zero.
+/// A small symmetric system by elimination with diagonal pivots; a pivot of zero leaves its unknown
+/// at zero.
 fn small(matrix: &[Vec<f64>], rhs: &[f64]) -> Vec<f64> {
     let (mut a, mut b, n) = (matrix.to_vec(), rhs.to_vec(), rhs.len());
     for k in 0..n {

@@ -1,4 +1,5 @@
-//! Equality rows of the local variables in dense panels: the forces of neighbouring contacts act on the same two blocks.
+//! Equality rows of the local variables in dense panels: the forces of neighbouring contacts act on
+//! the same two blocks.
 
 use super::structure::{Block, Columns};
 use std::ops::Range;
@@ -26,8 +27,8 @@ pub(super) struct Panels {
     values: Vec<f64>,
 }
 
-/// Calls `$f` made for the number of rows where it is a usual one (contacts with the ground and between blocks, in a plane and in space),
-/// and for any number, 0, otherwise.
+/// Calls `$f` made for the number of rows where it is a usual one (contacts with the ground and
+/// between blocks, in a plane and in space), and for any number, 0, otherwise.
 macro_rules! by_rows {
     ($rows:expr, $f:ident($($argument:expr),*)) => {
         match $rows {
@@ -45,25 +46,39 @@ impl Panels {
     pub fn new(blocks: &[Block], columns: &Columns) -> Self {
         let mut groups: Vec<(Range<usize>, Vec<usize>)> = Vec::new();
         for (index, block) in blocks.iter().enumerate() {
-            let mut own: Vec<usize> = block.variables.clone().flat_map(|j| columns.of(j).map(|(i, _)| i)).collect();
+            let mut own: Vec<usize> =
+                block.variables.clone().flat_map(|j| columns.of(j).map(|(i, _)| i)).collect();
             own.sort_unstable();
             own.dedup();
             match groups.last_mut() {
-                Some((blocks, rows)) if own.iter().all(|i| rows.binary_search(i).is_ok()) => blocks.end = index + 1,
-                Some((blocks, rows)) if rows.iter().all(|i| own.binary_search(i).is_ok()) => (blocks.end, *rows) = (index + 1, own),
+                Some((blocks, rows)) if own.iter().all(|i| rows.binary_search(i).is_ok()) => {
+                    blocks.end = index + 1
+                }
+                Some((blocks, rows)) if rows.iter().all(|i| own.binary_search(i).is_ok()) => {
+                    (blocks.end, *rows) = (index + 1, own)
+                }
                 _ => groups.push((index..index + 1, own)),
             }
         }
-        let mut this = Self { list: Vec::with_capacity(groups.len()), rows: Vec::new(), values: Vec::new() };
+        let mut this =
+            Self { list: Vec::with_capacity(groups.len()), rows: Vec::new(), values: Vec::new() };
         for (group, rows) in groups {
-            let variables = blocks[group.start].variables.start..blocks[group.end - 1].variables.end;
+            let variables =
+                blocks[group.start].variables.start..blocks[group.end - 1].variables.end;
             let (at, first) = (this.rows.len(), this.values.len());
             this.values.resize(first + rows.len() * variables.len(), 0.0);
-            for (column, j) in this.values[first..].chunks_exact_mut(rows.len().max(1)).zip(variables.clone()) {
+            for (column, j) in
+                this.values[first..].chunks_exact_mut(rows.len().max(1)).zip(variables.clone())
+            {
                 columns.of(j).for_each(|(i, v)| column[rows.partition_point(|&r| r < i)] += v);
             }
             this.rows.extend(rows);
-            this.list.push(Panel { blocks: group, variables, at: at..this.rows.len(), values: first..this.values.len() });
+            this.list.push(Panel {
+                blocks: group,
+                variables,
+                at: at..this.rows.len(),
+                values: first..this.values.len(),
+            });
         }
         this
     }
@@ -81,7 +96,8 @@ impl Panels {
     /// `y += sign · M x`.
     pub fn add(&self, sign: f64, x: &[f64], y: &mut [f64]) {
         for panel in &self.list {
-            let (rows, values, x) = (self.rows(panel), self.values(panel), &x[panel.variables.clone()]);
+            let (rows, values, x) =
+                (self.rows(panel), self.values(panel), &x[panel.variables.clone()]);
             by_rows!(rows.len(), combine(rows, values, sign, x, y));
         }
     }
@@ -89,7 +105,8 @@ impl Panels {
     /// `x += sign · Mᵀ y`.
     pub fn add_transposed(&self, sign: f64, y: &[f64], x: &mut [f64]) {
         for panel in &self.list {
-            let (rows, values, x) = (self.rows(panel), self.values(panel), &mut x[panel.variables.clone()]);
+            let (rows, values, x) =
+                (self.rows(panel), self.values(panel), &mut x[panel.variables.clone()]);
             by_rows!(rows.len(), project(rows, values, sign, y, x));
         }
     }

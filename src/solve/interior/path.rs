@@ -13,26 +13,30 @@ use std::time::Instant;
 /// How far a step goes towards the boundary. Nearer: the next steps are short. Farther: more steps.
 pub(super) const TO_THE_BOUNDARY: f64 = 0.995;
 
-/// A point within this × the tolerance is almost a solution: rounding may allow no more. Larger: poor points pass where no later attempt
-/// would be better. Smaller: sequences of programs leave the engine for digits that do not matter.
+/// A point within this × the tolerance is almost a solution: rounding may allow no more. Larger:
+/// poor points pass where no later attempt would be better. Smaller: sequences of programs leave
+/// the engine for digits that do not matter.
 const ALMOST: f64 = 1e2;
 
-/// Equilibrium is solved to this × the tolerance. Larger: the residual stays above the tolerance while the gap is closed.
-/// Smaller: corrections at the level of rounding.
+/// Equilibrium is solved to this × the tolerance. Larger: the residual stays above the tolerance
+/// while the gap is closed. Smaller: corrections at the level of rounding.
 const BELOW: f64 = 0.05;
 
-/// Where the next solve of a session begins: at the first point of the last one with no more than this of its error left. Larger: nearly
-/// from the start. Smaller: so near the boundary that changed limits leave no room.
+/// Where the next solve of a session begins: at the first point of the last one with no more than
+/// this of its error left. Larger: nearly from the start. Smaller: so near the boundary that
+/// changed limits leave no room.
 const WARM: f64 = 1e-5;
 
-/// The gap counts relative to the objective, or to this where that is smaller: an unbalance may be zero. Larger: load factors far below
-/// the natural one lose digits. Smaller: iterations at an objective of zero.
+/// The gap counts relative to the objective, or to this where that is smaller: an unbalance may be
+/// zero. Larger: load factors far below the natural one lose digits. Smaller: iterations at an
+/// objective of zero.
 const LEAST_OBJECTIVE: f64 = 1e-2;
 
 /// A step shorter than this leads nowhere.
 const LEAST_STEP: f64 = 1e-6;
 
-/// Iterations without a better point after which the method stops. Fewer: slow starts are given up. More: time at the noise level.
+/// Iterations without a better point after which the method stops. Fewer: slow starts are given up.
+/// More: time at the noise level.
 const PATIENCE: usize = 8;
 
 /// Objective and right-hand sides.
@@ -85,13 +89,24 @@ pub(super) fn add(to: &mut [f64], by: f64, d: &[f64]) {
     to.iter_mut().zip(d).for_each(|(t, d)| *t += by * d);
 }
 
-/// The point that balances at least cost and the one that is admissible at least cost, brought inside their cones.
-fn begin(st: &Structure, reduced: &mut Reduced, cones: &mut Cones, data: &Data) -> Option<(Point, Vec<f64>)> {
+/// The point that balances at least cost and the one that is admissible at least cost, brought
+/// inside their cones.
+fn begin(
+    st: &Structure,
+    reduced: &mut Reduced,
+    cones: &mut Cones,
+    data: &Data,
+) -> Option<(Point, Vec<f64>)> {
     cones.reset();
     let zero = Point::zero(st);
     let mut newton = Newton::new(st, reduced, cones)?;
-    let primal = newton.solve(&Point { y: data.b.clone(), z: data.h.clone(), ..zero.clone() }, EXACT, 0.0);
-    let cost = Point { x: data.c.iter().map(|v| -v).collect(), t: data.c_border.iter().map(|v| -v).collect(), ..zero };
+    let primal =
+        newton.solve(&Point { y: data.b.clone(), z: data.h.clone(), ..zero.clone() }, EXACT, 0.0);
+    let cost = Point {
+        x: data.c.iter().map(|v| -v).collect(),
+        t: data.c_border.iter().map(|v| -v).collect(),
+        ..zero
+    };
     let dual = newton.solve(&cost, EXACT, 0.0);
     let inside = |mut v: Vec<f64>| {
         let t = cones.outside(&v);
@@ -118,12 +133,17 @@ pub(super) fn follow(
 ) -> (Option<Point>, Status) {
     let mut cones = Cones::new(&st.cones);
     let degree = cones.degree() as f64;
-    let Some((mut p, mut s)) = warm.take().or_else(|| begin(st, reduced, &mut cones, data)) else { return (None, Status::Stalled) };
+    let Some((mut p, mut s)) = warm.take().or_else(|| begin(st, reduced, &mut cones, data)) else {
+        return (None, Status::Stalled);
+    };
     let mut best: Option<(f64, Point)> = None;
     let mut since = 0;
-    let almost = |best: &Option<(f64, Point)>| best.as_ref().is_some_and(|b| b.0 <= ALMOST * settings.tolerance);
+    let almost = |best: &Option<(f64, Point)>| {
+        best.as_ref().is_some_and(|b| b.0 <= ALMOST * settings.tolerance)
+    };
     let give = |best: Option<(f64, Point)>, status| {
-        let status = if status == Status::Stalled && almost(&best) { Status::AlmostSolved } else { status };
+        let status =
+            if status == Status::Stalled && almost(&best) { Status::AlmostSolved } else { status };
         (best.map(|b| b.1), status)
     };
     for step in 0..=settings.iterations {
@@ -133,10 +153,20 @@ pub(super) fn follow(
         let primal = 0.5 * quadratic + linear;
         let dual = -0.5 * quadratic - dot(&data.b, &p.y) - dot(&data.h, &p.z);
         let gap = dot(&s, &p.z);
-        let primal_residual = greatest(&r.y).max(greatest(&r.z)) / 1f64.max(greatest(&data.b)).max(greatest(&data.h));
-        let dual_residual = greatest(&r.x).max(greatest(&r.t)) / 1f64.max(greatest(&data.c)).max(greatest(&data.c_border));
-        trace.push(Iteration { seconds: start.elapsed().as_secs_f64(), primal, dual, primal_residual, dual_residual });
-        let merit = (gap / LEAST_OBJECTIVE.max(primal.abs().min(dual.abs()))).max(primal_residual).max(dual_residual);
+        let primal_residual =
+            greatest(&r.y).max(greatest(&r.z)) / 1f64.max(greatest(&data.b)).max(greatest(&data.h));
+        let dual_residual = greatest(&r.x).max(greatest(&r.t))
+            / 1f64.max(greatest(&data.c)).max(greatest(&data.c_border));
+        trace.push(Iteration {
+            seconds: start.elapsed().as_secs_f64(),
+            primal,
+            dual,
+            primal_residual,
+            dual_residual,
+        });
+        let merit = (gap / LEAST_OBJECTIVE.max(primal.abs().min(dual.abs())))
+            .max(primal_residual)
+            .max(dual_residual);
         if merit.is_nan() || merit.is_infinite() {
             return give(best, Status::Stalled);
         }
@@ -156,14 +186,17 @@ pub(super) fn follow(
             return give(best, Status::Stalled);
         }
         if settings.deadline.is_over() {
-            // The point to start from is no answer: its rates are far from admissible, and a bound corrected to first order would be untrue.
+            // The point to start from is no answer: its rates are far from admissible, and a bound
+            // corrected to first order would be untrue.
             return give(best.filter(|_| step > 0), Status::Limit);
         }
         if !cones.scale(&s, &p.z) {
             return give(best, Status::Stalled);
         }
         let mu = gap / degree;
-        let Some(mut newton) = Newton::new(st, reduced, &cones) else { return give(best, Status::Stalled) };
+        let Some(mut newton) = Newton::new(st, reduced, &cones) else {
+            return give(best, Status::Stalled);
+        };
         // Residuals that are small already stay so.
         let enough = BELOW * settings.tolerance;
         // Predictor: a_z = −r_z − W u with u = −λ, so that W u = −s.
@@ -172,7 +205,12 @@ pub(super) fn follow(
         let predictor = newton.solve(&a, ROUGH, 0.0);
         let ds = slack(st, &predictor, &r);
         let (ap, ad) = steps(&cones, st, (&s, &ds), (&p.z, &predictor.z), 1.0);
-        let after: f64 = s.iter().zip(&ds).zip(p.z.iter().zip(&predictor.z)).map(|((s, ds), (z, dz))| (s + ap * ds) * (z + ad * dz)).sum();
+        let after: f64 = s
+            .iter()
+            .zip(&ds)
+            .zip(p.z.iter().zip(&predictor.z))
+            .map(|((s, ds), (z, dz))| (s + ap * ds) * (z + ad * dz))
+            .sum();
         let sigma = (after / gap).clamp(0.0, 1.0).powi(3);
         // Corrector: λ ∘ u = −λ∘λ − (W⁻¹ ds) ∘ (W dz) + σ μ e.
         let mut u = ds;
@@ -213,7 +251,13 @@ pub(super) fn slack(st: &Structure, d: &Point, r: &Point) -> Vec<f64> {
 }
 
 /// How far both sides may go; equally far where a quadratic part ties them together.
-pub(super) fn steps(cones: &Cones, st: &Structure, (s, ds): (&[f64], &[f64]), (z, dz): (&[f64], &[f64]), share: f64) -> (f64, f64) {
+pub(super) fn steps(
+    cones: &Cones,
+    st: &Structure,
+    (s, ds): (&[f64], &[f64]),
+    (z, dz): (&[f64], &[f64]),
+    share: f64,
+) -> (f64, f64) {
     let (ap, ad) = ((share * cones.step(s, ds)).min(1.0), (share * cones.step(z, dz)).min(1.0));
     if st.quadratic.is_empty() { (ap, ad) } else { (ap.min(ad), ap.min(ad)) }
 }

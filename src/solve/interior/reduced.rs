@@ -1,9 +1,10 @@
 //! The reduced system: equilibrium of the blocks on springs.
 //!
-//! Eliminating the cone rows and then the local variables from the Newton system of an interior-point method leaves
-//! `S = E K⁻¹ Eᵀ` with `K = P + Gᵀ W⁻² G`, block-diagonal: the stiffness matrix of the blocks where every contact is a spring of stiffness
-//! `K⁻¹`. It has the sparsity of the contact graph; a supernodal Cholesky factorisation with a fill-reducing ordering is all that
-//! an iteration costs.
+//! Eliminating the cone rows and then the local variables from the Newton system of an
+//! interior-point method leaves `S = E K⁻¹ Eᵀ` with `K = P + Gᵀ W⁻² G`, block-diagonal: the
+//! stiffness matrix of the blocks where every contact is a spring of stiffness `K⁻¹`. It has the
+//! sparsity of the contact graph; a supernodal Cholesky factorisation with a fill-reducing ordering
+//! is all that an iteration costs.
 
 use super::{
     cones::{Cones, MOST_ROWS},
@@ -12,16 +13,18 @@ use super::{
 };
 use crate::solve::cholesky::{Cholesky, Pattern};
 
-/// A pivot below this × the diagonal it started from is rounding: it is replaced by 1. Larger: flexible structures are held where they
-/// should move. Smaller: rounding becomes motion.
+/// A pivot below this × the diagonal it started from is rounding: it is replaced by 1. Larger:
+/// flexible structures are held where they should move. Smaller: rounding becomes motion.
 const LEAST_PIVOT: f64 = 1e-15;
 
-/// Added to every scaled diagonal entry (each is 1). Larger: more corrections a solve. Smaller: more pivots that are rounding.
+/// Added to every scaled diagonal entry (each is 1). Larger: more corrections a solve. Smaller:
+/// more pivots that are rounding.
 const DIAGONAL: f64 = 1e-14;
 
 /// The reduced system of a program and its factors.
 pub(super) struct Reduced {
-    /// Where the lower triangle of each panel's springs goes, row by row, one panel after the other.
+    /// Where the lower triangle of each panel's springs goes, row by row, one panel after the
+    /// other.
     places: Vec<usize>,
     /// `F` with `K⁻¹ = F Fᵀ` of each block, column by column.
     roots: Vec<f64>,
@@ -57,7 +60,9 @@ impl Reduced {
         let mut places = Vec::new();
         for own in panels() {
             for (k, i) in own.iter().enumerate() {
-                let place = |&j: &usize| starts[j] + row[starts[j]..starts[j + 1]].partition_point(|r| r < i);
+                let place = |&j: &usize| {
+                    starts[j] + row[starts[j]..starts[j + 1]].partition_point(|r| r < i)
+                };
                 places.extend(own[..=k].iter().map(place));
             }
         }
@@ -169,7 +174,8 @@ impl Reduced {
     }
 }
 
-/// Adds `E F (E F)ᵀ` of one block of variables, whose panel has `R` rows (0: as many as `spring`), to `sum`.
+/// Adds `E F (E F)ᵀ` of one block of variables, whose panel has `R` rows (0: as many as `spring`),
+/// to `sum`.
 fn add_springs<const R: usize>(own: &[f64], root: &[f64], spring: &mut [f64], sum: &mut [f64]) {
     let r = if R == 0 { spring.len() } else { R };
     let (n, spring) = (own.len() / r.max(1), &mut spring[..r]);
@@ -186,9 +192,15 @@ fn add_springs<const R: usize>(own: &[f64], root: &[f64], spring: &mut [f64], su
     }
 }
 
-/// `R⁻¹` of the QR decomposition of `(W⁻¹ G; √P)`: with `K` itself, half of the digits would be lost near the boundary of a cone.
-/// False where some variable is held by nothing.
-fn root_of(structure: &Structure, cones: &Cones, index: usize, q: &mut Vec<f64>, root: &mut [f64]) -> bool {
+/// `R⁻¹` of the QR decomposition of `(W⁻¹ G; √P)`: with `K` itself, half of the digits would be
+/// lost near the boundary of a cone. False where some variable is held by nothing.
+fn root_of(
+    structure: &Structure,
+    cones: &Cones,
+    index: usize,
+    q: &mut Vec<f64>,
+    root: &mut [f64],
+) -> bool {
     let block = &structure.blocks[index];
     let (first, n) = (block.variables.start, block.variables.len());
     let rows: usize = block.cones.iter().map(|&c| structure.cones[c].size).sum::<usize>() + n;

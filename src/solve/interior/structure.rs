@@ -1,5 +1,6 @@
-//! What makes a program of contacts cheap: cone rows concern one contact point (or one block) at a time, equality rows one
-//! block, and very few variables (the load factor, the least unbalance) concern all of them.
+//! What makes a program of contacts cheap: cone rows concern one contact point (or one block) at a
+//! time, equality rows one block, and very few variables (the load factor, the least unbalance)
+//! concern all of them.
 
 use super::{
     cones::{ConeAt, MOST_ROWS},
@@ -24,7 +25,12 @@ impl Columns {
     /// From (column, row, value), sorted; equal places add up.
     fn new(columns: usize, mut entries: Vec<(usize, usize, f64)>) -> Self {
         entries.sort_by_key(|e| (e.0, e.1));
-        let mut this = Self { start: vec![0; columns + 1], row: Vec::new(), value: Vec::new(), diagonal: false };
+        let mut this = Self {
+            start: vec![0; columns + 1],
+            row: Vec::new(),
+            value: Vec::new(),
+            diagonal: false,
+        };
         let mut last = None;
         for (column, row, value) in entries {
             if last == Some((column, row)) {
@@ -41,8 +47,9 @@ impl Columns {
         for k in 0..columns {
             this.start[k + 1] += this.start[k];
         }
-        this.diagonal =
-            this.start[columns] == columns && this.start.windows(2).all(|w| w[1] - w[0] == 1) && this.row.iter().copied().eq(0..columns);
+        this.diagonal = this.start[columns] == columns
+            && this.start.windows(2).all(|w| w[1] - w[0] == 1)
+            && this.row.iter().copied().eq(0..columns);
         this
     }
 
@@ -119,8 +126,8 @@ pub(super) struct Structure {
     pub quadratic: Vec<f64>,
 }
 
-/// A variable in more equalities or cones than this concerns everything. Fewer: contacts between more than two blocks, which there
-/// are not. More: dense columns fill the reduced system.
+/// A variable in more equalities or cones than this concerns everything. Fewer: contacts between
+/// more than two blocks, which there are not. More: dense columns fill the reduced system.
 const LOCAL: usize = 24;
 
 /// Most variables that concern everything.
@@ -133,7 +140,8 @@ impl Structure {
     /// Takes a program apart; `None` where it is not made like that.
     pub fn new(program: &ConicProgram) -> Option<Self> {
         let m = &program.matrix;
-        let (mut cones, mut cone_of, mut cone_rows, mut equalities) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut cones, mut cone_of, mut cone_rows, mut equalities) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         // Program row → (is an equality, index).
         let mut place = Vec::with_capacity(m.rows);
         for cone in &program.cones {
@@ -166,7 +174,9 @@ impl Structure {
         let mut count = vec![0; m.columns];
         m.j.iter().for_each(|&j| count[j] += 1);
         let border: Vec<usize> = (0..m.columns).filter(|&j| count[j] > LOCAL).collect();
-        if border.len() > MOST_BORDER || border.iter().any(|&j| program.quadratic.get(j).is_some_and(|p| *p != 0.0)) {
+        if border.len() > MOST_BORDER
+            || border.iter().any(|&j| program.quadratic.get(j).is_some_and(|p| *p != 0.0))
+        {
             return None;
         }
         let is_border = |j: usize| count[j] > LOCAL;
@@ -189,7 +199,8 @@ impl Structure {
         for j in (0..m.columns).filter(|&j| !is_border(j)) {
             members[sets.find(j)].push(j);
         }
-        let (mut blocks, mut variables, mut block_of) = (Vec::<Block>::new(), Vec::new(), vec![usize::MAX; m.columns]);
+        let (mut blocks, mut variables, mut block_of) =
+            (Vec::<Block>::new(), Vec::new(), vec![usize::MAX; m.columns]);
         let mut local = vec![usize::MAX; m.columns];
         for list in members.into_iter().filter(|l| !l.is_empty()) {
             if list.len() > MOST_VARIABLES {
@@ -201,7 +212,11 @@ impl Structure {
                 local[j] = variables.len();
                 variables.push(j);
             }
-            blocks.push(Block { variables: first..variables.len(), cones: Vec::new(), plain: false });
+            blocks.push(Block {
+                variables: first..variables.len(),
+                cones: Vec::new(),
+                plain: false,
+            });
         }
         for (cone, seen) in seen.iter().enumerate() {
             // A cone on no local variable would bound the border alone.
@@ -215,7 +230,11 @@ impl Structure {
             parts[part].push((if is_border(j) { at_border(j) } else { local[j] }, row, v));
         }
         let [e, g, e_border, g_border] = parts;
-        let quadratic = if program.quadratic.is_empty() { Vec::new() } else { variables.iter().map(|&j| program.quadratic[j]).collect() };
+        let quadratic = if program.quadratic.is_empty() {
+            Vec::new()
+        } else {
+            variables.iter().map(|&j| program.quadratic[j]).collect()
+        };
         let n = variables.len();
         let mut this = Self {
             e: Panels::new(&blocks, &Columns::new(n, e)),
@@ -242,6 +261,10 @@ impl Structure {
         self.quadratic.is_empty()
             && self.g_border.row.is_empty()
             && block.variables.len() == cone.size
-            && block.variables.clone().enumerate().all(|(k, j)| self.g.of(j).eq([(cone.first + k, -1.0)]))
+            && block
+                .variables
+                .clone()
+                .enumerate()
+                .all(|(k, j)| self.g.of(j).eq([(cone.first + k, -1.0)]))
     }
 }

@@ -52,8 +52,13 @@ fn a_wall_pushed_over_turns_about_its_foot() {
 
 #[test]
 fn both_engines_find_the_same_load_factor() {
-    for (program, columns) in [(pushed(10, 10, [1.0, 0.0, 0.0]), 1), (pushed(5, 7, [0.6, 0.8, 0.0]), 1)] {
-        let [a, b] = [own(&program, &settings(EngineSettings::Interior)), solve(&program, &settings(EngineSettings::default()))];
+    for (program, columns) in
+        [(pushed(10, 10, [1.0, 0.0, 0.0]), 1), (pushed(5, 7, [0.6, 0.8, 0.0]), 1)]
+    {
+        let [a, b] = [
+            own(&program, &settings(EngineSettings::Interior)),
+            solve(&program, &settings(EngineSettings::default())),
+        ];
         assert_eq!(a.status, Status::Solved);
         let last = program.matrix.columns - columns;
         assert!((a.x[last] - b.x[last]).abs() < 1e-7, "{} {}", a.x[last], b.x[last]);
@@ -71,9 +76,13 @@ fn both_engines_find_the_same_least_unbalance() {
         let model = prepare(&read_str("wall", text).unwrap().0).unwrap();
         let statics = Statics::new(&model, StaticsOptions::default());
         let (program, layout) = unbalance(&statics, LiveLoad::Absent, Unknowns::Forces);
-        let [a, b] = [own(&program, &settings(EngineSettings::Interior)), solve(&program, &settings(EngineSettings::default()))];
+        let [a, b] = [
+            own(&program, &settings(EngineSettings::Interior)),
+            solve(&program, &settings(EngineSettings::default())),
+        ];
         assert_eq!(a.status, Status::Solved, "{:?}", a.trace.last());
-        let value = |s: &Solution| program.objective.iter().zip(&s.x).map(|(c, x)| c * x).sum::<f64>();
+        let value =
+            |s: &Solution| program.objective.iter().zip(&s.x).map(|(c, x)| c * x).sum::<f64>();
         assert!((value(&a) - value(&b)).abs() < 1e-7, "{} {}", value(&a), value(&b));
         assert_eq!(value(&a) < 1e-9, stands, "{}", value(&a));
         assert_eq!(layout.forces(&a.x, &a.z).len(), statics.matrix.columns);
@@ -83,7 +92,8 @@ fn both_engines_find_the_same_least_unbalance() {
 #[test]
 fn both_engines_find_the_same_state_again_and_again() {
     let model = wall(6, 6, [1.0, 0.0, 0.0]);
-    let contacts = Contacts::new(&model, StaticsOptions { keep_all: true, ..StaticsOptions::default() });
+    let contacts =
+        Contacts::new(&model, StaticsOptions { keep_all: true, ..StaticsOptions::default() });
     let limit = vec![0.7; contacts.discs().count()];
     let mut program = contacts.program(Objective::State(1e-2), HeldQuantity::Limits, &limit);
     let mut session = Session::new(&program, &settings(EngineSettings::Interior)).unwrap();
@@ -104,7 +114,13 @@ fn both_engines_find_the_same_state_again_and_again() {
 #[test]
 fn the_same_program_gives_the_same_bits() {
     let program = pushed(6, 6, [1.0, 0.0, 0.0]);
-    let bits = || own(&program, &settings(EngineSettings::Interior)).x.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+    let bits = || {
+        own(&program, &settings(EngineSettings::Interior))
+            .x
+            .iter()
+            .map(|v| v.to_bits())
+            .collect::<Vec<_>>()
+    };
     assert_eq!(bits(), bits());
 }
 
@@ -113,13 +129,26 @@ fn what_has_no_answer_ends_without_one() {
     // Nothing holds the live load: its multiple may grow for ever.
     let mut program = pushed(6, 6, [1.0, 0.0, 0.0]);
     let lambda = program.matrix.columns - 1;
-    program.matrix.j.iter().zip(&mut program.matrix.v).filter(|(j, _)| **j == lambda).for_each(|(_, v)| *v = 1e-300);
+    program
+        .matrix
+        .j
+        .iter()
+        .zip(&mut program.matrix.v)
+        .filter(|(j, _)| **j == lambda)
+        .for_each(|(_, v)| *v = 1e-300);
     let solution = own(&program, &settings(EngineSettings::Interior));
     assert_ne!(solution.status, Status::Solved);
     // No time.
     let program = pushed(6, 6, [1.0, 0.0, 0.0]);
     assert_eq!(
-        own(&program, &Settings { deadline: crate::deadline::Deadline::within(0.0), ..settings(EngineSettings::Interior) }).status,
+        own(
+            &program,
+            &Settings {
+                deadline: crate::deadline::Deadline::within(0.0),
+                ..settings(EngineSettings::Interior)
+            }
+        )
+        .status,
         Status::Limit
     );
     // Numbers that are none.

@@ -11,7 +11,8 @@ use crate::{
     verdict::Verdict,
 };
 
-/// A question may take so many seconds; more counts as undecided. More: two scenes in a hundred take most of the time.
+/// A question may take so many seconds; more counts as undecided. More: two scenes in a hundred
+/// take most of the time.
 const SECONDS: f64 = 2.0;
 
 /// How all questions are asked.
@@ -46,8 +47,10 @@ impl Answers {
         let bound = limit(model, &control());
         let outcome = bound.outcome;
         let has_limit = matches!(outcome, Outcome::Found | Outcome::Unbounded);
-        let dry = has_limit.then(|| coulomb::load_factor_from(model, &bound, Some(verdict), &control()));
-        // A value that is proved and up to which the state was seen to rest, or one that was seen only.
+        let dry =
+            has_limit.then(|| coulomb::load_factor_from(model, &bound, Some(verdict), &control()));
+        // A value that is proved and up to which the state was seen to rest, or one that was seen
+        // only.
         let is_known = |d: &DryLoadFactor| match d.found {
             Found::NothingSlides | Found::FixedPoint => d.is_reached(),
             Found::Rests => true,
@@ -64,7 +67,15 @@ impl Answers {
 
     /// Whether two answers are the same to the last bit.
     pub fn is_same(&self, other: &Self) -> bool {
-        let bits = |a: &Self| (a.verdict, a.outcome, a.bound.map(|b| b.map(f64::to_bits)), a.dry.map(f64::to_bits), a.is_unlimited);
+        let bits = |a: &Self| {
+            (
+                a.verdict,
+                a.outcome,
+                a.bound.map(|b| b.map(f64::to_bits)),
+                a.dry.map(f64::to_bits),
+                a.is_unlimited,
+            )
+        };
         bits(self) == bits(other)
     }
 }

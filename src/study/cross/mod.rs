@@ -1,9 +1,11 @@
 //! Thousands of random scenes, each asked in several ways that must give one answer.
 //!
-//! There is no closed form for these scenes, but there is for what happens to their answers: a stranger beside a scene changes nothing
-//! (`stranger`), nor does the place where the scene stands; up to the load factor with dry friction it stands, beyond the bound it falls;
-//! and more of the same load does not raise again what it has brought down. Only answers whose proofs hold from the scene alone count; what is
-//! computed, not proved, is that the state rests up to a load factor with dry friction, and that counts as well.
+//! There is no closed form for these scenes, but there is for what happens to their answers: a
+//! stranger beside a scene changes nothing (`stranger`), nor does the place where the scene stands;
+//! up to the load factor with dry friction it stands, beyond the bound it falls; and more of the
+//! same load does not raise again what it has brought down. Only answers whose proofs hold from the
+//! scene alone count; what is computed, not proved, is that the state rests up to a load factor
+//! with dry friction, and that counts as well.
 
 mod answers;
 mod scenes;
@@ -99,12 +101,17 @@ pub fn keep(path: &Path, seed: u64) -> Result<Kept<Crossed>, RowsError> {
     Kept::open(path, "voussoir-cross/3", json!({ "seed": seed }))
 }
 
-/// Asks scenes number 0 to `count`, on all threads, but for those that are kept already; each is kept as it ends, where there is a file, and
-/// `each` hears of it.
+/// Asks scenes number 0 to `count`, on all threads, but for those that are kept already; each is
+/// kept as it ends, where there is a file, and `each` hears of it.
 ///
 /// # Errors
 /// Threads cannot be started, or the file cannot be written.
-pub fn run(seed: u64, count: usize, kept: Option<&Kept<Crossed>>, each: impl Fn(&Crossed) + Sync) -> Result<Vec<Crossed>, RowsError> {
+pub fn run(
+    seed: u64,
+    count: usize,
+    kept: Option<&Kept<Crossed>>,
+    each: impl Fn(&Crossed) + Sync,
+) -> Result<Vec<Crossed>, RowsError> {
     numbered(count, kept, |index| one(seed, index), each)
 }
 
@@ -129,7 +136,9 @@ pub fn one(seed: u64, index: usize) -> Crossed {
         seconds: 0.0,
     };
     // A mistake in the program is what this is for: it costs one scene.
-    let asked = catch_unwind(AssertUnwindSafe(|| scene(seed, index).and_then(|(scene, _)| ways::ask(&scene, index, &mut crossed))));
+    let asked = catch_unwind(AssertUnwindSafe(|| {
+        scene(seed, index).and_then(|(scene, _)| ways::ask(&scene, index, &mut crossed))
+    }));
     crossed.error = match asked {
         Ok(Ok(())) => None,
         Ok(Err(e)) => Some(e.to_string()),
@@ -208,7 +217,8 @@ pub fn count(list: &[Crossed], of: impl Fn(&Crossed) -> bool) -> CrossCount {
         c.lost += s.lost.len();
         (c.unions, c.same) = (c.unions + s.unions[0], c.same + s.unions[1]);
         c.wrong += usize::from(s.is_wrong());
-        (c.simulated, c.agree, c.apart) = (c.simulated + s.simulated[0], c.agree + s.simulated[1], c.apart + s.apart.len());
+        (c.simulated, c.agree, c.apart) =
+            (c.simulated + s.simulated[0], c.agree + s.simulated[1], c.apart + s.apart.len());
     }
     c
 }
@@ -242,14 +252,20 @@ mod tests {
         let (fresh, list) = asked();
         assert_eq!((fresh, list.len()), (6 - lines, 6));
         for (a, b) in list.iter().zip(&whole) {
-            assert_eq!(Crossed { seconds: 0.0, ..a.clone() }, Crossed { seconds: 0.0, ..b.clone() });
+            assert_eq!(
+                Crossed { seconds: 0.0, ..a.clone() },
+                Crossed { seconds: 0.0, ..b.clone() }
+            );
         }
     }
 
     #[test]
     fn a_contradiction_is_named_and_its_scenes_can_be_written() {
         let way = Variation::Beside { stranger: Stranger::Soft, before: true };
-        let wrong = Crossed { wrong: vec![Differs { way, what: "Stable instead of Conditional".into() }], ..one(1, 4) };
+        let wrong = Crossed {
+            wrong: vec![Differs { way, what: "Stable instead of Conditional".into() }],
+            ..one(1, 4)
+        };
         assert!(wrong.is_wrong() && count(std::slice::from_ref(&wrong), |_| true).wrong == 1);
         let written = scenes(1, &[wrong]);
         let names: Vec<&str> = written.iter().map(|(name, _)| name.as_str()).collect();
@@ -257,6 +273,9 @@ mod tests {
         assert_eq!(written[1].1.blocks.len(), written[0].1.blocks.len() + COLUMN + 1);
         // A failure of the program counts as well, a scene that is refused does not.
         let failed = |error: &str| Crossed { error: Some(error.into()), ..one(1, 4) };
-        assert!(failed(&format!("{FAILED} on this scene")).is_wrong() && !failed("no friction is given").is_wrong());
+        assert!(
+            failed(&format!("{FAILED} on this scene")).is_wrong()
+                && !failed("no friction is given").is_wrong()
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! Blocks that have nothing to do with a scene, beside it: whatever they weigh, they must not change its answer.
+//! Blocks that have nothing to do with a scene, beside it: whatever they weigh, they must not
+//! change its answer.
 
 use super::scenes::extent;
 use crate::scene::{BlockSpec, Friction, JointOverride, Material, Scene, Shape};
@@ -23,12 +24,14 @@ pub enum Stranger {
 pub const COLUMN: usize = 50;
 
 /// All kinds.
-pub const STRANGERS: [Stranger; 4] = [Stranger::Resting, Stranger::Soft, Stranger::Heavy, Stranger::Light];
+pub const STRANGERS: [Stranger; 4] =
+    [Stranger::Resting, Stranger::Soft, Stranger::Heavy, Stranger::Light];
 
 /// The material of strangers, which has joints of its own.
 const MATERIAL: &str = "stranger";
 
-/// The scene with a stranger beside it, before or after its own blocks. `masses` are those of its free blocks, kg.
+/// The scene with a stranger beside it, before or after its own blocks. `masses` are those of its
+/// free blocks, kg.
 pub fn beside(scene: &Scene, masses: &[f64], stranger: Stranger, before: bool) -> Scene {
     let (low, high) = extent(scene);
     let size = (high - low).norm().max(f64::MIN_POSITIVE);
@@ -46,15 +49,26 @@ pub fn beside(scene: &Scene, masses: &[f64], stranger: Stranger, before: bool) -
         material: Some(MATERIAL.into()),
         ..BlockSpec::new(id, Shape::Cuboid { size })
     };
-    let ground = cuboid("stranger-ground".into(), [size, size, 0.2 * size], foot - Vector3::z() * 0.1 * size);
+    let ground = cuboid(
+        "stranger-ground".into(),
+        [size, size, 0.2 * size],
+        foot - Vector3::z() * 0.1 * size,
+    );
     let mut blocks = vec![BlockSpec { support: true, ..ground }];
     for k in 0..count {
         let up = Vector3::z() * ((k as f64 + 0.5) * height * size);
-        blocks
-            .push(BlockSpec { mass: Some(mass), ..cuboid(format!("stranger-{k:02}"), [0.5 * size, 0.5 * size, height * size], foot + up) });
+        blocks.push(BlockSpec {
+            mass: Some(mass),
+            ..cuboid(format!("stranger-{k:02}"), [0.5 * size, 0.5 * size, height * size], foot + up)
+        });
     }
     let mut union = scene.clone();
-    union.name = format!("{}, {stranger:?} stranger {}", scene.name, if before { "before" } else { "after" }).to_lowercase();
+    union.name = format!(
+        "{}, {stranger:?} stranger {}",
+        scene.name,
+        if before { "before" } else { "after" }
+    )
+    .to_lowercase();
     union.materials.insert(MATERIAL.into(), Material { density: 1.0 });
     union.joints.overrides.push(JointOverride {
         between: Some([MATERIAL.into(), MATERIAL.into()]),
@@ -63,8 +77,13 @@ pub fn beside(scene: &Scene, masses: &[f64], stranger: Stranger, before: bool) -
         friction_angle_deg: None,
         cohesion: Some(0.0),
         tension: Some(0.0),
-        // Where the scene's joints crush, the stranger's bear a thousand times what it presses with.
-        compression: scene.joints.default.compression.map(|_| 1e3 * count as f64 * mass * 9.81 / (0.5 * size).powi(2)),
+        // Where the scene's joints crush, the stranger's bear a thousand times what it presses
+        // with.
+        compression: scene
+            .joints
+            .default
+            .compression
+            .map(|_| 1e3 * count as f64 * mass * 9.81 / (0.5 * size).powi(2)),
         pore_pressure: Some(0.0),
         rolling_arm: Some(0.0),
     });

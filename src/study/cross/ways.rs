@@ -18,26 +18,30 @@ use std::ops::ControlFlow;
 
 /// Where surveyors' coordinates are, m.
 const SURVEY: [f64; 3] = [5e5, 5e6, 2e2];
-/// Scenes smaller than this, m, are not moved there: their contacts are below what coordinates of that size can tell.
+/// Scenes smaller than this, m, are not moved there: their contacts are below what coordinates of
+/// that size can tell.
 const LEAST_SURVEYED: f64 = 0.5;
 
-/// Shares of the load factor at which a scene is asked on the way. Just below the value and just above come on their own.
+/// Shares of the load factor at which a scene is asked on the way. Just below the value and just
+/// above come on their own.
 const ON_THE_WAY: [f64; 10] = [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85, 0.95];
 const BELOW: f64 = 0.99;
 const ABOVE: f64 = 1.01;
 /// Shares at which the simulation is asked: it errs by some percents near a limit.
 const SIMULATED: [f64; 2] = [0.95, 1.05];
 
-/// Bounds of two ways differ by less than this × their size. They are proved in brackets 1e-6 wide or narrower.
+/// Bounds of two ways differ by less than this × their size. They are proved in brackets 1e-6 wide
+/// or narrower.
 const SAME_BOUND: f64 = 1e-5;
-/// Load factors with dry friction differ by less than this × their size. The law holds at them to a natural map of some 1e-5.
+/// Load factors with dry friction differ by less than this × their size. The law holds at them to a
+/// natural map of some 1e-5.
 const SAME_DRY: f64 = 1e-3;
 /// What coordinates rounded to 1e-9 m may change in a bound, over its size.
 const MOVED_BOUND: f64 = 1e-4;
 /// The load factor with dry friction passes the proved bound by no more than this × its size.
 const BEYOND: f64 = 1e-9;
-/// Load factors below this × (dead / live load) are none: grains in a pile that is no wider at its foot fall under any push, and their
-/// load factors are what forces may be off balance.
+/// Load factors below this × (dead / live load) are none: grains in a pile that is no wider at its
+/// foot fall under any push, and their load factors are what forces may be off balance.
 const NONE: f64 = 1e-7;
 
 /// A way in which a scene is asked.
@@ -70,7 +74,9 @@ impl Variation {
     pub fn word(&self) -> String {
         match self {
             Self::Alone => "alone".into(),
-            Self::Beside { stranger, before } => format!("{stranger:?}-{}", if *before { "before" } else { "after" }).to_lowercase(),
+            Self::Beside { stranger, before } => {
+                format!("{stranger:?}-{}", if *before { "before" } else { "after" }).to_lowercase()
+            }
             Self::Surveyed { rough } => if *rough { "survey-rough" } else { "survey" }.into(),
             Self::Loaded { factor } => format!("load-{factor}"),
         }
@@ -129,18 +135,27 @@ impl Asked<'_> {
         let Answers { verdict, outcome, bound, dry, .. } = self.own;
         let has_forces = matches!(verdict, Verdict::Stable | Verdict::Conditional);
         if has_forces && outcome == Outcome::Impossible {
-            self.wrong(Variation::Alone, format!("{verdict:?} under its dead load, and falls whatever the live load"));
+            self.wrong(
+                Variation::Alone,
+                format!("{verdict:?} under its dead load, and falls whatever the live load"),
+            );
         }
         let Some([_, upper]) = bound else { return };
         if has_forces && upper < -BEYOND * upper.abs() - none {
-            self.wrong(Variation::Alone, format!("{verdict:?} under its dead load, and the load factor is at most {upper}"));
+            self.wrong(
+                Variation::Alone,
+                format!("{verdict:?} under its dead load, and the load factor is at most {upper}"),
+            );
         }
         if let Some(dry) = dry {
             if dry > upper + BEYOND * upper.abs() + none {
                 self.wrong(Variation::Alone, format!("the load factor with dry friction, {dry}, is above the proved bound {upper}"));
             }
             if verdict == Verdict::Conditional && dry > none {
-                self.wrong(Variation::Alone, format!("needs a pre-stress under its dead load, and stands up to {dry}"));
+                self.wrong(
+                    Variation::Alone,
+                    format!("needs a pre-stress under its dead load, and stands up to {dry}"),
+                );
             }
         }
     }
@@ -149,7 +164,10 @@ impl Asked<'_> {
     fn unions(&mut self, scene: &Scene, model: &Model, index: usize) -> Result<(), InputError> {
         let masses = masses(model);
         let turn = index / super::FAMILIES.len();
-        for (stranger, before) in [(STRANGERS[turn % 4], turn % 8 < 4), (STRANGERS[(turn + 1 + turn / 8 % 3) % 4], turn % 8 >= 4)] {
+        for (stranger, before) in [
+            (STRANGERS[turn % 4], turn % 8 < 4),
+            (STRANGERS[(turn + 1 + turn / 8 % 3) % 4], turn % 8 >= 4),
+        ] {
             let way = Variation::Beside { stranger, before };
             let union = prepare(&beside(scene, &masses, stranger, before))?;
             let said = Answers::of(&union);
@@ -184,7 +202,10 @@ impl Asked<'_> {
     fn verdicts(&mut self, way: Variation, known: Verdict, said: Verdict) {
         match (known, said) {
             (Verdict::Undecided, _) => {}
-            (_, Verdict::Undecided) => self.crossed.lost.push(Differs { way, what: format!("undecided instead of {known:?}") }),
+            (_, Verdict::Undecided) => self
+                .crossed
+                .lost
+                .push(Differs { way, what: format!("undecided instead of {known:?}") }),
             _ if known == said => {}
             _ => self.wrong(way, format!("{said:?} instead of {known:?}")),
         }
@@ -197,14 +218,20 @@ impl Asked<'_> {
         self.verdicts(way, own.verdict, said.verdict);
         match (own.outcome, said.outcome) {
             (Outcome::Undecided, _) => {}
-            (_, Outcome::Undecided) => self.crossed.lost.push(Differs { way, what: "the bound is undecided".into() }),
+            (_, Outcome::Undecided) => {
+                self.crossed.lost.push(Differs { way, what: "the bound is undecided".into() })
+            }
             (a, b) if a == b => {}
             (a, b) => self.wrong(way, format!("load factor {b:?} instead of {a:?}")),
         }
         let mut near = |name: &str, a: Option<f64>, b: Option<f64>, width: f64| match (a, b) {
             // Values next to 0 have no size of their own; loads are of the size of the weight.
-            (Some(a), Some(b)) if (a - b).abs() > width * a.abs() + 1e-9 => self.wrong(way, format!("{name} {b} instead of {a}")),
-            (Some(_), None) if name != "bound" => self.crossed.lost.push(Differs { way, what: format!("{name} is undecided") }),
+            (Some(a), Some(b)) if (a - b).abs() > width * a.abs() + 1e-9 => {
+                self.wrong(way, format!("{name} {b} instead of {a}"))
+            }
+            (Some(_), None) if name != "bound" => {
+                self.crossed.lost.push(Differs { way, what: format!("{name} is undecided") })
+            }
             _ => {}
         };
         near("bound", own.bound.map(|b| b[0]), said.bound.map(|b| b[0]), same_bound);
@@ -218,7 +245,9 @@ impl Asked<'_> {
         // What falls without its live load is held by it, and may be from some load on only.
         let dry = self.own.dry.filter(|d| *d > none && self.own.verdict != Verdict::Unstable);
         let bound = self.own.bound.filter(|b| b[0] > none);
-        factors.extend(dry.iter().flat_map(|dry| ON_THE_WAY.into_iter().chain([BELOW, ABOVE]).map(move |share| share * dry)));
+        factors.extend(dry.iter().flat_map(|dry| {
+            ON_THE_WAY.into_iter().chain([BELOW, ABOVE]).map(move |share| share * dry)
+        }));
         factors.extend(bound.iter().flat_map(|[value, _]| [BELOW * value, ABOVE * value]));
         factors.sort_by(f64::total_cmp);
         factors.dedup_by(|a, b| (*a - *b).abs() <= 1e-6 * b.abs());
@@ -231,14 +260,21 @@ impl Asked<'_> {
                 self.verdicts(way, Verdict::Stable, said);
             }
             let has_forces = matches!(said, Verdict::Stable | Verdict::Conditional);
-            if let Some([_, upper]) = bound.filter(|[_, upper]| has_forces && factor > upper * (1.0 + 1e-6)) {
+            if let Some([_, upper]) =
+                bound.filter(|[_, upper]| has_forces && factor > upper * (1.0 + 1e-6))
+            {
                 self.wrong(way, format!("{said:?} above the proved bound {upper}"));
             }
-            if let Some(less) = fell.filter(|_| has_forces && matches!(self.own.verdict, Verdict::Stable | Verdict::Conditional)) {
+            if let Some(less) = fell.filter(|_| {
+                has_forces && matches!(self.own.verdict, Verdict::Stable | Verdict::Conditional)
+            }) {
                 self.wrong(way, format!("{said:?}, and falls under a load factor of {less}"));
             }
-            let stood = matches!(self.own.verdict, Verdict::Stable | Verdict::Conditional) && dry.is_none_or(|dry| factor >= dry);
-            if let Some([value, _]) = bound.filter(|[value, _]| stood && said == Verdict::Unstable && factor < value * (1.0 - 1e-6)) {
+            let stood = matches!(self.own.verdict, Verdict::Stable | Verdict::Conditional)
+                && dry.is_none_or(|dry| factor >= dry);
+            if let Some([value, _]) = bound.filter(|[value, _]| {
+                stood && said == Verdict::Unstable && factor < value * (1.0 - 1e-6)
+            }) {
                 self.wrong(way, format!("falls below the bound {value}, which has forces"));
             }
             if said == Verdict::Unstable {
@@ -250,11 +286,23 @@ impl Asked<'_> {
     /// The load factor with dry friction against what happens in time.
     fn simulated(&mut self, model: &Model) {
         // Strengths are left out of simulations.
-        let has_one = |d: &f64| *d > NONE * check::natural_factor(&model.assembly) && self.own.verdict != Verdict::Unstable;
-        let Some(dry) = self.own.dry.filter(|d| has_one(d) && model.interfaces.list.iter().all(|f| f.law.is_dry())) else { return };
+        let has_one = |d: &f64| {
+            *d > NONE * check::natural_factor(&model.assembly)
+                && self.own.verdict != Verdict::Unstable
+        };
+        let Some(dry) = self
+            .own
+            .dry
+            .filter(|d| has_one(d) && model.interfaces.list.iter().all(|f| f.law.is_dry()))
+        else {
+            return;
+        };
         for (share, expected) in SIMULATED.into_iter().zip([Fate::Stands, Fate::Falls]) {
             let loaded = model.at_load_factor(share * dry);
-            let run = dynamics::simulate(&loaded, &dynamics::SimulationSettings::default(), &mut |_| ControlFlow::Continue(()));
+            let run =
+                dynamics::simulate(&loaded, &dynamics::SimulationSettings::default(), &mut |_| {
+                    ControlFlow::Continue(())
+                });
             let Ok(outcome) = run else { continue };
             self.crossed.simulated[0] += 1;
             if outcome.fate == expected {
@@ -262,8 +310,13 @@ impl Asked<'_> {
             } else if outcome.fate != Fate::Undecided {
                 let answer = assess(&loaded, &control());
                 let Agreement { verdict, .. } = agreement(&loaded, &answer, &outcome);
-                let what = format!("at {share} of the dry load factor {dry} the simulation {:?}, the verdict is {verdict:?}", outcome.fate);
-                self.crossed.apart.push(Differs { way: Variation::Loaded { factor: share * dry }, what });
+                let what = format!(
+                    "at {share} of the dry load factor {dry} the simulation {:?}, the verdict is {verdict:?}",
+                    outcome.fate
+                );
+                self.crossed
+                    .apart
+                    .push(Differs { way: Variation::Loaded { factor: share * dry }, what });
             }
         }
     }

@@ -1,4 +1,5 @@
-//! Other load factors, with forces that balance there where that can be had, and the mechanism whole, in part or scaled away.
+//! Other load factors, with forces that balance there where that can be had, and the mechanism
+//! whole, in part or scaled away.
 
 use super::{Forgery, Honest, edit::Draft};
 use crate::{
@@ -20,7 +21,8 @@ const NONE: f64 = 1e-5;
 pub(super) fn forge(honest: &Honest, random: &mut Random) -> Vec<Forgery> {
     let Some(Limited { bound, dry, .. }) = &honest.limit else { return Vec::new() };
     let mut made: Vec<Option<Forgery>> = Vec::new();
-    let dead = matches!(honest.standing.verdict, Verdict::Stable | Verdict::Conditional).then_some(&honest.standing.forces);
+    let dead = matches!(honest.standing.verdict, Verdict::Stable | Verdict::Conditional)
+        .then_some(&honest.standing.forces);
     if bound.outcome == Outcome::Found && bound.value.abs() > NONE {
         for share in LESS.into_iter().chain(MORE) {
             let value = share * bound.value;
@@ -30,10 +32,15 @@ pub(super) fn forge(honest: &Honest, random: &mut Random) -> Vec<Forgery> {
                 _ => bound.forces.clone(),
             };
             for (what, rates) in motions(honest, &bound.rates, random) {
-                let draft =
-                    narrow(honest, value).forces(honest, "/certificate/forces", &forces).rates(honest, "/certificate/rates", &rates);
+                let draft = narrow(honest, value)
+                    .forces(honest, "/certificate/forces", &forces)
+                    .rates(honest, "/certificate/rates", &rates);
                 let draft = draft.without("/mechanism").without("/dry").without("/dead_load");
-                made.push(draft.done(honest, "load factor", format!("{share} × the bound, {what}")));
+                made.push(draft.done(
+                    honest,
+                    "load factor",
+                    format!("{share} × the bound, {what}"),
+                ));
             }
         }
         made.extend(brackets(honest, bound.value));
@@ -46,13 +53,24 @@ pub(super) fn forge(honest: &Honest, random: &mut Random) -> Vec<Forgery> {
                 Some(dead) if share < 1.0 => between(dead, &dry.forces, share),
                 _ => dry.forces.clone(),
             };
-            let claimed =
-                Draft::of(honest).set("/dry/value", value).set("/dry/certificate/claim", json!({ "dry_load_factor": { "value": value } }));
-            made.push(claimed.clone().done(honest, "dry load factor", format!("{share} × the value, its own evidence")));
+            let claimed = Draft::of(honest)
+                .set("/dry/value", value)
+                .set("/dry/certificate/claim", json!({ "dry_load_factor": { "value": value } }));
+            made.push(claimed.clone().done(
+                honest,
+                "dry load factor",
+                format!("{share} × the value, its own evidence"),
+            ));
             for (what, rates) in motions(honest, &dry.rates, random) {
-                let draft =
-                    claimed.clone().forces(honest, "/dry/certificate/forces", &forces).rates(honest, "/dry/certificate/rates", &rates);
-                made.push(draft.done(honest, "dry load factor", format!("{share} × the value, {what}")));
+                let draft = claimed
+                    .clone()
+                    .forces(honest, "/dry/certificate/forces", &forces)
+                    .rates(honest, "/dry/certificate/rates", &rates);
+                made.push(draft.done(
+                    honest,
+                    "dry load factor",
+                    format!("{share} × the value, {what}"),
+                ));
             }
         }
     }
@@ -77,9 +95,15 @@ fn brackets(honest: &Honest, value: f64) -> Vec<Option<Forgery>> {
     let wide = [(0.5, 1.0), (1.0, 2.0), (0.9, 1.1), (-10.0, 10.0), (0.999, 1.0), (1.0, 1.001)];
     let wide = wide.into_iter().map(|(low, high)| {
         let (lower, upper) = (value + (low - 1.0) * size, value + (high - 1.0) * size);
-        bracket(honest, value, lower, upper).done(honest, "bracket", format!("from {lower} to {upper} around {value}"))
+        bracket(honest, value, lower, upper).done(
+            honest,
+            "bracket",
+            format!("from {lower} to {upper} around {value}"),
+        )
     });
-    let shifted = [0.99, 1.01, -1.0].into_iter().map(|by| narrow(honest, by * value).done(honest, "bracket", format!("{by} × the value")));
+    let shifted = [0.99, 1.01, -1.0]
+        .into_iter()
+        .map(|by| narrow(honest, by * value).done(honest, "bracket", format!("{by} × the value")));
     wide.chain(shifted).collect()
 }
 
@@ -100,13 +124,26 @@ fn ends(honest: &Honest, dead: Option<&Forces>, value: f64) -> Vec<Option<Forger
             .without("/mechanism")
             .without("/dry")
     };
-    made.push(with("impossible", json!("impossible")).done(honest, "status", format!("impossible instead of {value}")));
+    made.push(with("impossible", json!("impossible")).done(
+        honest,
+        "status",
+        format!("impossible instead of {value}"),
+    ));
     if let (Some(dead), Some(bound)) = (dead, bound) {
         for by in [1.0, 1e12, 1e24, 1e200] {
-            let forces: Forces = bound.iter().map(|list| list.iter().map(|&w| w * by).collect()).collect();
+            let forces: Forces =
+                bound.iter().map(|list| list.iter().map(|&w| w * by).collect()).collect();
             let draft = with("unbounded", json!({ "unbounded": { "standing": 0.0 } }));
-            let draft = draft.forces(honest, "/certificate/base", dead).forces(honest, "/certificate/forces", &forces);
-            made.push(draft.done(honest, "status", format!("without limit instead of {value}, forces × {by:e}")));
+            let draft = draft.forces(honest, "/certificate/base", dead).forces(
+                honest,
+                "/certificate/forces",
+                &forces,
+            );
+            made.push(draft.done(
+                honest,
+                "status",
+                format!("without limit instead of {value}, forces × {by:e}"),
+            ));
         }
     }
     made
@@ -114,10 +151,19 @@ fn ends(honest: &Honest, dead: Option<&Forces>, value: f64) -> Vec<Option<Forger
 
 /// A mechanism whole, scaled, and with blocks held.
 fn motions(honest: &Honest, rates: &[Rate], random: &mut Random) -> Vec<(&'static str, Vec<Rate>)> {
-    let scaled = |by: f64| rates.iter().map(|r| Rate { velocity: r.velocity * by, spin: r.spin * by }).collect::<Vec<_>>();
-    let moving: Vec<usize> = honest.model.assembly.free().filter(|&i| rates[i] != Rate::zero()).collect();
-    let mut list =
-        vec![("the mechanism", rates.to_vec()), ("the mechanism × 1e-170", scaled(1e-170)), ("the mechanism × 1e200", scaled(1e200))];
+    let scaled = |by: f64| {
+        rates
+            .iter()
+            .map(|r| Rate { velocity: r.velocity * by, spin: r.spin * by })
+            .collect::<Vec<_>>()
+    };
+    let moving: Vec<usize> =
+        honest.model.assembly.free().filter(|&i| rates[i] != Rate::zero()).collect();
+    let mut list = vec![
+        ("the mechanism", rates.to_vec()),
+        ("the mechanism × 1e-170", scaled(1e-170)),
+        ("the mechanism × 1e200", scaled(1e200)),
+    ];
     if moving.len() > 1 {
         let one = moving[random.count(0, moving.len() - 1)];
         let mut held = rates.to_vec();

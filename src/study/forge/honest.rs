@@ -2,8 +2,8 @@
 
 use crate::{
     analysis::{
-        Answer, AssessOptions, Assessment, Control, CriticalOptions, Law, LimitOptions, Limited, Proved, Question, ThrustOptions,
-        TiltOptions, ask, critical::probe,
+        Answer, AssessOptions, Assessment, Control, CriticalOptions, Law, LimitOptions, Limited,
+        Proved, Question, ThrustOptions, TiltOptions, ask, critical::probe,
     },
     deadline::Deadline,
     error::InputError,
@@ -35,25 +35,40 @@ const TILTED: usize = 4;
 const THRUST: usize = 5;
 const CRITICAL: usize = 6;
 
-/// The results of a scene that are proved. Not every scene is asked everything: `turn` says which of a family it is.
+/// The results of a scene that are proved. Not every scene is asked everything: `turn` says which
+/// of a family it is.
 pub(super) fn results(scene: &Scene, turn: usize) -> Result<Vec<Honest>, InputError> {
     let model = prepare(scene)?;
     let control = || Control { deadline: Deadline::within(SECONDS), ..Control::default() };
-    let Answer::Assess(standing) = ask(&Question::Assess(AssessOptions::default()), scene, &model, &control())? else {
+    let Answer::Assess(standing) =
+        ask(&Question::Assess(AssessOptions::default()), scene, &model, &control())?
+    else {
         return Ok(Vec::new());
     };
-    let range = CriticalOptions { law: Law::Associative, vary: "/joints/default/friction".into(), between: [0.02, 1.5], scan: Some(4) };
+    let range = CriticalOptions {
+        law: Law::Associative,
+        vary: "/joints/default/friction".into(),
+        between: [0.02, 1.5],
+        scan: Some(4),
+    };
     let toward = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let questions = [
         (true, Question::Assess(AssessOptions::default())),
         (true, Question::Limit(LimitOptions::default())),
-        (turn.is_multiple_of(TILTED), Question::Tilt(TiltOptions { toward, ..TiltOptions::default() })),
-        (turn.is_multiple_of(THRUST), Question::Thrust(ThrustOptions { range: true, ..ThrustOptions::default() })),
+        (
+            turn.is_multiple_of(TILTED),
+            Question::Tilt(TiltOptions { toward, ..TiltOptions::default() }),
+        ),
+        (
+            turn.is_multiple_of(THRUST),
+            Question::Thrust(ThrustOptions { range: true, ..ThrustOptions::default() }),
+        ),
         (turn.is_multiple_of(CRITICAL), Question::Critical(range.clone())),
     ];
     let mut list = Vec::new();
     for (_, question) in questions.iter().filter(|(wanted, _)| *wanted) {
-        // Of some scenes not everything can be asked: dead loads that do not hang, supports that nothing pushes.
+        // Of some scenes not everything can be asked: dead loads that do not hang, supports that
+        // nothing pushes.
         let Ok(answer) = ask(question, scene, &model, &control()) else { continue };
         let Some(file) = ResultFile::of(scene, &model, &answer) else { continue };
         if !verify_model(&file, scene, &model).proved() {
@@ -61,14 +76,17 @@ pub(super) fn results(scene: &Scene, turn: usize) -> Result<Vec<Honest>, InputEr
         }
         let Ok(file) = serde_json::to_value(&file) else { continue };
         let ends = match question {
-            Question::Critical(o) => o.between.into_iter().filter_map(|v| end(scene, &o.vary, v, &control())).collect(),
+            Question::Critical(o) => {
+                o.between.into_iter().filter_map(|v| end(scene, &o.vary, v, &control())).collect()
+            }
             _ => Vec::new(),
         };
         let limit = match answer {
             Answer::Limit(l) => Some(*l),
             _ => None,
         };
-        let (name, scene, model, standing) = (question.word(), scene.clone(), model.clone(), standing.clone());
+        let (name, scene, model, standing) =
+            (question.word(), scene.clone(), model.clone(), standing.clone());
         list.push(Honest { name, scene, model, file, standing, limit, ends });
     }
     Ok(list)

@@ -1,7 +1,9 @@
-//! Forging results: every result of many random scenes is changed into claims that are false, and each must be refused.
+//! Forging results: every result of many random scenes is changed into claims that are false, and
+//! each must be refused.
 //!
-//! A forgery is false by construction: the honest result is proved, and what the forged one says excludes it (`words`, `numbers`,
-//! `opposite`, `factors`). Forgeries that leave a true claim (other forces for the same verdict) are not made. None may be called proved.
+//! A forgery is false by construction: the honest result is proved, and what the forged one says
+//! excludes it (`words`, `numbers`, `opposite`, `factors`). Forgeries that leave a true claim
+//! (other forces for the same verdict) are not made. None may be called proved.
 
 mod edit;
 mod factors;
@@ -95,12 +97,17 @@ pub fn keep(path: &Path, seed: u64) -> Result<Kept<Forged>, RowsError> {
     Kept::open(path, "voussoir-forge/1", json!({ "seed": seed }))
 }
 
-/// Forges the results of scenes number 0 to `count`, on all threads, but for those that are kept already; each is kept as it ends, where
-/// there is a file, and `each` hears of it.
+/// Forges the results of scenes number 0 to `count`, on all threads, but for those that are kept
+/// already; each is kept as it ends, where there is a file, and `each` hears of it.
 ///
 /// # Errors
 /// Threads cannot be started, or the file cannot be written.
-pub fn run(seed: u64, count: usize, kept: Option<&Kept<Forged>>, each: impl Fn(&Forged) + Sync) -> Result<Vec<Forged>, RowsError> {
+pub fn run(
+    seed: u64,
+    count: usize,
+    kept: Option<&Kept<Forged>>,
+    each: impl Fn(&Forged) + Sync,
+) -> Result<Vec<Forged>, RowsError> {
     numbered(count, kept, |index| one(seed, index), each)
 }
 
@@ -114,7 +121,13 @@ pub fn files(seed: u64, list: &[Forged]) -> Vec<(String, Value)> {
     let mut files = Vec::new();
     for forged in list.iter().filter(|f| !f.accepted.is_empty()) {
         forge(seed, forged.index, |honest, forgery, number| {
-            files.push((format!("forged-{seed}-{}-{number}-{}-{}.json", forged.index, honest.name, forgery.kind), forgery.file.clone()));
+            files.push((
+                format!(
+                    "forged-{seed}-{}-{number}-{}-{}.json",
+                    forged.index, honest.name, forgery.kind
+                ),
+                forgery.file.clone(),
+            ));
         });
     }
     files
@@ -137,8 +150,12 @@ fn forge(seed: u64, index: usize, mut accepted: impl FnMut(&Honest, &Forgery, us
         let random = &mut Random::apart(seed ^ 0x466f_7267, index);
         for honest in honest(seed, index)? {
             *forged.results.entry(honest.name.into()).or_default() += 1;
-            let all =
-                [words::forge(&honest), numbers::forge(&honest, random), opposite::forge(&honest, random), factors::forge(&honest, random)];
+            let all = [
+                words::forge(&honest),
+                numbers::forge(&honest, random),
+                opposite::forge(&honest, random),
+                factors::forge(&honest, random),
+            ];
             for forgery in all.into_iter().flatten() {
                 *forged.made.entry(forgery.kind.into()).or_default() += 1;
                 let begin = Instant::now();
@@ -161,8 +178,8 @@ fn forge(seed: u64, index: usize, mut accepted: impl FnMut(&Honest, &Forgery, us
     forged
 }
 
-/// The proved results of a scene: every third has a heavy stranger beside it, every third a light one, behind whose forces there is room to
-/// hide something.
+/// The proved results of a scene: every third has a heavy stranger beside it, every third a light
+/// one, behind whose forces there is room to hide something.
 fn honest(seed: u64, index: usize) -> Result<Vec<Honest>, crate::error::InputError> {
     let (own, _) = scene(seed, index)?;
     let turn = index / FAMILIES.len();
@@ -171,7 +188,8 @@ fn honest(seed: u64, index: usize) -> Result<Vec<Honest>, crate::error::InputErr
         None => own,
         Some(stranger) => {
             let model = crate::interface::prepare(&own)?;
-            let masses: Vec<f64> = model.assembly.free().map(|i| model.assembly.blocks[i].mass).collect();
+            let masses: Vec<f64> =
+                model.assembly.free().map(|i| model.assembly.blocks[i].mass).collect();
             beside(&own, &masses, stranger, turn.is_multiple_of(2))
         }
     };
@@ -193,7 +211,11 @@ mod tests {
         for index in 0..10 {
             for honest in honest(2, index).unwrap() {
                 let text = honest.file.to_string();
-                assert!(is_proved(&honest, &serde_json::from_str(&text).unwrap()), "{index}: {}", honest.name);
+                assert!(
+                    is_proved(&honest, &serde_json::from_str(&text).unwrap()),
+                    "{index}: {}",
+                    honest.name
+                );
             }
         }
     }
@@ -202,7 +224,12 @@ mod tests {
     fn no_forgery_is_accepted() {
         for index in [0, 3, 9, 15, 19] {
             let forged = one(1, index);
-            assert!(forged.count() > 50 && !forged.is_wrong(), "{index}: {:?} {:?}", forged.error, forged.accepted);
+            assert!(
+                forged.count() > 50 && !forged.is_wrong(),
+                "{index}: {:?} {:?}",
+                forged.error,
+                forged.accepted
+            );
         }
     }
 }

@@ -50,16 +50,39 @@ pub(super) fn forge(honest: &Honest, random: &mut Random) -> Vec<Forgery> {
     let mut made = Vec::new();
     for _ in 0..CHANGED.min(all.len()) {
         let (pointer, value) = all.swap_remove(random.count(0, all.len() - 1));
-        let numbers = [0.0, -0.0, 5e-324, 1e-170, -value, value * (1.0 + 2.0 * MATERIAL), 2.0 * value, value * 2f64.powi(600), 1e300];
-        let numbers = numbers.into_iter().filter(|v| v.is_finite() && (v - value).abs() > MATERIAL * value.abs());
+        let numbers = [
+            0.0,
+            -0.0,
+            5e-324,
+            1e-170,
+            -value,
+            value * (1.0 + 2.0 * MATERIAL),
+            2.0 * value,
+            value * 2f64.powi(600),
+            1e300,
+        ];
+        let numbers = numbers
+            .into_iter()
+            .filter(|v| v.is_finite() && (v - value).abs() > MATERIAL * value.abs());
         // To have been seen at rest below the value, or to move above it, may be true.
         let (rests, moves) = (pointer.ends_with("/rests_at"), pointer.ends_with("/moves_at"));
-        let decides = honest.file.pointer(&pointer.replace("/rests_at", "/value").replace("/moves_at", "/value")).and_then(Value::as_f64);
-        let lies = |v: &f64| !(rests || moves) || decides.is_some_and(|value| if rests { *v > value } else { *v < value });
+        let decides = honest
+            .file
+            .pointer(&pointer.replace("/rests_at", "/value").replace("/moves_at", "/value"))
+            .and_then(Value::as_f64);
+        let lies = |v: &f64| {
+            !(rests || moves)
+                || decides.is_some_and(|value| if rests { *v > value } else { *v < value })
+        };
         let numbers = numbers.into_iter().filter(lies);
         let odd = if rests || moves { &[][..] } else { &[Value::Null][..] };
-        for other in numbers.map(Value::from).chain(odd.iter().cloned()).chain([json!("NaN"), json!("Infinity")]) {
-            // A bracket or a value that is left out may claim less, which is no lie where nothing else is said.
+        for other in numbers
+            .map(Value::from)
+            .chain(odd.iter().cloned())
+            .chain([json!("NaN"), json!("Infinity")])
+        {
+            // A bracket or a value that is left out may claim less, which is no lie where nothing
+            // else is said.
             let what = format!("{pointer}: {other} instead of {value}");
             made.extend(Draft::of(honest).set(&pointer, other).done(honest, "number", what));
         }
@@ -74,8 +97,13 @@ fn leaves(value: &Value, pointer: String, out: &mut Vec<(String, f64)>) {
                 leaves(value, format!("{pointer}/{key}"), out);
             }
         }
-        Value::Array(list) => list.iter().enumerate().for_each(|(k, value)| leaves(value, format!("{pointer}/{k}"), out)),
-        Value::Number(n) => out.extend(n.as_f64().filter(|v| v.abs() > LEAST).map(|v| (pointer, v))),
+        Value::Array(list) => list
+            .iter()
+            .enumerate()
+            .for_each(|(k, value)| leaves(value, format!("{pointer}/{k}"), out)),
+        Value::Number(n) => {
+            out.extend(n.as_f64().filter(|v| v.abs() > LEAST).map(|v| (pointer, v)))
+        }
         _ => {}
     }
 }

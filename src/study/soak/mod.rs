@@ -1,8 +1,11 @@
-//! Thousands of random scenes: every verdict is held against its certificate, some against omissions, some against a simulation.
+//! Thousands of random scenes: every verdict is held against its certificate, some against
+//! omissions, some against a simulation.
 //!
-//! There is no closed form for these scenes, but a verdict that is wrong would have to come with a proof that is wrong as well: forces that
-//! balance and a motion that nothing stops exclude each other. So each claim is verified from the scene alone, the same scene is solved
-//! once more with everything kept ([`EVERY_KEPT`]), and a sample is run in time ([`EVERY_SIMULATED`]), near limits by fine steps.
+//! There is no closed form for these scenes, but a verdict that is wrong would have to come with a
+//! proof that is wrong as well: forces that balance and a motion that nothing stops exclude each
+//! other. So each claim is verified from the scene alone, the same scene is solved once more with
+//! everything kept ([`EVERY_KEPT`]), and a sample is run in time ([`EVERY_SIMULATED`]), near limits
+//! by fine steps.
 
 mod scenes;
 
@@ -30,7 +33,8 @@ use std::{
 pub const EVERY_KEPT: usize = 10;
 /// One scene in so many is simulated.
 pub const EVERY_SIMULATED: usize = 25;
-/// Scenes within this of a flip, in multiples of gravity sideways, are said to be near one where verdict and simulation differ.
+/// Scenes within this of a flip, in multiples of gravity sideways, are said to be near one where
+/// verdict and simulation differ.
 const NEAR: f64 = 0.03;
 /// A scene may take so many seconds; more counts as undecided.
 const SECONDS: f64 = 60.0;
@@ -57,9 +61,11 @@ pub enum Perturbation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Difference {
-    /// The verdict is another with a little more weight sideways: within what a simulation can tell.
+    /// The verdict is another with a little more weight sideways: within what a simulation can
+    /// tell.
     NearAFlip,
-    /// Blocks overlap or nearly touch by more than the tolerance. Of these no contact is made, and that is said; in time they meet.
+    /// Blocks overlap or nearly touch by more than the tolerance. Of these no contact is made, and
+    /// that is said; in time they meet.
     ContactLeftOut,
     /// Neither.
     Unexplained,
@@ -76,8 +82,8 @@ pub struct Soaked {
     pub perturbations: Vec<Perturbation>,
     /// Blocks.
     pub blocks: usize,
-    /// What the program says: the verdict where its certificate proves it from the scene alone, "undecided" otherwise; `None` where the
-    /// scene was refused.
+    /// What the program says: the verdict where its certificate proves it from the scene alone,
+    /// "undecided" otherwise; `None` where the scene was refused.
     pub verdict: Option<Verdict>,
     /// The verdict whose certificate did not prove it, where there was one.
     pub unproved: Option<Verdict>,
@@ -121,12 +127,17 @@ pub fn keep(path: &Path, seed: u64) -> Result<Kept<Soaked>, RowsError> {
     Kept::open(path, "voussoir-soak/1", json!({ "seed": seed }))
 }
 
-/// Asks scenes number 0 to `count`, on all threads, but for those that are kept already; each is kept as it ends, where there is a file, and
-/// `each` hears of it.
+/// Asks scenes number 0 to `count`, on all threads, but for those that are kept already; each is
+/// kept as it ends, where there is a file, and `each` hears of it.
 ///
 /// # Errors
 /// Threads cannot be started, or the file cannot be written.
-pub fn run(seed: u64, count: usize, kept: Option<&Kept<Soaked>>, each: impl Fn(&Soaked) + Sync) -> Result<Vec<Soaked>, RowsError> {
+pub fn run(
+    seed: u64,
+    count: usize,
+    kept: Option<&Kept<Soaked>>,
+    each: impl Fn(&Soaked) + Sync,
+) -> Result<Vec<Soaked>, RowsError> {
     numbered(count, kept, |index| one(seed, index), each)
 }
 
@@ -165,7 +176,8 @@ fn ask(seed: u64, index: usize, soaked: &mut Soaked) {
         Err(e) => return soaked.error = Some(e.to_string()),
     };
     let (model, assembly) = (&model, &model.assembly);
-    let control = Control { law: Law::Coulomb, deadline: Deadline::within(SECONDS), ..Control::default() };
+    let control =
+        Control { law: Law::Coulomb, deadline: Deadline::within(SECONDS), ..Control::default() };
     let answer = assess(model, &control);
     soaked.blocks = assembly.blocks.len();
     soaked.verdict = Some(answer.verdict);
@@ -174,7 +186,10 @@ fn ask(seed: u64, index: usize, soaked: &mut Soaked) {
         soaked.kept = Some(assess(model, &Control { keep_all: true, ..control }).verdict);
     }
     if index.is_multiple_of(EVERY_SIMULATED)
-        && let Ok(outcome) = dynamics::simulate(model, &dynamics::SimulationSettings::default(), &mut |_| ControlFlow::Continue(()))
+        && let Ok(outcome) =
+            dynamics::simulate(model, &dynamics::SimulationSettings::default(), &mut |_| {
+                ControlFlow::Continue(())
+            })
     {
         let found = agreement(model, &answer, &outcome);
         (soaked.fate, soaked.agrees) = (Some(outcome.fate), found.agrees);
@@ -307,7 +322,12 @@ mod tests {
     fn a_short_soak_has_nothing_wrong() {
         let list = run(1, 70, None, |_| {}).unwrap();
         let all = count(&list, |_| true);
-        assert_eq!((all.scenes, all.wrong), (70, 0), "{:?}", list.iter().filter(|s| s.is_wrong()).collect::<Vec<_>>());
+        assert_eq!(
+            (all.scenes, all.wrong),
+            (70, 0),
+            "{:?}",
+            list.iter().filter(|s| s.is_wrong()).collect::<Vec<_>>()
+        );
         assert!(all.stable > 5 && all.unstable > 5, "{all:?}");
         assert_eq!(all.stable + all.conditional + all.unstable + all.undecided + all.refused, 70);
         // Numbers of a scene do not depend on the threads.
@@ -319,8 +339,18 @@ mod tests {
     fn two_proofs_that_differ_are_wrong() {
         let good = Soaked { error: None, ..one(1, 0) };
         assert!(!good.is_wrong());
-        assert!(Soaked { verdict: Some(Verdict::Stable), kept: Some(Verdict::Unstable), ..good.clone() }.is_wrong());
+        assert!(
+            Soaked {
+                verdict: Some(Verdict::Stable),
+                kept: Some(Verdict::Unstable),
+                ..good.clone()
+            }
+            .is_wrong()
+        );
         assert!(Soaked { error: Some(format!("{FAILED}: x")), ..good.clone() }.is_wrong());
-        assert!(!Soaked { verdict: Some(Verdict::Undecided), kept: Some(Verdict::Stable), ..good }.is_wrong());
+        assert!(
+            !Soaked { verdict: Some(Verdict::Undecided), kept: Some(Verdict::Stable), ..good }
+                .is_wrong()
+        );
     }
 }

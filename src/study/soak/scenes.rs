@@ -1,7 +1,8 @@
-//! Random scenes: walls, arches, domes, flat arches, stacks, cairns and heaps of spheres, then perturbed.
+//! Random scenes: walls, arches, domes, flat arches, stacks, cairns and heaps of spheres, then
+//! perturbed.
 //!
-//! Scene *i* depends on (seed, *i*) alone. Perturbations are drawn over decades, so that some are far below what a contact tolerance
-//! closes, some near it, and some leave blocks in the air.
+//! Scene *i* depends on (seed, *i*) alone. Perturbations are drawn over decades, so that some are
+//! far below what a contact tolerance closes, some near it, and some leave blocks in the air.
 
 use super::{super::random::Random, Perturbation};
 use crate::{
@@ -23,11 +24,15 @@ const STONE: &str = "stone";
 ///
 /// # Errors
 /// A template refused its values, which would be a mistake in this file.
-pub fn scene(seed: u64, index: usize) -> Result<(Scene, &'static str, Vec<Perturbation>), InputError> {
+pub fn scene(
+    seed: u64,
+    index: usize,
+) -> Result<(Scene, &'static str, Vec<Perturbation>), InputError> {
     let random = &mut Random::of(seed, index);
     let family = FAMILIES[index % FAMILIES.len()];
     let blocks = blocks(family, random)?;
-    let mut scene = Scene { name: format!("soak {seed}/{index}: {family}"), blocks, ..Scene::default() };
+    let mut scene =
+        Scene { name: format!("soak {seed}/{index}: {family}"), blocks, ..Scene::default() };
     scene.joints.default.friction = Some(Friction::Coefficient(random.between(0.1, 0.9)));
     scene.materials.insert(STONE.into(), Material { density: random.decades(1.0, 4.0) });
     scene.blocks.iter_mut().for_each(|b| b.material = Some(STONE.into()));
@@ -69,7 +74,8 @@ fn blocks(family: &str, random: &mut Random) -> Result<Vec<BlockSpec>, InputErro
             ..FlatArch::default()
         }),
         "heap" => Template::Lattice(Lattice {
-            packing: [Packing::Fcc, Packing::Square, Packing::Triangular, Packing::Bed][random.count(0, 3)],
+            packing: [Packing::Fcc, Packing::Square, Packing::Triangular, Packing::Bed]
+                [random.count(0, 3)],
             radius: 0.5,
             layers: random.count(2, 4),
             ..Lattice::default()
@@ -80,10 +86,15 @@ fn blocks(family: &str, random: &mut Random) -> Result<Vec<BlockSpec>, InputErro
     expand(&template)
 }
 
-/// Boxes on one another, each pushed off the middle of the one below and turned about the vertical by `turn`.
+/// Boxes on one another, each pushed off the middle of the one below and turned about the vertical
+/// by `turn`.
 fn pile(random: &mut Random, turn: impl Fn(&mut Random) -> f64) -> Vec<BlockSpec> {
     let cuboid = |size: [f64; 3]| Shape::Cuboid { size };
-    let mut list = vec![BlockSpec { support: true, at: [0.0, 0.0, -0.25], ..BlockSpec::new("base", cuboid([2.0, 2.0, 0.5])) }];
+    let mut list = vec![BlockSpec {
+        support: true,
+        at: [0.0, 0.0, -0.25],
+        ..BlockSpec::new("base", cuboid([2.0, 2.0, 0.5]))
+    }];
     let off = random.between(0.0, 0.3);
     let (mut x, mut y, mut z) = (0.0, 0.0, 0.0);
     for k in 0..random.count(2, 12) {
@@ -92,7 +103,11 @@ fn pile(random: &mut Random, turn: impl Fn(&mut Random) -> f64) -> Vec<BlockSpec
         y += off * random.between(-1.0, 1.0);
         let angle = turn(random);
         let rotation_deg = (angle != 0.0).then_some(Rotation { axis: [0.0, 0.0, 1.0], angle });
-        list.push(BlockSpec { at: [x, y, z + size[2] / 2.0], rotation_deg, ..BlockSpec::new(format!("b{k:02}"), cuboid(size)) });
+        list.push(BlockSpec {
+            at: [x, y, z + size[2] / 2.0],
+            rotation_deg,
+            ..BlockSpec::new(format!("b{k:02}"), cuboid(size))
+        });
         z += size[2];
     }
     list
@@ -119,7 +134,8 @@ fn perturb(scene: &mut Scene, random: &mut Random) -> Vec<Perturbation> {
     if random.chance(0.3) {
         done.push(Perturbation::Missing);
         for _ in 0..random.count(1, 3) {
-            let free: Vec<usize> = (0..scene.blocks.len()).filter(|&i| !scene.blocks[i].support).collect();
+            let free: Vec<usize> =
+                (0..scene.blocks.len()).filter(|&i| !scene.blocks[i].support).collect();
             if free.len() > 1 {
                 scene.blocks.remove(free[random.count(0, free.len() - 1)]);
             }
@@ -129,7 +145,10 @@ fn perturb(scene: &mut Scene, random: &mut Random) -> Vec<Perturbation> {
         done.push(Perturbation::Pushed);
         let angle = random.between(0.0, std::f64::consts::TAU);
         let by = random.between(0.0, 0.5);
-        scene.loads.dead.push(Load { weight: Some([by * angle.cos(), by * angle.sin(), 0.0]), ..Load::default() });
+        scene.loads.dead.push(Load {
+            weight: Some([by * angle.cos(), by * angle.sin(), 0.0]),
+            ..Load::default()
+        });
     }
     if random.chance(0.3) {
         done.push(Perturbation::Uneven);
@@ -140,7 +159,10 @@ fn perturb(scene: &mut Scene, random: &mut Random) -> Vec<Perturbation> {
     }
     if random.chance(0.3) {
         done.push(Perturbation::Moved);
-        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), random.between(0.0, std::f64::consts::TAU));
+        let turn = UnitQuaternion::from_axis_angle(
+            &Vector3::z_axis(),
+            random.between(0.0, std::f64::consts::TAU),
+        );
         let (scale, by) = (random.decades(-3.0, 3.0), random.vector() * 100.0);
         for block in &mut scene.blocks {
             let at = turn * Vector3::from(block.at);
@@ -171,16 +193,18 @@ fn rotate(block: &mut BlockSpec, turn: &UnitQuaternion<f64>) {
 }
 
 fn rotation(block: &BlockSpec) -> UnitQuaternion<f64> {
-    block
-        .rotation_deg
-        .as_ref()
-        .map_or(UnitQuaternion::identity(), |r| UnitQuaternion::from_axis_angle(&Unit::new_normalize(r.axis.into()), r.angle.to_radians()))
+    block.rotation_deg.as_ref().map_or(UnitQuaternion::identity(), |r| {
+        UnitQuaternion::from_axis_angle(&Unit::new_normalize(r.axis.into()), r.angle.to_radians())
+    })
 }
 
 /// Turns a block about the origin of its frame.
 fn turn_shape(block: &mut BlockSpec, turn: &UnitQuaternion<f64>) {
     let all = turn * rotation(block);
-    block.rotation_deg = all.axis_angle().map(|(axis, angle)| Rotation { axis: axis.into_inner().into(), angle: angle.to_degrees() });
+    block.rotation_deg = all.axis_angle().map(|(axis, angle)| Rotation {
+        axis: axis.into_inner().into(),
+        angle: angle.to_degrees(),
+    });
 }
 
 fn grow(shape: &mut Shape, by: f64) {

@@ -2,11 +2,11 @@
 
 use crate::tolerance::{SCHEDULING_SHARE, TASK_START};
 
-/// Into how many tasks to cut `rows` rows of `seconds` each, on `cpus` processors a task, where `slots` tasks run at a time (unknown:
-/// `None`) and an array may have `most`.
+/// Into how many tasks to cut `rows` rows of `seconds` each, on `cpus` processors a task, where
+/// `slots` tasks run at a time (unknown: `None`) and an array may have `most`.
 ///
-/// As many as keep what it takes to start a task below a twentieth of its work; and of those, whole waves of tasks, so that no
-/// processor waits for the last ones.
+/// As many as keep what it takes to start a task below a twentieth of its work; and of those, whole
+/// waves of tasks, so that no processor waits for the last ones.
 pub fn tasks(rows: usize, seconds: f64, cpus: usize, slots: Option<usize>, most: usize) -> usize {
     let work = rows as f64 * seconds.max(0.0) / cpus.max(1) as f64;
     let least = TASK_START / SCHEDULING_SHARE;

@@ -42,7 +42,9 @@ impl Job {
         let file = path.display().to_string();
         let bytes = match keep::read_file(&path) {
             Ok(bytes) => bytes,
-            Err(RowsError::File { cause, .. }) if cause.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(RowsError::File { cause, .. }) if cause.kind() == std::io::ErrorKind::NotFound => {
+                return Ok(None);
+            }
             Err(e) => return Err(e),
         };
         let damaged = |e: serde_json::Error| RowsError::Damaged {
@@ -72,9 +74,11 @@ impl Job {
     /// The file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), RowsError> {
         let path = folder.join(NAME);
-        let problem = |cause| RowsError::File { file: path.display().to_string(), what: "written", cause };
+        let problem =
+            |cause| RowsError::File { file: path.display().to_string(), what: "written", cause };
         let text = serde_json::to_string(self).map_err(|e| problem(e.into()))?;
-        let mut file = tempfile::NamedTempFile::new_in(folder).map_err(files::unnamed).map_err(problem)?;
+        let mut file =
+            tempfile::NamedTempFile::new_in(folder).map_err(files::unnamed).map_err(problem)?;
         writeln!(file, "{text}").and_then(|()| file.as_file().sync_all()).map_err(problem)?;
         file.persist(&path).map(drop).map_err(|e| problem(e.error))
     }

@@ -1,4 +1,5 @@
-//! Slurm's commands: `sbatch`, `squeue`, `sinfo`. Every answer is read with care, every refusal passed on in Slurm's own words.
+//! Slurm's commands: `sbatch`, `squeue`, `sinfo`. Every answer is read with care, every refusal
+//! passed on in Slurm's own words.
 
 use crate::error::SlurmError;
 use std::{
@@ -52,12 +53,12 @@ impl TaskState {
 
     fn of(word: &str) -> Self {
         match word {
-            "PENDING" | "REQUEUED" | "REQUEUE_HOLD" | "REQUEUE_FED" | "SPECIAL_EXIT" | "RESV_DEL_HOLD" => Self::Pending,
+            "PENDING" | "REQUEUED" | "REQUEUE_HOLD" | "REQUEUE_FED" | "SPECIAL_EXIT"
+            | "RESV_DEL_HOLD" => Self::Pending,
             // Its program has ended, or is being ended.
             "COMPLETED" | "COMPLETING" => Self::Completed,
-            "BOOT_FAIL" | "CANCELLED" | "DEADLINE" | "FAILED" | "NODE_FAIL" | "OUT_OF_MEMORY" | "PREEMPTED" | "REVOKED" | "TIMEOUT" => {
-                Self::Ended
-            }
+            "BOOT_FAIL" | "CANCELLED" | "DEADLINE" | "FAILED" | "NODE_FAIL" | "OUT_OF_MEMORY"
+            | "PREEMPTED" | "REVOKED" | "TIMEOUT" => Self::Ended,
             _ => Self::Running,
         }
     }
@@ -69,7 +70,8 @@ impl TaskState {
 /// One of them is not on the path.
 pub fn require_commands() -> Result<(), SlurmError> {
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let is_missing = |name: &str| !std::env::split_paths(&path).any(|folder| folder.join(name).is_file());
+    let is_missing =
+        |name: &str| !std::env::split_paths(&path).any(|folder| folder.join(name).is_file());
     match ["sbatch", "squeue", "sinfo"].into_iter().find(|name| is_missing(name)) {
         Some(program) => Err(SlurmError::NotInstalled { program: program.into() }),
         None => Ok(()),
@@ -103,8 +105,13 @@ pub fn partition(all: &[Partition], name: Option<&str>) -> Result<Partition, Slu
 /// # Errors
 /// Slurm does not answer.
 pub fn hosts(partition: &str) -> Result<Vec<String>, SlurmError> {
-    let text = run("sinfo", &["--noheader", "--Node", &format!("--partition={partition}"), "--format=%n"], None)?;
-    let mut hosts: Vec<String> = text.lines().map(str::trim).filter(|l| !l.is_empty()).map(str::to_string).collect();
+    let text = run(
+        "sinfo",
+        &["--noheader", "--Node", &format!("--partition={partition}"), "--format=%n"],
+        None,
+    )?;
+    let mut hosts: Vec<String> =
+        text.lines().map(str::trim).filter(|l| !l.is_empty()).map(str::to_string).collect();
     hosts.sort();
     hosts.dedup();
     Ok(hosts)
@@ -118,8 +125,10 @@ pub fn submit(folder: &Path, script: &str) -> Result<u64, SlurmError> {
     let text = run("sbatch", &["--parsable", script], Some(folder))?;
     // "17" or "17;cluster", after whatever the site's plugins say.
     let number = text.lines().rev().find_map(|line| line.split(';').next()?.trim().parse().ok());
-    number
-        .ok_or_else(|| SlurmError::Refused { program: "sbatch".into(), said: format!("no number of a job in its answer: {}", text.trim()) })
+    number.ok_or_else(|| SlurmError::Refused {
+        program: "sbatch".into(),
+        said: format!("no number of a job in its answer: {}", text.trim()),
+    })
 }
 
 /// The tasks of an array that Slurm still remembers, by number.
@@ -127,11 +136,14 @@ pub fn submit(folder: &Path, script: &str) -> Result<u64, SlurmError> {
 /// # Errors
 /// Slurm does not answer.
 pub fn states(job: u64) -> Result<BTreeMap<usize, Task>, SlurmError> {
-    let arguments = ["--noheader", "--array", "--states=all", &format!("--jobs={job}"), "--format=%K|%T|%r"];
+    let arguments =
+        ["--noheader", "--array", "--states=all", &format!("--jobs={job}"), "--format=%K|%T|%r"];
     match run("squeue", &arguments, None) {
         Ok(text) => Ok(read_states(&text)),
         // Some minutes after its end Slurm forgets a job.
-        Err(SlurmError::Refused { said, .. }) if said.contains("Invalid job id") => Ok(BTreeMap::new()),
+        Err(SlurmError::Refused { said, .. }) if said.contains("Invalid job id") => {
+            Ok(BTreeMap::new())
+        }
         Err(e) => Err(e),
     }
 }
@@ -156,8 +168,12 @@ fn read_partitions(text: &str) -> Vec<Partition> {
 fn read_states(text: &str) -> BTreeMap<usize, Task> {
     let read = |line: &str| {
         let mut parts = line.trim().splitn(3, '|');
-        let (number, word, reason) = (parts.next()?.parse().ok()?, parts.next()?, parts.next().unwrap_or_default());
-        Some((number, Task { state: TaskState::of(word), word: word.into(), reason: reason.into() }))
+        let (number, word, reason) =
+            (parts.next()?.parse().ok()?, parts.next()?, parts.next().unwrap_or_default());
+        Some((
+            number,
+            Task { state: TaskState::of(word), word: word.into(), reason: reason.into() },
+        ))
     };
     text.lines().filter_map(read).collect()
 }
@@ -177,7 +193,10 @@ fn run(program: &str, arguments: &[&str], folder: Option<&Path>) -> Result<Strin
         return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
     }
     let said = String::from_utf8_lossy(&output.stderr).trim().replace('\n', "; ");
-    Err(SlurmError::Refused { program: program.into(), said: if said.is_empty() { output.status.to_string() } else { said } })
+    Err(SlurmError::Refused {
+        program: program.into(),
+        said: if said.is_empty() { output.status.to_string() } else { said },
+    })
 }
 
 #[cfg(test)]
@@ -188,12 +207,21 @@ mod tests {
     fn the_answers_of_slurm_are_read() {
         let all = read_partitions("main*|up|1/3/0/4\nold|down|0/0/8/8\n\nbroken\n");
         assert_eq!(all.len(), 2);
-        assert_eq!(partition(&all, None).unwrap(), Partition { name: "main".into(), default: true, up: true, cpus: 4 });
+        assert_eq!(
+            partition(&all, None).unwrap(),
+            Partition { name: "main".into(), default: true, up: true, cpus: 4 }
+        );
         assert!(matches!(partition(&all, Some("old")), Err(SlurmError::PartitionDown { .. })));
         assert!(partition(&all, Some("new")).unwrap_err().to_string().contains("main, old"));
-        let states = read_states("1|RUNNING|None\n2|PENDING|Resources\n3|CANCELLED|None\n4|COMPLETING|None\nN/A|PENDING|x\n");
+        let states = read_states(
+            "1|RUNNING|None\n2|PENDING|Resources\n3|CANCELLED|None\n4|COMPLETING|None\nN/A|PENDING|x\n",
+        );
         assert_eq!(states.len(), 4);
-        assert!(states[&1].state.is_alive() && states[&2].state.is_alive() && !states[&4].state.is_alive());
+        assert!(
+            states[&1].state.is_alive()
+                && states[&2].state.is_alive()
+                && !states[&4].state.is_alive()
+        );
         assert_eq!((states[&3].state, states[&2].reason.as_str()), (TaskState::Ended, "Resources"));
     }
 }

@@ -28,7 +28,8 @@ pub struct Script {
 impl fmt::Display for Script {
     /// To be submitted in the folder of the sweep.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name: String = self.name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        let name: String =
+            self.name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         let version = env!("CARGO_PKG_VERSION");
         writeln!(f, "#!/bin/bash")?;
         writeln!(
@@ -36,7 +37,10 @@ impl fmt::Display for Script {
             "# {name}: {} rows in {} tasks. Written by voussoir {version}; `sbatch job.sh` in this folder submits it.",
             self.rows, self.tasks
         )?;
-        writeln!(f, "# A task that is started again goes on where it stopped: every row it has done is in rows/.")?;
+        writeln!(
+            f,
+            "# A task that is started again goes on where it stopped: every row it has done is in rows/."
+        )?;
         let mut option = |text: &str| writeln!(f, "#SBATCH {text}");
         option("--job-name=voussoir")?;
         option(&format!("--array={}", ranges(&self.array)))?;
@@ -54,7 +58,11 @@ impl fmt::Display for Script {
             option(more)?;
         }
         let program = format!("'{}'", self.program.replace('\'', "'\\''"));
-        writeln!(f, "exec {program} sweep task . --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads {}", self.tasks, self.cpus)
+        writeln!(
+            f,
+            "exec {program} sweep task . --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads {}",
+            self.tasks, self.cpus
+        )
     }
 }
 
@@ -67,7 +75,11 @@ fn ranges(numbers: &[usize]) -> String {
             _ => parts.push((n, n)),
         }
     }
-    parts.iter().map(|&(a, b)| if a == b { a.to_string() } else { format!("{a}-{b}") }).collect::<Vec<_>>().join(",")
+    parts
+        .iter()
+        .map(|&(a, b)| if a == b { a.to_string() } else { format!("{a}-{b}") })
+        .collect::<Vec<_>>()
+        .join(",")
 }
 
 #[cfg(test)]
@@ -89,7 +101,14 @@ mod tests {
         };
         let text = script.to_string();
         assert!(text.starts_with("#!/bin/bash\n# Two lines: 90 rows in 9 tasks."), "{text}");
-        for option in ["array=1-3,7", "cpus-per-task=2", "partition=main", "time=1:00:00", "account=stone", "requeue"] {
+        for option in [
+            "array=1-3,7",
+            "cpus-per-task=2",
+            "partition=main",
+            "time=1:00:00",
+            "account=stone",
+            "requeue",
+        ] {
             assert!(text.lines().any(|l| l == format!("#SBATCH --{option}")), "{option}: {text}");
         }
         let last = r#"exec '/opt/o'\''clock/voussoir' sweep task . --shard "$SLURM_ARRAY_TASK_ID/9" --threads 2"#;

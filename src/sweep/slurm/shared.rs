@@ -1,18 +1,19 @@
-//! Whether the nodes of a cluster see a folder of this machine. What can be told without running anything there: the kind of the file
-//! system, and whether the nodes are this machine.
+//! Whether the nodes of a cluster see a folder of this machine. What can be told without running
+//! anything there: the kind of the file system, and whether the nodes are this machine.
 
 use super::hosts;
 use crate::error::SlurmError;
 use std::path::Path;
 
-/// File systems that lie on disks or in the memory of one machine. What is not named here counts as shared.
+/// File systems that lie on disks or in the memory of one machine. What is not named here counts as
+/// shared.
 const LOCAL: [&str; 20] = [
-    "ext2", "ext3", "ext4", "xfs", "btrfs", "bcachefs", "zfs", "f2fs", "jfs", "reiserfs", "vfat", "exfat", "ntfs", "ntfs3", "tmpfs",
-    "ramfs", "rootfs", "overlay", "squashfs", "devtmpfs",
+    "ext2", "ext3", "ext4", "xfs", "btrfs", "bcachefs", "zfs", "f2fs", "jfs", "reiserfs", "vfat",
+    "exfat", "ntfs", "ntfs3", "tmpfs", "ramfs", "rootfs", "overlay", "squashfs", "devtmpfs",
 ];
 
-/// Refuses a folder, which need not exist yet, that the nodes of a partition cannot see. Where the system does not tell what is mounted,
-/// the tasks will say so.
+/// Refuses a folder, which need not exist yet, that the nodes of a partition cannot see. Where the
+/// system does not tell what is mounted, the tasks will say so.
 ///
 /// # Errors
 /// The folder lies on a disk of this machine, and a node is another one; or Slurm does not answer.
@@ -20,13 +21,20 @@ pub fn require_shared(folder: &Path, partition: &str) -> Result<(), SlurmError> 
     let parent = folder.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let read = |file: &str| std::fs::read_to_string(file).unwrap_or_default();
     let Ok(parent) = parent.canonicalize() else { return Ok(()) };
-    let Some(mount) = mount_of(&parent.to_string_lossy(), &read("/proc/self/mountinfo")) else { return Ok(()) };
+    let Some(mount) = mount_of(&parent.to_string_lossy(), &read("/proc/self/mountinfo")) else {
+        return Ok(());
+    };
     let (this, hosts) = (read("/proc/sys/kernel/hostname"), hosts(partition)?);
     if is_shared(&mount, &hosts, this.trim()) {
         return Ok(());
     }
     let node = hosts.into_iter().find(|h| h != this.trim()).unwrap_or_default();
-    Err(SlurmError::NotShared { folder: parent.display().to_string(), kind: mount.kind, at: mount.at, node })
+    Err(SlurmError::NotShared {
+        folder: parent.display().to_string(),
+        kind: mount.kind,
+        at: mount.at,
+        node,
+    })
 }
 
 /// Where a file system is mounted.
@@ -38,9 +46,12 @@ pub struct Mount {
     pub kind: String,
 }
 
-/// The mount that holds `path`, an absolute path without links, by the text of `/proc/self/mountinfo` (proc(5)).
+/// The mount that holds `path`, an absolute path without links, by the text of
+/// `/proc/self/mountinfo` (proc(5)).
 pub fn mount_of(path: &str, mountinfo: &str) -> Option<Mount> {
-    let within = |at: &str| at == "/" || path == at || path.strip_prefix(at).is_some_and(|rest| rest.starts_with('/'));
+    let within = |at: &str| {
+        at == "/" || path == at || path.strip_prefix(at).is_some_and(|rest| rest.starts_with('/'))
+    };
     let mounts = mountinfo.lines().filter_map(|line| {
         let (left, right) = line.split_once(" - ")?;
         let at = unescaped(left.split(' ').nth(4)?);
@@ -64,7 +75,10 @@ fn unescaped(text: &str) -> String {
     let mut bytes = Vec::new();
     let mut rest = text.as_bytes();
     while let Some((&first, more)) = rest.split_first() {
-        let octal = more.get(..3).filter(|_| first == b'\\').and_then(|d| u8::from_str_radix(std::str::from_utf8(d).ok()?, 8).ok());
+        let octal = more
+            .get(..3)
+            .filter(|_| first == b'\\')
+            .and_then(|d| u8::from_str_radix(std::str::from_utf8(d).ok()?, 8).ok());
         (rest, bytes) = match octal {
             Some(byte) => (more.get(3..).unwrap_or_default(), [bytes, vec![byte]].concat()),
             None => (more, [bytes, vec![first]].concat()),

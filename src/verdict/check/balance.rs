@@ -12,10 +12,14 @@ use crate::{
     },
 };
 
-/// Forces that balance the live load alone: added to others as often as wanted, they leave the scene standing.
+/// Forces that balance the live load alone: added to others as often as wanted, they leave the
+/// scene standing.
 pub(super) fn live_alone_balances(f: &mut Findings, model: &Model, forces: &Forces) {
     let Model { assembly, interfaces, .. } = model;
-    f.require(assembly.free().any(|i| assembly.live[i] != Wrench::zero()), "there is a live load".into());
+    f.require(
+        assembly.free().any(|i| assembly.live[i] != Wrench::zero()),
+        "there is a live load".into(),
+    );
     // Forces in joints that limit them are not counted: nothing that has a limit wedges.
     let (unlimited, kept) = unlimited(interfaces);
     let counted = kept.iter().map(|&k| forces[k].clone()).collect();
@@ -26,7 +30,8 @@ pub(super) fn live_alone_balances(f: &mut Findings, model: &Model, forces: &Forc
     by_themselves(f, "under the live load alone, ", &Model::new(alone, unlimited), &counted);
 }
 
-/// The assembly with its live load, brought to the size of the dead load, in place of the dead load; and that factor.
+/// The assembly with its live load, brought to the size of the dead load, in place of the dead
+/// load; and that factor.
 pub fn live_alone(assembly: &Assembly) -> (Assembly, f64) {
     let factor = natural_factor(assembly);
     let mut alone = assembly.clone();
@@ -38,15 +43,29 @@ pub fn live_alone(assembly: &Assembly) -> (Assembly, f64) {
 }
 
 /// `when` says which of several sets of forces is meant.
-pub(in crate::verdict) fn balanced(f: &mut Findings, when: &str, model: &Model, forces: &Forces, lambda: f64) {
+pub(in crate::verdict) fn balanced(
+    f: &mut Findings,
+    when: &str,
+    model: &Model,
+    forces: &Forces,
+    lambda: f64,
+) {
     let assembly = &model.assembly;
-    let scale = |i: usize| certificate::load_scale(assembly, i).max(lambda.abs() * certificate::size(assembly, i, &assembly.live[i]));
+    let scale = |i: usize| {
+        certificate::load_scale(assembly, i)
+            .max(lambda.abs() * certificate::size(assembly, i, &assembly.live[i]))
+    };
     balanced_against(f, when, model, forces, lambda, &scale);
 }
 
-/// Forces that balance without any load, or one that stands in the place of the dead load: each block by its own load, by the contact
-/// forces on it where it has none.
-pub(in crate::verdict) fn by_themselves(f: &mut Findings, when: &str, model: &Model, forces: &Forces) {
+/// Forces that balance without any load, or one that stands in the place of the dead load: each
+/// block by its own load, by the contact forces on it where it has none.
+pub(in crate::verdict) fn by_themselves(
+    f: &mut Findings,
+    when: &str,
+    model: &Model,
+    forces: &Forces,
+) {
     let Model { assembly, interfaces, .. } = model;
     let mut greatest = vec![0.0_f64; assembly.blocks.len()];
     for (face, forces) in interfaces.list.iter().zip(forces) {
@@ -61,7 +80,14 @@ pub(in crate::verdict) fn by_themselves(f: &mut Findings, when: &str, model: &Mo
 }
 
 /// Forces that balance at `lambda`, each block by its own `scale`, N.
-pub(super) fn balanced_against(f: &mut Findings, when: &str, model: &Model, forces: &Forces, lambda: f64, scale: &dyn Fn(usize) -> f64) {
+pub(super) fn balanced_against(
+    f: &mut Findings,
+    when: &str,
+    model: &Model,
+    forces: &Forces,
+    lambda: f64,
+    scale: &dyn Fn(usize) -> f64,
+) {
     let assembly = &model.assembly;
     let left = Left::of(model, forces, lambda, scale);
     held(f, when, assembly, &left);
@@ -70,14 +96,20 @@ pub(super) fn balanced_against(f: &mut Findings, when: &str, model: &Model, forc
 
 /// What forces leave, over the scale of the block.
 pub(super) struct Left {
-    /// Where no forces that balance exactly are [covered](existence::covered) nearby; on any block where there are everywhere.
+    /// Where no forces that balance exactly are [covered](existence::covered) nearby; on any block
+    /// where there are everywhere.
     pub(super) greatest: Unbalance,
     /// Whether there are everywhere.
     exists: bool,
 }
 
 impl Left {
-    pub(super) fn of(model: &Model, forces: &Forces, lambda: f64, scale: &dyn Fn(usize) -> f64) -> Self {
+    pub(super) fn of(
+        model: &Model,
+        forces: &Forces,
+        lambda: f64,
+        scale: &dyn Fn(usize) -> f64,
+    ) -> Self {
         let covered = existence::covered(model, forces, lambda);
         let exists = covered.iter().all(|held| *held);
         let counted = |i: usize| if covered[i] && !exists { f64::INFINITY } else { scale(i) };
@@ -93,23 +125,37 @@ impl Left {
 pub(super) fn held(f: &mut Findings, when: &str, assembly: &Assembly, left: &Left) {
     let (by, id) = (left.greatest.greatest, &assembly.blocks[left.greatest.block].id);
     if left.exists {
-        let text = format!("{when}forces that balance every free block exist inside their cones, within {by:.1e} g of the given ones");
+        let text = format!(
+            "{when}forces that balance every free block exist inside their cones, within {by:.1e} g of the given ones"
+        );
         f.require_graded(true, Grade::Exact, text);
     } else {
         let allowed = tolerance::UNBALANCE;
-        let text = format!("{when}forces balance every free block: largest unbalance {by:.1e} g, on {id}, allowed {allowed:.1e}");
+        let text = format!(
+            "{when}forces balance every free block: largest unbalance {by:.1e} g, on {id}, allowed {allowed:.1e}"
+        );
         f.require_graded(left.is_balanced(), Grade::ToRounding(by), text);
     }
 }
 
-pub(in crate::verdict) fn cones(f: &mut Findings, when: &str, model: &Model, s: &certificate::Residuals) {
+pub(in crate::verdict) fn cones(
+    f: &mut Findings,
+    when: &str,
+    model: &Model,
+    s: &certificate::Residuals,
+) {
     f.require(
         s.cone_excess <= tolerance::CONE,
-        format!("{when}forces lie in their friction cones: largest excess {:.1e} of the force", s.cone_excess),
+        format!(
+            "{when}forces lie in their friction cones: largest excess {:.1e} of the force",
+            s.cone_excess
+        ),
     );
     if s.crushing > 0.0 {
         let (used, joint) = (100.0 * s.crushing, joint(model, s.most_pressed));
-        let text = format!("{when}no joint is pressed beyond its compressive strength: at most {used:.4} % of it, in {joint}");
+        let text = format!(
+            "{when}no joint is pressed beyond its compressive strength: at most {used:.4} % of it, in {joint}"
+        );
         f.require(s.is_within_strength(), text);
     }
 }

@@ -1,5 +1,5 @@
-//! Verifying a claim from the scene, the forces and the rates: no program, no solver, no trust in any saved number
-//! but the forces and the rates themselves.
+//! Verifying a claim from the scene, the forces and the rates: no program, no solver, no trust in
+//! any saved number but the forces and the rates themselves.
 
 mod balance;
 mod load_factor;
@@ -28,12 +28,13 @@ use serde::{Deserialize, Serialize};
 pub enum Claim {
     /// The forces balance the dead load inside the friction cones.
     Stable,
-    /// The forces balance the dead load inside the friction cones, but the base forces, which need no pre-stress, leave a motion
-    /// that obeys Coulomb's law with them.
+    /// The forces balance the dead load inside the friction cones, but the base forces, which need
+    /// no pre-stress, leave a motion that obeys Coulomb's law with them.
     Conditional,
     /// The mechanism gains power under the dead load: nothing balances it.
     Unstable,
-    /// The forces balance the dead load and `lower` × the live load; the mechanism admits no more than `upper`.
+    /// The forces balance the dead load and `lower` × the live load; the mechanism admits no more
+    /// than `upper`.
     LoadFactor {
         /// Claimed load factor.
         value: f64,
@@ -42,21 +43,23 @@ pub enum Claim {
         /// Claimed upper end.
         upper: f64,
     },
-    /// The forces balance the dead load and `value` × the live load, and the mechanism, driven by the live load, obeys
-    /// Coulomb's law with them: a load factor with dry friction (not the only one, perhaps).
+    /// The forces balance the dead load and `value` × the live load, and the mechanism, driven by
+    /// the live load, obeys Coulomb's law with them: a load factor with dry friction (not the only
+    /// one, perhaps).
     DryLoadFactor {
         /// Claimed load factor.
         value: f64,
     },
-    /// The forces balance the live load alone (and other forces the scene at load factor `standing`).
+    /// The forces balance the live load alone (and other forces the scene at load factor
+    /// `standing`).
     Unbounded {
         /// A load factor at which the scene stands.
         standing: f64,
     },
     /// The mechanism gains power under the dead load and none under the live load.
     Impossible,
-    /// The forces balance the dead load and push a support with `value`; the mechanism that follows the support admits nothing beyond the
-    /// bracket on the other side.
+    /// The forces balance the dead load and push a support with `value`; the mechanism that follows
+    /// the support admits nothing beyond the bracket on the other side.
     Thrust {
         /// Where, and in which direction.
         at: ThrustAt,
@@ -69,7 +72,8 @@ pub enum Claim {
         /// Claimed upper end, N.
         upper: f64,
     },
-    /// The forces balance without any load and push a support (and other forces balance the dead load): the thrust has no end.
+    /// The forces balance without any load and push a support (and other forces balance the dead
+    /// load): the thrust has no end.
     EndlessThrust {
         /// Where, and in which direction.
         at: ThrustAt,
@@ -144,19 +148,27 @@ pub fn verify(model: &Model, claim: &Claim, evidence: Evidence) -> Findings {
             }
         }
         Claim::Unstable => falls(&mut f, model, rates, false),
-        Claim::LoadFactor { value, lower, upper } => load_factor(&mut f, model, forces, rates, [value, lower, upper]),
+        Claim::LoadFactor { value, lower, upper } => {
+            load_factor(&mut f, model, forces, rates, [value, lower, upper])
+        }
         Claim::DryLoadFactor { value } => dry(&mut f, model, forces, rates, value),
         Claim::Unbounded { standing } => {
             match base {
-                Some(base) => balanced(&mut f, "at a load factor at which it stands, ", model, base, standing),
-                None => f.fails.push("forces at a load factor at which the scene stands are missing".into()),
+                Some(base) => {
+                    balanced(&mut f, "at a load factor at which it stands, ", model, base, standing)
+                }
+                None => f
+                    .fails
+                    .push("forces at a load factor at which the scene stands are missing".into()),
             }
             live_alone_balances(&mut f, model, forces);
         }
         Claim::Thrust { at, extreme, value, lower, upper } => {
             thrust::verify(&mut f, model, (forces, rates), (&at, extreme), [value, lower, upper]);
         }
-        Claim::EndlessThrust { at, extreme } => thrust::verify_endless(&mut f, model, forces, base, &at, extreme),
+        Claim::EndlessThrust { at, extreme } => {
+            thrust::verify_endless(&mut f, model, forces, base, &at, extreme)
+        }
         Claim::Impossible => falls(&mut f, model, rates, true),
     }
     f

@@ -20,11 +20,19 @@ pub(super) fn without_live_power(f: &mut Findings, model: &Model, rates: &[Rate]
     };
     let live = m.live.magnitude();
     if live == 0.0 {
-        return f.holds.push("the live load has no power on it, whatever its multiple (exact)".into());
+        return f
+            .holds
+            .push("the live load has no power on it, whatever its multiple (exact)".into());
     }
     // Each load by what it does on the blocks that move.
     let norm = |loads: &[Wrench]| -> f64 {
-        assembly.free().map(|i| certificate::size(assembly, i, &loads[i]) * certificate::speed(assembly, i, &rates[i])).sum()
+        assembly
+            .free()
+            .map(|i| {
+                certificate::size(assembly, i, &loads[i])
+                    * certificate::speed(assembly, i, &rates[i])
+            })
+            .sum()
     };
     let reach = m.gain().lower / norm(&assembly.dead) / (live / norm(&assembly.live));
     f.require_graded(
@@ -41,39 +49,63 @@ pub(super) fn moves(f: &mut Findings, model: &Model, base: &Forces, rates: &[Rat
     let m = law::motion(model, base);
     f.require(
         m.acceleration >= tolerance::LEAST_MOTION,
-        format!("without a pre-stress a block is left with {:.3e} g, at least {:.0e} needed", m.acceleration, tolerance::LEAST_MOTION),
+        format!(
+            "without a pre-stress a block is left with {:.3e} g, at least {:.0e} needed",
+            m.acceleration,
+            tolerance::LEAST_MOTION
+        ),
     );
     f.require(
         m.natural_map <= tolerance::MOTION_LAW,
-        format!("forces and motion obey Coulomb's law: natural map {:.1e}, allowed {:.0e}", m.natural_map, tolerance::MOTION_LAW),
+        format!(
+            "forces and motion obey Coulomb's law: natural map {:.1e}, allowed {:.0e}",
+            m.natural_map,
+            tolerance::MOTION_LAW
+        ),
     );
     let allowed = tolerance::MOTION_BREACH * m.acceleration;
     f.require(
         m.natural_map_in_loads <= allowed,
-        format!("to far less than that motion: natural map in g {:.1e}, allowed {allowed:.0e}", m.natural_map_in_loads),
+        format!(
+            "to far less than that motion: natural map in g {:.1e}, allowed {allowed:.0e}",
+            m.natural_map_in_loads
+        ),
     );
     let dot = |a: &[Rate], b: &[Rate]| -> f64 {
         assembly
             .free()
             .map(|i| {
                 let gyration = &assembly.blocks[i].gyration;
-                a[i].velocity.dot(&b[i].velocity) + gyration.speed(&a[i].spin).dot(&gyration.speed(&b[i].spin))
+                a[i].velocity.dot(&b[i].velocity)
+                    + gyration.speed(&a[i].spin).dot(&gyration.speed(&b[i].spin))
             })
             .sum()
     };
     let cosine = dot(rates, &m.rates) / (dot(rates, rates) * dot(&m.rates, &m.rates)).sqrt();
-    f.require(cosine >= 1.0 - tolerance::MOTION_LAW, format!("the rates are that motion: cosine {cosine:.6}"));
+    f.require(
+        cosine >= 1.0 - tolerance::MOTION_LAW,
+        format!("the rates are that motion: cosine {cosine:.6}"),
+    );
 }
 
-/// "Impossible" is proved when no load factor below this × (dead / live load) helps. Larger: rounding of ℓ·q = 0 fails a
-/// correct proof. Smaller: a load factor that does help could be missed.
+/// "Impossible" is proved when no load factor below this × (dead / live load) helps. Larger:
+/// rounding of ℓ·q = 0 fails a correct proof. Smaller: a load factor that does help could be
+/// missed.
 const REACH: f64 = 1e6;
 
-/// The parts of a scene that move, each in its own units, with its rates: what the others weigh is no matter of its proof.
+/// The parts of a scene that move, each in its own units, with its rates: what the others weigh is
+/// no matter of its proof.
 pub(super) fn moving_parts(model: &Model, rates: &[Rate]) -> Vec<(Part, Vec<Rate>)> {
     let moves = |part: &Part| part.blocks.iter().any(|&i| rates[i] != Rate::zero());
     let in_its_units = |part: Part| {
-        let own = part.blocks.iter().map(|&i| Rate { velocity: rates[i].velocity, spin: part.units.own_spin(&rates[i].spin) }).collect();
+        let own = part
+            .blocks
+            .iter()
+            .map(|&i| Rate {
+                velocity: rates[i].velocity,
+                spin: part.units.own_spin(&rates[i].spin),
+            })
+            .collect();
         (part, own)
     };
     interface::parts(model).into_iter().filter(moves).map(in_its_units).collect()
@@ -87,8 +119,9 @@ pub fn moving(model: &Model, forces: &Forces, rates: &[Rate]) -> Option<(Part, F
     Some((part, forces, own))
 }
 
-/// A scene falls where one of its parts does: what moves gains power and closes no joint, each part for itself, whatever the others weigh. Where no
-/// live load may help (`for_good`), it has no power on one of them, or none on all of them together.
+/// A scene falls where one of its parts does: what moves gains power and closes no joint, each part
+/// for itself, whatever the others weigh. Where no live load may help (`for_good`), it has no power
+/// on one of them, or none on all of them together.
 pub(super) fn falls(f: &mut Findings, model: &Model, rates: &[Rate], for_good: bool) {
     let meets = |model: &Model, rates: &[Rate]| {
         let [mut gain, mut live] = [Findings::default(), Findings::default()];
@@ -99,14 +132,18 @@ pub(super) fn falls(f: &mut Findings, model: &Model, rates: &[Rate], for_good: b
         [gain, live]
     };
     let parts = moving_parts(model, rates);
-    let mut list: Vec<[Findings; 2]> = parts.iter().map(|(part, rates)| meets(&part.model, rates)).collect();
-    // Of two parts the live load may drive one and hold back the other: then they prove together what neither does by itself.
+    let mut list: Vec<[Findings; 2]> =
+        parts.iter().map(|(part, rates)| meets(&part.model, rates)).collect();
+    // Of two parts the live load may drive one and hold back the other: then they prove together
+    // what neither does by itself.
     let proves = |own: &[Findings; 2]| own.iter().all(|f| f.fails.is_empty());
     if list.is_empty() || (for_good && !list.iter().any(proves)) {
         list = vec![meets(model, rates)];
     }
     // The part that is proved best speaks for all; of the others only what fails is told.
-    let decides = (0..list.len()).min_by_key(|&k| list[k].iter().map(|own| own.fails.len()).sum::<usize>()).unwrap_or(0);
+    let decides = (0..list.len())
+        .min_by_key(|&k| list[k].iter().map(|own| own.fails.len()).sum::<usize>())
+        .unwrap_or(0);
     for (k, [gain, live]) in list.into_iter().enumerate() {
         f.fails.extend(gain.fails);
         f.grade = f.grade.and(gain.grade);
@@ -126,9 +163,19 @@ pub(super) fn gains(f: &mut Findings, model: &Model, rates: &[Rate]) {
     let exact = motion::motion(model, rates);
     let gain = exact.map_or(k.gain(), |m| m.gain().lower);
     let threshold = tolerance::UNBALANCE;
-    f.require(gain > threshold * k.norm, format!("the mechanism gains power: {:.3e} g, at least {threshold:.1e} needed", gain / k.norm));
+    f.require(
+        gain > threshold * k.norm,
+        format!(
+            "the mechanism gains power: {:.3e} g, at least {threshold:.1e} needed",
+            gain / k.norm
+        ),
+    );
     if exact.is_some_and(|m| m.is_admissible()) {
-        return f.require_graded(true, Grade::Exact, "the mechanism is admissible: no joint closes");
+        return f.require_graded(
+            true,
+            Grade::Exact,
+            "the mechanism is admissible: no joint closes",
+        );
     }
     let cap = k.force_cap(assembly);
     f.require_graded(

@@ -1,8 +1,10 @@
-//! What contact forces leave on each block, without rounding, and how far inside its cone each of them lies.
+//! What contact forces leave on each block, without rounding, and how far inside its cone each of
+//! them lies.
 //!
-//! All numbers of a resolved scene are doubles: centres of mass, contact points, normals, loads, shares of the area. What is said here is
-//! true of exactly these numbers. A normal `n` need not have a length of one to the last digit: a force lies in the cone of its contact
-//! where `‖f × n‖ ≤ μ n·f + c` and `n·f ≥ −T`, which does not depend on that length but for cohesion and tension.
+//! All numbers of a resolved scene are doubles: centres of mass, contact points, normals, loads,
+//! shares of the area. What is said here is true of exactly these numbers. A normal `n` need not
+//! have a length of one to the last digit: a force lies in the cone of its contact where `‖f × n‖ ≤
+//! μ n·f + c` and `n·f ≥ −T`, which does not depend on that length but for cohesion and tension.
 
 use super::interval::{Interval, Sum, difference, two_product};
 use crate::{
@@ -56,7 +58,8 @@ impl<'a> Balance<'a> {
         let mut totals = vec![[Sum::ZERO; 6]; assembly.blocks.len()];
         for i in assembly.free() {
             let (dead, live) = (&assembly.dead[i], &assembly.live[i]);
-            let parts = dead.force.iter().zip(&live.force).chain(dead.moment.iter().zip(&live.moment));
+            let parts =
+                dead.force.iter().zip(&live.force).chain(dead.moment.iter().zip(&live.moment));
             for (sum, (w, l)) in totals[i].iter_mut().zip(parts) {
                 sum.add(*w);
                 sum.add_product(lambda, *l);
@@ -141,7 +144,9 @@ impl Unbalance {
                     for i in [face.a, face.b] {
                         let Block { centroid, gyration, .. } = &assembly.blocks[i];
                         // The force in the cone next to this one leaves as much more.
-                        outside[i] -= room.margin * (1.0 + (point - centroid).norm() / gyration.least()) * ENLARGED;
+                        outside[i] -= room.margin
+                            * (1.0 + (point - centroid).norm() / gyration.least())
+                            * ENLARGED;
                     }
                 }
             }
@@ -168,21 +173,28 @@ pub const REDUCED: f64 = 1.0 - 1e-10;
 pub struct Room {
     /// The force on block `b`.
     pub force: Pair,
-    /// Every force within this distance, N, lies in the cone too (along `direction` only, where there is one); negative where the force itself lies
-    /// outside, then by no more than this.
+    /// Every force within this distance, N, lies in the cone too (along `direction` only, where
+    /// there is one); negative where the force itself lies outside, then by no more than this.
     pub margin: f64,
     /// The only direction in which the force may change: the normal, where there is no friction.
     pub direction: Option<Vector3<f64>>,
 }
 
-/// How far inside its cone a force with its couple lies. Without friction a force counts with its part along the normal.
-pub fn room(face: &Interface, point: usize, Wrench { force, moment }: &Wrench, strength: &Strength) -> Room {
+/// How far inside its cone a force with its couple lies. Without friction a force counts with its
+/// part along the normal.
+pub fn room(
+    face: &Interface,
+    point: usize,
+    Wrench { force, moment }: &Wrench,
+    strength: &Strength,
+) -> Room {
     let n = &face.frame.n;
     let [cohesion, tension] = strength.at(point);
     let length = n.norm();
     if face.law.friction == Friction::Coefficient(0.0) && cohesion == 0.0 {
         let by = n.dot(force) / (length * length);
-        let margin = couples(face, moment, Interval::exactly(by)).map_or(by + tension, |c| c.min(by + tension));
+        let margin = couples(face, moment, Interval::exactly(by))
+            .map_or(by + tension, |c| c.min(by + tension));
         return Room { force: multiple(by, n), margin: shy(margin), direction: Some(*n) };
     }
     let normal = dot(n, force);
@@ -192,14 +204,19 @@ pub fn room(face: &Interface, point: usize, Wrench { force, moment }: &Wrench, s
         let shear = cross_size(force, n);
         let left = Interval::exactly(mu) * normal + Interval::exactly(cohesion) - shear;
         let by_shear = shy(left.lower / (length * mu.hypot(1.0)));
-        // With neither cohesion nor tension the cone has its apex at zero, and the other bound follows.
+        // With neither cohesion nor tension the cone has its apex at zero, and the other bound
+        // follows.
         let apex = cohesion == 0.0 && tension == 0.0 && mu > 0.0;
         margin = if apex { by_shear } else { margin.min(by_shear) };
     }
     if let Some(by_couple) = couples(face, moment, normal) {
         margin = margin.min(by_couple / length);
     }
-    Room { force: exactly(force), margin: if margin.is_nan() { f64::NEG_INFINITY } else { margin }, direction: None }
+    Room {
+        force: exactly(force),
+        margin: if margin.is_nan() { f64::NEG_INFINITY } else { margin },
+        direction: None,
+    }
 }
 
 /// What the normal force exceeds a couple by, at the least; `None` where there is no couple.
@@ -213,7 +230,8 @@ fn couples(face: &Interface, moment: &Vector3<f64>, normal: Interval) -> Option<
     Some(shy((normal - most.over(arm)).lower))
 }
 
-/// A lower bound computed in doubles, made smaller by more than their rounding; one that is negative, larger in size.
+/// A lower bound computed in doubles, made smaller by more than their rounding; one that is
+/// negative, larger in size.
 fn shy(margin: f64) -> f64 {
     margin * if margin > 0.0 { REDUCED } else { ENLARGED }
 }
@@ -240,7 +258,9 @@ fn cross_size(a: &Vector3<f64>, b: &Vector3<f64>) -> Interval {
 pub fn norm(v: [Interval; 3]) -> Interval {
     if v.iter().filter(|c| **c == Interval::ZERO).count() == 2 {
         // One component is its own size, without a root.
-        return v.into_iter().fold(Interval::ZERO, |all, c| if c == Interval::ZERO { all } else { size(c) });
+        return v
+            .into_iter()
+            .fold(Interval::ZERO, |all, c| if c == Interval::ZERO { all } else { size(c) });
     }
     (v[0].square() + v[1].square() + v[2].square()).sqrt()
 }

@@ -1,10 +1,12 @@
 //! Numbers that are known to lie between two doubles, and sums that keep what rounding drops.
 //!
-//! *Law.* Every operation encloses the exact result for all exact operands inside its own (Moore 1966). The rounding of a sum or product
-//! of two doubles is itself a double (Knuth 1969; Dekker 1971): where it is zero the end stays where it is, so that zeros and other exact
-//! numbers stay exact, and elsewhere the end moves to the next double outwards.
+//! *Law.* Every operation encloses the exact result for all exact operands inside its own (Moore
+//! 1966). The rounding of a sum or product of two doubles is itself a double (Knuth 1969; Dekker
+//! 1971): where it is zero the end stays where it is, so that zeros and other exact numbers stay
+//! exact, and elsewhere the end moves to the next double outwards.
 //!
-//! Crates for intervals set the processor's rounding mode and have to be built for one processor; these few operations need neither.
+//! Crates for intervals set the processor's rounding mode and have to be built for one processor;
+//! these few operations need neither.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
@@ -17,7 +19,8 @@ pub struct Interval {
     pub upper: f64,
 }
 
-/// Products at least this large have a rounding that is a double; below lies the range where it underflows.
+/// Products at least this large have a rounding that is a double; below lies the range where it
+/// underflows.
 const EXACT_PRODUCT: f64 = 1e-270;
 
 /// `a + b` rounded, and what rounding dropped (NaN where it overflowed).
@@ -68,7 +71,11 @@ impl Interval {
     /// The square, which is never negative.
     pub fn square(self) -> Self {
         let (a, b) = (self.lower.abs(), self.upper.abs());
-        let (least, most) = if self.lower <= 0.0 && self.upper >= 0.0 { (0.0, a.max(b)) } else { (a.min(b), a.max(b)) };
+        let (least, most) = if self.lower <= 0.0 && self.upper >= 0.0 {
+            (0.0, a.max(b))
+        } else {
+            (a.min(b), a.max(b))
+        };
         Self { lower: down(two_product(least, least)).max(0.0), upper: up(two_product(most, most)) }
     }
 
@@ -87,30 +94,45 @@ impl Interval {
         if !(by.lower > 0.0 || by.upper < 0.0) {
             return Self { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
         }
-        let ends = [self.lower / by.lower, self.lower / by.upper, self.upper / by.lower, self.upper / by.upper];
+        let ends = [
+            self.lower / by.lower,
+            self.lower / by.upper,
+            self.upper / by.lower,
+            self.upper / by.upper,
+        ];
         if ends.iter().any(|e| e.is_nan()) {
             return Self { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
         }
-        let (least, most) = ends.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &e| (a.min(e), b.max(e)));
+        let (least, most) =
+            ends.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &e| (a.min(e), b.max(e)));
         Self { lower: least.next_down(), upper: most.next_up() }
     }
 
     /// What is above zero of it.
     pub fn positive(self) -> Self {
-        Self { lower: self.lower.max(0.0), upper: if self.upper.is_nan() { f64::NAN } else { self.upper.max(0.0) } }
+        Self {
+            lower: self.lower.max(0.0),
+            upper: if self.upper.is_nan() { f64::NAN } else { self.upper.max(0.0) },
+        }
     }
 
     /// The one that is greater, end by end.
     pub fn max(self, other: Self) -> Self {
         let nan = self.upper.is_nan() || other.upper.is_nan();
-        Self { lower: self.lower.max(other.lower), upper: if nan { f64::NAN } else { self.upper.max(other.upper) } }
+        Self {
+            lower: self.lower.max(other.lower),
+            upper: if nan { f64::NAN } else { self.upper.max(other.upper) },
+        }
     }
 }
 
 impl Add for Interval {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self { lower: down(two_sum(self.lower, other.lower)), upper: up(two_sum(self.upper, other.upper)) }
+        Self {
+            lower: down(two_sum(self.lower, other.lower)),
+            upper: up(two_sum(self.upper, other.upper)),
+        }
     }
 }
 
@@ -137,7 +159,12 @@ impl Sub for Interval {
 impl Mul for Interval {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        let pairs = [(self.lower, other.lower), (self.lower, other.upper), (self.upper, other.lower), (self.upper, other.upper)];
+        let pairs = [
+            (self.lower, other.lower),
+            (self.lower, other.upper),
+            (self.upper, other.lower),
+            (self.upper, other.upper),
+        ];
         let mut all = Self { lower: f64::INFINITY, upper: f64::NEG_INFINITY };
         for (a, b) in pairs {
             let product = two_product(a, b);
@@ -155,8 +182,9 @@ impl Mul for Interval {
     }
 }
 
-/// A sum of doubles and of products of two doubles, of which rounding takes next to nothing: what each addition drops is added up beside
-/// it, as an interval. The width of the result is the rounding of the roundings.
+/// A sum of doubles and of products of two doubles, of which rounding takes next to nothing: what
+/// each addition drops is added up beside it, as an interval. The width of the result is the
+/// rounding of the roundings.
 #[derive(Clone, Copy, Debug)]
 pub struct Sum {
     value: f64,
@@ -211,7 +239,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// An integer with few enough bits that sums and products of three are exact in 128 bits, over a power of two.
+    /// An integer with few enough bits that sums and products of three are exact in 128 bits, over
+    /// a power of two.
     fn fixed(x: i32) -> f64 {
         f64::from(x) / 1024.0
     }
@@ -272,6 +301,9 @@ mod tests {
         sum.add_product(f64::MAX, 2.0);
         sum.add_product(f64::MAX, -2.0);
         assert_eq!(sum.total().magnitude(), f64::INFINITY);
-        assert_eq!(Interval::exactly(1.0).over(Interval { lower: -1.0, upper: 1.0 }).magnitude(), f64::INFINITY);
+        assert_eq!(
+            Interval::exactly(1.0).over(Interval { lower: -1.0, upper: 1.0 }).magnitude(),
+            f64::INFINITY
+        );
     }
 }

@@ -1,9 +1,11 @@
 //! Proofs without rounding.
 //!
-//! A double is a rational number, and sums and products of a few doubles can be enclosed by intervals narrower than anything that
-//! matters ([`interval`]). What is claimed about a scene becomes a theorem about its resolved numbers: forces that balance exist
-//! ([`existence`]); a motion closes no joint and gains power ([`motion`]). Where the cones leave no room for that (sliding excluded at any
-//! force, no friction at all), the claim holds to rounding, with the number that it rests on ([`Grade`]).
+//! A double is a rational number, and sums and products of a few doubles can be enclosed by
+//! intervals narrower than anything that matters ([`interval`]). What is claimed about a scene
+//! becomes a theorem about its resolved numbers: forces that balance exist ([`existence`]); a
+//! motion closes no joint and gains power ([`motion`]). Where the cones leave no room for that
+//! (sliding excluded at any force, no friction at all), the claim holds to rounding, with the
+//! number that it rests on ([`Grade`]).
 
 pub mod balance;
 pub mod existence;
@@ -19,9 +21,9 @@ pub enum Grade {
     /// A theorem about the resolved numbers of the scene: no rounding is excused.
     #[default]
     Exact,
-    /// The claim rests on this number, the greater the weaker: of forces, the largest unbalance of a block in multiples of its load; of a
-    /// motion, the share that closing joints can take of its power for a contact force of the size of the whole load; of Coulomb's law,
-    /// the natural map.
+    /// The claim rests on this number, the greater the weaker: of forces, the largest unbalance of
+    /// a block in multiples of its load; of a motion, the share that closing joints can take of its
+    /// power for a contact force of the size of the whole load; of Coulomb's law, the natural map.
     ToRounding(f64),
 }
 
@@ -30,7 +32,9 @@ impl Grade {
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
-            (Self::ToRounding(a), Self::ToRounding(b)) => Self::ToRounding(if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }),
+            (Self::ToRounding(a), Self::ToRounding(b)) => {
+                Self::ToRounding(if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
+            }
             (Self::Exact, weaker) => weaker,
             (weaker, Self::Exact) => weaker,
         }

@@ -1,8 +1,9 @@
 //! Does a motion close no joint, and what power does it gain?
 //!
-//! The rates are doubles and are taken as they are. A contact is not closed where `n·v ≥ μ ‖v × n‖` (plus rolling), `v` the velocity of
-//! block `b` against `a` there, enclosed by intervals; then no admissible force has positive power, `f·v ≥ 0`, and power gained by the
-//! loads is power that nothing takes away.
+//! The rates are doubles and are taken as they are. A contact is not closed where `n·v ≥ μ ‖v × n‖`
+//! (plus rolling), `v` the velocity of block `b` against `a` there, enclosed by intervals; then no
+//! admissible force has positive power, `f·v ≥ 0`, and power gained by the loads is power that
+//! nothing takes away.
 
 use super::{
     balance::{ENLARGED, arm, norm},
@@ -48,7 +49,12 @@ impl MotionProof {
 }
 
 /// Velocity of block `b` against `a` at a point.
-pub fn velocity(assembly: &Assembly, face: &Interface, rates: &[Rate], point: &Vector3<f64>) -> [Interval; 3] {
+pub fn velocity(
+    assembly: &Assembly,
+    face: &Interface,
+    rates: &[Rate],
+    point: &Vector3<f64>,
+) -> [Interval; 3] {
     let mut sums = [Sum::ZERO; 3];
     for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
         let Rate { velocity, spin } = &rates[block];
@@ -76,10 +82,17 @@ pub fn split(n: &Vector3<f64>, v: &[Interval; 3]) -> (Interval, Interval) {
     (along(0) + along(1) + along(2), norm([across(0), across(1), across(2)]))
 }
 
-/// What a motion proves; joints that can crush are no matter of this ([`certificate`](crate::verdict::certificate)): `None` where one closes.
+/// What a motion proves; joints that can crush are no matter of this
+/// ([`certificate`](crate::verdict::certificate)): `None` where one closes.
 pub fn motion(model: &Model, rates: &[Rate]) -> Option<MotionProof> {
     let Model { assembly, interfaces, .. } = model;
-    let mut m = MotionProof { dead: Interval::ZERO, live: Interval::ZERO, dissipation: 0.0, excess: 0.0, greatest: 0.0 };
+    let mut m = MotionProof {
+        dead: Interval::ZERO,
+        live: Interval::ZERO,
+        dissipation: 0.0,
+        excess: 0.0,
+        greatest: 0.0,
+    };
     let (mut dead, mut live) = (Sum::ZERO, Sum::ZERO);
     for i in assembly.free() {
         add_power(&mut dead, &assembly.dead[i], &rates[i]);
@@ -108,37 +121,56 @@ pub fn motion(model: &Model, rates: &[Rate]) -> Option<MotionProof> {
                 return None;
             }
             if cohesion > 0.0 {
-                m.dissipation = (Interval::exactly(m.dissipation) + Interval::exactly(cohesion) * sliding).upper;
+                m.dissipation = (Interval::exactly(m.dissipation)
+                    + Interval::exactly(cohesion) * sliding)
+                    .upper;
             }
             if tension > 0.0 {
-                m.dissipation = (Interval::exactly(m.dissipation) + Interval::exactly(tension) * (-closing).positive()).upper;
+                m.dissipation = (Interval::exactly(m.dissipation)
+                    + Interval::exactly(tension) * (-closing).positive())
+                .upper;
             }
             let mut inadmissible = closing.upper.max(0.0);
             if cohesion == 0.0 && tension == 0.0 && inadmissible > 0.0 {
-                inadmissible = inadmissible.min((hidden(mu, normal.lower, sliding.upper) + rolling.upper) * ENLARGED);
+                inadmissible = inadmissible
+                    .min((hidden(mu, normal.lower, sliding.upper) + rolling.upper) * ENLARGED);
             }
-            let all = if closing.upper.is_nan() || slips.is_nan() { f64::INFINITY } else { inadmissible + slips };
+            let all = if closing.upper.is_nan() || slips.is_nan() {
+                f64::INFINITY
+            } else {
+                inadmissible + slips
+            };
             m.excess += all;
             m.greatest = m.greatest.max(all);
         }
         if let Some(Wrench { force, moment }) = water(face) {
             let (v, spin) = (velocity(assembly, face, rates, &face.points[0]), spin(face, rates));
-            (0..3).for_each(|k| m.dead += Interval::exactly(force[k]) * v[k] + Interval::exactly(moment[k]) * spin[k]);
+            (0..3).for_each(|k| {
+                m.dead +=
+                    Interval::exactly(force[k]) * v[k] + Interval::exactly(moment[k]) * spin[k]
+            });
         }
     }
     m.excess *= ENLARGED;
     Some(m)
 }
 
-/// The power that a force of 1 N inside the friction cone can have at most against a joint that separates at `normal` and slides at
-/// `sliding`: the size of the projection of the closing velocity onto the cone.
+/// The power that a force of 1 N inside the friction cone can have at most against a joint that
+/// separates at `normal` and slides at `sliding`: the size of the projection of the closing
+/// velocity onto the cone.
 fn hidden(mu: f64, normal: f64, sliding: f64) -> f64 {
-    if sliding <= -mu * normal { normal.hypot(sliding) } else { (mu * sliding - normal).max(0.0) / mu.hypot(1.0) }
+    if sliding <= -mu * normal {
+        normal.hypot(sliding)
+    } else {
+        (mu * sliding - normal).max(0.0) / mu.hypot(1.0)
+    }
 }
 
 /// Spin of block `b` against `a`.
 fn spin(face: &Interface, rates: &[Rate]) -> [Interval; 3] {
-    [0, 1, 2].map(|k| Interval::exactly(rates[face.b].spin[k]) - Interval::exactly(rates[face.a].spin[k]))
+    [0, 1, 2].map(|k| {
+        Interval::exactly(rates[face.b].spin[k]) - Interval::exactly(rates[face.a].spin[k])
+    })
 }
 
 /// What couples can take up per newton of normal force.

@@ -1,4 +1,5 @@
-//! Closed forms with exact answers. Case numbers are those of the project's collection of reference cases.
+//! Closed forms with exact answers. Case numbers are those of the project's collection of reference
+//! cases.
 //!
 //! | file | cases |
 //! |---|---|

@@ -23,9 +23,11 @@ fn contact(a: &str, b: &str, point: [f64; 2], normal: [f64; 2], friction: f64) -
 #[test]
 fn a_ladder_stands_above_its_critical_inclination() {
     // A18, A19: tan θ = (1 − μf μw) / 2 μf (textbook), here at θ (1 ± 1e-6).
-    for (floor_friction, wall_friction, degrees) in
-        [(0.5, 0.5, 36.86989764584402), (0.35, 0.2, 53.03165609448374), (0.6, 0.0, 39.80557109226519)]
-    {
+    for (floor_friction, wall_friction, degrees) in [
+        (0.5, 0.5, 36.86989764584402),
+        (0.35, 0.2, 53.03165609448374),
+        (0.6, 0.0, 39.80557109226519),
+    ] {
         let ladder = |degrees: f64| -> Scene {
             let (sin, cos) = degrees.to_radians().sin_cos();
             let (x, z) = (4.0 * cos, 4.0 * sin);
@@ -42,7 +44,8 @@ fn a_ladder_stands_above_its_critical_inclination() {
                 ] }),
             )
         };
-        let critical = ((1.0 - floor_friction * wall_friction) / (2.0 * floor_friction)).atan().to_degrees();
+        let critical =
+            ((1.0 - floor_friction * wall_friction) / (2.0 * floor_friction)).atan().to_degrees();
         assert!((critical - degrees).abs() < 1e-10, "{critical}");
         flips("ladder", ladder, critical * (1.0 + 1e-6), critical * (1.0 - 1e-6));
     }
@@ -57,7 +60,11 @@ fn an_a_frame_needs_friction_at_its_feet() {
             let (x, z) = (2.0 * cos, 2.0 * sin);
             scene(
                 0.0,
-                json!([floor(), bar("left", [-x, 0.0], [0.0, z]), bar("right", [x, 0.0], [0.0, z])]),
+                json!([
+                    floor(),
+                    bar("left", [-x, 0.0], [0.0, z]),
+                    bar("right", [x, 0.0], [0.0, z])
+                ]),
                 json!({ "interfaces": [
                     contact("floor", "left", [-x, 0.0], [0.0, 1.0], friction),
                     contact("floor", "right", [x, 0.0], [0.0, 1.0], friction),
@@ -72,8 +79,9 @@ fn an_a_frame_needs_friction_at_its_feet() {
 
 #[test]
 fn three_discs_need_both_frictions() {
-    // A15, R06: tan 15° = 2 − √3 between the discs, a third of it on the floor (classical three-cylinder problem). Spheres in one
-    // plane, mass at their centres, are discs; their contacts are found, and given by hand.
+    // A15, R06: tan 15° = 2 − √3 between the discs, a third of it on the floor (classical
+    // three-cylinder problem). Spheres in one plane, mass at their centres, are discs; their
+    // contacts are found, and given by hand.
     let s = 3.0_f64.sqrt();
     let pile = |discs: f64, floor: f64, by_hand: bool| {
         let infinite = |mu: f64| if mu.is_infinite() { json!("infinite") } else { json!(mu) };
@@ -88,17 +96,29 @@ fn three_discs_need_both_frictions() {
                 contact("d2", "d3", [0.5, 1.0 + s / 2.0], [-0.5, s / 2.0], discs),
             ]);
         }
-        let discs = [sphere("d1", 1.0, [-1.0, 0.0, 1.0]), sphere("d2", 1.0, [1.0, 0.0, 1.0]), sphere("d3", 1.0, [0.0, 0.0, 1.0 + s])];
+        let discs = [
+            sphere("d1", 1.0, [-1.0, 0.0, 1.0]),
+            sphere("d2", 1.0, [1.0, 0.0, 1.0]),
+            sphere("d3", 1.0, [0.0, 0.0, 1.0 + s]),
+        ];
         scene(0.0, json!([ground(), discs[0], discs[1], discs[2]]), more)
     };
     let (between, below) = (2.0 - s, (2.0 - s) / 3.0);
-    assert!((between - 0.2679491924311228).abs() < 1e-14 && (below - 0.08931639747704094).abs() < 1e-14);
+    assert!(
+        (between - 0.2679491924311228).abs() < 1e-14 && (below - 0.08931639747704094).abs() < 1e-14
+    );
     for by_hand in [true, false] {
-        flips("between discs", |mu| pile(mu, f64::INFINITY, by_hand), between + 1e-6, between - 1e-6);
+        flips(
+            "between discs",
+            |mu| pile(mu, f64::INFINITY, by_hand),
+            between + 1e-6,
+            between - 1e-6,
+        );
         flips("on the floor", |mu| pile(f64::INFINITY, mu, by_hand), below + 1e-6, below - 1e-6);
         assert!(stands(&pile(between + 1e-6, below + 1e-6, by_hand)), "both just enough");
         assert!(
-            !stands(&pile(between + 1e-6, below - 1e-6, by_hand)) && !stands(&pile(between - 1e-6, below + 1e-6, by_hand)),
+            !stands(&pile(between + 1e-6, below - 1e-6, by_hand))
+                && !stands(&pile(between - 1e-6, below + 1e-6, by_hand)),
             "both are needed"
         );
     }

@@ -1,4 +1,5 @@
-//! A browser driven through chromedriver by the WebDriver protocol (W3C): JSON over HTTP on loopback.
+//! A browser driven through chromedriver by the WebDriver protocol (W3C): JSON over HTTP on
+//! loopback.
 
 use serde_json::{Value, json};
 use std::{
@@ -19,13 +20,16 @@ pub struct Browser {
 
 /// A program on the path.
 fn program(name: &str) -> Option<PathBuf> {
-    std::env::split_paths(&std::env::var_os("PATH")?).map(|folder| folder.join(name)).find(|p| p.is_file())
+    std::env::split_paths(&std::env::var_os("PATH")?)
+        .map(|folder| folder.join(name))
+        .find(|p| p.is_file())
 }
 
 impl Browser {
     /// Starts one; `None` where there is none on this machine.
     pub fn start(more: &[&str]) -> Option<Self> {
-        let (driver, browser) = (program("chromedriver")?, program("chromium").or_else(|| program("google-chrome"))?);
+        let (driver, browser) =
+            (program("chromedriver")?, program("chromium").or_else(|| program("google-chrome"))?);
         let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
         let driver = Command::new(driver)
             .arg(format!("--port={port}"))
@@ -64,7 +68,10 @@ impl Browser {
             "goog:loggingPrefs": { "browser": "ALL" },
         } } });
         let answer = this.ask("POST", "/session", &wanted);
-        this.session = answer["sessionId"].as_str().unwrap_or_else(|| panic!("no session: {answer}")).to_string();
+        this.session = answer["sessionId"]
+            .as_str()
+            .unwrap_or_else(|| panic!("no session: {answer}"))
+            .to_string();
         Some(this)
     }
 
@@ -90,10 +97,16 @@ impl Browser {
             answer.extend_from_slice(&part[..read]);
             let text = String::from_utf8_lossy(&answer);
             if let Some((head, rest)) = text.split_once("\r\n\r\n") {
-                let length =
-                    head.lines().find_map(|l| l.to_ascii_lowercase().strip_prefix("content-length:")?.trim().parse::<usize>().ok());
+                let length = head.lines().find_map(|l| {
+                    l.to_ascii_lowercase()
+                        .strip_prefix("content-length:")?
+                        .trim()
+                        .parse::<usize>()
+                        .ok()
+                });
                 if length.is_some_and(|n| rest.len() >= n) || read == 0 {
-                    let value: Value = serde_json::from_str(rest).unwrap_or_else(|e| panic!("{path}: {e}: {rest}"));
+                    let value: Value = serde_json::from_str(rest)
+                        .unwrap_or_else(|e| panic!("{path}: {e}: {rest}"));
                     let value = value["value"].clone();
                     assert!(value.get("error").is_none(), "{path}: {}", value["message"]);
                     return value;
@@ -122,7 +135,11 @@ impl Browser {
     pub fn until(&self, script: &str) {
         let begin = Instant::now();
         while self.run(script) != Value::Bool(true) {
-            assert!(begin.elapsed() < Duration::from_secs(60), "waiting for: {script}\n{:?}", self.messages());
+            assert!(
+                begin.elapsed() < Duration::from_secs(60),
+                "waiting for: {script}\n{:?}",
+                self.messages()
+            );
             std::thread::sleep(Duration::from_millis(30));
         }
     }
@@ -137,9 +154,14 @@ impl Browser {
 
     /// Presses keys, one after the other.
     pub fn keys(&self, keys: &str) {
-        let each = keys.chars().flat_map(|c| ["keyDown", "keyUp"].map(|t| json!({ "type": t, "value": c.to_string() })));
+        let each = keys.chars().flat_map(|c| {
+            ["keyDown", "keyUp"].map(|t| json!({ "type": t, "value": c.to_string() }))
+        });
         let list: Vec<Value> = each.collect();
-        self.post("/actions", json!({ "actions": [{ "type": "key", "id": "keyboard", "actions": list }] }));
+        self.post(
+            "/actions",
+            json!({ "actions": [{ "type": "key", "id": "keyboard", "actions": list }] }),
+        );
     }
 
     /// A command of the browser's own protocol.
@@ -153,14 +175,23 @@ impl Browser {
         let bad = |m: &&Value| matches!(m["level"].as_str(), Some("SEVERE" | "WARNING"));
         // Chromium complains of its own software drawing.
         let own = |m: &&Value| {
-            !m["message"].as_str().is_some_and(|t| t.contains("GPU stall") || t.contains("swiftshader") || t.contains("SwiftShader"))
+            !m["message"].as_str().is_some_and(|t| {
+                t.contains("GPU stall") || t.contains("swiftshader") || t.contains("SwiftShader")
+            })
         };
-        list.as_array().into_iter().flatten().filter(bad).filter(own).map(|m| m["message"].to_string()).collect()
+        list.as_array()
+            .into_iter()
+            .flatten()
+            .filter(bad)
+            .filter(own)
+            .map(|m| m["message"].to_string())
+            .collect()
     }
 
     /// What the window shows, as a PNG file.
     pub fn picture(&self, file: &Path) {
-        let answer = self.ask("GET", &format!("/session/{}/screenshot", self.session), &Value::Null);
+        let answer =
+            self.ask("GET", &format!("/session/{}/screenshot", self.session), &Value::Null);
         let bytes = data_encoding::BASE64.decode(answer.as_str().unwrap().as_bytes()).unwrap();
         std::fs::write(file, bytes).unwrap();
     }

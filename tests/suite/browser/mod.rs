@@ -1,5 +1,6 @@
-//! Report pages in a real browser (Chromium, headless, without a network): nothing on its console, blocks and joints can be picked, the
-//! mechanism moves, and all of it without WebGL as well. Skipped, with a word, where there is no Chromium.
+//! Report pages in a real browser (Chromium, headless, without a network): nothing on its console,
+//! blocks and joints can be picked, the mechanism moves, and all of it without WebGL as well.
+//! Skipped, with a word, where there is no Chromium.
 
 mod driver;
 
@@ -32,14 +33,20 @@ impl Desk {
         let file: PathBuf = self.folder.path().join(format!("{name}.html"));
         report(arguments, &file);
         self.browser.open(&file);
-        self.browser.until("return document.documentElement.dataset.drawn === 'yes' || data.view === undefined");
+        self.browser.until(
+            "return document.documentElement.dataset.drawn === 'yes' || data.view === undefined",
+        );
     }
 
     #[track_caller]
     fn quiet(&self, name: &str) {
         let messages = self.browser.messages();
         assert!(messages.is_empty(), "{name}: {messages:#?}");
-        assert_eq!(self.browser.run("return performance.getEntriesByType('resource').length"), 0, "{name} asked for another file");
+        assert_eq!(
+            self.browser.run("return performance.getEntriesByType('resource').length"),
+            0,
+            "{name} asked for another file"
+        );
     }
 
     /// Colours of the picture, coarsely, each with its share.
@@ -63,7 +70,10 @@ impl Desk {
         );
         assert!(!spot.is_null(), "no block is in sight");
         self.browser.click(spot[0].as_f64().unwrap(), spot[1].as_f64().unwrap());
-        (self.browser.run("return document.querySelector('#picked h2')?.textContent ?? null"), spot[2].clone())
+        (
+            self.browser.run("return document.querySelector('#picked h2')?.textContent ?? null"),
+            spot[2].clone(),
+        )
     }
 }
 
@@ -77,7 +87,10 @@ fn pages_of_five_scenes_work() {
         ("collapsing", &["assess", &structure("semicircular-arch-thin")]),
         ("wall", &["limit", &structure("running-bond-wall"), "--law", "associative"]),
         ("vault", &["limit", &structure("barrel-vault"), "--law", "associative"]),
-        ("heap", &["repose", &structure("tetrahedral-pile"), "--toward", "1,0", "--law", "associative"]),
+        (
+            "heap",
+            &["repose", &structure("tetrahedral-pile"), "--toward", "1,0", "--law", "associative"],
+        ),
     ];
     for (name, arguments) in five {
         desk.open(name, arguments);
@@ -89,26 +102,39 @@ fn pages_of_five_scenes_work() {
         let (shown, clicked) = desk.click_a_block();
         assert_eq!(shown, clicked, "{name}");
         let numbers = browser.run("return el('picked').textContent");
-        assert!(numbers.as_str().is_some_and(|t| t.contains("mass") && t.contains("centre of mass")), "{name}: {numbers}");
+        assert!(
+            numbers.as_str().is_some_and(|t| t.contains("mass") && t.contains("centre of mass")),
+            "{name}: {numbers}"
+        );
         // From the block to one of its joints, and its forces.
         browser.run("document.querySelector('#picked .links button').click()");
         let numbers = browser.run("return el('picked').textContent");
-        assert!(numbers.as_str().is_some_and(|t| t.contains("law") && t.contains("normal force")), "{name}: {numbers}");
+        assert!(
+            numbers.as_str().is_some_and(|t| t.contains("law") && t.contains("normal force")),
+            "{name}: {numbers}"
+        );
         if name != "stable" {
             slider_moves(&desk, name);
         }
         desk.quiet(name);
         for (width, scheme) in [(1440, "light"), (1440, "dark"), (390, "dark"), (390, "light")] {
-            let media = json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] });
+            let media =
+                json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] });
             browser.command("Emulation.setEmulatedMedia", media);
-            let metrics = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
+            let metrics =
+                json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
             browser.command("Emulation.setDeviceMetricsOverride", metrics);
-            assert_eq!(browser.run("return document.documentElement.scrollWidth > innerWidth"), false, "{name} is wider than {width}");
+            assert_eq!(
+                browser.run("return document.documentElement.scrollWidth > innerWidth"),
+                false,
+                "{name} is wider than {width}"
+            );
             browser.until("return !waiting && shown.width === Math.round(shown.clientWidth)");
             browser.picture(&desk.folder.path().join("window.png"));
             if let Some(folder) = option_env!("CARGO_TARGET_TMPDIR") {
                 let file = format!("page-{name}-{scheme}-{width}.png");
-                fs::copy(desk.folder.path().join("window.png"), PathBuf::from(folder).join(file)).unwrap();
+                fs::copy(desk.folder.path().join("window.png"), PathBuf::from(folder).join(file))
+                    .unwrap();
             }
         }
         browser.command("Emulation.clearDeviceMetricsOverride", json!({}));
@@ -116,10 +142,12 @@ fn pages_of_five_scenes_work() {
     }
 }
 
-/// By keys on the slider: the picture changes, the fastest corner goes as far as the slider says, hinges stay closed.
+/// By keys on the slider: the picture changes, the fastest corner goes as far as the slider says,
+/// hinges stay closed.
 fn slider_moves(desk: &Desk, name: &str) {
     let browser = &desk.browser;
-    // How far the corners of bodies (or the ends of their diameters) have gone, and how far moving hinges gape.
+    // How far the corners of bodies (or the ends of their diameters) have gone, and how far moving
+    // hinges gape.
     let far = "let far = 0; for (let i = 0; i < COUNT; i++) for (let k = bodies.cornerStart[i]; k < bodies.cornerStart[i + 1]; k++) {
                  const p = at3(bodies.corners, k); far = Math.max(far, norm(sub(moved(i, p), p))); }
                for (let i = 0; i < COUNT; i++) if (bodies.radius[i] > 0) far = Math.max(far, displaced(i)); return far;";
@@ -172,7 +200,8 @@ fn a_page_is_worked_by_keys_alone() {
     );
     assert_eq!(nameless, json!([]));
     browser.run("dispatchEvent(new Event('beforeprint'))");
-    let printed = browser.run("return el('printed').src.slice(0, 22) + (el('printed').src.length > 5000)");
+    let printed =
+        browser.run("return el('printed').src.slice(0, 22) + (el('printed').src.length > 5000)");
     assert_eq!(printed, "data:image/png;base64,true", "printers get an image");
     desk.quiet("keys");
 }

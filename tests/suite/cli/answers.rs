@@ -17,8 +17,20 @@ fn exit_codes_say_what_the_answer_is() {
     expect(USAGE, voussoir(&["limit", &arch]));
     expect(USAGE, voussoir(&["assess", &desk.at("none.json")]));
     expect(USAGE, voussoir(&["tilt", &arch, "--toward", "0,0,1"]));
-    let critical = |more: &[&str]| voussoir(&[&["critical", &arch, "--law", "associative"], more].concat());
-    expect(YES, critical(&["--vary", "/joints/default/friction", "--between", "0.9", "0.1", "--step", "0.3"]));
+    let critical =
+        |more: &[&str]| voussoir(&[&["critical", &arch, "--law", "associative"], more].concat());
+    expect(
+        YES,
+        critical(&[
+            "--vary",
+            "/joints/default/friction",
+            "--between",
+            "0.9",
+            "0.1",
+            "--step",
+            "0.3",
+        ]),
+    );
     expect(NO, critical(&["--vary", "/joints/default/friction", "--between", "0.8", "0.9"]));
     expect(YES, voussoir(&["thrust", &arch, "--support", "springer_right", "--direction", "-1,0"]));
     expect(NO, voussoir(&["thrust", &thin]));
@@ -48,7 +60,9 @@ fn exit_codes_say_what_the_answer_is() {
         let answer = expect(USAGE, voussoir(wrong));
         assert!(out(&answer).is_empty() && !err(&answer).is_empty());
     }
-    for fine in [&["--help"][..], &["help", "limit"], &["--version"], &["schema"], &["generate", "--list"]] {
+    for fine in
+        [&["--help"][..], &["help", "limit"], &["--version"], &["schema"], &["generate", "--list"]]
+    {
         let answer = expect(YES, voussoir(fine));
         assert!(!out(&answer).is_empty() && err(&answer).is_empty());
     }
@@ -57,20 +71,34 @@ fn exit_codes_say_what_the_answer_is() {
 #[test]
 fn a_requirement_inside_the_bracket_is_not_rounded_up() {
     let desk = Desk::new();
-    let value = desk.saved(YES, &["limit", &desk.at("pushed.json")])["answer"]["load_factor"]["upper"].as_f64().unwrap();
-    expect(UNDECIDED, voussoir(&["limit", &desk.at("pushed.json"), "--require", &format!("{value:.17}")]));
+    let value =
+        desk.saved(YES, &["limit", &desk.at("pushed.json")])["answer"]["load_factor"]["upper"]
+            .as_f64()
+            .unwrap();
+    expect(
+        UNDECIDED,
+        voussoir(&["limit", &desk.at("pushed.json"), "--require", &format!("{value:.17}")]),
+    );
 }
 
 /// A block in a groove and a block under a roof: the bound meets what dry friction does not.
 #[test]
 fn a_bound_alone_meets_no_requirement() {
     let scene = |name: &str| format!("{}/structures/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    for (name, bound_only, both, neither) in [("block-in-groove", "0.75", "0.7", "0.9"), ("block-under-roof", "1", "0.399", "-")] {
+    for (name, bound_only, both, neither) in
+        [("block-in-groove", "0.75", "0.7", "0.9"), ("block-under-roof", "1", "0.399", "-")]
+    {
         expect(NO, voussoir(&["limit", &scene(name), "--require", bound_only]));
-        expect(YES, voussoir(&["limit", &scene(name), "--require", bound_only, "--law", "associative"]));
+        expect(
+            YES,
+            voussoir(&["limit", &scene(name), "--require", bound_only, "--law", "associative"]),
+        );
         expect(YES, voussoir(&["limit", &scene(name), "--require", both]));
         if neither != "-" {
-            expect(NO, voussoir(&["limit", &scene(name), "--require", neither, "--law", "associative"]));
+            expect(
+                NO,
+                voussoir(&["limit", &scene(name), "--require", neither, "--law", "associative"]),
+            );
         }
         let first = out(&expect(YES, voussoir(&["limit", &scene(name), "--quiet"])));
         assert!(first.contains("dry friction"), "{first}");
@@ -83,7 +111,10 @@ fn a_block_tips_over_its_edge_or_slides() {
     for (height, mu, tangent) in [(4.0, "0.7", 0.25), (0.5, "0.3", 0.3)] {
         let size = format!("size=[1,1,{height}]");
         let scene = desk.at("block.json");
-        expect(YES, voussoir(&["generate", "column", "blocks=1", &size, "--friction", mu, "-o", &scene]));
+        expect(
+            YES,
+            voussoir(&["generate", "column", "blocks=1", &size, "--friction", mu, "-o", &scene]),
+        );
         let result = desk.saved(YES, &["tilt", &scene]);
         assert_eq!(result["directions"].as_array().unwrap().len(), 8);
         let angle = result["answer"]["tilt_deg"]["value"].as_f64().unwrap();
@@ -101,14 +132,54 @@ fn json_is_one_object_and_nothing_else() {
         (UNDECIDED, vec!["limit", "pushed.json", "--time-limit", "1e-9"]),
         (YES, vec!["limit", "pushed.json"]),
         (YES, vec!["tilt", "arch.json", "--all", "4"]),
-        (YES, vec!["critical", "arch.json", "--vary", "/joints/default/friction", "--between", "0.1", "0.9", "--scan", "5"]),
-        (NO, vec!["critical", "arch.json", "--vary", "/joints/default/friction", "--between", "0.7", "0.9", "--scan", "2"]),
-        (UNDECIDED, vec!["critical", "arch.json", "--vary", "/gravity/0", "--between", "0", "1", "--time-limit", "1e-9"]),
+        (
+            YES,
+            vec![
+                "critical",
+                "arch.json",
+                "--vary",
+                "/joints/default/friction",
+                "--between",
+                "0.1",
+                "0.9",
+                "--scan",
+                "5",
+            ],
+        ),
+        (
+            NO,
+            vec![
+                "critical",
+                "arch.json",
+                "--vary",
+                "/joints/default/friction",
+                "--between",
+                "0.7",
+                "0.9",
+                "--scan",
+                "2",
+            ],
+        ),
+        (
+            UNDECIDED,
+            vec![
+                "critical",
+                "arch.json",
+                "--vary",
+                "/gravity/0",
+                "--between",
+                "0",
+                "1",
+                "--time-limit",
+                "1e-9",
+            ],
+        ),
         (YES, vec!["thrust", "arch.json"]),
         (NO, vec!["thrust", "thin.json"]),
         (UNDECIDED, vec!["thrust", "arch.json", "--time-limit", "1e-9"]),
     ] {
-        let answer = ended(command().current_dir(desk.0.path()).args(&args).arg("--json").output().unwrap());
+        let answer =
+            ended(command().current_dir(desk.0.path()).args(&args).arg("--json").output().unwrap());
         let answer = expect(wanted, answer);
         let value: Value = serde_json::from_str(&out(&answer)).unwrap();
         assert_eq!(value["format"], "voussoir-result/2");
@@ -126,7 +197,11 @@ fn scenes_come_from_standard_input() {
     let answer = expect(YES, with_input(&["assess", "-"], &scene));
     assert!(out(&answer).starts_with("Column: stands\n"), "{}", out(&answer));
     let answer = expect(USAGE, with_input(&["assess", "-"], &scene[..scene.len() / 2]));
-    assert!(err(&answer).contains("standard input:") && err(&answer).contains("hint: "), "{}", err(&answer));
+    assert!(
+        err(&answer).contains("standard input:") && err(&answer).contains("hint: "),
+        "{}",
+        err(&answer)
+    );
 }
 
 #[test]
@@ -134,7 +209,11 @@ fn text_says_the_answer_first_and_what_next() {
     let desk = Desk::new();
     let text = out(&expect(YES, voussoir(&["assess", &desk.at("arch.json")])));
     assert!(text.starts_with("Arch: stands\n\n"), "{text}");
-    assert!(text.contains("17 blocks (2 supports), 16 interfaces, 64 contact points") && text.contains("voussoir tilt "), "{text}");
+    assert!(
+        text.contains("17 blocks (2 supports), 16 interfaces, 64 contact points")
+            && text.contains("voussoir tilt "),
+        "{text}"
+    );
     assert!(text.lines().count() < 24 && !text.contains('\x1b'), "{text}");
     let text = out(&expect(YES, voussoir(&["assess", &desk.at("arch.json"), "--verbose"])));
     assert!(text.contains("iterations"), "{text}");
@@ -155,11 +234,16 @@ fn an_answer_fits_one_screen() {
         (NO, &["assess", "semicircular-arch-thin.json"]),
     ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("structures").join(question[1]);
-        let asked = [&[question[0], path.to_str().unwrap()], &question[2..], &["--law", "associative"]].concat();
+        let asked =
+            [&[question[0], path.to_str().unwrap()], &question[2..], &["--law", "associative"]]
+                .concat();
         let short = out(&expect(wanted, voussoir(&asked)));
         let long = out(&expect(wanted, voussoir(&[&asked[..], &["--verbose"]].concat())));
         assert!(short.lines().count() <= 40, "{} lines:\n{short}", short.lines().count());
-        assert!(long.lines().count() > short.lines().count() && !long.contains("--verbose for all"), "{long}");
+        assert!(
+            long.lines().count() > short.lines().count() && !long.contains("--verbose for all"),
+            "{long}"
+        );
         assert_eq!(short.lines().next(), long.lines().next());
     }
 }

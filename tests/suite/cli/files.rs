@@ -8,8 +8,13 @@ fn results_are_written_whole_or_not_at_all() {
     let before = desk.files();
     // The target is tried before anything is read.
     for target in ["no-folder/r.json", ""] {
-        let answer = expect(USAGE, voussoir(&["assess", &desk.at("none.json"), "--save", &desk.at(target)]));
-        assert!(err(&answer).contains("cannot be written") && out(&answer).is_empty(), "{}", err(&answer));
+        let answer =
+            expect(USAGE, voussoir(&["assess", &desk.at("none.json"), "--save", &desk.at(target)]));
+        assert!(
+            err(&answer).contains("cannot be written") && out(&answer).is_empty(),
+            "{}",
+            err(&answer)
+        );
     }
     // A question that fails leaves what was there.
     fs::write(desk.path("old.json"), "old").unwrap();

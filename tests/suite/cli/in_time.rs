@@ -13,19 +13,40 @@ const PUSHED: &str = r#"{ "format": "voussoir-scene/1", "name": "Pushed", "gravi
 fn simulate_answers_by_its_exit_code_and_says_whether_the_verdict_agrees() {
     let stands = expect(YES, with_input(&["simulate", "-"], PUSHED));
     assert!(
-        out(&stands).starts_with("Pushed: stands\n") && out(&stands).contains("The verdict says the same: it stands."),
+        out(&stands).starts_with("Pushed: stands\n")
+            && out(&stands).contains("The verdict says the same: it stands."),
         "{}",
         out(&stands)
     );
     let falls = expect(NO, with_input(&["simulate", "-", "--load-factor", "0.55"], PUSHED));
     assert!(
-        out(&falls).contains("The verdict says the same: it falls. Its first motion and the mechanism correlate by"),
+        out(&falls).contains(
+            "The verdict says the same: it falls. Its first motion and the mechanism correlate by"
+        ),
         "{}",
         out(&falls)
     );
-    let open =
-        expect(UNDECIDED, with_input(&["simulate", "-", "--load-factor", "0.55", "--fast", "--seconds", "0.05", "--skip-verdict"], PUSHED));
-    assert!(out(&open).starts_with("Pushed: undecided\n") && !out(&open).contains("verdict says"), "{}", out(&open));
+    let open = expect(
+        UNDECIDED,
+        with_input(
+            &[
+                "simulate",
+                "-",
+                "--load-factor",
+                "0.55",
+                "--fast",
+                "--seconds",
+                "0.05",
+                "--skip-verdict",
+            ],
+            PUSHED,
+        ),
+    );
+    assert!(
+        out(&open).starts_with("Pushed: undecided\n") && !out(&open).contains("verdict says"),
+        "{}",
+        out(&open)
+    );
     let brief = expect(YES, with_input(&["simulate", "-", "--quiet"], PUSHED));
     assert_eq!((out(&brief).as_str(), err(&brief).as_str()), ("Pushed: stands\n", ""));
 }
@@ -35,11 +56,32 @@ fn simulate_writes_trajectories_and_results_that_check_knows() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
     let (csv, result) = (path("motion.csv"), path("result.json"));
-    expect(NO, with_input(&["simulate", "-", "--load-factor", "0.6", "--csv", &csv, "--frames", "50", "--save", &result], PUSHED));
+    expect(
+        NO,
+        with_input(
+            &[
+                "simulate",
+                "-",
+                "--load-factor",
+                "0.6",
+                "--csv",
+                &csv,
+                "--frames",
+                "50",
+                "--save",
+                &result,
+            ],
+            PUSHED,
+        ),
+    );
     let text = fs::read_to_string(&csv).unwrap();
     let rows: Vec<&str> = text.lines().collect();
     assert!(rows[0].starts_with("run,time,block,x,y,z,qw,") && rows.len() > 7, "{text}");
-    assert!(rows[1].starts_with("fast,0,ground,0,0,-0.5,1,0,0,0,0,0,0,") && rows.iter().any(|r| r.starts_with("fine,")), "{text}");
+    assert!(
+        rows[1].starts_with("fast,0,ground,0,0,-0.5,1,0,0,0,0,0,0,")
+            && rows.iter().any(|r| r.starts_with("fine,")),
+        "{text}"
+    );
     let file: Value = serde_json::from_str(&fs::read_to_string(&result).unwrap()).unwrap();
     assert_eq!(
         (&file["question"], &file["answer"]["fate"], &file["answer"]["verdict"]),
@@ -56,14 +98,18 @@ fn simulate_writes_trajectories_and_results_that_check_knows() {
     // Frames are not in a result that nobody asked to hold them.
     let plain = expect(YES, with_input(&["simulate", "-", "--json", "--threads", "2"], PUSHED));
     let plain: Value = serde_json::from_str(&out(&plain)).unwrap();
-    assert!(plain["simulation"].get("frames").is_none() && plain["simulation"]["agreement"]["agrees"] == json!(true));
+    assert!(
+        plain["simulation"].get("frames").is_none()
+            && plain["simulation"]["agreement"]["agrees"] == json!(true)
+    );
 }
 
 #[test]
 fn assess_simulates_when_asked_or_in_doubt() {
     let simulated = |args: &[&str], scene: &str| {
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/");
-        let output = voussoir(&[&["assess", &format!("{file}{scene}.json"), "--json"], args].concat());
+        let output =
+            voussoir(&[&["assess", &format!("{file}{scene}.json"), "--json"], args].concat());
         let value: Value = serde_json::from_str(&out(&output)).unwrap();
         value.get("simulation").map(|s| s["fate"].clone())
     };
@@ -75,27 +121,66 @@ fn assess_simulates_when_asked_or_in_doubt() {
 
 #[test]
 fn simulate_refuses_what_it_cannot_do() {
-    for args in [&["--seconds", "0"][..], &["--frames", "0"], &["--fast", "--fine"], &["--load-factor", "nan"]] {
+    for args in [
+        &["--seconds", "0"][..],
+        &["--frames", "0"],
+        &["--fast", "--fine"],
+        &["--load-factor", "nan"],
+    ] {
         expect(USAGE, with_input(&[&["simulate", "-"], args].concat(), PUSHED));
     }
-    let lost = expect(USAGE, with_input(&["simulate", "-", "--csv", "/nowhere/motion.csv"], PUSHED));
+    let lost =
+        expect(USAGE, with_input(&["simulate", "-", "--csv", "/nowhere/motion.csv"], PUSHED));
     assert!(err(&lost).contains("/nowhere/motion.csv: cannot be written"), "{}", err(&lost));
 }
 
 #[test]
 fn repose_answers_both_questions() {
     let desk = Desk::new();
-    expect(YES, voussoir(&["generate", "lattice", "layers=2", "--friction", "0.5", "-o", &desk.at("pile.json")]));
-    let (pile, saved, table) = (desk.at("pile.json"), desk.at("saved.json"), desk.at("contacts.csv"));
+    expect(
+        YES,
+        voussoir(&[
+            "generate",
+            "lattice",
+            "layers=2",
+            "--friction",
+            "0.5",
+            "-o",
+            &desk.at("pile.json"),
+        ]),
+    );
+    let (pile, saved, table) =
+        (desk.at("pile.json"), desk.at("saved.json"), desk.at("contacts.csv"));
     let options = ["--toward", "0,-1", "--fabric", "--csv", &table, "--save", &saved, "--json"];
-    let answer: Value = serde_json::from_str(&out(&expect(YES, voussoir(&[&["repose", &pile][..], &options].concat())))).unwrap();
-    assert!((answer["directions"][0]["tilt_deg"].as_f64().unwrap() - 19.471220634).abs() < 1e-6, "{answer}");
+    let answer: Value = serde_json::from_str(&out(&expect(
+        YES,
+        voussoir(&[&["repose", &pile][..], &options].concat()),
+    )))
+    .unwrap();
+    assert!(
+        (answer["directions"][0]["tilt_deg"].as_f64().unwrap() - 19.471220634).abs() < 1e-6,
+        "{answer}"
+    );
     assert_eq!(answer["fabric"]["grains"], 4);
     expect(YES, voussoir(&["check", &saved]));
     let rows = fs::read_to_string(&table).unwrap().lines().count();
-    assert_eq!(rows, 1 + answer["fabric"]["contacts"].as_u64().unwrap() as usize, "a row for each contact that carries");
+    assert_eq!(
+        rows,
+        1 + answer["fabric"]["contacts"].as_u64().unwrap() as usize,
+        "a row for each contact that carries"
+    );
 
-    let protocol = ["repose", "drain", "grains=30", "size=[6,4]", "--question", "repose", "--seeds", "2", "--json"];
+    let protocol = [
+        "repose",
+        "drain",
+        "grains=30",
+        "size=[6,4]",
+        "--question",
+        "repose",
+        "--seeds",
+        "2",
+        "--json",
+    ];
     let heaps = desk.at("heap.json");
     let one = out(&voussoir(&[&protocol[..], &["--heaps", &heaps, "--skip-margin"]].concat()));
     let file: Value = serde_json::from_str(&one).unwrap();

@@ -1,5 +1,5 @@
-//! The command line by behaviour: exit codes, what is printed where, files written whole or not at all, and saved results
-//! that are refused as soon as anything in them is changed.
+//! The command line by behaviour: exit codes, what is printed where, files written whole or not at
+//! all, and saved results that are refused as soon as anything in them is changed.
 
 mod answers;
 mod checked;
@@ -38,7 +38,13 @@ fn voussoir(args: &[&str]) -> Output {
 }
 
 fn with_input(args: &[&str], input: &str) -> Output {
-    let mut child = command().args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut child = command()
+        .args(args)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
     // A refusal may come before the input is read.
     if let Err(e) = child.stdin.take().unwrap().write_all(input.as_bytes()) {
         assert_eq!(e.kind(), std::io::ErrorKind::BrokenPipe);
@@ -76,8 +82,30 @@ struct Desk(TempDir);
 impl Desk {
     fn new() -> Self {
         let desk = Self(TempDir::new().unwrap());
-        expect(YES, voussoir(&["generate", "arch", "voussoirs=15", "--density", "2400", "--expand", "-o", &desk.at("arch.json")]));
-        expect(YES, voussoir(&["generate", "arch", "voussoirs=15", "thickness=0.3", "-o", &desk.at("thin.json")]));
+        expect(
+            YES,
+            voussoir(&[
+                "generate",
+                "arch",
+                "voussoirs=15",
+                "--density",
+                "2400",
+                "--expand",
+                "-o",
+                &desk.at("arch.json"),
+            ]),
+        );
+        expect(
+            YES,
+            voussoir(&[
+                "generate",
+                "arch",
+                "voussoirs=15",
+                "thickness=0.3",
+                "-o",
+                &desk.at("thin.json"),
+            ]),
+        );
         let mut pushed = desk.read("arch.json");
         pushed["loads"] = json!({ "live": [{ "weight": [1, 0, 0] }] });
         desk.write("pushed.json", &pushed);
@@ -115,8 +143,10 @@ impl Desk {
     }
 
     fn files(&self) -> Vec<String> {
-        let mut names: Vec<String> =
-            fs::read_dir(self.0.path()).unwrap().map(|e| e.unwrap().file_name().to_str().unwrap().to_string()).collect();
+        let mut names: Vec<String> = fs::read_dir(self.0.path())
+            .unwrap()
+            .map(|e| e.unwrap().file_name().to_str().unwrap().to_string())
+            .collect();
         names.sort();
         names
     }

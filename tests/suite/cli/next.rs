@@ -4,14 +4,47 @@ use super::*;
 
 #[test]
 fn the_commands_that_come_next_ask_the_same_question() {
-    let text = out(&expect(YES, structure(&["tilt", "--toward", "1,0", "--law", "associative"], "block-on-tilting-table")));
-    assert!(text.contains("block-on-tilting-table.json --toward 1,0 --law associative --save result.json"), "{text}");
-    let text = out(&expect(YES, structure(&["tilt", "--toward", "1,0,0.5", "--skip-dead"], "block-on-tilting-table")));
+    let text = out(&expect(
+        YES,
+        structure(&["tilt", "--toward", "1,0", "--law", "associative"], "block-on-tilting-table"),
+    ));
+    assert!(
+        text.contains(
+            "block-on-tilting-table.json --toward 1,0 --law associative --save result.json"
+        ),
+        "{text}"
+    );
+    let text = out(&expect(
+        YES,
+        structure(&["tilt", "--toward", "1,0,0.5", "--skip-dead"], "block-on-tilting-table"),
+    ));
     assert!(text.contains(" --toward 1,0,0.5 --skip-dead --save "), "{text}");
-    let critical = ["critical", "--vary", "/gravity/0", "--between", "0", "9", "--step", "3", "--law", "associative"];
+    let critical = [
+        "critical",
+        "--vary",
+        "/gravity/0",
+        "--between",
+        "0",
+        "9",
+        "--step",
+        "3",
+        "--law",
+        "associative",
+    ];
     let text = out(&expect(YES, structure(&critical, "block-on-tilting-table")));
-    assert!(text.contains(".json --vary /gravity/0 --between 0 9 --step 3 --law associative --save result.json"), "{text}");
-    let text = out(&expect(YES, structure(&["thrust", "--support", "ground", "--direction", "1,0"], "block-on-tilting-table")));
+    assert!(
+        text.contains(
+            ".json --vary /gravity/0 --between 0 9 --step 3 --law associative --save result.json"
+        ),
+        "{text}"
+    );
+    let text = out(&expect(
+        YES,
+        structure(
+            &["thrust", "--support", "ground", "--direction", "1,0"],
+            "block-on-tilting-table",
+        ),
+    ));
     assert!(text.contains(".json --support ground --direction 1,0,0 --save result.json"), "{text}");
     let text = out(&expect(YES, structure(&["tilt"], "block-on-tilting-table")));
     assert!(text.contains("block-on-tilting-table.json --save "), "{text}");
@@ -20,14 +53,34 @@ fn the_commands_that_come_next_ask_the_same_question() {
 #[test]
 fn a_thrust_is_drawn_and_a_critical_value_told_first() {
     let desk = Desk::new();
-    let answer = expect(YES, voussoir(&["thrust", &desk.at("arch.json"), "--svg", &desk.at("arch.svg"), "--quiet"]));
-    assert!(out(&answer).starts_with("Arch: thrust on springer_left from ") && out(&answer).lines().count() == 1, "{}", out(&answer));
+    let answer = expect(
+        YES,
+        voussoir(&["thrust", &desk.at("arch.json"), "--svg", &desk.at("arch.svg"), "--quiet"]),
+    );
+    assert!(
+        out(&answer).starts_with("Arch: thrust on springer_left from ")
+            && out(&answer).lines().count() == 1,
+        "{}",
+        out(&answer)
+    );
     let drawing = fs::read_to_string(desk.path("arch.svg")).unwrap();
     assert!(drawing.starts_with("<svg ") && drawing.ends_with("</svg>\n"));
-    let answer = voussoir(&["critical", &desk.at("arch.json"), "--vary", "/joints/default/friction", "--between", "0.1", "0.9"]);
+    let answer = voussoir(&[
+        "critical",
+        &desk.at("arch.json"),
+        "--vary",
+        "/joints/default/friction",
+        "--between",
+        "0.1",
+        "0.9",
+    ]);
     let text = out(&expect(YES, answer));
     assert!(text.starts_with("Arch: falls below friction = 0.3"), "{text}");
-    assert!(text.contains("  proved      falls at 0.3") && text.contains("33 values of /joints/default/friction"), "{text}");
+    assert!(
+        text.contains("  proved      falls at 0.3")
+            && text.contains("33 values of /joints/default/friction"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -42,7 +95,10 @@ fn paths_are_quoted_where_a_shell_would_split_them() {
 #[test]
 fn no_limit_is_not_said_where_dry_friction_has_one() {
     let first = out(&structure(&["limit", "--quiet"], "block-under-roof"));
-    assert!(first.contains("with dry friction λ = 0.40000") && !first.contains("without limit"), "{first}");
+    assert!(
+        first.contains("with dry friction λ = 0.40000") && !first.contains("without limit"),
+        "{first}"
+    );
     let first = out(&structure(&["limit", "--quiet", "--law", "associative"], "block-under-roof"));
     assert!(first.contains("without limit"), "{first}");
 }

@@ -21,24 +21,66 @@ fn pictures_and_tables_are_written_beside_the_answer() {
         assert_eq!(plain, with);
         let read = |name: &str| fs::read_to_string(desk.path(name)).unwrap();
         assert!(read("a.svg").starts_with("<svg ") && read("a.svg").ends_with("</svg>\n"));
-        assert!(read("a.vtp").contains("type=\"PolyData\"") && read("a.vtp").ends_with("</VTKFile>\n"));
-        assert_eq!([read("a.csv").lines().count() > 14, read("a.blocks.csv").lines().count() == 18], [true; 2]);
-        ["a.svg", "a.vtp", "a.csv", "a.blocks.csv"].iter().for_each(|n| fs::remove_file(desk.path(n)).unwrap());
+        assert!(
+            read("a.vtp").contains("type=\"PolyData\"") && read("a.vtp").ends_with("</VTKFile>\n")
+        );
+        assert_eq!(
+            [read("a.csv").lines().count() > 14, read("a.blocks.csv").lines().count() == 18],
+            [true; 2]
+        );
+        ["a.svg", "a.vtp", "a.csv", "a.blocks.csv"]
+            .iter()
+            .for_each(|n| fs::remove_file(desk.path(n)).unwrap());
     }
     let packing = desk.at("pile.json");
-    expect(YES, voussoir(&["generate", "lattice", "layers=2", "--friction", "0.5", "-o", &packing]));
-    expect(YES, voussoir(&["repose", &packing, "--toward", "0,-1", "--law", "associative", "--svg", &svg, "--vtk", &vtp, "-q"]));
+    expect(
+        YES,
+        voussoir(&["generate", "lattice", "layers=2", "--friction", "0.5", "-o", &packing]),
+    );
+    expect(
+        YES,
+        voussoir(&[
+            "repose",
+            &packing,
+            "--toward",
+            "0,-1",
+            "--law",
+            "associative",
+            "--svg",
+            &svg,
+            "--vtk",
+            &vtp,
+            "-q",
+        ]),
+    );
     assert!(desk.files().contains(&"a.svg".into()) && desk.files().contains(&"a.vtp".into()));
     // A picture on standard output stands alone.
-    let drawn = out(&expect(YES, voussoir(&["assess", &desk.at("arch.json"), "--law", "associative", "--svg", "-", "--view", "corner"])));
-    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n") && drawn.matches("<svg ").count() == 2);
+    let drawn = out(&expect(
+        YES,
+        voussoir(&[
+            "assess",
+            &desk.at("arch.json"),
+            "--law",
+            "associative",
+            "--svg",
+            "-",
+            "--view",
+            "corner",
+        ]),
+    ));
+    assert!(
+        drawn.starts_with("<svg ")
+            && drawn.ends_with("</svg>\n")
+            && drawn.matches("<svg ").count() == 2
+    );
 }
 
 #[test]
 fn saved_results_and_scenes_are_drawn_by_check() {
     let desk = Desk::new();
     let svg = desk.at("a.svg");
-    let mut result = desk.saved(NO, &["assess", &desk.at("thin.json"), "--law", "associative", "--svg", &svg]);
+    let mut result =
+        desk.saved(NO, &["assess", &desk.at("thin.json"), "--law", "associative", "--svg", &svg]);
     let asked = fs::read_to_string(&svg).unwrap();
     expect(YES, voussoir(&["check", &desk.at("saved.json"), "--svg", &svg]));
     assert_eq!(fs::read_to_string(&svg).unwrap(), asked);
@@ -58,9 +100,23 @@ fn saved_results_and_scenes_are_drawn_by_check() {
 fn a_simulation_is_a_collection_of_moments() {
     let desk = Desk::new();
     let (pvd, svg) = (desk.at("fall.pvd"), desk.at("fall.svg"));
-    expect(NO, voussoir(&["simulate", &desk.at("thin.json"), "--fast", "--skip-verdict", "--vtk", &pvd, "--svg", &svg, "-q"]));
+    expect(
+        NO,
+        voussoir(&[
+            "simulate",
+            &desk.at("thin.json"),
+            "--fast",
+            "--skip-verdict",
+            "--vtk",
+            &pvd,
+            "--svg",
+            &svg,
+            "-q",
+        ]),
+    );
     let text = fs::read_to_string(&pvd).unwrap();
-    let named: Vec<&str> = text.split("file=\"").skip(1).filter_map(|t| t.split('"').next()).collect();
+    let named: Vec<&str> =
+        text.split("file=\"").skip(1).filter_map(|t| t.split('"').next()).collect();
     assert!(named.len() > 2 && named.iter().all(|n| desk.path(n).is_file()), "{text}");
     assert!(fs::read_to_string(&svg).unwrap().contains("after "));
 }
@@ -84,6 +140,7 @@ fn pictures_that_cannot_be_made_are_refused_before_the_work() {
     }
     let answer = expect(USAGE, voussoir(&["simulate", &arch, "--vtk", "a.vtp"]));
     assert!(err(&answer).contains("name it a.pvd"), "{}", err(&answer));
-    let answer = expect(USAGE, voussoir(&["repose", "drain", "--question", "repose", "--csv", "a.csv"]));
+    let answer =
+        expect(USAGE, voussoir(&["repose", "drain", "--question", "repose", "--csv", "a.csv"]));
     assert!(err(&answer).contains("--heaps"), "{}", err(&answer));
 }

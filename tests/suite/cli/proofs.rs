@@ -24,29 +24,64 @@ fn greatest_force(certificate: &Value) -> (usize, usize) {
 fn a_stable_result_is_refused_after_any_change() {
     let desk = Desk::new();
     let good = desk.saved(YES, &["assess", &desk.at("arch.json")]);
-    assert!(
-        desk.checked(YES, &good).starts_with("Arch: proved, exact; that states under dry friction rest or move is computed, not proved\n")
-    );
+    assert!(desk.checked(YES, &good).starts_with(
+        "Arch: proved, exact; that states under dry friction rest or move is computed, not proved\n"
+    ));
     let (i, j) = greatest_force(&good["certificate"]);
     type Change<'a> = (&'a str, Box<dyn Fn(&mut Value) + 'a>);
     let changes: Vec<Change> = vec![
-        ("one force", Box::new(|r| scale(&mut r["certificate"]["forces"][i]["forces"][j], 1.0 + 1e-6))),
-        ("one force turned", Box::new(|r| scale(&mut r["certificate"]["forces"][i]["forces"][j], -1.0))),
-        ("a contact dropped", Box::new(|r| drop(r["certificate"]["forces"].as_array_mut().unwrap().remove(i)))),
-        ("a point moved", Box::new(|r| scale(&mut r["certificate"]["forces"][i]["points"][j], 1.001))),
-        ("a force dropped", Box::new(|r| drop(r["certificate"]["forces"][i]["forces"].as_array_mut().unwrap().remove(j)))),
-        ("an unknown block", Box::new(|r| r["certificate"]["forces"][i]["between"][0] = json!("nobody"))),
+        (
+            "one force",
+            Box::new(|r| scale(&mut r["certificate"]["forces"][i]["forces"][j], 1.0 + 1e-6)),
+        ),
+        (
+            "one force turned",
+            Box::new(|r| scale(&mut r["certificate"]["forces"][i]["forces"][j], -1.0)),
+        ),
+        (
+            "a contact dropped",
+            Box::new(|r| drop(r["certificate"]["forces"].as_array_mut().unwrap().remove(i))),
+        ),
+        (
+            "a point moved",
+            Box::new(|r| scale(&mut r["certificate"]["forces"][i]["points"][j], 1.001)),
+        ),
+        (
+            "a force dropped",
+            Box::new(|r| {
+                drop(r["certificate"]["forces"][i]["forces"].as_array_mut().unwrap().remove(j))
+            }),
+        ),
+        (
+            "an unknown block",
+            Box::new(|r| r["certificate"]["forces"][i]["between"][0] = json!("nobody")),
+        ),
         ("the verdict", Box::new(|r| r["answer"]["verdict"] = json!("unstable"))),
         ("the verdict undecided", Box::new(|r| r["answer"]["verdict"] = json!("undecided"))),
         ("the claim", Box::new(|r| r["certificate"]["claim"] = json!("unstable"))),
-        ("verdict and claim", Box::new(|r| (r["answer"]["verdict"], r["certificate"]["claim"]) = (json!("unstable"), json!("unstable")))),
+        (
+            "verdict and claim",
+            Box::new(|r| {
+                (r["answer"]["verdict"], r["certificate"]["claim"]) =
+                    (json!("unstable"), json!("unstable"))
+            }),
+        ),
         ("no claim", Box::new(|r| drop(r["certificate"].as_object_mut().unwrap().remove("claim")))),
         ("the unbalance", Box::new(|r| r["answer"]["unbalance"]["upper"] = json!(1e-3))),
         ("a count", Box::new(|r| r["scene"]["contact_points"] = json!(1))),
         ("another question", Box::new(|r| r["question"] = json!("limit"))),
         ("a density", Box::new(|r| r["scene"]["input"]["blocks"][5]["density"] = json!(2400.01))),
-        ("the friction", Box::new(|r| r["scene"]["input"]["joints"]["default"]["friction"] = json!(0.01))),
-        ("a load", Box::new(|r| r["scene"]["input"]["loads"] = json!({"dead": [{"block": "v05", "force": [1, 0, 0]}]}))),
+        (
+            "the friction",
+            Box::new(|r| r["scene"]["input"]["joints"]["default"]["friction"] = json!(0.01)),
+        ),
+        (
+            "a load",
+            Box::new(|r| {
+                r["scene"]["input"]["loads"] =
+                    json!({"dead": [{"block": "v05", "force": [1, 0, 0]}]})
+            }),
+        ),
     ];
     for (what, change) in changes {
         let mut bad = good.clone();
@@ -79,7 +114,9 @@ fn an_unstable_result_is_refused_after_any_change() {
     changed(&|r| drop(r["certificate"]["rates"].as_array_mut().unwrap().remove(0)));
     changed(&|r| r["certificate"]["rates"][0]["block"] = json!("springer_left"));
     changed(&|r| r["answer"]["verdict"] = json!("stable"));
-    changed(&|r| (r["answer"]["verdict"], r["certificate"]["claim"]) = (json!("stable"), json!("stable")));
+    changed(&|r| {
+        (r["answer"]["verdict"], r["certificate"]["claim"]) = (json!("stable"), json!("stable"))
+    });
     changed(&|r| r["answer"]["unbalance"]["lower"] = json!(1.0));
     changed(&|r| drop(r["mechanism"]["moving"].as_array_mut().unwrap().remove(0)));
     changed(&|r| r["mechanism"]["joints"][0]["motion"] = json!("slide"));
@@ -117,7 +154,10 @@ fn a_load_factor_is_refused_after_any_change() {
     changed(&|r| r["scene"]["input"]["loads"]["live"][0]["weight"] = json!([1.01, 0, 0]));
     changed(&|r| r["dead_load"]["answer"]["verdict"] = json!("unstable"));
     changed(&|r| drop(r["dead_load"]["certificate"].as_object_mut().unwrap().remove("claim")));
-    changed(&|r| (r["answer"]["verdict"], r["dead_load"]["answer"]["verdict"]) = (json!("unstable"), json!("unstable")));
+    changed(&|r| {
+        (r["answer"]["verdict"], r["dead_load"]["answer"]["verdict"]) =
+            (json!("unstable"), json!("unstable"))
+    });
     // Keys of two questions in one answer are no result at all.
     let mut mixed = good.clone();
     mixed["answer"]["tilt_deg"] = mixed["answer"]["load_factor"].clone();
@@ -127,7 +167,10 @@ fn a_load_factor_is_refused_after_any_change() {
 #[test]
 fn a_load_factor_with_dry_friction_is_refused_after_any_change() {
     let desk = Desk::new();
-    let good = desk.saved(YES, &["limit", concat!(env!("CARGO_MANIFEST_DIR"), "/structures/block-in-groove.json")]);
+    let good = desk.saved(
+        YES,
+        &["limit", concat!(env!("CARGO_MANIFEST_DIR"), "/structures/block-in-groove.json")],
+    );
     desk.checked(YES, &good);
     let (i, j) = greatest_force(&good["dry"]["certificate"]);
     let changed = |change: &dyn Fn(&mut Value)| {
@@ -161,7 +204,10 @@ fn a_tilt_is_refused_after_any_change() {
         assert_ne!(bad, good);
         desk.checked(NO, &bad);
     };
-    changed(&|r| r["answer"]["tilt_deg"]["value"] = json!(r["answer"]["tilt_deg"]["value"].as_f64().unwrap() + 1e-6));
+    changed(&|r| {
+        r["answer"]["tilt_deg"]["value"] =
+            json!(r["answer"]["tilt_deg"]["value"].as_f64().unwrap() + 1e-6)
+    });
     changed(&|r| {
         // The strongest direction in place of the weakest.
         let list = r["directions"].as_array().unwrap();
@@ -184,7 +230,9 @@ fn a_tilt_is_refused_after_any_change() {
 #[test]
 fn loads_without_limit_and_without_answer_are_proved_as_well() {
     let desk = Desk::new();
-    let mut scene: Value = serde_json::from_str(&out(&expect(YES, voussoir(&["generate", "column", "blocks=3"])))).unwrap();
+    let mut scene: Value =
+        serde_json::from_str(&out(&expect(YES, voussoir(&["generate", "column", "blocks=3"]))))
+            .unwrap();
     scene["loads"] = json!({ "live": [{ "weight": [0.1, 0, -1] }] });
     let result = desk.saved(YES, &["limit", &desk.write("down.json", &scene), "--require", "1e9"]);
     assert_eq!(result["answer"]["load_factor"]["status"], "unbounded");

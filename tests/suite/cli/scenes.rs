@@ -11,10 +11,18 @@ fn templates_are_changed_by_key() {
         let scene = out(&expect(YES, voussoir(&["generate", name, "--name", "T"])));
         let answer = expect(YES, with_input(&["assess", "-", "-q"], &scene));
         assert_eq!(out(&answer), "T: stands\n", "{name}");
-        let blocks = out(&expect(YES, voussoir(&["generate", name, "--expand", "--density", "1800"])));
+        let blocks =
+            out(&expect(YES, voussoir(&["generate", name, "--expand", "--density", "1800"])));
         let blocks: Value = serde_json::from_str(&blocks).unwrap();
-        assert!(blocks.get("templates").is_none() && blocks["materials"].as_object().unwrap().len() == 1, "{name}");
-        assert!(blocks["blocks"].as_array().unwrap().iter().all(|b| b["material"].is_string()), "{name}");
+        assert!(
+            blocks.get("templates").is_none()
+                && blocks["materials"].as_object().unwrap().len() == 1,
+            "{name}"
+        );
+        assert!(
+            blocks["blocks"].as_array().unwrap().iter().all(|b| b["material"].is_string()),
+            "{name}"
+        );
     }
     let scene: Value = serde_json::from_str(&out(&expect(
         YES,
@@ -54,7 +62,11 @@ fn templates_are_changed_by_key() {
         (&["arch", "--density", "-1"], "density"),
     ] {
         let answer = expect(USAGE, voussoir(&[&["generate"], wrong].concat()));
-        assert!(err(&answer).contains(said) && out(&answer).is_empty(), "{wrong:?}: {}", err(&answer));
+        assert!(
+            err(&answer).contains(said) && out(&answer).is_empty(),
+            "{wrong:?}: {}",
+            err(&answer)
+        );
     }
 }
 
@@ -67,7 +79,9 @@ fn meshes_become_scenes() {
         for k in 0..8 {
             text.push_str(&format!("v {} {} {}\n", k & 1, k >> 1 & 1, z + f64::from(k >> 2)));
         }
-        for face in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+        for face in
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+        {
             text.push_str(&format!("f {}\n", face.map(|i: i32| (i + first).to_string()).join(" ")));
         }
     }
@@ -75,14 +89,21 @@ fn meshes_become_scenes() {
     fs::write(&obj, text).unwrap();
     let scene = desk.at("stone.json");
     for support in [["--support", "ground"], ["--support-below", "-0.5"]] {
-        expect(YES, voussoir(&[&["import", &obj, "--friction", "0.5", "-o", &scene], &support[..]].concat()));
+        expect(
+            YES,
+            voussoir(
+                &[&["import", &obj, "--friction", "0.5", "-o", &scene], &support[..]].concat(),
+            ),
+        );
         assert_eq!(desk.read("stone.json")["blocks"].as_array().unwrap().len(), 2);
         let result = desk.saved(YES, &["tilt", &scene, "--toward", "1,0"]);
         assert!((result["answer"]["tan_tilt"]["value"].as_f64().unwrap() - 0.5).abs() < 1e-7);
     }
     // What is missing is said, on standard error alone.
     let answer = expect(YES, voussoir(&["import", &obj]));
-    assert!(err(&answer).contains("note: ") && serde_json::from_str::<Value>(&out(&answer)).is_ok());
+    assert!(
+        err(&answer).contains("note: ") && serde_json::from_str::<Value>(&out(&answer)).is_ok()
+    );
     expect(USAGE, voussoir(&["import", &obj, "--support", "nobody"]));
     expect(USAGE, voussoir(&["import", &desk.at("none.obj")]));
     expect(USAGE, voussoir(&["import", &obj, "--up", "w"]));
@@ -100,7 +121,11 @@ fn errors_name_the_place_and_the_remedy() {
     let file = Path::new(&desk.at("bad.json")).display().to_string();
     let place = lines[0].strip_prefix(&format!("error: {file}:")).expect(&lines[0]);
     let mut parts = place.splitn(3, ':');
-    assert!(parts.next().unwrap().parse::<usize>().unwrap() > 10 && parts.next().unwrap().parse::<usize>().is_ok(), "{place}");
+    assert!(
+        parts.next().unwrap().parse::<usize>().unwrap() > 10
+            && parts.next().unwrap().parse::<usize>().is_ok(),
+        "{place}"
+    );
     assert!(parts.next().unwrap().starts_with(" blocks[3].density: "), "{place}");
     assert!(lines[1].starts_with("hint: ") && lines.len() == 2, "{lines:?}");
 }

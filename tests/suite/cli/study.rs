@@ -5,7 +5,8 @@ use super::*;
 #[test]
 fn a_scene_of_a_study_is_printed_and_can_be_asked() {
     for study in ["--soak", "--cross", "--forge"] {
-        let scene = out(&expect(YES, voussoir(&["study", study, "1", "--seed", "4", "--only", "18"])));
+        let scene =
+            out(&expect(YES, voussoir(&["study", study, "1", "--seed", "4", "--only", "18"])));
         let scene: Value = serde_json::from_str(&scene).unwrap();
         let name = if study == "--soak" { "soak 4/18: " } else { "cross 4/18: groove" };
         assert!(scene["name"].as_str().unwrap().starts_with(name), "{study}: {}", scene["name"]);

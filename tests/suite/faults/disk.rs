@@ -46,12 +46,22 @@ impl Drop for Small {
 fn a_full_disk_leaves_results_whole_or_absent() {
     let Some(small) = Small::new(4) else { return };
     let desk = desk(3, 4, 4);
-    for question in
-        [&["assess"][..], &["limit", "--law", "associative"], &["tilt", "--all", "1", "--law", "associative"], &["simulate", "--fast"]]
-    {
-        let output = run(desk.path(), &[question, &["wall.json", "--save", &small.at("result.json")]].concat());
+    for question in [
+        &["assess"][..],
+        &["limit", "--law", "associative"],
+        &["tilt", "--all", "1", "--law", "associative"],
+        &["simulate", "--fast"],
+    ] {
+        let output = run(
+            desk.path(),
+            &[question, &["wall.json", "--save", &small.at("result.json")]].concat(),
+        );
         expect(USAGE, &output);
-        assert!(said(&output).contains("result.json: cannot be written: No space left"), "{}", said(&output));
+        assert!(
+            said(&output).contains("result.json: cannot be written: No space left"),
+            "{}",
+            said(&output)
+        );
         assert_eq!(files(&small.place), [""; 0]);
     }
     // What was there stays.
@@ -61,7 +71,18 @@ fn a_full_disk_leaves_results_whole_or_absent() {
     assert_eq!(files(&small.place), ["old.json"]);
     for args in [
         &["generate", "wall", "--expand", "-o", &small.at("scene.json")][..],
-        &["thrust", "wall.json", "--support", "base", "--direction", "1,0", "--law", "associative", "--svg", &small.at("thrust.svg")],
+        &[
+            "thrust",
+            "wall.json",
+            "--support",
+            "base",
+            "--direction",
+            "1,0",
+            "--law",
+            "associative",
+            "--svg",
+            &small.at("thrust.svg"),
+        ],
     ] {
         let output = run(desk.path(), args);
         expect(USAGE, &output);
@@ -69,25 +90,45 @@ fn a_full_disk_leaves_results_whole_or_absent() {
     }
     // A trajectory is written as it comes: what is there are whole rows, but for the last.
     fs::remove_file(small.place.join("old.json")).unwrap();
-    let output =
-        run(desk.path(), &["simulate", "wall.json", "--fast", "--frames", "1000", "--skip-verdict", "--csv", &small.at("way.csv")]);
+    let output = run(
+        desk.path(),
+        &[
+            "simulate",
+            "wall.json",
+            "--fast",
+            "--frames",
+            "1000",
+            "--skip-verdict",
+            "--csv",
+            &small.at("way.csv"),
+        ],
+    );
     expect(USAGE, &output);
     assert!(said(&output).contains("way.csv: cannot be written"), "{}", said(&output));
     let text = fs::read_to_string(small.place.join("way.csv")).unwrap();
-    assert!(text.lines().count() > 3 && text.lines().rev().skip(1).all(|l| l.split(',').count() == 16));
+    assert!(
+        text.lines().count() > 3 && text.lines().rev().skip(1).all(|l| l.split(',').count() == 16)
+    );
 }
 
 #[test]
 fn a_sweep_on_a_full_disk_is_continued_when_there_is_room() {
     let Some(small) = Small::new(24) else { return };
     let desk = desk(2, 2, 60);
-    let sweep = |output: &str| run(desk.path(), &["sweep", "plan.json", "-o", output, "--quiet", "--threads", "2"]);
+    let sweep = |output: &str| {
+        run(desk.path(), &["sweep", "plan.json", "-o", output, "--quiet", "--threads", "2"])
+    };
     let block = small.place.join("in-the-way");
     fs::write(&block, vec![0_u8; 16 << 10]).unwrap();
     let output = sweep(&small.at("rows.jsonl"));
     expect(USAGE, &output);
-    assert!(said(&output).contains("rows.jsonl: cannot be written: No space left"), "{}", said(&output));
-    let kept = fs::read_to_string(small.place.join("rows.jsonl")).unwrap().matches("\"seconds\"").count();
+    assert!(
+        said(&output).contains("rows.jsonl: cannot be written: No space left"),
+        "{}",
+        said(&output)
+    );
+    let kept =
+        fs::read_to_string(small.place.join("rows.jsonl")).unwrap().matches("\"seconds\"").count();
     assert!(kept > 0 && kept < 60, "{kept}");
     fs::remove_file(&block).unwrap();
     expect(0, &sweep(&small.at("rows.jsonl")));
@@ -147,6 +188,7 @@ fn a_full_device_is_an_error_and_not_a_silent_success() {
         assert!(said(&output).contains("No space left"), "{}", said(&output));
     }
     // Nowhere to complain: still the right code.
-    let output = command(desk.path()).args(["assess", "none.json"]).stderr(full()).output().unwrap();
+    let output =
+        command(desk.path()).args(["assess", "none.json"]).stderr(full()).output().unwrap();
     expect(USAGE, &output);
 }

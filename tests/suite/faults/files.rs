@@ -66,7 +66,8 @@ fn no_output_replaces_another_or_what_is_read() {
     for name in ["wall.json", "plan.json"] {
         fs::hard_link(at.join(name), at.join(format!("other-{name}"))).unwrap();
     }
-    let before: Vec<(String, Vec<u8>)> = super::files(at).into_iter().map(|n| (n.clone(), fs::read(at.join(n)).unwrap())).collect();
+    let before: Vec<(String, Vec<u8>)> =
+        super::files(at).into_iter().map(|n| (n.clone(), fs::read(at.join(n)).unwrap())).collect();
     for (args, word) in [
         (&["assess", "wall.json", "--save", "a", "--report", "a"][..], "two outputs"),
         (&["assess", "wall.json", "--save", "a", "--report", "./soft"], "two outputs"),
@@ -89,7 +90,8 @@ fn no_output_replaces_another_or_what_is_read() {
         expect(USAGE, &output);
         assert!(said(&output).contains(word), "{args:?}: {}", said(&output));
     }
-    let after: Vec<(String, Vec<u8>)> = super::files(at).into_iter().map(|n| (n.clone(), fs::read(at.join(n)).unwrap())).collect();
+    let after: Vec<(String, Vec<u8>)> =
+        super::files(at).into_iter().map(|n| (n.clone(), fs::read(at.join(n)).unwrap())).collect();
     assert!(before == after, "something was written: {:?}", super::files(at));
     // Devices take what they like.
     expect(0, &run(at, &["check", "wall.json", "--svg", "/dev/null", "--csv", "/dev/null"]));
@@ -127,11 +129,16 @@ fn limits_of_the_system_end_with_a_message() {
     for kilobytes in [40_000, 50_000, 60_000, 80_000, 120_000] {
         // More than there is, so that no estimate refuses it before.
         for given in ["--max-memory 64G", ""] {
-            let line =
-                format!("ulimit -v {kilobytes}; exec {program} limit wall.json --law associative --skip-dead --time-limit 20 {given}");
+            let line = format!(
+                "ulimit -v {kilobytes}; exec {program} limit wall.json --law associative --skip-dead --time-limit 20 {given}"
+            );
             let output = Command::new("sh").current_dir(at).args(["-c", &line]).output().unwrap();
             let said = said(&output);
-            assert!(matches!(output.status.code(), Some(0..=3)), "{kilobytes}: {:?} {said}", output.status);
+            assert!(
+                matches!(output.status.code(), Some(0..=3)),
+                "{kilobytes}: {:?} {said}",
+                output.status
+            );
             assert!(!said.contains("panicked"), "{said}");
             if said.contains("the system gives no more memory") {
                 expect(USAGE, &output);

@@ -8,7 +8,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Ends a child with a signal; the status it ended with, by the signal or by itself if it was faster.
+/// Ends a child with a signal; the status it ended with, by the signal or by itself if it was
+/// faster.
 fn signal(child: &mut Child, number: i32) -> ExitStatus {
     // SAFETY: a child of this test that has not been waited for: its number is its own.
     #[expect(unsafe_code, reason = "a signal by its number is sent by the system alone")]
@@ -54,7 +55,9 @@ fn killed_at_any_moment_a_file_is_whole_or_absent() {
     for args in verbs {
         let (time, code) = measured(desk.path(), args);
         let mut cut = 0;
-        for (k, number) in (0..16).zip([libc::SIGKILL, libc::SIGINT, libc::SIGTERM].into_iter().cycle()) {
+        for (k, number) in
+            (0..16).zip([libc::SIGKILL, libc::SIGINT, libc::SIGTERM].into_iter().cycle())
+        {
             let _ = fs::remove_file(desk.path().join("result.json"));
             let mut child = command(desk.path()).args(args).spawn().unwrap();
             // The end, where files are written, more often than the beginning.
@@ -64,9 +67,13 @@ fn killed_at_any_moment_a_file_is_whole_or_absent() {
             cut += usize::from(status.signal().is_some());
             match fs::read_to_string(desk.path().join("result.json")) {
                 Err(_) => {}
-                Ok(text) => drop(serde_json::from_str::<serde_json::Value>(&text).unwrap_or_else(|e| panic!("{args:?}: {e}"))),
+                Ok(text) => drop(
+                    serde_json::from_str::<serde_json::Value>(&text)
+                        .unwrap_or_else(|e| panic!("{args:?}: {e}")),
+                ),
             }
-            let left: Vec<String> = files(desk.path()).into_iter().filter(|f| f != "result.json").collect();
+            let left: Vec<String> =
+                files(desk.path()).into_iter().filter(|f| f != "result.json").collect();
             assert_eq!(left, ["plan.json", "wall.json"], "{args:?} left something");
         }
         assert!(cut > 0, "{args:?} was never cut off");
@@ -92,9 +99,31 @@ fn killed_while_it_replaces_a_file_the_old_one_stays_or_the_new_one_is_there() {
 #[test]
 fn a_sweep_killed_again_and_again_is_the_sweep_in_one_go() {
     let desk = desk(5, 4, 40);
-    let args = ["sweep", "plan.json", "-o", "rows.jsonl", "--csv", "table.csv", "--quiet", "--threads", "2"];
-    let (time, _) =
-        measured(desk.path(), &["sweep", "plan.json", "-o", "direct.jsonl", "--csv", "direct.csv", "--quiet", "--threads", "2"]);
+    let args = [
+        "sweep",
+        "plan.json",
+        "-o",
+        "rows.jsonl",
+        "--csv",
+        "table.csv",
+        "--quiet",
+        "--threads",
+        "2",
+    ];
+    let (time, _) = measured(
+        desk.path(),
+        &[
+            "sweep",
+            "plan.json",
+            "-o",
+            "direct.jsonl",
+            "--csv",
+            "direct.csv",
+            "--quiet",
+            "--threads",
+            "2",
+        ],
+    );
     for k in 0..6 {
         let mut child = command(desk.path()).args(args).spawn().unwrap();
         std::thread::sleep(time / 8);
@@ -104,13 +133,26 @@ fn a_sweep_killed_again_and_again_is_the_sweep_in_one_go() {
     assert!(kept > 1, "nothing was kept");
     expect(0, &run(desk.path(), &args));
     assert_eq!(rows(&desk.path().join("rows.jsonl")), rows(&desk.path().join("direct.jsonl")));
-    assert_eq!(files(desk.path()), ["direct.csv", "direct.jsonl", "plan.json", "rows.jsonl", "table.csv", "wall.json"]);
+    assert_eq!(
+        files(desk.path()),
+        ["direct.csv", "direct.jsonl", "plan.json", "rows.jsonl", "table.csv", "wall.json"]
+    );
 }
 
 #[test]
 fn a_trajectory_that_was_cut_off_ends_with_a_whole_frame() {
     let desk = desk(4, 4, 4);
-    let args = ["simulate", "wall.json", "--fine", "--frames", "2000", "--skip-verdict", "--to-the-end", "--csv", "way.csv"];
+    let args = [
+        "simulate",
+        "wall.json",
+        "--fine",
+        "--frames",
+        "2000",
+        "--skip-verdict",
+        "--to-the-end",
+        "--csv",
+        "way.csv",
+    ];
     let mut child = command(desk.path()).args(args).spawn().unwrap();
     let begun = Instant::now();
     let lines = || fs::read_to_string(desk.path().join("way.csv")).map_or(0, |t| t.lines().count());
@@ -137,7 +179,8 @@ fn a_soak_killed_again_and_again_is_the_soak_in_one_go() {
     let (begun, direct) = (Instant::now(), run(folder.path(), &[&args[..], &["direct"]].concat()));
     let time = begun.elapsed();
     for k in 0..4 {
-        let mut child = command(folder.path()).args(args).arg("kept").stdout(Stdio::null()).spawn().unwrap();
+        let mut child =
+            command(folder.path()).args(args).arg("kept").stdout(Stdio::null()).spawn().unwrap();
         std::thread::sleep(time / 5);
         signal(&mut child, if k % 2 == 0 { libc::SIGKILL } else { libc::SIGINT });
     }
@@ -148,12 +191,14 @@ fn a_soak_killed_again_and_again_is_the_soak_in_one_go() {
     assert_eq!(files(folder.path()), ["direct", "kept"]);
 }
 
-/// Starts a command that keeps what it does in `kept`, and kills it as soon as that file has grown by a line; whether it was still at work.
+/// Starts a command that keeps what it does in `kept`, and kills it as soon as that file has grown
+/// by a line; whether it was still at work.
 fn killed_after_a_line(folder: &std::path::Path, args: &[&str]) -> bool {
     let lines = || fs::read_to_string(folder.join("kept")).map_or(0, |t| t.matches('\n').count());
     let (before, begun) = (lines().max(1), Instant::now());
     let mut child = command(folder).args(args).stdout(Stdio::null()).spawn().unwrap();
-    while lines() <= before && begun.elapsed().as_secs() < 60 && child.try_wait().unwrap().is_none() {
+    while lines() <= before && begun.elapsed().as_secs() < 60 && child.try_wait().unwrap().is_none()
+    {
         std::thread::sleep(Duration::from_millis(2));
     }
     assert!(lines() >= before, "lines were lost");
@@ -163,7 +208,17 @@ fn killed_after_a_line(folder: &std::path::Path, args: &[&str]) -> bool {
 #[test]
 fn heaps_killed_again_and_again_are_the_heaps_in_one_go() {
     let folder = tempfile::tempdir().unwrap();
-    let args = ["repose", "drain", "grains=60", "size=[6,4]", "--question", "repose", "--quiet", "--json", "--keep"];
+    let args = [
+        "repose",
+        "drain",
+        "grains=60",
+        "size=[6,4]",
+        "--question",
+        "repose",
+        "--quiet",
+        "--json",
+        "--keep",
+    ];
     let timeless = |output: &std::process::Output| {
         let mut file: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         for heap in file["heaps"].as_array_mut().unwrap() {
@@ -178,13 +233,20 @@ fn heaps_killed_again_and_again_are_the_heaps_in_one_go() {
     assert!(cut > 0, "it was never killed");
     let resumed = run(folder.path(), &again);
     assert_eq!(timeless(&resumed), timeless(&direct));
-    // All is there: nothing is done again, seconds are those of the first time, and pictures are drawn all the same.
+    // All is there: nothing is done again, seconds are those of the first time, and pictures are
+    // drawn all the same.
     let third = run(folder.path(), &[&again[..], &["--svg", "heap.svg"]].concat());
     assert_eq!(third.stdout, resumed.stdout);
     assert_eq!(files(folder.path()), ["direct", "heap.svg", "kept"]);
-    let other = run(folder.path(), &["repose", "drain", "grains=61", "size=[6,4]", "--question", "repose", "--keep", "kept"]);
+    let other = run(
+        folder.path(),
+        &["repose", "drain", "grains=61", "size=[6,4]", "--question", "repose", "--keep", "kept"],
+    );
     let error = String::from_utf8_lossy(&other.stderr).into_owned();
-    assert!(other.status.code() == Some(2) && error.contains("give --keep another name"), "{error}");
+    assert!(
+        other.status.code() == Some(2) && error.contains("give --keep another name"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -193,8 +255,12 @@ fn the_extreme_grid_is_taken_up_where_it_was_killed() {
     let args = ["study", "--extreme", "--quiet", "--keep", "kept"];
     assert!((0..2).all(|_| killed_after_a_line(folder.path(), &args)));
     let text = fs::read_to_string(folder.path().join("kept")).unwrap();
-    let numbers: Vec<u64> =
-        text.lines().skip(1).filter_map(|l| serde_json::from_str::<serde_json::Value>(l).ok()).map(|l| l[0].as_u64().unwrap()).collect();
+    let numbers: Vec<u64> = text
+        .lines()
+        .skip(1)
+        .filter_map(|l| serde_json::from_str::<serde_json::Value>(l).ok())
+        .map(|l| l[0].as_u64().unwrap())
+        .collect();
     let distinct: std::collections::BTreeSet<_> = numbers.iter().collect();
     assert!(numbers.len() > 1 && distinct.len() == numbers.len(), "{numbers:?}");
     let other = run(folder.path(), &["study", "--quick", "--keep", "kept"]);
@@ -206,7 +272,10 @@ fn a_study_that_is_interrupted_leaves_no_half_table() {
     use std::os::unix::process::ExitStatusExt;
     let desk = desk(2, 2, 4);
     for number in [libc::SIGINT, libc::SIGKILL] {
-        let mut child = command(desk.path()).args(["study", "--quick", "--scenes", "arch", "--csv", "study.csv"]).spawn().unwrap();
+        let mut child = command(desk.path())
+            .args(["study", "--quick", "--scenes", "arch", "--csv", "study.csv"])
+            .spawn()
+            .unwrap();
         std::thread::sleep(Duration::from_millis(50));
         let status = signal(&mut child, number);
         assert!(status.signal() == Some(number) || status.success());

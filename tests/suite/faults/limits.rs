@@ -1,4 +1,5 @@
-//! Limits: what is too large is refused with numbers and a remedy, memory stays below what was allowed, time below what was given.
+//! Limits: what is too large is refused with numbers and a remedy, memory stays below what was
+//! allowed, time below what was given.
 
 use super::{UNDECIDED, USAGE, command, desk, expect, run, said, wall};
 use serde_json::{Value, json};
@@ -9,18 +10,29 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Runs a command; its exit code, what it said, and the most memory it took, bytes. The system's own account at the end would include
-/// the test that started it, so the mark is read while it runs.
+/// Runs a command; its exit code, what it said, and the most memory it took, bytes. The system's
+/// own account at the end would include the test that started it, so the mark is read while it
+/// runs.
 fn weighed(folder: &Path, args: &[&str]) -> (Option<i32>, String, u64) {
     let err = folder.join("stderr");
-    let mut child = command(folder).args(args).stdout(Stdio::null()).stderr(fs::File::create(&err).unwrap()).spawn().unwrap();
+    let mut child = command(folder)
+        .args(args)
+        .stdout(Stdio::null())
+        .stderr(fs::File::create(&err).unwrap())
+        .spawn()
+        .unwrap();
     let status = format!("/proc/{}/status", child.id());
     let mut most = 0;
     let code = loop {
-        let mark = fs::read_to_string(&status).ok().filter(|text| text.contains("Name:\tvoussoir")).and_then(|text| {
-            let line = text.lines().find_map(|l| l.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB").map(str::to_owned))?;
-            line.parse::<u64>().ok()
-        });
+        let mark = fs::read_to_string(&status)
+            .ok()
+            .filter(|text| text.contains("Name:\tvoussoir"))
+            .and_then(|text| {
+                let line = text.lines().find_map(|l| {
+                    l.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB").map(str::to_owned)
+                })?;
+                line.parse::<u64>().ok()
+            });
         most = most.max(mark.unwrap_or(0) << 10);
         if let Some(status) = child.try_wait().unwrap() {
             break status.code();
@@ -59,11 +71,19 @@ fn what_asks_for_too_much_is_refused_before_it_is_taken() {
     }
     // From standard input the length is not known before.
     let text = " ".repeat(20 << 20);
-    let mut child = command(at).args(["assess", "-", "--max-memory", "200M"]).stdin(Stdio::piped()).spawn().unwrap();
+    let mut child = command(at)
+        .args(["assess", "-", "--max-memory", "200M"])
+        .stdin(Stdio::piped())
+        .spawn()
+        .unwrap();
     let _ = std::io::Write::write_all(&mut child.stdin.take().unwrap(), text.as_bytes());
     let output = child.wait_with_output().unwrap();
     expect(USAGE, &output);
-    assert!(said(&output).contains("standard input: ") && said(&output).contains("--max-memory"), "{}", said(&output));
+    assert!(
+        said(&output).contains("standard input: ") && said(&output).contains("--max-memory"),
+        "{}",
+        said(&output)
+    );
 }
 
 #[test]
@@ -76,14 +96,29 @@ fn memory_stays_below_what_is_allowed_whatever_is_asked() {
             let allowed = format!("{most}M");
             let (code, said, memory) = weighed(
                 desk.path(),
-                &["limit", "wall.json", "--law", "associative", "--skip-dead", "--max-memory", &allowed, "--time-limit", "20"],
+                &[
+                    "limit",
+                    "wall.json",
+                    "--law",
+                    "associative",
+                    "--skip-dead",
+                    "--max-memory",
+                    &allowed,
+                    "--time-limit",
+                    "20",
+                ],
             );
-            println!("{courses} × {blocks} with {most} MiB: exit {code:?}, {:.1} MiB", memory as f64 / f64::from(1 << 20));
+            println!(
+                "{courses} × {blocks} with {most} MiB: exit {code:?}, {:.1} MiB",
+                memory as f64 / f64::from(1 << 20)
+            );
             greatest = greatest.max(memory);
             assert!(memory <= most << 20, "{courses} × {blocks} took {memory} bytes of {most} MiB");
             match code {
                 Some(0 | UNDECIDED) => {}
-                Some(USAGE) => assert!(said.contains("memory") && said.contains("hint: "), "{said}"),
+                Some(USAGE) => {
+                    assert!(said.contains("memory") && said.contains("hint: "), "{said}")
+                }
                 other => panic!("{other:?}: {said}"),
             }
         }
@@ -120,12 +155,20 @@ fn the_time_limit_holds_and_the_best_bracket_so_far_is_the_answer() {
         &["simulate", "--fine", "--to-the-end"],
     ] {
         let start = Instant::now();
-        let output = run(desk.path(), &[question, &["wall.json", "--json", "--time-limit", &limit.to_string()]].concat());
+        let output = run(
+            desk.path(),
+            &[question, &["wall.json", "--json", "--time-limit", &limit.to_string()]].concat(),
+        );
         let took = start.elapsed();
         println!("{}: {:.2} s, exit {:?}", question[0], took.as_secs_f64(), output.status.code());
         assert!(took < Duration::from_secs_f64(limit * 1.5 + 3.0), "{question:?} took {took:?}");
-        assert!(matches!(output.status.code(), Some(0 | 1 | UNDECIDED)), "{question:?}: {}", said(&output));
-        let file: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{question:?}: {e}: {}", said(&output)));
+        assert!(
+            matches!(output.status.code(), Some(0 | 1 | UNDECIDED)),
+            "{question:?}: {}",
+            said(&output)
+        );
+        let file: Value = serde_json::from_slice(&output.stdout)
+            .unwrap_or_else(|e| panic!("{question:?}: {e}: {}", said(&output)));
         if question == ["limit"] {
             let answer = &file["answer"]["load_factor"];
             assert!(answer["status"].is_string(), "{answer}");

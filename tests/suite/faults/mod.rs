@@ -1,5 +1,5 @@
-//! Faults, really done: full disks, readers that go away, signals, kills, limits. Exit codes are right, files are whole or absent, and
-//! what was worth keeping is kept.
+//! Faults, really done: full disks, readers that go away, signals, kills, limits. Exit codes are
+//! right, files are whole or absent, and what was worth keeping is kept.
 
 mod disk;
 mod files;
@@ -34,13 +34,21 @@ fn said(output: &Output) -> String {
 
 #[track_caller]
 fn expect(code: i32, output: &Output) {
-    assert_eq!(output.status.code(), Some(code), "stdout: {}\nstderr: {}", String::from_utf8_lossy(&output.stdout), said(output));
+    assert_eq!(
+        output.status.code(),
+        Some(code),
+        "stdout: {}\nstderr: {}",
+        String::from_utf8_lossy(&output.stdout),
+        said(output)
+    );
 }
 
 /// Names of the files in a folder, in order.
 fn files(folder: &Path) -> Vec<String> {
-    let mut names: Vec<String> =
-        std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
     names.sort();
     names
 }
@@ -75,7 +83,8 @@ fn desk(courses: usize, blocks: usize, rows: usize) -> tempfile::TempDir {
 /// Rows of a sweep without their times and the check sums over these, in order.
 fn rows(file: &Path) -> Vec<serde_json::Value> {
     let text = std::fs::read_to_string(file).unwrap();
-    let mut rows: Vec<serde_json::Value> = text.lines().skip(1).map(|l| serde_json::from_str(l).unwrap()).collect();
+    let mut rows: Vec<serde_json::Value> =
+        text.lines().skip(1).map(|l| serde_json::from_str(l).unwrap()).collect();
     for row in &mut rows {
         let row = row.as_object_mut().unwrap();
         row.remove("seconds");

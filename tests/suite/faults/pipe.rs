@@ -13,7 +13,19 @@ fn a_reader_that_goes_away_changes_no_exit_code() {
         &["limit", "wall.json", "--law", "associative", "--json"],
         &["tilt", "wall.json", "--law", "associative", "--all", "1"],
         &["thrust", "wall.json", "--law", "associative", "--direction", "1,0"],
-        &["critical", "wall.json", "--law", "associative", "--vary", "/joints/default/friction", "--between", "0.1", "0.9", "--scan", "3"],
+        &[
+            "critical",
+            "wall.json",
+            "--law",
+            "associative",
+            "--vary",
+            "/joints/default/friction",
+            "--between",
+            "0.1",
+            "0.9",
+            "--scan",
+            "3",
+        ],
         &["simulate", "wall.json", "--fast", "--skip-verdict", "--csv", "-"],
         &["repose", "wall.json", "--law", "associative", "--all", "1"],
         &["sweep", "plan.json", "--json"],
@@ -46,7 +58,8 @@ fn standard_input_that_ends_early_is_an_input_error() {
     let desk = desk(2, 2, 3);
     let text = std::fs::read(desk.path().join("wall.json")).unwrap();
     for length in [0, 1, text.len() / 2, text.len() - 1] {
-        let mut child = command(desk.path()).args(["assess", "-"]).stdin(Stdio::piped()).spawn().unwrap();
+        let mut child =
+            command(desk.path()).args(["assess", "-"]).stdin(Stdio::piped()).spawn().unwrap();
         child.stdin.take().unwrap().write_all(&text[..length]).unwrap();
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{}", said(&output));

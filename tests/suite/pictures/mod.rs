@@ -44,7 +44,15 @@ fn limited(scene: &Scene) -> (Model, View) {
 
 /// A ball on a box on the ground.
 fn ball_on_box() -> Scene {
-    scene(0.6, json!([ground(), cuboid("box", [1.0, 2.0, 0.5], [0.0, 0.0, 0.0]), sphere("ball", 0.4, [0.1, 0.0, 0.9])]), json!({}))
+    scene(
+        0.6,
+        json!([
+            ground(),
+            cuboid("box", [1.0, 2.0, 0.5], [0.0, 0.0, 0.0]),
+            sphere("ball", 0.4, [0.1, 0.0, 0.9])
+        ]),
+        json!({}),
+    )
 }
 
 fn parsed(text: &str) -> Document<'_> {
@@ -58,5 +66,7 @@ fn all<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<
 
 /// Numbers of a text, wherever anything else stands between them.
 fn numbers(text: &str) -> Vec<f64> {
-    text.split(|c: char| !(c.is_ascii_digit() || "+-.e".contains(c))).filter_map(|w| w.parse().ok()).collect()
+    text.split(|c: char| !(c.is_ascii_digit() || "+-.e".contains(c)))
+        .filter_map(|w| w.parse().ok())
+        .collect()
 }

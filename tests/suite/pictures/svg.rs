@@ -18,7 +18,9 @@ fn drawn(text: &str, panel: usize) -> Vec<String> {
     let document = parsed(text);
     let panel = all(document.root_element(), "svg").nth(1 + panel).expect("a panel");
     let blocks = panel.children().filter(|n| n.has_tag_name("g"));
-    blocks.map(|g| all(g, "title").next().and_then(|t| t.text()).unwrap_or_default().to_string()).collect()
+    blocks
+        .map(|g| all(g, "title").next().and_then(|t| t.text()).unwrap_or_default().to_string())
+        .collect()
 }
 
 fn with_class<'a>(node: Node<'a, 'a>, class: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
@@ -35,7 +37,9 @@ const ASPECTS: [&str; 8] = ["auto", "front", "back", "left", "right", "top", "co
 #[test]
 fn every_scene_is_drawn_whole_from_all_sides() {
     let mut count = 0;
-    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("structures")).unwrap() {
+    for entry in
+        std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("structures")).unwrap()
+    {
         let path = entry.unwrap().path();
         if path.extension().is_none_or(|e| e != "json") || path.ends_with("expected.json") {
             continue;
@@ -49,20 +53,28 @@ fn every_scene_is_drawn_whole_from_all_sides() {
             assert_eq!(drawn(&text, 0).len(), view.bodies.len(), "{} {aspect}", path.display());
             assert!(!text.contains("NaN") && !text.contains("inf"), "{} {aspect}", path.display());
             let size = numbers(parsed(&text).root_element().attribute("viewBox").unwrap());
-            assert!(size[2] == 800.0 && size[3] > 40.0 && size[3] < 2200.0, "{} {aspect}: {size:?}", path.display());
+            assert!(
+                size[2] == 800.0 && size[3] > 40.0 && size[3] < 2200.0,
+                "{} {aspect}: {size:?}",
+                path.display()
+            );
         }
         count += 1;
     }
     assert!(count > 60, "{count}");
 }
 
-/// In the drawing of an arch that falls by hinges, each hinge lies at a corner of both blocks that it joins, where they went.
+/// In the drawing of an arch that falls by hinges, each hinge lies at a corner of both blocks that
+/// it joins, where they went.
 #[test]
 fn hinges_stay_closed() {
     let (_, view) = assessed(&arch(0.09, 1.0, json!({})));
     let text = svg(&view, Aspect::Auto);
     let document = parsed(&text);
-    let hinges: Vec<[f64; 2]> = with_class(document.root_element(), "pin act").filter(|c| c.attribute("r").is_some()).map(center).collect();
+    let hinges: Vec<[f64; 2]> = with_class(document.root_element(), "pin act")
+        .filter(|c| c.attribute("r").is_some())
+        .map(center)
+        .collect();
     let moved: Vec<Vec<f64>> = with_class(document.root_element(), "moved")
         .map(|g| numbers(with_class(g, "edge").next().unwrap().attribute("d").unwrap()))
         .collect();
@@ -88,14 +100,21 @@ fn drawings_do_not_depend_on_units() {
     let coordinates = |text: &str| -> Vec<f64> {
         let document = parsed(text);
         // The scale is another, and forces at the edge between two thicknesses may change places.
-        let places = document.descendants().filter(|n| n.attribute("class") != Some("scale")).filter_map(|n| n.attribute("d"));
+        let places = document
+            .descendants()
+            .filter(|n| n.attribute("class") != Some("scale"))
+            .filter_map(|n| n.attribute("d"));
         let mut list: Vec<f64> = places.flat_map(numbers).collect();
         list.sort_by(f64::total_cmp);
         list
     };
     let (a, b) = (coordinates(&one), coordinates(&other));
     assert_eq!(a.len(), b.len());
-    assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 0.05), "{:?}", a.iter().zip(&b).find(|(a, b)| (**a - **b).abs() >= 0.05));
+    assert!(
+        a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 0.05),
+        "{:?}",
+        a.iter().zip(&b).find(|(a, b)| (**a - **b).abs() >= 0.05)
+    );
 }
 
 /// The line of thrust ends where the certificate's forces press, on the sheet as in space.
@@ -104,25 +123,36 @@ fn the_line_of_thrust_passes_the_centres_of_pressure() {
     let (_, view) = limited(&arch(0.15, 1.0, json!({})));
     let text = svg(&view, Aspect::Front);
     let document = parsed(&text);
-    let ends: Vec<f64> = with_class(document.root_element(), "line one").flat_map(|n| numbers(n.attribute("d").unwrap())).collect();
-    // Scale and origin from two blocks that are drawn: the outermost corners of the panel's first one would do, but the pressed points
-    // themselves are enough: distances between them have one common factor.
-    let pressed: Vec<[f64; 2]> = view.states[0].resultants.iter().flatten().map(|r| [r.at.x, r.at.z]).collect();
-    let extent = |list: &mut dyn Iterator<Item = f64>| list.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);
+    let ends: Vec<f64> = with_class(document.root_element(), "line one")
+        .flat_map(|n| numbers(n.attribute("d").unwrap()))
+        .collect();
+    // Scale and origin from two blocks that are drawn: the outermost corners of the panel's first
+    // one would do, but the pressed points themselves are enough: distances between them have one
+    // common factor.
+    let pressed: Vec<[f64; 2]> =
+        view.states[0].resultants.iter().flatten().map(|r| [r.at.x, r.at.z]).collect();
+    let extent = |list: &mut dyn Iterator<Item = f64>| {
+        list.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)])
+    };
     let [l, h] = extent(&mut pressed.iter().map(|p| p[0]));
-    let points: Vec<[f64; 2]> = ends.chunks(2).filter(|p| p.len() == 2).map(|p| [p[0], p[1]]).collect();
+    let points: Vec<[f64; 2]> =
+        ends.chunks(2).filter(|p| p.len() == 2).map(|p| [p[0], p[1]]).collect();
     let [sl, sh] = extent(&mut points.iter().take(points.len() - 1).map(|p| p[0]));
     let scale = (sh - sl) / (h - l);
     let top = points.iter().take(points.len() - 1).map(|p| p[1]).fold(f64::INFINITY, f64::min);
     let high = extent(&mut pressed.iter().map(|p| p[1]))[1];
     for [x, z] in &pressed {
         let at = [sl + (x - l) * scale, top + (high - z) * scale];
-        assert!(points.iter().any(|p| (p[0] - at[0]).hypot(p[1] - at[1]) < 0.1), "nothing at {at:?}");
+        assert!(
+            points.iter().any(|p| (p[0] - at[0]).hypot(p[1] - at[1]) < 0.1),
+            "nothing at {at:?}"
+        );
     }
     assert_eq!(pressed.len(), 17);
 }
 
-/// Of two blocks that touch on a face which is not seen from its edge, the one on the eye's side is drawn later.
+/// Of two blocks that touch on a face which is not seen from its edge, the one on the eye's side is
+/// drawn later.
 fn nothing_hides_what_is_in_front(name: &str, m: &Model, view: &View, eye: [f64; 3]) {
     let order = drawn(&svg(view, Aspect::From(eye.into())), 0);
     let place = |i: usize| order.iter().position(|id| *id == m.assembly.blocks[i].id).unwrap();
@@ -132,7 +162,12 @@ fn nothing_hides_what_is_in_front(name: &str, m: &Model, view: &View, eye: [f64;
         let towards = face.frame.n.dot(&eye);
         if towards.abs() > 1e-3 {
             let (far, near) = if towards > 0.0 { (face.a, face.b) } else { (face.b, face.a) };
-            assert!(place(far) < place(near), "{name} from {eye:?}: {} hides {}", order[place(far)], order[place(near)]);
+            assert!(
+                place(far) < place(near),
+                "{name} from {eye:?}: {} hides {}",
+                order[place(far)],
+                order[place(near)]
+            );
             count += 1;
         }
     }
@@ -141,13 +176,24 @@ fn nothing_hides_what_is_in_front(name: &str, m: &Model, view: &View, eye: [f64;
 
 #[test]
 fn blocks_in_front_are_drawn_last() {
-    let dome = template(0.7, json!({ "dome": { "radius": 2.0, "thickness": 0.3, "rings": 4, "segments": 12 } }), json!({}));
-    let vault =
-        template(0.7, json!({ "barrel": { "radius": 1.0, "thickness": 0.2, "depth": 2.0, "voussoirs": 9, "courses": 4 } }), json!({}));
+    let dome = template(
+        0.7,
+        json!({ "dome": { "radius": 2.0, "thickness": 0.3, "rings": 4, "segments": 12 } }),
+        json!({}),
+    );
+    let vault = template(
+        0.7,
+        json!({ "barrel": { "radius": 1.0, "thickness": 0.2, "depth": 2.0, "voussoirs": 9, "courses": 4 } }),
+        json!({}),
+    );
     // The centre of the slab is nearer to the eye than the block at its far end.
     let slab = scene(
         0.7,
-        json!([ground(), cuboid("far", [0.5, 0.5, 0.5], [0.0, 19.0, 0.0]), cuboid("top", [0.2, 0.2, 0.2], [0.0, 19.0, 0.5])]),
+        json!([
+            ground(),
+            cuboid("far", [0.5, 0.5, 0.5], [0.0, 19.0, 0.0]),
+            cuboid("top", [0.2, 0.2, 0.2], [0.0, 19.0, 0.5])
+        ]),
         json!({}),
     );
     for (name, scene) in [("dome", dome), ("vault", vault), ("slab", slab)] {
@@ -164,7 +210,11 @@ fn plane_scenes_are_seen_along_their_normal() {
     assert_eq!(svg(&view, Aspect::Auto), svg(&view, Aspect::Front));
     let (_, view) = assessed(&ball_on_box());
     assert_ne!(svg(&view, Aspect::Auto), svg(&view, Aspect::Corner), "ball and box have one plane");
-    let dome = template(0.7, json!({ "dome": { "radius": 2.0, "thickness": 0.3, "rings": 4, "segments": 12 } }), json!({}));
+    let dome = template(
+        0.7,
+        json!({ "dome": { "radius": 2.0, "thickness": 0.3, "rings": 4, "segments": 12 } }),
+        json!({}),
+    );
     let view = View::bare(&model(&dome));
     assert_eq!(svg(&view, Aspect::Auto), svg(&view, Aspect::Corner));
 }
@@ -172,9 +222,16 @@ fn plane_scenes_are_seen_along_their_normal() {
 #[test]
 fn names_in_a_scene_stay_names() {
     let hostile = "</title><script>alert(\"1\")</script>&amp;\u{1}\u{ffff}";
-    let scene = scene(0.6, json!([ground(), cuboid(hostile, [1.0, 1.0, 1.0], [0.0, 0.0, 0.0])]), json!({ "name": hostile }));
+    let scene = scene(
+        0.6,
+        json!([ground(), cuboid(hostile, [1.0, 1.0, 1.0], [0.0, 0.0, 0.0])]),
+        json!({ "name": hostile }),
+    );
     let text = svg(&View::bare(&model(&scene)), Aspect::Auto);
-    assert!(drawn(&text, 0).contains(&"</title><script>alert(\"1\")</script>&amp;\\u{1}".to_string()), "{text}");
+    assert!(
+        drawn(&text, 0).contains(&"</title><script>alert(\"1\")</script>&amp;\\u{1}".to_string()),
+        "{text}"
+    );
     assert!(all(parsed(&text).root_element(), "script").next().is_none());
 }
 

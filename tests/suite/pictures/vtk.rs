@@ -19,14 +19,21 @@ struct File<'a>(Document<'a>);
 
 impl File<'_> {
     fn count(&self, what: &str) -> usize {
-        all(self.0.root_element(), "Piece").next().unwrap().attribute(what).unwrap().parse().unwrap()
+        all(self.0.root_element(), "Piece")
+            .next()
+            .unwrap()
+            .attribute(what)
+            .unwrap()
+            .parse()
+            .unwrap()
     }
 
     /// The numbers of an array whose name begins so, below an element.
     fn array(&self, below: &'static str, name: &str) -> Vec<f64> {
         let parent = all(self.0.root_element(), below).next().unwrap();
-        let array =
-            all(parent, "DataArray").find(|a| a.attribute("Name").unwrap().starts_with(name)).unwrap_or_else(|| panic!("no {name}"));
+        let array = all(parent, "DataArray")
+            .find(|a| a.attribute("Name").unwrap().starts_with(name))
+            .unwrap_or_else(|| panic!("no {name}"));
         array.text().unwrap().split_whitespace().map(|w| w.parse().unwrap()).collect()
     }
 
@@ -40,7 +47,8 @@ impl File<'_> {
     }
 
     fn kind(&self, kind: &'static str) -> Vec<Vec<usize>> {
-        let points: Vec<usize> = self.array(kind, "connectivity").into_iter().map(|v| v as usize).collect();
+        let points: Vec<usize> =
+            self.array(kind, "connectivity").into_iter().map(|v| v as usize).collect();
         let mut start = 0;
         let ends = self.array(kind, "offsets").into_iter().map(|v| v as usize);
         ends.map(|end| points[std::mem::replace(&mut start, end)..end].to_vec()).collect()
@@ -50,7 +58,9 @@ impl File<'_> {
 /// Everything has the length that the head says, and points exist.
 fn is_sound(file: &File, view: &View) {
     let (points, cells) = (file.count("NumberOfPoints"), file.cells());
-    for (kind, count) in [("Verts", "NumberOfVerts"), ("Lines", "NumberOfLines"), ("Polys", "NumberOfPolys")] {
+    for (kind, count) in
+        [("Verts", "NumberOfVerts"), ("Lines", "NumberOfLines"), ("Polys", "NumberOfPolys")]
+    {
         assert_eq!(file.kind(kind).len(), file.count(count), "{kind}");
     }
     assert!(cells.iter().flatten().all(|&p| p < points) && cells.iter().all(|c| !c.is_empty()));
@@ -59,20 +69,32 @@ fn is_sound(file: &File, view: &View) {
             let of = array.attribute("NumberOfComponents").map_or(1, |n| n.parse().unwrap());
             let tuples = if below == "CellData" { cells.len() } else { points };
             let text = array.text().unwrap_or_default();
-            assert_eq!(text.split_whitespace().count(), of * tuples, "{:?}", array.attribute("Name"));
+            assert_eq!(
+                text.split_whitespace().count(),
+                of * tuples,
+                "{:?}",
+                array.attribute("Name")
+            );
             assert!(text.split_whitespace().all(|w| w.parse::<f64>().unwrap().is_finite()));
         }
     }
-    let bytes: Vec<u8> = file.array("FieldData", "block names").into_iter().map(|b| b as u8).collect();
+    let bytes: Vec<u8> =
+        file.array("FieldData", "block names").into_iter().map(|b| b as u8).collect();
     let names: Vec<String> = view.bodies.iter().map(|b| b.id.clone() + "\0").collect();
     assert_eq!(String::from_utf8(bytes).unwrap(), names.concat());
 }
 
 /// Faces of each block enclose its volume, outwards (theorem of Gauss); of balls nearly.
 fn surfaces_are_closed(file: &File, m: &Model, density: f64) {
-    let (at, parts, blocks) = (file.vectors("Points", "points"), file.array("CellData", "part"), file.array("CellData", "block"));
+    let (at, parts, blocks) = (
+        file.vectors("Points", "points"),
+        file.array("CellData", "part"),
+        file.array("CellData", "block"),
+    );
     let mut volume = vec![0.0; m.assembly.blocks.len()];
-    for (cell, (part, block)) in file.cells().iter().zip(parts.iter().zip(&blocks)).filter(|(_, (p, _))| **p < 2.0) {
+    for (cell, (part, block)) in
+        file.cells().iter().zip(parts.iter().zip(&blocks)).filter(|(_, (p, _))| **p < 2.0)
+    {
         let (i, fan) = (*block as usize, cell.windows(2).skip(1));
         assert_eq!(*part == 1.0, m.assembly.blocks[i].support);
         volume[i] += fan.map(|w| at[cell[0]].dot(&at[w[0]].cross(&at[w[1]])) / 6.0).sum::<f64>();
@@ -85,7 +107,11 @@ fn surfaces_are_closed(file: &File, m: &Model, density: f64) {
 
 /// Contact forces and weights cancel on every free block, from the file alone.
 fn forces_balance(file: &File, view: &View, load: impl Fn(usize) -> Vector3<f64>) {
-    let (parts, blocks, others) = (file.array("CellData", "part"), file.array("CellData", "block"), file.array("CellData", "other block"));
+    let (parts, blocks, others) = (
+        file.array("CellData", "part"),
+        file.array("CellData", "block"),
+        file.array("CellData", "other block"),
+    );
     let forces = file.vectors("PointData", "force (");
     let mut sum: Vec<Vector3<f64>> = (0..view.bodies.len()).map(&load).collect();
     let mut count = 0;
@@ -109,7 +135,8 @@ fn forces_in_the_file_balance_every_block() {
     surfaces_are_closed(&file, &m, 1.0);
     let lambda = voussoir::analysis::limit(&m, &super::control()).value;
     forces_balance(&file, &view, |i| m.assembly.dead[i].force + m.assembly.live[i].force * lambda);
-    let way = file.vectors("PointData", "displacement (").iter().map(|v| v.norm()).fold(0.0, f64::max);
+    let way =
+        file.vectors("PointData", "displacement (").iter().map(|v| v.norm()).fold(0.0, f64::max);
     assert!(way > 0.01 * view.size() && way < 0.2 * view.size(), "{way}");
     // The line of thrust: one piece a voussoir.
     assert_eq!(file.array("CellData", "part").iter().filter(|p| **p == 4.0).count(), 16);
@@ -130,13 +157,19 @@ fn falling() -> (Model, View) {
     let scene = arch(0.09, 1.0, serde_json::json!({}));
     let m = model(&scene);
     let mut film = Film::new(8);
-    let settings =
-        SimulationSettings { fidelity: Some(Fidelity::Fast), every_step: true, keep_frames: false, ..SimulationSettings::default() };
+    let settings = SimulationSettings {
+        fidelity: Some(Fidelity::Fast),
+        every_step: true,
+        keep_frames: false,
+        ..SimulationSettings::default()
+    };
     let outcome = simulate(&m, &settings, &mut |p| {
         p.moment.iter().for_each(|m| film.see(m));
         ControlFlow::Continue(())
     });
-    let view = View::new(&m, &ResultFile::simulated(&scene, &m, None, &outcome.unwrap()), film.frames()).unwrap();
+    let view =
+        View::new(&m, &ResultFile::simulated(&scene, &m, None, &outcome.unwrap()), film.frames())
+            .unwrap();
     (m, view)
 }
 
@@ -147,7 +180,8 @@ fn a_simulation_has_its_times() {
     let text = collection(&view, |k| format!("a & b/{k}.vtp"));
     let document = parsed(&text);
     let list: Vec<_> = all(document.root_element(), "DataSet").collect();
-    let times: Vec<f64> = list.iter().map(|d| d.attribute("timestep").unwrap().parse().unwrap()).collect();
+    let times: Vec<f64> =
+        list.iter().map(|d| d.attribute("timestep").unwrap().parse().unwrap()).collect();
     assert_eq!(times, view.film.iter().map(|f| f.time).collect::<Vec<_>>());
     assert_eq!(list[1].attribute("file"), Some("a & b/1.vtp"));
     let mut speeds = Vec::new();
@@ -156,18 +190,26 @@ fn a_simulation_has_its_times() {
         let file = File(parsed(&text));
         is_sound(&file, &view);
         surfaces_are_closed(&file, &m, 1.0);
-        speeds.push(file.vectors("PointData", "velocity").iter().map(|v| v.norm()).fold(0.0, f64::max));
+        speeds.push(
+            file.vectors("PointData", "velocity").iter().map(|v| v.norm()).fold(0.0, f64::max),
+        );
     }
     assert!(speeds[0] == 0.0 && speeds[speeds.len() - 1] > 0.01, "{speeds:?}");
     let drawing = voussoir::report::drawing::svg(&view, Default::default());
-    assert!(drawing.contains("after ") && drawing.contains("motion × "), "{}", &drawing[drawing.len() - 900..]);
+    assert!(
+        drawing.contains("after ") && drawing.contains("motion × "),
+        "{}",
+        &drawing[drawing.len() - 900..]
+    );
 }
 
 /// What VTK itself makes of the files.
 #[test]
 fn vtk_reads_the_files() {
     let script = "import sys, vtk\nfor f in sys.argv[1:]:\n r = vtk.vtkXMLPolyDataReader(); r.SetFileName(f); r.Update(); o = r.GetOutput(); t = o.GetFieldData().GetAbstractArray(0).GetNumberOfValues()\n print(r.GetErrorCode(), o.GetNumberOfPoints(), o.GetNumberOfVerts(), o.GetNumberOfLines(), o.GetNumberOfPolys(), o.GetPointData().GetNumberOfArrays(), t)";
-    let python = |args: &[&str]| Command::new("python3").args(args).output().ok().filter(|o| o.status.success());
+    let python = |args: &[&str]| {
+        Command::new("python3").args(args).output().ok().filter(|o| o.status.success())
+    };
     if python(&["-c", "import vtk"]).is_none() {
         eprintln!("skipped: python3 has no module vtk");
         return;
@@ -175,15 +217,21 @@ fn vtk_reads_the_files() {
     let folder = tempfile::tempdir().unwrap();
     let falling = falling().1;
     let last = moment(&falling, falling.film.last().unwrap());
-    let [arch, ball] = [limited(&arch(0.15, 1.0, serde_json::json!({}))).1, assessed(&ball_on_box()).1];
+    let [arch, ball] =
+        [limited(&arch(0.15, 1.0, serde_json::json!({}))).1, assessed(&ball_on_box()).1];
     for (view, text) in [(&arch, vtp(&arch)), (&ball, vtp(&ball)), (&falling, last)] {
         let path = folder.path().join("view.vtp");
         std::fs::write(&path, &text).unwrap();
         let file = File(parsed(&text));
         let read = python(&["-c", script, path.to_str().unwrap()]).expect("VTK reads it");
         assert!(read.stderr.is_empty(), "{}", String::from_utf8_lossy(&read.stderr));
-        let arrays = all(all(file.0.root_element(), "PointData").next().unwrap(), "DataArray").count();
-        let counts = ["NumberOfPoints", "NumberOfVerts", "NumberOfLines", "NumberOfPolys"].map(|what| file.count(what).to_string());
-        assert_eq!(String::from_utf8(read.stdout).unwrap().trim(), format!("0 {} {arrays} {}", counts.join(" "), view.bodies.len()));
+        let arrays =
+            all(all(file.0.root_element(), "PointData").next().unwrap(), "DataArray").count();
+        let counts = ["NumberOfPoints", "NumberOfVerts", "NumberOfLines", "NumberOfPolys"]
+            .map(|what| file.count(what).to_string());
+        assert_eq!(
+            String::from_utf8(read.stdout).unwrap().trim(),
+            format!("0 {} {arrays} {}", counts.join(" "), view.bodies.len())
+        );
     }
 }

@@ -1,6 +1,8 @@
-//! Values from the literature, and values computed independently for configurations of the literature (linear programming by the simplex
-//! method, five-hinge closed forms in 40 digits, conic programming). Case numbers and tolerances are those of the project's collection of
-//! reference cases, transcribed so that these tests need no other file. Critical values are asked as verdicts on both sides.
+//! Values from the literature, and values computed independently for configurations of the
+//! literature (linear programming by the simplex method, five-hinge closed forms in 40 digits,
+//! conic programming). Case numbers and tolerances are those of the project's collection of
+//! reference cases, transcribed so that these tests need no other file. Critical values are asked
+//! as verdicts on both sides.
 //!
 //! | file | cases |
 //! |---|---|

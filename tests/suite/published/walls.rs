@@ -4,7 +4,8 @@ use crate::ask::*;
 use serde_json::{Value, json};
 use voussoir::scene::Scene;
 
-/// The blocks of a wall from its courses, bottom up: lengths of blocks from the left in one string, in brackets lengths of openings.
+/// The blocks of a wall from its courses, bottom up: lengths of blocks from the left in one string,
+/// in brackets lengths of openings.
 fn courses(rows: &[&str], height: f64) -> Vec<Value> {
     let mut blocks = Vec::new();
     let mut foot = 0.0;
@@ -14,7 +15,10 @@ fn courses(rows: &[&str], height: f64) -> Vec<Value> {
             let opening = word.starts_with('[');
             let length: f64 = word.trim_matches(['[', ']']).parse().expect("a length");
             if !opening {
-                blocks.push(prism(&format!("c{course}_{x}"), &[[x, z], [x + length, z], [x + length, z + height], [x, z + height]]));
+                blocks.push(prism(
+                    &format!("c{course}_{x}"),
+                    &[[x, z], [x + length, z], [x + length, z + height], [x, z + height]],
+                ));
             }
             x += length;
         }
@@ -75,8 +79,9 @@ const WALL_5: [&str; 19] = [
 
 #[test]
 fn walls_of_ferris_and_tin_loi() {
-    // Ferris & Tin-Loi, International Journal of Mechanical Sciences 43 (2001) 209–224, also in Gilbert, Casapulla & Ahmed (2006). Values by
-    // linear programming from the authors' own equilibrium data (MPECLib) and from the geometry.
+    // Ferris & Tin-Loi, International Journal of Mechanical Sciences 43 (2001) 209–224, also in
+    // Gilbert, Casapulla & Ahmed (2006). Values by linear programming from the authors' own
+    // equilibrium data (MPECLib) and from the geometry.
     for (case, rows, blocks, friction, want) in [
         ("D01", &WALL_1[..], 33, 0.65, 0.6428590033139121),
         ("D02", &WALL_2, 55, 0.65, 0.5799986113337297),
@@ -92,13 +97,16 @@ fn walls_of_ferris_and_tin_loi() {
     }
 }
 
-/// D01 without dilatancy: between the lowest certified complementary solution less 1.5 % and the associative value (D02, D03, D05 are in
-/// `coulomb`).
+/// D01 without dilatancy: between the lowest certified complementary solution less 1.5 % and the
+/// associative value (D02, D03, D05 are in `coulomb`).
 #[test]
 fn a_wall_that_slides_without_opening() {
     let (value, bound, solves) = dry(&wall(&WALL_1, 1.75, 0.65, 1.0));
     println!("D01: {value:.7} (associative {bound:.7}), {solves} convex programs");
-    assert!((0.6293971061945..=0.6428590033139121 * (1.0 + 1e-6)).contains(&value) && solves <= 30, "{value} after {solves}");
+    assert!(
+        (0.6293971061945..=0.6428590033139121 * (1.0 + 1e-6)).contains(&value) && solves <= 30,
+        "{value} after {solves}"
+    );
 }
 
 #[test]
@@ -126,7 +134,10 @@ fn a_raking_wall_has_two_load_factors() {
 #[test]
 fn a_shear_panel_under_a_heavy_beam() {
     // D13: linear programming.
-    let mut blocks = courses(&[".5 1 1 .5", "1 1 1", ".5 1 1 .5", "1 1 1", ".5 1 1 .5", "1 1 1", ".5 1 1 .5", "1 1 1"], 0.5);
+    let mut blocks = courses(
+        &[".5 1 1 .5", "1 1 1", ".5 1 1 .5", "1 1 1", ".5 1 1 .5", "1 1 1", ".5 1 1 .5", "1 1 1"],
+        0.5,
+    );
     let mut beam = prism("beam", &[[0.0, 4.0], [3.0, 4.0], [3.0, 4.4], [0.0, 4.4]]);
     beam["density"] = json!(10);
     blocks.push(beam);
@@ -135,8 +146,9 @@ fn a_shear_panel_under_a_heavy_beam() {
 
 #[test]
 fn a_corner_of_two_walls() {
-    // E15, E16: two walls 0.5 thick bonded at a corner, four courses; linear programming with cone cuts, and conic programming.
-    // Of each block the corner with the least coordinates and the size; courses 2 and 3 repeat courses 0 and 1.
+    // E15, E16: two walls 0.5 thick bonded at a corner, four courses; linear programming with cone
+    // cuts, and conic programming. Of each block the corner with the least coordinates and the
+    // size; courses 2 and 3 repeat courses 0 and 1.
     let two_courses = [
         ([0.0, 0.0, 0.0], [1.0, 0.5]),
         ([1.0, 0.0, 0.0], [1.0, 0.5]),
@@ -155,13 +167,16 @@ fn a_corner_of_two_walls() {
         }
     }
     let s = std::f64::consts::FRAC_1_SQRT_2;
-    for (case, toward, want) in [("E15", [-1.0, 0.0, 0.0], 0.5077265540878951), ("E16", [s, s, 0.0], 0.5492530267084773)] {
+    for (case, toward, want) in
+        [("E15", [-1.0, 0.0, 0.0], 0.5077265540878951), ("E16", [s, s, 0.0], 0.5492530267084773)]
+    {
         // Cone cuts end about 1e-9 above the round cone.
         bracketed(case, &scene(0.6, json!(blocks), push(toward)), want, 1e-6, 1e-8);
     }
 }
 
-/// Free courses of blocks 1 × 0.5 × 0.4 on one fixed course, half blocks at the ends of every other course.
+/// Free courses of blocks 1 × 0.5 × 0.4 on one fixed course, half blocks at the ends of every other
+/// course.
 fn running_bond(n: u32) -> Scene {
     let wall = json!({ "wall": { "size": [1, 0.5, 0.4], "courses": n, "blocks": n, "first": "half", "base": "course" } });
     template(0.6, wall, push([1.0, 0.0, 0.0]))
@@ -175,7 +190,8 @@ fn a_large_running_bond_wall() {
 
 #[test]
 fn a_wall_of_ten_thousand_blocks() {
-    // Linear programming gives 0.4214750 to its feasibility tolerance of 1e-7. The next digits are proved: both engines' brackets, asked
-    // for more, close around 0.421475061. Weights in newtons, or rows scaled by the greatest weight, give 0.41485.
+    // Linear programming gives 0.4214750 to its feasibility tolerance of 1e-7. The next digits are
+    // proved: both engines' brackets, asked for more, close around 0.421475061. Weights in newtons,
+    // or rows scaled by the greatest weight, give 0.41485.
     bracketed("100 × 100", &running_bond(100), 0.421_475_061, 1e-7, 5e-10 / 0.421_475_061);
 }

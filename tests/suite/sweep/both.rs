@@ -41,9 +41,17 @@ fn a_thrust_on_a_support_that_touches_nothing() {
         ("nobody", "1,0", "support nobody: there is no such block"),
         ("table", "0,0,1", "is parallel to gravity"),
     ] {
-        let numbers: Vec<f64> = direction.split(',').map(|n| n.parse().unwrap()).chain([0.0]).take(3).collect();
-        let folder = desk(&scene, json!({ "thrust": { "support": support, "direction": numbers } }));
-        let verb = expect_in(2, voussoir(folder.path(), &["thrust", "scene.json", "--support", support, "--direction", direction]));
+        let numbers: Vec<f64> =
+            direction.split(',').map(|n| n.parse().unwrap()).chain([0.0]).take(3).collect();
+        let folder =
+            desk(&scene, json!({ "thrust": { "support": support, "direction": numbers } }));
+        let verb = expect_in(
+            2,
+            voussoir(
+                folder.path(),
+                &["thrust", "scene.json", "--support", support, "--direction", direction],
+            ),
+        );
         assert!(said(&verb).contains(words), "{}", said(&verb));
         for row in rows(folder.path(), 0) {
             let error = row["error"].as_str().unwrap_or_else(|| panic!("answered: {row}"));
@@ -58,11 +66,16 @@ fn options_outside_their_range() {
         (json!({ "repose": { "moving_mass": 7 } }), &["--moving-mass", "7"][..], "moving_mass"),
         (json!({ "repose": { "moving_mass": -0.1 } }), &["--moving-mass", "-0.1"], "moving_mass"),
         (json!({ "repose": { "all": 0 } }), &["--all", "0"], "all"),
-        (json!({ "repose": { "all": 4, "toward": [[1, 0, 0]] } }), &["--all", "4", "--toward", "1,0"], "all"),
+        (
+            json!({ "repose": { "all": 4, "toward": [[1, 0, 0]] } }),
+            &["--all", "4", "--toward", "1,0"],
+            "all",
+        ),
     ] {
         let folder = desk(&block(), question);
         expect_in(2, voussoir(folder.path(), &[&["repose", "scene.json"], verb].concat()));
-        let plan = expect_in(2, voussoir(folder.path(), &["sweep", "plan.json", "-o", "rows.jsonl"]));
+        let plan =
+            expect_in(2, voussoir(folder.path(), &["sweep", "plan.json", "-o", "rows.jsonl"]));
         assert!(said(&plan).contains(&format!("question.repose.{key}")), "{}", said(&plan));
         assert!(!folder.path().join("rows.jsonl").exists());
     }
@@ -72,10 +85,14 @@ fn options_outside_their_range() {
 #[test]
 fn a_simulation_under_a_load_factor() {
     let mut scene = block();
-    scene["loads"] = json!({ "live": [{ "block": "block", "at": [0.19, 0, 1], "force": [1000, 0, 0] }] });
+    scene["loads"] =
+        json!({ "live": [{ "block": "block", "at": [0.19, 0, 1], "force": [1000, 0, 0] }] });
     for factor in [0.5, 6.0] {
         let folder = desk(&scene, json!({ "simulate": { "load_factor": factor } }));
-        let verb = voussoir(folder.path(), &["simulate", "scene.json", "--load-factor", &factor.to_string(), "--json"]);
+        let verb = voussoir(
+            folder.path(),
+            &["simulate", "scene.json", "--load-factor", &factor.to_string(), "--json"],
+        );
         let fate = serde_json::from_slice::<Value>(&verb.stdout).unwrap()["answer"]["fate"].clone();
         let wanted = if fate == "stands" { "stable" } else { "unstable" };
         for row in rows(folder.path(), 0) {

@@ -32,7 +32,12 @@ pub fn desk(samples: usize) -> TempDir {
 
 fn command(folder: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
-    command.args(args).current_dir(folder).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+        .args(args)
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
     command
 }
 
@@ -55,7 +60,10 @@ pub fn rows(path: &Path) -> BTreeMap<u64, String> {
     let mut rows = BTreeMap::new();
     for line in text.lines().skip(1) {
         let row: Value = serde_json::from_str(line).unwrap();
-        let before = rows.insert(row["row"].as_u64().unwrap(), line.rsplit_once(",\"seconds\":").unwrap().0.to_string());
+        let before = rows.insert(
+            row["row"].as_u64().unwrap(),
+            line.rsplit_once(",\"seconds\":").unwrap().0.to_string(),
+        );
         assert!(before.is_none(), "twice: {line}");
     }
     rows
@@ -71,10 +79,16 @@ fn killed_ten_times_and_continued_no_row_is_lost_or_twice() {
     let all = size("whole.jsonl");
     let mut in_the_middle = 0;
     for kill in 1..=10_u64 {
-        let mut child = command(at, &["sweep", "plan.json", "-o", "killed.jsonl", "-q", "--threads", "3"]).spawn().unwrap();
+        let mut child =
+            command(at, &["sweep", "plan.json", "-o", "killed.jsonl", "-q", "--threads", "3"])
+                .spawn()
+                .unwrap();
         // At some byte, in the middle of whatever it does then.
         let (until, patience) = (all * kill / 14, Instant::now() + Duration::from_secs(60));
-        while size("killed.jsonl") < until && Instant::now() < patience && child.try_wait().unwrap().is_none() {
+        while size("killed.jsonl") < until
+            && Instant::now() < patience
+            && child.try_wait().unwrap().is_none()
+        {
             std::thread::yield_now();
         }
         child.kill().unwrap();
@@ -96,21 +110,47 @@ fn rows_there(path: &Path) -> usize {
 fn shards_tables_charts_and_summaries() {
     let folder = desk(9);
     let at = folder.path();
-    let whole = expect(0, at, &["sweep", "plan.json", "--json", "--csv", "table.csv", "--svg", "chart.svg", "--chart", "heat"]);
+    let whole = expect(
+        0,
+        at,
+        &[
+            "sweep",
+            "plan.json",
+            "--json",
+            "--csv",
+            "table.csv",
+            "--svg",
+            "chart.svg",
+            "--chart",
+            "heat",
+        ],
+    );
     let summary: Value = serde_json::from_slice(&whole.stdout).unwrap();
-    assert_eq!((summary["format"].as_str(), &summary["summary"]["counts"]), (Some("voussoir-summary/1"), &json!({ "found": 9 })));
+    assert_eq!(
+        (summary["format"].as_str(), &summary["summary"]["counts"]),
+        (Some("voussoir-summary/1"), &json!({ "found": 9 }))
+    );
     assert_eq!(rows(&at.join("plan.rows.jsonl")).len(), 9);
     assert_eq!(fs::read_to_string(at.join("table.csv")).unwrap().lines().count(), 10);
     assert!(fs::read_to_string(at.join("chart.svg")).unwrap().starts_with("<svg"));
     for shard in ["1/2", "2/2"] {
-        expect(0, at, &["sweep", "plan.json", "--shard", shard, "-o", &shard.replace('/', "-"), "-q"]);
+        expect(
+            0,
+            at,
+            &["sweep", "plan.json", "--shard", shard, "-o", &shard.replace('/', "-"), "-q"],
+        );
     }
     let half = expect(3, at, &["sweep", "merge", "1-2", "-q"]);
-    assert!(String::from_utf8_lossy(&half.stderr).contains("4 of 9 rows are missing, the first is row 1"));
+    assert!(
+        String::from_utf8_lossy(&half.stderr)
+            .contains("4 of 9 rows are missing, the first is row 1")
+    );
     expect(0, at, &["sweep", "merge", "2-2", "1-2", "-o", "merged.jsonl", "-q"]);
     assert_eq!(rows(&at.join("merged.jsonl")), rows(&at.join("plan.rows.jsonl")));
     let text = fs::read_to_string(at.join("merged.jsonl")).unwrap();
-    assert!(text.lines().skip(1).zip(0..).all(|(line, k)| line.starts_with(&format!("{{\"row\":{k},"))));
+    assert!(
+        text.lines().skip(1).zip(0..).all(|(line, k)| line.starts_with(&format!("{{\"row\":{k},")))
+    );
 }
 
 #[test]
@@ -127,14 +167,18 @@ fn what_cannot_be_done_is_said_before_the_work() {
     says(&["sweep", "plan.json", "-o", "scene.json"], "this file is read");
     fs::copy(at.join("scene.json"), at.join("other.json")).unwrap();
     says(&["sweep", "plan.json", "-o", "other.json"], "not the beginning of a file of rows");
-    says(&["sweep", "plan.json", "--restart", "-o", "other.json"], "not the beginning of a file of rows");
+    says(
+        &["sweep", "plan.json", "--restart", "-o", "other.json"],
+        "not the beginning of a file of rows",
+    );
     assert_eq!(fs::read_to_string(at.join("other.json")).unwrap(), arch().to_string());
     says(&["sweep", "plan.json", "-o", "nowhere/rows.jsonl"], "cannot be written");
     says(&["sweep", "plan.json", "--csv", "nowhere/table.csv"], "no such folder");
     says(&["sweep", "plan.json", "--chart", "line"], "--svg");
     says(&["sweep", "plan.json", "--svg", "chart.svg", "--chart", "line", "--shard", "0/2"], "K/N");
     says(&["sweep", "merge", "plan.json"], "not the beginning");
-    let mut grid: Value = serde_json::from_str(&fs::read_to_string(at.join("plan.json")).unwrap()).unwrap();
+    let mut grid: Value =
+        serde_json::from_str(&fs::read_to_string(at.join("plan.json")).unwrap()).unwrap();
     grid["vary"] = json!([{ "pointer": "/joints/default/friction", "values": [0.5, 0.6] }]);
     grid["sampling"] = json!({ "grid": {} });
     fs::write(at.join("grid.json"), grid.to_string()).unwrap();
@@ -149,14 +193,28 @@ fn what_cannot_be_done_is_said_before_the_work() {
 fn the_worst_case_is_an_answer_like_others() {
     let folder = desk(1);
     let at = folder.path();
-    let output = expect(0, at, &["limit", "scene.json", "--worst", "friction=0.6..0.7,density=2000..2400", "--save", "result.json"]);
+    let output = expect(
+        0,
+        at,
+        &[
+            "limit",
+            "scene.json",
+            "--worst",
+            "friction=0.6..0.7,density=2000..2400",
+            "--save",
+            "result.json",
+        ],
+    );
     let page = String::from_utf8(output.stdout).unwrap();
-    for word in
-        ["worst case: friction 0.6, the lowest", "worst case: the worst of 2 corners", "--worst friction=0.6..0.7,density=2000..2400"]
-    {
+    for word in [
+        "worst case: friction 0.6, the lowest",
+        "worst case: the worst of 2 corners",
+        "--worst friction=0.6..0.7,density=2000..2400",
+    ] {
         assert!(page.split_whitespace().collect::<Vec<_>>().join(" ").contains(word), "{page}");
     }
-    let saved: Value = serde_json::from_str(&fs::read_to_string(at.join("result.json")).unwrap()).unwrap();
+    let saved: Value =
+        serde_json::from_str(&fs::read_to_string(at.join("result.json")).unwrap()).unwrap();
     assert_eq!(saved["scene"]["input"]["joints"]["default"]["friction"], json!(0.6));
     expect(0, at, &["check", "result.json"]);
     let error = expect(2, at, &["assess", "scene.json", "--worst", "frictoin=1..2"]).stderr;

@@ -1,4 +1,5 @@
-//! Sweeps: rows that depend on plan, scene and number alone, files that survive a kill, summaries against hand counts.
+//! Sweeps: rows that depend on plan, scene and number alone, files that survive a kill, summaries
+//! against hand counts.
 
 mod both;
 mod command;
@@ -37,8 +38,7 @@ fn arch() -> Value {
 }
 
 fn plan(question: Value, vary: Value, sampling: Value) -> Plan {
-    let plan =
-        json!({ "format": "voussoir-sweep/1", "scene": "scene.json", "question": question, "vary": vary, "sampling": sampling, "seed": 5 });
+    let plan = json!({ "format": "voussoir-sweep/1", "scene": "scene.json", "question": question, "vary": vary, "sampling": sampling, "seed": 5 });
     serde_json::from_value(plan).expect("a plan")
 }
 

@@ -11,7 +11,8 @@ use voussoir::{
 fn read(plan: &Value, scene: &Value) -> Result<Sweep, InputError> {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("scene.json"), scene.to_string()).unwrap();
-    fs::write(folder.path().join("plan.json"), serde_json::to_string_pretty(plan).unwrap()).unwrap();
+    fs::write(folder.path().join("plan.json"), serde_json::to_string_pretty(plan).unwrap())
+        .unwrap();
     open(&folder.path().join("plan.json"))
 }
 
@@ -47,26 +48,53 @@ fn wrong_plans_are_refused_with_place_and_remedy() {
         &s,
         &["plan.json:9:18: vary[0].pointer", "unknown field `fricton`"],
     );
-    refused(|p| p["vary"][0]["pointer"] = json!("/materials/stome/density"), &s, &["vary[0].pointer", "did you mean \"stone\""]);
-    refused(|p| p["vary"][0]["pointer"] = json!("/blocks/7/density"), &s, &["none of the 2 elements"]);
-    refused(|p| p["vary"][0]["pointer"] = json!("/blocks/0/id"), &s, &["blocks[0].id of the scene is not a number"]);
+    refused(
+        |p| p["vary"][0]["pointer"] = json!("/materials/stome/density"),
+        &s,
+        &["vary[0].pointer", "did you mean \"stone\""],
+    );
+    refused(
+        |p| p["vary"][0]["pointer"] = json!("/blocks/7/density"),
+        &s,
+        &["none of the 2 elements"],
+    );
+    refused(
+        |p| p["vary"][0]["pointer"] = json!("/blocks/0/id"),
+        &s,
+        &["blocks[0].id of the scene is not a number"],
+    );
     refused(|p| p["vary"][0]["pointer"] = json!("joints"), &s, &["not a JSON pointer"]);
     refused(|p| p["vary"][0]["to"] = json!(0.1), &s, &["vary[0].to", "empty"]);
     refused(|p| p["vary"][0]["count"] = json!(0), &s, &["vary[0].count"]);
     refused(|p| p["vary"][0]["cuont"] = json!(3), &s, &["vary[0].cuont", "did you mean \"count\""]);
     refused(|p| p["vary"] = json!([]), &s, &["vary", "nothing varies"]);
-    refused(|p| p["vary"] = json!([p["vary"][0], p["vary"][0]]), &s, &["vary[1].pointer", "varies twice"]);
+    refused(
+        |p| p["vary"] = json!([p["vary"][0], p["vary"][0]]),
+        &s,
+        &["vary[1].pointer", "varies twice"],
+    );
     refused(|p| p["vary"][0]["count"] = json!(100_000_000), &s, &["more than 2000000 rows"]);
-    refused(|p| p["sampling"] = json!({ "random": { "samples": 10 } }), &s, &["vary[0].count", "belongs to a grid"]);
+    refused(
+        |p| p["sampling"] = json!({ "random": { "samples": 10 } }),
+        &s,
+        &["vary[0].count", "belongs to a grid"],
+    );
     refused(|p| p["question"] = json!({ "guess": {} }), &s, &["question.guess", "assess"]);
-    refused(|p| p["question"] = json!({ "tilt": { "toward": [[1, 0, 0]], "all": 4 } }), &s, &["question.tilt.all"]);
+    refused(
+        |p| p["question"] = json!({ "tilt": { "toward": [[1, 0, 0]], "all": 4 } }),
+        &s,
+        &["question.tilt.all"],
+    );
     refused(|p| p["scene"] = json!("none.json"), &s, &["plan.json:3:", "scene", "cannot be read"]);
     refused(|p| p["format"] = json!("voussoir-scene/1"), &s, &["not a plan"]);
     let mut still = block();
     still["loads"] = json!({});
     refused(|_| {}, &still, &["question", "no live load"]);
     refused(
-        |p| p["vary"][0] = json!({ "pointer": "/templates/0/arch/voussoirs", "from": 5, "to": 8, "count": 3 }),
+        |p| {
+            p["vary"][0] =
+                json!({ "pointer": "/templates/0/arch/voussoirs", "from": 5, "to": 8, "count": 3 })
+        },
         &arch(),
         &["\"round\": true"],
     );
@@ -85,11 +113,13 @@ fn wrong_plans_are_refused_with_place_and_remedy() {
 #[test]
 fn a_key_that_the_scene_leaves_out_may_vary() {
     let mut plan = good();
-    plan["vary"] =
-        json!([{ "pointer": "/joints/default/cohesion", "values": [0, 1000] }, { "pointer": "/blocks/1/density", "values": [2000] }]);
+    plan["vary"] = json!([{ "pointer": "/joints/default/cohesion", "values": [0, 1000] }, { "pointer": "/blocks/1/density", "values": [2000] }]);
     let sweep = read(&plan, &block()).unwrap();
     let scene = sweep.scene_with(&sweep.parameters(1)).unwrap();
-    assert_eq!((scene.joints.default.cohesion, scene.blocks[1].density), (Some(1000.0), Some(2000.0)));
+    assert_eq!(
+        (scene.joints.default.cohesion, scene.blocks[1].density),
+        (Some(1000.0), Some(2000.0))
+    );
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Rows: right, the same whatever the threads, shards and interruptions, and shared work changes nothing.
+//! Rows: right, the same whatever the threads, shards and interruptions, and shared work changes
+//! nothing.
 
 use super::{arch, block, sweep};
 use serde_json::{Value, json};
@@ -7,7 +8,9 @@ use voussoir::{
     analysis::{Control, ask},
     interface::prepare,
     scene::Scene,
-    sweep::{Event, Row, RowAnswer, RowStatus, RowsFile, RunOptions, Shard, Sweep, merge, read_rows, run},
+    sweep::{
+        Event, Row, RowAnswer, RowStatus, RowsFile, RunOptions, Shard, Sweep, merge, read_rows, run,
+    },
 };
 
 fn options(threads: usize, shard: Shard) -> RunOptions {
@@ -17,7 +20,9 @@ fn options(threads: usize, shard: Shard) -> RunOptions {
 /// The answer of a row, asked without any sweep.
 fn by_itself(sweep: &Sweep, scene: &Scene) -> RowAnswer {
     let question = sweep.plan.question.for_one_number();
-    RowAnswer::of_answer(&ask(&question, scene, &prepare(scene).unwrap(), &Control::default()).unwrap())
+    RowAnswer::of_answer(
+        &ask(&question, scene, &prepare(scene).unwrap(), &Control::default()).unwrap(),
+    )
 }
 
 fn done(sweep: &Sweep, path: &Path, threads: usize) -> Vec<Row> {
@@ -44,7 +49,12 @@ fn mixed(samples: usize) -> Sweep {
         { "pointer": "/joints/default/friction", "normal": { "mean": 0.5, "sd": 0.2 }, "min": 0.1 },
         { "pointer": "/materials/stone/density", "values": [2000, 2400] }
     ]);
-    sweep(arch(), json!({ "limit": {} }), vary, json!({ "latin_hypercube": { "samples": samples } }))
+    sweep(
+        arch(),
+        json!({ "limit": {} }),
+        vary,
+        json!({ "latin_hypercube": { "samples": samples } }),
+    )
 }
 
 #[test]
@@ -54,7 +64,9 @@ fn answers_are_those_of_the_closed_form() {
         { "pointer": "/blocks/1/shape/box/size/0", "values": [0.3, 0.4, 0.5] }
     ]);
     let folder = tempfile::tempdir().unwrap();
-    for (question, scale) in [(json!({ "limit": {} }), 1.0), (json!({ "tilt": { "toward": [[1, 0, 0]] } }), 0.0)] {
+    for (question, scale) in
+        [(json!({ "limit": {} }), 1.0), (json!({ "tilt": { "toward": [[1, 0, 0]] } }), 0.0)]
+    {
         let sweep = sweep(block(), question, vary.clone(), json!({ "grid": {} }));
         let rows = done(&sweep, &folder.path().join(format!("{scale}.jsonl")), 2);
         assert_eq!(rows.len(), 24);
@@ -93,7 +105,8 @@ fn shared_work_is_done_once_and_changes_no_answer() {
     ]);
     let sweep = sweep(arch(), json!({ "limit": {} }), vary, json!({ "grid": {} }));
     let folder = tempfile::tempdir().unwrap();
-    let done = run(&sweep, &folder.path().join("rows.jsonl"), &options(3, Shard::ALL), &|_| {}).unwrap();
+    let done =
+        run(&sweep, &folder.path().join("rows.jsonl"), &options(3, Shard::ALL), &|_| {}).unwrap();
     // Two thicknesses, two densities each.
     assert_eq!((done.rows.len(), done.computed), (24, [4, 2]));
     for row in &done.rows {
@@ -104,7 +117,9 @@ fn shared_work_is_done_once_and_changes_no_answer() {
 
 #[test]
 fn interfaces_given_by_hand_are_never_shared() {
-    let scene: Value = serde_json::from_str(&fs::read_to_string("structures/a-frame-stands.json").unwrap()).unwrap();
+    let scene: Value =
+        serde_json::from_str(&fs::read_to_string("structures/a-frame-stands.json").unwrap())
+            .unwrap();
     let vary = json!([{ "pointer": "/joints/default/friction", "values": [0.2, 0.4] }]);
     let vary = if scene.pointer("/joints/default/friction").is_some() {
         vary
@@ -113,7 +128,8 @@ fn interfaces_given_by_hand_are_never_shared() {
     };
     let sweep = sweep(scene, json!({ "assess": {} }), vary, json!({ "grid": {} }));
     let folder = tempfile::tempdir().unwrap();
-    let done = run(&sweep, &folder.path().join("rows.jsonl"), &options(1, Shard::ALL), &|_| {}).unwrap();
+    let done =
+        run(&sweep, &folder.path().join("rows.jsonl"), &options(1, Shard::ALL), &|_| {}).unwrap();
     assert_eq!(done.computed, [2, 2]);
     for row in &done.rows {
         let scene = sweep.scene_with(&row.parameters).unwrap();
@@ -127,7 +143,10 @@ fn a_row_that_fails_is_a_row_with_its_error() {
     let sweep = sweep(block(), json!({ "limit": {} }), vary, json!({ "grid": {} }));
     let folder = tempfile::tempdir().unwrap();
     let rows = done(&sweep, &folder.path().join("rows.jsonl"), 2);
-    assert_eq!(rows.iter().map(|r| r.answer.status).collect::<Vec<_>>(), [RowStatus::Found, RowStatus::Error, RowStatus::Found]);
+    assert_eq!(
+        rows.iter().map(|r| r.answer.status).collect::<Vec<_>>(),
+        [RowStatus::Found, RowStatus::Error, RowStatus::Found]
+    );
     let error = rows[1].error.as_ref().unwrap();
     assert!(error.contains("blocks[1].shape.box.size"), "{error}");
 }
@@ -142,7 +161,18 @@ fn a_file_cut_off_anywhere_is_taken_up_and_ends_the_same() {
     let header = bytes.iter().position(|b| *b == b'\n').unwrap();
     let cut = folder.path().join("cut.jsonl");
     let last = bytes.iter().rposition(|b| *b == b'{').unwrap();
-    for end in [0, 1, header / 2, header, header + 1, header + 2, header + 40, last, bytes.len() - 1, bytes.len()] {
+    for end in [
+        0,
+        1,
+        header / 2,
+        header,
+        header + 1,
+        header + 2,
+        header + 40,
+        last,
+        bytes.len() - 1,
+        bytes.len(),
+    ] {
         fs::write(&cut, &bytes[..end]).unwrap();
         done(&sweep, &cut, 2);
         assert_eq!(lines(&cut), lines(&whole), "cut at {end}");
@@ -156,7 +186,8 @@ fn rows_of_another_plan_are_not_touched() {
     done(&mixed(3), &path, 1);
     let before = fs::read(&path).unwrap();
     let no = |sweep: &Sweep, shard: Shard, word: &str| {
-        let error = run(sweep, &path, &options(1, shard), &|_| {}).expect_err("refused").to_string();
+        let error =
+            run(sweep, &path, &options(1, shard), &|_| {}).expect_err("refused").to_string();
         assert!(error.contains(word), "{error}");
         assert_eq!(fs::read(&path).unwrap(), before);
     };
@@ -186,7 +217,8 @@ fn two_runs_do_not_write_one_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rows.jsonl");
     let held = RowsFile::open(&path, &sweep.header(Shard::ALL), false).unwrap();
-    let error = run(&sweep, &path, &options(1, Shard::ALL), &|_| {}).expect_err("refused").to_string();
+    let error =
+        run(&sweep, &path, &options(1, Shard::ALL), &|_| {}).expect_err("refused").to_string();
     assert!(error.contains("another run is writing it"), "{error}");
     drop(held);
     assert_eq!(done(&sweep, &path, 1).len(), 2);
@@ -204,11 +236,15 @@ fn damage_in_the_middle_is_told_with_its_line() {
     for (text, word) in [
         (text.replacen("\"status\":\"found\"", "\"status\":\"fuond\"", 1), "rows.jsonl:"),
         (format!("{text}{}\n", row.replacen("\"value\":0.", "\"value\":1.", 1)), "was edited"),
-        (unsummed(&format!("{text}{}\n", row.replacen("\"value\":0.", "\"value\":1.", 1))), "is there twice"),
+        (
+            unsummed(&format!("{text}{}\n", row.replacen("\"value\":0.", "\"value\":1.", 1))),
+            "is there twice",
+        ),
         (format!("{header}\n{}\n", row.replacen("\"row\":", "\"row\":9", 1)), "none of this plan"),
     ] {
         fs::write(&path, &text).unwrap();
-        let error = run(&sweep, &path, &options(1, Shard::ALL), &|_| {}).expect_err("refused").to_string();
+        let error =
+            run(&sweep, &path, &options(1, Shard::ALL), &|_| {}).expect_err("refused").to_string();
         assert!(error.contains(word), "{error}");
         assert_eq!(fs::read_to_string(&path).unwrap(), text);
     }
@@ -245,7 +281,12 @@ fn thrust_repose_and_simulation_can_be_swept() {
     // The thrust of an arch grows with its density; least below greatest.
     let vary = json!([{ "pointer": "/materials/stone/density", "values": [1200.0, 2400.0] }]);
     let [least, greatest] = [false, true].map(|greatest| {
-        let sweep = sweep(arch(), json!({ "thrust": { "law": "associative", "greatest": greatest } }), vary.clone(), json!({ "grid": {} }));
+        let sweep = sweep(
+            arch(),
+            json!({ "thrust": { "law": "associative", "greatest": greatest } }),
+            vary.clone(),
+            json!({ "grid": {} }),
+        );
         let rows = done(&sweep, &folder.path().join(format!("{greatest}.jsonl")), 1);
         let values: Vec<f64> = rows.iter().map(|r| r.answer.value.unwrap()).collect();
         assert!((values[1] / values[0] - 2.0).abs() < 1e-6, "{values:?}");
@@ -253,17 +294,31 @@ fn thrust_repose_and_simulation_can_be_swept() {
     });
     assert!(0.0 < least && least < greatest, "{least} {greatest}");
     // The apex of a tetrahedral pile rolls out of its pocket whatever the friction: sin θ = 1/3.
-    let pile: Value = serde_json::from_str(&fs::read_to_string("structures/tetrahedral-pile.json").unwrap()).unwrap();
+    let pile: Value =
+        serde_json::from_str(&fs::read_to_string("structures/tetrahedral-pile.json").unwrap())
+            .unwrap();
     let vary = json!([{ "pointer": "/joints/default/friction", "values": [0.8, 1.2] }]);
-    let sweep_pile = sweep(pile, json!({ "repose": { "toward": [[0, -1, 0]] } }), vary, json!({ "grid": {} }));
+    let sweep_pile =
+        sweep(pile, json!({ "repose": { "toward": [[0, -1, 0]] } }), vary, json!({ "grid": {} }));
     for row in done(&sweep_pile, &folder.path().join("repose.jsonl"), 2) {
-        assert!((row.answer.value.unwrap() - (1.0_f64 / 3.0).asin().to_degrees()).abs() < 1e-4, "{row:?}");
+        assert!(
+            (row.answer.value.unwrap() - (1.0_f64 / 3.0).asin().to_degrees()).abs() < 1e-4,
+            "{row:?}"
+        );
     }
     // λ = min(friction, width / height) = min(friction, 0.4).
     let vary = json!([{ "pointer": "/joints/default/friction", "values": [0.25, 0.35] }]);
-    let sweep = sweep(block(), json!({ "simulate": { "fast": true, "load_factor": 0.3 } }), vary, json!({ "grid": {} }));
+    let sweep = sweep(
+        block(),
+        json!({ "simulate": { "fast": true, "load_factor": 0.3 } }),
+        vary,
+        json!({ "grid": {} }),
+    );
     let rows = done(&sweep, &folder.path().join("simulate.jsonl"), 2);
-    assert_eq!([0, 1].map(|k: usize| rows[k].answer.status), [RowStatus::Unstable, RowStatus::Stable]);
+    assert_eq!(
+        [0, 1].map(|k: usize| rows[k].answer.status),
+        [RowStatus::Unstable, RowStatus::Stable]
+    );
 }
 
 /// The text of a file as it was before rows had check sums.
@@ -289,13 +344,20 @@ fn rows_that_were_edited_are_noticed_by_whoever_reads_them() {
             text.replacen(third, &third.replacen("\"value\":0.", "\"value\":0.9", 1), 1),
             "rows.jsonl:3: the row or the first line of the file was edited",
         ),
-        (text.replacen(third, &third.replacen("\"seconds\":", "\"seconds\":1", 1), 1), "rows.jsonl:3: "),
+        (
+            text.replacen(third, &third.replacen("\"seconds\":", "\"seconds\":1", 1), 1),
+            "rows.jsonl:3: ",
+        ),
         (text.replacen(third, &without, 1), "rows.jsonl:3: the check sum of the row is gone"),
         (text.replacen("\"seed\":5", "\"seed\":6", 1), "rows.jsonl:2: "),
     ] {
         assert_ne!(edited, text);
         fs::write(&path, &edited).unwrap();
-        for error in [run(&sweep, &path, &options(1, Shard::ALL), &|_| {}).err(), merge(&[&path]).err(), read_rows(&path).err()] {
+        for error in [
+            run(&sweep, &path, &options(1, Shard::ALL), &|_| {}).err(),
+            merge(&[&path]).err(),
+            read_rows(&path).err(),
+        ] {
             let error = error.expect("refused").to_string();
             assert!(error.contains(word) && error.contains("remove the line"), "{error}");
         }

@@ -8,7 +8,13 @@ use voussoir::{
 };
 
 fn row(number: usize, parameters: &[f64], status: RowStatus, value: Option<f64>) -> Row {
-    Row { row: number, parameters: parameters.to_vec(), answer: RowAnswer { value, ..RowAnswer::of(status) }, error: None, seconds: 0.5 }
+    Row {
+        row: number,
+        parameters: parameters.to_vec(),
+        answer: RowAnswer { value, ..RowAnswer::of(status) },
+        error: None,
+        seconds: 0.5,
+    }
 }
 
 fn found(number: usize, parameters: &[f64], value: f64) -> Row {
@@ -35,8 +41,12 @@ fn grid(value: impl Fn(f64, f64) -> f64) -> Vec<Row> {
 #[test]
 fn wilson_intervals_are_those_of_the_tables() {
     // Newcombe, Statistics in Medicine 17 (1998) 857, table I, method 3.
-    for (failed, of, lower, upper) in [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)]
-    {
+    for (failed, of, lower, upper) in [
+        (81, 263, 0.2553, 0.3662),
+        (15, 148, 0.0624, 0.1605),
+        (0, 20, 0.0, 0.1611),
+        (1, 29, 0.0061, 0.1718),
+    ] {
         let p = wilson(failed, of);
         assert!((p.lower - lower).abs() < 6e-5 && (p.upper - upper).abs() < 6e-5, "{p:?}");
     }
@@ -49,9 +59,14 @@ fn the_share_of_a_number_is_that_of_the_analysis_of_variance() {
     let alone = summarize(&sweep.header(Shard::ALL), &grid(|a, _| a));
     assert_eq!((alone.influence[0].parameter.as_str(), alone.influence[0].share), ("a", 1.0));
     assert_eq!(alone.influence[1].share, 0.0);
-    // f = 3 a' + b' with a', b' in {-1, 0, 1}: sums of squares 54 and 6, so η² = 0.9, corrected 1 − 0.1 × 8 / 6.
+    // f = 3 a' + b' with a', b' in {-1, 0, 1}: sums of squares 54 and 6, so η² = 0.9, corrected 1 −
+    // 0.1 × 8 / 6.
     let both = summarize(&sweep.header(Shard::ALL), &grid(|a, b| 30.0 * a + b));
-    assert!((both.influence[0].share - (1.0 - 0.1 * 8.0 / 6.0)).abs() < 1e-12, "{:?}", both.influence);
+    assert!(
+        (both.influence[0].share - (1.0 - 0.1 * 8.0 / 6.0)).abs() < 1e-12,
+        "{:?}",
+        both.influence
+    );
     // A dependence that no correlation coefficient sees.
     let values: Vec<f64> = (0..1000).map(|i| f64::from(i) / 1000.0).collect();
     let wave: Vec<f64> = values.iter().map(|v| (v - 0.5).powi(2)).collect();
@@ -67,12 +82,17 @@ fn counts_quantiles_and_the_fragility_against_a_demand() {
     rows.push(row(6, &[0.2, 2.0], RowStatus::Unbounded, None));
     rows.push(row(7, &[0.2, 3.0], RowStatus::Undecided, None));
     let s = summarize(&sweep.header(Shard::ALL), &rows);
-    assert_eq!(s.counts.into_iter().collect::<Vec<_>>(), [("found", 5), ("impossible", 1), ("unbounded", 1), ("undecided", 1)]);
+    assert_eq!(
+        s.counts.into_iter().collect::<Vec<_>>(),
+        [("found", 5), ("impossible", 1), ("unbounded", 1), ("undecided", 1)]
+    );
     let q = s.quantiles.unwrap();
     assert_eq!((q.least, q.median, q.p25, q.greatest), ((1.0, 0), 3.0, 2.0, (5.0, 4)));
     assert!((q.p05 - 1.2).abs() < 1e-12);
     let points = s.fragility.unwrap().points;
-    let failed = |at: f64| points.iter().find(|p| (p.0 - at).abs() < 1e-9).map(|p| (p.1.failed, p.1.of)).unwrap();
+    let failed = |at: f64| {
+        points.iter().find(|p| (p.0 - at).abs() < 1e-9).map(|p| (p.1.failed, p.1.of)).unwrap()
+    };
     // The undecided row does not count; what is impossible fails at every demand.
     assert_eq!((failed(1.0), failed(3.0), failed(5.0)), ((1, 7), (3, 7), (5, 7)));
     assert!(s.failed.is_none() && s.seconds == 4.0);
@@ -82,17 +102,26 @@ fn counts_quantiles_and_the_fragility_against_a_demand() {
 fn verdicts_and_requirements_fail_along_the_number_that_matters() {
     let sweep = two_numbers(json!({ "assess": {} }));
     let stands = |b: f64| if b > 1.5 { RowStatus::Stable } else { RowStatus::Unstable };
-    let rows: Vec<Row> = grid(|_, b| b).into_iter().map(|r| row(r.row, &r.parameters, stands(r.parameters[1]), None)).collect();
+    let rows: Vec<Row> = grid(|_, b| b)
+        .into_iter()
+        .map(|r| row(r.row, &r.parameters, stands(r.parameters[1]), None))
+        .collect();
     let s = summarize(&sweep.header(Shard::ALL), &rows);
     assert_eq!((s.failed.unwrap().failed, s.failed.unwrap().of), (3, 9));
     let f = s.fragility.unwrap();
     assert_eq!(f.along, "b <&\"");
-    assert_eq!(f.points.iter().map(|p| (p.0, p.1.failed)).collect::<Vec<_>>(), [(1.0, 3), (2.0, 0), (3.0, 0)]);
+    assert_eq!(
+        f.points.iter().map(|p| (p.0, p.1.failed)).collect::<Vec<_>>(),
+        [(1.0, 3), (2.0, 0), (3.0, 0)]
+    );
 
     let sweep = two_numbers(json!({ "limit": { "require": 0.25 } }));
     let s = summarize(&sweep.header(Shard::ALL), &grid(|a, _| a));
     assert_eq!(s.failed.unwrap().failed, 6);
-    assert_eq!(s.fragility.unwrap().points.iter().map(|p| p.1.failed).collect::<Vec<_>>(), [3, 3, 0]);
+    assert_eq!(
+        s.fragility.unwrap().points.iter().map(|p| p.1.failed).collect::<Vec<_>>(),
+        [3, 3, 0]
+    );
 }
 
 #[test]
@@ -127,7 +156,10 @@ fn tables_quote_what_needs_it() {
     rows[1].error = Some("a, \"b\"".into());
     let text = csv(&sweep.header(Shard::ALL), &rows).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(lines[0], "row,a,\"b <&\"\"\",status,value,lower,upper,dry,toward_x,toward_y,toward_z,error,seconds");
+    assert_eq!(
+        lines[0],
+        "row,a,\"b <&\"\"\",status,value,lower,upper,dry,toward_x,toward_y,toward_z,error,seconds"
+    );
     assert_eq!(lines[2], "1,0.1,2,found,0.1,,,,,,,\"a, \"\"b\"\"\",0.5");
     assert_eq!(lines.len(), 10);
 }

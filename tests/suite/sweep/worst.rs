@@ -40,7 +40,8 @@ fn the_lowest_friction_is_the_worst() {
     assert!(w.argument[0].contains("0.2, the lowest"), "{:?}", w.argument);
 }
 
-/// A light block on a heavy one, a force at the top: which density is the worst differs from block to block.
+/// A light block on a heavy one, a force at the top: which density is the worst differs from block
+/// to block.
 fn counterweight() -> Value {
     json!({
         "format": "voussoir-scene/1",
@@ -60,11 +61,21 @@ fn the_worst_densities_are_opposite_ends_where_one_weight_holds_the_other() {
     let ranges = ["density=2000..2400"];
     let w = ask(&counterweight(), &ranges, limits()).unwrap();
     assert_eq!(w.corners, 4);
-    assert_eq!((w.scene.materials["inner"].density, w.scene.materials["outer"].density), (2000.0, 2400.0));
+    assert_eq!(
+        (w.scene.materials["inner"].density, w.scene.materials["outer"].density),
+        (2000.0, 2400.0)
+    );
     assert!(w.argument[1].contains("nothing between them is worse"), "{:?}", w.argument);
     // No value between is worse.
     let least = factor(&w.scene);
-    for (inner, outer) in [(2000.0, 2000.0), (2100.0, 2300.0), (2400.0, 2400.0), (2400.0, 2000.0), (2000.0, 2399.0), (2200.0, 2200.0)] {
+    for (inner, outer) in [
+        (2000.0, 2000.0),
+        (2100.0, 2300.0),
+        (2400.0, 2400.0),
+        (2400.0, 2000.0),
+        (2000.0, 2399.0),
+        (2200.0, 2200.0),
+    ] {
         let mut s = scene(&counterweight());
         s.materials.get_mut("inner").unwrap().density = inner;
         s.materials.get_mut("outer").unwrap().density = outer;
@@ -72,7 +83,8 @@ fn the_worst_densities_are_opposite_ends_where_one_weight_holds_the_other() {
     }
 }
 
-/// A plank that reaches out over the edge of the ground by half, a stone on its other end, a load at its tip.
+/// A plank that reaches out over the edge of the ground by half, a stone on its other end, a load
+/// at its tip.
 fn lever(load: f64, density: f64) -> Value {
     json!({
         "format": "voussoir-scene/1",
@@ -89,8 +101,9 @@ fn lever(load: f64, density: f64) -> Value {
 
 #[test]
 fn one_corner_that_falls_is_the_verdict() {
-    // About the edge at x = 0.5 the plank has no moment, the load P one of 1 m × P, the stone 0.8 m × 0.4 m³ ρ g: 6278 N m at 2000 kg/m³,
-    // 7534 N m at 2400. Of the corners only the greater load with the lesser density falls.
+    // About the edge at x = 0.5 the plank has no moment, the load P one of 1 m × P, the stone 0.8 m
+    // × 0.4 m³ ρ g: 6278 N m at 2000 kg/m³, 7534 N m at 2400. Of the corners only the greater load
+    // with the lesser density falls.
     let verdict = |scene: &Scene| {
         let model = prepare(scene).unwrap();
         assess(&model, &Control::default()).verdict
@@ -103,16 +116,21 @@ fn one_corner_that_falls_is_the_verdict() {
     }
     let w = ask(&lever(1.0, 2200.0), &["load=5..7", "density:stone=2000..2400"], stands()).unwrap();
     assert_eq!((w.corners, verdict(&w.scene)), (4, Verdict::Unstable));
-    assert_eq!((w.scene.loads.dead[0].force, w.scene.materials["stone"].density), (Some([0.0, 0.0, -7000.0]), 2000.0));
+    assert_eq!(
+        (w.scene.loads.dead[0].force, w.scene.materials["stone"].density),
+        (Some([0.0, 0.0, -7000.0]), 2000.0)
+    );
     assert_eq!(w.scene.materials["plank"].density, 1000.0);
 }
 
 #[test]
 fn of_corners_that_all_fall_the_fastest_is_named() {
     let mut value = counterweight();
-    value["loads"] = json!({ "dead": [{ "block": "outer", "force": [0, 0, -1000], "at": [1.9, 0, 2] }] });
-    // Outer turns about the edge of inner, whatever inner weighs: every load falls, the greatest fastest. Together the two turn about
-    // the ground's edge at x = 0.5, 0.5 W_inner against 0.2 W_outer and 1.4 P, which is slower.
+    value["loads"] =
+        json!({ "dead": [{ "block": "outer", "force": [0, 0, -1000], "at": [1.9, 0, 2] }] });
+    // Outer turns about the edge of inner, whatever inner weighs: every load falls, the greatest
+    // fastest. Together the two turn about the ground's edge at x = 0.5, 0.5 W_inner against 0.2
+    // W_outer and 1.4 P, which is slower.
     let w = ask(&value, &["load=0.5..6", "density:inner=2000..2400"], stands()).unwrap();
     let model = prepare(&w.scene).unwrap();
     let a = assess(&model, &Control::default());
@@ -124,8 +142,13 @@ fn of_corners_that_all_fall_the_fastest_is_named() {
 
 #[test]
 fn other_numbers_are_searched_and_nothing_more_is_claimed() {
-    let w = ask(&arch(), &["/templates/0/arch/thickness=0.15..0.2", "friction=0.6..0.7"], limits()).unwrap();
-    assert!(w.argument.iter().any(|a| a.contains("values between them were not asked")), "{:?}", w.argument);
+    let w = ask(&arch(), &["/templates/0/arch/thickness=0.15..0.2", "friction=0.6..0.7"], limits())
+        .unwrap();
+    assert!(
+        w.argument.iter().any(|a| a.contains("values between them were not asked")),
+        "{:?}",
+        w.argument
+    );
     let thin: Value = serde_json::to_value(&w.scene).unwrap();
     assert_eq!(thin.pointer("/templates/0/arch/thickness"), Some(&json!(0.15)));
     // The live load is a weight, which densities change as well: no claim about what lies between.

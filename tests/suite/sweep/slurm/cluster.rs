@@ -27,8 +27,10 @@ impl Cluster {
             return Err(format!("there is no {}", tool.display()));
         }
         let path = std::env::var_os("PATH").unwrap_or_default();
-        let folders: Vec<PathBuf> = std::env::split_paths(&path).chain([PathBuf::from("/usr/sbin")]).collect();
-        for program in ["sbatch", "squeue", "scancel", "scontrol", "slurmctld", "slurmd", "munged"] {
+        let folders: Vec<PathBuf> =
+            std::env::split_paths(&path).chain([PathBuf::from("/usr/sbin")]).collect();
+        for program in ["sbatch", "squeue", "scancel", "scontrol", "slurmctld", "slurmd", "munged"]
+        {
             if !folders.iter().any(|f| f.join(program).is_file()) {
                 return Err(format!("{program} is not installed (Debian: slurm-wlm and munge)"));
             }
@@ -37,16 +39,26 @@ impl Cluster {
         if !root {
             return Err("starting a Slurm takes root".into());
         }
-        let lock = File::create(std::env::temp_dir().join("voussoir-test-slurm.lock")).map_err(|e| e.to_string())?;
+        let lock = File::create(std::env::temp_dir().join("voussoir-test-slurm.lock"))
+            .map_err(|e| e.to_string())?;
         lock.try_lock().map_err(|_| "another test runs a Slurm on this machine".to_string())?;
         let munge = !quiet(Command::new("sh").args(["-c", "munge -n | unmunge"]));
         let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
         let out = fs::File::create(folder.path().join("start.log")).map_err(|e| e.to_string())?;
         let config = folder.path().join("slurm.conf");
         let cluster = Self { folder, tool, config, munge, _lock: lock };
-        let started = cluster.tool(&["start"], &[]).stdout(out.try_clone().map_err(|e| e.to_string())?).stderr(out).status();
-        let log = || fs::read_to_string(cluster.folder.path().join("start.log")).unwrap_or_default();
-        if started.is_ok_and(|s| s.success()) { Ok(cluster) } else { Err(format!("it does not start: {}", log())) }
+        let started = cluster
+            .tool(&["start"], &[])
+            .stdout(out.try_clone().map_err(|e| e.to_string())?)
+            .stderr(out)
+            .status();
+        let log =
+            || fs::read_to_string(cluster.folder.path().join("start.log")).unwrap_or_default();
+        if started.is_ok_and(|s| s.success()) {
+            Ok(cluster)
+        } else {
+            Err(format!("it does not start: {}", log()))
+        }
     }
 
     /// `local-slurm VERB FOLDER …`
@@ -63,12 +75,18 @@ impl Cluster {
 
     /// What one of Slurm's commands prints.
     pub fn answer(&self, program: &str, args: &[&str]) -> String {
-        let output = Command::new(program).args(args).env("SLURM_CONF", &self.config).stdin(Stdio::null()).output().unwrap();
+        let output = Command::new(program)
+            .args(args)
+            .env("SLURM_CONF", &self.config)
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
         assert!(output.status.success(), "{program}: {}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8_lossy(&output.stdout).into_owned()
     }
 
-    /// The machine of node K goes down with all that runs on it. Returns how many tasks it took along.
+    /// The machine of node K goes down with all that runs on it. Returns how many tasks it took
+    /// along.
     pub fn kill_node(&self, k: usize) -> usize {
         assert!(quiet(&mut self.tool(&["kill-node"], &[&k.to_string()])));
         let name = format!("SLURMD_NODENAME=n{k}");
@@ -82,8 +100,15 @@ impl Cluster {
             }
             // Its keeper first, which would report the end of the task.
             let status = fs::read_to_string(process.join("status")).unwrap_or_default();
-            let parent = status.lines().find_map(|l| l.strip_prefix("PPid:")).unwrap_or_default().trim().to_string();
-            let keeper = fs::read_to_string(format!("/proc/{parent}/comm")).unwrap_or_default().starts_with("slurmstepd");
+            let parent = status
+                .lines()
+                .find_map(|l| l.strip_prefix("PPid:"))
+                .unwrap_or_default()
+                .trim()
+                .to_string();
+            let keeper = fs::read_to_string(format!("/proc/{parent}/comm"))
+                .unwrap_or_default()
+                .starts_with("slurmstepd");
             let own = process.file_name().unwrap().to_string_lossy().into_owned();
             for victim in [Some(parent).filter(|_| keeper), Some(own)].into_iter().flatten() {
                 quiet(Command::new("kill").args(["-KILL", &victim]));
@@ -100,7 +125,12 @@ impl Cluster {
 }
 
 fn quiet(command: &mut Command) -> bool {
-    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success())
+    command
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|s| s.success())
 }
 
 impl Drop for Cluster {

@@ -1,4 +1,5 @@
-//! Sweeps on a cluster: with commands that stand in for Slurm's everywhere, with a real Slurm where one can be brought up.
+//! Sweeps on a cluster: with commands that stand in for Slurm's everywhere, with a real Slurm where
+//! one can be brought up.
 
 mod cluster;
 mod real;
@@ -13,8 +14,9 @@ use std::{
 };
 use tempfile::TempDir;
 
-/// Commands that answer as Slurm does. They are files of the repository: one that a test has just written cannot always be run, for a
-/// process that another test is starting may still have it open.
+/// Commands that answer as Slurm does. They are files of the repository: one that a test has just
+/// written cannot always be run, for a process that another test is starting may still have it
+/// open.
 const FAKES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/sweep/slurm/fakes");
 
 /// A folder with a plan, and a path to the commands.
@@ -25,7 +27,9 @@ struct Fake {
 
 impl Fake {
     fn new(samples: usize) -> Self {
-        let path = std::env::join_paths([Path::new(FAKES), Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
+        let path =
+            std::env::join_paths([Path::new(FAKES), Path::new("/usr/bin"), Path::new("/bin")])
+                .unwrap();
         Self { desk: desk(samples), path }
     }
 
@@ -35,7 +39,11 @@ impl Fake {
 
     fn ask(&self, args: &[&str], environment: &[(&str, &str)]) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
-        command.args(args).current_dir(self.at()).env("PATH", &self.path).envs(environment.iter().copied());
+        command
+            .args(args)
+            .current_dir(self.at())
+            .env("PATH", &self.path)
+            .envs(environment.iter().copied());
         command.stdin(Stdio::null()).output().unwrap()
     }
 
@@ -52,7 +60,11 @@ impl Fake {
     }
 
     fn submitted(&self) -> Vec<String> {
-        fs::read_to_string(self.at().join("submitted")).unwrap_or_default().lines().map(str::to_string).collect()
+        fs::read_to_string(self.at().join("submitted"))
+            .unwrap_or_default()
+            .lines()
+            .map(str::to_string)
+            .collect()
     }
 
     /// The merged rows of one machine, times left out.
@@ -66,7 +78,9 @@ impl Fake {
 /// Lines without their times.
 fn untimed(path: &Path) -> Vec<String> {
     let text = fs::read_to_string(path).unwrap();
-    text.lines().map(|l| l.rsplit_once(",\"seconds\":").map_or(l, |(row, _)| row).to_string()).collect()
+    text.lines()
+        .map(|l| l.rsplit_once(",\"seconds\":").map_or(l, |(row, _)| row).to_string())
+        .collect()
 }
 
 #[test]
@@ -78,7 +92,11 @@ fn an_array_gives_the_file_of_one_machine_and_goes_on_where_it_was_stopped() {
     assert!(said.contains("10 of 40 rows are missing, the first is row 1"), "{said}");
     assert!(said.contains("sweep --attach out.jsonl") && said.contains("scancel 17"), "{said}");
     // A half-finished folder can be looked at and merged.
-    let status = fake.expect(3, &["sweep", "status", "out.jsonl", "--json"], &[("FAKE_STATE", "2|CANCELLED|None")]);
+    let status = fake.expect(
+        3,
+        &["sweep", "status", "out.jsonl", "--json"],
+        &[("FAKE_STATE", "2|CANCELLED|None")],
+    );
     let status: Value = serde_json::from_slice(&status.stdout).unwrap();
     assert_eq!((&status["done"], &status["first_missing"]), (&30.into(), &1.into()));
     assert_eq!(status["tasks"][0][0], "cancelled");
@@ -120,12 +138,23 @@ fn rows_that_are_there_are_not_done_again() {
 fn a_task_killed_again_and_again_loses_no_row_and_does_none_twice() {
     const ROWS: usize = 160;
     let fake = Fake::new(ROWS);
-    fake.expect(3, &["sweep", "plan.json", "--slurm", "--tasks", "2", "-o", "out.jsonl", "-q"], &[("FAKE_SKIP", "1")]);
+    fake.expect(
+        3,
+        &["sweep", "plan.json", "--slurm", "--tasks", "2", "-o", "out.jsonl", "-q"],
+        &[("FAKE_SKIP", "1")],
+    );
     let folder = fake.at().join("out.jsonl.slurm");
-    let size = || fs::read_dir(folder.join("rows")).unwrap().map(|e| e.unwrap().metadata().map_or(0, |m| m.len())).sum::<u64>();
+    let size = || {
+        fs::read_dir(folder.join("rows"))
+            .unwrap()
+            .map(|e| e.unwrap().metadata().map_or(0, |m| m.len()))
+            .sum::<u64>()
+    };
     let task = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
-        command.args(["sweep", "task", "out.jsonl.slurm", "--shard", "1/2", "--threads", "2"]).current_dir(fake.at());
+        command
+            .args(["sweep", "task", "out.jsonl.slurm", "--shard", "1/2", "--threads", "2"])
+            .current_dir(fake.at());
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         command
     };
@@ -147,16 +176,24 @@ fn a_task_killed_again_and_again_loses_no_row_and_does_none_twice() {
 
 /// Whole rows in all files of a folder, those that are there twice counted twice.
 fn rows_of(folder: &Path) -> usize {
-    let lines = |path: &Path| fs::read_to_string(path).unwrap().matches('\n').count().saturating_sub(1);
-    fs::read_dir(folder.join("rows")).map_or(0, |files| files.map(|e| lines(&e.unwrap().path())).sum())
+    let lines =
+        |path: &Path| fs::read_to_string(path).unwrap().matches('\n').count().saturating_sub(1);
+    fs::read_dir(folder.join("rows"))
+        .map_or(0, |files| files.map(|e| lines(&e.unwrap().path())).sum())
 }
 
 #[test]
 fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
     let fake = Fake::new(6);
-    let slurm = |more: &[&'static str]| [&["sweep", "plan.json", "--slurm", "-o", "out.jsonl", "--tasks", "2"], more].concat();
+    let slurm = |more: &[&'static str]| {
+        [&["sweep", "plan.json", "--slurm", "-o", "out.jsonl", "--tasks", "2"], more].concat()
+    };
     fake.refused(&slurm(&[]), &[("PATH", "/nonexistent")], "`sbatch` is not on the path");
-    fake.refused(&slurm(&["--partition", "new"]), &[], "no partition \"new\"; hint: this cluster has main, old");
+    fake.refused(
+        &slurm(&["--partition", "new"]),
+        &[],
+        "no partition \"new\"; hint: this cluster has main, old",
+    );
     fake.refused(&slurm(&["--partition", "old"]), &[], "starts no jobs");
     fake.refused(&slurm(&["--partition", "a b"]), &[], "not one word");
     fake.refused(&slurm(&["--sbatch-arg=account"]), &[], "not an option");
@@ -166,13 +203,21 @@ fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
     fake.refused(&["sweep", "plan.json", "--slurm", "-o", "nowhere/out.jsonl"], &[], "nowhere");
     fake.refused(&["sweep", "plan.json", "--slurm", "-o", "scene.json"], &[], "this file is read");
     std::fs::copy(fake.at().join("scene.json"), fake.at().join("other.json")).unwrap();
-    fake.refused(&["sweep", "plan.json", "--slurm", "-o", "other.json"], &[], "not the beginning of a file of rows");
+    fake.refused(
+        &["sweep", "plan.json", "--slurm", "-o", "other.json"],
+        &[],
+        "not the beginning of a file of rows",
+    );
     fake.refused(&["sweep", "task", "out.jsonl.slurm", "--shard", "1/2"], &[], "finds no sweep");
     fake.refused(&["sweep", "status", "out.jsonl"], &[], "cannot be read");
     assert!(!fake.at().join("out.jsonl").exists() && !fake.at().join("out.jsonl.slurm").exists());
     // A disk of this machine, where the nodes are others.
     let mounts = fs::read_to_string("/proc/self/mountinfo").unwrap();
-    let mount = voussoir::sweep::slurm::mount_of(fake.at().canonicalize().unwrap().to_str().unwrap(), &mounts).unwrap();
+    let mount = voussoir::sweep::slurm::mount_of(
+        fake.at().canonicalize().unwrap().to_str().unwrap(),
+        &mounts,
+    )
+    .unwrap();
     if voussoir::sweep::slurm::is_shared(&mount, &["far".to_string()], "here") {
         eprintln!("skipped in part: {} is a shared file system", mount.kind);
     } else {
@@ -184,16 +229,32 @@ fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
         fs::remove_file(fake.at().join("out.jsonl")).unwrap();
     }
     // Slurm's own refusals in its own words; a job that is alive is not submitted again.
-    fake.refused(&slurm(&[]), &[("FAKE_REFUSAL", "Invalid account")], "sbatch refuses: Invalid account");
-    assert!(!fake.at().join("out.jsonl").exists(), "a submission that is refused leaves a header behind");
+    fake.refused(
+        &slurm(&[]),
+        &[("FAKE_REFUSAL", "Invalid account")],
+        "sbatch refuses: Invalid account",
+    );
+    assert!(
+        !fake.at().join("out.jsonl").exists(),
+        "a submission that is refused leaves a header behind"
+    );
     fake.expect(0, &slurm(&["-q"]), &[]);
     fs::remove_file(fake.at().join("submitted")).unwrap();
-    fake.refused(&slurm(&["--restart"]), &[("FAKE_STATE", "1|RUNNING|None")], "job 17 is still working");
+    fake.refused(
+        &slurm(&["--restart"]),
+        &[("FAKE_STATE", "1|RUNNING|None")],
+        "job 17 is still working",
+    );
     fs::write(fake.at().join("out.jsonl.slurm/job.json"), "{").unwrap();
     fake.refused(&slurm(&[]), &[], "not the record of a job");
     // Rows of another plan.
-    fs::write(fake.at().join("out.jsonl.slurm/job.json"), r#"{"format":"voussoir-slurm/1","tasks":2,"jobs":[17]}"#).unwrap();
-    let mut plan: Value = serde_json::from_str(&fs::read_to_string(fake.at().join("plan.json")).unwrap()).unwrap();
+    fs::write(
+        fake.at().join("out.jsonl.slurm/job.json"),
+        r#"{"format":"voussoir-slurm/1","tasks":2,"jobs":[17]}"#,
+    )
+    .unwrap();
+    let mut plan: Value =
+        serde_json::from_str(&fs::read_to_string(fake.at().join("plan.json")).unwrap()).unwrap();
     plan["seed"] = 9.into();
     fs::write(fake.at().join("plan.json"), plan.to_string()).unwrap();
     fake.refused(&slurm(&[]), &[], "the seed differs");
@@ -202,15 +263,30 @@ fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
 #[test]
 fn a_dry_run_prints_the_script_and_leaves_nothing() {
     let fake = Fake::new(8);
-    let args =
-        ["sweep", "plan.json", "--slurm", "--dry-run", "--tasks", "3", "--cpus", "2", "--time", "10", "--sbatch-arg=--account=stone"];
+    let args = [
+        "sweep",
+        "plan.json",
+        "--slurm",
+        "--dry-run",
+        "--tasks",
+        "3",
+        "--cpus",
+        "2",
+        "--time",
+        "10",
+        "--sbatch-arg=--account=stone",
+    ];
     let before = fs::read_dir(fake.at()).unwrap().count();
     let text = String::from_utf8(fake.expect(0, &args, &[]).stdout).unwrap();
     for line in ["--array=1-3", "--cpus-per-task=2", "--time=10", "--account=stone", "--requeue"] {
         assert!(text.lines().any(|l| l == format!("#SBATCH {line}")), "{line}: {text}");
     }
     // Also where there is no Slurm.
-    let few = fake.expect(0, &["sweep", "plan.json", "--slurm", "--dry-run"], &[("PATH", "/nonexistent")]);
+    let few = fake.expect(
+        0,
+        &["sweep", "plan.json", "--slurm", "--dry-run"],
+        &[("PATH", "/nonexistent")],
+    );
     assert!(String::from_utf8_lossy(&few.stdout).contains("#SBATCH --array=1\n"));
     assert_eq!(fs::read_dir(fake.at()).unwrap().count(), before);
     assert!(fake.submitted().is_empty());
