@@ -55,12 +55,19 @@ pub struct Assessment {
     pub left_out: Vec<String>,
 }
 
-/// Best first; measured on the reference cases.
+/// Best first; measured on the reference cases. Beside each rung: for how many questions it was the
+/// last that was tried, on the grid of `study --extreme` (2,381) and for random scenes (714 of
+/// `study --soak 500`), and which of them stay open without it.
 const LADDER: [Rung; 8] = [
+    // Grid 2,281, random 610. Without it 3 walls of the grid.
     Rung::FORCES,
+    // Grid 4, random 40. Without it none: later ones decide those.
     Rung::RATES,
+    // Grid 58, random 5. Without it 2 walls of the grid.
     Rung { unit: 4.0, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
+    // Grid 4, random 3. Without it none.
     Rung { local: false, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES },
+    // Grid 0, random 5. Without it none.
     Rung {
         unit: 8.0,
         local: false,
@@ -68,12 +75,15 @@ const LADDER: [Rung; 8] = [
         engine: EngineSettings::clarabel(1e-9),
         ..Rung::RATES
     },
+    // Grid 13, random 5. Without it 3, at a friction of 1e6 between unequal masses or sizes.
     Rung {
         tolerance: 1e-10,
         engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false },
         ..Rung::FORCES
     },
+    // Grid 19, of which 10 stay open, random 3. Without it 7, of mass ratios 1e-6, 1e6 and 1e9.
     Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
+    // Grid 2, random 43. Without it none.
     Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
 ];
 

@@ -75,19 +75,30 @@ pub struct LoadFactor {
     pub(super) parts: Vec<Option<LoadFactor>>,
 }
 
-/// Best first; measured on the reference cases and on walls pushed in and out of their plane.
+/// Best first; measured on the reference cases and on walls pushed in and out of their plane. Beside
+/// each rung: for how many load factors it was the last that was tried, on the grid of
+/// `study --extreme` (434), for random scenes pushed by their weight (445) and for 171 walls, and
+/// which of them stay open without it.
 const LADDER: [Rung; 8] = [
+    // Grid 186, random 210, walls 167. Without it one column of mass ratio 1e9.
     Rung { unit: 16.0, tolerance: 1e-9, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
+    // Grid 216, random 235, walls 4. Without it 8 of the grid.
     Rung::FORCES,
+    // Grid 19. Without it 2 columns of mass ratio 1e9.
     Rung { unit: 8.0, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
+    // Grid 10. Without it 3, at a friction of 1e6 and mass ratios of 1e9 and 1e-6.
     Rung { local: false, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES },
+    // None: what came so far is solved in forces only.
     Rung { local: false, ..Rung::RATES },
+    // Grid 1. Without it that one, a column of mass ratio 1e9.
     Rung {
         tolerance: 1e-10,
         engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false },
         ..Rung::FORCES
     },
+    // None: what came so far is solved in forces only.
     Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
+    // Grid 2. Without it one of them, a column of mass ratio 1e9.
     Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
 ];
 

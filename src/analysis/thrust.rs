@@ -51,12 +51,19 @@ pub struct ThrustEnd {
     pub left_out: Vec<String>,
 }
 
-/// Best first, in forces.
+/// Best first, in forces. Beside each rung: for how many of 233 random scenes (`study --soak 500`)
+/// it was the last that was tried, and which of them stay open without it. Of 34 structures and 38
+/// reference cases none went further than the first.
 const LADDER: [Rung; 5] = [
+    // 224. Without it none: later ones decide those.
     Rung::FORCES,
+    // 2. Without it none.
     Rung { unit: 4.0, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::FORCES },
+    // 3. Without it none.
     Rung { unit: 0.25, tolerance: 1e-12, ..Rung::FORCES },
+    // 4. Without it those 4.
     Rung { local: false, engine: EngineSettings::clarabel(1e-7), ..Rung::FORCES },
+    // None came so far.
     Rung {
         tolerance: 1e-10,
         engine: EngineSettings::Clarabel { regularization: 1e-8, equilibrate: false },
