@@ -1,4 +1,6 @@
-//! Every tolerance in one place: its scale, its default, and what breaks on either side.
+//! What decides a verdict, a contact, or whether a result is believed: every such number, its scale,
+//! its default, and what breaks on either side. Steps and stops of one method, which change how fast
+//! an answer comes and not what it is, stand with the method.
 
 /// Vertices of one block closer than this × the block's size (bounding-box diagonal) are one
 /// vertex. Larger: slivers of real thickness collapse (thickness / size 1e-6 is in the test suite).
@@ -66,10 +68,39 @@ pub const LOAD_FACTOR_WIDTH: f64 = 1e-6;
 /// load); it decides where λ is zero.
 pub const LOAD_FACTOR_FLOOR: f64 = 1e-10;
 
-/// Friction cones are respected when no force lies further outside than this × the largest force.
-/// Larger: forged certificates pass. Smaller: rounding of a correct force (1e-16) written to a file
-/// fails.
+/// Friction cones are respected when no force lies further outside its own than this × itself: a
+/// large force elsewhere makes no room. Larger: forged certificates pass. Smaller: rounding of a
+/// correct force (1e-16) written to a file fails.
 pub const CONE: f64 = 1e-12;
+
+/// Blocks that touch nothing that is held fall freely when their loads together are more than this
+/// × the sum of the sizes of their loads. Larger: what hardly falls is asked about in vain. Smaller:
+/// rounding of loads that cancel each other moves it.
+pub const FALLS_FREELY: f64 = 1e-6;
+
+/// "Impossible" is proved when no load factor below this × (dead / live load) helps. Larger:
+/// rounding of ℓ·q = 0 fails a correct proof. Smaller: a load factor that does help could be
+/// missed.
+pub const REACH: f64 = 1e6;
+
+/// Forces or directions lie along another one, or across it, within this share of their size.
+/// Larger: inclined loads would be turned as if they hung, and skew directions pass for unit ones
+/// across gravity. Smaller: rounding of a rotated scene refuses true weights.
+pub const ALONG: f64 = 1e-9;
+
+/// A direction outwards, or one that a thrust is asked for along, is none where less than this ×
+/// its size lies across gravity. Larger: supports a little beside the middle have no thrust.
+/// Smaller: rounding decides where outwards is.
+pub const ACROSS: f64 = 1e-6;
+
+/// Vectors of a scene span a plane when their cross product is more than this × their sizes.
+/// Larger: scenes that bend by less than 0.06° are no plane ones. Smaller: rounding of two equal
+/// normals gives a plane of its own, which the test of the mirror then refuses.
+pub const SPANS: f64 = 1e-3;
+
+/// Saved and recomputed numbers of a result agree within this × their size. Larger: edited digits
+/// pass. Smaller: rounding of another machine's arithmetic is taken for tampering.
+pub const SAVED: f64 = 1e-6;
 
 /// A mechanism proves instability when only contact forces above this × the total load could make
 /// up for its inadmissibility. Larger: correct mechanisms close to the limit are refused (1e-8

@@ -143,7 +143,7 @@ pub(super) fn falls_freely(model: &Model) -> Option<Assessment> {
     for group in &floating {
         let force: Vector3<f64> = group.iter().map(|&i| assembly.dead[i].force).sum();
         let weight: f64 = group.iter().map(|&i| certificate::load_scale(assembly, i)).sum();
-        if force.norm() > 1e-6 * weight {
+        if force.norm() > tolerance::FALLS_FREELY * weight {
             group.iter().for_each(|&i| rates[i].velocity = force.normalize());
         }
     }

@@ -173,11 +173,11 @@ pub fn outwards(model: &Model, support: usize) -> Option<Vector3<f64>> {
 pub fn level(gravity: &Vector3<f64>, direction: Vector3<f64>, size: f64) -> Option<Vector3<f64>> {
     let down = gravity.normalize();
     let across = direction - down * down.dot(&direction);
-    if across.norm().is_nan() || across.norm() <= 1e-6 * size {
+    if across.norm().is_nan() || across.norm() <= tolerance::ACROSS * size {
         return None;
     }
     let unit = across.normalize();
-    Some(unit.map(|c| if c.abs() < 1e-9 { 0.0 } else { c }).normalize())
+    Some(unit.map(|c| if c.abs() < tolerance::ALONG { 0.0 } else { c }).normalize())
 }
 
 /// The least or greatest thrust of a scene that stands, summed over its parts; `standing` are
@@ -207,7 +207,7 @@ pub(super) fn of_part(
     };
     let mut base = build(control.keep_all);
     // A plane scene knows no thrust out of its plane.
-    if base.plane.is_some_and(|p| p.axis.dot(&direction).abs() > 1e-9) {
+    if base.plane.is_some_and(|p| p.axis.dot(&direction).abs() > tolerance::ALONG) {
         base = build(true);
     }
     let mut answer = ThrustEnd {

@@ -14,7 +14,7 @@ use super::{
     Bracket, Control, Law, LoadFactor, Outcome, Proved,
     coulomb::{self, DryLoadFactor, Found},
     limit,
-    parts::{self, limit::Ways},
+    parts::{self, limit::PartMethods},
 };
 use crate::{
     assembly::{AppliedForce, Assembly, Wrench},
@@ -71,7 +71,7 @@ pub fn turned(
     let down = assembly.gravity.normalize();
     let horizontal = toward - down * down.dot(&toward);
     let across = horizontal.norm() / toward.norm();
-    if across.is_nan() || across <= 1e-9 {
+    if across.is_nan() || across <= tolerance::ALONG {
         return Err(InputError::at(
             Default::default(),
             format!("cannot tilt towards {:?}: it is parallel to gravity", toward.as_slice()),
@@ -88,8 +88,9 @@ pub fn turned(
         let Wrench { force, moment } = assembly.dead[i];
         let along = down.dot(&force);
         let across = (force - down * along).norm();
-        if across > ALONG * force.norm()
-            || moments[i].norm() > ALONG * (moment.norm() + force.norm() * assembly.blocks[i].size)
+        if across > tolerance::ALONG * force.norm()
+            || moments[i].norm()
+                > tolerance::ALONG * (moment.norm() + force.norm() * assembly.blocks[i].size)
         {
             return Err(InputError::at(
                 Default::default(),
@@ -107,11 +108,6 @@ pub fn turned(
     }
     Ok((turned, d))
 }
-
-/// A dead load hangs when it lies along gravity within this share of its size. Larger: inclined
-/// loads would be turned as if they hung. Smaller: rounding of a rotated scene refuses true
-/// weights.
-const ALONG: f64 = 1e-9;
 
 /// The model as it is at the tilt `tan θ = load_factor` (level where that is not a number): its
 /// live load turns it further, and its forces are divided by cos θ.
@@ -143,7 +139,11 @@ pub fn tilt(model: &Model, toward: Vector3<f64>, control: &Control) -> Result<Ti
     let load_factor = if are_dry(&turned.interfaces) {
         limit::unproved(&turned, control)
     } else {
-        parts::limit::limit_by(&turned, control, &Ways { solve: tilted_part, at: tilted_under })
+        parts::limit::limit_by(
+            &turned,
+            control,
+            &PartMethods { solve: tilted_part, at: tilted_under },
+        )
     };
     let model = tilted(model, toward, load_factor.value)?;
     Ok(Tilt { toward, load_factor: Proved::new(&model, load_factor), model, dry: None })

@@ -34,7 +34,7 @@ fn candidates(model: &Model, loads: &[&[crate::assembly::Wrench]]) -> Vec<Vector
     let Model { assembly, interfaces, .. } = model;
     let mut list = Vec::new();
     let mut add = |v: Vector3<f64>| {
-        if v.norm() > 1e-3 {
+        if v.norm() > tolerance::SPANS {
             list.push(v.normalize());
         }
     };
@@ -42,7 +42,7 @@ fn candidates(model: &Model, loads: &[&[crate::assembly::Wrench]]) -> Vec<Vector
     if let Some(first) = interfaces.list.first() {
         for face in &interfaces.list {
             let cross = first.frame.n.cross(&face.frame.n);
-            if cross.norm() > 1e-3 {
+            if cross.norm() > tolerance::SPANS {
                 add(cross);
                 break;
             }
@@ -50,7 +50,7 @@ fn candidates(model: &Model, loads: &[&[crate::assembly::Wrench]]) -> Vec<Vector
     }
     for force in loads.iter().flat_map(|l| l.iter()).map(|w| w.force).filter(|f| f.norm() > 0.0) {
         let cross = down.cross(&force.normalize());
-        if cross.norm() > 1e-3 {
+        if cross.norm() > tolerance::SPANS {
             add(cross);
             break;
         }

@@ -27,10 +27,6 @@ use crate::{
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Saved and recomputed numbers of the answer agree within this × their size. Larger: edited digits
-/// pass. Smaller: rounding of another machine's arithmetic is taken for tampering.
-pub(super) const SAME: f64 = 1e-6;
-
 /// What the verification of a result found.
 #[derive(Clone, Debug, Default)]
 pub struct Verification {
@@ -434,8 +430,9 @@ fn unbalance(f: &mut Findings, model: &Model, answer: &Answer, forces: &Forces, 
         if k.norm > 0.0 { (k.gain().max(0.0) / k.norm, k.slack / k.norm) } else { (0.0, 0.0) };
     // Rates that prove nothing because they part what is pressed together bound nothing: the lower
     // end is then 0.
-    let near =
-        |a: f64, b: f64, extra: f64| (a - b).abs() <= SAME * a.abs() + tolerance::UNBALANCE + extra;
+    let near = |a: f64, b: f64, extra: f64| {
+        (a - b).abs() <= tolerance::SAVED * a.abs() + tolerance::UNBALANCE + extra
+    };
     let ok = near(upper, said.upper, 0.0) && (near(lower, said.lower, slack) || said.lower == 0.0);
     require(
         f,
@@ -455,7 +452,7 @@ fn places_agree(model: &Model, said: &MechanismWords, here: &MechanismWords) -> 
     let near = |a: &JointWords, b: &JointWords| {
         let size =
             a.between.iter().filter_map(|id| sizes.get(id.as_str())).copied().fold(0.0, f64::max);
-        (Vector3::from(a.at) - Vector3::from(b.at)).norm() <= SAME * size
+        (Vector3::from(a.at) - Vector3::from(b.at)).norm() <= tolerance::SAVED * size
     };
     let by_joint = |w: &'_ MechanismWords| {
         let mut map: BTreeMap<_, Vec<JointWords>> = BTreeMap::new();

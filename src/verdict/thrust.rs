@@ -239,7 +239,7 @@ pub(super) fn verify_endless(
 
 fn is_support(f: &mut Findings, assembly: &Assembly, at: &ThrustAt) -> bool {
     let support = assembly.blocks.get(at.support).is_some_and(|b| b.support);
-    let unit = (at.d().norm() - 1.0).abs() <= 1e-9;
+    let unit = (at.d().norm() - 1.0).abs() <= tolerance::ALONG;
     if !support || !unit {
         f.fails.push("the thrust is not one on a support along a unit direction".into());
     }

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// How parts are asked.
-pub struct Ways<S, A> {
+pub struct PartMethods<S, A> {
     /// The load factor of a part, in its own units.
     pub solve: S,
     /// A part by itself when the scene has this load factor, which is part of its dead load then.
@@ -27,11 +27,11 @@ pub fn under(part: &Part, lambda: f64) -> Model {
 /// The greatest multiple of the live load under which every part has admissible contact forces.
 pub fn limit(model: &Model, control: &Control) -> LoadFactor {
     let solve = |part: &Part, control: &Control| limit_part(&part.model, control);
-    limit_by(model, control, &Ways { solve, at: under })
+    limit_by(model, control, &PartMethods { solve, at: under })
 }
 
 /// The same with ways of one's own.
-pub fn limit_by<S, A>(model: &Model, control: &Control, ways: &Ways<S, A>) -> LoadFactor
+pub fn limit_by<S, A>(model: &Model, control: &Control, ways: &PartMethods<S, A>) -> LoadFactor
 where
     S: Fn(&Part, &Control) -> LoadFactor + Sync,
     A: Fn(&Part, f64) -> Model + Sync,

@@ -7,7 +7,7 @@ use crate::{
     interface::prepare,
     proof::{
         result::{QuestionKind, ResultFile},
-        verify::{SAME, Verification, answer, failure, require},
+        verify::{Verification, answer, failure, require},
     },
     scene::Scene,
     tolerance,
@@ -68,7 +68,8 @@ fn asked_again(scene: &Scene, c: &CriticalResult) -> Findings {
 /// The scan is the way there, computed and not proved; it agrees with what is proved, and with the
 /// scene.
 fn scanned(f: &mut Findings, c: &CriticalResult) {
-    let near = |a: f64, b: f64| (a - b).abs() <= SAME * (c.between[1] - c.between[0]).abs();
+    let near =
+        |a: f64, b: f64| (a - b).abs() <= tolerance::SAVED * (c.between[1] - c.between[0]).abs();
     let within = |v: f64| {
         (v - c.between[0]) * (v - c.between[1]) <= 0.0 || c.between.iter().any(|&end| near(v, end))
     };
@@ -106,11 +107,13 @@ fn scanned(f: &mut Findings, c: &CriticalResult) {
 fn reaches_the_ends(c: &CriticalResult) -> bool {
     let [a, b] = c.between;
     let near = |x: f64, y: f64| {
-        (x - y).abs() <= SAME * (b - a).abs().max(if c.whole { 1.0 / SAME } else { 0.0 })
+        (x - y).abs()
+            <= tolerance::SAVED
+                * (b - a).abs().max(if c.whole { 1.0 / tolerance::SAVED } else { 0.0 })
     };
     let (Some(first), Some(last)) = (c.scan.first(), c.scan.last()) else { return false };
     let steps = c.scan.get(1).map_or(1.0, |second| (b - a) / (second.value - first.value));
-    let even = c.whole || (steps - steps.round()).abs() <= SAME * steps.abs();
+    let even = c.whole || (steps - steps.round()).abs() <= tolerance::SAVED * steps.abs();
     near(first.value, a) && even && (near(last.value, b) || !c.notes.is_empty())
 }
 
@@ -124,7 +127,7 @@ fn is_so(scene: &Scene, c: &CriticalResult, said: &ScanPoint) -> bool {
             let unbalance = said.unbalance.unwrap_or(0.0);
             here.assessment.verdict == verdict
                 && (here.unbalance() - unbalance).abs()
-                    <= SAME * unbalance.abs() + tolerance::UNBALANCE
+                    <= tolerance::SAVED * unbalance.abs() + tolerance::UNBALANCE
         }
         _ => false,
     }

@@ -7,8 +7,9 @@ use crate::{
     interface::Model,
     proof::{
         result::{Certificate, QuestionKind, ResultFile},
-        verify::{SAME, Verification, answer, failure, mechanism_words, require},
+        verify::{Verification, answer, failure, mechanism_words, require},
     },
+    tolerance,
     verdict::{
         Evidence, Forces, Rate,
         check::{self, Claim, Findings},
@@ -145,14 +146,14 @@ fn same(here: &[ThrustSection], said: &[ThrustSection]) -> bool {
         .flatten()
         .map(|l| l.normal.abs())
         .fold(0.0, f64::max);
-    let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= SAME * scale.max(a.abs());
+    let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= tolerance::SAVED * scale.max(a.abs());
     let lines = |a: &Option<super::Line>, b: &Option<super::Line>| match (a, b) {
         (None, None) => true,
         (Some(a), Some(b)) => {
             near(a.normal, b.normal, largest)
                 && near(a.shear, b.shear, largest)
                 // Where next to nothing presses, its place is rounding.
-                && (a.normal.abs() <= SAME * largest
+                && (a.normal.abs() <= tolerance::SAVED * largest
                     || (near(a.used, b.used, 1.0) && (0..3).all(|k| near(a.at[k], b.at[k], a.eccentricity))
                         && near(a.eccentricity, b.eccentricity, a.eccentricity)
                         && a.in_kern == b.in_kern

@@ -1,6 +1,6 @@
 //! Blocks where they are drawn: in place, or moved.
 
-use super::choice::Way;
+use super::choice::Displacement;
 use crate::report::view::{Body, Surface, View, ViewShape};
 use nalgebra::Vector3;
 
@@ -31,11 +31,11 @@ pub enum Form<'a> {
 
 /// All blocks in place.
 pub fn still(view: &View) -> Vec<Solid<'_>> {
-    view.bodies.iter().map(|b| posed(b, &Way::NONE)).collect()
+    view.bodies.iter().map(|b| posed(b, &Displacement::NONE)).collect()
 }
 
 /// A block where it goes.
-pub fn posed<'a>(body: &'a Body, way: &Way) -> Solid<'a> {
+pub fn posed<'a>(body: &'a Body, way: &Displacement) -> Solid<'a> {
     let form = match &body.shape {
         ViewShape::Sphere(radius) => Form::Sphere(*radius),
         ViewShape::Surface(surface) => {
@@ -49,7 +49,7 @@ pub fn posed<'a>(body: &'a Body, way: &Way) -> Solid<'a> {
 }
 
 /// Where a point of a block goes.
-pub fn moved(body: &Body, way: &Way, p: &Vector3<f64>) -> Vector3<f64> {
+pub fn moved(body: &Body, way: &Displacement, p: &Vector3<f64>) -> Vector3<f64> {
     p + way.shift + way.turn * (p - body.center)
 }
 

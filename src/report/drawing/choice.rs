@@ -35,7 +35,7 @@ pub struct Movement {
     /// What it is.
     pub name: String,
     /// Where each block goes.
-    pub ways: Vec<Way>,
+    pub displacements: Vec<Displacement>,
     /// Whether it moves.
     pub moves: Vec<bool>,
     /// Joints that move.
@@ -46,14 +46,14 @@ pub struct Movement {
 
 /// Where the points of a block go: `p ↦ p + shift + turn (p − c)`, c its centre of mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Way {
+pub struct Displacement {
     /// Shift of the centre of mass, m.
     pub shift: Vector3<f64>,
     /// Turn less the identity.
     pub turn: Matrix3<f64>,
 }
 
-impl Way {
+impl Displacement {
     /// Where it is.
     pub const NONE: Self = Self {
         shift: Vector3::new(0.0, 0.0, 0.0),
@@ -119,33 +119,39 @@ impl Movement {
         let way = |i: usize| {
             let rate = &motion.rates[i];
             if rate.spin.norm() * by <= FIRST_ORDER {
-                Way { shift: rate.velocity * by, turn: rate.spin.cross_matrix() * by }
+                Displacement { shift: rate.velocity * by, turn: rate.spin.cross_matrix() * by }
             } else {
-                Way::rigid(&motion.pose(i, far))
+                Displacement::rigid(&motion.pose(i, far))
             }
         };
-        let ways: Vec<Way> = (0..view.bodies.len()).map(way).collect();
+        let displacements: Vec<Displacement> = (0..view.bodies.len()).map(way).collect();
         let moves = view
             .bodies
             .iter()
-            .zip(&ways)
+            .zip(&displacements)
             .map(|(b, w)| w.length(b.radius()) > MECHANISM_REST * far)
             .collect();
         let speeds = motion.rates.iter().map(|r| r.velocity).collect();
-        Some(Self { name: motion.name.clone(), ways, moves, marks: motion.marks.clone(), speeds })
+        Some(Self {
+            name: motion.name.clone(),
+            displacements,
+            moves,
+            marks: motion.marks.clone(),
+            speeds,
+        })
     }
 
     fn in_time(view: &View) -> Option<Self> {
         let frame = view.film.last()?;
         let poses = || view.bodies.iter().zip(&frame.blocks);
-        let ways = |by: f64| -> Vec<Way> {
+        let displacements = |by: f64| -> Vec<Displacement> {
             let pose = |(b, p): (&Body, &crate::dynamics::Pose)| ViewPose {
                 shift: (p.center - b.center) * by,
                 turn: p.turn.powf(by),
             };
-            poses().map(|bp| Way::rigid(&pose(bp))).collect()
+            poses().map(|bp| Displacement::rigid(&pose(bp))).collect()
         };
-        let once = ways(1.0);
+        let once = displacements(1.0);
         let lengths: Vec<f64> = view
             .bodies
             .iter()
@@ -155,17 +161,17 @@ impl Movement {
         let greatest = lengths.iter().copied().fold(0.0, f64::max);
         // A block that has only begun to fall has hardly moved.
         let by = (WAY * view.size() / greatest).floor();
-        let (ways, times) = match by {
+        let (displacements, times) = match by {
             by if greatest > MOVED * view.size() && by >= 2.0 => {
-                (ways(by), format!(", motion × {by}"))
+                (displacements(by), format!(", motion × {by}"))
             }
             _ => (once, String::new()),
         };
         let moves = lengths.iter().map(|l| *l > MOVED * view.size()).collect();
-        let speeds = ways.iter().map(|w| w.shift).collect();
+        let speeds = displacements.iter().map(|w| w.shift).collect();
         Some(Self {
             name: format!("after {}{times}", seconds(frame.time)),
-            ways,
+            displacements,
             moves,
             marks: Vec::new(),
             speeds,
@@ -174,7 +180,7 @@ impl Movement {
 
     /// Bodies where they go.
     pub fn bodies<'a>(&self, view: &'a View) -> Vec<Solid<'a>> {
-        view.bodies.iter().zip(&self.ways).map(|(b, w)| posed(b, w)).collect()
+        view.bodies.iter().zip(&self.displacements).map(|(b, w)| posed(b, w)).collect()
     }
 
     /// Whether nothing moves along an axis.

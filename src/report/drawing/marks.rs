@@ -116,7 +116,8 @@ pub fn mechanism(
     let radius = if hinges > MANY { 2.6 } else { 4.0 };
     // With the block that goes less far: joints that slide open as well.
     let at = |joint: &Joint, p: &Vector3<f64>| {
-        let [a, b] = [joint.a, joint.b].map(|i| moved(&view.bodies[i], &movement.ways[i], p));
+        let [a, b] =
+            [joint.a, joint.b].map(|i| moved(&view.bodies[i], &movement.displacements[i], p));
         paper.at(if (a - p).norm() <= (b - p).norm() { &a } else { &b })
     };
     let mut slides = String::new();

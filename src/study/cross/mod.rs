@@ -57,7 +57,7 @@ pub struct Crossed {
     pub ways: usize,
     /// Unions asked, and those whose answers are the same to the last bit.
     pub unions: [usize; 2],
-    /// Ways in which an answer stayed open that is known otherwise.
+    /// PartMethods in which an answer stayed open that is known otherwise.
     pub lost: Vec<Differs>,
     /// Contradictions.
     pub wrong: Vec<Differs>,

@@ -36,7 +36,7 @@ pub(super) fn without_live_power(f: &mut Findings, model: &Model, rates: &[Rate]
     };
     let reach = m.gain().lower / norm(&assembly.dead) / (live / norm(&assembly.live));
     f.require_graded(
-        reach >= REACH,
+        reach >= tolerance::REACH,
         Grade::ToRounding(1.0 / reach),
         format!("the live load gains no power: the proof holds for load factors up to {reach:.1e} × dead / live load of what moves"),
     );
@@ -87,11 +87,6 @@ pub(super) fn moves(f: &mut Findings, model: &Model, base: &Forces, rates: &[Rat
         format!("the rates are that motion: cosine {cosine:.6}"),
     );
 }
-
-/// "Impossible" is proved when no load factor below this × (dead / live load) helps. Larger:
-/// rounding of ℓ·q = 0 fails a correct proof. Smaller: a load factor that does help could be
-/// missed.
-const REACH: f64 = 1e6;
 
 /// The parts of a scene that move, each in its own units, with its rates: what the others weigh is
 /// no matter of its proof.
