@@ -167,13 +167,13 @@ fn limited(
 }
 
 fn tilted(options: &TiltOptions, model: &Model, control: &Control) -> Result<Tilted, InputError> {
+    let toward = directions(model.assembly.gravity, &options.toward, options.all);
+    // All bounds before the first answer with dry friction: where time is short they are worth most.
+    let tilts = toward.into_iter().map(|d| tilt::tilt(model, d, control));
+    let mut directions = tilts.collect::<Result<Vec<_>, InputError>>()?;
     let level = (!options.skip_dead).then(|| assess(model, control));
     let verdict = level.as_ref().map(|l| l.verdict);
-    let toward = directions(model.assembly.gravity, &options.toward, options.all);
-    let directions = toward
-        .into_iter()
-        .map(|d| tilt::with_dry(model, d, verdict, control))
-        .collect::<Result<Vec<_>, InputError>>()?;
+    directions.iter_mut().try_for_each(|tilt| tilt.add_dry(model, verdict, control))?;
     Ok(Tilted { directions, level })
 }
 

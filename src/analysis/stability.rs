@@ -71,10 +71,11 @@ pub fn packing(
     control: &Control,
 ) -> Result<Packing, InputError> {
     let (model, loose) = held(model);
-    let directions = toward
-        .iter()
-        .map(|&d| stability(&model, &loose, d, moving_mass, control))
-        .collect::<Result<Vec<_>, InputError>>()?;
+    // All bounds before the first answer with dry friction: where time is short they are worth most.
+    let bounds = toward.iter().map(|&d| bound(&model, &loose, d, moving_mass, control));
+    let bounds = bounds.collect::<Result<Vec<_>, InputError>>()?;
+    let directions = bounds.into_iter().map(|b| b.finish(control));
+    let directions = directions.collect::<Result<Vec<_>, InputError>>()?;
     Ok(Packing { model, loose, directions })
 }
 
@@ -91,6 +92,24 @@ pub fn stability(
     moving_mass: f64,
     control: &Control,
 ) -> Result<Stability, InputError> {
+    bound(model, loose, toward, moving_mass, control)?.finish(control)
+}
+
+/// The rounds of one direction, before dry friction is asked about.
+struct Bounds {
+    rounds: Vec<Round>,
+    /// The packing of each round when level.
+    level: Vec<Model>,
+    reached: bool,
+}
+
+fn bound(
+    model: &Model,
+    loose: &[String],
+    toward: Vector3<f64>,
+    moving_mass: f64,
+    control: &Control,
+) -> Result<Bounds, InputError> {
     let mass =
         |model: &Model| model.assembly.free().map(|i| model.assembly.blocks[i].mass).sum::<f64>();
     let all = mass(model);
@@ -119,30 +138,28 @@ pub fn stability(
                 gone.extend(ids.into_iter().chain(fallen));
                 model = rest;
             }
-            None => return finish(rounds, &level, reached, control),
+            None => return Ok(Bounds { rounds, level, reached }),
         }
     }
 }
 
-/// Finds the round with the answer, and asks for dry friction there.
-fn finish(
-    mut rounds: Vec<Round>,
-    level: &[Model],
-    reached: bool,
-    control: &Control,
-) -> Result<Stability, InputError> {
-    // A round that stayed open ends the search, and is the answer then; only what fell after others
-    // is none of its own.
-    let height = |r: &Round| match r.tilt.load_factor.outcome {
-        Outcome::Undecided => f64::INFINITY,
-        Outcome::Impossible => f64::NEG_INFINITY,
-        Outcome::Found | Outcome::Unbounded => r.tilt.angle_deg(),
-    };
-    let answer = (0..rounds.len())
-        .max_by(|&i, &j| height(&rounds[i]).total_cmp(&height(&rounds[j])).then(j.cmp(&i)))
-        .unwrap_or(0);
-    rounds[answer].tilt.add_dry(&level[answer], None, control)?;
-    Ok(Stability { rounds, answer, reached })
+impl Bounds {
+    /// Finds the round with the answer, and asks for dry friction there.
+    fn finish(self, control: &Control) -> Result<Stability, InputError> {
+        let Self { mut rounds, level, reached } = self;
+        // A round that stayed open ends the search, and is the answer then; only what fell after
+        // others is none of its own.
+        let height = |r: &Round| match r.tilt.load_factor.outcome {
+            Outcome::Undecided => f64::INFINITY,
+            Outcome::Impossible => f64::NEG_INFINITY,
+            Outcome::Found | Outcome::Unbounded => r.tilt.angle_deg(),
+        };
+        let answer = (0..rounds.len())
+            .max_by(|&i, &j| height(&rounds[i]).total_cmp(&height(&rounds[j])).then(j.cmp(&i)))
+            .unwrap_or(0);
+        rounds[answer].tilt.add_dry(&level[answer], None, control)?;
+        Ok(Stability { rounds, answer, reached })
+    }
 }
 
 /// The scene without some blocks and all that names them; templates become blocks. Nothing changes

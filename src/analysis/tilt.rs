@@ -185,25 +185,10 @@ fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
     }
 }
 
-/// The same, and with dry friction where that is asked for and the bound leaves something to ask;
-/// `level` is the verdict at level, where it is known.
-///
-/// # Errors
-/// As [`turned`].
-pub fn with_dry(
-    model: &Model,
-    toward: Vector3<f64>,
-    level: Option<Verdict>,
-    control: &Control,
-) -> Result<Tilt, InputError> {
-    let mut tilt = tilt(model, toward, control)?;
-    tilt.add_dry(model, level, control)?;
-    Ok(tilt)
-}
-
 impl Tilt {
-    /// Adds dry friction to the answer of [`tilt`](tilt()) for the same model, as [`with_dry`]
-    /// does.
+    /// Adds dry friction to the answer of [`tilt`](tilt()) for the same model, where that is asked
+    /// for and the bound leaves something to ask; `level` is the verdict at level, where it is
+    /// known.
     ///
     /// # Errors
     /// As [`turned`].

@@ -99,7 +99,8 @@ fn a_pivot_of_exactly_zero_ends_no_question() {
     let toward = nalgebra::Vector3::x();
     let control = Control::default();
     let model = ask::model(&scene(&file("pivot-of-zero-tilt")));
-    let bound = tilt::with_dry(&model, toward, None, &control).unwrap();
+    let mut bound = tilt(&model, toward, &control).unwrap();
+    bound.add_dry(&model, None, &control).unwrap();
     let dry = bound.dry.unwrap().load_factor;
     assert!(dry.value <= bound.load_factor.bracket.upper, "{:?} {}", dry.found, dry.value);
     let packing = ask::model(&scene(&file("pivot-of-zero-repose")));
@@ -203,8 +204,9 @@ fn the_load_factor_is_one_up_to_which_all_of_the_scene_rests() {
     }
     let model = ask::model(&scene(&file("groove-and-slender-tilted")));
     let toward = nalgebra::Vector3::y();
-    let dry =
-        tilt::with_dry(&model, toward, None, &Control::default()).unwrap().dry.unwrap().load_factor;
+    let mut bound = tilt(&model, toward, &Control::default()).unwrap();
+    bound.add_dry(&model, None, &Control::default()).unwrap();
+    let dry = bound.dry.unwrap().load_factor;
     assert!(
         dry.value <= GROOVE * (1.0 + 1e-6) && dry.value >= GROOVE * (1.0 - 1e-3),
         "{}",

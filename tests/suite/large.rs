@@ -3,7 +3,7 @@
 
 use voussoir::{
     analysis::{self, Control, Law, Outcome, limit::Formulation},
-    deadline::Deadline,
+    deadline::{Cancel, Deadline},
     interface::{Model, prepare},
     program::Unknowns,
     scene::read_str,
@@ -77,4 +77,18 @@ fn a_time_limit_holds_and_what_is_given_is_true() {
             answer.bracket
         );
     }
+}
+
+#[test]
+fn a_cancelled_question_claims_nothing_and_a_lowered_flag_lets_the_next_one_go_on() {
+    let model = &wall(6, 6, [1.0, 0.0, 0.0]);
+    let flag = Cancel::new();
+    let control = Control { deadline: Deadline::NEVER.or_when(flag), ..Control::default() };
+    flag.raise();
+    assert_eq!(analysis::limit(model, &control).outcome, Outcome::Undecided);
+    assert_eq!(analysis::assess(model, &control).verdict, Verdict::Undecided);
+    flag.lower();
+    let found = analysis::limit(model, &control);
+    assert_eq!(found.outcome, Outcome::Found);
+    assert_eq!(found.value, analysis::limit(model, &Control::default()).value);
 }
