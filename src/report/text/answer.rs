@@ -111,7 +111,27 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         QuestionKind::Critical => super::critical::title(file),
         QuestionKind::Thrust => super::thrust::title(file),
     };
+    let (text, role) = match without_live_load(file) {
+        Some(words) => (format!("{text}; {words}"), Role::Bad),
+        None => (text, role),
+    };
     page.title(&file.scene.name, under(file, text), role);
+}
+
+/// What weakens a load factor or a tilt: the scene does not stand without it. Whoever reads one line
+/// reads it there.
+fn without_live_load(file: &ResultFile) -> Option<String> {
+    let place = match file.question {
+        QuestionKind::Limit => "without its live load",
+        QuestionKind::Tilt => "when level",
+        _ => return None,
+    };
+    let says_so = matches!(dry_of(file), Dry::Never) || status(&file.answer) == Outcome::Impossible;
+    match file.answer.verdict().filter(|_| !says_so)? {
+        Verdict::Conditional => Some(format!("{place} it stands only with a pre-stress")),
+        Verdict::Unstable => Some(format!("{place} it falls")),
+        Verdict::Stable | Verdict::Undecided => None,
+    }
 }
 
 /// The sentences that say what the answer rests on and what it does not say.

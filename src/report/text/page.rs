@@ -193,7 +193,7 @@ mod tests {
         page.row("proof", [LONG.to_string()]);
         page.commands(
             "next",
-            &[("voussoir check a.json".into(), "mistakes in the scene, near misses, overlaps")],
+            &[("voussoir check a.json".into(), "units in the scene, near misses, overlaps")],
         );
         page.to_string()
     }
@@ -205,7 +205,7 @@ mod tests {
             assert!(text.lines().all(|l| l.chars().count() <= width), "{width}:\n{text}");
         }
         assert!(
-            page(80).contains("next        voussoir check a.json   mistakes in"),
+            page(80).contains("next        voussoir check a.json   units in"),
             "{}",
             page(80)
         );
