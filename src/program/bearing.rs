@@ -3,7 +3,6 @@
 use super::{
     Cone, ConicProgram, Pyramid, StaticsOptions,
     planar::{self, Plane},
-    symmetry::BearingOrbit,
 };
 use crate::{
     assembly::Wrench,
@@ -12,6 +11,26 @@ use crate::{
     strength,
 };
 use nalgebra::Vector3;
+
+/// What an element of the group makes of a bearing.
+#[derive(Clone, Debug)]
+pub struct BearingImage {
+    /// The element.
+    pub element: usize,
+    /// The points there: interface and point.
+    pub points: [(usize, usize); 2],
+    /// −1 where the force on block `b` becomes one on block `a`.
+    pub sign: f64,
+}
+
+/// A contact point (or pair of points) that stands for its images.
+#[derive(Clone, Debug)]
+pub struct BearingOrbit {
+    /// What each element of the group makes of it.
+    pub images: Vec<BearingImage>,
+    /// How many images there are; each is counted `images.len() / distinct` times.
+    pub distinct: usize,
+}
 
 /// The set in which the columns of one contact point lie. The first three are standard, self-dual
 /// cones.

@@ -5,9 +5,10 @@ use super::{
     bearing::{Bearing, bearings, ends_are_all},
     carried::carried,
     conic::Sparse,
+    crushing::sections,
+    options::StaticsOptions,
     planar::{self, Plane},
-    section::sections,
-    statics::{FreeBlock, Statics, StaticsOptions},
+    statics::{FreeBlock, Statics},
     symmetry::{self, BlockOrbit, Part},
 };
 use crate::{

@@ -16,8 +16,10 @@ mod build;
 mod carried;
 mod conic;
 pub mod coulomb;
+mod crushing;
 mod load_factor;
 mod opening;
+mod options;
 mod planar;
 pub mod response;
 mod section;
@@ -29,11 +31,12 @@ mod unfold;
 
 pub use bearing::{Bearing, BearingCone, Disc, Limits};
 pub use conic::{Cone, ConicProgram, Sparse};
+pub use crushing::CrushingJoint;
 pub use load_factor::load_factor;
 pub use opening::opening;
+pub use options::{Pyramid, StaticsOptions};
 pub use planar::Plane;
-pub use section::CrushingJoint;
-pub use statics::{FreeBlock, Pyramid, Statics, StaticsOptions};
+pub use statics::{FreeBlock, Statics};
 pub use thrust::{endless_thrust, thrust, thrust_columns};
 pub use unbalance::{LiveLoad, unbalance};
 

@@ -1,72 +1,11 @@
-//! Crushing in a program: bounds on the normal forces of one joint.
+//! Rows of crushing in a program: bounds on the normal forces of one joint.
 //!
 //! The bounds along the edges are second-order cones and exact where a rectangle is bent about one
 //! axis; what else the strength excludes is added as linear bounds, one by one, where forces break
 //! it ([`crushing`](crate::strength::crushing::crushing)).
 
 use super::{Cone, ConicProgram, Statics, bearing::Bearing};
-use crate::{
-    interface::Interfaces,
-    strength::{
-        crushing::{Cut, crushes, edge_bounds},
-        tension,
-    },
-};
-
-/// A joint with a compressive strength.
-#[derive(Clone, Debug)]
-pub struct CrushingJoint {
-    /// Index of the interface.
-    pub interface: usize,
-    /// Compressive and tensile strength together, Pa: normal forces count from the tensile strength
-    /// on.
-    strength: f64,
-    /// Area, m².
-    area: f64,
-    /// Its bearings.
-    bearings: std::ops::Range<usize>,
-    /// Greatest width, m, and distances of the bearings, m, for each edge.
-    edges: Vec<(f64, Vec<f64>)>,
-    /// Weight of each bearing and capacity of the linear bounds so far.
-    cuts: Vec<(Vec<f64>, f64)>,
-}
-
-impl CrushingJoint {
-    /// Adds a linear bound.
-    fn add(&mut self, cut: &Cut, bearings: &[Bearing]) {
-        let weights =
-            bearings[self.bearings.clone()].iter().map(|b| b.mean(&cut.weights)).collect();
-        self.cuts.push((weights, cut.capacity));
-    }
-}
-
-/// The joints of a program that have a compressive strength.
-pub(super) fn sections(interfaces: &Interfaces, bearings: &[Bearing]) -> Vec<CrushingJoint> {
-    let mut sections = Vec::new();
-    let mut first = 0;
-    for (interface, face) in interfaces.list.iter().enumerate() {
-        let count = bearings[first..].iter().take_while(|b| b.interface == interface).count();
-        let own = first..first + count;
-        first += count;
-        if !crushes(face) {
-            continue;
-        }
-        let edges = edge_bounds(face).into_iter();
-        let edges = edges
-            .map(|(width, d)| (width, bearings[own.clone()].iter().map(|b| b.mean(&d)).collect()))
-            .collect();
-        let strength = face.law.compression + tension(face);
-        sections.push(CrushingJoint {
-            interface,
-            strength,
-            area: face.area,
-            bearings: own,
-            edges,
-            cuts: Vec::new(),
-        });
-    }
-    sections
-}
+use crate::strength::crushing::Cut;
 
 impl Statics {
     /// Adds the bounds that forces break, `(interface, bound)`.

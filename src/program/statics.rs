@@ -1,40 +1,12 @@
 //! The equilibrium of the free blocks, reduced and scaled.
 
 use super::{
-    Unknowns, bearing::Bearing, conic::Sparse, planar::Plane, section::CrushingJoint,
+    Unknowns, bearing::Bearing, conic::Sparse, crushing::CrushingJoint, planar::Plane,
     symmetry::Orbits,
 };
 use crate::assembly::{Gyration, Wrench};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
-
-/// What to leave out.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct StaticsOptions {
-    /// Keep everything, for comparison: three dimensions, every tangential force.
-    pub keep_all: bool,
-    /// Whether the live load takes part (it must then lie in the plane of a plane scene).
-    pub live: bool,
-    /// Whether a scene that is its own image is reduced to one part. Not where what is asked for is
-    /// not symmetric itself.
-    pub symmetry: bool,
-    /// Whether columns are the normal and tangential forces themselves, friction left to the caller
-    /// ([`coulomb`](super::coulomb)), instead of coordinates of the friction cone.
-    pub split: bool,
-    /// For studies: friction cones in space replaced by pyramids.
-    pub pyramid: Option<Pyramid>,
-    /// For studies: newtons and metres as they are, no scaling.
-    pub unscaled: bool,
-}
-
-/// A friction cone made of flat facets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pyramid {
-    /// Number of facets, at least 3.
-    pub facets: usize,
-    /// Around the cone (edges outside) instead of inside it.
-    pub around: bool,
-}
 
 /// A free block and the scales of its rows.
 #[derive(Clone, Debug)]
@@ -44,7 +16,7 @@ pub struct FreeBlock {
     /// Force scale, N: the greatest of own weight and dead load.
     pub weight: f64,
     /// What moments are measured by: the block's own radii of gyration, or metres
-    /// ([`StaticsOptions::unscaled`]).
+    /// ([`StaticsOptions::unscaled`](super::StaticsOptions::unscaled)).
     pub gyration: Gyration,
     /// Its rows: 6 in space, 3 in a plane, fewer where the block is its own image.
     pub rows: Range<usize>,

@@ -6,6 +6,7 @@ pub mod certificate;
 pub mod check;
 pub mod evidence;
 pub mod exact;
+mod findings;
 pub mod joint;
 pub mod law;
 pub mod mechanism;

@@ -8,7 +8,7 @@
 //! f_n`, with `D` the dissipation of cohesion, tension and crushing: a bound from below (σ = 1, the
 //! support yields) or above (σ = −1, it is pushed in).
 
-use super::{Forces, Rate, certificate, check::Findings, joint::water, no_forces};
+use super::{Forces, Rate, certificate, findings::Findings, joint::water, no_forces};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interfaces, Model},

@@ -21,7 +21,7 @@ mod find;
 mod matching;
 mod orbits;
 
-pub use orbits::{BearingOrbit, BlockOrbit, Orbits, Part};
+pub use orbits::{BlockOrbit, Orbits, Part};
 
 use super::{Bearing, Plane};
 use crate::{assembly::Wrench, interface::Model};

@@ -3,7 +3,10 @@
 use super::find::Symmetry;
 use crate::{
     assembly::Wrench,
-    program::{Bearing, Plane},
+    program::{
+        Bearing, Plane,
+        bearing::{BearingImage, BearingOrbit},
+    },
 };
 use nalgebra::{DMatrix, DVector, Matrix3};
 use std::collections::{HashMap, hash_map::Entry};
@@ -16,26 +19,6 @@ pub struct BlockOrbit {
     /// Orthonormal directions, as columns, of the row coordinates in which the block needs to be
     /// balanced; `None` for all.
     pub directions: Option<DMatrix<f64>>,
-}
-
-/// What an element of the group makes of a bearing.
-#[derive(Clone, Debug)]
-pub struct BearingImage {
-    /// The element.
-    pub element: usize,
-    /// The points there: interface and point.
-    pub points: [(usize, usize); 2],
-    /// −1 where the force on block `b` becomes one on block `a`.
-    pub sign: f64,
-}
-
-/// A contact point (or pair of points) that stands for its images.
-#[derive(Clone, Debug)]
-pub struct BearingOrbit {
-    /// What each element of the group makes of it.
-    pub images: Vec<BearingImage>,
-    /// How many images there are; each is counted `images.len() / distinct` times.
-    pub distinct: usize,
 }
 
 /// A scene reduced by its symmetry.

@@ -1,8 +1,36 @@
 //! Blocks where they are drawn: in place, or moved.
 
-use super::choice::Displacement;
-use crate::report::view::{Body, Surface, View, ViewShape};
-use nalgebra::Vector3;
+use crate::report::view::{Body, Surface, View, ViewPose, ViewShape};
+use nalgebra::{Matrix3, Vector3};
+
+/// Where the points of a block go: `p ↦ p + shift + turn (p − c)`, c its centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Displacement {
+    /// Shift of the centre of mass, m.
+    pub shift: Vector3<f64>,
+    /// Turn less the identity.
+    pub turn: Matrix3<f64>,
+}
+
+impl Displacement {
+    /// Where it is.
+    pub const NONE: Self = Self {
+        shift: Vector3::new(0.0, 0.0, 0.0),
+        turn: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    };
+
+    pub fn rigid(pose: &ViewPose) -> Self {
+        Self {
+            shift: pose.shift,
+            turn: pose.turn.to_rotation_matrix().into_inner() - Matrix3::identity(),
+        }
+    }
+
+    /// How far a point at this distance from the centre goes at most.
+    pub fn length(&self, radius: f64) -> f64 {
+        self.shift.norm() + self.turn.norm() * radius
+    }
+}
 
 /// A block where it is drawn.
 pub struct Solid<'a> {

@@ -1,12 +1,12 @@
 //! Which forces and which motion stand on a drawing: those of the answer that is told first.
 
-use super::body::{Solid, posed};
+use super::body::{Displacement, Solid, posed};
 use crate::{
     number::seconds,
     report::view::{Body, Mark, View, ViewMotion, ViewPart, ViewPose, ViewShape, ViewState},
     tolerance::MECHANISM_REST,
 };
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// The greatest way of a corner that is shown of a mechanism, over the size of the structure.
 const WAY: f64 = 0.07;
@@ -42,35 +42,6 @@ pub struct Movement {
     pub marks: Vec<Mark>,
     /// How fast, or how far, each block goes.
     speeds: Vec<Vector3<f64>>,
-}
-
-/// Where the points of a block go: `p ↦ p + shift + turn (p − c)`, c its centre of mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Displacement {
-    /// Shift of the centre of mass, m.
-    pub shift: Vector3<f64>,
-    /// Turn less the identity.
-    pub turn: Matrix3<f64>,
-}
-
-impl Displacement {
-    /// Where it is.
-    pub const NONE: Self = Self {
-        shift: Vector3::new(0.0, 0.0, 0.0),
-        turn: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-    };
-
-    fn rigid(pose: &ViewPose) -> Self {
-        Self {
-            shift: pose.shift,
-            turn: pose.turn.to_rotation_matrix().into_inner() - Matrix3::identity(),
-        }
-    }
-
-    /// How far a point at this distance from the centre goes at most.
-    fn length(&self, radius: f64) -> f64 {
-        self.shift.norm() + self.turn.norm() * radius
-    }
 }
 
 /// How far the fastest corner of a mechanism is shown to go, m.

@@ -204,11 +204,7 @@ mod tests {
             let text = page(width);
             assert!(text.lines().all(|l| l.chars().count() <= width), "{width}:\n{text}");
         }
-        assert!(
-            page(80).contains("next        voussoir check a.json   units in"),
-            "{}",
-            page(80)
-        );
+        assert!(page(80).contains("next        voussoir check a.json   units in"), "{}", page(80));
         assert!(page(60).contains("next        voussoir check a.json\n"), "{}", page(60));
         assert_eq!(page(0), page(NARROW));
     }

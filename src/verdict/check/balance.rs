@@ -1,6 +1,5 @@
 //! Claims that stand: forces that balance, inside their cones.
 
-use super::{Findings, natural_factor};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::Model,
@@ -9,6 +8,7 @@ use crate::{
     verdict::{
         Forces, certificate,
         exact::{Grade, balance::Unbalance, existence},
+        findings::Findings,
     },
 };
 
@@ -170,4 +170,12 @@ fn joint(model: &Model, k: usize) -> String {
     let Model { assembly, interfaces, .. } = model;
     let face = &interfaces.list[k];
     format!("{} | {}", assembly.blocks[face.a].id, assembly.blocks[face.b].id)
+}
+
+/// Total dead over total live load: the size a load factor has when both weigh the same.
+pub fn natural_factor(assembly: &Assembly) -> f64 {
+    let sum = |loads: &[Wrench]| {
+        assembly.free().map(|i| certificate::size(assembly, i, &loads[i])).sum::<f64>()
+    };
+    sum(&assembly.dead) / sum(&assembly.live)
 }

@@ -2,12 +2,10 @@
 //! together by Coulomb's law.
 
 use super::{
-    Findings,
-    balance::{Left, cones, held, largest},
+    balance::{Left, cones, held, largest, natural_factor},
     motion::moving,
 };
 use crate::{
-    assembly::{Assembly, Wrench},
     interface::Model,
     tolerance,
     verdict::{
@@ -16,6 +14,7 @@ use crate::{
             Grade,
             motion::{self, MotionProof},
         },
+        findings::Findings,
         law,
     },
 };
@@ -71,14 +70,6 @@ pub(super) fn dry(f: &mut Findings, model: &Model, forces: &Forces, rates: &[Rat
 /// The natural map of a mechanism with the rates as the live load drives them.
 pub fn dry_map(model: &Model, forces: &Forces, rates: &[Rate]) -> f64 {
     law::natural_map_in_loads(model, forces, rates).unwrap_or(f64::INFINITY)
-}
-
-/// Total dead over total live load: the size a load factor has when both weigh the same.
-pub fn natural_factor(assembly: &Assembly) -> f64 {
-    let sum = |loads: &[Wrench]| {
-        assembly.free().map(|i| certificate::size(assembly, i, &loads[i])).sum::<f64>()
-    };
-    sum(&assembly.dead) / sum(&assembly.live)
 }
 
 /// Forces at `lower` from below and a mechanism from above.

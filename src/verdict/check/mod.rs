@@ -5,15 +5,14 @@ mod balance;
 mod load_factor;
 mod motion;
 
-pub use balance::live_alone;
+pub use super::findings::Findings;
 pub(super) use balance::{balanced, cones};
-pub use load_factor::{dry_map, natural_factor, upper_bound};
+pub use balance::{live_alone, natural_factor};
+pub use load_factor::{dry_map, upper_bound};
 pub use motion::moving;
 
 use super::{
-    Evidence, Verdict, certificate,
-    exact::Grade,
-    thrust,
+    Evidence, Verdict, certificate, thrust,
     thrust::{Extreme, ThrustAt},
 };
 use crate::interface::Model;
@@ -91,36 +90,6 @@ impl Claim {
             Self::Unstable => Some(Verdict::Unstable),
             _ => None,
         }
-    }
-}
-
-/// What the recomputation gave, one line of text each.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Findings {
-    /// What holds, with its number.
-    pub holds: Vec<String>,
-    /// What does not, with its number.
-    pub fails: Vec<String>,
-    /// How exactly: the weakest of all that holds.
-    pub grade: Grade,
-    /// Whether something in it is computed, not proved.
-    pub computed: bool,
-}
-
-impl Findings {
-    pub(super) fn require(&mut self, ok: bool, text: String) {
-        if ok { &mut self.holds } else { &mut self.fails }.push(text);
-    }
-
-    /// Requires something that is proved with a grade.
-    pub(super) fn require_graded(&mut self, ok: bool, grade: Grade, text: impl std::fmt::Display) {
-        self.grade = self.grade.and(grade);
-        self.require(ok, format!("{text} ({grade})"));
-    }
-
-    /// Whether the claim is proved.
-    pub fn proved(&self) -> bool {
-        self.fails.is_empty() && !self.holds.is_empty()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Claims that fall: mechanisms that gain power, and motions that start.
 
-use super::{Findings, cones};
+use super::balance::cones;
 use crate::{
     assembly::Wrench,
     interface::{self, Model, Part},
@@ -8,6 +8,7 @@ use crate::{
     verdict::{
         Forces, Rate, certificate,
         exact::{Grade, motion},
+        findings::Findings,
         law, no_forces,
     },
 };
