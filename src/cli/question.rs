@@ -310,7 +310,9 @@ pub fn verdict(verdict: Option<Verdict>) -> Exit {
 pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f64) -> Exit {
     let Some(said) = file.answer.load_factor() else { return Exit::Undecided };
     // A scene that needs a pre-stress already without its live load, or falls, is no yes.
-    let dead = matches!(file.answer.verdict(), Some(Verdict::Conditional | Verdict::Unstable));
+    let negative = said.associative.upper.is_some_and(|u| u < 0.0);
+    let dead =
+        matches!(file.answer.verdict(), Some(Verdict::Conditional | Verdict::Unstable)) || negative;
     let (lower, upper) = (said.lower.map(scale), said.upper.map(scale));
     let value = said.value.map(scale);
     match (said.status, require) {

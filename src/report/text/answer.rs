@@ -127,6 +127,10 @@ fn without_live_load(file: &ResultFile) -> Option<String> {
         _ => return None,
     };
     let says_so = matches!(dry_of(file), Dry::Never) || status(&file.answer) == Outcome::Impossible;
+    let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);
+    if negative && file.question == QuestionKind::Limit && !says_so {
+        return Some(format!("{place} it falls"));
+    }
     match file.answer.verdict().filter(|_| !says_so)? {
         Verdict::Conditional => Some(format!("{place} it stands only with a pre-stress")),
         Verdict::Unstable => Some(format!("{place} it falls")),

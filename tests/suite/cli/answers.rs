@@ -81,6 +81,19 @@ fn a_requirement_inside_the_bracket_is_not_rounded_up() {
     );
 }
 
+/// A load factor is no yes where the scene falls without its load, and one line says so.
+#[test]
+fn a_scene_that_falls_without_its_load_is_no_yes() {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let held = "tests/suite/findings/wall-and-pressed.json";
+    for (scene, said) in [("structures/pushed-uphill.json", "λ = -0.148"), (held, "wedges")] {
+        let answer = expect(NO, voussoir(&["limit", &format!("{root}/{scene}"), "-q"]));
+        let line = out(&answer);
+        assert!(line.contains(said) && line.contains("; without its live load it falls"), "{line}");
+        assert_eq!(line.lines().count(), 1, "{line}");
+    }
+}
+
 /// A block in a groove and a block under a roof: the bound meets what dry friction does not.
 #[test]
 fn a_bound_alone_meets_no_requirement() {
