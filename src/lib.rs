@@ -6,7 +6,7 @@
 //! Each stage is one module and hands the next a plain value; nothing reaches back:
 //!
 //! ```text
-//! JSON ─▶ scene::Scene ─▶ assembly::Assembly ─▶ interface::Interfaces ─▶ program ─▶ solve ─▶ verdict ─▶ analysis ─▶ sweep ─▶ report
+//! JSON ─▶ scene::Scene ─▶ assembly::Assembly ─▶ interface::Interfaces ─▶ program ─▶ solve ─▶ verdict ─▶ analysis ─▶ proof ─▶ sweep ─▶ report
 //!              ▲
 //!   generate, import                                └─▶ dynamics (a second opinion, in time) ─────────────────▲
 //! ```
@@ -19,16 +19,29 @@
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
 //!
-//! A verdict carries its evidence, and the evidence is checked without the program that found it:
+//! An answer comes with its check, on the scene and without the program that found it; anybody can
+//! check its evidence again:
 //!
 //! ```
-//! use voussoir::{analysis, scene, verdict::{Verdict, check}};
+//! use voussoir::{analysis, interface, scene, verdict::{Evidence, Verdict, check}};
 //! let (scene, _) = scene::read_file("structures/semicircular-arch-thin.json".as_ref())?;
 //! let model = interface::prepare(&scene)?;
 //! let answer = analysis::assess(&model, &Default::default());
 //! assert_eq!(answer.verdict, Verdict::Unstable);
-//! let claim = check::Claim::Unstable;
+//! let claim = answer.claim().expect("an answer that was proved");
 //! assert!(check::verify(&model, &claim, Evidence::new(&answer.forces, &answer.rates)).proved());
+//! # Ok::<(), voussoir::error::InputError>(())
+//! ```
+//!
+//! Every question goes through one door ([`analysis::ask`](analysis::ask())):
+//!
+//! ```
+//! use voussoir::{analysis::{Answer, Question, ask}, interface, scene};
+//! let (scene, _) = scene::read_file("structures/oppenheim-arch.json".as_ref())?;
+//! let model = interface::prepare(&scene)?;
+//! let question = Question::Limit(Default::default());
+//! let Answer::Limit(answer) = ask(&question, &scene, &model, &Default::default())? else { return Ok(()) };
+//! assert!(answer.bound.grade().is_some() && answer.dry.is_some());
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
 //!
@@ -46,7 +59,7 @@
 //! A second opinion comes from running the same blocks in time:
 //!
 //! ```
-//! use voussoir::{analysis, dynamics::{Fate, simulate}, scene};
+//! use voussoir::{dynamics::{Fate, simulate}, interface, scene};
 //! let (scene, _) = scene::read_file("structures/semicircular-arch-thin.json".as_ref())?;
 //! let model = interface::prepare(&scene)?;
 //! let outcome = simulate(&model, &Default::default(), &mut |_| std::ops::ControlFlow::Continue(()))?;
