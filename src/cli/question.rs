@@ -317,8 +317,8 @@ pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f6
     let value = said.value.map(scale);
     match (said.status, require) {
         (FactorStatus::Impossible | FactorStatus::NotAtRest, _) => Exit::No,
+        _ if dead => Exit::No,
         (_, Some(r)) if said.associative.upper.map(scale).is_some_and(|u| u < r) => Exit::No,
-        (FactorStatus::Found | FactorStatus::Unbounded, None) if dead => Exit::No,
         (FactorStatus::Found | FactorStatus::Unbounded, None)
         | (FactorStatus::Unbounded, Some(_)) => Exit::Yes,
         // Seen at rest there, whatever is known beyond.

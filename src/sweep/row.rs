@@ -5,9 +5,11 @@ use crate::{
     analysis::{
         Answer, Assessment, Critical, LoadFactor, Outcome, Proved, Tilt,
         coulomb::{DryLoadFactor, Found},
+        critical::{Method, Scanned},
         thrust::ThrustEnd,
     },
     dynamics::Fate,
+    proof::critical::FlipResult,
     verdict::Verdict,
 };
 use serde::{Deserialize, Serialize};
@@ -243,18 +245,30 @@ impl RowAnswer {
         }
     }
 
-    /// The first flip of the range; without one the verdict throughout it.
+    /// The first flip of the range, where its value is proved as a result has it; without any flip
+    /// the verdict throughout, where all values that were asked have it.
     fn of_flips(c: &Critical) -> Self {
-        let Some(flip) = c.changes.first() else {
-            return c.ends.first().map_or(Self::of(RowStatus::Undecided), |end| {
-                Self::of_assessment(&end.assessment)
-            });
-        };
-        Self {
-            value: Some(flip.value),
-            lower: Some(flip.below.value),
-            upper: Some(flip.above.value),
-            ..Self::of(RowStatus::Found)
+        let flips: Vec<FlipResult> = c.changes.iter().map(FlipResult::of).collect();
+        let value = flips.first().filter(|f| f.method != Method::Scan || c.whole);
+        if let Some(flip) = value.and_then(FlipResult::proved) {
+            return Self {
+                value: Some(flip.value),
+                lower: Some(flip.lower),
+                upper: Some(flip.upper),
+                ..Self::of(RowStatus::Found)
+            };
+        }
+        let verdict = |s: &Scanned| s.outcome.as_ref().ok().map(|o| o.0);
+        match &c.ends[..] {
+            [first, second] if flips.is_empty() => {
+                let same = |v: Verdict| v == first.assessment.verdict;
+                let all = c.scan.iter().all(|s| verdict(s).is_some_and(same));
+                match all && same(second.assessment.verdict) {
+                    true => Self::of_assessment(&first.assessment),
+                    false => Self::of(RowStatus::Undecided),
+                }
+            }
+            _ => Self::of(RowStatus::Undecided),
         }
     }
 

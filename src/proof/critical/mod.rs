@@ -9,7 +9,7 @@ use super::result::{Certificate, QuestionKind, ResultFile, assessment, certifica
 use crate::{
     analysis::{
         Assessment, Critical, Law, Proved,
-        critical::{Method, Scanned},
+        critical::{Change, Method, Scanned},
         flip::Probe,
     },
     interface::Model,
@@ -122,6 +122,18 @@ impl Side {
 }
 
 impl FlipResult {
+    /// A flip with its proofs.
+    pub fn of(f: &Change) -> Self {
+        // Ends that are far apart prove no more than that there is a flip between them.
+        let known = f.method != Method::Scan && is_narrow(f.below.value, f.above.value);
+        let (value, method) = if known {
+            (f.value, f.method)
+        } else {
+            (middle(f.below.value, f.above.value), Method::Scan)
+        };
+        Self { value, method, below: Side::of(&f.below), above: Side::of(&f.above) }
+    }
+
     /// The value with its ends, where both are proved and differ: near together, or the middle of
     /// what the scan leaves.
     pub fn proved(&self) -> Option<CriticalValue> {
@@ -157,20 +169,7 @@ pub fn exhausted(file: &ResultFile) -> Option<Verdict> {
 impl ResultFile {
     /// The result of `critical`; `model` is that of the scene as it was given.
     pub fn critical(scene: &Scene, model: &Model, c: &Critical) -> Self {
-        let flips: Vec<FlipResult> = c
-            .changes
-            .iter()
-            .map(|f| {
-                // Ends that are far apart prove no more than that there is a flip between them.
-                let known = f.method != Method::Scan && is_narrow(f.below.value, f.above.value);
-                let (value, method) = if known {
-                    (f.value, f.method)
-                } else {
-                    (middle(f.below.value, f.above.value), Method::Scan)
-                };
-                FlipResult { value, method, below: Side::of(&f.below), above: Side::of(&f.above) }
-            })
-            .collect();
+        let flips: Vec<FlipResult> = c.changes.iter().map(FlipResult::of).collect();
         let values = flips.iter().filter_map(FlipResult::proved).collect();
         let answer = Answer::Critical(values);
         let mut file = Self::new(QuestionKind::Critical, scene, model, answer, Certificate::none());

@@ -91,6 +91,8 @@ fn a_scene_that_falls_without_its_load_is_no_yes() {
         let line = out(&answer);
         assert!(line.contains(said) && line.contains("; without its live load it falls"), "{line}");
         assert_eq!(line.lines().count(), 1, "{line}");
+        // A requirement is no way around that.
+        expect(NO, voussoir(&["limit", &format!("{root}/{scene}"), "--require", "-1"]));
     }
 }
 

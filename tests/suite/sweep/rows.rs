@@ -395,3 +395,24 @@ fn files_of_versions_without_check_sums_are_read_and_counted() {
     fs::write(&path, merged.text().unwrap()).unwrap();
     assert_eq!(merge(&[&path]).unwrap().unwrap().unchecked, 0);
 }
+
+#[test]
+fn a_critical_value_in_every_row() {
+    // The least thickness grows with the radius; a range above it has no flip, and stands.
+    let at = |between: [f64; 2]| {
+        let question = json!({ "critical": {
+            "law": "associative", "vary": "/templates/0/arch/thickness", "between": between, "scan": 4
+        } });
+        let vary = json!([{ "pointer": "/templates/0/arch/radius", "values": [1, 2] }]);
+        let sweep = sweep(arch(), question, vary, json!({ "grid": {} }));
+        let folder = tempfile::tempdir().unwrap();
+        done(&sweep, &folder.path().join("rows.jsonl"), 1)
+    };
+    let rows = at([0.05, 0.5]);
+    let [one, two] = [0, 1].map(|k| &rows[k].answer);
+    assert_eq!((one.status, two.status), (RowStatus::Found, RowStatus::Found), "{one:?} {two:?}");
+    let (a, b) = (one.value.unwrap(), two.value.unwrap());
+    assert!((b / a - 2.0).abs() < 1e-6 && one.lower.unwrap() <= a && a <= one.upper.unwrap());
+    let rows = at([0.4, 0.5]);
+    assert!(rows.iter().all(|r| r.answer.status == RowStatus::Stable && r.answer.value.is_none()));
+}
