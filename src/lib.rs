@@ -113,11 +113,15 @@ pub mod interface;
 
 pub mod strength;
 
+pub mod cholesky;
+
+pub mod verdict;
+
+pub mod terms;
+
 pub mod program;
 
 pub mod solve;
-
-pub mod verdict;
 
 pub mod dynamics;
 

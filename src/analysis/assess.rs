@@ -4,7 +4,7 @@
 
 use super::{
     Bracket, Deciding, Proved,
-    attempt::{Attempt, Control, Law, Rung, is_large, run, steps},
+    attempt::{Control, Rung, is_large, run, steps},
     coulomb::{State, StateMotion, state},
     mend, parts,
 };
@@ -12,6 +12,7 @@ use crate::{
     interface::{Model, floating, is_forest},
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
     solve::EngineSettings,
+    terms::{Attempt, Law},
     tolerance,
     verdict::{
         Evidence, Forces, Rate, Verdict, certificate,

@@ -7,22 +7,10 @@ use crate::{
     deadline::Deadline,
     interface::Model,
     program::{ConicProgram, Positions, Statics, Unknowns},
-    solve::{self, Engine, EngineSettings, Settings, Solution, Status},
+    solve::{self, EngineSettings, Settings, Solution},
+    terms::{Attempt, Law},
     verdict::{Forces, Rate, certificate},
 };
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-/// How a joint slides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Law {
-    /// A joint that slides opens by μ × the slip. Admissible forces are then enough to stand.
-    Associative,
-    /// Dry friction: a joint slides without opening. Forces must also be such as the loads produce.
-    #[default]
-    Coulomb,
-}
 
 /// What the caller may change about a question.
 #[derive(Clone, Copy, Debug)]
@@ -39,42 +27,6 @@ impl Default for Control {
     fn default() -> Self {
         Self { law: Law::Coulomb, keep_all: false, deadline: Deadline::NEVER }
     }
-}
-
-/// A record of one attempt.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-pub struct Attempt {
-    /// Which program, in which unknowns.
-    pub program: String,
-    /// Force unit over the total load of the free blocks.
-    pub force_unit: f64,
-    /// What solved it.
-    #[serde(default, skip_serializing_if = "Engine::is_usual")]
-    pub engine: Engine,
-    /// The engine's tolerance.
-    pub tolerance: f64,
-    /// The engine's regularisation, where it has one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub regularization: Option<f64>,
-    /// The engine's word.
-    pub engine_status: Status,
-    /// Iterations.
-    pub iterations: usize,
-    /// Unknowns and rows of the program.
-    pub size: [usize; 2],
-    /// Seconds.
-    pub seconds: f64,
-    /// The engine's number for the load factor, not recomputed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub engine_value: Option<f64>,
-    /// Recomputed lower end.
-    #[serde(deserialize_with = "super::ends::lower")]
-    #[schemars(with = "Option<f64>")]
-    pub lower: f64,
-    /// Recomputed upper end.
-    #[serde(deserialize_with = "super::ends::upper")]
-    #[schemars(with = "Option<f64>")]
-    pub upper: f64,
 }
 
 /// Steps that the part of a symmetric scene is tried with; then the whole is, from the first step
@@ -234,6 +186,7 @@ pub(super) fn run(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solve::Status;
 
     fn record(step: &Rung) -> serde_json::Value {
         let solution = Solution {

@@ -11,6 +11,7 @@ use super::{
     Assessment, Control, Law, Proved, assess,
     flip::{Flip, Probe, refine},
 };
+pub use crate::terms::Method;
 use crate::{
     error::{InputError, JsonPath},
     interface::prepare,
@@ -53,20 +54,6 @@ pub struct Change {
     pub below: Probe<Proved<Assessment>>,
     /// The nearest value above.
     pub above: Probe<Proved<Assessment>>,
-}
-
-/// How a critical value was found.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
-#[serde(rename_all = "snake_case")]
-pub enum Method {
-    /// The zero of the least unbalance.
-    Margin,
-    /// By halving the range.
-    Halving,
-    /// Between two neighbours of the scan (a count, or a range that could not be narrowed).
-    Scan,
 }
 
 /// The answer of [`critical`].

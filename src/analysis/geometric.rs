@@ -15,7 +15,7 @@ use crate::{
     interface::Model,
     strength::laws::are_dry,
     tolerance,
-    verdict::{Verdict, section::centroid},
+    verdict::{Verdict, section::shrunk_model},
 };
 
 /// What is known of the geometric safety factor.
@@ -81,15 +81,6 @@ pub(super) fn of_part(model: &Model, control: &Control) -> Geometric {
             }
         }
         _ => Geometric::Open("the verdict on shrunk sections came out undecided".into()),
-    }
-}
-
-/// The model with its sections shrunk about their centroids.
-pub fn shrunk_model(model: &Model, by: f64) -> Model {
-    Model {
-        assembly: model.assembly.clone(),
-        interfaces: model.interfaces.shrunk(by, centroid),
-        timings: model.timings,
     }
 }
 

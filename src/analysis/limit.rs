@@ -7,9 +7,9 @@
 //! or the number that the proof rests on.
 
 use super::{
-    Bracket, Deciding, Proved,
+    Proved,
     assess::least_unbalance,
-    attempt::{Attempt, Control, Rung, is_large, run, steps},
+    attempt::{Control, Rung, is_large, run, steps},
     mend, parts,
 };
 use crate::{
@@ -19,6 +19,7 @@ use crate::{
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
     solve::EngineSettings,
     strength::laws::unlimited,
+    terms::{Attempt, Bracket, Deciding, Outcome},
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate, check,
@@ -30,21 +31,6 @@ use crate::{
         no_forces,
     },
 };
-use serde::{Deserialize, Serialize};
-
-/// What became of the load factor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Outcome {
-    /// The greatest load factor, in a narrow bracket.
-    Found,
-    /// The live load can grow without limit: contact forces balance it by themselves (wedged).
-    Unbounded,
-    /// No multiple of the live load lets the scene stand.
-    Impossible,
-    /// The bracket did not close.
-    Undecided,
-}
 
 /// The answer of [`limit`], with its evidence.
 #[derive(Clone, Debug)]

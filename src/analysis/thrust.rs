@@ -5,8 +5,8 @@
 //! own. Beside it stands the geometric safety factor ([`geometric`](super::geometric)).
 
 use super::{
-    Assessment, Bracket, Control, Outcome, Proved, assess,
-    attempt::{Attempt, Candidate, Rung, run},
+    Assessment, Control, Proved, assess,
+    attempt::{Candidate, Rung, run},
     geometric::{Geometric, geometric_factor},
     parts,
 };
@@ -17,6 +17,7 @@ use crate::{
     program::{self, Statics, StaticsOptions},
     solve::EngineSettings,
     strength::laws::unlimited,
+    terms::{Attempt, Bracket, Outcome},
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate, no_forces,

@@ -25,9 +25,8 @@ mod rolling;
 mod run;
 mod units;
 
-pub use outcome::{
-    Fate, Fidelity, FirstMotion, Frame, MeanContact, Pose, Run, SimulationOutcome, Stop,
-};
+pub use crate::terms::{Fate, Fidelity, Run, Stop};
+pub use outcome::{FirstMotion, Frame, MeanContact, Pose, SimulationOutcome};
 pub use run::simulate;
 
 #[cfg(doc)]

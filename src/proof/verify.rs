@@ -11,11 +11,12 @@ use super::{
     thrust,
 };
 use crate::{
-    analysis::{Outcome, agreement::agree, tilt::tilted},
     error::{Finding, FindingCode, InputError},
     interface::{self, Model, Part, prepare},
     scene::Scene,
+    terms::{Outcome, agree},
     tolerance,
+    verdict::tilted::tilted,
     verdict::{
         Evidence, Forces, Rate, Verdict, certificate,
         check::{self, Claim, Findings},

@@ -1,7 +1,6 @@
 //! Solving a conic program. What comes back is a candidate, never an answer: every verdict is
 //! recomputed from the scene.
 
-mod cholesky;
 mod clarabel;
 pub(crate) mod coulomb;
 mod engine;
@@ -10,54 +9,17 @@ mod lu;
 mod watched;
 
 pub use self::{
-    cholesky::{Cholesky, Pattern},
     lu::Lu,
     watched::{Session, solve},
 };
 
+pub use crate::{
+    cholesky::{Cholesky, Pattern},
+    terms::{Engine, Status},
+};
+
 use crate::deadline::Deadline;
 use serde::{Deserialize, Serialize};
-
-/// What the engine said. Only ever reported, never decided on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Status {
-    /// Within its own tolerances.
-    Solved,
-    /// Within its own reduced tolerances, or stopped near them.
-    AlmostSolved,
-    /// Says that no point satisfies the constraints.
-    PrimalInfeasible,
-    /// Says that the objective is unbounded.
-    DualInfeasible,
-    /// Ran into its limit of iterations or time.
-    Limit,
-    /// Lost its way numerically.
-    Stalled,
-    /// Refused the program.
-    Refused,
-}
-
-/// What solves a program, by name.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema,
-)]
-#[serde(rename_all = "snake_case")]
-pub enum Engine {
-    /// Clarabel: any conic program.
-    #[default]
-    Clarabel,
-    /// The interior-point method of this crate, on the stiffness matrix of the blocks: programs in
-    /// forces.
-    Interior,
-}
-
-impl Engine {
-    /// Whether it is the usual one.
-    pub fn is_usual(&self) -> bool {
-        *self == Self::default()
-    }
-}
 
 /// What solves a program, with the settings that it alone has.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,12 +6,14 @@ pub mod certificate;
 pub mod check;
 pub mod evidence;
 pub mod exact;
+pub mod fabric;
 mod findings;
 pub mod joint;
 pub mod law;
 pub mod mechanism;
 pub mod section;
 pub mod thrust;
+pub mod tilted;
 
 use crate::{assembly::Wrench, interface::Interfaces};
 use nalgebra::Vector3;

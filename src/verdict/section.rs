@@ -10,7 +10,7 @@
 
 use super::Forces;
 use crate::{
-    interface::{Interface, Interfaces},
+    interface::{Interface, Interfaces, Model},
     plane::polygon::{self, P2, edges},
 };
 use nalgebra::{Matrix2, Vector3};
@@ -32,6 +32,15 @@ pub struct SectionForce {
     pub used: f64,
     /// Whether it lies in the kern.
     pub in_kern: bool,
+}
+
+/// The model with its sections shrunk about their centroids.
+pub fn shrunk_model(model: &Model, by: f64) -> Model {
+    Model {
+        assembly: model.assembly.clone(),
+        interfaces: model.interfaces.shrunk(by, centroid),
+        timings: model.timings,
+    }
 }
 
 /// The resultants at all interfaces, in their order.

@@ -10,11 +10,7 @@
 //! Forces and a mechanism at λ say that the scene moves there, not that it comes to rest below:
 //! that is asked of the state ([`rest`](super::rest)).
 
-use super::{
-    crushing::within_strength,
-    rest::up_to_rest,
-    state::{StateMotion, state},
-};
+use super::{crushing::within_strength, rest::up_to_rest, state::state};
 use crate::{
     analysis::{Control, Deciding, LoadFactor, Outcome},
     interface::{Model, is_forest},
@@ -27,31 +23,10 @@ use crate::{
         coulomb::{FixedPoint, Law, Solvers, StoppingCriterion, iterate},
     },
     strength::laws::unlimited,
+    terms::{Found, StateMotion},
     tolerance,
     verdict::{Forces, Rate, Verdict, certificate, check, law},
 };
-use serde::{Deserialize, Serialize};
-
-/// How a load factor with dry friction was found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Found {
-    /// The associative mechanism slides nowhere.
-    NothingSlides,
-    /// A fixed point on the friction limits.
-    FixedPoint,
-    /// The live load alone comes to rest on forces that it produces itself: no limit. Computed, not
-    /// proved.
-    Unlimited,
-    /// The state under dry friction rests up to the value, and no longer somewhat above it.
-    /// Computed, not proved.
-    Rests,
-    /// Already under the dead load the state does not rest: it needs a pre-stress, or falls. There
-    /// is no value.
-    NotAtRest,
-    /// It did not settle: there is no value.
-    Undecided,
-}
 
 /// A load factor with dry friction.
 #[derive(Clone, Debug)]

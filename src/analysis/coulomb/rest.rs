@@ -8,14 +8,16 @@
 //! sought by halving. *Computed, not proved:* that a state comes to rest.
 
 use super::{
-    load_factor::{DryLoadFactor, Found},
-    state::{State, StateMotion, state},
+    load_factor::DryLoadFactor,
+    state::{State, state},
 };
 use crate::{
     analysis::{Control, LoadFactor, Outcome},
     assembly::Assembly,
     interface::{Model, is_forest},
-    parallel, tolerance,
+    parallel,
+    terms::{Found, StateMotion},
+    tolerance,
     verdict::{Verdict, check, law},
 };
 
@@ -60,11 +62,6 @@ const AT_A_TIME: usize = 4;
 /// shares of one at which it moves.
 pub fn resolution(assembly: &Assembly) -> f64 {
     if assembly.free().count() > MANY { 1.0 / 64.0 } else { 4.0 * tolerance::DRY_CRITICAL_WIDTH }
-}
-
-/// Whether a state seen at rest at `rests_at` is one just below `value`.
-pub fn is_reached(rests_at: f64, value: f64) -> bool {
-    rests_at >= value - 1.01 * tolerance::REST_BELOW * value.abs()
 }
 
 /// States asked of a scene under load factors.

@@ -20,45 +20,14 @@ use crate::{
         Settings,
         coulomb::{Exact, FixedPoint, Newton, Solvers, StoppingCriterion, iterate},
     },
+    terms::{StateMotion, StateStep},
     tolerance,
     verdict::{
         Forces,
         law::{self, Released},
     },
 };
-use serde::{Deserialize, Serialize};
 use std::time::Instant;
-
-/// What the state does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum StateMotion {
-    /// It rests: the acceleration vanishes with ε.
-    Rests,
-    /// It moves: the acceleration stays, and obeys the law.
-    Moves,
-    /// Neither could be told.
-    Undecided,
-}
-
-/// One ε of the continuation.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-pub struct StateStep {
-    /// Regularisation ε.
-    pub epsilon: f64,
-    /// Largest acceleration left on a block, in multiples of gravity.
-    pub acceleration: f64,
-    /// Last change of the friction limits, each in the load that passes there.
-    pub change: f64,
-    /// How far the forces and that acceleration are from Coulomb's law ([`law::natural_map`]).
-    pub natural_map: f64,
-    /// The same with accelerations in multiples of gravity ([`law::Released`]).
-    pub natural_map_in_loads: f64,
-    /// Convex programs solved.
-    pub solves: usize,
-    /// Seconds.
-    pub seconds: f64,
-}
 
 /// The state of a scene under its dead load with dry friction.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Does every part stand?
 
-use super::{Deciding, each, left_out, put_rates, scene_forces, scene_rates};
+use super::{each, left_out, put_rates, scene_forces, scene_rates};
 use crate::{
     analysis::{
         Assessment, Control,
@@ -8,6 +8,7 @@ use crate::{
         coulomb::{State, StateMotion, state},
     },
     interface::{self, Model, Part, is_forest},
+    terms::Deciding,
     verdict::{Rate, Verdict, mechanism},
 };
 

@@ -2,7 +2,7 @@
 //! others come to rest there.
 
 use super::{
-    Deciding, each,
+    each,
     limit::{SAME, under},
     scene_forces, scene_rates,
 };
@@ -14,6 +14,7 @@ use crate::{
         limit::of_part as limit_part,
     },
     interface::{self, Model, Part},
+    terms::Deciding,
     verdict::{Forces, Verdict, no_forces},
 };
 

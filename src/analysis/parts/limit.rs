@@ -1,6 +1,6 @@
 //! The load factor of a scene is the least of those of its parts.
 
-use super::{Deciding, each, left_out, put_rates, scene_attempts, scene_forces, scene_rates};
+use super::{each, left_out, put_rates, scene_attempts, scene_forces, scene_rates};
 use crate::{
     analysis::{
         Assessment, Attempt, Bracket, Control, Law, LoadFactor, Outcome,
@@ -8,6 +8,7 @@ use crate::{
     },
     assembly::Wrench,
     interface::{self, Model, Part},
+    terms::Deciding,
     verdict::{Forces, Rate, Verdict, certificate, mechanism, no_forces},
 };
 

@@ -3,13 +3,14 @@
 
 use super::{ThrustSection, ThrustValue, factor, table};
 use crate::{
-    analysis::{Outcome, geometric::shrunk_model},
     interface::Model,
     proof::{
         result::{Certificate, QuestionKind, ResultFile},
         verify::{Verification, answer, failure, mechanism_words, require},
     },
+    terms::Outcome,
     tolerance,
+    verdict::section::shrunk_model,
     verdict::{
         Evidence, Forces, Rate,
         check::{self, Claim, Findings},

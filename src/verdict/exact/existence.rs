@@ -17,8 +17,8 @@
 
 use super::balance::{Balance, ENLARGED, Pair, REDUCED, Room, exactly, multiple, room};
 use crate::{
+    cholesky::{Cholesky, Pattern},
     interface::{Interfaces, Members, Model, members},
-    solve::{Cholesky, Pattern},
     strength::crushing::crushes,
     tolerance,
     verdict::{Forces, certificate, joint::Strength},

@@ -1,0 +1,61 @@
+//! What is known with dry friction: of a load factor, and of a state.
+
+use crate::tolerance;
+use serde::{Deserialize, Serialize};
+
+/// How a load factor with dry friction was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Found {
+    /// The associative mechanism slides nowhere.
+    NothingSlides,
+    /// A fixed point on the friction limits.
+    FixedPoint,
+    /// The live load alone comes to rest on forces that it produces itself: no limit. Computed, not
+    /// proved.
+    Unlimited,
+    /// The state under dry friction rests up to the value, and no longer somewhat above it.
+    /// Computed, not proved.
+    Rests,
+    /// Already under the dead load the state does not rest: it needs a pre-stress, or falls. There
+    /// is no value.
+    NotAtRest,
+    /// It did not settle: there is no value.
+    Undecided,
+}
+
+/// What the state does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StateMotion {
+    /// It rests: the acceleration vanishes with ε.
+    Rests,
+    /// It moves: the acceleration stays, and obeys the law.
+    Moves,
+    /// Neither could be told.
+    Undecided,
+}
+
+/// One ε of the continuation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct StateStep {
+    /// Regularisation ε.
+    pub epsilon: f64,
+    /// Largest acceleration left on a block, in multiples of gravity.
+    pub acceleration: f64,
+    /// Last change of the friction limits, each in the load that passes there.
+    pub change: f64,
+    /// How far the forces and that acceleration are from Coulomb's law ([`law::natural_map`]).
+    pub natural_map: f64,
+    /// The same with accelerations in multiples of gravity ([`law::Released`]).
+    pub natural_map_in_loads: f64,
+    /// Convex programs solved.
+    pub solves: usize,
+    /// Seconds.
+    pub seconds: f64,
+}
+
+/// Whether a state seen at rest at `rests_at` is one just below `value`.
+pub fn is_reached(rests_at: f64, value: f64) -> bool {
+    rests_at >= value - 1.01 * tolerance::REST_BELOW * value.abs()
+}

@@ -1,0 +1,23 @@
+//! The terms in which answers are given: plain values that stand in result files, below those who
+//! find answers and those who check them.
+
+mod agreement;
+mod attempt;
+mod bracket;
+mod deciding;
+mod ends;
+mod friction;
+mod law;
+mod method;
+mod outcome;
+mod simulation;
+
+pub use agreement::{Agreement, ForceAgreement, agree};
+pub use attempt::{Attempt, Engine, Status};
+pub use bracket::Bracket;
+pub use deciding::Deciding;
+pub use friction::{Found, StateMotion, StateStep, is_reached};
+pub use law::Law;
+pub use method::Method;
+pub use outcome::Outcome;
+pub use simulation::{Fate, Fidelity, Run, Stop};

@@ -1,0 +1,85 @@
+//! A model at a tilt.
+//!
+//! Tilting the ground by θ towards a horizontal direction `d` turns gravity to `g (cos θ ẑ↓ + sin θ
+//! d)`; forces scale, so `tan θ` is the load factor of the live load "own weight along d", the
+//! vertical load kept. Dead loads on blocks are taken as hanging weights: they must act along
+//! gravity, and turn with it. Stresses do not turn: all forces are divided by cos θ, and joints are
+//! `√(1 + tan² θ)` times as strong.
+
+use crate::{
+    assembly::{AppliedForce, Assembly, Wrench},
+    error::InputError,
+    interface::{Interfaces, Model},
+    strength::laws::{are_dry, with_stresses},
+    tolerance,
+};
+use nalgebra::Vector3;
+
+/// The assembly with "own weight (and hanging dead loads) towards `toward`" as its only live load.
+///
+/// # Errors
+/// `toward` is parallel to gravity, or a dead load does not act along gravity.
+pub fn turned(
+    assembly: &Assembly,
+    toward: Vector3<f64>,
+) -> Result<(Assembly, Vector3<f64>), InputError> {
+    let down = assembly.gravity.normalize();
+    let horizontal = toward - down * down.dot(&toward);
+    let across = horizontal.norm() / toward.norm();
+    if across.is_nan() || across <= tolerance::ALONG {
+        return Err(InputError::at(
+            Default::default(),
+            format!("cannot tilt towards {:?}: it is parallel to gravity", toward.as_slice()),
+        )
+        .hint("give a direction across gravity, such as 1,0,0"));
+    }
+    let d = horizontal.normalize();
+    let mut turned = assembly.clone();
+    let mut moments: Vec<Vector3<f64>> = assembly.dead.iter().map(|w| w.moment).collect();
+    for applied in &assembly.dead_forces {
+        moments[applied.block] -= applied.arm.cross(&applied.force);
+    }
+    for i in assembly.free() {
+        let Wrench { force, moment } = assembly.dead[i];
+        let along = down.dot(&force);
+        let across = (force - down * along).norm();
+        if across > tolerance::ALONG * force.norm()
+            || moments[i].norm()
+                > tolerance::ALONG * (moment.norm() + force.norm() * assembly.blocks[i].size)
+        {
+            return Err(InputError::at(
+                Default::default(),
+                format!("tilt turns dead loads with gravity, but the dead load on {:?} is not a hanging weight", assembly.blocks[i].id),
+            )
+            .hint("give it as a force along gravity, or ask `limit` with the tilting force as a live load"));
+        }
+        turned.live[i] = Wrench { force: d * along, moment: Vector3::zeros() };
+    }
+    let level =
+        |applied: &AppliedForce| AppliedForce { force: d * down.dot(&applied.force), ..*applied };
+    turned.live_forces = assembly.dead_forces.iter().map(level).collect();
+    for applied in &turned.live_forces {
+        turned.live[applied.block].moment += applied.arm.cross(&applied.force);
+    }
+    Ok((turned, d))
+}
+
+/// The model as it is at the tilt `tan θ = load_factor` (level where that is not a number): its
+/// live load turns it further, and its forces are divided by cos θ.
+///
+/// # Errors
+/// As [`turned`].
+pub fn tilted(model: &Model, toward: Vector3<f64>, load_factor: f64) -> Result<Model, InputError> {
+    let (assembly, _) = turned(&model.assembly, toward)?;
+    Ok(Model {
+        assembly,
+        interfaces: stressed(&model.interfaces, load_factor),
+        timings: model.timings,
+    })
+}
+
+/// The joints where all forces are divided by cos θ.
+pub(crate) fn stressed(interfaces: &Interfaces, load_factor: f64) -> Interfaces {
+    let by = 1f64.hypot(if load_factor.is_finite() { load_factor } else { 0.0 });
+    if are_dry(interfaces) { interfaces.clone() } else { with_stresses(interfaces, by) }
+}
