@@ -3,8 +3,7 @@
 
 use super::{critical::CriticalValue, result::DryResult, thrust::ThrustAnswer};
 use crate::{
-    analysis::{Bracket, Deciding, Law, LoadFactor, Outcome, Proved, coulomb::Found},
-    dynamics::Fate,
+    terms::{Bracket, Deciding, Fate, Found, Law, Outcome},
     verdict::{Verdict, exact::Grade},
 };
 use schemars::JsonSchema;
@@ -145,18 +144,6 @@ impl From<Outcome> for FactorStatus {
 }
 
 impl Bound {
-    /// The bound that was proved.
-    pub(super) fn of(l: &Proved<LoadFactor>) -> Self {
-        let finite = |v: f64| v.is_finite().then_some(v);
-        let value = (l.outcome == Outcome::Found).then_some(l.value);
-        Self {
-            status: l.outcome,
-            value,
-            lower: finite(l.bracket.lower),
-            upper: finite(l.bracket.upper),
-        }
-    }
-
     /// Value and bracket, where found.
     pub fn found(&self) -> Option<(f64, f64, f64)> {
         match *self {

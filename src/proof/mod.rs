@@ -3,6 +3,7 @@
 
 pub mod answer;
 pub mod critical;
+mod pack;
 pub mod packing;
 mod part;
 pub mod read;

@@ -1,8 +1,8 @@
 //! The part of a scene that an answer names: recomputed, like everything else that a result says.
 
 use crate::{
-    analysis::Deciding,
     interface::{Model, parts},
+    terms::Deciding,
     verdict::{Rate, check::Findings},
 };
 

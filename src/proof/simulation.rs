@@ -1,15 +1,10 @@
 //! A simulation in a result: names instead of indices, and what it says beside the verdict.
 
 use crate::{
-    analysis::Agreement,
-    dynamics::{Fate, Frame, Run, SimulationOutcome},
     error::Finding,
-    interface::Model,
+    terms::{Agreement, Fate, Run},
 };
 use serde::{Deserialize, Serialize};
-
-/// So many blocks of the first motion are kept, the ones that moved farthest first.
-const MOVED: usize = 1000;
 
 /// What happened in time. Observed, not proved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -75,52 +70,4 @@ pub struct FrameResult {
     /// Centre of mass of each block (x, y, z; m) and its rotation from the start (quaternion w, x,
     /// y, z), in scene order.
     pub blocks: Vec<[f64; 7]>,
-}
-
-impl Simulation {
-    /// Packs an outcome.
-    pub fn new(model: &Model, outcome: &SimulationOutcome, agreement: Option<Agreement>) -> Self {
-        let blocks = &model.assembly.blocks;
-        let id = |i: usize| blocks[i].id.clone();
-        let mut moved: Vec<(usize, f64)> = outcome
-            .first_motion
-            .iter()
-            .enumerate()
-            .map(|(i, m)| (i, m.way.norm() + m.turn.norm() * blocks[i].size))
-            .filter(|(_, way)| *way > 0.0)
-            .collect();
-        moved.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-        let motion = |&(i, _): &(usize, f64)| {
-            let motion = outcome.first_motion[i];
-            BlockMotion { block: id(i), way: motion.way.into(), turn: motion.turn.into() }
-        };
-        Self {
-            fate: outcome.fate,
-            collapse: outcome.collapse,
-            runs: outcome.runs.clone(),
-            agreement,
-            first_motion: moved.iter().take(MOVED).map(motion).collect(),
-            contacts: outcome
-                .contacts
-                .iter()
-                .map(|c| PairForce { between: [id(c.a), id(c.b)], force: c.force.into() })
-                .collect(),
-            reaction_error: outcome.reaction_error,
-            frames: outcome.frames.iter().map(|f| frame(f, &outcome.runs)).collect(),
-            findings: outcome.findings.clone(),
-        }
-    }
-}
-
-fn frame(frame: &Frame, runs: &[Run]) -> FrameResult {
-    let row = |p: &crate::dynamics::Pose| {
-        let (c, q) = (p.center, p.turn);
-        [c.x, c.y, c.z, q.w, q.i, q.j, q.k]
-    };
-    FrameResult {
-        time: frame.time,
-        run: runs.iter().position(|r| r.fidelity == frame.fidelity).unwrap_or(0),
-        energy: frame.energy,
-        blocks: frame.blocks.iter().map(row).collect(),
-    }
 }

@@ -7,7 +7,7 @@ use super::{
     ResultFile,
     answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
     critical, part,
-    result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind, words},
+    result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
     thrust,
 };
 use crate::{
@@ -479,7 +479,7 @@ pub(super) fn mechanism_words(
     rates: Option<&[Rate]>,
 ) {
     let (Some(said), Some(rates)) = (&file.mechanism, rates) else { return };
-    let here = words(model, &mechanism::read(model, rates));
+    let here = MechanismWords::new(model, &mechanism::read(model, rates));
     let moving = |w: &MechanismWords| w.moving.iter().cloned().collect::<BTreeSet<String>>();
     require(
         f,

@@ -4,16 +4,12 @@ mod verify;
 
 pub(super) use verify::verify;
 
-use super::answer::Answer;
-use super::result::{Certificate, QuestionKind, ResultFile, assessment, certificate};
+use super::{
+    answer::Answer,
+    result::{Certificate, ResultFile},
+};
 use crate::{
-    analysis::{
-        Assessment, Critical, Law, Proved,
-        critical::{Change, Method, Scanned},
-        flip::Probe,
-    },
-    interface::Model,
-    scene::Scene,
+    terms::{Law, Method},
     tolerance,
     verdict::Verdict,
 };
@@ -106,13 +102,6 @@ pub struct Side {
 }
 
 impl Side {
-    /// A probe with its proof.
-    pub fn of(probe: &Probe<Proved<Assessment>>) -> Self {
-        let answer = Answer::Verdict(assessment(&probe.assessment));
-        let certificate = certificate(&probe.model, &probe.assessment);
-        Self { value: probe.value, answer, certificate }
-    }
-
     /// Its verdict, where it is proved.
     pub fn verdict(&self) -> Option<Verdict> {
         self.answer
@@ -122,18 +111,6 @@ impl Side {
 }
 
 impl FlipResult {
-    /// A flip with its proofs.
-    pub fn of(f: &Change) -> Self {
-        // Ends that are far apart prove no more than that there is a flip between them.
-        let known = f.method != Method::Scan && is_narrow(f.below.value, f.above.value);
-        let (value, method) = if known {
-            (f.value, f.method)
-        } else {
-            (middle(f.below.value, f.above.value), Method::Scan)
-        };
-        Self { value, method, below: Side::of(&f.below), above: Side::of(&f.above) }
-    }
-
     /// The value with its ends, where both are proved and differ: near together, or the middle of
     /// what the scan leaves.
     pub fn proved(&self) -> Option<CriticalValue> {
@@ -149,11 +126,11 @@ impl FlipResult {
 }
 
 /// Whether two ends are near enough to each other for a value between them.
-fn is_narrow(lower: f64, upper: f64) -> bool {
+pub(super) fn is_narrow(lower: f64, upper: f64) -> bool {
     upper - lower <= tolerance::CRITICAL_BRACKET * lower.abs().max(upper.abs())
 }
 
-fn middle(lower: f64, upper: f64) -> f64 {
+pub(super) fn middle(lower: f64, upper: f64) -> f64 {
     0.5 * (lower + upper)
 }
 
@@ -164,37 +141,4 @@ pub fn exhausted(file: &ResultFile) -> Option<Verdict> {
     let same = c.scan.iter().all(|s| s.verdict == Some(first))
         && c.ends.iter().all(|e| e.verdict() == Some(first));
     (same && c.flips.is_empty() && c.ends.len() == 2).then_some(first)
-}
-
-impl ResultFile {
-    /// The result of `critical`; `model` is that of the scene as it was given.
-    pub fn critical(scene: &Scene, model: &Model, c: &Critical) -> Self {
-        let flips: Vec<FlipResult> = c.changes.iter().map(FlipResult::of).collect();
-        let values = flips.iter().filter_map(FlipResult::proved).collect();
-        let answer = Answer::Critical(values);
-        let mut file = Self::new(QuestionKind::Critical, scene, model, answer, Certificate::none());
-        file.critical = Some(CriticalResult {
-            vary: c.range.pointer.clone(),
-            between: [c.range.from, c.range.to],
-            whole: c.whole,
-            law: c.law,
-            scan: c.scan.iter().map(scan_point).collect(),
-            flips,
-            ends: c.ends.iter().map(Side::of).collect(),
-            notes: c.notes.clone(),
-            scenes: c.probes,
-        });
-        for probe in c.changes.iter().flat_map(|f| [&f.below, &f.above]).chain(&c.ends) {
-            file.warn(&probe.assessment);
-        }
-        file
-    }
-}
-
-fn scan_point(s: &Scanned) -> ScanPoint {
-    let (verdict, unbalance, error) = match &s.outcome {
-        Ok((verdict, unbalance)) => (Some(*verdict), Some(*unbalance), None),
-        Err(e) => (None, None, Some(e.to_string())),
-    };
-    ScanPoint { value: s.value, verdict, unbalance, error }
 }

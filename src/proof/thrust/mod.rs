@@ -5,19 +5,10 @@ mod verify;
 
 pub(super) use verify::verify;
 
-use super::{
-    answer::Answer,
-    critical::Side,
-    result::{Certificate, QuestionKind, ResultFile, assessment, certificate},
-};
+use super::{critical::Side, result::Certificate};
 use crate::{
-    analysis::{
-        Outcome, Proved,
-        geometric::Geometric,
-        thrust::{Thrust, ThrustEnd},
-    },
     interface::Model,
-    scene::Scene,
+    terms::Outcome,
     tolerance,
     verdict::section::{SectionForce, sections},
 };
@@ -137,81 +128,8 @@ impl From<&SectionForce> for Line {
     }
 }
 
-impl ResultFile {
-    /// The result of `thrust`. Where the scene does not stand, it is the verdict.
-    pub fn thrust(scene: &Scene, model: &Model, t: &Thrust) -> Self {
-        let [least, greatest] = &t.ends[..] else {
-            let mut file = Self::new(
-                QuestionKind::Thrust,
-                scene,
-                model,
-                Answer::Verdict(assessment(&t.standing)),
-                certificate(model, &t.standing),
-            );
-            file.mechanism = t.standing.mechanism.as_ref().map(|m| super::result::words(model, m));
-            file.trace.clone_from(&t.standing.attempts);
-            file.warn(&t.standing);
-            return file;
-        };
-        let (shrunk, without_factor, value) = match &t.factor {
-            Some(Geometric::Found(flip)) => {
-                (vec![&flip.stands, &flip.falls], None, Some(1.0 / flip.value))
-            }
-            Some(Geometric::Beyond(probe)) => (vec![&**probe], None, None),
-            Some(Geometric::Open(why)) => (Vec::new(), Some(why.clone()), None),
-            None => (Vec::new(), None, None),
-        };
-        let refused: Vec<_> = shrunk.iter().map(|probe| &probe.assessment).collect();
-        let shrunk: Vec<Side> = shrunk.iter().map(|probe| Side::of(probe)).collect();
-        let answer = ThrustAnswer {
-            support: model.assembly.blocks[t.at.support].id.clone(),
-            direction: t.at.direction,
-            least: least.into(),
-            greatest: greatest.into(),
-            geometric_factor: factor(&shrunk, value),
-        };
-        let mut file = Self::new(
-            QuestionKind::Thrust,
-            scene,
-            model,
-            Answer::Thrust(Box::new(answer)),
-            Certificate::none(),
-        );
-        let lines = table(
-            model,
-            [least, greatest].map(|e| (e.outcome == Outcome::Found).then_some(&e.forces)),
-        );
-        let [low, high] = [least, greatest].map(|end| certificate(model, end));
-        file.thrust = Some(ThrustResult {
-            least: low,
-            greatest: high,
-            shrunk,
-            without_factor,
-            sections: lines,
-        });
-        file.left_out.clone_from(&least.left_out);
-        file.trace = least.attempts.iter().chain(&greatest.attempts).cloned().collect();
-        [least, greatest].into_iter().for_each(|end| file.warn(end));
-        refused.into_iter().for_each(|assessment| file.warn(assessment));
-        file.with_dead_load(model, &t.standing)
-    }
-}
-
-impl From<&Proved<ThrustEnd>> for ThrustValue {
-    fn from(e: &Proved<ThrustEnd>) -> Self {
-        let finite = |v: f64| v.is_finite().then_some(v);
-        let value = (e.outcome == Outcome::Found).then_some(e.value);
-        Self {
-            status: e.outcome,
-            value,
-            lower: finite(e.bracket.lower),
-            upper: finite(e.bracket.upper),
-        }
-    }
-}
-
 /// The factor that shrunk sections prove: a value only where the two sides are near each other.
-fn factor(shrunk: &[Side], value: Option<f64>) -> Option<Factor> {
+pub(super) fn factor(shrunk: &[Side], value: Option<f64>) -> Option<Factor> {
     let proved = |s: &&Side| s.verdict().is_some();
     let (lower, upper) = (
         1.0 / shrunk.first().filter(proved)?.value,
@@ -225,7 +143,10 @@ fn factor(shrunk: &[Side], value: Option<f64>) -> Option<Factor> {
 }
 
 /// The line of thrust for up to two sets of forces.
-fn table(model: &Model, forces: [Option<&crate::verdict::Forces>; 2]) -> Vec<ThrustSection> {
+pub(super) fn table(
+    model: &Model,
+    forces: [Option<&crate::verdict::Forces>; 2],
+) -> Vec<ThrustSection> {
     let [least, greatest] = forces.map(|f| f.map(|f| sections(&model.interfaces, f)));
     let line =
         |s: &Option<Vec<SectionForce>>, k: usize| s.as_ref().and_then(|s| s.get(k)).map(Line::from);

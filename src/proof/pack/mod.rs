@@ -1,0 +1,264 @@
+//! Answers that were found and proved, as the files that are saved of them.
+
+mod critical;
+mod packing;
+mod simulation;
+mod thrust;
+
+use super::{
+    answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
+    result::{
+        Certificate, CoulombState, Direction, DryResult, MechanismWords, QuestionKind, ResultFile,
+        ResultFormat, SceneSummary, Versions,
+    },
+};
+use crate::{
+    analysis::{
+        Answer as Answered, Assessment, Claims, Limited, LoadFactor, Proved, Tilt, Tilted,
+        coulomb::DryLoadFactor,
+    },
+    error::{Finding, FindingCode},
+    interface::Model,
+    scene::Scene,
+    terms::{Law, Outcome},
+    verdict::{
+        Evidence, Verdict,
+        evidence::{write_forces, write_rates},
+    },
+};
+
+/// Packs a proof.
+fn certificate<T: Claims>(model: &Model, proved: &Proved<T>) -> Certificate {
+    let Evidence { forces, base, rates } = proved.evidence();
+    Certificate {
+        claim: proved.claim(),
+        forces: write_forces(model, forces),
+        base: base.map(|f| write_forces(model, f)),
+        rates: write_rates(&model.assembly, rates),
+        verified: proved.findings().holds.clone(),
+    }
+}
+
+impl ResultFile {
+    fn new(
+        question: QuestionKind,
+        scene: &Scene,
+        model: &Model,
+        answer: Answer,
+        certificate: Certificate,
+    ) -> Self {
+        Self {
+            format: ResultFormat::V2,
+            question,
+            scene: SceneSummary {
+                name: scene.name.clone(),
+                blocks: model.assembly.blocks.len(),
+                supports: model.assembly.blocks.iter().filter(|b| b.support).count(),
+                interfaces: model.interfaces.list.len(),
+                contact_points: model.contact_points(),
+                input: scene.clone(),
+            },
+            answer,
+            certificate,
+            directions: Vec::new(),
+            dead_load: None,
+            dry: None,
+            coulomb_state: None,
+            critical: None,
+            thrust: None,
+            simulation: None,
+            mechanism: None,
+            left_out: Vec::new(),
+            warnings: model.findings().cloned().collect(),
+            timings: model.timings,
+            work: None,
+            trace: Vec::new(),
+            versions: Versions::default(),
+        }
+    }
+
+    /// The result of a question; packings have one of their own
+    /// ([`PackingFile`](super::PackingFile)).
+    pub fn of(scene: &Scene, model: &Model, answer: &Answered) -> Option<Self> {
+        Some(match answer {
+            Answered::Assess(a) => Self::assessment(scene, model, a),
+            Answered::Limit(l) => Self::load_factor(scene, model, l),
+            Answered::Tilt(t) => return Self::tilt(scene, model, t),
+            Answered::Critical(c) => Self::critical(scene, model, c),
+            Answered::Thrust(t) => Self::thrust(scene, model, t),
+            Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
+            Answered::Repose(_) => return None,
+        })
+    }
+
+    /// The result of `assess`. What its check refused is undecided, and the reasons are warnings.
+    pub fn assessment(scene: &Scene, model: &Model, a: &Proved<Assessment>) -> Self {
+        let mut file = Self::new(
+            QuestionKind::Assess,
+            scene,
+            model,
+            Answer::Verdict(assessment(a)),
+            certificate(model, a),
+        );
+        file.mechanism = a.mechanism.as_ref().map(|m| MechanismWords::new(model, m));
+        file.coulomb_state =
+            a.state.as_ref().map(|s| CoulombState { motion: s.motion, steps: s.steps.clone() });
+        file.left_out.clone_from(&a.left_out);
+        file.trace.clone_from(&a.attempts);
+        file.warn(a);
+        file
+    }
+
+    /// The result of `limit`.
+    pub fn load_factor(scene: &Scene, model: &Model, limited: &Limited) -> Self {
+        let l = &limited.bound;
+        let dry = limited.dry.as_ref().map(|dry| dry_result(model, dry));
+        let answer = LimitAnswer {
+            load_factor: LoadFactorAnswer::new(Bound::of(l), dry.as_ref()),
+            verdict: limited.dead.as_ref().map(|a| a.verdict),
+            part: l.part.clone(),
+            proof: l.grade(),
+        };
+        let mut file = Self::new(
+            QuestionKind::Limit,
+            scene,
+            model,
+            Answer::Limit(answer),
+            certificate(model, l),
+        );
+        file.mechanism = l.mechanism.as_ref().map(|m| MechanismWords::new(model, m));
+        file.left_out.clone_from(&l.left_out);
+        file.trace.clone_from(&l.attempts);
+        file.warn(l);
+        if let Some(dead) = &limited.dead {
+            file = file.with_dead_load(model, dead);
+        }
+        limited.dry.iter().for_each(|dry| file.warn(dry));
+        file.dry = dry;
+        file
+    }
+
+    /// The result of `tilt`, one entry per direction; `model` is the scene level. The least tilt is
+    /// the answer.
+    pub fn tilt(scene: &Scene, model: &Model, tilted: &Tilted) -> Option<Self> {
+        let list = &tilted.directions;
+        let level = tilted.level.as_ref().map(|a| a.verdict);
+        let directions: Vec<Direction> = list.iter().map(|tilt| direction(tilt, level)).collect();
+        let least = (0..directions.len())
+            .min_by(|&i, &j| directions[i].governing().total_cmp(&directions[j].governing()))?;
+        let (tilt, direction) = (&list[least], directions[least].clone());
+        let mut file = Self::new(
+            QuestionKind::Tilt,
+            scene,
+            &tilt.model,
+            direction.answer,
+            direction.certificate,
+        );
+        file.dry = direction.dry;
+        file.mechanism =
+            tilt.load_factor.mechanism.as_ref().map(|m| MechanismWords::new(&tilt.model, m));
+        file.left_out.clone_from(&tilt.load_factor.left_out);
+        file.trace = list.iter().flat_map(|t| t.load_factor.attempts.iter().cloned()).collect();
+        if directions.len() > 1 {
+            file.directions = directions;
+        }
+        for tilt in list {
+            file.warn(&tilt.load_factor);
+            tilt.dry.iter().for_each(|dry| file.warn(&dry.load_factor));
+        }
+        Some(match &tilted.level {
+            Some(level) => file.with_dead_load(model, level),
+            None => file,
+        })
+    }
+
+    /// Adds whether it stands under its dead load alone to a result of `limit`, `tilt` or `thrust`.
+    #[must_use]
+    fn with_dead_load(mut self, model: &Model, a: &Proved<Assessment>) -> Self {
+        self.dead_load = Some(Direction {
+            answer: Answer::Verdict(assessment(a)),
+            certificate: certificate(model, a),
+            dry: None,
+        });
+        self.trace.extend(a.attempts.iter().cloned());
+        self.warn(a);
+        self
+    }
+
+    /// Takes over what the check of an answer took, and why it took the answer back.
+    fn warn<T>(&mut self, proved: &Proved<T>) {
+        self.timings.check += proved.seconds();
+        self.warnings.extend(
+            proved
+                .findings()
+                .fails
+                .iter()
+                .map(|f| Finding::new(FindingCode::Numerics, format!("certificate refused: {f}"))),
+        );
+    }
+}
+
+/// One direction of a tilt; `level` is the verdict at level, where it was asked.
+fn direction(tilt: &Tilt, level: Option<Verdict>) -> Direction {
+    let dry = tilt.dry.as_ref().map(|d| dry_result(&d.model, &d.load_factor));
+    let tan_tilt = LoadFactorAnswer::new(Bound::of(&tilt.load_factor), dry.as_ref());
+    let answer = TiltAnswer {
+        toward: tilt.toward.into(),
+        tan_tilt,
+        tilt_deg: tan_tilt.degrees(),
+        verdict: level,
+        part: tilt.load_factor.part.clone(),
+        proof: tilt.load_factor.grade(),
+    };
+    Direction {
+        answer: Answer::Tilt(answer),
+        certificate: certificate(&tilt.model, &tilt.load_factor),
+        dry,
+    }
+}
+
+fn finite(v: f64) -> Option<f64> {
+    v.is_finite().then_some(v)
+}
+
+fn dry_result(model: &Model, d: &Proved<DryLoadFactor>) -> DryResult {
+    DryResult {
+        found: d.found,
+        value: finite(d.value),
+        rests_at: finite(d.rests_at),
+        moves_at: finite(d.moves_at),
+        part: d.part.clone(),
+        natural_map: finite(d.natural_map),
+        solves: d.solves,
+        certificate: certificate(model, d),
+    }
+}
+
+fn assessment(a: &Proved<Assessment>) -> VerdictAnswer {
+    let law = (a.verdict == Verdict::Stable).then_some(if a.rests_on_statics() {
+        Law::Associative
+    } else {
+        Law::Coulomb
+    });
+    VerdictAnswer {
+        verdict: a.verdict,
+        law,
+        unbalance: a.unbalance,
+        part: a.part.clone(),
+        proof: a.grade(),
+    }
+}
+
+impl Bound {
+    /// The bound that was proved.
+    fn of(l: &Proved<LoadFactor>) -> Self {
+        let finite = |v: f64| v.is_finite().then_some(v);
+        let value = (l.outcome == Outcome::Found).then_some(l.value);
+        Self {
+            status: l.outcome,
+            value,
+            lower: finite(l.bracket.lower),
+            upper: finite(l.bracket.upper),
+        }
+    }
+}

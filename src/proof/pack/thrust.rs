@@ -1,0 +1,92 @@
+//! The range of a thrust, the line of thrust, the geometric safety factor.
+
+use super::{assessment, certificate};
+use crate::{
+    analysis::{
+        Proved,
+        geometric::Geometric,
+        thrust::{Thrust, ThrustEnd},
+    },
+    interface::Model,
+    proof::{
+        answer::Answer,
+        critical::Side,
+        result::{Certificate, MechanismWords, QuestionKind, ResultFile},
+        thrust::{ThrustAnswer, ThrustResult, ThrustValue, factor, table},
+    },
+    scene::Scene,
+    terms::Outcome,
+};
+
+impl ResultFile {
+    /// The result of `thrust`. Where the scene does not stand, it is the verdict.
+    pub fn thrust(scene: &Scene, model: &Model, t: &Thrust) -> Self {
+        let [least, greatest] = &t.ends[..] else {
+            let mut file = Self::new(
+                QuestionKind::Thrust,
+                scene,
+                model,
+                Answer::Verdict(assessment(&t.standing)),
+                certificate(model, &t.standing),
+            );
+            file.mechanism = t.standing.mechanism.as_ref().map(|m| MechanismWords::new(model, m));
+            file.trace.clone_from(&t.standing.attempts);
+            file.warn(&t.standing);
+            return file;
+        };
+        let (shrunk, without_factor, value) = match &t.factor {
+            Some(Geometric::Found(flip)) => {
+                (vec![&flip.stands, &flip.falls], None, Some(1.0 / flip.value))
+            }
+            Some(Geometric::Beyond(probe)) => (vec![&**probe], None, None),
+            Some(Geometric::Open(why)) => (Vec::new(), Some(why.clone()), None),
+            None => (Vec::new(), None, None),
+        };
+        let refused: Vec<_> = shrunk.iter().map(|probe| &probe.assessment).collect();
+        let shrunk: Vec<Side> = shrunk.iter().map(|probe| Side::of(probe)).collect();
+        let answer = ThrustAnswer {
+            support: model.assembly.blocks[t.at.support].id.clone(),
+            direction: t.at.direction,
+            least: least.into(),
+            greatest: greatest.into(),
+            geometric_factor: factor(&shrunk, value),
+        };
+        let mut file = Self::new(
+            QuestionKind::Thrust,
+            scene,
+            model,
+            Answer::Thrust(Box::new(answer)),
+            Certificate::none(),
+        );
+        let lines = table(
+            model,
+            [least, greatest].map(|e| (e.outcome == Outcome::Found).then_some(&e.forces)),
+        );
+        let [low, high] = [least, greatest].map(|end| certificate(model, end));
+        file.thrust = Some(ThrustResult {
+            least: low,
+            greatest: high,
+            shrunk,
+            without_factor,
+            sections: lines,
+        });
+        file.left_out.clone_from(&least.left_out);
+        file.trace = least.attempts.iter().chain(&greatest.attempts).cloned().collect();
+        [least, greatest].into_iter().for_each(|end| file.warn(end));
+        refused.into_iter().for_each(|assessment| file.warn(assessment));
+        file.with_dead_load(model, &t.standing)
+    }
+}
+
+impl From<&Proved<ThrustEnd>> for ThrustValue {
+    fn from(e: &Proved<ThrustEnd>) -> Self {
+        let finite = |v: f64| v.is_finite().then_some(v);
+        let value = (e.outcome == Outcome::Found).then_some(e.value);
+        Self {
+            status: e.outcome,
+            value,
+            lower: finite(e.bracket.lower),
+            upper: finite(e.bracket.upper),
+        }
+    }
+}
