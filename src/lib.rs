@@ -6,7 +6,7 @@
 //! Each stage is one module and hands the next a plain value; nothing reaches back:
 //!
 //! ```text
-//! JSON ─▶ scene::Scene ─▶ assembly::Assembly ─▶ interface::Interfaces ─▶ program ─▶ solve ─▶ verdict ─▶ analysis ─▶ proof ─▶ sweep ─▶ report
+//! JSON ─▶ scene::Scene ─▶ assembly::Assembly ─▶ interface::Interfaces ─▶ verdict ─▶ program ─▶ solve ─▶ analysis ─▶ proof ─▶ sweep ─▶ report
 //!              ▲
 //!   generate, import                                └─▶ dynamics (a second opinion, in time) ─────────────────▲
 //! ```
@@ -56,6 +56,11 @@
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
 //!
+//! The crate comes in steps, each a cargo feature that holds the one before it: without any feature
+//! it is the *checker* (scenes, templates, meshes, contacts, verdicts, and [`proof::verify`](proof::verify()) for
+//! results that somebody saved; no conic solver, no threads, no clock), then `solve` (questions and
+//! their answers), `dynamics`, `sweep`, `report`, and `cli`, the command, which is the default.
+//!
 //! A second opinion comes from running the same blocks in time:
 //!
 //! ```
@@ -80,11 +85,14 @@
 //! | unbalance | in multiples of each block's own load (g) |
 
 #![warn(missing_docs)]
+// What only later steps use is not dead in this one; the whole is judged.
+#![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 #![forbid(unsafe_code)]
 
 pub mod error;
 pub mod tolerance;
 
+#[cfg(feature = "solve")]
 pub mod deadline;
 
 pub mod plain;
@@ -97,8 +105,10 @@ pub mod files;
 
 pub mod limits;
 
+#[cfg(feature = "solve")]
 pub mod parallel;
 
+#[cfg(feature = "sweep")]
 pub mod keep;
 
 pub mod scene;
@@ -119,18 +129,25 @@ pub mod verdict;
 
 pub mod terms;
 
+#[cfg(feature = "solve")]
 pub mod program;
 
+#[cfg(feature = "solve")]
 pub mod solve;
 
+#[cfg(feature = "dynamics")]
 pub mod dynamics;
 
+#[cfg(feature = "solve")]
 pub mod analysis;
 
 pub mod proof;
 
+#[cfg(feature = "sweep")]
 pub mod sweep;
 
+#[cfg(feature = "sweep")]
 pub mod study;
 
+#[cfg(feature = "report")]
 pub mod report;

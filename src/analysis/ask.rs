@@ -6,7 +6,7 @@ use super::{
     Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt, assess,
     coulomb,
     coulomb::DryLoadFactor,
-    critical, limit,
+    critical, in_time, limit,
     question::{
         CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
         directions,
@@ -17,14 +17,14 @@ use super::{
     thrust::Thrust,
     tilt,
 };
+#[cfg(feature = "dynamics")]
+use crate::dynamics::SimulationOutcome;
 use crate::{
     assembly::Wrench,
-    dynamics::{self, Fidelity, Progress, SimulationOutcome, SimulationSettings},
     error::{InputError, JsonPath},
-    interface::{Model, prepare},
+    interface::Model,
     scene::Scene,
 };
-use std::ops::ControlFlow;
 
 /// An answer.
 #[derive(Clone, Debug)]
@@ -42,6 +42,7 @@ pub enum Answer {
     /// How steep may a packing be?
     Repose(Packing),
     /// What happens in time?
+    #[cfg(feature = "dynamics")]
     Simulate(Box<SimulationOutcome>),
 }
 
@@ -73,50 +74,44 @@ pub struct Tilted {
     pub level: Option<Proved<Assessment>>,
 }
 
-/// How a simulation is shown while it runs; none of it changes an answer.
-pub struct Watch<'a> {
-    /// Threads of the engine.
-    pub threads: usize,
-    /// As [`SimulationSettings::frames`].
-    pub frames: usize,
-    /// As [`SimulationSettings::keep_frames`].
-    pub keep_frames: bool,
-    /// As [`SimulationSettings::every_step`].
-    pub every_step: bool,
-    /// Who watches.
-    pub each: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
-}
-
 /// Answers a question about a scene, prepared as `model`.
 ///
 /// # Errors
-/// The question has no meaning, or none for this scene.
+/// The question has no meaning, or none for this scene, or this build has no part that answers it.
 pub fn ask(
     question: &Question,
     scene: &Scene,
     model: &Model,
     control: &Control,
 ) -> Result<Answer, InputError> {
-    let mut each = |_: &Progress| ControlFlow::Continue(());
-    ask_watched(
-        question,
-        scene,
-        model,
-        control,
-        Watch { threads: 1, frames: 0, keep_frames: false, every_step: false, each: &mut each },
-    )
+    answer(question, scene, model, control, &mut |o| in_time::unwatched(o, scene, model))
 }
 
 /// The same, with somebody who watches what happens in time.
 ///
 /// # Errors
 /// As [`ask`].
+#[cfg(feature = "dynamics")]
 pub fn ask_watched(
     question: &Question,
     scene: &Scene,
     model: &Model,
     control: &Control,
-    watch: Watch,
+    watch: in_time::Watch,
+) -> Result<Answer, InputError> {
+    let mut watch = Some(watch);
+    answer(question, scene, model, control, &mut |o| match watch.take() {
+        Some(watch) => in_time::watched(o, scene, model, watch),
+        None => in_time::unwatched(o, scene, model),
+    })
+}
+
+fn answer(
+    question: &Question,
+    scene: &Scene,
+    model: &Model,
+    control: &Control,
+    simulate: &mut dyn FnMut(&SimulateOptions) -> Result<Answer, InputError>,
 ) -> Result<Answer, InputError> {
     question.check()?;
     let control = &question.control(control);
@@ -134,9 +129,7 @@ pub fn ask_watched(
             let toward = directions(model.assembly.gravity, toward, *all);
             Answer::Repose(stability::packing(model, &toward, *moving_mass, control)?)
         }
-        Question::Simulate(options) => {
-            Answer::Simulate(Box::new(simulated(options, scene, model, watch)?))
-        }
+        Question::Simulate(options) => simulate(options)?,
     })
 }
 
@@ -185,33 +178,4 @@ fn pushed(options: &ThrustOptions, model: &Model, control: &Control) -> Result<T
         _ => thrust::Ends::Least,
     };
     Ok(thrust::answer(model, at, ends, control))
-}
-
-fn simulated(
-    options: &SimulateOptions,
-    scene: &Scene,
-    model: &Model,
-    watch: Watch,
-) -> Result<SimulationOutcome, InputError> {
-    // In the scene, whose live loads may act off the centre of mass and turn with their blocks.
-    let loaded = match options.load_factor {
-        Some(factor) if factor != 0.0 => {
-            &prepare(&Scene { loads: scene.loads.fixed(factor), ..scene.clone() })?
-        }
-        _ => model,
-    };
-    let settings = SimulationSettings {
-        fidelity: if options.fast {
-            Some(Fidelity::Fast)
-        } else {
-            options.fine.then_some(Fidelity::Fine)
-        },
-        seconds: options.seconds,
-        threads: watch.threads,
-        frames: watch.frames,
-        keep_frames: watch.keep_frames,
-        to_the_end: options.to_the_end,
-        every_step: watch.every_step,
-    };
-    dynamics::simulate(loaded, &settings, watch.each)
 }

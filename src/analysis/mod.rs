@@ -1,5 +1,6 @@
 //! Questions and answers: the only place where the stages are composed.
 
+#[cfg(feature = "dynamics")]
 pub mod agreement;
 pub mod ask;
 pub mod assess;
@@ -8,11 +9,13 @@ pub mod coulomb;
 pub mod critical;
 pub mod flip;
 pub mod geometric;
+mod in_time;
 pub mod limit;
 mod mend;
 mod parts;
 mod proved;
 pub mod question;
+#[cfg(feature = "dynamics")]
 pub mod repose;
 pub mod reuse;
 pub mod stability;
@@ -23,8 +26,9 @@ pub use crate::{
     terms::{Agreement, Attempt, Bracket, Deciding, ForceAgreement, Law, Outcome},
     verdict::fabric::{self, Fabric, fabric},
 };
+#[cfg(feature = "dynamics")]
 pub use agreement::agreement;
-pub use ask::{Answer, Limited, Tilted, Watch, ask, ask_watched};
+pub use ask::{Answer, Limited, Tilted, ask};
 pub use assess::{Assessment, assess};
 pub use attempt::Control;
 pub use critical::{Critical, critical};
@@ -36,3 +40,5 @@ pub use question::{
 };
 pub use stability::{Packing, Stability, stability};
 pub use tilt::{Tilt, tilt};
+#[cfg(feature = "dynamics")]
+pub use {ask::ask_watched, in_time::Watch};

@@ -7,9 +7,8 @@ use crate::{
     scene::Scene,
 };
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
 
-/// Seconds per stage.
+/// Seconds per stage; a build without solvers has no clock, and leaves them at zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default)]
 pub struct Timings {
@@ -131,15 +130,22 @@ impl Model {
 /// # Errors
 /// The scene cannot be resolved, or its contacts cannot be found.
 pub fn prepare(scene: &Scene) -> Result<Model, InputError> {
-    let start = Instant::now();
-    let assembly = assembly::resolve(scene)?;
-    let resolve = start.elapsed().as_secs_f64();
-    let start = Instant::now();
-    let interfaces = detect(&assembly)?;
-    let mut model = Model::detected(assembly, interfaces);
-    model.timings =
-        Timings { resolve, detect: start.elapsed().as_secs_f64(), ..Timings::default() };
-    Ok(model)
+    let (assembly, resolve) = timed(|| assembly::resolve(scene));
+    let assembly = assembly?;
+    let (model, detect) =
+        timed(|| detect(&assembly).map(|interfaces| Model::detected(assembly, interfaces)));
+    Ok(Model { timings: Timings { resolve, detect, ..Timings::default() }, ..model? })
+}
+
+/// What some work gave, and the seconds that it took.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    #[cfg(feature = "solve")]
+    let start = std::time::Instant::now();
+    let result = work();
+    #[cfg(feature = "solve")]
+    return (result, start.elapsed().as_secs_f64());
+    #[cfg(not(feature = "solve"))]
+    (result, 0.0)
 }
 
 /// Says which free blocks nothing holds.

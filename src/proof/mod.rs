@@ -3,6 +3,7 @@
 
 pub mod answer;
 pub mod critical;
+#[cfg(feature = "solve")]
 mod pack;
 pub mod packing;
 mod part;

@@ -1,6 +1,6 @@
 //! What is known with dry friction: of a load factor, and of a state.
 
-use crate::tolerance;
+use crate::{assembly::Assembly, tolerance};
 use serde::{Deserialize, Serialize};
 
 /// How a load factor with dry friction was found.
@@ -58,4 +58,13 @@ pub struct StateStep {
 /// Whether a state seen at rest at `rests_at` is one just below `value`.
 pub fn is_reached(rests_at: f64, value: f64) -> bool {
     rests_at >= value - 1.01 * tolerance::REST_BELOW * value.abs()
+}
+
+/// States of scenes of more free blocks than this take seconds, and fewer of them are asked.
+pub(crate) const MANY: usize = 300;
+
+/// How near above a load factor up to which the state rests it does so no longer, at most, in
+/// shares of one at which it moves.
+pub fn resolution(assembly: &Assembly) -> f64 {
+    if assembly.free().count() > MANY { 1.0 / 64.0 } else { 4.0 * tolerance::DRY_CRITICAL_WIDTH }
 }

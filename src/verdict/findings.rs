@@ -9,6 +9,8 @@ pub struct Findings {
     pub holds: Vec<String>,
     /// What does not, with its number.
     pub fails: Vec<String>,
+    /// What would have to be computed again and could not be, for this build has no solver.
+    pub unchecked: Vec<String>,
     /// How exactly: the weakest of all that holds.
     pub grade: Grade,
     /// Whether something in it is computed, not proved.

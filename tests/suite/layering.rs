@@ -113,6 +113,36 @@ fn a_module_uses_only_modules_above_it() {
     }
 }
 
+/// Modules that are there in a build without any feature.
+fn checker() -> Vec<String> {
+    let lib = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/lib.rs")).unwrap();
+    let lines: Vec<&str> = lib.lines().collect();
+    let plain = lines.windows(2).filter(|w| !w[0].starts_with("#[cfg("));
+    plain
+        .filter_map(|w| w[1].strip_prefix("pub mod "))
+        .map(|m| m.trim_end_matches(';').to_string())
+        .collect()
+}
+
+#[test]
+fn the_checker_has_no_solver_no_threads_and_no_clock() {
+    let checker = checker();
+    assert!(checker.iter().any(|m| m == "proof") && !checker.iter().any(|m| m == "solve"));
+    for (path, text) in sources("src") {
+        if is_test(&path) || !checker.contains(&module(&path)) {
+            continue;
+        }
+        // What stands behind a feature is not in the checker.
+        let lines: Vec<&str> = text.lines().collect();
+        let own = lines.windows(2).filter(|w| !w[0].trim_start().starts_with("#[cfg(feature"));
+        for line in own.map(|w| w[1]) {
+            for word in ["Instant", "SystemTime", "thread::", "rayon", "clarabel", "rapier3d"] {
+                assert!(!line.contains(word), "{}: {line}", path.display());
+            }
+        }
+    }
+}
+
 #[test]
 fn certificates_never_see_the_program() {
     for (path, text) in sources("src/verdict") {
@@ -193,6 +223,7 @@ fn dynamics_never_sees_program_solver_or_verdict() {
                 "assembly",
                 "interface",
                 "strength",
+                "terms",
                 "dynamics",
             ]
             .contains(&word.as_str());
@@ -207,7 +238,7 @@ fn one_engine_one_adapter() {
         let name = path.to_string_lossy().replace('\\', "/");
         for (engine, home) in [
             ("clarabel", "src/solve/"),
-            ("faer", "src/solve/cholesky.rs"),
+            ("faer", "src/cholesky.rs"),
             ("parry3d", "src/interface/detect"),
             ("rapier3d", "src/dynamics/rapier.rs"),
             ("clap", "src/cli/"),

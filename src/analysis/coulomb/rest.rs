@@ -16,7 +16,7 @@ use crate::{
     assembly::Assembly,
     interface::{Model, is_forest},
     parallel,
-    terms::{Found, StateMotion},
+    terms::{Found, MANY, StateMotion},
     tolerance,
     verdict::{Verdict, check, law},
 };
@@ -32,7 +32,6 @@ const ON_THE_WAY_OF_FEW: [f64; 11] =
 const FEW: usize = 100;
 /// The same for scenes of more than [`MANY`] free blocks, a state of which takes seconds.
 const ON_THE_WAY_OF_MANY: [f64; 1] = [0.5];
-const MANY: usize = 300;
 
 /// How far below the value the state is asked, in shares of it; the next one where the one before
 /// does not come out. Nearer: states that neither rest nor move. Farther: what the value says is
@@ -57,12 +56,6 @@ const MOST_OPEN: usize = 4;
 /// So many states on the way are asked at a time. More: those above one that moves are asked in
 /// vain. Fewer: threads wait.
 const AT_A_TIME: usize = 4;
-
-/// How near above a load factor up to which the state rests it does so no longer, at most, in
-/// shares of one at which it moves.
-pub fn resolution(assembly: &Assembly) -> f64 {
-    if assembly.free().count() > MANY { 1.0 / 64.0 } else { 4.0 * tolerance::DRY_CRITICAL_WIDTH }
-}
 
 /// States asked of a scene under load factors.
 struct Probe<'a> {

@@ -3,11 +3,10 @@
 
 use super::{CriticalResult, FlipResult, ScanPoint, Side, exhausted};
 use crate::{
-    analysis::{Control, critical::probe},
     interface::prepare,
     proof::{
         result::{QuestionKind, ResultFile},
-        verify::{Verification, answer, failure, require},
+        verify::{Verification, answer, failure, require, states},
     },
     scene::Scene,
     tolerance,
@@ -56,7 +55,17 @@ fn asked_again(scene: &Scene, c: &CriticalResult) -> Findings {
     let mut f = Findings { computed: true, ..Findings::default() };
     let rest: Vec<&ScanPoint> =
         c.scan.iter().filter(|s| sides(c).all(|side| side.value != s.value)).collect();
-    let otherwise = rest.iter().filter(|s| !is_so(scene, c, s)).count();
+    let mut otherwise = 0;
+    for said in &rest {
+        match is_so(scene, c, said) {
+            Some(true) => {}
+            Some(false) => otherwise += 1,
+            None => {
+                f.unchecked.push(format!("the verdicts at {} values of the scan", rest.len()));
+                return f;
+            }
+        }
+    }
     let text = format!(
         "{} values asked again (computed, not proved), {otherwise} of them otherwise than said",
         rest.len()
@@ -117,20 +126,19 @@ fn reaches_the_ends(c: &CriticalResult) -> bool {
     near(first.value, a) && even && (near(last.value, b) || !c.notes.is_empty())
 }
 
-/// Whether a value of the scan is as it is said to be.
-fn is_so(scene: &Scene, c: &CriticalResult, said: &ScanPoint) -> bool {
-    let control = Control { law: c.law, ..Control::default() };
-    match (probe(scene, &c.vary, said.value, &control), said.verdict) {
+/// Whether a value of the scan is as it is said to be; nothing where no solver can tell.
+fn is_so(scene: &Scene, c: &CriticalResult, said: &ScanPoint) -> Option<bool> {
+    let here = states::with_value(scene, &c.vary, said.value, c.law)?;
+    Some(match (here, said.verdict) {
         (Err(_), None) => true,
         (Ok(_), Some(Verdict::Undecided)) => true,
-        (Ok(here), Some(verdict)) => {
-            let unbalance = said.unbalance.unwrap_or(0.0);
-            here.assessment.verdict == verdict
-                && (here.unbalance() - unbalance).abs()
-                    <= tolerance::SAVED * unbalance.abs() + tolerance::UNBALANCE
+        (Ok((verdict, unbalance)), Some(wanted)) => {
+            let said = said.unbalance.unwrap_or(0.0);
+            verdict == wanted
+                && (unbalance - said).abs() <= tolerance::SAVED * said.abs() + tolerance::UNBALANCE
         }
         _ => false,
-    }
+    })
 }
 
 fn one(scene: &Scene, c: &CriticalResult, side: &Side, refuted: bool) -> Findings {

@@ -2,6 +2,7 @@
 
 mod critical;
 mod packing;
+#[cfg(feature = "dynamics")]
 mod simulation;
 mod thrust;
 
@@ -86,6 +87,7 @@ impl ResultFile {
             Answered::Tilt(t) => return Self::tilt(scene, model, t),
             Answered::Critical(c) => Self::critical(scene, model, c),
             Answered::Thrust(t) => Self::thrust(scene, model, t),
+            #[cfg(feature = "dynamics")]
             Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
             Answered::Repose(_) => return None,
         })

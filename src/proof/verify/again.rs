@@ -5,18 +5,15 @@
 //! not: of that there is a state, not a theorem. Nothing that a file says about it is believed
 //! either, so the state is asked again, once all else holds.
 
-use super::{failure, require};
+use super::{failure, require, states};
 use crate::{
-    analysis::{
-        Control, Law, Outcome,
-        coulomb::{self, Found, StateMotion},
-    },
     error::InputError,
     interface::{Model, is_forest},
     proof::{
         answer::Answer,
         result::{Certificate, DryResult},
     },
+    terms::{Found, Law, Outcome, StateMotion, resolution},
     verdict::{
         Evidence,
         check::{self, Claim, Findings},
@@ -36,10 +33,9 @@ pub(super) fn stands(f: &mut Findings, model: &Model, law: Option<Law>) {
     if is_forest(model) {
         f.holds.push("contacts form no closed chain: the loads fix the forces".into());
     } else if f.fails.is_empty() {
-        let motion = coulomb::motion(model, &Control::default());
         computed(
             f,
-            motion == StateMotion::Rests,
+            states::motion(model).map(|motion| motion == StateMotion::Rests),
             "the loads produce such forces by themselves: with dry friction the blocks come to rest".into(),
         );
     }
@@ -97,17 +93,20 @@ pub(super) fn dry_friction(
     }
     if f.fails.is_empty()
         && !refuted
-        && let Err(e) = states(&mut f, at, dry)
+        && let Err(e) = spoken_of(&mut f, at, dry)
     {
         f.fails.push(e.to_string());
     }
     f
 }
 
-/// Requires what was computed again.
-fn computed(f: &mut Findings, ok: bool, text: String) {
+/// Requires what was computed again, where that was possible.
+fn computed(f: &mut Findings, ok: Option<bool>, text: String) {
     f.computed = true;
-    require(f, ok, format!("{text} (computed again, not proved)"));
+    match ok {
+        Some(ok) => require(f, ok, format!("{text} (computed again, not proved)")),
+        None => f.unchecked.push(text),
+    }
 }
 
 fn words(found: Found) -> &'static str {
@@ -125,11 +124,9 @@ fn evidence(model: &Model, claim: &Claim, dry: &DryResult) -> Result<Findings, S
 }
 
 /// The states that are spoken of.
-fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
-    let control = Control::default();
-    let motion = |lambda: f64| -> Result<StateMotion, InputError> {
-        let model = at(lambda)?;
-        Ok(coulomb::motion(&model.at_load_factor(lambda), &control))
+fn spoken_of(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
+    let motion = |lambda: f64| -> Result<Option<StateMotion>, InputError> {
+        Ok(states::motion(&at(lambda)?.at_load_factor(lambda)))
     };
     let order = [dry.rests_at, dry.value, dry.moves_at].into_iter().flatten().collect::<Vec<f64>>();
     let rising = order.windows(2).all(|w| w[0] <= w[1]);
@@ -142,7 +139,7 @@ fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
                wanted: StateMotion,
                text: String|
      -> Result<(), InputError> {
-        computed(f, motion(lambda)? == wanted, text);
+        computed(f, motion(lambda)?.map(|motion| motion == wanted), text);
         Ok(())
     };
     if let Some(lambda) = dry.rests_at {
@@ -156,20 +153,20 @@ fn states(f: &mut Findings, at: At, dry: &DryResult) -> Result<(), InputError> {
             ask(f, 0.0, StateMotion::Moves, "the state moves under the dead load".into())?;
         }
         (Found::Unlimited, ..) => {
-            let model = at(0.0)?;
-            let rests = coulomb::rests_alone(&model, &control);
             computed(
                 f,
-                rests,
+                states::rests_alone(&at(0.0)?),
                 "the live load alone produces the forces that balance it: no limit".into(),
             );
         }
         (Found::Rests, Some(value), moves_at) => {
-            let next =
-                value + coulomb::resolution(&at(value)?.assembly) * moves_at.unwrap_or(value).abs();
-            let rests = moves_at.is_none_or(|m| next < m) && motion(next)? == StateMotion::Rests;
+            let next = value + resolution(&at(value)?.assembly) * moves_at.unwrap_or(value).abs();
             let known = moves_at.is_some_and(|m| m > value);
-            computed(f, known && !rests, format!("at {next} it rests no longer"));
+            let moves = match moves_at.is_none_or(|m| next < m) {
+                true => motion(next)?.map(|motion| motion != StateMotion::Rests),
+                false => Some(true),
+            };
+            computed(f, moves.map(|moves| known && moves), format!("at {next} it rests no longer"));
         }
         _ => {}
     }

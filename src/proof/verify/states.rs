@@ -1,0 +1,64 @@
+//! What a check computes again, because no theorem says it. A build without a solver cannot: it
+//! answers `None` to everything here, and what was to be known stays unchecked.
+
+use crate::{
+    error::InputError,
+    interface::Model,
+    scene::Scene,
+    terms::{Law, StateMotion},
+    verdict::Verdict,
+};
+
+#[cfg(feature = "solve")]
+use crate::analysis::{Control, coulomb, critical::probe};
+
+/// What the scene does under its dead load with dry friction.
+#[cfg(feature = "solve")]
+pub fn motion(model: &Model) -> Option<StateMotion> {
+    Some(coulomb::motion(model, &Control::default()))
+}
+
+/// Whether the live load alone comes to rest on the forces that it produces.
+#[cfg(feature = "solve")]
+pub fn rests_alone(model: &Model) -> Option<bool> {
+    Some(coulomb::rests_alone(model, &Control::default()))
+}
+
+/// Verdict and least unbalance (g) of the scene with this value at `pointer`, or that there is no
+/// such scene.
+#[cfg(feature = "solve")]
+pub fn with_value(
+    scene: &Scene,
+    pointer: &str,
+    value: f64,
+    law: Law,
+) -> Option<Result<(Verdict, f64), InputError>> {
+    let control = Control { law, ..Control::default() };
+    let probe = probe(scene, pointer, value, &control);
+    Some(probe.map(|p| (p.assessment.verdict, p.unbalance())))
+}
+
+#[cfg(not(feature = "solve"))]
+mod none {
+    use super::*;
+
+    pub fn motion(_: &Model) -> Option<StateMotion> {
+        None
+    }
+
+    pub fn rests_alone(_: &Model) -> Option<bool> {
+        None
+    }
+
+    pub fn with_value(
+        _: &Scene,
+        _: &str,
+        _: f64,
+        _: Law,
+    ) -> Option<Result<(Verdict, f64), InputError>> {
+        None
+    }
+}
+
+#[cfg(not(feature = "solve"))]
+pub use none::{motion, rests_alone, with_value};

@@ -1,0 +1,93 @@
+//! The checker by itself, on results that the whole program saved (the command stands beside each):
+//! what is proved is proved without a solver, what is forged is refused, and what only a solver
+//! could compute again is said to be unchecked. These tests run in every build, from the one
+//! without any feature to the whole.
+
+use serde_json::{Value, json};
+use voussoir::proof::{read::read_str, verify, verify::Verification};
+
+const FALLS: &str = include_str!("falls.json"); // assess structures/semicircular-arch-thin.json
+const STANDS: &str = include_str!("stands.json"); // assess structures/semicircular-arch-thick.json
+const COLUMN: &str = include_str!("column.json"); // assess structures/two-block-column.json
+const PRESTRESS: &str = include_str!("prestress.json"); // assess structures/squeezed-block.json
+const LIMIT: &str = include_str!("limit.json"); // limit structures/oppenheim-arch.json
+const TILT: &str = include_str!("tilt.json"); // tilt structures/block-in-groove.json --toward 1,0,0
+const THRUST: &str = include_str!("thrust.json"); // thrust structures/flat-arch.json
+const CRITICAL: &str = include_str!("critical.json"); // critical structures/semicircular-arch-thick.json --vary /templates/0/arch/thickness --between 0.05 0.3 --scan 5
+
+const WITH_SOLVER: bool = cfg!(feature = "solve");
+
+fn checked(text: &str) -> Verification {
+    let file = read_str("result.json", text).expect("a result");
+    let scene = file.scene.input.clone();
+    verify(&file, &scene).expect("a scene")
+}
+
+/// The result with some value replaced.
+fn edited(text: &str, pointer: &str, edit: impl Fn(&Value) -> Value) -> String {
+    let mut file: Value = serde_json::from_str(text).expect("JSON");
+    let place = file.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer} is there"));
+    *place = edit(place);
+    file.to_string()
+}
+
+fn scaled(v: &Value, by: f64) -> Value {
+    json!(v.as_f64().expect("a number") * by)
+}
+
+#[test]
+fn what_is_proved_needs_no_solver() {
+    for (name, text) in [("falls", FALLS), ("column", COLUMN), ("prestress", PRESTRESS)] {
+        let v = checked(text);
+        assert!(v.proved() && v.unchecked().next().is_none(), "{name}: {:?}", v.parts);
+    }
+}
+
+#[test]
+fn what_only_a_solver_can_compute_is_said_to_be_unchecked() {
+    for (name, text) in [
+        ("stands", STANDS),
+        ("limit", LIMIT),
+        ("tilt", TILT),
+        ("thrust", THRUST),
+        ("critical", CRITICAL),
+    ] {
+        let v = checked(text);
+        assert!(!v.refuted(), "{name}: {:?}", v.parts);
+        assert!(v.claimed, "{name}");
+        assert_eq!(v.proved(), WITH_SOLVER, "{name}: {:?}", v.unchecked().collect::<Vec<_>>());
+        assert_eq!(v.unchecked().next().is_none(), WITH_SOLVER, "{name}");
+        assert!(v.computed(), "{name}");
+    }
+}
+
+#[test]
+fn forged_results_are_refused() {
+    let forged = [
+        edited(FALLS, "/answer/verdict", |_| json!("stable")),
+        edited(FALLS, "/certificate/rates", |_| json!([])),
+        edited(FALLS, "/certificate/rates/0/velocity", |v| {
+            json!([v[2].as_f64(), v[0].as_f64(), v[1].as_f64()])
+        }),
+        edited(STANDS, "/certificate/forces/0/forces/0/2", |v| scaled(v, 1.001)),
+        edited(STANDS, "/scene/input/templates/0/arch/thickness", |_| json!(0.1)),
+        edited(COLUMN, "/answer/unbalance/upper", |_| json!(-1.0)),
+        edited(PRESTRESS, "/answer/verdict", |_| json!("stable")),
+        edited(LIMIT, "/answer/load_factor/value", |v| scaled(v, 1.001)),
+        edited(LIMIT, "/certificate/claim/load_factor/upper", |v| scaled(v, 0.9)),
+        edited(TILT, "/answer/tilt_deg/value", |v| scaled(v, 1.1)),
+        edited(THRUST, "/answer/thrust/least/value", |v| scaled(v, 0.9)),
+        edited(CRITICAL, "/answer/critical/0/value", |v| scaled(v, 1.1)),
+    ];
+    for (k, text) in forged.iter().enumerate() {
+        let v = checked(text);
+        assert!(v.refuted() && !v.proved(), "forgery {k}: {:?}", v.parts);
+    }
+}
+
+#[test]
+fn a_result_of_another_scene_is_refused() {
+    let file = read_str("result.json", FALLS).expect("a result");
+    let other = read_str("result.json", STANDS).expect("a result").scene.input;
+    assert!(verify(&file, &other).expect("a scene").refuted());
+}
