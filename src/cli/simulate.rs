@@ -16,6 +16,7 @@ use voussoir::{
     dynamics::{Fate, Frame, Progress},
     proof::ResultFile,
     report::{trajectory::TrajectoryWriter, view::Film},
+    verdict::Verdict,
 };
 
 /// So many times are written to --csv where nothing is said.
@@ -79,9 +80,12 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     };
     let file = ResultFile::simulated(&session.scene, &session.model, assessment, outcome);
     let file = session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
+    // What is proved to fall does not stand because it was seen to.
+    let falls = matches!(file.answer.verdict(), Some(Verdict::Unstable | Verdict::Conditional));
     Ok(match file.answer.fate() {
-        Some(Fate::Stands) => Exit::Yes,
         Some(Fate::Falls) => Exit::No,
+        _ if falls => Exit::No,
+        Some(Fate::Stands) => Exit::Yes,
         Some(Fate::Undecided) | None => Exit::Undecided,
     })
 }

@@ -20,7 +20,15 @@ const NO_TURN: f64 = 1e-6;
 
 /// The answer in a line.
 pub(super) fn title(file: &ResultFile) -> (String, Role) {
+    let said = file.simulation.as_ref().and_then(|s| s.agreement.as_ref()).map(|a| a.verdict);
     match (&file.simulation, file.answer.fate()) {
+        // A proof outweighs what was seen, to whoever reads this line alone too.
+        (_, Some(Fate::Stands)) if said == Some(Verdict::Conditional) => {
+            ("stands in time, but by proof only with a pre-stress".into(), Role::Bad)
+        }
+        (_, Some(Fate::Stands)) if said == Some(Verdict::Unstable) => {
+            ("stands in time, but falls by proof".into(), Role::Bad)
+        }
         (Some(s), Some(Fate::Falls)) => (
             format!(
                 "falls: the first block has fallen after {}",
@@ -103,6 +111,9 @@ fn beside(a: &Agreement, s: &Simulation) -> String {
     };
     let mut text = match a.agrees {
         Some(true) => format!("The verdict says the same: {verdict}."),
+        Some(false) if a.verdict == Verdict::Conditional => format!(
+            "The verdict says otherwise: {verdict}. Both are solutions of dry friction: forces that hold the blocks exist, and so does a motion without them. Which one comes depends on how tight the joints are; in the simulation they touched exactly, and the settling of the blocks squeezed them. Do not count on it."
+        ),
         Some(false) => format!(
             "The verdict says otherwise: {verdict}. A proof outweighs a simulation; look for joints near their limit, thin blocks or great ratios of mass and size."
         ),
