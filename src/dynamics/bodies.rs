@@ -13,7 +13,7 @@ use crate::{
     tolerance::{SKIN, SKIN_OF_THICKNESS},
 };
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
-use std::collections::{HashMap, HashSet};
+use std::collections::{HashMap, HashSet, hash_map::Entry};
 
 /// A block as the engine sees it; coordinates about its centre of mass, axes those of the scene at
 /// the start.
@@ -253,6 +253,9 @@ pub(super) struct Resistance {
     pub friction: f64,
     /// Rolling arm, in the engine's unit of length.
     pub arm: f64,
+    /// Gap (> 0) or overlap (< 0) that was closed between round blocks that touch in one point, in
+    /// the engine's unit of length: what counts as touching in the verdict does so here.
+    pub closed: f64,
 }
 
 /// Stands for friction without limit. Larger: friction impulses of resting contacts overflow their
@@ -278,8 +281,17 @@ impl<'a> Frictions<'a> {
                 new.apart.insert(pair);
             }
             let arm = rolling_arm(face) / units.length;
-            let known = new.known.entry(pair).or_insert(Resistance { friction, arm });
-            known.arm = known.arm.max(arm);
+            let is_round = new.is_round(face.a) || new.is_round(face.b);
+            let closed = if is_round { face.gap / units.length } else { 0.0 };
+            match new.known.entry(pair) {
+                Entry::Vacant(place) => {
+                    place.insert(Resistance { friction, arm, closed });
+                }
+                Entry::Occupied(mut known) => {
+                    let known = known.get_mut();
+                    (known.arm, known.closed) = (known.arm.max(arm), 0.0);
+                }
+            }
         }
         new
     }
@@ -297,6 +309,7 @@ impl<'a> Frictions<'a> {
                 } else {
                     0.0
                 },
+                closed: 0.0,
             })
         };
         self.known.get(&pair).copied().unwrap_or_else(met)

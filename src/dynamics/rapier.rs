@@ -365,13 +365,20 @@ impl PhysicsHooks for Hooks<'_> {
         let skins = one.contact_skin() + other.contact_skin();
         let place = *one.position();
         let ModifiableContacts::Rigid(manifold) = &mut context.contacts else { return };
-        *manifold.friction = match a.role {
-            Role::Part => self.frictions.between(a.body, b.body).friction,
-            Role::Given(interface) => self.frictions.given(interface),
+        let (friction, closed) = match a.role {
+            Role::Part => {
+                let known = self.frictions.between(a.body, b.body);
+                (known.friction, known.closed)
+            }
+            Role::Given(interface) => (self.frictions.given(interface), 0.0),
         };
+        *manifold.friction = friction;
         let normal = *manifold.normal;
         if a.at_seam(turn1.inverse() * normal) || b.at_seam(turn2.inverse() * -normal) {
             return manifold.solver_contacts.clear();
+        }
+        if closed != 0.0 {
+            return manifold.solver_contacts.iter_mut().for_each(|c| c.dist -= closed);
         }
         // The engine adds the point where its search for the normal ended, which wanders: corners
         // do without.

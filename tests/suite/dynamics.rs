@@ -7,10 +7,11 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use voussoir::{
-    analysis::{Control, agreement, assess},
+    analysis::{Control, Law, agreement, assess},
     dynamics::{Fate, Fidelity, SimulationOutcome, SimulationSettings, simulate},
     interface::Model,
     scene::Scene,
+    verdict::Verdict,
 };
 
 fn run_with(model: &Model, settings: &SimulationSettings) -> SimulationOutcome {
@@ -529,4 +530,41 @@ fn many_simulations_in_a_work_stealing_pool_do_not_pile_up_on_one_stack() {
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert_eq!(pool.install(|| (0..24).into_par_iter().map(one).max()), Some(1));
+}
+
+/// A ball on a floor that lie `gap` apart, closed within `contact.gap`.
+fn ball_on_floor(gap: f64) -> Scene {
+    let ground = json!({ "id": "ground", "shape": { "box": { "size": [2, 2, 1] } }, "at": [0, 0, -0.5], "support": true });
+    let ball =
+        json!({ "id": "ball", "shape": { "sphere": { "radius": 0.5 } }, "at": [0, 0, 0.5 + gap] });
+    scene(0.5, json!([ground, ball]), json!({ "contact": { "gap": 1e-3 } }))
+}
+
+/// What counts as touching in the verdict does so here: grains that were left with overlaps of
+/// 5e-4 of their size were thrown out of their heap.
+#[test]
+fn balls_whose_gap_or_overlap_was_closed_touch_from_the_start() {
+    let exact = becomes("touching", &ball_on_floor(0.0), Fate::Stands).runs[0].displacement;
+    for gap in [-5e-4, 5e-4] {
+        let outcome = becomes("closed", &ball_on_floor(gap), Fate::Stands);
+        let moved = outcome.runs[0].displacement;
+        assert!((moved - exact).abs() < 1e-6, "{gap}: {moved} instead of {exact}");
+    }
+}
+
+#[test]
+fn heaps_that_were_left_at_rest_stand_in_time_and_by_verdict() {
+    for name in ["heap.1.json", "heap.2.json"] {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../shared/cases/findings/confusing")
+            .join(name);
+        if !path.exists() {
+            println!("skipped: no {}", path.display());
+            continue;
+        }
+        let (heap, _) = voussoir::scene::read_file(&path).expect("a scene");
+        becomes(name, &heap, Fate::Stands);
+        let associative = Control { law: Law::Associative, ..Control::default() };
+        assert_eq!(assess(&model(&heap), &associative).verdict, Verdict::Stable, "{name}");
+    }
 }

@@ -121,7 +121,7 @@ pub enum Verb {
     /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any
     /// pre-stress: a second opinion that shares nothing with the verdict but the blocks and where
     /// they touch. It proves nothing; near a limit (3 % with fast steps, 1 % with fine ones) it may
-    /// err. Exit code 0 if it stands, 1 if it falls, 3 if that stays open.
+    /// err. Exit code 0 if it stands, 1 if it falls or is proved to, 3 if that stays open.
     Simulate(Simulate),
     /// Error against run time, per method, on scenes with known answers.
     ///
