@@ -17,7 +17,7 @@ use crate::{
     program::{self, Statics, StaticsOptions},
     solve::EngineSettings,
     strength::laws::unlimited,
-    terms::{Attempt, Bracket, Outcome},
+    terms::{Attempt, Bracket, Law, Outcome},
     tolerance,
     verdict::{
         Forces, Rate, Verdict, certificate, no_forces,
@@ -402,11 +402,14 @@ pub struct Thrust {
 pub fn answer(model: &Model, at: ThrustAt, ends: Ends, control: &Control) -> Thrust {
     // Each question may take as much of the time as those after it.
     let share = |of: f64| Control { deadline: control.deadline.share(1.0 / of), ..*control };
-    let standing = assess(model, control);
+    // Where time is short both ends are worth more than whether the loads produce the forces.
+    let statics_first = control.deadline.is_set() && control.law == Law::Coulomb;
+    let law = if statics_first { Law::Associative } else { control.law };
+    let first = assess(model, &Control { law, ..*control });
     // Whether the loads produce them or not: there are forces.
-    let balanced = certificate::statics(model, &standing.forces, 0.0).balanced;
-    let admissible = balanced && standing.verdict != Verdict::Unstable;
-    let end = |extreme, of| thrust(model, &at, extreme, &standing.forces, &share(of));
+    let balanced = certificate::statics(model, &first.forces, 0.0).balanced;
+    let admissible = balanced && first.verdict != Verdict::Unstable;
+    let end = |extreme, of| thrust(model, &at, extreme, &first.forces, &share(of));
     let found = match ends {
         _ if !admissible => Vec::new(),
         Ends::Least => vec![end(Extreme::Least, 1.0)],
@@ -414,5 +417,6 @@ pub fn answer(model: &Model, at: ThrustAt, ends: Ends, control: &Control) -> Thr
         Ends::Both => vec![end(Extreme::Least, 3.0), end(Extreme::Greatest, 2.0)],
     };
     let factor = (admissible && ends == Ends::Both).then(|| geometric_factor(model, &share(1.0)));
+    let standing = if statics_first && admissible { assess(model, control) } else { first };
     Thrust { at, standing, ends: found, factor }
 }
