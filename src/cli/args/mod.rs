@@ -16,7 +16,7 @@ pub use study::Study;
 pub use sweep::{Merge, Slurm, Summary, Sweep, SweepStatus, SweepVerb, Task};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use parse::{bytes, direction, finite, positive};
+use parse::{Written, bytes, direction, finite, output, positive};
 use std::path::PathBuf;
 use voussoir::{import::Reach, sweep::Between};
 
@@ -287,11 +287,11 @@ pub struct Common {
     #[arg(long)]
     pub json: bool,
     /// Write the result, with the scene and its proof, to this file for `voussoir check`.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Json))]
     pub save: Option<PathBuf>,
     /// Write the answer as a page for a browser, with a picture, to this file (HTML, without any
     /// connection to a network).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Html))]
     pub report: Option<PathBuf>,
     /// Solve the scene in full, without leaving out what symmetry or missing friction make
     /// needless.
