@@ -151,12 +151,12 @@ pub enum Verb {
     /// misses, overlaps, loose blocks and mistakes of units are listed. Exit code 0 if there is
     /// none, 1 otherwise. Pictures show what is proved, or the scene.
     Check(Check),
-    /// Ask a question of many scenes that differ in a few numbers.
+    /// Ask a question of many scenes that differ in a few numbers or words.
     ///
-    /// The plan names a scene, a question and the numbers that vary, by JSON pointer, on a grid or
-    /// sampled. Every row is appended to a file as it ends; the same command takes it up again
-    /// after a kill at any point. Rows are the same whatever the threads. Exit code 0 if all rows
-    /// are done (a row whose scene fails holds its error).
+    /// The plan names a scene, a question and the numbers or words that vary, by JSON pointer, on a
+    /// grid or sampled. Every row is appended to a file as it ends; the same command takes it up again
+    /// after a kill at any point. Rows are the same whatever the threads. Exit code 0 if
+    /// every row has an answer, 3 if one is undecided, or its scene failed (it holds the error).
     Sweep(Sweep),
     /// Print the JSON Schema of scenes, or of sweep plans.
     Schema(Schema),

@@ -105,7 +105,7 @@ pub enum SweepVerb {
     Task(Task),
     /// Put files of rows together, in the order of the rows, and sum them up.
     ///
-    /// Exit code 3 if rows are missing.
+    /// Exit code 3 if rows are missing or have no answer.
     Merge(Merge),
 }
 

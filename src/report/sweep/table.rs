@@ -2,7 +2,7 @@
 
 use crate::{
     report::cells::{Cell, Table},
-    sweep::{Header, Row},
+    sweep::{Header, Parameter, Row},
 };
 
 /// The table: row, the varied numbers, status, value, bracket, how dry friction was found,
@@ -26,7 +26,10 @@ pub fn csv(header: &Header, rows: &[Row]) -> Result<String, csv::Error> {
             .and_then(|v| v.as_str().map(String::from))
             .unwrap_or_default();
         let mut record: Vec<Cell> = vec![row.row.into()];
-        record.extend(row.parameters.iter().map(|&v| v.into()));
+        record.extend(row.parameters.iter().map(|p| match p {
+            Parameter::Number(number) => Cell::from(*number),
+            Parameter::Word(word) => word.as_str().into(),
+        }));
         record.extend([
             a.status.word().into(),
             a.value.into(),
