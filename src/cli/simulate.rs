@@ -12,7 +12,7 @@ use super::{
 use anyhow::{Context, bail};
 use std::{fs::File, ops::ControlFlow};
 use voussoir::{
-    analysis::{Answer, AssessOptions, Question, SimulateOptions, Watch},
+    analysis::{Answer, AssessOptions, Question, SimulateOptions, Watch, doubt},
     dynamics::{Fate, Frame, Progress},
     proof::ResultFile,
     report::{trajectory::TrajectoryWriter, view::Film},
@@ -77,7 +77,8 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         Some(Answer::Assess(a)) => Some(a),
         _ => None,
     };
-    let file = ResultFile::simulated(&session.scene, &session.model, assessment, outcome);
+    let mut file = ResultFile::simulated(&session.scene, &session.model, assessment, outcome);
+    file.doubt = doubt(&answer, &session.model, &session.control());
     let file = session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
     Ok(match file.answer.fate() {
         Some(Fate::Stands) => Exit::Yes,

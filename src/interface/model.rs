@@ -106,6 +106,7 @@ impl Model {
             list,
             support_pairs: self.interfaces.support_pairs,
             findings: self.interfaces.findings.clone(),
+            left_out: self.interfaces.left_out,
         };
         Self { timings: self.timings, ..Self::new(assembly, interfaces) }
     }

@@ -11,8 +11,9 @@ use super::{
 };
 use crate::{
     analysis::{
-        Answer as Answered, Assessment, Attempt, Claims, Deciding, Law, Limited, Outcome, Proved,
-        Tilt, Tilted, agreement, coulomb,
+        Answer as Answered, Assessment, Attempt, Claims, Control, Deciding, Doubt, Law,
+        LeftOutContacts, Limited, Outcome, Proved, Question, Tilt, Tilted, agreement, coulomb,
+        doubt, left_out,
     },
     dynamics::SimulationOutcome as Simulated,
     error::Finding,
@@ -76,6 +77,13 @@ pub struct ResultFile {
     /// The mechanism in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
+    /// Contacts that were left out although blocks overlap or nearly touch, where there are such, and
+    /// the answer with them closed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left_out_contacts: Option<LeftOutContacts>,
+    /// Why the answer is undecided, where it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<Doubt>,
     /// What the scene did not need.
     pub left_out: Vec<String>,
     /// What the user should know.
@@ -314,6 +322,11 @@ impl ResultFile {
             thrust: None,
             simulation: None,
             mechanism: None,
+            left_out_contacts: model
+                .interfaces
+                .left_out
+                .map(|contacts| LeftOutContacts { contacts, closed: None }),
+            doubt: None,
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),
             timings: model.timings,
@@ -335,6 +348,21 @@ impl ResultFile {
             Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
             Answered::Repose(_) => return None,
         })
+    }
+
+    /// The same, with what weakens it: why it is undecided, and what it would be with contacts that
+    /// were left out.
+    pub fn of_question(
+        question: &Question,
+        scene: &Scene,
+        model: &Model,
+        answer: &Answered,
+        control: &Control,
+    ) -> Option<Self> {
+        let mut file = Self::of(scene, model, answer)?;
+        file.doubt = doubt(answer, model, control);
+        file.left_out_contacts = left_out(question, scene, model, answer, control);
+        Some(file)
     }
 
     /// The result of `assess`. What its check refused is undecided, and the reasons are warnings.

@@ -79,6 +79,9 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         parts: vec![("scene".into(), counts(file, model))],
         scene: model.findings().cloned().collect(),
     };
+    if file.left_out_contacts.is_some() || model.interfaces.left_out.is_some() {
+        all.part("contacts left out", again::left_out(file, scene, model));
+    }
     match file.question {
         QuestionKind::Assess | QuestionKind::Limit | QuestionKind::Simulate => {
             let (mut f, rates) =
