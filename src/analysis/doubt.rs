@@ -8,6 +8,7 @@
 use super::{
     Answer, Assessment, Attempt, Control, Critical, LoadFactor, Outcome, Proved,
     coulomb::{DryLoadFactor, Found, StateMotion},
+    critical::Scanned,
 };
 use crate::{
     dynamics::{SimulationOutcome, Stop},
@@ -249,11 +250,9 @@ impl About<'_> {
         if !c.changes.is_empty() {
             return None;
         }
-        let of = |wanted: &dyn Fn(&Result<(Verdict, f64), crate::error::InputError>) -> bool| {
-            c.scan.iter().filter(|s| wanted(&s.outcome)).count()
-        };
-        let undecided = of(&|o| matches!(o, Ok((Verdict::Undecided, _))));
-        let none = of(&|o| o.is_err());
+        let is_open = |s: &&Scanned| matches!(s.outcome, Ok((Verdict::Undecided, _)));
+        let undecided = c.scan.iter().filter(is_open).count();
+        let none = c.scan.iter().filter(|s| s.outcome.is_err()).count();
         let ends = c.ends.iter().find_map(|p| self.verdict(&p.assessment));
         if undecided + none == 0 && ends.is_none() {
             return None;

@@ -1,8 +1,6 @@
-//! Contacts that detection left out although blocks are close: as numbers, and the same blocks with
-//! them closed.
+//! Contacts that detection left out although blocks are close, in numbers.
 
-use super::{Model, detect};
-use crate::{assembly::Assembly, error::InputError, scene::ContactSpec};
+use crate::scene::ContactSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -34,26 +32,11 @@ impl LeftOut {
     }
 
     /// The tolerances that close what can be closed; none where nothing can.
-    fn closing(&self, spec: &ContactSpec) -> Option<ContactSpec> {
+    pub(super) fn closing(&self, spec: &ContactSpec) -> Option<ContactSpec> {
         (self.pairs() > self.too_deep).then(|| ContactSpec {
             gap: self.closing_gap.max(spec.gap),
             angle_deg: self.closing_angle_deg.max(spec.angle_deg),
             ..spec.clone()
         })
     }
-}
-
-/// The same blocks and loads with the contacts closed that were left out; nothing where there are
-/// none, or none of them can be closed.
-///
-/// # Errors
-/// As [`detect`].
-pub fn closed(model: &Model) -> Result<Option<Model>, InputError> {
-    let spec = &model.assembly.contact;
-    let Some(contact) = model.interfaces.left_out.and_then(|l| l.closing(spec)) else {
-        return Ok(None);
-    };
-    let assembly = Assembly { contact, ..model.assembly.clone() };
-    let interfaces = detect(&assembly)?;
-    Ok(Some(Model::detected(assembly, interfaces)))
 }

@@ -25,8 +25,8 @@ mod tests;
 
 pub use axes::on_its_side;
 pub use detect::detect;
-pub use left_out::{LeftOut, closed};
-pub use model::{Model, Timings, prepare};
+pub use left_out::LeftOut;
+pub use model::{Model, Timings, closed, prepare};
 pub use parts::{Members, Part, Units, members, parts};
 pub(crate) use plane::Plane;
 pub use reach::{floating, is_forest};

@@ -143,6 +143,21 @@ pub fn prepare(scene: &Scene) -> Result<Model, InputError> {
     Ok(model)
 }
 
+/// The same blocks and loads with the contacts closed that were left out; nothing where there are
+/// none, or none of them can be closed.
+///
+/// # Errors
+/// As [`detect`].
+pub fn closed(model: &Model) -> Result<Option<Model>, InputError> {
+    let spec = &model.assembly.contact;
+    let Some(contact) = model.interfaces.left_out.and_then(|l| l.closing(spec)) else {
+        return Ok(None);
+    };
+    let assembly = Assembly { contact, ..model.assembly.clone() };
+    let interfaces = detect(&assembly)?;
+    Ok(Some(Model::detected(assembly, interfaces)))
+}
+
 /// Says which free blocks nothing holds.
 fn unheld(model: &Model) -> Option<Finding> {
     const NAMED: usize = 8;

@@ -1,8 +1,8 @@
 //! What detection closed, left apart or ignored, counted, and said in sentences.
 
 use super::{
-    LeftOut,
     faces::{Closing, Gap},
+    left_out::LeftOut,
     limits::{self, Limits},
 };
 use crate::{

@@ -205,8 +205,7 @@ fn curve(
     range: (f64, f64),
     runs: &[Vec<BandPoint>],
     at_foot: &[(f64, RGBColor)],
-    legend: &[String],
-    colours: &[RGBColor],
+    legend: &[(String, Option<RGBColor>)],
 ) -> Result<(), ChartError> {
     let places = runs.iter().flatten().map(|p| p.0).chain(at_foot.iter().map(|m| m.0));
     let along = ends(places).ok_or_else(|| ChartError("there are no rows".into()))?;
@@ -255,8 +254,8 @@ fn curve(
     chart.draw_series(foot).map_err(refused)?;
     let Some(below) = below else { return Ok(()) };
     let mut left = 76;
-    for (k, words) in legend.iter().enumerate() {
-        if let Some(colour) = colours.get(k) {
+    for (words, colour) in legend {
+        if let Some(colour) = colour {
             below.draw(&Circle::new((left, 10), 5, colour.filled())).map_err(refused)?;
             left += 12;
         }
@@ -275,12 +274,12 @@ fn fragility(area: &Area, title: &str, f: &Fragility, legend: &[Mark]) -> Result
         Along { label: "share that fails", vary: None },
     ];
     // What neither fails nor stands is in no share.
-    let left_out: Vec<String> = legend
+    let left_out: Vec<_> = legend
         .iter()
         .filter(|m| matches!(m.kind, Shown::Error | Shown::Undecided))
-        .map(|m| format!("left out, {}", m.text()))
+        .map(|m| (format!("left out, {}", m.text()), None))
         .collect();
-    curve(area, title, axes, (0.0, 1.0), &[points], &[], &left_out, &[])
+    curve(area, title, axes, (0.0, 1.0), &[points], &[], &left_out)
 }
 
 fn line(
@@ -313,10 +312,9 @@ fn line(
     let (low, high) = ends(values).unwrap_or((0.0, 1.0));
     // Marks stand below every value.
     let low = if foot.is_empty() { low } else { low - 0.06 * (high - low) };
-    let words: Vec<String> = legend.iter().map(Mark::text).collect();
-    let colours: Vec<RGBColor> = legend.iter().map(Mark::colour).collect();
+    let words: Vec<_> = legend.iter().map(|m| (m.text(), Some(m.colour()))).collect();
     let axes = [x, Along { label: what, vary: None }];
-    curve(area, title, axes, (low, high), &runs, &foot, &words, &colours)
+    curve(area, title, axes, (low, high), &runs, &foot, &words)
 }
 
 fn colour(share: f64) -> RGBColor {

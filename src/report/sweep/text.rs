@@ -82,10 +82,10 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
         );
         page.row(
             "",
-            ["measured by the correlation ratio: the variance between groups of rows with like values of one number, over the whole; \
-              what is left comes from numbers together"
-                .to_string()
-                + &part],
+            [format!(
+                "measured by the correlation ratio{}: the variance between groups of rows with like values of one number, over the whole; what is left comes from numbers together",
+                part.replace(',', "")
+            )],
         );
     }
     if let Some(f) = &summary.fragility {

@@ -189,7 +189,8 @@ fn rows_without_a_value_are_drawn_and_said() {
     // Nine cells, 40 steps of the colour bar, the ground: nothing is left white.
     assert_eq!(heat.matches("<rect").count(), 50);
     let squares = |colour: &str| {
-        heat.split("<rect").filter(|r| r.contains(&format!("fill=\"{colour}\""))).count()
+        let rects = heat.split("<rect").skip(1).filter_map(|r| r.split('>').next());
+        rects.filter(|r| r.contains(&format!("fill=\"{colour}\""))).count()
     };
     assert_eq!((squares("#C81E2D"), squares("#000000")), (4, 1));
     assert!(heat.contains("falls: 4 rows") && heat.contains("error: 1 row"), "{heat}");
