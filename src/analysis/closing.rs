@@ -43,7 +43,6 @@ pub struct Closed {
     /// How joints slide in it.
     pub law: Law,
     /// The answer.
-    #[serde(flatten)]
     pub answer: ClosedAnswer,
     /// How it differs from that of the scene as it is.
     pub difference: Difference,

@@ -6,7 +6,7 @@
 //! first that fits is named, the most certain first.
 
 use super::{
-    Answer, Assessment, Attempt, Control, Critical, LoadFactor, Outcome, Proved,
+    Answer, Assessment, Attempt, Control, Critical, LoadFactor, Outcome, Proved, Tilt,
     coulomb::{DryLoadFactor, Found, StateMotion},
     critical::Scanned,
 };
@@ -76,22 +76,25 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
         Answer::Assess(a) => about.verdict(a),
         Answer::Limit(l) => about
             .bound(&l.bound)
-            .or_else(|| l.dry.as_ref().and_then(|dry| about.dry(dry, "--load-factor")))
+            .or_else(|| {
+                l.dry.as_ref().and_then(|dry| {
+                    about.dry(
+                        dry,
+                        "simulate the load that matters: `voussoir simulate` with --load-factor",
+                    )
+                })
+            })
             .or_else(|| l.dead.as_ref().and_then(|dead| about.verdict(dead))),
         Answer::Tilt(t) => t
             .directions
             .iter()
-            .find_map(|d| {
-                about.bound(&d.load_factor).or_else(|| {
-                    d.dry.as_ref().and_then(|dry| about.dry(&dry.load_factor, "the tilted scene"))
-                })
-            })
+            .find_map(|tilt| about.tilt(tilt))
             .or_else(|| t.level.as_ref().and_then(|level| about.verdict(level))),
         Answer::Repose(p) => p
             .directions
             .iter()
             .filter_map(|d| d.rounds.get(d.answer))
-            .find_map(|r| about.bound(&r.tilt.load_factor)),
+            .find_map(|round| about.tilt(&round.tilt)),
         Answer::Thrust(t) => about.verdict(&t.standing).or_else(|| {
             let end = t.ends.iter().find(|e| e.outcome == Outcome::Undecided)?;
             about.search(
@@ -156,8 +159,18 @@ impl About<'_> {
         self.search(&l.attempts, l.findings().fails.first(), l.bracket.lower, l.bracket.upper)
     }
 
+    fn tilt(&self, tilt: &Tilt) -> Option<Doubt> {
+        self.bound(&tilt.load_factor).or_else(|| {
+            let dry = tilt.dry.as_ref()?;
+            self.dry(
+                &dry.load_factor,
+                "simulate the scene with gravity turned by the tilt that matters",
+            )
+        })
+    }
+
     /// A value with dry friction that did not come out, or was not seen to be reached.
-    fn dry(&self, dry: &Proved<DryLoadFactor>, remedy: &str) -> Option<Doubt> {
+    fn dry(&self, dry: &Proved<DryLoadFactor>, next: &str) -> Option<Doubt> {
         let claims = matches!(dry.found, Found::NothingSlides | Found::FixedPoint);
         if !(dry.found == Found::Undecided || claims && !dry.is_reached()) {
             return None;
@@ -174,11 +187,6 @@ impl About<'_> {
             String::new()
         };
         let programs = count(dry.solves, "program");
-        let next = if remedy.starts_with("--") {
-            "simulate the load that matters: `voussoir simulate` with --load-factor"
-        } else {
-            "simulate the scene with gravity turned by the tilt that matters"
-        };
         Doubt::new(
             DoubtCause::DryFriction,
             format!("the friction limits had not settled after {programs}{rests}"),

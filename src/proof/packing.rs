@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     analysis::{
-        Deciding, Fabric, Outcome, Packing, Stability, Tilted,
+        Deciding, Doubt, Fabric, Outcome, Packing, Stability, Tilted,
         coulomb::Found,
         stability::{Round, without},
     },
@@ -50,6 +50,9 @@ pub struct PackingFile {
     /// How the packing carries its load when level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fabric: Option<Fabric>,
+    /// Why the answer is undecided, where it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<Doubt>,
     /// What the question did not need.
     pub left_out: Vec<String>,
     /// What the user should know.
@@ -214,6 +217,7 @@ impl PackingFile {
             least,
             directions,
             fabric: None,
+            doubt: None,
             left_out,
             warnings,
             timings: model.timings,
