@@ -399,3 +399,16 @@ pub const TASK_START: f64 = 1.0;
 /// The share of a task's work that starting it may cost. Larger: time is lost. Smaller: sweeps of
 /// minutes are not spread at all.
 pub const SCHEDULING_SHARE: f64 = 0.05;
+/// An answer with contacts closed that were left out is the same as that without them when they
+/// differ by no more than this × the greater. Larger: a contact that matters is not told. Smaller:
+/// the shift of a contact to the middle of its gap is taken for a difference.
+pub const CLOSED_CONTACTS: f64 = 1e-3;
+/// An undecided scene lies on the line between standing and falling when its least unbalance is
+/// below this. Larger: solvers that lost their way are excused. Smaller: their last digits hide it.
+pub const ON_THE_LINE: f64 = 1e-6;
+/// Loads or sizes spread by more than this ratio are a cause why nothing came out. Larger: stiff
+/// scenes are blamed on the solver. Smaller: scenes that are solved every day are blamed.
+pub const WIDE_NUMBERS: f64 = 1e6;
+/// Coefficients of friction above this are a cause why nothing came out. Larger or smaller: as
+/// [`WIDE_NUMBERS`].
+pub const STEEPEST_FRICTION: f64 = 100.0;

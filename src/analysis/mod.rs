@@ -5,8 +5,10 @@ pub mod agreement;
 pub mod ask;
 pub mod assess;
 mod attempt;
+pub mod closing;
 pub mod coulomb;
 pub mod critical;
+pub mod doubt;
 pub mod flip;
 pub mod geometric;
 mod in_time;
@@ -22,6 +24,7 @@ pub mod stability;
 pub mod thrust;
 pub mod tilt;
 
+pub use crate::terms::{Closed, Difference, Doubt, DoubtCause, LeftOutContacts};
 pub use crate::{
     terms::{Agreement, Attempt, Bracket, Deciding, ForceAgreement, Law, Outcome},
     verdict::fabric::{self, Fabric, fabric},
@@ -31,7 +34,9 @@ pub use agreement::agreement;
 pub use ask::{Answer, Limited, Tilted, ask};
 pub use assess::{Assessment, assess};
 pub use attempt::Control;
+pub use closing::left_out;
 pub use critical::{Critical, critical};
+pub use doubt::doubt;
 pub use limit::{LoadFactor, limit};
 pub use proved::{Claims, Proved};
 pub use question::{

@@ -45,7 +45,7 @@ pub struct LimitOptions {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub require: Option<f64>,
     /// Whether it stands under its dead load alone is not asked as well. Rows of a sweep never ask
-    /// it.
+    /// it: a plan has no such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub skip_dead: bool,
 }
@@ -65,7 +65,8 @@ pub struct TiltOptions {
     /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub all: Option<u16>,
-    /// Whether it stands level is not asked as well. Rows of a sweep ask it with dry friction only.
+    /// Whether it stands level is not asked as well. Rows of a sweep ask it with dry friction only: a
+    /// plan has no such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub skip_dead: bool,
 }
@@ -102,7 +103,8 @@ pub struct ThrustOptions {
     /// The greatest thrust instead of the least.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub greatest: bool,
-    /// Both ends, and the geometric safety factor. Rows of a sweep ask one end only.
+    /// Both ends, and the geometric safety factor. Rows of a sweep ask one end only: a plan has no
+    /// such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub range: bool,
 }
@@ -182,6 +184,30 @@ impl Question {
             }
             Self::Simulate(_) => Ok(()),
         }
+    }
+
+    /// Refuses options without any effect where the answer is one number, as in rows of a sweep.
+    /// Paths are relative to the question.
+    ///
+    /// # Errors
+    /// The first such option, with its place.
+    pub fn check_for_one_number(&self) -> Result<(), InputError> {
+        let (key, hint) = match self {
+            Self::Limit(LimitOptions { skip_dead: true, .. }) => {
+                ("skip_dead", "remove it: rows never ask for the verdict without the live load")
+            }
+            Self::Tilt(TiltOptions { skip_dead: true, .. }) => (
+                "skip_dead",
+                "remove it: rows ask for the verdict when level where dry friction needs it, and nowhere else",
+            ),
+            Self::Thrust(ThrustOptions { range: true, .. }) => (
+                "range",
+                "remove it: a row has one number, the least thrust or with \"greatest\": true the greatest; two plans give both",
+            ),
+            _ => return Ok(()),
+        };
+        let path = JsonPath::root().key(self.word()).key(key);
+        Err(InputError::at(path, "does nothing in rows of a sweep").hint(hint))
     }
 
     /// As files and the command line call it.

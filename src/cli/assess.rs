@@ -3,7 +3,7 @@
 use super::{
     args::Assess,
     exit::Exit,
-    question::{Seen, Session, verdict},
+    question::{Seen, Session, unless_weaker, verdict},
     simulate::Camera,
     terminal::Terminal,
 };
@@ -20,7 +20,7 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     let question = Question::Assess(AssessOptions { law: session.law() });
     session.worst(&args.worst, &question)?;
     let answer = session.ask(&question)?;
-    let mut file = session.result(&answer)?;
+    let mut file = session.result(&question, &answer)?;
     let doubt = matches!(file.answer.verdict(), Some(Verdict::Conditional | Verdict::Undecided));
     let mut film = Vec::new();
     if let (true, Answer::Assess(assessment)) = (args.simulate || (args.thorough && doubt), &answer)
@@ -35,5 +35,5 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let file: ResultFile =
         session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
-    Ok(verdict(file.answer.verdict()))
+    Ok(unless_weaker(&file, verdict(file.answer.verdict())))
 }

@@ -48,7 +48,12 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         (Answer::Critical(flips), Some(_)) => picture(&session, flips)?,
         _ => Seen::Scene(Vec::new()),
     };
-    let file = session.answer_seen(terminal, &args.options(), seen, session.result(&answer)?)?;
+    let file = session.answer_seen(
+        terminal,
+        &args.options(),
+        seen,
+        session.result(&question, &answer)?,
+    )?;
     Ok(match file.answer.critical() {
         Some(values) if !values.is_empty() => Exit::Yes,
         _ if exhausted(&file).is_some() => Exit::No,

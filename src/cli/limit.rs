@@ -4,7 +4,7 @@ use super::{
     again::{skip_dead, worst},
     args::Limit,
     exit::Exit,
-    question::{Session, requirement},
+    question::{Session, requirement, unless_weaker},
     terminal::Terminal,
 };
 use voussoir::analysis::{LimitOptions, Question};
@@ -18,11 +18,12 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
         skip_dead: args.skip_dead,
     });
     session.worst(&args.worst, &question)?;
-    let file = session.result(&session.ask(&question)?)?;
+    let file = session.result(&question, &session.ask(&question)?)?;
     let file = session.answer(
         terminal,
         &[skip_dead(args.skip_dead), worst(&args.worst)].concat(),
         file,
     )?;
-    Ok(requirement(&file, question.require(), |lambda| lambda))
+    let exit = requirement(&file, question.require(), |lambda| lambda);
+    Ok(unless_weaker(&file, exit))
 }

@@ -13,7 +13,9 @@ use super::{
 use anyhow::{Context, bail};
 use std::{path::Path, time::Instant};
 use voussoir::{
-    analysis::{Answer, Control, Law, Question, Watch, ask, ask_watched, coulomb::Found},
+    analysis::{
+        Answer, Control, Difference, Law, Question, Watch, ask, ask_watched, coulomb::Found,
+    },
     deadline::Deadline,
     dynamics::Frame,
     error::{Finding, FindingCode, InputError},
@@ -183,8 +185,9 @@ impl<'a> Session<'a> {
     }
 
     /// The result that proves an answer.
-    pub fn result(&self, answer: &Answer) -> anyhow::Result<ResultFile> {
-        ResultFile::of(&self.scene, &self.model, answer).context("there is no answer to write down")
+    pub fn result(&self, question: &Question, answer: &Answer) -> anyhow::Result<ResultFile> {
+        ResultFile::of_question(question, &self.scene, &self.model, answer, &self.control())
+            .context("there is no answer to write down")
     }
 
     /// Whether a bar may show how far long work is.
@@ -254,6 +257,10 @@ impl<'a> Session<'a> {
         let asked =
             Asked { scene: &scene, options: &[own, &self.common.options()].concat().join(" ") };
         let layout = terminal.layout(&self.common.scene);
+        // Said to who reads numbers or pictures alone, too.
+        if let Some(words) = text::left_out(&file) {
+            terminal::say(&format!("warning: {words}"));
+        }
         if let Some(save) = &self.save {
             save.write(&json::pretty(&file)?)?;
         }
@@ -293,6 +300,16 @@ pub fn quoted(word: &str) -> String {
         return word.to_string();
     }
     format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+/// An exit code that says yes says so no more where the answer is weaker with contacts that were
+/// left out: which of the two the scene is nobody knows.
+pub fn unless_weaker(file: &ResultFile, exit: Exit) -> Exit {
+    let closed = file.left_out_contacts.and_then(|l| l.closed);
+    match closed.map(|c| c.difference) {
+        Some(Difference::Weaker) if exit == Exit::Yes => Exit::Undecided,
+        _ => exit,
+    }
 }
 
 /// The exit code of a verdict.

@@ -12,7 +12,7 @@ use super::{
 use anyhow::{Context, bail};
 use std::time::Instant;
 use voussoir::{
-    analysis::{Answer, AssessOptions, Question, ReposeOptions, ask, fabric},
+    analysis::{Answer, AssessOptions, Question, ReposeOptions, ask, doubt, fabric},
     error::InputError,
     interface::{Model, prepare},
     proof::packing::PackingFile,
@@ -64,15 +64,17 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         moving_mass: args.moving_mass,
     });
     let start = Instant::now();
-    let Answer::Repose(packing) = session.ask(&question)? else { bail!("there is no packing") };
+    let answer = session.ask(&question)?;
+    let Answer::Repose(packing) = &answer else { bail!("there is no packing") };
     let model = &packing.model;
     let forces = (args.fabric || csv.is_some()).then(|| level(&session, model)).transpose()?;
     let solve = start.elapsed().as_secs_f64();
-    let packed = PackingFile::new(&session.scene, args.moving_mass, &packing)
+    let packed = PackingFile::new(&session.scene, args.moving_mass, packing)
         .map_err(|e| session.refuse(e))?;
     let (mut file, proof) = packed.context("no direction to tilt towards")?;
     (file.timings.check, file.timings.solve) =
         (proof.timings.check, (solve - proof.timings.check).max(0.0));
+    file.doubt = doubt(&answer, &session.model, &session.control());
     if let Some(forces) = &forces {
         file.fabric = args.fabric.then(|| fabric(model, forces));
         if let Some(csv) = &csv {

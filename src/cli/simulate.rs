@@ -12,7 +12,7 @@ use super::{
 use anyhow::{Context, bail};
 use std::{fs::File, ops::ControlFlow};
 use voussoir::{
-    analysis::{Answer, AssessOptions, Question, SimulateOptions, Watch},
+    analysis::{Answer, AssessOptions, Question, SimulateOptions, Watch, doubt},
     dynamics::{Fate, Frame, Progress},
     proof::ResultFile,
     report::{trajectory::TrajectoryWriter, view::Film},
@@ -78,7 +78,8 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         Some(Answer::Assess(a)) => Some(a),
         _ => None,
     };
-    let file = ResultFile::simulated(&session.scene, &session.model, assessment, outcome);
+    let mut file = ResultFile::simulated(&session.scene, &session.model, assessment, outcome);
+    file.doubt = doubt(&answer, &session.model, &session.control());
     let file = session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
     // What is proved to fall does not stand because it was seen to.
     let falls = matches!(file.answer.verdict(), Some(Verdict::Unstable | Verdict::Conditional));

@@ -17,9 +17,10 @@ use std::{
 };
 use voussoir::{
     interface::prepare,
+    number::count,
     report::{json, page, sweep as report},
     scene::Scene,
-    sweep::{self, Event, Header, Row, RunOptions},
+    sweep::{self, Event, Header, Row, RowStatus, RunOptions},
 };
 
 pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -83,8 +84,7 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     });
     bar.finish_and_clear();
     let done = done?;
-    sinks.write(&args.summary, &done.header, &done.rows, terminal)?;
-    Ok(Exit::Yes)
+    sinks.write(&args.summary, &done.header, &done.rows, terminal)
 }
 
 fn merged(args: &Merge, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -95,11 +95,11 @@ fn merged(args: &Merge, terminal: &Terminal) -> anyhow::Result<Exit> {
     if let Some(rows) = rows {
         rows.write(&merged.text()?)?;
     }
-    sinks.write(&args.summary, &merged.header, &merged.rows, terminal)?;
+    let exit = sinks.write(&args.summary, &merged.header, &merged.rows, terminal)?;
     slurm::say_damaged(merged.damaged);
     slurm::say_unchecked(merged.unchecked);
     match merged.missing() {
-        None => Ok(Exit::Yes),
+        None => Ok(exit),
         Some((many, first)) => {
             terminal::say(&format!(
                 "note: {many} of {} rows are missing, the first is row {first}",
@@ -152,13 +152,14 @@ impl Sinks {
         Ok(Self { csv: open(&args.csv)?, svg: open(&args.svg)?, report: open(&args.report)? })
     }
 
+    /// Writes them. The exit code is that of rows without an answer, which are said in any case.
     pub(super) fn write(
         &self,
         args: &Summary,
         header: &Header,
         rows: &[Row],
         terminal: &Terminal,
-    ) -> anyhow::Result<()> {
+    ) -> anyhow::Result<Exit> {
         let summary = sweep::summarize(header, rows);
         if let Some(csv) = &self.csv {
             csv.write(&report::csv(header, rows)?)?;
@@ -178,6 +179,16 @@ impl Sinks {
                 args.chart.map_or_else(|| report::Kind::suited(header, &summary), Into::into);
             svg.write(&report::chart(header, rows, &summary, kind)?)?;
         }
-        Ok(())
+        let open = |r: &&Row| matches!(r.answer.status, RowStatus::Error | RowStatus::Undecided);
+        let Some(first) = rows.iter().find(open) else { return Ok(Exit::Yes) };
+        let why = first.error.as_deref().unwrap_or("undecided");
+        terminal::say(&format!(
+            "note: {} of {} {} no answer, the first is row {}: {why}",
+            summary.open,
+            count(rows.len(), "row"),
+            if summary.open == 1 { "has" } else { "have" },
+            first.row
+        ));
+        Ok(Exit::Undecided)
     }
 }

@@ -3,7 +3,7 @@
 use super::{
     args::Tilt as Arguments,
     exit::Exit,
-    question::{Session, requirement},
+    question::{Session, requirement, unless_weaker},
     terminal::Terminal,
 };
 use voussoir::analysis::{Question, TiltOptions};
@@ -17,7 +17,8 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         all: args.toward.is_empty().then_some(args.all),
         skip_dead: args.skip_dead,
     });
-    let file = session.result(&session.ask(&question)?)?;
+    let file = session.result(&question, &session.ask(&question)?)?;
     let file = session.answer(terminal, &args.options(), file)?;
-    Ok(requirement(&file, question.require(), |lambda| lambda.atan().to_degrees()))
+    let exit = requirement(&file, question.require(), |lambda| lambda.atan().to_degrees());
+    Ok(unless_weaker(&file, exit))
 }

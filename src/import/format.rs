@@ -1,6 +1,9 @@
 //! Which format a file has.
 
-use super::stl;
+use super::{
+    stl,
+    text::{split, unmarked},
+};
 use crate::error::{InputError, JsonPath};
 use std::{fmt, path::Path};
 
@@ -52,21 +55,17 @@ impl Format {
     }
 
     fn by_content(bytes: &[u8]) -> Option<Format> {
-        let text = bytes.trim_ascii_start();
+        let text = unmarked(bytes).trim_ascii_start();
         let statement = |line: &[u8]| {
             [&b"v "[..], b"o ", b"g ", b"f ", b"mtllib "].iter().any(|s| line.starts_with(s))
         };
         if text.starts_with(b"{") || text.starts_with(b"[") {
             Some(Format::Compas)
-        } else if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r\n") {
+        } else if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {
             Some(Format::Ply)
-        } else if stl::looks_like(bytes) {
+        } else if stl::looks_like(bytes) || stl::looks_like(text) {
             Some(Format::Stl)
-        } else if text
-            .split(|&b| b == b'\n')
-            .take(100)
-            .any(|line| statement(line.trim_ascii_start()))
-        {
+        } else if split(text).take(100).any(|line| statement(line.trim_ascii_start())) {
             Some(Format::Obj)
         } else {
             None

@@ -51,7 +51,7 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
     let mut group_numbers: HashMap<String, usize> = HashMap::new();
     let mut group = 0;
     let mut unknown = Vec::new();
-    for (line, text) in text::lines(bytes)? {
+    for (line, text) in text::lines(text::unmarked(bytes))? {
         let mut words = text.split_whitespace();
         let statement = words.next().unwrap_or_default();
         match statement {

@@ -14,6 +14,7 @@ use ply_rs_bw::{
     parser::{ParseError, Parser, Reader},
     ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult},
 };
+use std::borrow::Cow;
 
 /// One vertex or one face: what is there of either.
 #[derive(Default)]
@@ -83,7 +84,8 @@ fn whole_numbers(property: Property) -> Option<Vec<i64>> {
 /// The block of a PLY file.
 pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
     let parser = Parser::<Item>::new();
-    let mut reader = Reader::new(bytes);
+    let bytes = line_feeds(text::unmarked(bytes));
+    let mut reader = Reader::new(bytes.as_ref());
     let header = parser.read_header(&mut reader).map_err(|e| place(&e, true))?;
     check(&header)?;
     let ascii = header.encoding == Encoding::Ascii;
@@ -134,6 +136,24 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
     let mut raw = Raw { blocks: vec![solid], ..Raw::default() };
     raw.say_parts();
     Ok(raw)
+}
+
+/// A file whose lines end with CR alone, with LF in their places: all of them in an ASCII file, those
+/// of the header where numbers in binary follow.
+fn line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
+    const END: &[u8] = b"end_header\r";
+    let alone = |rest: &[u8]| !rest.starts_with(b"\n");
+    let header = bytes.windows(END.len()).position(|w| w == END).map(|at| at + END.len());
+    let Some(length) = header.filter(|&n| {
+        bytes.strip_prefix(b"ply\r").is_some_and(alone) && alone(bytes.get(n..).unwrap_or(&[]))
+    }) else {
+        return Cow::Borrowed(bytes);
+    };
+    let mut fed = bytes.to_vec();
+    let ascii = bytes[..length].windows(12).any(|w| w == b"format ascii");
+    let end = if ascii { fed.len() } else { length };
+    fed[..end].iter_mut().filter(|b| **b == b'\r').for_each(|b| *b = b'\n');
+    Cow::Owned(fed)
 }
 
 /// Refuses headers without the needed elements, and those that promise elements of no size: nothing

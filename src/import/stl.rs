@@ -58,8 +58,9 @@ fn binary_length(bytes: &[u8]) -> Option<usize> {
 /// The blocks of an STL file.
 pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
     // Some binary files start with "solid": the length decides first.
-    let mut raw = if binary_length(bytes) != Some(bytes.len()) && says_solid(bytes) {
-        ascii(bytes)?
+    let text = text::unmarked(bytes);
+    let mut raw = if binary_length(bytes) != Some(bytes.len()) && says_solid(text) {
+        ascii(text)?
     } else {
         binary(bytes)?
     };

@@ -7,6 +7,19 @@ pub(super) fn error(line: usize, message: impl Into<String>) -> InputError {
     InputError { position: Some((line, 1)), ..InputError::at(JsonPath::root(), message) }
 }
 
+/// A file without the mark by which some editors say that it is UTF-8.
+pub(super) fn unmarked(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
+
+/// The lines of a text, which ends them by LF, CR LF or, as old programs do, CR alone.
+pub(super) fn split(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    bytes
+        .split(|&b| b == b'\n')
+        .map(|line| line.strip_suffix(b"\r").unwrap_or(line))
+        .flat_map(|line| line.split(|&b| b == b'\r'))
+}
+
 /// The words of every line with the line's number (from 1).
 ///
 /// Lines that start with `#` are comments; a backslash at the end joins a line to the next, under
@@ -15,7 +28,7 @@ pub(super) fn error(line: usize, message: impl Into<String>) -> InputError {
 pub(super) fn lines(bytes: &[u8]) -> Result<Vec<(usize, String)>, InputError> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut continued = false;
-    for (index, line) in bytes.split(|&b| b == b'\n').enumerate() {
+    for (index, line) in split(bytes).enumerate() {
         if line.contains(&0) {
             return Err(error(index + 1, "a zero byte: this is not a text file")
                 .hint("the file is damaged, or of another format than its name says"));

@@ -115,6 +115,7 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
             .then(p.y.total_cmp(&q.y))
             .then(p.z.total_cmp(&q.z))
     });
+    interfaces.left_out = tally.left_out(assembly);
     interfaces.findings = tally.findings(assembly);
     Ok(interfaces)
 }

@@ -10,6 +10,7 @@ mod detect_candidates;
 mod faces;
 mod features;
 mod given;
+mod left_out;
 mod limits;
 mod model;
 mod overlap;
@@ -24,7 +25,8 @@ mod tests;
 
 pub use axes::on_its_side;
 pub use detect::detect;
-pub use model::{Model, Timings, prepare};
+pub use left_out::LeftOut;
+pub use model::{Model, Timings, closed, prepare};
 pub use parts::{Members, Part, Units, members, parts};
 pub(crate) use plane::Plane;
 pub use reach::{floating, is_forest};
@@ -46,6 +48,8 @@ pub struct Interfaces {
     pub support_pairs: usize,
     /// Gaps closed, near misses, overlaps, ignored contacts.
     pub findings: Vec<Finding>,
+    /// The near misses and overlaps in numbers, where there are any.
+    pub left_out: Option<LeftOut>,
 }
 
 /// One contact between two blocks on one plane.

@@ -105,6 +105,7 @@ impl Model {
             list,
             support_pairs: self.interfaces.support_pairs,
             findings: self.interfaces.findings.clone(),
+            left_out: self.interfaces.left_out,
         };
         Self { timings: self.timings, ..Self::new(assembly, interfaces) }
     }
@@ -146,6 +147,21 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     return (result, start.elapsed().as_secs_f64());
     #[cfg(not(feature = "solve"))]
     (result, 0.0)
+}
+
+/// The same blocks and loads with the contacts closed that were left out; nothing where there are
+/// none, or none of them can be closed.
+///
+/// # Errors
+/// As [`detect`].
+pub fn closed(model: &Model) -> Result<Option<Model>, InputError> {
+    let spec = &model.assembly.contact;
+    let Some(contact) = model.interfaces.left_out.and_then(|l| l.closing(spec)) else {
+        return Ok(None);
+    };
+    let assembly = Assembly { contact, ..model.assembly.clone() };
+    let interfaces = detect(&assembly)?;
+    Ok(Some(Model::detected(assembly, interfaces)))
 }
 
 /// Says which free blocks nothing holds.

@@ -2,6 +2,7 @@
 
 use super::{
     faces::{Closing, Gap},
+    left_out::LeftOut,
     limits::{self, Limits},
 };
 use crate::{
@@ -90,6 +91,25 @@ impl Tally {
 
     pub fn held_apart(&mut self, a: usize, b: usize) {
         self.held_apart.push((a, b));
+    }
+
+    /// Near misses and overlaps in numbers.
+    pub fn left_out(&self, assembly: &Assembly) -> Option<LeftOut> {
+        if self.near.is_empty() && self.overlaps.is_empty() {
+            return None;
+        }
+        let closable =
+            self.near.iter().map(|n| n.0).chain(self.overlaps.iter().filter_map(|o| o.1));
+        let [closing_gap, closing_angle_deg] = closing(closable, assembly);
+        Some(LeftOut {
+            near_misses: self.near.len(),
+            greatest_gap: self.near.iter().map(|n| n.0.gap).fold(0.0, f64::max),
+            overlaps: self.overlaps.len(),
+            deepest_overlap: self.overlaps.iter().map(|o| o.0).fold(0.0, f64::max),
+            too_deep: self.overlaps.iter().filter(|o| o.1.is_none()).count(),
+            closing_gap,
+            closing_angle_deg,
+        })
     }
 
     /// One finding per kind of thing.
@@ -199,13 +219,22 @@ impl Tally {
     }
 }
 
-/// The tolerances that join all of these.
-fn remedy(apart: impl IntoIterator<Item = Apart>, assembly: &Assembly) -> String {
+/// The least `contact.gap` and `contact.angle_deg` to two digits that join all of these; those of
+/// the scene where they do.
+fn closing(apart: impl IntoIterator<Item = Apart>, assembly: &Assembly) -> [f64; 2] {
+    let spec = &assembly.contact;
     let (gap, angle) = apart.into_iter().fold((0.0, 0.0), |(g, a): (f64, f64), x| {
         (g.max(x.relative), a.max(x.angle.unwrap_or(0.0)))
     });
+    let raised = |from: f64, to: f64| if to > from { round_up(to) } else { from };
+    [raised(spec.gap, gap), raised(spec.angle_deg, angle)]
+}
+
+/// The tolerances that join all of these.
+fn remedy(apart: impl IntoIterator<Item = Apart>, assembly: &Assembly) -> String {
+    let [gap, angle] = closing(apart, assembly);
     let raise = |name: &str, from: f64, to: f64| {
-        format!("contact.{name} from {} to {}", short(from), round_up(to))
+        format!("contact.{name} from {} to {}", short(from), short(to))
     };
     let spec = &assembly.contact;
     match (gap > spec.gap, angle > spec.angle_deg) {
@@ -245,9 +274,11 @@ fn short(x: f64) -> String {
 }
 
 /// A little above `x`, to two digits: a tolerance that includes it.
-fn round_up(x: f64) -> String {
+fn round_up(x: f64) -> f64 {
     let unit = 10f64.powf(x.log10().floor() - 1.0);
-    short((x / unit * 1.000001).ceil() * unit)
+    let up = (x / unit * 1.000001).ceil() * unit;
+    // As it is read where somebody takes it over.
+    short(up).parse().unwrap_or(up)
 }
 
 #[cfg(test)]
@@ -272,7 +303,7 @@ mod tests {
             assert_eq!(short(x), text);
         }
         for x in [1e-4, 2.8867e-3, 9.99e-3, 0.01] {
-            assert!(round_up(x).parse::<f64>().unwrap() > x);
+            assert!(round_up(x) > x && short(round_up(x)).parse::<f64>().unwrap() == round_up(x));
         }
     }
 }

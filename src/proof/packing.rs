@@ -5,7 +5,7 @@ use super::result::Versions;
 use crate::{
     error::Finding,
     interface::Timings,
-    terms::{Deciding, Found, Outcome},
+    terms::{Deciding, Doubt, Found, Outcome},
     verdict::fabric::Fabric,
 };
 use serde::{Deserialize, Serialize};
@@ -42,6 +42,9 @@ pub struct PackingFile {
     /// How the packing carries its load when level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fabric: Option<Fabric>,
+    /// Why the answer is undecided, where it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<Doubt>,
     /// What the question did not need.
     pub left_out: Vec<String>,
     /// What the user should know.

@@ -18,7 +18,7 @@ fn version(text: &str) -> Option<String> {
     struct Head {
         format: String,
     }
-    let head = serde_json::from_str::<Head>(text).ok()?;
+    let head = serde_json::from_str::<Head>(text.trim_start_matches('\u{feff}')).ok()?;
     head.format.strip_prefix("voussoir-result/").map(str::to_string)
 }
 

@@ -10,7 +10,10 @@ use crate::{
     error::Finding,
     interface::{Model, Timings},
     scene::Scene,
-    terms::{Attempt, Deciding, Found, Outcome, StateMotion, StateStep, is_reached},
+    terms::{
+        Attempt, Deciding, Doubt, Found, LeftOutContacts, Outcome, StateMotion, StateStep,
+        is_reached,
+    },
     verdict::{
         check::Claim,
         evidence::{BlockRate, ContactForces},
@@ -68,6 +71,13 @@ pub struct ResultFile {
     /// The mechanism in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
+    /// Contacts that were left out although blocks overlap or nearly touch, where there are such, and
+    /// the answer with them closed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left_out_contacts: Option<LeftOutContacts>,
+    /// Why the answer is undecided, where it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<Doubt>,
     /// What the scene did not need.
     pub left_out: Vec<String>,
     /// What the user should know.

@@ -2,6 +2,7 @@
 //! number of the answer against the claim. Nothing that the file says about itself is believed.
 
 mod again;
+mod left_out;
 pub(super) mod states;
 
 use super::{
@@ -87,6 +88,9 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         parts: vec![("scene".into(), counts(file, model))],
         scene: model.findings().cloned().collect(),
     };
+    if file.left_out_contacts.is_some() || model.interfaces.left_out.is_some() {
+        all.part("contacts left out", left_out::left_out(file, scene, model));
+    }
     match file.question {
         QuestionKind::Assess | QuestionKind::Limit | QuestionKind::Simulate => {
             let (mut f, rates) =

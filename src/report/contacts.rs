@@ -1,6 +1,6 @@
 //! Contact forces of a packing as CSV, a row for each contact that carries.
 
-use super::cells::Table;
+use super::cells::{Cell, Table};
 use crate::{analysis::fabric, interface::Model, verdict::Forces};
 
 /// The columns: blocks, centre of pressure (m), unit normal from `a` into `b`, normal and
@@ -17,19 +17,19 @@ pub fn csv(
     forces: &Forces,
 ) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
     let Model { assembly, interfaces, .. } = model;
-    let mut writer = Table::new();
-    writer.write_record(HEAD)?;
+    let mut writer = Table::with_head(HEAD)?;
     for contact in fabric::contacts(interfaces, forces) {
         let face = &interfaces.list[contact.interface];
-        let mut row = vec![assembly.blocks[face.a].id.clone(), assembly.blocks[face.b].id.clone()];
+        let mut row: Vec<Cell> =
+            [face.a, face.b].map(|i| assembly.blocks[i].id.as_str().into()).into();
         let numbers = contact
             .at
             .iter()
             .chain(face.frame.n.iter())
             .chain([&contact.normal_force, &contact.tangential_force]);
-        row.extend(numbers.map(f64::to_string));
-        row.push(contact.mobilised.map(|m| m.to_string()).unwrap_or_default());
-        writer.write_record(&row)?;
+        row.extend(numbers.map(|&v| v.into()));
+        row.push(contact.mobilised.into());
+        writer.write_record(row)?;
     }
     Ok(writer.end()?)
 }

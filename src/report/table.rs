@@ -1,8 +1,8 @@
 //! Answers as tables (CSV): a row for each joint and system of forces, a row for each block.
 
 use super::{
-    cells::Table,
-    view::{Joint, View},
+    cells::{Cell, Table, row},
+    view::{Joint, Mark, View},
 };
 use crate::{interface::ContactKind, scene::Friction, verdict::mechanism::JointMotion as Kind};
 use std::error::Error;
@@ -11,8 +11,8 @@ use std::error::Error;
 /// presses), the unit normal from `a` into `b`, the area that touches (m²), μ, the system of
 /// forces, the force on `b` (N), its normal and tangential part, the distance of the centre of
 /// pressure from the middle (m), the shares of section and friction that are used, what the joint
-/// does in the mechanism.
-const JOINTS: [&str; 21] = [
+/// does in the mechanism, and where (m): the place that the text names.
+const JOINTS: [&str; 24] = [
     "a",
     "b",
     "contact",
@@ -34,6 +34,9 @@ const JOINTS: [&str; 21] = [
     "section_used",
     "friction_used",
     "motion",
+    "motion_x",
+    "motion_y",
+    "motion_z",
 ];
 
 /// Blocks: name, whether it is a support, material, mass (kg), centre of mass (m), the share that
@@ -50,63 +53,58 @@ const BLOCKS: [&str; 14] = [
 /// # Errors
 /// The table cannot be written.
 pub fn joints(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
-    let mut writer = Table::new();
-    writer.write_record(JOINTS)?;
-    let motion = |k: usize| {
-        let mark = view.motions.first().and_then(|m| m.marks.iter().find(|mark| mark.joint == k));
-        mark.map_or("", |mark| word(mark.kind)).to_string()
-    };
+    let mut writer = Table::with_head(JOINTS)?;
     for (k, joint) in view.joints.iter().enumerate() {
         if view.states.is_empty() {
-            writer.write_record(
-                head(view, joint, joint.center)
-                    .into_iter()
-                    .chain(std::iter::repeat_n(String::new(), 9))
-                    .chain([motion(k)]),
-            )?;
+            let mut row = head(view, joint, joint.center);
+            row.extend(std::iter::repeat_with(|| Cell::Nothing).take(9));
+            row.extend(motion(view, k));
+            writer.write_record(row)?;
         }
         for state in &view.states {
             let resultant = state.resultants[k].as_ref();
             let mut row = head(view, joint, resultant.map_or(joint.center, |r| r.at));
-            row.push(state.name.clone());
+            row.push(state.name.as_str().into());
             match resultant {
                 Some(r) => {
-                    row.extend(
-                        [
-                            r.force.x,
-                            r.force.y,
-                            r.force.z,
-                            r.normal,
-                            r.shear,
-                            r.eccentricity,
-                            r.used,
-                        ]
-                        .map(|v| v.to_string()),
-                    );
-                    row.push(r.mobilised.map_or(String::new(), |m| m.to_string()));
+                    row.extend(r.force.iter().map(|&v| v.into()));
+                    row.extend([r.normal, r.shear, r.eccentricity, r.used].map(Cell::from));
+                    row.push(r.mobilised.into());
                 }
-                None => row.extend(["0", "0", "0", "0", "0", "", "", ""].map(String::from)),
+                None => {
+                    row.extend([0.0; 5].map(Cell::from));
+                    row.extend([None; 3].map(Cell::from));
+                }
             }
-            row.push(motion(k));
+            row.extend(motion(view, k));
             writer.write_record(row)?;
         }
     }
     Ok(writer.end()?)
 }
 
+/// What a joint does in the mechanism, and where.
+fn motion(view: &View, joint: usize) -> [Cell; 4] {
+    let mark = view.motions.first().and_then(|m| m.marks.iter().find(|mark| mark.joint == joint));
+    match mark {
+        Some(Mark { kind, at, .. }) => row![word(*kind), at.x, at.y, at.z],
+        None => row!["", None, None, None],
+    }
+}
+
 /// The columns that do not depend on the forces.
-fn head(view: &View, joint: &Joint, at: nalgebra::Vector3<f64>) -> Vec<String> {
+fn head(view: &View, joint: &Joint, at: nalgebra::Vector3<f64>) -> Vec<Cell> {
     let kind = match joint.kind {
         ContactKind::Face => "face",
         ContactKind::Edge => "edge",
         ContactKind::Point => "point",
         ContactKind::Given => "given",
     };
-    let mut row =
-        vec![view.bodies[joint.a].id.clone(), view.bodies[joint.b].id.clone(), kind.into()];
-    row.extend(at.iter().chain(joint.normal.iter()).chain([&joint.area]).map(f64::to_string));
+    let mut row: Vec<Cell> =
+        row![view.bodies[joint.a].id.as_str(), view.bodies[joint.b].id.as_str(), kind].into();
+    row.extend(at.iter().chain(joint.normal.iter()).chain([&joint.area]).map(|&v| v.into()));
     row.push(match joint.law.friction {
-        Friction::Coefficient(mu) => mu.to_string(),
+        Friction::Coefficient(mu) => mu.into(),
         Friction::Infinite => "infinite".into(),
     });
     row
@@ -127,28 +125,26 @@ fn word(kind: Kind) -> &'static str {
 /// # Errors
 /// The table cannot be written.
 pub fn blocks(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
-    let mut writer = Table::new();
-    writer.write_record(BLOCKS)?;
+    let mut writer = Table::with_head(BLOCKS)?;
     for (i, body) in view.bodies.iter().enumerate() {
-        let mut row = vec![
-            body.id.clone(),
+        let mut row: Vec<Cell> = row![
+            body.id.as_str(),
             body.support.to_string(),
             body.material.clone().unwrap_or_default(),
-            body.mass.to_string(),
-        ];
-        row.extend(body.center.iter().map(f64::to_string));
-        row.push(
-            view.states.first().and_then(|s| s.used[i]).map_or(String::new(), |u| u.to_string()),
-        );
+            body.mass,
+        ]
+        .into();
+        row.extend(body.center.iter().map(|&v| v.into()));
+        row.push(view.states.first().and_then(|s| s.used[i]).into());
         match view.motions.first() {
             Some(m) => row.extend(
                 m.rates[i]
                     .velocity
                     .iter()
                     .chain(m.rates[i].spin.iter())
-                    .map(|v| (v / m.reach).to_string()),
+                    .map(|v| (v / m.reach).into()),
             ),
-            None => row.extend(std::iter::repeat_n(String::new(), 6)),
+            None => row.extend([None; 6].map(Cell::from)),
         }
         writer.write_record(row)?;
     }

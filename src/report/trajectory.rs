@@ -1,6 +1,6 @@
 //! Trajectories as CSV, a row for each block and time, written as they come.
 
-use super::cells::Table;
+use super::cells::{Cell, Table};
 use crate::{assembly::Assembly, dynamics::Frame};
 use std::io::Write;
 
@@ -22,9 +22,7 @@ impl<W: Write> TrajectoryWriter<W> {
     /// The output cannot be written.
     pub fn new(out: W) -> std::io::Result<Self> {
         let mut writer = Self(out);
-        let mut head = Table::new();
-        head.write_record(HEAD)?;
-        writer.write(head)?;
+        writer.write(Table::with_head(HEAD)?)?;
         Ok(writer)
     }
 
@@ -36,16 +34,17 @@ impl<W: Write> TrajectoryWriter<W> {
         let mut rows = Table::new();
         let run = format!("{:?}", frame.fidelity).to_lowercase();
         for (block, pose) in assembly.blocks.iter().zip(&frame.blocks) {
-            let (q, text) = (pose.turn, |v: f64| v.to_string());
-            let mut row = vec![run.clone(), text(frame.time), block.id.clone()];
+            let q = pose.turn;
+            let mut row: Vec<Cell> =
+                vec![run.as_str().into(), frame.time.into(), block.id.as_str().into()];
             let numbers = pose
                 .center
                 .iter()
                 .chain([&q.w, &q.i, &q.j, &q.k])
                 .chain(pose.velocity.iter())
                 .chain(pose.spin.iter());
-            row.extend(numbers.map(|&v| text(v)));
-            rows.write_record(&row)?;
+            row.extend(numbers.map(|&v| v.into()));
+            rows.write_record(row)?;
         }
         self.write(rows)
     }

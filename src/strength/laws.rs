@@ -34,7 +34,7 @@ pub fn unlimited(interfaces: &Interfaces) -> (Interfaces, Vec<usize>) {
         Interfaces {
             list: list.collect(),
             support_pairs: interfaces.support_pairs,
-            findings: Vec::new(),
+            ..Interfaces::default()
         },
         kept,
     )

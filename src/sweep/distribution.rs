@@ -71,7 +71,13 @@ impl Axis {
                     at("values", "the list is empty".into()).hint("give at least one value")
                 );
             }
-            (_, _, Some(values)) => (Kind::Values(values.clone()), Some(values.len())),
+            (_, _, Some(_)) if vary.round && vary.words().is_some() => {
+                return Err(at("round", "words are not rounded".into()).hint("remove it"));
+            }
+            (_, _, Some(values)) => {
+                let places = values.iter().map(|v| vary.coordinate(v)).collect();
+                (Kind::Values(places), Some(values.len()))
+            }
             (Some(from), Some(to), _) if vary.round && from.ceil() > to.floor() => {
                 return Err(at("to", format!("there is no whole number from {from} to {to}"))
                     .hint("widen the range, or leave \"round\" out"));
@@ -318,8 +324,9 @@ mod tests {
             (Vary { from: Some(0.0), to: Some(1.0), count: Some(3), ..v() }, false),
             (Vary { from: Some(0.0), to: Some(1.0), min: Some(0.5), ..v() }, false),
             (Vary { values: Some(vec![]), ..v() }, true),
-            (Vary { values: Some(vec![1.0]), count: Some(1), ..v() }, true),
-            (Vary { values: Some(vec![1.0]), from: Some(0.0), to: Some(1.0), ..v() }, false),
+            (Vary { values: Some(vec![1.0.into()]), count: Some(1), ..v() }, true),
+            (Vary { values: Some(vec!["a".into()]), round: true, ..v() }, true),
+            (Vary { values: Some(vec![1.0.into()]), from: Some(0.0), to: Some(1.0), ..v() }, false),
             (Vary { normal: Some(Normal { mean: 0.0, sd: 0.0 }), ..v() }, false),
             (Vary { lognormal: Some(Lognormal { mean: 0.0, sd: 1.0 }), ..v() }, false),
             (

@@ -238,7 +238,7 @@ mod tests {
     fn row(number: usize, seconds: f64, status: RowStatus) -> Row {
         Row {
             row: number,
-            parameters: vec![0.5],
+            parameters: vec![0.5.into()],
             answer: RowAnswer::of(status),
             error: None,
             seconds,

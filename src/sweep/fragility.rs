@@ -44,6 +44,9 @@ pub fn wilson(failed: usize, of: usize) -> Proportion {
 pub struct Fragility {
     /// What runs along it.
     pub along: String,
+    /// The number or the words of the plan that do, where it is not the demand.
+    #[serde(skip)]
+    pub vary: Option<super::Vary>,
     /// Its points: where, and how many failed there.
     pub points: Vec<(f64, Proportion)>,
 }
@@ -83,10 +86,12 @@ pub(super) fn fragility(header: &Header, rows: &[Row], parameter: usize) -> Opti
             let known: Vec<(f64, bool)> = rows
                 .iter()
                 .filter_map(|r| {
-                    Some((*r.parameters.get(parameter)?, failed(&header.plan.question, &r.answer)?))
+                    let fails = failed(&header.plan.question, &r.answer)?;
+                    Some((header.coordinate(r, parameter), fails))
                 })
                 .collect();
-            let along = header.plan.vary.get(parameter)?.label().to_string();
+            let vary = header.plan.vary.get(parameter)?.clone();
+            let along = vary.label().to_string();
             let points = groups(&known.iter().map(|k| k.0).collect::<Vec<_>>())
                 .into_iter()
                 .map(|group| {
@@ -95,7 +100,7 @@ pub(super) fn fragility(header: &Header, rows: &[Row], parameter: usize) -> Opti
                     (middle, wilson(group.iter().filter(|&&i| known[i].1).count(), group.len()))
                 })
                 .collect::<Vec<_>>();
-            (points.len() >= 2).then_some(Fragility { along, points })
+            (points.len() >= 2).then_some(Fragility { along, vary: Some(vary), points })
         }
     }
 }
@@ -125,6 +130,7 @@ fn against_demand(quantity: &str, rows: &[Row]) -> Option<Fragility> {
     };
     Some(Fragility {
         along: format!("demanded {quantity}"),
+        vary: None,
         points: (0..POINTS).map(|k| point(at(k))).collect(),
     })
 }

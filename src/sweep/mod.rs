@@ -1,4 +1,4 @@
-//! One question over many scenes that differ in a few numbers.
+//! One question over many scenes that differ in a few numbers or words.
 //!
 //! A [`Plan`] names a scene, a question and the numbers that vary, each by JSON pointer. [`open`]
 //! checks all of it and gives a [`Sweep`]; [`run`] answers it row by row into a file of rows
@@ -43,9 +43,9 @@ pub use fragility::{Fragility, Proportion, wilson};
 pub use influence::{Influence, groups, influence};
 pub use merge::{Merged, merge};
 pub use open::{MOST_ROWS, Sweep, open, open_bytes, read_plan};
-pub use plan::{Lognormal, Normal, Plan, Sampling, Vary, schema};
+pub use plan::{Lognormal, Normal, Parameter, Plan, Sampling, Vary, schema};
 pub use row::{Header, Row, RowAnswer, RowStatus};
 pub use run::{Done, Event, RunOptions, measure, run, run_in};
 pub use shard::Shard;
-pub use summary::{Quantiles, Summary, summarize, value_of};
+pub use summary::{Quantiles, Shown, Summary, summarize, value_of};
 pub use worst::{Between, Worst, worst};

@@ -2,7 +2,7 @@
 //! its place in the plan.
 
 use super::{
-    Header, Plan, Sampling, Shard,
+    Header, Parameter, Plan, Sampling, Shard,
     distribution::Axis,
     pointer::{Pointer, Touches},
     sampling::{SOBOL, Sampler},
@@ -113,14 +113,27 @@ impl Sweep {
             return Err(InputError::at(root.key("vary"), "nothing varies")
                 .hint("add { \"pointer\": …, \"from\": …, \"to\": …, \"count\": … }"));
         }
-        plan.question.check().map_err(|e| e.under(&root.key("question")))?;
+        plan.question
+            .check()
+            .and_then(|()| plan.question.check_for_one_number())
+            .map_err(|e| e.under(&root.key("question")))?;
         let (mut pointers, mut axes) = (Vec::new(), Vec::new());
         for (k, vary) in plan.vary.iter().enumerate() {
             let path = root.key("vary").index(k);
             let axis = Axis::new(vary, grid).map_err(|e| e.under(&path))?;
+            let at_values = path.key("values");
             let path = path.key("pointer");
-            let pointer = Pointer::find(&vary.pointer, &scene).map_err(|e| e.under(&path))?;
-            fits(&pointer, &axis, &scene).map_err(|e| e.under(&path))?;
+            let pointer = match vary.words() {
+                None => Pointer::find(&vary.pointer, &scene),
+                Some(_) => Pointer::find_word(&vary.pointer, &scene),
+            }
+            .map_err(|e| e.under(&path))?;
+            match vary.words() {
+                None => fits(&pointer, &axis, &scene).map_err(|e| e.under(&path))?,
+                Some(words) => {
+                    words_fit(&pointer, words, &scene).map_err(|e| e.under(&at_values))?
+                }
+            }
             if pointers.contains(&pointer) {
                 return Err(InputError::at(path, format!("{:?} varies twice", vary.pointer))
                     .hint("keep one of them"));
@@ -132,6 +145,7 @@ impl Sweep {
         let touches = pointers.iter().map(|p| p.touches(&scene)).collect();
         let sampler = Sampler::new(axes, &plan.sampling, plan.seed, rows);
         let sweep = Self { plan, scene, findings: Vec::new(), pointers, touches, sampler };
+        sweep.words_mean_something()?;
         sweep.asks_about_something()?;
         Ok(sweep)
     }
@@ -141,33 +155,35 @@ impl Sweep {
         self.sampler.rows
     }
 
-    /// What the numbers are called, in their order.
+    /// What the numbers and words are called, in their order.
     pub fn labels(&self) -> Vec<&str> {
         self.plan.vary.iter().map(super::Vary::label).collect()
     }
 
-    /// The numbers of a row.
-    pub fn parameters(&self, row: usize) -> Vec<f64> {
-        self.sampler.parameters(row)
+    /// The numbers and words of a row.
+    pub fn parameters(&self, row: usize) -> Vec<Parameter> {
+        let places = self.sampler.parameters(row);
+        self.plan.vary.iter().zip(places).map(|(vary, place)| vary.at(place)).collect()
     }
 
-    /// The scene with these numbers.
+    /// The scene with these numbers and words.
     ///
     /// # Errors
     /// The scene does not take one of them.
-    pub fn scene_with(&self, parameters: &[f64]) -> Result<Scene, InputError> {
+    pub fn scene_with(&self, parameters: &[Parameter]) -> Result<Scene, InputError> {
         let mut value = self.scene.clone();
-        for (pointer, number) in self.pointers.iter().zip(parameters) {
-            pointer.set(&mut value, *number);
+        for (pointer, parameter) in self.pointers.iter().zip(parameters) {
+            pointer.set(&mut value, parameter);
         }
         read(value)
     }
 
     /// What scenes with these numbers have in common with others.
-    pub fn keys(&self, parameters: &[f64]) -> Keys {
+    pub fn keys(&self, parameters: &[Parameter]) -> Keys {
         let bits = |touches: Touches| {
-            let changed = self.touches.iter().zip(parameters).filter(|(t, _)| **t == touches);
-            changed.map(|(_, v)| v.to_bits()).collect()
+            let all = self.touches.iter().zip(self.plan.vary.iter().zip(parameters));
+            let changed = all.filter(|(t, _)| **t == touches);
+            changed.map(|(_, (vary, value))| vary.coordinate(value).to_bits()).collect()
         };
         Keys { shapes: bits(Touches::Shapes), masses: bits(Touches::Masses) }
     }
@@ -175,6 +191,30 @@ impl Sweep {
     /// The first line of a file of rows.
     pub fn header(&self, shard: Shard) -> Header {
         Header::new(self, shard)
+    }
+
+    /// A name that no block has would fail in every row alike. It may be one that a row with other
+    /// shapes has, and where the scene of the file is none by itself nothing is told.
+    fn words_mean_something(&self) -> Result<(), InputError> {
+        let resolves = |scene: &Value| read(scene.clone()).and_then(|s| assembly::resolve(&s));
+        let shapes = |k: usize| {
+            (0..self.touches.len()).any(|j| j != k && self.touches[j] == Touches::Shapes)
+        };
+        for (k, vary) in self.plan.vary.iter().enumerate() {
+            let Some(words) = vary.words().filter(|_| !shapes(k)) else { continue };
+            if resolves(&self.scene).is_err() {
+                return Ok(());
+            }
+            for (i, word) in words.iter().enumerate() {
+                let mut scene = self.scene.clone();
+                self.pointers[k].set(&mut scene, word);
+                let Err(e) = resolves(&scene) else { continue };
+                let path = JsonPath::root().key("vary").index(k).key("values").index(i);
+                let message = format!("with {word:?} there: {}", where_and_what(&e));
+                return Err(InputError { hint: e.hint, ..InputError::at(path, message) });
+            }
+        }
+        Ok(())
     }
 
     /// `limit` without a live load would fail in every row alike.
@@ -207,7 +247,7 @@ fn read(value: Value) -> Result<Scene, InputError> {
 fn fits(pointer: &Pointer, axis: &Axis, scene: &Value) -> Result<(), InputError> {
     let with = |number: f64| {
         let mut value = scene.clone();
-        pointer.set(&mut value, number);
+        pointer.set(&mut value, &number.into());
         read(value)
     };
     let old = pointer.get(scene).and_then(Value::as_f64);
@@ -225,6 +265,27 @@ fn fits(pointer: &Pointer, axis: &Axis, scene: &Value) -> Result<(), InputError>
             pointer.path
         );
         return Err(InputError::at(JsonPath::root(), message).hint("add \"round\": true"));
+    }
+    Ok(())
+}
+
+/// An error of the scene, with its place there.
+fn where_and_what(e: &InputError) -> String {
+    if e.path.0.is_empty() { e.message.clone() } else { format!("{}: {}", e.path, e.message) }
+}
+
+/// As [`fits`], of words. Paths are relative to their list.
+fn words_fit(pointer: &Pointer, words: &[Parameter], scene: &Value) -> Result<(), InputError> {
+    for (k, word) in words.iter().enumerate() {
+        let mut value = scene.clone();
+        pointer.set(&mut value, word);
+        read(value).map_err(|e| {
+            InputError::at(
+                JsonPath::root().index(k),
+                format!("the scene takes no {word} at {}: {}", pointer.path, e.message),
+            )
+            .hint("spell it as the scene format does")
+        })?;
     }
     Ok(())
 }

@@ -1,9 +1,11 @@
 //! What a plan file says, and nothing more (`"format": "voussoir-sweep/1"`).
 //! [`open`](super::open()) checks it.
 
-use crate::analysis::Question;
+use crate::{analysis::Question, number::short};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::{Number, Value};
+use std::fmt;
 
 /// The version of the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -27,7 +29,7 @@ pub struct Plan {
     pub scene: String,
     /// What is asked of every scene.
     pub question: Question,
-    /// The numbers that vary.
+    /// The numbers and words that vary.
     pub vary: Vec<Vary>,
     /// How the parameter space is covered.
     #[serde(default)]
@@ -37,13 +39,65 @@ pub struct Plan {
     pub seed: u64,
 }
 
-/// One number of the scene, and what it takes. Exactly one of `from` and `to`, `values`, `normal`,
+/// What a row puts into a place of the scene: a number, or a word such as the id of a block.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Parameter {
+    /// A number.
+    Number(f64),
+    /// A word.
+    Word(String),
+}
+
+impl From<f64> for Parameter {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<&str> for Parameter {
+    fn from(word: &str) -> Self {
+        Self::Word(word.into())
+    }
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => number.fmt(f),
+            Self::Word(word) => word.fmt(f),
+        }
+    }
+}
+
+impl Parameter {
+    /// The number, where it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            Self::Word(_) => None,
+        }
+    }
+
+    /// As it is written into a scene: whole numbers as such, for counts are read as well.
+    pub(super) fn value(&self) -> Value {
+        const EXACT: f64 = 9_007_199_254_740_992.0;
+        match self {
+            Self::Word(word) => Value::from(word.as_str()),
+            Self::Number(n) if n.fract() == 0.0 && n.abs() < EXACT => Value::from(*n as i64),
+            Self::Number(n) => Number::from_f64(*n).map_or(Value::Null, Value::Number),
+        }
+    }
+}
+
+/// One number or word of the scene, and what it takes. Exactly one of `from` and `to`, `values`, `normal`,
 /// `lognormal`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Vary {
-    /// JSON pointer (RFC 6901) to a number of the scene file: `/templates/0/arch/thickness`. A key
-    /// that the file leaves out may be named too.
+    /// JSON pointer (RFC 6901) to a number of the scene file: `/templates/0/arch/thickness`, or,
+    /// with words among the `values`, to a word: `/loads/live/0/block`. A key that the file leaves
+    /// out may be named too.
     pub pointer: String,
     /// What tables and charts call it; the pointer where nothing is said.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -54,9 +108,10 @@ pub struct Vary {
     /// Upper end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<f64>,
-    /// These values, each as likely as the others.
+    /// These values, each as likely as the others: numbers, or words such as ids of blocks and
+    /// names of materials.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub values: Option<Vec<f64>>,
+    pub values: Option<Vec<Parameter>>,
     /// Normal distribution; on a grid the quantiles (k + 1/2) / count.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub normal: Option<Normal>,
@@ -132,6 +187,37 @@ impl Vary {
     /// What tables and charts call it.
     pub fn label(&self) -> &str {
         self.name.as_deref().unwrap_or(&self.pointer)
+    }
+
+    /// Its values, where there are words among them.
+    pub fn words(&self) -> Option<&[Parameter]> {
+        self.values.as_deref().filter(|all| all.iter().any(|v| v.number().is_none()))
+    }
+
+    /// Where a value stands along an axis: a number at itself, values with words among them in
+    /// their order, from 0. Not a number for what is none of them.
+    pub fn coordinate(&self, value: &Parameter) -> f64 {
+        match self.words() {
+            Some(all) => all.iter().position(|v| v == value).map_or(f64::NAN, |k| k as f64),
+            None => value.number().unwrap_or(f64::NAN),
+        }
+    }
+
+    /// The value at a place along the axis.
+    pub fn at(&self, coordinate: f64) -> Parameter {
+        let word = self.words().and_then(|all| all.get(coordinate.round().max(0.0) as usize));
+        word.cloned().unwrap_or(Parameter::Number(coordinate))
+    }
+
+    /// The name of a place along the axis: the word there, or the number in a few digits.
+    pub fn place(&self, coordinate: f64) -> String {
+        match self.words() {
+            None => short(coordinate),
+            Some(_) => match self.at(coordinate) {
+                Parameter::Number(number) => short(number),
+                Parameter::Word(word) => word,
+            },
+        }
     }
 }
 

@@ -1,12 +1,13 @@
 //! JSON pointers (RFC 6901) into a scene: finding the number, changing it, and what depends on it.
 
+use super::Parameter;
 use crate::{
     error::{InputError, JsonPath},
     scene::suggest,
 };
-use serde_json::{Map, Number, Value};
+use serde_json::{Map, Value};
 
-/// A pointer that is known to lead to a number of a scene.
+/// A pointer that is known to lead to a number or a word of a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Pointer {
     tokens: Vec<String>,
@@ -26,11 +27,46 @@ pub(super) enum Touches {
 }
 
 impl Pointer {
-    /// Follows a pointer. Its last key may be missing in an object that is there.
+    /// Follows a pointer to a number. Its last key may be missing in an object that is there.
     ///
     /// # Errors
     /// At the root of the returned path: it is no pointer, leads nowhere, or not to a number.
     pub fn find(text: &str, scene: &Value) -> Result<Self, InputError> {
+        let (pointer, value) = Self::follow(text, scene)?;
+        // A coefficient of friction may be the word "infinite".
+        match value.filter(|v| !v.is_number() && *v != "infinite") {
+            None => Ok(pointer),
+            Some(value) => {
+                let hint = match value {
+                    Value::String(_) => {
+                        "numbers vary by themselves, words with \"values\": [\"one\", \"another\"]"
+                    }
+                    _ => "a pointer ends at one number",
+                };
+                let text =
+                    format!("{} of the scene is not a number: {}", pointer.path, what(value));
+                Err(InputError::at(JsonPath::root(), text).hint(hint))
+            }
+        }
+    }
+
+    /// The same to a number or a word.
+    ///
+    /// # Errors
+    /// As [`Self::find`].
+    pub fn find_word(text: &str, scene: &Value) -> Result<Self, InputError> {
+        let (pointer, value) = Self::follow(text, scene)?;
+        match value.filter(|v| v.is_object() || v.is_array()) {
+            None => Ok(pointer),
+            Some(value) => {
+                let text = format!("{} of the scene is not a word: {}", pointer.path, what(value));
+                Err(InputError::at(JsonPath::root(), text).hint("a pointer ends at one word"))
+            }
+        }
+    }
+
+    /// Where a pointer leads; nothing where only its last key is missing.
+    fn follow<'a>(text: &str, scene: &'a Value) -> Result<(Self, Option<&'a Value>), InputError> {
         let root = JsonPath::root;
         let Some(rest) = text.strip_prefix('/') else {
             return Err(InputError::at(root(), format!("not a JSON pointer: {text:?}"))
@@ -46,7 +82,7 @@ impl Pointer {
                     path = path.key(token.as_str());
                     match map.get(token) {
                         Some(next) => next,
-                        None if last => return Ok(Self { tokens, path }),
+                        None if last => return Ok((Self { tokens, path }, None)),
                         None => return Err(no_key(text, token, map)),
                     }
                 }
@@ -75,20 +111,7 @@ impl Pointer {
             };
             value = next;
         }
-        // A coefficient of friction may be the word "infinite".
-        if value.is_number() || value == "infinite" {
-            return Ok(Self { tokens, path });
-        }
-        let what = match value {
-            Value::Object(map) => format!(
-                "an object with {}",
-                map.keys().map(|k| format!("{k:?}")).collect::<Vec<_>>().join(", ")
-            ),
-            Value::Array(list) => format!("a list of {}", list.len()),
-            scalar => scalar.to_string(),
-        };
-        Err(InputError::at(root(), format!("{path} of the scene is not a number: {what}"))
-            .hint("a pointer ends at one number"))
+        Ok((Self { tokens, path }, Some(value)))
     }
 
     /// The number there, where there is one.
@@ -100,8 +123,8 @@ impl Pointer {
         })
     }
 
-    /// Puts a number there. Whole numbers are written as such: counts are read as well.
-    pub fn set(&self, scene: &mut Value, number: f64) {
+    /// Puts a number or a word there.
+    pub fn set(&self, scene: &mut Value, parameter: &Parameter) {
         let Some((last, parents)) = self.tokens.split_last() else { return };
         let parent = parents.iter().try_fold(scene, |value, token| match value {
             Value::Object(map) => map.get_mut(token),
@@ -109,10 +132,10 @@ impl Pointer {
             _ => None,
         });
         match parent {
-            Some(Value::Object(map)) => drop(map.insert(last.clone(), written(number))),
+            Some(Value::Object(map)) => drop(map.insert(last.clone(), parameter.value())),
             Some(Value::Array(list)) => {
                 if let Some(element) = index(last).and_then(|i| list.get_mut(i)) {
-                    *element = written(number);
+                    *element = parameter.value();
                 }
             }
             _ => {}
@@ -151,12 +174,16 @@ fn index(token: &str) -> Option<usize> {
     if plain { token.parse().ok() } else { None }
 }
 
-fn written(number: f64) -> Value {
-    const EXACT: f64 = 9_007_199_254_740_992.0;
-    if number.fract() == 0.0 && number.abs() < EXACT {
-        return Value::from(number as i64);
+/// A value in a few words.
+fn what(value: &Value) -> String {
+    match value {
+        Value::Object(map) => format!(
+            "an object with {}",
+            map.keys().map(|k| format!("{k:?}")).collect::<Vec<_>>().join(", ")
+        ),
+        Value::Array(list) => format!("a list of {}", list.len()),
+        scalar => scalar.to_string(),
     }
-    Number::from_f64(number).map_or(Value::Null, Value::Number)
 }
 
 #[cfg(test)]
@@ -169,9 +196,9 @@ mod tests {
         let scene =
             json!({ "a/b": [{ "m~n": 1.5 }], "t": [1, { "u": "infinite", "v": "word", "w": {} }] });
         let mut changed = scene.clone();
-        Pointer::find("/a~1b/0/m~0n", &scene).unwrap().set(&mut changed, 3.0);
-        Pointer::find("/t/1/u", &scene).unwrap().set(&mut changed, 0.25);
-        Pointer::find("/t/1/w/new", &scene).unwrap().set(&mut changed, -0.0);
+        Pointer::find("/a~1b/0/m~0n", &scene).unwrap().set(&mut changed, &3.0.into());
+        Pointer::find("/t/1/u", &scene).unwrap().set(&mut changed, &0.25.into());
+        Pointer::find("/t/1/w/new", &scene).unwrap().set(&mut changed, &(-0.0).into());
         assert_eq!(
             changed,
             json!({ "a/b": [{ "m~n": 3 }], "t": [1, { "u": 0.25, "v": "word", "w": { "new": 0 } }] })
@@ -188,6 +215,8 @@ mod tests {
             ("/t/1/w", "not a number"),
             ("/s/x", "no key \"s\""),
         ] {
+            // Where it does not end at a number it may end at a word.
+            assert_eq!(Pointer::find_word(text, &scene).is_ok(), matches!(text, "/" | "/t/1/v"));
             match Pointer::find(text, &scene) {
                 Err(e) => assert!(e.to_string().contains(word), "{e}"),
                 Ok(p) => assert!(word == "unknown" && p.get(&scene).is_none()),

@@ -1,6 +1,6 @@
 //! The file of rows (`"format": "voussoir-rows/1"`): a header, then one row a line.
 
-use super::{Plan, Shard, Sweep};
+use super::{Parameter, Plan, Shard, Sweep};
 use crate::{
     analysis::{
         Answer, Assessment, Critical, LoadFactor, Outcome, Proved, Tilt,
@@ -56,6 +56,14 @@ impl Header {
             plan: sweep.plan.clone(),
             scene: sweep.scene.clone(),
         }
+    }
+
+    /// Where the `k`-th parameter of a row stands along its axis ([`Vary::coordinate`]).
+    ///
+    /// [`Vary::coordinate`]: super::Vary::coordinate
+    pub fn coordinate(&self, row: &Row, k: usize) -> f64 {
+        let found = self.plan.vary.get(k).zip(row.parameters.get(k));
+        found.map_or(f64::NAN, |(vary, value)| vary.coordinate(value))
     }
 
     /// Why rows under this header are not rows under `other`; the path of the scene file, the names
@@ -303,8 +311,8 @@ impl RowAnswer {
 pub struct Row {
     /// Its number, from 0.
     pub row: usize,
-    /// The numbers, in the order of the plan's `vary`.
-    pub parameters: Vec<f64>,
+    /// The numbers and words, in the order of the plan's `vary`.
+    pub parameters: Vec<Parameter>,
     /// The answer.
     #[serde(flatten)]
     pub answer: RowAnswer,

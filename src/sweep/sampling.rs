@@ -188,7 +188,14 @@ mod tests {
     #[test]
     fn the_last_number_of_a_grid_changes_fastest() {
         let axis = |values: &[f64]| {
-            Axis::new(&Vary { values: Some(values.to_vec()), ..Vary::default() }, true).unwrap()
+            Axis::new(
+                &Vary {
+                    values: Some(values.iter().map(|v| (*v).into()).collect()),
+                    ..Vary::default()
+                },
+                true,
+            )
+            .unwrap()
         };
         let sampler =
             Sampler::new(vec![axis(&[1.0, 2.0]), axis(&[3.0, 4.0, 5.0])], &Sampling::Grid {}, 0, 6);

@@ -17,13 +17,17 @@ pub struct Summary {
     pub rows: usize,
     /// How they ended.
     pub counts: BTreeMap<&'static str, usize>,
+    /// Rows without an answer: with an error, or undecided.
+    pub open: usize,
+    /// Rows with a value: what quantiles and influences are of.
+    pub valued: usize,
     /// Quantiles of the values that were found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quantiles: Option<Quantiles>,
     /// How many failed, of those whose answer tells.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failed: Option<Proportion>,
-    /// What matters, the most first.
+    /// What matters, the most first, of the rows with a value.
     pub influence: Vec<Influence>,
     /// The fragility curve, of a sample.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -68,6 +72,11 @@ pub fn summarize(header: &Header, rows: &[Row]) -> Summary {
     Summary {
         rows: rows.len(),
         counts,
+        valued: rows.iter().filter(|r| value_of(header, r).is_some()).count(),
+        open: rows
+            .iter()
+            .filter(|r| matches!(r.answer.status, RowStatus::Error | RowStatus::Undecided))
+            .count(),
         quantiles: quantiles(rows),
         failed: (told && !fates.is_empty())
             .then(|| wilson(fates.iter().filter(|f| **f).count(), fates.len())),
@@ -113,12 +122,69 @@ fn extreme(values: &[(f64, usize)], value: f64) -> (f64, usize) {
     (value, same.map(|v| v.1).min().unwrap_or(0))
 }
 
+/// What a row has to show where values are drawn: every row is one of them, so that none is left
+/// out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shown {
+    /// Its value, or 0 for failed and 1 for not where the answer is a verdict.
+    Value(f64),
+    /// There is no limit, or it stands throughout.
+    Unlimited,
+    /// Neither proof closes.
+    Undecided,
+    /// The scene has no answer.
+    Error,
+    /// It falls, or stands only with a pre-stress, whatever the value.
+    Falls,
+}
+
+impl Shown {
+    /// What a row shows.
+    pub fn of(header: &Header, row: &Row) -> Self {
+        let value = match header.plan.question.quantity() {
+            Some(_) => row.answer.value.filter(|v| v.is_finite()),
+            None => failed(&header.plan.question, &row.answer).map(|f| if f { 0.0 } else { 1.0 }),
+        };
+        match (value, row.answer.status) {
+            (Some(value), _) => Self::Value(value),
+            (_, RowStatus::Impossible | RowStatus::Unstable | RowStatus::Conditional) => {
+                Self::Falls
+            }
+            (_, RowStatus::Unbounded | RowStatus::Stable) => Self::Unlimited,
+            (_, RowStatus::Error) => Self::Error,
+            (_, RowStatus::Undecided | RowStatus::Found) => Self::Undecided,
+        }
+    }
+
+    /// Its value, where it has one.
+    pub fn value(self) -> Option<f64> {
+        match self {
+            Self::Value(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Which of two stands for both where they are drawn in one place: a mean of values is one of
+    /// all rows or none, and what weighs most against safety is seen.
+    #[must_use]
+    pub fn graver(self, other: Self) -> Self {
+        if other.weight() > self.weight() { other } else { self }
+    }
+
+    fn weight(self) -> u8 {
+        match self {
+            Self::Value(_) => 0,
+            Self::Unlimited => 1,
+            Self::Undecided => 2,
+            Self::Error => 3,
+            Self::Falls => 4,
+        }
+    }
+}
+
 /// The number of an answer: its value, or 0 for failed and 1 for not; nothing where there is none.
 pub fn value_of(header: &Header, row: &Row) -> Option<f64> {
-    match header.plan.question.quantity() {
-        Some(_) => row.answer.value.filter(|v| v.is_finite()),
-        None => failed(&header.plan.question, &row.answer).map(|f| if f { 0.0 } else { 1.0 }),
-    }
+    Shown::of(header, row).value()
 }
 
 fn influences(header: &Header, rows: &[Row]) -> Vec<Influence> {
@@ -131,8 +197,7 @@ fn influences(header: &Header, rows: &[Row]) -> Vec<Influence> {
         .iter()
         .enumerate()
         .filter_map(|(index, vary)| {
-            let values: Vec<f64> =
-                known.iter().filter_map(|(r, _)| r.parameters.get(index).copied()).collect();
+            let values: Vec<f64> = known.iter().map(|(r, _)| header.coordinate(r, index)).collect();
             let share = if values.len() == answers.len() {
                 influence(&values, &answers)?
             } else {

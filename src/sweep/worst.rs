@@ -260,7 +260,7 @@ fn at_corner(base: &Scene, ends: &[Ends], corner: usize) -> Result<Scene, InputE
             What::Load => scene.loads.dead.iter_mut().for_each(|load| scale(load, value)),
             What::Pointer(pointer) => {
                 let mut json = as_json(&scene)?;
-                pointer.set(&mut json, value);
+                pointer.set(&mut json, &value.into());
                 scene = serde_json::from_value(json).map_err(|e| {
                     InputError::at(
                         JsonPath::root(),

@@ -36,8 +36,9 @@ pub struct MovingJoint {
     pub interface: usize,
     /// What it does.
     pub motion: JointMotion,
-    /// Where it keeps contact (mean of the closed or sliding corners), the middle of the crushed
-    /// corners, or its middle where it parts, m.
+    /// Where it keeps contact (mean of the closed or sliding corners), the middle of the line about
+    /// which it turns where it is crushed beyond (of the crushed corners, where all are), or its
+    /// middle where it parts, m.
     pub at: Vector3<f64>,
 }
 
@@ -100,7 +101,18 @@ fn joint(
         points.sum::<Vector3<f64>>() / n as f64
     };
     if crushes(face) && !crushed.is_empty() {
-        return Some((JointMotion::Crush, mean(&mut crushed.iter().map(|c| c.0), crushed.len())));
+        // Where an edge of the contact neither opens nor closes: the axis passes there.
+        let turns: Vec<Vector3<f64>> = corners
+            .iter()
+            .zip(corners.iter().cycle().skip(1))
+            .filter(|(p, q)| p.3.min(q.3) < 0.0 && p.3.max(q.3) >= 0.0)
+            .map(|(p, q)| p.0 + (q.0 - p.0) * (p.3 / (p.3 - q.3)))
+            .collect();
+        let at = match turns.len() {
+            0 => mean(&mut crushed.iter().map(|c| c.0), crushed.len()),
+            n => mean(&mut turns.into_iter(), n),
+        };
+        return Some((JointMotion::Crush, at));
     }
     if kept.is_empty() {
         return Some((JointMotion::Part, mean(&mut corners.iter().map(|c| c.0), corners.len())));

@@ -129,7 +129,7 @@ fn strings_of_a_file_stay_text_on_the_terminal_and_in_drawings() {
     // Strings stand there as the numbers of their bytes.
     let vtp = fs::read_to_string(at.join("limit.vtp")).unwrap();
     let names = vtp
-        .split("Name=\"block names\"")
+        .split("Name=\"block_names\"")
         .nth(1)
         .unwrap()
         .split('>')

@@ -2,7 +2,7 @@
 
 use super::{
     Outside, Pictures, Tables,
-    parse::{assignment, finite, friction, not_negative, positive, up},
+    parse::{Written, assignment, finite, friction, not_negative, output, positive, up},
 };
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -68,7 +68,7 @@ pub struct Generate {
     #[arg(long)]
     pub expand: bool,
     /// Write the scene to this file; standard output by default.
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = output(Written::Json))]
     pub output: Option<PathBuf>,
 }
 
@@ -78,7 +78,7 @@ pub struct Import {
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     /// Write the scene to this file; standard output by default.
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = output(Written::Json))]
     pub output: Option<PathBuf>,
     /// A block that is held in place; may be given several times.
     #[arg(long, value_name = "ID")]

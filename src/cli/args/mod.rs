@@ -16,7 +16,7 @@ pub use study::Study;
 pub use sweep::{Merge, Slurm, Summary, Sweep, SweepStatus, SweepVerb, Task};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use parse::{bytes, direction, finite, positive};
+use parse::{Written, bytes, direction, finite, output, positive};
 use std::path::PathBuf;
 use voussoir::{import::Reach, sweep::Between};
 
@@ -151,12 +151,12 @@ pub enum Verb {
     /// misses, overlaps, loose blocks and mistakes of units are listed. Exit code 0 if there is
     /// none, 1 otherwise. Pictures show what is proved, or the scene.
     Check(Check),
-    /// Ask a question of many scenes that differ in a few numbers.
+    /// Ask a question of many scenes that differ in a few numbers or words.
     ///
-    /// The plan names a scene, a question and the numbers that vary, by JSON pointer, on a grid or
-    /// sampled. Every row is appended to a file as it ends; the same command takes it up again
-    /// after a kill at any point. Rows are the same whatever the threads. Exit code 0 if all rows
-    /// are done (a row whose scene fails holds its error).
+    /// The plan names a scene, a question and the numbers or words that vary, by JSON pointer, on a
+    /// grid or sampled. Every row is appended to a file as it ends; the same command takes it up again
+    /// after a kill at any point. Rows are the same whatever the threads. Exit code 0 if
+    /// every row has an answer, 3 if one is undecided, or its scene failed (it holds the error).
     Sweep(Sweep),
     /// Print the JSON Schema of scenes, or of sweep plans.
     Schema(Schema),
@@ -287,11 +287,11 @@ pub struct Common {
     #[arg(long)]
     pub json: bool,
     /// Write the result, with the scene and its proof, to this file for `voussoir check`.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Json))]
     pub save: Option<PathBuf>,
     /// Write the answer as a page for a browser, with a picture, to this file (HTML, without any
     /// connection to a network).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Html))]
     pub report: Option<PathBuf>,
     /// Solve the scene in full, without leaving out what symmetry or missing friction make
     /// needless.

@@ -1,6 +1,100 @@
 //! Words of the command line as values.
 
+use clap::builder::{OsStringValueParser, TypedValueParser};
+use std::{
+    ffi::OsString,
+    path::{Path, PathBuf},
+};
 use voussoir::{import::Up, scene::Friction};
+
+/// What an output option writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Written {
+    Svg,
+    Html,
+    Csv,
+    Json,
+    /// JSON, one value a line.
+    Lines,
+    /// VTK, one answer or a film.
+    Vtk,
+    /// A folder of several files.
+    Folder,
+}
+
+impl Written {
+    /// What it is called.
+    fn noun(self) -> &'static str {
+        match self {
+            Self::Svg => "a drawing (SVG)",
+            Self::Html => "a page for a browser (HTML)",
+            Self::Csv => "a table (CSV)",
+            Self::Json => "JSON",
+            Self::Lines => "JSON lines",
+            Self::Vtk => "a file for ParaView (VTK XML)",
+            Self::Folder => "several files into a folder",
+        }
+    }
+
+    /// The endings that files of its kind have, the usual one first.
+    fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Svg => &["svg"],
+            Self::Html => &["html", "htm", "xhtml"],
+            Self::Csv => &["csv"],
+            Self::Json => &["json"],
+            Self::Lines => &["jsonl", "ndjson", "json"],
+            Self::Vtk => &["vtp", "pvd"],
+            Self::Folder => &[],
+        }
+    }
+}
+
+/// Endings by which other programs know formats that none of the options writes.
+const FOREIGN: [&str; 39] = [
+    "pdf", "png", "jpg", "jpeg", "gif", "tif", "tiff", "bmp", "webp", "eps", "ps", "svgz", "mp4",
+    "webm", "avi", "mov", "tex", "md", "doc", "docx", "odt", "xls", "xlsx", "ods", "tsv",
+    "parquet", "xml", "yaml", "yml", "toml", "vtk", "vtu", "obj", "ply", "stl", "dxf", "dwg",
+    "3dm", "gz",
+];
+
+/// A file to write, refused where its ending says that it is of another format: nobody could open
+/// it. Endings that say nothing are left alone.
+pub fn output(what: Written) -> impl TypedValueParser<Value = PathBuf> {
+    OsStringValueParser::new().try_map(move |name| fits(name, what))
+}
+
+fn fits(name: OsString, what: Written) -> Result<PathBuf, String> {
+    const ALL: [Written; 6] =
+        [Written::Svg, Written::Html, Written::Csv, Written::Json, Written::Lines, Written::Vtk];
+    let path = PathBuf::from(name);
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let known = |e: &str| FOREIGN.contains(&e) || ALL.iter().any(|w| w.endings().contains(&e));
+    match ending.filter(|e| known(e) && !what.endings().contains(&e.as_str())) {
+        None => Ok(path),
+        Some(ending) => Err(format!(
+            "this option writes {}, and .{ending} is another format; {}",
+            what.noun(),
+            remedy(&path, &ending, what)
+        )),
+    }
+}
+
+fn remedy(path: &Path, ending: &str, what: Written) -> String {
+    let Some(usual) = what.endings().first() else {
+        return "name a folder, which needs no ending".into();
+    };
+    let named = path.with_extension(usual);
+    let named = format!("name it {}", named.display());
+    match (what, ending) {
+        (Written::Svg, "pdf" | "png" | "eps" | "ps") => {
+            format!("{named}, and convert that, for example with rsvg-convert -f {ending}")
+        }
+        (Written::Html, "pdf") => format!("{named}, and print that from a browser"),
+        (Written::Csv, "xlsx" | "xls" | "ods") => format!("{named}, and open that"),
+        _ => named,
+    }
+}
 
 /// Bytes, with a unit of 1024s: 500M, 8G, 8GiB.
 pub fn bytes(text: &str) -> Result<u64, String> {
@@ -80,5 +174,40 @@ pub fn up(text: &str) -> Result<Up, String> {
         "-y" => Ok(Up::MinusY),
         "-z" => Ok(Up::MinusZ),
         _ => Err("not one of x, y, z, -x, -y, -z".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn endings_of_other_formats_are_refused_with_the_right_name() {
+        for (name, what, wanted) in [
+            ("x.png", Written::Svg, "name it x.svg, and convert that"),
+            ("X.PNG", Written::Svg, "name it X.svg"),
+            ("a/r.pdf", Written::Html, "name it a/r.html, and print that"),
+            ("r.json", Written::Html, "name it r.html"),
+            ("t.xlsx", Written::Csv, "name it t.csv, and open that"),
+            ("r.jsonl", Written::Json, "name it r.json"),
+            ("r.svg", Written::Lines, "name it r.jsonl"),
+            ("charts.svg", Written::Folder, "name a folder"),
+        ] {
+            let said = fits(name.into(), what).unwrap_err();
+            assert!(said.contains(wanted), "{name}: {said}");
+        }
+        for (name, what) in [
+            ("x.svg", Written::Svg),
+            ("x.SVG", Written::Svg),
+            ("x.htm", Written::Html),
+            ("-", Written::Csv),
+            ("/dev/null", Written::Svg),
+            ("forces", Written::Csv),
+            ("forces.txt", Written::Csv),
+            ("case-1.2", Written::Json),
+            ("rows.json", Written::Lines),
+        ] {
+            assert_eq!(fits(name.into(), what), Ok(name.into()));
+        }
     }
 }

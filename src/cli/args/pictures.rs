@@ -1,5 +1,6 @@
 //! Arguments of pictures and tables.
 
+use super::parse::{Written, output};
 use clap::Args;
 use std::path::PathBuf;
 use voussoir::report::drawing::Aspect;
@@ -9,7 +10,7 @@ use voussoir::report::drawing::Aspect;
 pub struct Pictures {
     /// Draw the answer to this file: blocks, joints, line of thrust or chains of forces, and beside
     /// it how it moves.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
     pub svg: Option<PathBuf>,
     /// From where --svg looks: front, back, left, right, top, corner, or a direction such as
     /// 1,-2,0.5; by default along the normal of a plane scene, and from a corner at others.
@@ -27,6 +28,6 @@ pub struct Pictures {
 pub struct Tables {
     /// Write joints with their forces to this file, comma-separated, and blocks to another with
     /// `.blocks` before its ending.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
     pub csv: Option<PathBuf>,
 }

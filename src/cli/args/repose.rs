@@ -2,7 +2,7 @@
 
 use super::{
     Common, DIRECTIONS, Pictures,
-    parse::{assignment, direction, share},
+    parse::{Written, assignment, direction, output, share},
 };
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -46,11 +46,11 @@ pub struct Repose {
     pub skip_margin: bool,
     /// Keep every heap and its margin in this file as soon as it is there; the same command takes
     /// it up again after a kill at any point, with more seeds too (--question repose).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Lines))]
     pub keep: Option<PathBuf>,
     /// Write every heap at rest as a scene, FILE with the seed before its ending (--question
     /// repose).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Json))]
     pub heaps: Option<PathBuf>,
     /// Tip towards this direction (its part across gravity); may be given several times.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
@@ -67,6 +67,6 @@ pub struct Repose {
     pub fabric: bool,
     /// Write the contact forces of the packing when level to this file (not with --question
     /// repose).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
     pub csv: Option<PathBuf>,
 }

@@ -2,7 +2,7 @@
 
 use super::{
     Common, Pictures,
-    parse::{finite, positive},
+    parse::{Written, finite, output, positive},
 };
 use clap::Args;
 use std::path::PathBuf;
@@ -34,7 +34,7 @@ pub struct Simulate {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     pub threads: u16,
     /// Write where every block is, time by time, to this file as it happens.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
     pub csv: Option<PathBuf>,
     /// So many times are kept in --csv, and in the result of --json and --save if given.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]

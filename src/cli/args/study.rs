@@ -1,5 +1,6 @@
 //! Arguments of studies.
 
+use super::parse::{Written, output};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -43,21 +44,21 @@ pub struct Study {
     pub dump: Option<PathBuf>,
     /// Keep every scene in this file as soon as it is asked; the same command takes it up again
     /// after a kill at any point (--soak, --cross, --forge, --extreme).
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "omissions"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "omissions"], value_parser = output(Written::Lines))]
     pub keep: Option<PathBuf>,
     /// Print this one of the random scenes, to look at it with other commands; nothing is asked
     /// (--soak, --cross, --forge).
     #[arg(long, value_name = "NUMBER", requires = "random", conflicts_with_all = ["csv", "json"])]
     pub only: Option<u32>,
     /// Write every run to this file, comma-separated.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
     pub csv: Option<PathBuf>,
     /// Draw the charts into this folder: one per scene, and profile.svg over all.
-    #[arg(long, value_name = "FOLDER", conflicts_with = "extreme")]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "extreme", value_parser = output(Written::Folder))]
     pub svg: Option<PathBuf>,
     /// Write charts with values where one points, and a table to sort, as a page for a browser to
     /// this file.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Html))]
     pub report: Option<PathBuf>,
     /// Print every run as JSON.
     #[arg(long)]

@@ -1,7 +1,7 @@
 //! Arguments of sweeps.
 
 use super::Outside;
-use super::parse::{one_line, word};
+use super::parse::{Written, one_line, output, word};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use voussoir::sweep::Shard;
@@ -16,7 +16,7 @@ pub struct Sweep {
     pub plan: Option<PathBuf>,
     /// The file of rows (JSON lines), which is continued if it holds rows of this plan; by default
     /// the plan's name with the ending `.rows.jsonl`, in the current folder.
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = output(Written::Lines))]
     pub output: Option<PathBuf>,
     /// Do every N-th row, starting with the K-th; `sweep merge` puts the files together.
     #[arg(long, value_name = "K/N", default_value_t = Shard::ALL)]
@@ -105,7 +105,7 @@ pub enum SweepVerb {
     Task(Task),
     /// Put files of rows together, in the order of the rows, and sum them up.
     ///
-    /// Exit code 3 if rows are missing.
+    /// Exit code 3 if rows are missing or have no answer.
     Merge(Merge),
 }
 
@@ -115,7 +115,7 @@ pub struct Merge {
     #[arg(required = true)]
     pub rows: Vec<PathBuf>,
     /// Write all rows to this file.
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = output(Written::Lines))]
     pub output: Option<PathBuf>,
     #[command(flatten)]
     pub summary: Summary,
@@ -125,14 +125,14 @@ pub struct Merge {
 #[derive(Debug, Args)]
 pub struct Summary {
     /// Write the rows as a table.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
     pub csv: Option<PathBuf>,
     /// Draw a chart.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
     pub svg: Option<PathBuf>,
     /// Write charts with values where one points, and a table to sort, as a page for a browser to
     /// this file.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Html))]
     pub report: Option<PathBuf>,
     /// Which chart: `line` (value against one number), `heat` (against two), `fragility` (share
     /// that fails); by default what suits the plan.

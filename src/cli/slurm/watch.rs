@@ -65,8 +65,8 @@ pub fn run(
         drop(RowsFile::open(output, &folder.header, false)?);
         Sink::again(Some(output))?.write(&merged.text()?)?;
     }
-    sinks.write(summary, &merged.header, &merged.rows, terminal)?;
-    let Some(first) = missing.first() else { return Ok(Exit::Yes) };
+    let exit = sinks.write(summary, &merged.header, &merged.rows, terminal)?;
+    let Some(first) = missing.first() else { return Ok(exit) };
     let log = folder.path.join("log");
     terminal::say(&format!(
         "note: {} of {} rows are missing, the first is row {first}, and no task is left; what the tasks said is in {}\nnote: the command with the plan and --slurm submits the missing rows again",

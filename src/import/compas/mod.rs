@@ -20,14 +20,17 @@ mod interface;
 mod mesh;
 mod model;
 
-use super::raw::{Raw, Solid};
+use super::{
+    raw::{Raw, Solid},
+    text,
+};
 use crate::error::{FindingCode, InputError, JsonPath};
 use cursor::Cursor;
 use serde_json::Value;
 
 /// The blocks and interfaces of a COMPAS file.
 pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
-    let value: Value = serde_json::from_slice(bytes).map_err(|e| {
+    let value: Value = serde_json::from_slice(text::unmarked(bytes)).map_err(|e| {
         let message = e.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
         let hint = match e.is_eof() {

@@ -143,3 +143,69 @@ fn formats_are_told_by_content_where_the_extension_says_nothing() {
         1
     );
 }
+
+/// Marks and line ends of other editors: the same blocks as without them, in every format.
+#[test]
+fn a_byte_order_mark_and_old_line_ends_do_no_harm() {
+    let obj = format!(
+        "o stone\n{}o other\n{}",
+        obj_box([0.0; 3], |i| i.to_string()),
+        obj_box([0.0, 0.0, 3.0], |i| (i + 8).to_string())
+    );
+    let ply = "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n".to_string();
+    let facet = |a: &str, b: &str, c: &str| {
+        format!(
+            "facet normal 0 0 0\nouter loop\nvertex {a}\nvertex {b}\nvertex {c}\nendloop\nendfacet\n"
+        )
+    };
+    let [o, x, y, z] = ["0 0 0", "1 0 0", "0 1 0", "0 0 1"];
+    let stl = format!(
+        "solid s\n{}{}{}{}endsolid s\n",
+        facet(o, y, x),
+        facet(o, x, z),
+        facet(o, z, y),
+        facet(x, y, z)
+    );
+    for (name, text) in [("a.obj", obj), ("a.ply", ply), ("a.stl", stl)] {
+        let plain = good(name, &text);
+        for changed in [
+            format!("\u{feff}{text}"),
+            text.replace('\n', "\r"),
+            text.replace('\n', "\r\n"),
+            format!("\u{feff}{}", text.replace('\n', "\r")),
+        ] {
+            let read = good(name, &changed);
+            assert_eq!(read.scene.blocks, plain.scene.blocks, "{name}");
+            // Lines are counted as an editor counts them.
+            assert_eq!(read.origins, plain.origins, "{name}");
+            let by_content = import("blocks", &changed).unwrap_or_else(|e| panic!("{e}"));
+            assert_eq!(by_content.scene.blocks.len(), plain.scene.blocks.len(), "{name}");
+        }
+    }
+    let list = serde_json::to_string(&serde_json::json!([])).unwrap();
+    let said = |text: &str| import("x.json", text).unwrap_err().to_string();
+    assert_eq!(said(&list), said(&format!("\u{feff}{list}")));
+}
+
+/// Numbers in binary after a header of old line ends stay as they are.
+#[test]
+fn a_binary_ply_may_have_a_header_with_old_line_ends() {
+    let mut bytes = b"ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n".to_vec();
+    let header = bytes.len();
+    // The double 13.0 and the byte 13 are no line ends.
+    for point in [
+        [0.0, 0.0, 0.0],
+        [13.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, f64::from_bits(0x400d_0d0d_0d0d_0d0d)],
+    ] {
+        point.iter().for_each(|c: &f64| bytes.extend(c.to_le_bytes()));
+    }
+    for face in [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]] {
+        bytes.push(3);
+        face.iter().for_each(|i: &i32| bytes.extend(i.to_le_bytes()));
+    }
+    let plain = good("a.ply", &bytes);
+    bytes[..header].iter_mut().filter(|b| **b == b'\n').for_each(|b| *b = b'\r');
+    assert_eq!(good("a.ply", &bytes).scene.blocks, plain.scene.blocks);
+}

@@ -133,7 +133,7 @@ impl Part {
             contact: assembly.contact.clone(),
             findings: Vec::new(),
         };
-        let interfaces = Interfaces { list, support_pairs: 0, findings: Vec::new() };
+        let interfaces = Interfaces { list, ..Interfaces::default() };
         Self { blocks, contacts, units, model: Model::new(assembly, interfaces) }
     }
 

@@ -15,13 +15,13 @@ use super::{
 };
 use crate::{
     analysis::{
-        Answer as Answered, Assessment, Claims, Limited, LoadFactor, Proved, Tilt, Tilted,
-        coulomb::DryLoadFactor,
+        Answer as Answered, Assessment, Claims, Control, Limited, LoadFactor, Proved, Question,
+        Tilt, Tilted, coulomb::DryLoadFactor, doubt, left_out,
     },
     error::{Finding, FindingCode},
     interface::Model,
     scene::Scene,
-    terms::{Law, Outcome},
+    terms::{Law, LeftOutContacts, Outcome},
     verdict::{
         Evidence, Verdict,
         evidence::{write_forces, write_rates},
@@ -69,6 +69,11 @@ impl ResultFile {
             thrust: None,
             simulation: None,
             mechanism: None,
+            left_out_contacts: model
+                .interfaces
+                .left_out
+                .map(|contacts| LeftOutContacts { contacts, closed: None }),
+            doubt: None,
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),
             timings: model.timings,
@@ -91,6 +96,21 @@ impl ResultFile {
             Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
             Answered::Repose(_) => return None,
         })
+    }
+
+    /// The same, with what weakens it: why it is undecided, and what it would be with contacts that
+    /// were left out.
+    pub fn of_question(
+        question: &Question,
+        scene: &Scene,
+        model: &Model,
+        answer: &Answered,
+        control: &Control,
+    ) -> Option<Self> {
+        let mut file = Self::of(scene, model, answer)?;
+        file.doubt = doubt(answer, model, control);
+        file.left_out_contacts = left_out(question, scene, model, answer, control);
+        Some(file)
     }
 
     /// The result of `assess`. What its check refused is undecided, and the reasons are warnings.

@@ -109,6 +109,7 @@ impl PackingFile {
             least,
             directions,
             fabric: None,
+            doubt: None,
             left_out,
             warnings,
             timings: model.timings,

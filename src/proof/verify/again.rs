@@ -101,7 +101,7 @@ pub(super) fn dry_friction(
 }
 
 /// Requires what was computed again, where that was possible.
-fn computed(f: &mut Findings, ok: Option<bool>, text: String) {
+pub(super) fn computed(f: &mut Findings, ok: Option<bool>, text: String) {
     f.computed = true;
     match ok {
         Some(ok) => require(f, ok, format!("{text} (computed again, not proved)")),

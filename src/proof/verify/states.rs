@@ -4,13 +4,16 @@
 use crate::{
     error::InputError,
     interface::Model,
+    proof::result::QuestionKind,
     scene::Scene,
-    terms::{Law, StateMotion},
+    terms::{ClosedAnswer, Law, StateMotion},
     verdict::Verdict,
 };
 
 #[cfg(feature = "solve")]
-use crate::analysis::{Control, coulomb, critical::probe};
+use crate::analysis::{
+    AssessOptions, Control, LimitOptions, Question, TiltOptions, closing, coulomb, critical::probe,
+};
 
 /// What the scene does under its dead load with dry friction.
 #[cfg(feature = "solve")]
@@ -38,6 +41,24 @@ pub fn with_value(
     Some(probe.map(|p| (p.assessment.verdict, p.unbalance())))
 }
 
+/// The question asked again with contacts closed that were left out, a tilt in these directions;
+/// the law by which joints slide there, and the answer, where it is asked at all.
+#[cfg(feature = "solve")]
+pub fn closed(
+    question: QuestionKind,
+    (law, toward): (Law, Vec<[f64; 3]>),
+    scene: &Scene,
+    model: &Model,
+) -> Option<Option<(Law, ClosedAnswer)>> {
+    let question = match question {
+        QuestionKind::Assess => Question::Assess(AssessOptions { law }),
+        QuestionKind::Limit => Question::Limit(LimitOptions::default()),
+        QuestionKind::Tilt => Question::Tilt(TiltOptions { toward, ..TiltOptions::default() }),
+        _ => return Some(None),
+    };
+    Some(closing::again(&question, scene, model, &Control::default()))
+}
+
 #[cfg(not(feature = "solve"))]
 mod none {
     use super::*;
@@ -47,6 +68,15 @@ mod none {
     }
 
     pub fn rests_alone(_: &Model) -> Option<bool> {
+        None
+    }
+
+    pub fn closed(
+        _: QuestionKind,
+        _: (Law, Vec<[f64; 3]>),
+        _: &Scene,
+        _: &Model,
+    ) -> Option<Option<(Law, ClosedAnswer)>> {
         None
     }
 
@@ -61,4 +91,4 @@ mod none {
 }
 
 #[cfg(not(feature = "solve"))]
-pub use none::{motion, rests_alone, with_value};
+pub use none::{closed, motion, rests_alone, with_value};

@@ -34,12 +34,15 @@ pub struct Axis {
     pub label: String,
     /// Logarithmic.
     pub log: bool,
+    /// Words that stand at 0, 1, 2, … in place of numbers.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub words: Vec<String>,
 }
 
 impl Axis {
     /// An axis.
     pub fn new(label: impl Into<String>, log: bool) -> Self {
-        Self { label: label.into(), log }
+        Self { label: label.into(), log, words: Vec::new() }
     }
 }
 
@@ -50,14 +53,17 @@ pub struct Series {
     pub name: String,
     /// Joined by a line.
     pub line: bool,
-    /// x, y; of cells their middle.
-    pub points: Vec<[f64; 2]>,
+    /// x, y; of cells their middle. A line has a gap where there is no y.
+    pub points: Vec<[Option<f64>; 2]>,
     /// What is said where one points; one for each point.
     pub hints: Vec<String>,
     /// Lower and upper end of a band at each point, where there is one; of cells half their width
     /// and height.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub band: Vec<[f64; 2]>,
+    /// Its colour, where it is not one of the order; of cells that of all of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colour: Option<String>,
     /// Of cells their value.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<f64>,
@@ -88,7 +94,7 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
                 &mut series[end]
             }
         };
-        line.points.push([spent, width]);
+        line.points.push([Some(spent), Some(width)]);
         line.hints.push(hint(a, spent, width));
     }
     let states: Vec<_> = file
@@ -106,7 +112,7 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
         let mut spent = 0.0;
         for s in states {
             spent += s.seconds;
-            line.points.push([spent, s.acceleration]);
+            line.points.push([Some(spent), Some(s.acceleration)]);
             line.hints.push(format!(
                 "after {}: {:.1e} g left, ε = {:.0e}, {} programs",
                 seconds(spent),
@@ -148,7 +154,7 @@ pub fn heaps(file: &ReposeFile) -> Option<Chart> {
     }
     let series = Series {
         name: "angle of repose".into(),
-        points: there.iter().map(|(h, angle)| [h.seed as f64, *angle]).collect(),
+        points: there.iter().map(|(h, angle)| [Some(h.seed as f64), Some(*angle)]).collect(),
         hints: there
             .iter()
             .map(|(h, angle)| format!("seed {}: {}°, {} grains", h.seed, short(*angle), h.grains))

@@ -79,7 +79,10 @@ fn errors(scene: &str, points: &[StudyPoint]) -> Chart {
         Series {
             name: method.label().into(),
             line: true,
-            points: known.iter().map(|(p, e)| [p.seconds, e.clamp(FLOOR, 10.0)]).collect(),
+            points: known
+                .iter()
+                .map(|(p, e)| [p.seconds, e.clamp(FLOOR, 10.0)].map(Some))
+                .collect(),
             hints: known
                 .iter()
                 .map(|(p, e)| {
@@ -121,7 +124,7 @@ fn profiles(points: &[StudyPoint]) -> Chart {
                 )
             })
             .collect(),
-        points: ratios.iter().zip(&shares).map(|(r, s)| [*r, *s]).collect(),
+        points: ratios.iter().zip(&shares).map(|(r, s)| [*r, *s].map(Some)).collect(),
         ..Series::default()
     });
     Chart {
@@ -170,7 +173,7 @@ pub fn extreme(text: &Page, found: &[CellAnswer]) -> Result<String, serde_json::
             .collect();
         Series {
             name: family.into(),
-            points: own.iter().map(|(f, e)| [f.seconds, e.clamp(FLOOR, 10.0)]).collect(),
+            points: own.iter().map(|(f, e)| [f.seconds, e.clamp(FLOOR, 10.0)].map(Some)).collect(),
             hints: own
                 .iter()
                 .map(|(f, e)| format!("{}: error {e:.1e} in {}", f.what, seconds(f.seconds)))

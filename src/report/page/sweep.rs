@@ -5,10 +5,10 @@ use super::{Axis, Chart, Series, tables};
 use crate::{
     number::short,
     report::{
-        sweep::group::{bands, cells},
+        sweep::group::{Group, bands, cells, mark, marks},
         text::Page,
     },
-    sweep::{Fragility, Header, Row, Summary, value_of},
+    sweep::{Fragility, Header, Row, Shown, Summary},
 };
 use serde_json::{Value, json};
 
@@ -29,19 +29,73 @@ pub fn sweep(
 ) -> Result<String, serde_json::Error> {
     let mut charts = Vec::new();
     charts.extend(summary.fragility.as_ref().map(fragility));
-    let known: Vec<(&Row, f64)> =
-        rows.iter().filter_map(|r| Some((r, value_of(header, r)?))).collect();
-    if !known.is_empty() {
+    let shown: Vec<Shown> = rows.iter().map(|r| Shown::of(header, r)).collect();
+    let all = All { header, rows, shown: &shown };
+    if !rows.is_empty() {
         let ranked = summary.influence.iter().map(|i| i.index);
         let rest =
             (0..header.plan.vary.len()).filter(|k| summary.influence.iter().all(|i| i.index != *k));
         let order: Vec<usize> = ranked.chain(rest).collect();
         if let [a, b, ..] = order[..] {
-            charts.push(heat(header, &known, [a.min(b), a.max(b)]));
+            charts.push(heat(&all, [a.min(b), a.max(b)]));
         }
-        charts.extend(order.iter().take(CHARTS).map(|&k| along(header, &known, k)));
+        charts.extend(order.iter().take(CHARTS).map(|&k| along(&all, k)));
     }
     tables(text, &charts, &[table(header, rows)])
+}
+
+/// All rows, with what each has to show.
+struct All<'a> {
+    header: &'a Header,
+    rows: &'a [Row],
+    shown: &'a [Shown],
+}
+
+impl All<'_> {
+    fn column(&self, k: usize) -> Vec<f64> {
+        self.rows.iter().map(|r| self.header.coordinate(r, k)).collect()
+    }
+
+    fn axis(&self, k: usize) -> Axis {
+        let vary = self.header.plan.vary.get(k);
+        let words = vary.and_then(|v| v.words()).unwrap_or_default();
+        Axis {
+            words: words.iter().map(ToString::to_string).collect(),
+            ..Axis::new(label(self.header, k), false)
+        }
+    }
+
+    fn place(&self, k: usize, at: f64) -> String {
+        self.header.plan.vary.get(k).map_or_else(|| short(at), |v| v.place(at))
+    }
+
+    /// What stands for a group, in words.
+    fn says(&self, group: &Group) -> String {
+        let rows = crate::number::count(group.rows, "row");
+        match (group.shown, mark(&self.header.plan.question, group.shown)) {
+            (Shown::Value(mean), _) if group.rows > 1 => format!(
+                "mean {}, from {} to {} ({rows})",
+                short(mean),
+                short(group.ends[0]),
+                short(group.ends[1])
+            ),
+            (Shown::Value(value), _) => short(value),
+            (_, Some((word, _))) if group.without < group.rows => {
+                format!(
+                    "{word}: {} of {rows} without a value, so that there is no mean",
+                    group.without
+                )
+            }
+            (_, word) => format!("{} ({rows})", word.map_or("", |w| w.0)),
+        }
+    }
+
+    /// A series of what is not a value, with its colour.
+    fn marked(&self, kind: Shown) -> Option<Series> {
+        let (word, [r, g, b]) = mark(&self.header.plan.question, kind)?;
+        let colour = format!("rgb({r},{g},{b})");
+        Some(Series { name: word.into(), colour: Some(colour), ..Series::default() })
+    }
 }
 
 fn what(header: &Header) -> &'static str {
@@ -52,16 +106,10 @@ fn label(header: &Header, k: usize) -> &str {
     header.plan.vary.get(k).map_or("", |v| v.label())
 }
 
-fn column(known: &[(&Row, f64)], k: usize) -> Vec<f64> {
-    known.iter().map(|(r, _)| r.parameters.get(k).copied().unwrap_or(f64::NAN)).collect()
-}
-
 fn hint(header: &Header, row: &Row, value: f64) -> String {
-    let numbers = row
-        .parameters
-        .iter()
-        .enumerate()
-        .map(|(k, v)| format!("{} {}", label(header, k), short(*v)));
+    let numbers = row.parameters.iter().enumerate().map(|(k, v)| {
+        format!("{} {}", label(header, k), v.number().map_or_else(|| v.to_string(), short))
+    });
     format!(
         "row {}: {} {} at {}",
         row.row,
@@ -72,42 +120,47 @@ fn hint(header: &Header, row: &Row, value: f64) -> String {
 }
 
 /// The value against one number: every row, and their mean in a band from the least to the
-/// greatest.
-fn along(header: &Header, known: &[(&Row, f64)], k: usize) -> Chart {
-    let (xs, values) = (column(known, k), known.iter().map(|k| k.1).collect::<Vec<_>>());
-    let groups = bands(&xs, &values);
+/// greatest where all of them have a value; where not, what they have instead, at the foot.
+fn along(all: &All, k: usize) -> Chart {
+    let header = all.header;
+    let xs = all.column(k);
+    let groups = bands(&xs, all.shown);
+    let hints =
+        |g: &Group| format!("{} {}: {}", label(header, k), all.place(k, g.at[0]), all.says(g));
+    // A gap in the line is a point without a value.
+    let there = |v: f64| if v.is_finite() { Some(v) } else { None };
     let mean = Series {
         name: "mean, least and greatest".into(),
         line: true,
-        points: groups.iter().map(|g| [g[0], g[2]]).collect(),
-        hints: groups
-            .iter()
-            .map(|g| {
-                format!(
-                    "{} {}: mean {}, from {} to {}",
-                    label(header, k),
-                    short(g[0]),
-                    short(g[2]),
-                    short(g[1]),
-                    short(g[3])
-                )
-            })
-            .collect(),
-        band: groups.iter().map(|g| [g[1], g[3]]).collect(),
+        points: groups.iter().map(|g| [there(g.at[0]), g.shown.value()]).collect(),
+        hints: groups.iter().map(hints).collect(),
+        band: groups.iter().map(|g| g.ends).collect(),
         ..Series::default()
     };
     let mut series = vec![mean];
-    if groups.len() < known.len() && known.len() <= ROWS {
+    let known: Vec<(usize, f64)> =
+        all.shown.iter().enumerate().filter_map(|(i, s)| Some((i, s.value()?))).collect();
+    if groups.len() < all.rows.len() && known.len() <= ROWS {
         series.push(Series {
             name: "rows".into(),
-            points: xs.iter().zip(&values).map(|(x, v)| [*x, *v]).collect(),
-            hints: known.iter().map(|(r, v)| hint(header, r, *v)).collect(),
+            points: known.iter().map(|&(i, v)| [there(xs[i]), Some(v)]).collect(),
+            hints: known.iter().map(|&(i, v)| hint(header, &all.rows[i], v)).collect(),
             ..Series::default()
         });
     }
+    let foot = known.iter().map(|k| k.1).fold(f64::INFINITY, f64::min);
+    let foot = if foot.is_finite() { foot } else { 0.0 };
+    for (kind, _) in marks(all.shown) {
+        let own: Vec<&Group> = groups.iter().filter(|g| g.shown == kind).collect();
+        series.extend(all.marked(kind).filter(|_| !own.is_empty()).map(|s| Series {
+            points: own.iter().map(|g| [there(g.at[0]), Some(foot)]).collect(),
+            hints: own.iter().map(|g| hints(g)).collect(),
+            ..s
+        }));
+    }
     Chart {
         title: format!("{} against {}", what(header), label(header, k)),
-        x: Axis::new(label(header, k), false),
+        x: all.axis(k),
         y: Axis::new(what(header), false),
         series,
         ..Chart::default()
@@ -115,38 +168,34 @@ fn along(header: &Header, known: &[(&Row, f64)], k: usize) -> Chart {
 }
 
 /// The mean value against two numbers.
-fn heat(header: &Header, known: &[(&Row, f64)], [a, b]: [usize; 2]) -> Chart {
-    let (xs, ys) = (column(known, a), column(known, b));
-    let values: Vec<f64> = known.iter().map(|k| k.1).collect();
-    let cells = cells(&xs, &ys, &values);
-    let middle = |e: [f64; 2]| 0.5 * (e[0] + e[1]);
-    let half = |e: [f64; 2]| 0.5 * (e[1] - e[0]);
-    let series = Series {
-        name: what(header).into(),
-        points: cells.iter().map(|c| [middle(c.x), middle(c.y)]).collect(),
-        hints: cells
+fn heat(all: &All, [a, b]: [usize; 2]) -> Chart {
+    let header = all.header;
+    let cells = cells(&all.column(a), &all.column(b), all.shown);
+    let filled = |base: Series, own: Vec<&Group>| Series {
+        points: own.iter().map(|c| c.at.map(Some)).collect(),
+        hints: own
             .iter()
             .map(|c| {
-                let (x, y) = (short(middle(c.x)), short(middle(c.y)));
-                let rows = crate::number::count(c.rows, "row");
-                format!(
-                    "{} {x}, {} {y}: {} {} ({rows})",
-                    label(header, a),
-                    label(header, b),
-                    what(header),
-                    short(c.mean)
-                )
+                let (x, y) = (all.place(a, c.at[0]), all.place(b, c.at[1]));
+                let says = all.says(c);
+                format!("{} {x}, {} {y}: {says}", label(header, a), label(header, b))
             })
             .collect(),
-        band: cells.iter().map(|c| [half(c.x), half(c.y)]).collect(),
-        values: cells.iter().map(|c| c.mean).collect(),
-        ..Series::default()
+        band: own.iter().map(|c| c.half).collect(),
+        values: own.iter().filter_map(|c| c.shown.value()).collect(),
+        ..base
     };
+    let known = cells.iter().filter(|c| c.shown.value().is_some()).collect();
+    let mut series = vec![filled(Series { name: what(header).into(), ..Series::default() }, known)];
+    for (kind, _) in marks(all.shown) {
+        let own: Vec<&Group> = cells.iter().filter(|c| c.shown == kind).collect();
+        series.extend(all.marked(kind).map(|s| filled(s, own)));
+    }
     Chart {
         title: format!("{} against {} and {}", what(header), label(header, a), label(header, b)),
-        x: Axis::new(label(header, a), false),
-        y: Axis::new(label(header, b), false),
-        series: vec![series],
+        x: all.axis(a),
+        y: all.axis(b),
+        series,
         cells: Some(what(header).into()),
         ..Chart::default()
     }
@@ -157,7 +206,7 @@ fn fragility(f: &Fragility) -> Chart {
     let series = Series {
         name: "share that fails, with its 95 % interval".into(),
         line: true,
-        points: f.points.iter().map(|(at, p)| [*at, p.share]).collect(),
+        points: f.points.iter().map(|(at, p)| [Some(*at), Some(p.share)]).collect(),
         hints: f
             .points
             .iter()
@@ -166,7 +215,7 @@ fn fragility(f: &Fragility) -> Chart {
                 format!(
                     "{} {}: {} of {} fail, {} % ({low} to {high} %)",
                     f.along,
-                    short(*at),
+                    f.vary.as_ref().map_or_else(|| short(*at), |v| v.place(*at)),
                     p.failed,
                     p.of,
                     percent(p.share)
@@ -178,7 +227,15 @@ fn fragility(f: &Fragility) -> Chart {
     };
     Chart {
         title: "Share that fails".into(),
-        x: Axis::new(&f.along, false),
+        x: Axis {
+            words: f
+                .vary
+                .iter()
+                .flat_map(|v| v.words().unwrap_or_default())
+                .map(ToString::to_string)
+                .collect(),
+            ..Axis::new(&f.along, false)
+        },
         y: Axis::new("share that fails", false),
         series: vec![series],
         note: "95 % interval after Wilson (1927).".into(),

@@ -1,7 +1,7 @@
 //! Scenes asked in several ways, as a table and as a page.
 
 use super::super::{
-    cells::Table,
+    cells::{Table, row},
     text::{Layout, Page, Role},
 };
 use crate::study::cross::{CrossCount, Crossed, Differs, FAMILIES, count};
@@ -14,8 +14,7 @@ const NAMED: usize = 8;
 /// # Errors
 /// The writer's, which has no reason to fail in memory.
 pub fn cross_csv(list: &[Crossed]) -> Result<String, csv::Error> {
-    let mut out = Table::new();
-    out.write_record([
+    let mut out = Table::with_head([
         "scene",
         "family",
         "blocks",
@@ -33,28 +32,27 @@ pub fn cross_csv(list: &[Crossed]) -> Result<String, csv::Error> {
         "error",
         "seconds",
     ])?;
-    let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
     let lines = |list: &[Differs]| {
         list.iter().map(|d| format!("{}: {}", d.way.word(), d.what)).collect::<Vec<_>>().join("; ")
     };
     for c in list {
-        out.write_record([
-            c.index.to_string(),
+        out.write_record(row![
+            c.index,
             c.family.clone(),
-            c.blocks.to_string(),
+            c.blocks,
             format!("{:?}", c.verdict).to_lowercase(),
             format!("{:?}", c.outcome).to_lowercase(),
-            number(c.bound),
-            number(c.dry),
-            c.ways.to_string(),
-            c.unions[0].to_string(),
-            c.unions[1].to_string(),
+            c.bound,
+            c.dry,
+            c.ways,
+            c.unions[0],
+            c.unions[1],
             lines(&c.lost),
             lines(&c.wrong),
-            c.simulated[0].to_string(),
-            c.simulated[1].to_string(),
+            c.simulated[0],
+            c.simulated[1],
             c.error.clone().unwrap_or_default(),
-            c.seconds.to_string(),
+            c.seconds,
         ])?;
     }
     out.end()

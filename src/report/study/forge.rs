@@ -1,7 +1,7 @@
 //! Forged results as a table and as a page.
 
 use super::super::{
-    cells::Table,
+    cells::{Table, row},
     text::{Layout, Page, Role},
 };
 use crate::study::forge::Forged;
@@ -15,8 +15,7 @@ const NAMED: usize = 12;
 /// # Errors
 /// The writer's, which has no reason to fail in memory.
 pub fn forge_csv(list: &[Forged]) -> Result<String, csv::Error> {
-    let mut out = Table::new();
-    out.write_record([
+    let mut out = Table::with_head([
         "scene",
         "family",
         "results",
@@ -28,20 +27,20 @@ pub fn forge_csv(list: &[Forged]) -> Result<String, csv::Error> {
         "verifying",
     ])?;
     for f in list {
-        out.write_record([
-            f.index.to_string(),
+        out.write_record(row![
+            f.index,
             f.family.clone(),
-            f.results.values().sum::<usize>().to_string(),
-            f.count().to_string(),
-            f.accepted.len().to_string(),
+            f.results.values().sum::<usize>(),
+            f.count(),
+            f.accepted.len(),
             f.accepted
                 .iter()
                 .map(|a| format!("{} {}: {}", a.question, a.kind, a.what))
                 .collect::<Vec<_>>()
                 .join("; "),
             f.error.clone().unwrap_or_default(),
-            f.seconds.to_string(),
-            f.verifying.to_string(),
+            f.seconds,
+            f.verifying,
         ])?;
     }
     out.end()

@@ -11,7 +11,7 @@ pub use forge::{forge_csv, forge_text};
 pub use soak::{soak_csv, soak_text};
 
 use super::{
-    cells::Table,
+    cells::{Table, row},
     text::{Layout, Page, Role},
 };
 use crate::study::{
@@ -27,8 +27,7 @@ pub const ANSWER: f64 = 1e-6;
 /// # Errors
 /// The writer's, which has no reason to fail in memory.
 pub fn csv(points: &[StudyPoint]) -> Result<String, csv::Error> {
-    let mut out = Table::new();
-    out.write_record([
+    let mut out = Table::with_head([
         "scene",
         "method",
         "knob",
@@ -40,19 +39,18 @@ pub fn csv(points: &[StudyPoint]) -> Result<String, csv::Error> {
         "iterations",
         "engine_status",
     ])?;
-    let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
     for p in points {
         let status = p.status.map_or(String::new(), |s| format!("{s:?}"));
-        out.write_record([
+        out.write_record(row![
             p.scene.clone(),
-            p.method.label().into(),
-            p.method.knob().into(),
-            p.knob.to_string(),
-            number(p.value),
-            number(p.error),
-            number(p.bracket),
-            p.seconds.to_string(),
-            p.iterations.to_string(),
+            p.method.label(),
+            p.method.knob(),
+            p.knob,
+            p.value,
+            p.error,
+            p.bracket,
+            p.seconds,
+            p.iterations,
             status,
         ])?;
     }
@@ -64,8 +62,7 @@ pub fn csv(points: &[StudyPoint]) -> Result<String, csv::Error> {
 /// # Errors
 /// As [`csv()`].
 pub fn extreme_csv(found: &[CellAnswer]) -> Result<String, csv::Error> {
-    let mut out = Table::new();
-    out.write_record([
+    let mut out = Table::with_head([
         "family",
         "what",
         "asked",
@@ -76,18 +73,17 @@ pub fn extreme_csv(found: &[CellAnswer]) -> Result<String, csv::Error> {
         "iterations",
         "seconds",
     ])?;
-    let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
     for f in found {
-        out.write_record([
+        out.write_record(row![
             f.family.clone(),
             f.what.clone(),
             format!("{:?}", f.ask),
             format!("{:?}", f.grade).to_lowercase(),
-            number(f.value),
-            number(f.error),
-            number(f.bracket),
-            f.iterations.to_string(),
-            f.seconds.to_string(),
+            f.value,
+            f.error,
+            f.bracket,
+            f.iterations,
+            f.seconds,
         ])?;
     }
     out.end()

@@ -1,7 +1,7 @@
 //! The soak as a table and as a page.
 
 use super::super::{
-    cells::Table,
+    cells::{Table, row},
     text::{Layout, Page, Role},
 };
 use crate::{
@@ -27,8 +27,7 @@ const NAMED: usize = 8;
 /// # Errors
 /// The writer's, which has no reason to fail in memory.
 pub fn soak_csv(list: &[Soaked]) -> Result<String, csv::Error> {
-    let mut out = Table::new();
-    out.write_record([
+    let mut out = Table::with_head([
         "scene",
         "family",
         "perturbations",
@@ -47,11 +46,11 @@ pub fn soak_csv(list: &[Soaked]) -> Result<String, csv::Error> {
         let verdict =
             |v: Option<Verdict>| v.map_or(String::new(), |v| format!("{v:?}").to_lowercase());
         let flag = |b: Option<bool>| b.map_or("", |b| if b { "yes" } else { "no" }).to_string();
-        out.write_record([
-            s.index.to_string(),
+        out.write_record(row![
+            s.index,
             s.family.clone(),
             perturbations.join(" "),
-            s.blocks.to_string(),
+            s.blocks,
             verdict(s.verdict),
             verdict(s.unproved),
             verdict(s.kept),
@@ -59,7 +58,7 @@ pub fn soak_csv(list: &[Soaked]) -> Result<String, csv::Error> {
             flag(s.agrees),
             s.difference.map_or(String::new(), |d| format!("{d:?}").to_lowercase()),
             s.error.clone().unwrap_or_default(),
-            s.seconds.to_string(),
+            s.seconds,
         ])?;
     }
     out.end()

@@ -1,10 +1,10 @@
 //! Charts of sweeps as SVG: the value against one number, against two, and the fragility curve.
 
-use super::group::{Cell, bands, cells};
+use super::group::{Group, bands, cells, mark, marks};
 use crate::{
-    number::short,
+    number::{count, short},
     plain::document,
-    sweep::{Fragility, Header, Plan, Row, Sampling, Summary, value_of},
+    sweep::{Fragility, Header, Plan, Row, Sampling, Shown, Summary, Vary},
 };
 use plotters::{
     coord::Shift,
@@ -19,9 +19,10 @@ use plotters::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The value against the number that matters most: mean, and the band from the least to the
-    /// greatest.
+    /// greatest; where a row has none, a mark at the foot.
     Line,
-    /// The mean value against the two numbers that matter most, in colours.
+    /// The mean value against the two numbers that matter most, in colours; where a row has none,
+    /// what it has instead.
     Heat,
     /// The share that fails, with its 95 % interval.
     Fragility,
@@ -76,7 +77,7 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// The chart.
 ///
 /// # Errors
-/// The plan does not fit this kind, or too few rows have a value.
+/// The plan does not fit this kind, or there are no rows.
 pub fn chart(
     header: &Header,
     rows: &[Row],
@@ -92,12 +93,15 @@ pub fn chart(
     };
     let label = |k: usize| header.plan.vary.get(k).map_or("", |v| v.label());
     let what = header.plan.question.quantity().unwrap_or("share that stands");
-    let known: Vec<(&Row, f64)> =
-        rows.iter().filter_map(|r| Some((r, value_of(header, r)?))).collect();
-    let column = |k: usize| -> Vec<f64> {
-        known.iter().map(|(r, _)| r.parameters.get(k).copied().unwrap_or(f64::NAN)).collect()
-    };
-    let values: Vec<f64> = known.iter().map(|k| k.1).collect();
+    let column = |k: usize| -> Vec<f64> { rows.iter().map(|r| header.coordinate(r, k)).collect() };
+    let shown: Vec<Shown> = rows.iter().map(|r| Shown::of(header, r)).collect();
+    let legend: Vec<Mark> = marks(&shown)
+        .into_iter()
+        .filter_map(|(kind, n)| {
+            mark(&header.plan.question, kind).map(|(word, rgb)| Mark { kind, word, rgb, rows: n })
+        })
+        .collect();
+    let axis = |k: usize| Along { label: label(k), vary: header.plan.vary.get(k) };
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
@@ -105,22 +109,70 @@ pub fn chart(
         let name = &header.plan.name;
         match (kind, &order[..]) {
             (Kind::Fragility, _) => match &summary.fragility {
-                Some(f) => fragility(&area, name, f),
+                Some(f) => fragility(&area, name, f, &legend),
                 None => Err(ChartError("too few rows tell whether they fail".into())),
             },
             (Kind::Heat, [a, b, ..]) => {
                 // The plan's first number runs along x.
                 let (a, b) = (*a.min(b), *a.max(b));
-                heat(&area, name, [label(a), label(b), what], &column(a), &column(b), &values)
+                let cells = cells(&column(a), &column(b), &shown);
+                heat(&area, name, [axis(a), axis(b)], what, &cells, &legend)
             }
             (Kind::Heat, _) => Err(ChartError("a heat map needs two numbers that vary".into())),
-            (Kind::Line, [a, ..]) => line(&area, name, [label(*a), what], &column(*a), &values),
+            (Kind::Line, [a, ..]) => {
+                line(&area, name, axis(*a), what, &bands(&column(*a), &shown), &legend)
+            }
             (Kind::Line, []) => Err(ChartError("nothing varies".into())),
         }?;
         area.present().map_err(refused)?;
     }
     // Markup in names is escaped where they are drawn.
     Ok(document(&text).into_owned())
+}
+
+/// What rows without a value are drawn as.
+struct Mark {
+    kind: Shown,
+    word: &'static str,
+    rgb: [u8; 3],
+    rows: usize,
+}
+
+impl Mark {
+    fn colour(&self) -> RGBColor {
+        RGBColor(self.rgb[0], self.rgb[1], self.rgb[2])
+    }
+
+    fn text(&self) -> String {
+        format!("{}: {}", self.word, count(self.rows, "row"))
+    }
+}
+
+/// What runs along an axis.
+#[derive(Clone, Copy)]
+struct Along<'a> {
+    label: &'a str,
+    vary: Option<&'a Vary>,
+}
+
+impl Along<'_> {
+    /// What stands at a place: a number, or the word there.
+    fn tick(&self, at: f64) -> String {
+        match self.vary.filter(|v| v.words().is_some()) {
+            Some(_) if (at - at.round()).abs() > 1e-6 => String::new(),
+            Some(vary) if vary.words().is_some_and(|w| at.round() >= w.len() as f64) => {
+                String::new()
+            }
+            Some(vary) if at > -0.5 => vary.place(at),
+            Some(_) => String::new(),
+            None => short(at),
+        }
+    }
+
+    /// Ticks that are wanted.
+    fn ticks(&self) -> usize {
+        self.vary.and_then(|v| v.words()).map_or(6, |w| w.len().clamp(2, 12))
+    }
 }
 
 fn refused(e: impl std::fmt::Display) -> ChartError {
@@ -139,68 +191,130 @@ fn ends(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     Some((low - apart, high + apart))
 }
 
-/// A curve in a band.
+/// A point of a curve: where, and the lower end of its band, the curve, the upper end.
+type BandPoint = (f64, [f64; 3]);
+
+/// Height of the line that says what marks mean.
+const LEGEND: u32 = 26;
+
+/// A curve in a band, cut where a point has no value, and marks at the foot of the chart there.
 fn curve(
     area: &Area,
     title: &str,
-    labels: [&str; 2],
-    y: (f64, f64),
-    points: &[[f64; 4]],
+    [x, y]: [Along; 2],
+    range: (f64, f64),
+    runs: &[Vec<BandPoint>],
+    at_foot: &[(f64, RGBColor)],
+    legend: &[(String, Option<RGBColor>)],
 ) -> Result<(), ChartError> {
-    let x =
-        ends(points.iter().map(|p| p[0])).ok_or_else(|| ChartError("no row has a value".into()))?;
-    let mut chart = ChartBuilder::on(area)
+    let places = runs.iter().flatten().map(|p| p.0).chain(at_foot.iter().map(|m| m.0));
+    let along = ends(places).ok_or_else(|| ChartError("there are no rows".into()))?;
+    let (above, below) = match legend.is_empty() {
+        true => (area.clone(), None),
+        false => {
+            let (above, below) = area.split_vertically(SIZE.1 - LEGEND);
+            (above, Some(below))
+        }
+    };
+    let mut chart = ChartBuilder::on(&above)
         .margin(12)
         .caption(title, TITLE)
         .x_label_area_size(42)
         .y_label_area_size(64)
-        .build_cartesian_2d(x.0..x.1, y.0..y.1)
+        .build_cartesian_2d(along.0..along.1, range.0..range.1)
         .map_err(refused)?;
-    let tick = |v: &f64| short(*v);
     chart
         .configure_mesh()
         .label_style(WORDS)
         .axis_desc_style(WORDS)
-        .x_desc(labels[0])
-        .y_desc(labels[1])
-        .x_labels(6)
+        .x_desc(x.label)
+        .y_desc(y.label)
+        .x_labels(x.ticks())
         .y_labels(6)
-        .x_label_formatter(&tick)
-        .y_label_formatter(&tick)
+        .x_label_formatter(&|v| x.tick(*v))
+        .y_label_formatter(&|v| y.tick(*v))
         .light_line_style(WHITE.mix(0.0))
         .draw()
         .map_err(refused)?;
-    let there = points.iter().map(|p| (p[0], p[1]));
-    let back = points.iter().rev().map(|p| (p[0], p[3]));
-    chart
-        .draw_series([Polygon::new(there.chain(back).collect::<Vec<_>>(), INK.mix(0.18).filled())])
-        .map_err(refused)?;
-    let middle: Vec<(f64, f64)> = points.iter().map(|p| (p[0], p[2])).collect();
-    chart.draw_series([PathElement::new(middle.clone(), INK.stroke_width(2))]).map_err(refused)?;
-    if middle.len() <= 40 {
-        chart
-            .draw_series(middle.into_iter().map(|p| Circle::new(p, 2, INK.filled())))
-            .map_err(refused)?;
+    let few = runs.iter().map(Vec::len).sum::<usize>() <= 40;
+    for run in runs {
+        let there = run.iter().map(|p| (p.0, p.1[0]));
+        let back = run.iter().rev().map(|p| (p.0, p.1[2]));
+        let band = Polygon::new(there.chain(back).collect::<Vec<_>>(), INK.mix(0.18).filled());
+        chart.draw_series([band]).map_err(refused)?;
+        let middle: Vec<(f64, f64)> = run.iter().map(|p| (p.0, p.1[1])).collect();
+        let path = PathElement::new(middle.clone(), INK.stroke_width(2));
+        chart.draw_series([path]).map_err(refused)?;
+        if few || run.len() == 1 {
+            let dots = middle.into_iter().map(|p| Circle::new(p, 2, INK.filled()));
+            chart.draw_series(dots).map_err(refused)?;
+        }
+    }
+    let foot = at_foot.iter().map(|(x, c)| Circle::new((*x, range.0), 5, c.filled()));
+    chart.draw_series(foot).map_err(refused)?;
+    let Some(below) = below else { return Ok(()) };
+    let mut left = 76;
+    for (words, colour) in legend {
+        if let Some(colour) = colour {
+            below.draw(&Circle::new((left, 10), 5, colour.filled())).map_err(refused)?;
+            left += 12;
+        }
+        let font = WORDS.into_font();
+        below.draw(&Text::new(words.clone(), (left, 3), font)).map_err(refused)?;
+        // Letters are some 7 wide.
+        left += 7 * words.chars().count() as i32 + 24;
     }
     Ok(())
 }
 
-fn fragility(area: &Area, title: &str, f: &Fragility) -> Result<(), ChartError> {
-    let points: Vec<[f64; 4]> =
-        f.points.iter().map(|(at, p)| [*at, p.lower, p.share, p.upper]).collect();
-    curve(area, title, [&f.along, "share that fails"], (0.0, 1.0), &points)
+fn fragility(area: &Area, title: &str, f: &Fragility, legend: &[Mark]) -> Result<(), ChartError> {
+    let points = f.points.iter().map(|(at, p)| (*at, [p.lower, p.share, p.upper])).collect();
+    let axes = [
+        Along { label: &f.along, vary: f.vary.as_ref() },
+        Along { label: "share that fails", vary: None },
+    ];
+    // What neither fails nor stands is in no share.
+    let left_out: Vec<_> = legend
+        .iter()
+        .filter(|m| matches!(m.kind, Shown::Error | Shown::Undecided))
+        .map(|m| (format!("left out, {}", m.text()), None))
+        .collect();
+    curve(area, title, axes, (0.0, 1.0), &[points], &[], &left_out)
 }
 
 fn line(
     area: &Area,
     title: &str,
-    labels: [&str; 2],
-    xs: &[f64],
-    values: &[f64],
+    x: Along,
+    what: &str,
+    groups: &[Group],
+    legend: &[Mark],
 ) -> Result<(), ChartError> {
-    let points = bands(xs, values);
-    let y = ends(values.iter().copied()).ok_or_else(|| ChartError("no row has a value".into()))?;
-    curve(area, title, labels, y, &points)
+    let mut runs: Vec<Vec<BandPoint>> = Vec::new();
+    let mut foot = Vec::new();
+    let mut goes_on = false;
+    for group in groups {
+        match group.shown.value() {
+            Some(mean) => {
+                let point = (group.at[0], [group.ends[0], mean, group.ends[1]]);
+                match runs.last_mut().filter(|_| goes_on) {
+                    Some(run) => run.push(point),
+                    None => runs.push(vec![point]),
+                }
+            }
+            None => foot.extend(
+                legend.iter().find(|m| m.kind == group.shown).map(|m| (group.at[0], m.colour())),
+            ),
+        }
+        goes_on = group.shown.value().is_some();
+    }
+    let values = runs.iter().flatten().flat_map(|p| p.1);
+    let (low, high) = ends(values).unwrap_or((0.0, 1.0));
+    // Marks stand below every value.
+    let low = if foot.is_empty() { low } else { low - 0.06 * (high - low) };
+    let words: Vec<_> = legend.iter().map(|m| (m.text(), Some(m.colour()))).collect();
+    let axes = [x, Along { label: what, vary: None }];
+    curve(area, title, axes, (low, high), &runs, &foot, &words)
 }
 
 fn colour(share: f64) -> RGBColor {
@@ -213,27 +327,29 @@ fn colour(share: f64) -> RGBColor {
 
 /// Room for the colour bar and its words.
 const BAR: u32 = 122;
+/// Height of a line that says what a mark means.
+const KEY: i32 = 18;
 /// Steps of the colour bar.
 const STEPS: i32 = 40;
 
 fn heat(
     area: &Area,
     title: &str,
-    labels: [&str; 3],
-    xs: &[f64],
-    ys: &[f64],
-    values: &[f64],
+    [along_x, along_y]: [Along; 2],
+    what: &str,
+    cells: &[Group],
+    legend: &[Mark],
 ) -> Result<(), ChartError> {
-    let cells = cells(xs, ys, values);
-    let (low, high) = ends(cells.iter().map(|c| c.mean))
-        .ok_or_else(|| ChartError("no row has a value".into()))?;
-    let hull = |of: fn(&Cell) -> [f64; 2]| {
-        cells
-            .iter()
-            .map(of)
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], [a, b]| [l.min(a), h.max(b)])
+    let values = ends(cells.iter().filter_map(|c| c.shown.value()));
+    let hull = |axis: usize| {
+        cells.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], c| {
+            [l.min(c.at[axis] - c.half[axis]), h.max(c.at[axis] + c.half[axis])]
+        })
     };
-    let ([x0, x1], [y0, y1]) = (hull(|c| c.x), hull(|c| c.y));
+    let ([x0, x1], [y0, y1]) = (hull(0), hull(1));
+    if x0 >= x1 || y0 >= y1 {
+        return Err(ChartError("there are no rows".into()));
+    }
     let area = area.titled(title, TITLE).map_err(refused)?;
     let (left, bar) = area.split_horizontally(SIZE.0 - BAR);
     let mut chart = ChartBuilder::on(&left)
@@ -242,35 +358,47 @@ fn heat(
         .y_label_area_size(64)
         .build_cartesian_2d(x0..x1, y0..y1)
         .map_err(refused)?;
-    let tick = |v: &f64| short(*v);
     chart
         .configure_mesh()
         .disable_mesh()
         .label_style(WORDS)
         .axis_desc_style(WORDS)
-        .x_desc(labels[0])
-        .y_desc(labels[1])
-        .x_labels(6)
-        .y_labels(6)
-        .x_label_formatter(&tick)
-        .y_label_formatter(&tick)
+        .x_desc(along_x.label)
+        .y_desc(along_y.label)
+        .x_labels(along_x.ticks())
+        .y_labels(along_y.ticks())
+        .x_label_formatter(&|v| along_x.tick(*v))
+        .y_label_formatter(&|v| along_y.tick(*v))
         .draw()
         .map_err(refused)?;
     let boxes = cells.iter().map(|c| {
-        let shade = colour((c.mean - low) / (high - low));
-        Rectangle::new([(c.x[0], c.y[0]), (c.x[1], c.y[1])], shade.filled())
+        let shade = match (c.shown, values) {
+            (Shown::Value(v), Some((low, high))) => colour((v - low) / (high - low)),
+            (shown, _) => legend.iter().find(|m| m.kind == shown).map_or(WHITE, Mark::colour),
+        };
+        let corner = |sign: f64| (c.at[0] + sign * c.half[0], c.at[1] + sign * c.half[1]);
+        Rectangle::new([corner(-1.0), corner(1.0)], shade.filled())
     });
     chart.draw_series(boxes).map_err(refused)?;
-    let (top, bottom) = (40, area.dim_in_pixel().1 as i32 - 60);
-    for k in 0..STEPS {
-        let y = |k: i32| bottom - (bottom - top) * k / STEPS;
-        let shade = colour(f64::from(k) / f64::from(STEPS - 1));
-        bar.draw(&Rectangle::new([(4, y(k + 1)), (20, y(k))], shade.filled())).map_err(refused)?;
-    }
+    let foot = area.dim_in_pixel().1 as i32 - 40;
+    let (top, bottom) = (40, foot - 20 - KEY * legend.len() as i32);
     let font = || WORDS.into_font();
-    for (y, value) in [(top - 4, high), (bottom - 8, low)] {
-        bar.draw(&Text::new(short(value), (24, y), font())).map_err(refused)?;
+    if let Some((low, high)) = values {
+        for k in 0..STEPS {
+            let y = |k: i32| bottom - (bottom - top) * k / STEPS;
+            let shade = colour(f64::from(k) / f64::from(STEPS - 1));
+            bar.draw(&Rectangle::new([(4, y(k + 1)), (20, y(k))], shade.filled()))
+                .map_err(refused)?;
+        }
+        for (y, value) in [(top - 4, high), (bottom - 8, low)] {
+            bar.draw(&Text::new(short(value), (24, y), font())).map_err(refused)?;
+        }
+        bar.draw(&Text::new(what.to_string(), (0, 18), font())).map_err(refused)?;
     }
-    bar.draw(&Text::new(labels[2].to_string(), (0, 18), font())).map_err(refused)?;
+    for (k, mark) in legend.iter().enumerate() {
+        let y = foot - KEY * (legend.len() - k) as i32;
+        bar.draw(&Circle::new((9, y + 7), 5, mark.colour().filled())).map_err(refused)?;
+        bar.draw(&Text::new(mark.text(), (20, y), font())).map_err(refused)?;
+    }
     Ok(())
 }

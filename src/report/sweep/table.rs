@@ -1,8 +1,8 @@
 //! The rows as a table (CSV, RFC 4180), in the order of their numbers.
 
 use crate::{
-    report::cells::Table,
-    sweep::{Header, Row},
+    report::cells::{Cell, Table},
+    sweep::{Header, Parameter, Row},
 };
 
 /// The table: row, the varied numbers, status, value, bracket, how dry friction was found,
@@ -11,32 +11,34 @@ use crate::{
 /// # Errors
 /// Only if memory runs out.
 pub fn csv(header: &Header, rows: &[Row]) -> Result<String, csv::Error> {
-    let mut table = Table::new();
-    let labels = header.plan.vary.iter().map(|v| v.label());
+    let labels = header.plan.vary.iter().map(|v| v.label().to_string());
     let after = [
         "status", "value", "lower", "upper", "dry", "toward_x", "toward_y", "toward_z", "error",
         "seconds",
     ];
-    table.write_record(["row"].into_iter().chain(labels).chain(after))?;
+    let head = std::iter::once(String::from("row")).chain(labels);
+    let mut table = Table::with_head(head.chain(after.map(String::from)))?;
     for row in rows {
         let a = &row.answer;
-        let number = |v: Option<f64>| v.map(|v| v.to_string()).unwrap_or_default();
         let dry = a
             .dry
             .and_then(|d| serde_json::to_value(d).ok())
             .and_then(|v| v.as_str().map(String::from))
             .unwrap_or_default();
-        let mut record = vec![row.row.to_string()];
-        record.extend(row.parameters.iter().map(f64::to_string));
+        let mut record: Vec<Cell> = vec![row.row.into()];
+        record.extend(row.parameters.iter().map(|p| match p {
+            Parameter::Number(number) => Cell::from(*number),
+            Parameter::Word(word) => word.as_str().into(),
+        }));
         record.extend([
-            a.status.word().to_string(),
-            number(a.value),
-            number(a.lower),
-            number(a.upper),
-            dry,
+            a.status.word().into(),
+            a.value.into(),
+            a.lower.into(),
+            a.upper.into(),
+            dry.into(),
         ]);
-        record.extend((0..3).map(|k| number(a.toward.map(|t| t[k]))));
-        record.extend([row.error.clone().unwrap_or_default(), row.seconds.to_string()]);
+        record.extend((0..3).map(|k| a.toward.map(|t| t[k]).into()));
+        record.extend([row.error.clone().unwrap_or_default().into(), row.seconds.into()]);
         table.write_record(record)?;
     }
     table.end()

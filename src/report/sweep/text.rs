@@ -23,12 +23,19 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
         return page;
     }
     page.blank();
+    // Numbers about some of the rows say of which.
+    let valued = summary.valued;
+    let part = if header.plan.question.quantity().is_some() && valued < summary.rows {
+        format!(", of the {} with a value", count(valued, "row"))
+    } else {
+        String::new()
+    };
     if let (Some(q), Some(quantity)) = (&summary.quantiles, header.plan.question.quantity()) {
         page.row(
             quantity,
             [
                 format!(
-                    "least {} (row {}), greatest {} (row {})",
+                    "least {} (row {}), greatest {} (row {}){part}",
                     short(q.least.0),
                     q.least.1,
                     short(q.greatest.0),
@@ -50,6 +57,11 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
             Some(require) => format!(" (below {require}, or not standing)"),
             None => String::new(),
         };
+        // Rows that are open neither failed nor stood.
+        let what = match summary.open {
+            0 => what,
+            n => format!("{what}; {} left out, with no answer", count(n, "row")),
+        };
         // A grid is no sample: its share has no interval.
         let share = if summary.fragility.is_some() {
             share(failed)
@@ -70,9 +82,10 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
         );
         page.row(
             "",
-            ["measured by the correlation ratio: the variance between groups of rows with like values of one number, over the whole; \
-              what is left comes from numbers together"
-                .into()],
+            [format!(
+                "measured by the correlation ratio{}: the variance between groups of rows with like values of one number, over the whole; what is left comes from numbers together",
+                part.replace(',', "")
+            )],
         );
     }
     if let Some(f) = &summary.fragility {
@@ -86,7 +99,8 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
         page.row("fragility", points);
     }
     if let Some((row, error)) = &summary.first_error {
-        page.row("errors", [format!("the first in row {row}: {error}")]);
+        let first = format!("the first in row {row}: {error}");
+        page.row("errors", [first]);
     }
     page.row("time", [format!("{} of computing", seconds(summary.seconds))]);
     page

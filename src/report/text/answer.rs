@@ -6,12 +6,13 @@ use super::{
     simulation,
 };
 use crate::{
-    analysis::{Outcome, coulomb::Found},
-    number::{bracketed, decimals, ends, fixed, point},
+    analysis::{Closed, Difference, Law, Outcome, coulomb::Found},
+    number::{bracketed, decimals, ends, fixed, point, short},
     proof::{
         answer::Answer,
         result::{DryResult, QuestionKind, ResultFile},
     },
+    terms::ClosedAnswer,
     tolerance,
     verdict::{Verdict, check::Claim},
 };
@@ -115,6 +116,15 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         Some(words) => (format!("{text}; {words}"), Role::Bad),
         None => (text, role),
     };
+    let (text, role) = match left_out(file) {
+        Some(words) if role == Role::Good => (format!("{text}; {words}"), Role::Unsure),
+        Some(words) => (format!("{text}; {words}"), role),
+        None => (text, role),
+    };
+    let text = match &file.doubt {
+        Some(doubt) => format!("{text}: {}; {}", doubt.evidence, doubt.next),
+        None => text,
+    };
     page.title(&file.scene.name, under(file, text), role);
 }
 
@@ -135,6 +145,58 @@ fn without_live_load(file: &ResultFile) -> Option<String> {
         Verdict::Conditional => Some(format!("{place} it stands only with a pre-stress")),
         Verdict::Unstable => Some(format!("{place} it falls")),
         Verdict::Stable | Verdict::Undecided => None,
+    }
+}
+
+/// What an answer is with contacts that were left out, where that is another one or not known.
+pub fn left_out(file: &ResultFile) -> Option<String> {
+    let said = file.left_out_contacts?;
+    // Time runs with the shapes themselves, not with these contacts.
+    if file.question == QuestionKind::Simulate {
+        return None;
+    }
+    let other = match said.closed {
+        Some(Closed { difference: Difference::None, .. }) => return None,
+        Some(closed) => format!("with them closed {}", closed_words(file, closed)),
+        None => "with them it may be another one".to_string(),
+    };
+    let l = said.contacts;
+    let overlaps = (l.overlaps > 0).then(|| {
+        format!("{} that overlap by up to {} m", pairs(l.overlaps), short(l.deepest_overlap))
+    });
+    let near = (l.near_misses > 0).then(|| {
+        format!("{} left apart by up to {} m", pairs(l.near_misses), short(l.greatest_gap))
+    });
+    let what = overlaps.into_iter().chain(near).collect::<Vec<_>>().join(" and ");
+    Some(format!("without contacts between {what}; {other}"))
+}
+
+fn pairs(n: usize) -> String {
+    if n == 1 { "1 pair of blocks".into() } else { format!("{n} pairs of blocks") }
+}
+
+fn closed_words(file: &ResultFile, closed: Closed) -> String {
+    let bound = |v: f64| match file.question {
+        QuestionKind::Tilt => format!("it falls at {:.4}°", v.atan().to_degrees()),
+        _ => format!("λ = {}", fixed(v, 6)),
+    };
+    let text = match closed.answer {
+        ClosedAnswer::Verdict(Verdict::Stable) => "it stands".into(),
+        ClosedAnswer::Verdict(Verdict::Conditional) => "it stands only with a pre-stress".into(),
+        ClosedAnswer::Verdict(Verdict::Unstable) => "it falls".into(),
+        ClosedAnswer::LoadFactor { status: Outcome::Found, value } => {
+            bound(value.unwrap_or(f64::NAN))
+        }
+        ClosedAnswer::LoadFactor { status: Outcome::Unbounded, .. } => "there is no limit".into(),
+        ClosedAnswer::LoadFactor { status: Outcome::Impossible, .. } => "it falls".into(),
+        ClosedAnswer::Verdict(Verdict::Undecided)
+        | ClosedAnswer::LoadFactor { status: Outcome::Undecided, .. } => "it is undecided".into(),
+    };
+    // The bound of the answer itself is what it is to be held against.
+    let dry = file.dry.is_some() || file.coulomb_state.is_some();
+    match closed.law {
+        Law::Associative if dry => format!("{text} where joints open as they slide"),
+        _ => text,
     }
 }
 

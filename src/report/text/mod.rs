@@ -11,6 +11,7 @@ mod simulation;
 mod template;
 mod thrust;
 
+pub use answer::left_out;
 pub use check::{inspection, verification};
 pub use heaps::heaps;
 pub use packing::packing;
@@ -79,6 +80,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
             count(s.contact_points, "contact point")
         )],
     );
+    page.row("doubt", file.doubt.iter().map(|d| format!("{}; {}", d.evidence, d.next)));
     page.row("left out", cut(&file.left_out, SHOWN, options));
     page.row(
         "note",

@@ -16,7 +16,12 @@ pub fn packing(file: &PackingFile, options: TextOptions, layout: Layout) -> Page
     let mut page = Page::new(layout);
     let Some(least) = file.directions.get(file.least) else { return page };
     let role = if least.governing().is_finite() { Role::Value } else { Role::Unsure };
-    page.title(&file.name, format!("{}, towards {}", angle(least), point(least.toward)), role);
+    let text = format!("{}, towards {}", angle(least), point(least.toward));
+    let text = match &file.doubt {
+        Some(doubt) => format!("{text}: {}; {}", doubt.evidence, doubt.next),
+        None => text,
+    };
+    page.title(&file.name, text, role);
     if options.brief {
         return page;
     }
@@ -44,6 +49,7 @@ pub fn packing(file: &PackingFile, options: TextOptions, layout: Layout) -> Page
         "packing",
         [format!("{}, {}", count(file.grains, "free grain"), count(file.contacts, "contact"))],
     );
+    page.row("doubt", file.doubt.iter().map(|d| format!("{}; {}", d.evidence, d.next)));
     page.row("left out", cut(&file.left_out, SHOWN, options));
     page.row(
         "note",

@@ -33,6 +33,21 @@ pub enum ViewPart {
     Dead,
 }
 
+impl ViewPart {
+    /// What the names of its arrays end with in files for other programs: the same for every answer
+    /// of a kind, nothing for what goes with the answer itself.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::Answer => "",
+            Self::Base => "_base",
+            Self::Dry => "_dry",
+            Self::Least => "_least",
+            Self::Greatest => "_greatest",
+            Self::Dead => "_dead",
+        }
+    }
+}
+
 /// One system of contact forces.
 #[derive(Clone, Debug)]
 pub struct ViewState {
@@ -46,6 +61,9 @@ pub struct ViewState {
     pub up: Vector3<f64>,
     /// What it is, in a few words.
     pub name: String,
+    /// The number of the answer that it belongs to, with its name: `load_factor`, `tilt_deg`,
+    /// `thrust` (N).
+    pub value: Option<(&'static str, f64)>,
     /// Force on the second block at each point of each joint, N.
     pub forces: Vec<Vec<Vector3<f64>>>,
     /// Resultant at each joint; `None` where it carries nothing.
@@ -103,7 +121,7 @@ pub struct Segment {
 }
 
 impl ViewState {
-    fn new(model: &Model, part: ViewPart, name: String, forces: &Forces) -> Self {
+    fn new(model: &Model, Named { part, name, value, .. }: Named, forces: &Forces) -> Self {
         let list = sections(&model.interfaces, forces);
         let mean =
             list.iter().map(|s| s.normal.hypot(s.shear)).sum::<f64>() / list.len().max(1) as f64;
@@ -135,7 +153,7 @@ impl ViewState {
         let forces = forces.iter().map(|list| list.iter().map(|w| w.force).collect()).collect();
         let (used, line) = (used(model, &resultants), line(model, &resultants));
         let up = -model.assembly.gravity.normalize();
-        Self { part, balances: true, live: false, up, name, forces, resultants, used, line }
+        Self { part, balances: true, live: false, up, name, value, forces, resultants, used, line }
     }
 }
 
@@ -247,27 +265,41 @@ fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
 /// Forces that leave something unbalanced.
 const CLOSEST: &str = "forces that come closest";
 
+/// A system of forces as it was saved.
+struct Named<'a> {
+    part: ViewPart,
+    name: String,
+    value: Option<(&'static str, f64)>,
+    saved: &'a [ContactForces],
+}
+
 /// Every system of forces that a result holds.
 pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, String> {
-    let mut list: Vec<(ViewPart, String, &[ContactForces])> = Vec::new();
+    let mut list: Vec<Named> = Vec::new();
     let own = |c: &Certificate| !c.forces.is_empty();
-    let lambda = |v: Option<f64>| v.map_or(String::new(), |v| format!(" at λ = {}", short(v)));
-    let tilt = |v: Option<f64>| {
-        v.map_or(String::new(), |v| format!(" at {}°", short(v.atan().to_degrees())))
+    let tips = file.question == QuestionKind::Tilt;
+    let at = |v: Option<f64>| match v {
+        None => String::new(),
+        Some(v) if tips => format!(" at {}°", short(v.atan().to_degrees())),
+        Some(v) => format!(" at λ = {}", short(v)),
     };
-    let at = |v: Option<f64>| if file.question == QuestionKind::Tilt { tilt(v) } else { lambda(v) };
+    let number = |v: Option<f64>| {
+        v.map(|v| if tips { ("tilt_deg", v.atan().to_degrees()) } else { ("load_factor", v) })
+    };
     if own(&file.certificate) {
-        let name = match (file.answer.verdict(), file.answer.bound()) {
+        let (name, value) = match (file.answer.verdict(), file.answer.bound()) {
             (_, Some(l)) => match l.status {
-                Outcome::Found => format!("forces that balance it{}", at(l.value)),
-                Outcome::Unbounded => "forces that balance the live load alone".into(),
-                Outcome::Impossible | Outcome::Undecided => CLOSEST.into(),
+                Outcome::Found => {
+                    (format!("forces that balance it{}", at(l.value)), number(l.value))
+                }
+                Outcome::Unbounded => ("forces that balance the live load alone".into(), None),
+                Outcome::Impossible | Outcome::Undecided => (CLOSEST.into(), None),
             },
-            (Some(Verdict::Stable), _) => "forces that balance it".into(),
-            (Some(Verdict::Conditional), _) => "forces with a pre-stress".into(),
-            _ => CLOSEST.into(),
+            (Some(Verdict::Stable), _) => ("forces that balance it".into(), None),
+            (Some(Verdict::Conditional), _) => ("forces with a pre-stress".into(), None),
+            _ => (CLOSEST.into(), None),
         };
-        list.push((ViewPart::Answer, name, &file.certificate.forces));
+        list.push(Named { part: ViewPart::Answer, name, value, saved: &file.certificate.forces });
     }
     if let Some(base) = &file.certificate.base {
         let name = if file.answer.verdict() == Some(Verdict::Conditional) {
@@ -275,7 +307,7 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         } else {
             "forces that balance the dead load"
         };
-        list.push((ViewPart::Base, name.into(), base));
+        list.push(Named { part: ViewPart::Base, name: name.into(), value: None, saved: base });
     }
     // Where nothing slides they are the same.
     if let Some(dry) = file
@@ -283,11 +315,12 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         .as_ref()
         .filter(|d| own(&d.certificate) && d.value.is_some() && d.found != Found::NothingSlides)
     {
-        list.push((
-            ViewPart::Dry,
-            format!("forces with dry friction{}", at(dry.value)),
-            &dry.certificate.forces,
-        ));
+        list.push(Named {
+            part: ViewPart::Dry,
+            name: format!("forces with dry friction{}", at(dry.value)),
+            value: number(dry.value),
+            saved: &dry.certificate.forces,
+        });
     }
     if let (Some(thrust), Some(answer)) = (&file.thrust, file.answer.thrust()) {
         let ends = [
@@ -302,8 +335,13 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         for (part, name, certificate, end) in
             ends.into_iter().filter(|(_, _, c, _)| own(c) && c.claim.is_some())
         {
-            let value = end.value.map_or(String::new(), |v| format!(", {} N", short(v)));
-            list.push((part, format!("{name}{value}"), &certificate.forces));
+            let newton = end.value.map_or(String::new(), |v| format!(", {} N", short(v)));
+            list.push(Named {
+                part,
+                name: format!("{name}{newton}"),
+                value: end.value.map(|v| ("thrust", v)),
+                saved: &certificate.forces,
+            });
         }
     }
     if let Some(dead) = file.dead_load.as_ref().filter(|d| own(&d.certificate)) {
@@ -313,7 +351,8 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         } else {
             "forces that come closest under the dead load"
         };
-        list.push((ViewPart::Dead, name.into(), &dead.certificate.forces));
+        let saved = &dead.certificate.forces;
+        list.push(Named { part: ViewPart::Dead, name: name.into(), value: None, saved });
     }
     let tangent = |part: ViewPart| match (file.question, part) {
         (QuestionKind::Tilt, ViewPart::Answer) => {
@@ -324,13 +363,13 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         }
         _ => 0.0,
     };
-    let state = |(part, name, saved): (ViewPart, String, &[_])| {
-        let mut forces = read_forces(model, saved)?;
+    let state = |named: Named| {
+        let (part, mut forces) = (named.part, read_forces(model, named.saved)?);
         // Forces of a tilt are divided by its cosine, so that gravity keeps its part across the
         // ground.
         let tangent = tangent(part);
         forces.iter_mut().flatten().for_each(|w| *w = *w * (1.0 / 1f64.hypot(tangent)));
-        let mut state = ViewState::new(model, part, name, &forces);
+        let mut state = ViewState::new(model, named, &forces);
         state.balances = !state.name.contains(CLOSEST);
         state.live = file.question == QuestionKind::Limit && part != ViewPart::Dead;
         if let Some(toward) = file.answer.toward() {

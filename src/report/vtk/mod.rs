@@ -2,12 +2,14 @@
 //! with blocks, joints, contact forces, lines of thrust and mechanisms.
 //!
 //! Cells of all kinds stand in one file and are told apart by the cell array `part` ([`VtkPart`]);
-//! `block`, `other block` and `joint` are indices in scene order (−1: none), the names of blocks
-//! stand in the field data. Arrays that belong to a system of forces or a mechanism carry its name
-//! in parentheses: `force (…)`, N, on the points of contact forces; `load`, N, on the places of
-//! loads (live ones not yet multiplied by λ); `normal force (…)`, N, and `used (…)`, the share of
-//! the section or of the friction, on joints and blocks; `displacement (…)`, m, on the points of
-//! blocks, to first order and as far as it is seen well. A simulation is a collection (`.pvd`) of
+//! `block`, `other_block` and `joint` are indices in scene order (−1: none), the names of blocks
+//! stand in the field data. Arrays that belong to a system of forces or a mechanism end with what
+//! that is to the answer ([`ViewPart::suffix`]), so that they are named alike in every file of a
+//! question: `force`, N, on the points of contact forces; `load`, N, on the places of loads (live
+//! ones not yet multiplied by λ); `normal_force`, N, and `used`, the share of the section or of the
+//! friction, on joints and blocks; `displacement`, m, on the points of blocks, to first order and as
+//! far as it is seen well. What each of them is in words stands in the field data `meaning`, and
+//! the number of the answer it belongs to in `load_factor`, `tilt_deg` or `thrust`. A simulation is a collection (`.pvd`) of
 //! such files, one a time, that hold the blocks alone with their velocity: readers of VTK 9 add up
 //! the cells of all times that stand in one file.
 //!
@@ -18,7 +20,10 @@ mod ball;
 mod mesh;
 mod xml;
 
-use super::{drawing::sized, view::View};
+use super::{
+    drawing::sized,
+    view::{View, ViewPart},
+};
 use crate::{dynamics::Frame, plain::markup};
 use mesh::Mesh;
 use nalgebra::Vector3;
@@ -69,7 +74,10 @@ pub fn collection(view: &View, named: impl Fn(usize) -> String) -> String {
 fn document(view: &View, mesh: &Mesh, frame: Option<&Frame>) -> String {
     let mut xml = Xml::new("PolyData");
     xml.open("FieldData", "");
-    xml.strings("block names", view.bodies.iter().map(|b| b.id.as_str()));
+    xml.strings("block_names", view.bodies.iter().map(|b| b.id.as_str()));
+    if frame.is_none() {
+        meanings(&mut xml, view);
+    }
     xml.close("FieldData");
     let [verts, lines, polys] = [&mesh.verts, &mesh.lines, &mesh.polys].map(Vec::len);
     xml.open(
@@ -137,7 +145,7 @@ fn point_data(xml: &mut Xml, view: &View, mesh: &Mesh) {
             Some((joint, corner)) => state.forces[joint][corner],
             None => Vector3::zeros(),
         };
-        xml.vectors(&named("force", &state.name), mesh.points.iter().map(force));
+        xml.vectors(&named("force", state.part), mesh.points.iter().map(force));
     }
     if !view.loads.is_empty() {
         let load = |p: &mesh::Point| p.load.map_or(Vector3::zeros(), |k| view.loads[k].force);
@@ -153,7 +161,7 @@ fn point_data(xml: &mut Xml, view: &View, mesh: &Mesh) {
             }
             None => Vector3::zeros(),
         };
-        xml.vectors(&named("displacement", &motion.name), mesh.points.iter().map(way));
+        xml.vectors(&named("displacement", motion.part), mesh.points.iter().map(way));
     }
     xml.close("PointData");
 }
@@ -164,7 +172,7 @@ fn cell_data(xml: &mut Xml, view: &View, mesh: &Mesh, statics: bool) {
     xml.open("CellData", "");
     xml.integers("part", cells().map(|c| c.part as i64));
     xml.integers("block", cells().map(|c| index(c.block)));
-    xml.integers("other block", cells().map(|c| index(c.other)));
+    xml.integers("other_block", cells().map(|c| index(c.other)));
     xml.integers("joint", cells().map(|c| index(c.joint)));
     if statics {
         for (k, state) in view.states.iter().enumerate() {
@@ -174,19 +182,33 @@ fn cell_data(xml: &mut Xml, view: &View, mesh: &Mesh, statics: bool) {
                 Some(_) => 0.0,
                 None => at(c).map_or(0.0, |r| r.normal),
             };
-            xml.numbers(&named("normal force", &state.name), cells().map(normal));
+            xml.numbers(&named("normal_force", state.part), cells().map(normal));
             let used = |c: &mesh::Cell| match (c.joint, c.block) {
                 (Some(_), _) => at(c).map_or(0.0, |r| r.share()),
                 (None, Some(i)) => state.used[i].unwrap_or(0.0),
                 (None, None) => 0.0,
             };
-            xml.numbers(&named("used", &state.name), cells().map(used));
+            xml.numbers(&named("used", state.part), cells().map(used));
         }
     }
     xml.close("CellData");
 }
 
 /// The name of an array that belongs to a system of forces or a mechanism.
-fn named(what: &str, name: &str) -> String {
-    format!("{what} ({name})")
+fn named(what: &str, part: ViewPart) -> String {
+    format!("{what}{}", part.suffix())
+}
+
+/// What the arrays are in words, and the numbers that they belong to.
+fn meanings(xml: &mut Xml, view: &View) {
+    let forces = view.states.iter().map(|s| format!("{}: {}", named("force", s.part), s.name));
+    let motions =
+        view.motions.iter().map(|m| format!("{}: {}", named("displacement", m.part), m.name));
+    let meanings: Vec<String> = forces.chain(motions).collect();
+    xml.strings("meaning", meanings.iter().map(String::as_str));
+    for state in &view.states {
+        if let Some((what, value)) = state.value {
+            xml.field(&named(what, state.part), value);
+        }
+    }
 }

@@ -35,6 +35,12 @@ impl Xml {
         self.array("Float64", name, "", values.map(plain));
     }
 
+    /// A number of its own, among the field data.
+    pub fn field(&mut self, name: &str, value: f64) {
+        let one = std::iter::once(plain(value));
+        self.array("Float64", name, " NumberOfTuples=\"1\"", one);
+    }
+
     /// Vectors.
     pub fn vectors(&mut self, name: &str, values: impl Iterator<Item = Vector3<f64>>) {
         self.array(

@@ -85,7 +85,8 @@ fn simulate_answers_by_its_exit_code_and_says_whether_the_verdict_agrees() {
         ),
     );
     assert!(
-        out(&open).starts_with("Pushed: undecided\n") && !out(&open).contains("verdict says"),
+        out(&open).starts_with("Pushed: undecided: it neither rests nor has it fallen: ")
+            && !out(&open).contains("verdict says"),
         "{}",
         out(&open)
     );

@@ -11,6 +11,7 @@ mod proofs;
 mod scenes;
 mod study;
 mod verbs;
+mod weakened;
 mod words;
 
 use serde_json::{Value, json};

@@ -130,7 +130,6 @@ fn pictures_that_cannot_be_made_are_refused_before_the_work() {
         (&["--vtk", "-", "--svg", "-"], "standard output takes one of"),
         (&["--svg", "-", "--json"], "standard output takes one of"),
         (&["--csv", "-"], "--csv takes a file"),
-        (&["--svg", &arch], "would replace the scene"),
         (&["--svg", "no/such/folder.svg"], "no such folder"),
         (&["--view", "corner"], "--svg"),
         (&["--svg", "a.svg", "--view", "inside"], "not auto, front"),
@@ -138,9 +137,50 @@ fn pictures_that_cannot_be_made_are_refused_before_the_work() {
         let answer = expect(USAGE, voussoir(&[&["assess", &arch], wrong].concat()));
         assert!(err(&answer).contains(word), "{wrong:?}: {}", err(&answer));
     }
+    // Without an ending the scene itself is seen.
+    let plain = desk.at("arch");
+    fs::copy(&arch, &plain).unwrap();
+    for wrong in [["--svg", &plain], ["--report", &plain]] {
+        let answer = expect(USAGE, voussoir(&[&["assess", &plain], &wrong[..]].concat()));
+        assert!(err(&answer).contains("would replace the scene"), "{}", err(&answer));
+    }
     let answer = expect(USAGE, voussoir(&["simulate", &arch, "--vtk", "a.vtp"]));
     assert!(err(&answer).contains("name it a.pvd"), "{}", err(&answer));
     let answer =
         expect(USAGE, voussoir(&["repose", "drain", "--question", "repose", "--csv", "a.csv"]));
     assert!(err(&answer).contains("--heaps"), "{}", err(&answer));
+}
+
+/// A drawing called `x.png` opens nowhere.
+#[test]
+fn an_ending_of_another_format_is_refused_before_the_work() {
+    let desk = Desk::new();
+    let (arch, before) = (desk.at("arch.json"), desk.files());
+    for (question, option, name, remedy) in [
+        (&["assess", arch.as_str()][..], "--svg", "x.png", "x.svg, and convert that"),
+        (&["assess", &arch], "--report", "r.pdf", "r.html, and print that from a browser"),
+        (&["limit", &arch], "--csv", "t.xlsx", "t.csv, and open that"),
+        (&["tilt", &arch], "--save", "result.html", "result.json"),
+        (&["thrust", &arch], "--svg", "x.csv", "x.svg"),
+        (&["simulate", &arch], "--csv", "way.JSON", "way.csv"),
+        (&["repose", &arch], "--csv", "contacts.svg", "contacts.csv"),
+        (&["repose", "drain", "--question", "repose"], "--heaps", "heap.obj", "heap.json"),
+        (&["check", &arch], "--svg", "scene.pdf", "scene.svg, and convert that"),
+        (&["sweep", "no-plan.json"], "--svg", "chart.png", "chart.svg, and convert that"),
+        (&["sweep", "no-plan.json"], "-o", "rows.csv", "rows.jsonl"),
+        (&["sweep", "no-plan.json"], "--csv", "rows.jsonl", "rows.csv"),
+        (&["study", "--quick"], "--svg", "charts.svg", "name a folder"),
+        (&["study", "--quick"], "--report", "study.svg", "study.html"),
+        (&["generate", "arch"], "-o", "arch.obj", "arch.json"),
+        (&["import", "no.obj"], "-o", "scene.obj", "scene.json"),
+    ] {
+        let path = desk.at(name);
+        let answer = expect(USAGE, voussoir(&[question, &[option, &path]].concat()));
+        assert!(
+            err(&answer).contains(remedy) && err(&answer).contains(option),
+            "{question:?} {option} {name}: {}",
+            err(&answer)
+        );
+        assert_eq!((out(&answer), desk.files()), (String::new(), before.clone()));
+    }
 }

@@ -63,8 +63,9 @@ fn no_output_replaces_another_or_what_is_read() {
     fs::write(at.join("a"), "kept").unwrap();
     std::os::unix::fs::symlink("a", at.join("soft")).unwrap();
     fs::hard_link(at.join("a"), at.join("hard")).unwrap();
-    for name in ["wall.json", "plan.json"] {
-        fs::hard_link(at.join(name), at.join(format!("other-{name}"))).unwrap();
+    for name in ["wall", "plan"] {
+        fs::hard_link(at.join(name).with_extension("json"), at.join(format!("other-{name}")))
+            .unwrap();
     }
     let before: Vec<(String, Vec<u8>)> =
         super::files(at).into_iter().map(|n| (n.clone(), fs::read(at.join(n)).unwrap())).collect();
@@ -72,18 +73,18 @@ fn no_output_replaces_another_or_what_is_read() {
         (&["assess", "wall.json", "--save", "a", "--report", "a"][..], "two outputs"),
         (&["assess", "wall.json", "--save", "a", "--report", "./soft"], "two outputs"),
         (&["assess", "wall.json", "--svg", "hard", "--csv", "a"], "two outputs"),
-        (&["assess", "wall.json", "--svg", "new.blocks.csv", "--csv", "new.csv"], "two outputs"),
+        (&["assess", "wall.json", "--svg", "new.blocks", "--csv", "new"], "two outputs"),
         (&["assess", "wall.json", "--save", "new", "--svg", "./new"], "two outputs"),
         (&["sweep", "plan.json", "-o", "new", "--csv", "new"], "two outputs"),
         (&["sweep", "plan.json", "--csv", "new", "--report", "new"], "two outputs"),
         (&["study", "--soak", "1", "--keep", "new", "--csv", "new"], "two outputs"),
         (&["simulate", "wall.json", "--csv", "new", "--svg", "new"], "two outputs"),
-        (&["simulate", "wall.json", "--csv", "wall.json"], "would replace it"),
-        (&["assess", "wall.json", "--save", "other-wall.json"], "would replace it"),
-        (&["sweep", "plan.json", "--csv", "plan.json"], "would replace it"),
-        (&["sweep", "plan.json", "--report", "wall.json"], "would replace it"),
-        (&["check", "wall.json", "--svg", "other-wall.json"], "would replace it"),
-        (&["import", "wall.json", "-o", "other-wall.json"], "would replace it"),
+        (&["simulate", "wall.json", "--csv", "other-wall"], "would replace it"),
+        (&["assess", "wall.json", "--save", "other-wall"], "would replace it"),
+        (&["sweep", "plan.json", "--csv", "other-plan"], "would replace it"),
+        (&["sweep", "plan.json", "--report", "other-wall"], "would replace it"),
+        (&["check", "wall.json", "--svg", "other-wall"], "would replace it"),
+        (&["import", "wall.json", "-o", "other-wall"], "would replace it"),
         (&["sweep", "merge", "a", "--csv", "soft"], "would replace it"),
     ] {
         let output = at_once(at, args);

@@ -1,8 +1,17 @@
 //! Tables read back.
 
 use super::{arch, limited};
+use crate::ask::{cuboid, ground, push, scene};
+use serde_json::json;
 use std::collections::HashMap;
-use voussoir::{analysis::limit, report::table};
+use voussoir::{
+    analysis::limit,
+    proof::ResultFile,
+    report::{
+        table,
+        text::{Asked, Layout, TextOptions, render},
+    },
+};
 
 type Row = HashMap<String, String>;
 
@@ -50,4 +59,53 @@ fn forces_in_the_table_balance_every_block() {
         .map(|b| ["vx", "vy", "vz"].map(|k| number(b, k).powi(2)).iter().sum::<f64>().sqrt())
         .fold(0.0, f64::max);
     assert!(fastest > 0.5 && fastest <= 1.0, "{fastest}");
+}
+
+/// What is text is quoted and what is a number is not, so that a reader can tell a block named 007
+/// from a number.
+#[test]
+fn ids_stay_text() {
+    let ids = ["007", "1e5", "=A1", "+3", "a,b", "\"q\""];
+    let mut blocks = vec![ground()];
+    blocks.extend(
+        ids.iter()
+            .enumerate()
+            .map(|(k, id)| cuboid(id, [1.0, 1.0, 0.2], [0.0, 0.0, 0.2 * k as f64])),
+    );
+    let (_, view) = limited(&scene(0.5, json!(blocks), push([1.0, 0.0, 0.0])));
+    let (joints, list) = (table::joints(&view).unwrap(), table::blocks(&view).unwrap());
+    // Read back, they are what they were; what a spreadsheet would compute has its apostrophe.
+    let read: Vec<String> = rows(&list).iter().map(|r| r["block"].clone()).collect();
+    assert_eq!(read, ["ground", "007", "1e5", "'=A1", "+3", "a,b", "\"q\""]);
+    for text in [&joints, &list] {
+        for quoted in ["\"007\"", "\"1e5\"", "\"'=A1\"", "\"+3\"", "\"a,b\""] {
+            assert!(text.contains(quoted), "{quoted}: {text}");
+        }
+        for cell in text.lines().skip(1).flat_map(|l| l.split(',')).filter(|c| !c.contains('"')) {
+            let plain = cell.is_empty() || cell.parse::<f64>().is_ok();
+            assert!(plain || ids.iter().any(|id| id.contains(cell)), "{cell}: {text}");
+        }
+    }
+}
+
+/// A pier that crushes at its edge turns about a line inside the joint: N / (σ b) from the edge.
+#[test]
+fn text_and_table_agree_on_where_a_crushing_hinge_is() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/pier-that-crushes.json");
+    let (scene, _) = voussoir::scene::read_file(path.as_ref()).unwrap();
+    let m = voussoir::interface::prepare(&scene).unwrap();
+    let result = ResultFile::load_factor(&scene, &m, &limit(&m, &super::control()).into());
+    let view = voussoir::report::view::View::new(&m, &result, Vec::new()).unwrap();
+    let row = rows(&table::joints(&view).unwrap()).remove(0);
+    assert_eq!(row["motion"], "crush");
+    let at = ["motion_x", "motion_y", "motion_z"].map(|k| number(&row, k));
+    let depth = 2400.0 * 1.5 * 9.81 / 1e6;
+    assert!((at[0].abs() - (0.25 - depth)).abs() < 1e-3 * depth, "{at:?}");
+    assert!(at[1].abs() < 1e-6 && at[2].abs() < 1e-9, "{at:?}");
+    // The pressure on the crushed strip has its middle halfway.
+    assert!((number(&row, "x").abs() - (0.25 - 0.5 * depth)).abs() < 1e-2 * depth, "{row:?}");
+    let asked = Asked { scene: "SCENE", options: "" };
+    let options = TextOptions { verbose: true, brief: false };
+    let text = render(&result, asked, options, Layout::default()).to_string();
+    assert!(text.contains(&format!("at {}", voussoir::number::point(at))), "{at:?}: {text}");
 }

@@ -32,7 +32,7 @@ impl File<'_> {
     fn array(&self, below: &'static str, name: &str) -> Vec<f64> {
         let parent = all(self.0.root_element(), below).next().unwrap();
         let array = all(parent, "DataArray")
-            .find(|a| a.attribute("Name").unwrap().starts_with(name))
+            .find(|a| a.attribute("Name") == Some(name))
             .unwrap_or_else(|| panic!("no {name}"));
         array.text().unwrap().split_whitespace().map(|w| w.parse().unwrap()).collect()
     }
@@ -79,7 +79,7 @@ fn is_sound(file: &File, view: &View) {
         }
     }
     let bytes: Vec<u8> =
-        file.array("FieldData", "block names").into_iter().map(|b| b as u8).collect();
+        file.array("FieldData", "block_names").into_iter().map(|b| b as u8).collect();
     let names: Vec<String> = view.bodies.iter().map(|b| b.id.clone() + "\0").collect();
     assert_eq!(String::from_utf8(bytes).unwrap(), names.concat());
 }
@@ -110,9 +110,9 @@ fn forces_balance(file: &File, view: &View, load: impl Fn(usize) -> Vector3<f64>
     let (parts, blocks, others) = (
         file.array("CellData", "part"),
         file.array("CellData", "block"),
-        file.array("CellData", "other block"),
+        file.array("CellData", "other_block"),
     );
-    let forces = file.vectors("PointData", "force (");
+    let forces = file.vectors("PointData", "force");
     let mut sum: Vec<Vector3<f64>> = (0..view.bodies.len()).map(&load).collect();
     let mut count = 0;
     for (k, cell) in file.cells().iter().enumerate().filter(|(k, _)| parts[*k] == 3.0) {
@@ -136,7 +136,7 @@ fn forces_in_the_file_balance_every_block() {
     let lambda = voussoir::analysis::limit(&m, &super::control()).value;
     forces_balance(&file, &view, |i| m.assembly.dead[i].force + m.assembly.live[i].force * lambda);
     let way =
-        file.vectors("PointData", "displacement (").iter().map(|v| v.norm()).fold(0.0, f64::max);
+        file.vectors("PointData", "displacement").iter().map(|v| v.norm()).fold(0.0, f64::max);
     assert!(way > 0.01 * view.size() && way < 0.2 * view.size(), "{way}");
     // The line of thrust: one piece a voussoir.
     assert_eq!(file.array("CellData", "part").iter().filter(|p| **p == 4.0).count(), 16);
@@ -151,6 +151,40 @@ fn balls_are_round_and_contacts_at_points_are_there() {
     surfaces_are_closed(&file, &m, 1.0);
     forces_balance(&file, &view, |i| m.assembly.dead[i].force);
     assert_eq!(file.array("CellData", "part").iter().filter(|p| **p == 2.0).count(), 2);
+}
+
+/// A script that reads one file reads the next: names are those of the kind of answer, whatever the
+/// numbers in it.
+#[test]
+fn arrays_are_named_alike_in_every_file_and_say_what_they_are_beside() {
+    let names = |thickness: f64| {
+        let (_, view) = limited(&arch(thickness, 1.0, serde_json::json!({})));
+        let text = vtp(&view);
+        let file = File(parsed(&text));
+        let names: Vec<String> = ["FieldData", "PointData", "CellData"]
+            .into_iter()
+            .flat_map(|below| {
+                let parent = all(file.0.root_element(), below).next().unwrap();
+                all(parent, "DataArray")
+                    .map(|a| a.attribute("Name").unwrap().to_string())
+                    .collect::<Vec<_>>()
+            })
+            .collect();
+        let meaning: Vec<u8> =
+            file.array("FieldData", "meaning").into_iter().map(|b| b as u8).collect();
+        (names, String::from_utf8(meaning).unwrap(), file.array("FieldData", "load_factor")[0])
+    };
+    let ((first, said, factor), (second, _, other)) = (names(0.15), names(0.18));
+    assert_eq!(first, second);
+    assert!(
+        first.iter().all(|n| n.chars().all(|c| c.is_ascii_lowercase() || c == '_')),
+        "{first:?}"
+    );
+    for name in ["force", "normal_force", "used", "displacement", "load_factor", "block_names"] {
+        assert!(first.iter().any(|n| n == name), "{name}: {first:?}");
+    }
+    assert!(factor > 0.0 && other > factor, "{factor}, {other}");
+    assert!(said.contains("force: forces that balance it at λ = "), "{said}");
 }
 
 fn falling() -> (Model, View) {

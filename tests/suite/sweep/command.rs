@@ -221,3 +221,80 @@ fn the_worst_case_is_an_answer_like_others() {
     assert!(String::from_utf8_lossy(&error).contains("known are friction"));
     expect(0, at, &["schema", "plan"]);
 }
+
+/// A word of the scene varies as a number does: where a load acts.
+#[test]
+fn the_block_of_a_load_varies() {
+    let folder = desk(1);
+    let at = folder.path();
+    let stack = json!({
+        "format": "voussoir-scene/1",
+        "joints": { "default": { "friction": 0.9 } },
+        "blocks": [
+            { "id": "ground", "shape": { "box": { "size": [4, 4, 1] } }, "at": [0, 0, -0.5], "support": true },
+            { "id": "low", "shape": { "box": { "size": [0.4, 1, 1] } }, "at": [0, 0, 0.5] },
+            { "id": "high", "shape": { "box": { "size": [0.4, 1, 1] } }, "at": [0, 0, 1.5] }
+        ],
+        "loads": { "live": [{ "block": "low", "force": [1000, 0, 0] }] }
+    });
+    let plan = json!({
+        "format": "voussoir-sweep/1",
+        "scene": "stack.json",
+        "question": { "limit": { "law": "associative" } },
+        "vary": [
+            { "pointer": "/loads/live/0/block", "name": "pushed", "values": ["low", "high"] },
+            { "pointer": "/joints/default/friction", "values": [0.9, "infinite"] }
+        ]
+    });
+    fs::write(at.join("stack.json"), stack.to_string()).unwrap();
+    fs::write(at.join("words.json"), plan.to_string()).unwrap();
+    let files = ["--csv", "t.csv", "--svg", "c.svg", "--report", "r.html"];
+    expect(0, at, &[&["sweep", "words.json", "-q"], &files[..]].concat());
+    let rows: Vec<Value> = rows(&at.join("words.rows.jsonl"))
+        .values()
+        .map(|l| serde_json::from_str(&format!("{l}}}")).unwrap())
+        .collect();
+    assert_eq!(rows[0]["parameters"], json!(["low", 0.9]));
+    assert_eq!(rows[3]["parameters"], json!(["high", "infinite"]));
+    // Two blocks of 960 kg tip about the edge on the ground, pushed half a block or three halves
+    // above it.
+    let weight = 0.4 * 2400.0 * 9.81;
+    let value = |k: usize| rows[k]["value"].as_f64().unwrap() * 1000.0;
+    assert!((value(1) - 2.0 * weight * 0.2 / 0.5).abs() < 1e-6 * weight, "{rows:?}");
+    assert!((value(3) - 2.0 * weight * 0.2 / 1.5).abs() < 1e-6 * weight, "{rows:?}");
+    assert!(fs::read_to_string(at.join("t.csv")).unwrap().contains("\"high\",\"infinite\""));
+    assert!(fs::read_to_string(at.join("c.svg")).unwrap().contains("high"));
+    // The same command finds its rows again.
+    expect(0, at, &["sweep", "words.json", "-q"]);
+}
+
+/// Rows without an answer reach who reads one line, and who reads the exit code.
+#[test]
+fn rows_that_fail_are_no_success() {
+    let folder = desk(1);
+    let at = folder.path();
+    let mut plan: Value =
+        serde_json::from_str(&fs::read_to_string(at.join("plan.json")).unwrap()).unwrap();
+    // The second arch is thicker than its radius allows.
+    plan["vary"] = json!([{ "pointer": "/templates/0/arch/thickness", "values": [0.2, 3, 0.25] }]);
+    plan["sampling"] = json!({ "grid": {} });
+    fs::write(at.join("fails.json"), plan.to_string()).unwrap();
+    for args in [
+        &["sweep", "fails.json", "-q", "--svg", "c.svg"][..],
+        &["sweep", "fails.json", "-q"],
+        &["sweep", "merge", "fails.rows.jsonl", "-q"],
+    ] {
+        let output = expect(3, at, args);
+        let (out, err) =
+            (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert!(out.contains("3 rows: 1 error, 2 found"), "{out}");
+        assert!(err.contains("1 of 3 rows has no answer, the first is row 1: "), "{err}");
+    }
+    assert!(fs::read_to_string(at.join("c.svg")).unwrap().contains("error: 1 row"));
+    let json: Value =
+        serde_json::from_slice(&expect(3, at, &["sweep", "fails.json", "--json"]).stdout).unwrap();
+    assert_eq!(
+        (&json["summary"]["open"], &json["summary"]["counts"]["error"]),
+        (&json!(1), &json!(1))
+    );
+}

@@ -87,6 +87,38 @@ fn wrong_plans_are_refused_with_place_and_remedy() {
     );
     refused(|p| p["scene"] = json!("none.json"), &s, &["plan.json:3:", "scene", "cannot be read"]);
     refused(|p| p["format"] = json!("voussoir-scene/1"), &s, &["not a plan"]);
+    // Options without any effect in rows.
+    for (question, key, remedy) in [
+        (json!({ "limit": { "skip_dead": true } }), "question.limit.skip_dead", "remove it"),
+        (json!({ "tilt": { "skip_dead": true } }), "question.tilt.skip_dead", "remove it"),
+        (json!({ "thrust": { "range": true } }), "question.thrust.range", "two plans give both"),
+    ] {
+        refused(|p| p["question"] = question, &s, &[key, "does nothing in rows", remedy]);
+    }
+    // Words that the scene does not know, and numbers where words are.
+    let words = |pointer: &str, values: Value| json!([{ "pointer": pointer, "values": values }]);
+    let mut pushed = block();
+    pushed["loads"]["live"] = json!([{ "block": "block", "force": [1, 0, 0] }]);
+    refused(
+        |p| p["vary"] = words("/loads/live/0/block", json!(["block", "blok"])),
+        &pushed,
+        &["vary[0].values[1]", "blok", "did you mean \"block\""],
+    );
+    refused(
+        |p| p["vary"] = words("/loads/live/0/force", json!(["block"])),
+        &pushed,
+        &["vary[0].pointer", "not a word"],
+    );
+    refused(
+        |p| p["vary"] = words("/joints/default/friction", json!([0.5, "rough"])),
+        &s,
+        &["vary[0].values[1]", "rough"],
+    );
+    refused(
+        |p| p["vary"] = words("/loads/live/0/block", json!([1, 2])),
+        &pushed,
+        &["not a number", "words with \"values\""],
+    );
     let mut still = block();
     still["loads"] = json!({});
     refused(|_| {}, &still, &["question", "no live load"]);

@@ -71,7 +71,8 @@ fn answers_are_those_of_the_closed_form() {
         let rows = done(&sweep, &folder.path().join(format!("{scale}.jsonl")), 2);
         assert_eq!(rows.len(), 24);
         for row in rows {
-            let least = row.parameters[0].min(row.parameters[1]);
+            let least =
+                row.parameters[0].number().unwrap().min(row.parameters[1].number().unwrap());
             let want = if scale == 1.0 { least } else { least.atan().to_degrees() };
             let got = row.answer.value.unwrap();
             assert!((got - want).abs() <= 1e-6 * want, "{row:?}");

@@ -10,7 +10,7 @@ use voussoir::{
 fn row(number: usize, parameters: &[f64], status: RowStatus, value: Option<f64>) -> Row {
     Row {
         row: number,
-        parameters: parameters.to_vec(),
+        parameters: parameters.iter().map(|p| (*p).into()).collect(),
         answer: RowAnswer { value, ..RowAnswer::of(status) },
         error: None,
         seconds: 0.5,
@@ -104,7 +104,10 @@ fn verdicts_and_requirements_fail_along_the_number_that_matters() {
     let stands = |b: f64| if b > 1.5 { RowStatus::Stable } else { RowStatus::Unstable };
     let rows: Vec<Row> = grid(|_, b| b)
         .into_iter()
-        .map(|r| row(r.row, &r.parameters, stands(r.parameters[1]), None))
+        .map(|r| {
+            let numbers: Vec<f64> = r.parameters.iter().filter_map(|p| p.number()).collect();
+            row(r.row, &numbers, stands(numbers[1]), None)
+        })
         .collect();
     let s = summarize(&sweep.header(Shard::ALL), &rows);
     assert_eq!((s.failed.unwrap().failed, s.failed.unwrap().of), (3, 9));
@@ -144,9 +147,11 @@ fn charts_are_good_xml_with_what_they_show() {
     assert_eq!((Kind::suited(&grid_header, &summary), summary.fragility), (Kind::Heat, None));
     let nothing = [row(0, &[0.1, 1.0], RowStatus::Undecided, None)];
     let summary = summarize(&header, &nothing);
-    for kind in [Kind::Line, Kind::Heat, Kind::Fragility] {
-        assert!(chart(&header, &nothing, &summary, kind).is_err());
+    // Rows without a value are drawn as well; a share needs rows that tell.
+    for kind in [Kind::Line, Kind::Heat] {
+        assert!(chart(&header, &nothing, &summary, kind).unwrap().contains("undecided: 1 row"));
     }
+    assert!(chart(&header, &nothing, &summary, Kind::Fragility).is_err());
 }
 
 #[test]
@@ -160,6 +165,61 @@ fn tables_quote_what_needs_it() {
         lines[0],
         "row,a,\"b <&\"\"\",status,value,lower,upper,dry,toward_x,toward_y,toward_z,error,seconds"
     );
-    assert_eq!(lines[2], "1,0.1,2,found,0.1,,,,,,,\"a, \"\"b\"\"\",0.5");
+    assert_eq!(lines[2], "1,0.1,2,\"found\",0.1,,,,,,,\"a, \"\"b\"\"\",0.5");
     assert_eq!(lines.len(), 10);
+}
+
+/// A grid whose first two columns fall whatever the load, with a row that failed: every row is seen,
+/// and no mean hides one.
+#[test]
+fn rows_without_a_value_are_drawn_and_said() {
+    let sweep = with(json!({ "limit": {} }), json!({ "grid": {} }));
+    let header = sweep.header(Shard::ALL);
+    let mut rows = grid(|a, b| a + b);
+    for falls in [0, 1, 2, 4] {
+        rows[falls] = Row { answer: RowAnswer::of(RowStatus::Impossible), ..rows[falls].clone() };
+    }
+    rows[5] = Row {
+        answer: RowAnswer::of(RowStatus::Error),
+        error: Some("no such block".into()),
+        ..rows[5].clone()
+    };
+    let summary = summarize(&header, &rows);
+    let heat = chart(&header, &rows, &summary, Kind::Heat).unwrap();
+    // Nine cells, 40 steps of the colour bar, the ground: nothing is left white.
+    assert_eq!(heat.matches("<rect").count(), 50);
+    let squares = |colour: &str| {
+        let rects = heat.split("<rect").skip(1).filter_map(|r| r.split('>').next());
+        rects.filter(|r| r.contains(&format!("fill=\"{colour}\""))).count()
+    };
+    assert_eq!((squares("#C81E2D"), squares("#000000")), (4, 1));
+    assert!(heat.contains("falls: 4 rows") && heat.contains("error: 1 row"), "{heat}");
+    // Against one number: two groups have a row without a value, so no mean; the third has one.
+    let line = chart(&header, &rows, &summary, Kind::Line).unwrap();
+    assert!(line.contains("falls: 4 rows") && line.contains("error: 1 row"), "{line}");
+    let words = summary_text(&header, &rows);
+    assert!(words.contains("of the 4 rows with a value"), "{words}");
+    assert!(words.contains("the first in row 5: no such block"), "{words}");
+}
+
+fn summary_text(header: &voussoir::sweep::Header, rows: &[Row]) -> String {
+    let layout = voussoir::report::text::Layout { unnamed: "", width: 200 };
+    voussoir::report::sweep::summary(header, &summarize(header, rows), false, layout).to_string()
+}
+
+/// Words are places along an axis in the order of the plan.
+#[test]
+fn words_are_drawn_by_their_names() {
+    let vary =
+        json!([{ "pointer": "/blocks/1/material", "name": "stone", "values": ["other", "stone"] }]);
+    let sweep = sweep(block(), json!({ "limit": {} }), vary, json!({ "grid": {} }));
+    let header = sweep.header(Shard::ALL);
+    let rows: Vec<Row> = (0..2)
+        .map(|k| Row { parameters: sweep.parameters(k), ..found(k, &[], 0.2 + 0.1 * k as f64) })
+        .collect();
+    assert_eq!(rows[0].parameters, ["other".into()]);
+    let svg = chart(&header, &rows, &summarize(&header, &rows), Kind::Line).unwrap();
+    assert!(svg.contains("other") && svg.contains("stone"), "{svg}");
+    let table = csv(&header, &rows).unwrap();
+    assert!(table.contains("\n0,\"other\",\"found\",0.2,"), "{table}");
 }

@@ -37,40 +37,50 @@ function drawChart(chart) {
   const W = 560, H = 340, left = 66, right = chart.cells ? 62 : 14, top = 10, bottom = 46;
   const cells = Boolean(chart.cells), xs = [], ys = [];
   for (const s of chart.series) s.points.forEach(([x, y], i) => {
-    const b = s.band && s.band[i];
-    if (cells) { xs.push(x - b[0], x + b[0]); ys.push(y - b[1], y + b[1]); } else { xs.push(x); ys.push(y); if (b) ys.push(b[0], b[1]); }
+    const b = y === null ? null : s.band && s.band[i];
+    if (cells) { xs.push(x - b[0], x + b[0]); ys.push(y - b[1], y + b[1]); } else { xs.push(x); if (y !== null) ys.push(y); if (b) ys.push(b[0], b[1]); }
   });
   const tight = (list) => [Math.min(...list), Math.max(...list)];
   const [x0, x1] = cells ? tight(xs) : range(xs, chart.x.log), [y0, y1] = cells ? tight(ys) : range(ys, chart.y.log);
   const to = (v, a, b, log) => (log ? (Math.log(v) - Math.log(a)) / (Math.log(b) - Math.log(a)) : (v - a) / (b - a));
   const px = (v) => left + (W - left - right) * to(v, x0, x1, chart.x.log), py = (v) => H - bottom - (H - top - bottom) * to(v, y0, y1, chart.y.log);
   const svg = make("svg", { viewBox: `0 0 ${W} ${H}`, role: "img", tabindex: "0", "aria-label": `${chart.title}: ${chart.y.label} against ${chart.x.label}` });
-  for (const v of ticks(x0, x1, chart.x.log)) svg.append(make("line", { class: "grid", x1: px(v), x2: px(v), y1: top, y2: H - bottom }), make("text", { class: "soft", x: px(v), y: H - bottom + 17, "text-anchor": "middle" }, short(v, 3)));
-  for (const v of ticks(y0, y1, chart.y.log)) svg.append(make("line", { class: "grid", x1: left, x2: W - right, y1: py(v), y2: py(v) }), make("text", { class: "soft", x: left - 7, y: py(v) + 4, "text-anchor": "end" }, short(v, 3)));
+  // Words stand where they are counted; all else at round values.
+  const places = (axis, low, high) => (axis.words ? axis.words.map((_, k) => k).filter((k) => k >= low - 1e-9 && k <= high + 1e-9) : ticks(low, high, axis.log));
+  const word = (axis, v) => (axis.words ? axis.words[v] : short(v, 3));
+  for (const v of places(chart.x, x0, x1)) svg.append(make("line", { class: "grid", x1: px(v), x2: px(v), y1: top, y2: H - bottom }), make("text", { class: "soft", x: px(v), y: H - bottom + 17, "text-anchor": "middle" }, word(chart.x, v)));
+  for (const v of places(chart.y, y0, y1)) svg.append(make("line", { class: "grid", x1: left, x2: W - right, y1: py(v), y2: py(v) }), make("text", { class: "soft", x: left - 7, y: py(v) + 4, "text-anchor": "end" }, word(chart.y, v)));
   svg.append(make("text", { x: (left + W - right) / 2, y: H - 8, "text-anchor": "middle" }, chart.x.label));
   svg.append(make("text", { x: 13, y: (top + H - bottom) / 2, "text-anchor": "middle", transform: `rotate(-90 13 ${(top + H - bottom) / 2})` }, chart.y.label));
   const spots = [];
   chart.series.forEach((s, k) => {
-    const ink = inkOf(k);
+    const ink = s.colour || inkOf(k);
     if (cells) {
-      const [low, high] = tight(s.values);
+      const values = s.values || [], [low, high] = tight(values);
       s.points.forEach(([x, y], i) => {
         const [dx, dy] = s.band[i];
-        svg.append(make("rect", { x: px(x - dx), y: py(y + dy), width: px(x + dx) - px(x - dx) + 0.6, height: py(y - dy) - py(y + dy) + 0.6, fill: viridis((s.values[i] - low) / (high - low || 1)) }));
+        svg.append(make("rect", { x: px(x - dx), y: py(y + dy), width: px(x + dx) - px(x - dx) + 0.6, height: py(y - dy) - py(y + dy) + 0.6, fill: s.colour || viridis((values[i] - low) / (high - low || 1)) }));
         spots.push([px(x), py(y), s.hints[i]]);
       });
+      if (s.colour || !values.length) return;
       for (let i = 0; i < 40; i++) svg.append(make("rect", { x: W - right + 12, y: H - bottom - (i + 1) * (H - top - bottom) / 40, width: 12, height: (H - top - bottom) / 40 + 0.5, fill: viridis(i / 39) }));
       svg.append(make("text", { class: "soft", x: W - right + 28, y: top + 10 }, short(high, 3)), make("text", { class: "soft", x: W - right + 28, y: H - bottom }, short(low, 3)));
       return;
     }
     const path = (list) => list.map(([x, y], i) => `${i ? "L" : "M"}${px(x).toFixed(1)} ${py(y).toFixed(1)}`).join("");
-    if (s.band) {
-      const up = s.points.map(([x], i) => [x, s.band[i][1]]), down = s.points.map(([x], i) => [x, s.band[i][0]]).reverse();
-      svg.append(make("path", { d: `${path([...up, ...down])}Z`, style: `fill:${ink}`, opacity: 0.16 }));
+    // A point without a value cuts the line.
+    const runs = [[]];
+    s.points.forEach(([, y], i) => (y === null ? runs.push([]) : runs[runs.length - 1].push(i)));
+    for (const run of runs.filter((r) => r.length)) {
+      if (s.band) {
+        const up = run.map((i) => [s.points[i][0], s.band[i][1]]), down = run.map((i) => [s.points[i][0], s.band[i][0]]).reverse();
+        svg.append(make("path", { d: `${path([...up, ...down])}Z`, style: `fill:${ink}`, opacity: 0.16 }));
+      }
+      if (s.line) svg.append(make("path", { d: path(run.map((i) => s.points[i])), fill: "none", style: `stroke:${ink}`, "stroke-width": 2, "stroke-linejoin": "round" }));
     }
-    if (s.line) svg.append(make("path", { d: path(s.points), fill: "none", style: `stroke:${ink}`, "stroke-width": 2, "stroke-linejoin": "round" }));
-    const r = s.line ? (s.points.length > 45 ? 0 : 3.2) : s.points.length > 500 ? 1.7 : 2.6;
+    const r = s.colour ? 4.5 : s.line ? (s.points.length > 45 ? 0 : 3.2) : s.points.length > 500 ? 1.7 : 2.6;
     s.points.forEach(([x, y], i) => {
+      if (y === null) return;
       if (r > 0) svg.append(make("circle", { cx: px(x).toFixed(1), cy: py(y).toFixed(1), r, style: `fill:${ink}`, opacity: s.line ? 1 : 0.55 }));
       spots.push([px(x), py(y), s.hints[i]]);
     });
@@ -100,7 +110,8 @@ function drawChart(chart) {
     e.preventDefault();
     show(order[(order.indexOf(at) + step + (at < 0 && step < 0 ? 1 : 0) + order.length) % order.length]);
   });
-  const keys = !cells && (chart.series.length > 1 || chart.series[0].band) ? make("div", { class: "keysrow" }, chart.series.map((s, k) => make("span", {}, make("i", { style: `background:${inkOf(k)}` }), s.name))) : null;
+  const named = chart.series.map((s, k) => [s.name, s.colour || inkOf(k), s]).filter(([, , s]) => !cells || s.colour);
+  const keys = named.length && (cells || named.length > 1 || chart.series[0].band) ? make("div", { class: "keysrow" }, named.map(([name, ink]) => make("span", {}, make("i", { style: `background:${ink}` }), name))) : null;
   return make("figure", {}, make("figcaption", {}, chart.title), keys, svg, hint);
 }
 

@@ -1,0 +1,303 @@
+//! Why an answer is undecided: the most probable cause, what speaks for it, and the one thing to do
+//! next.
+//!
+//! Causes are told from what is there once the answer is made: whether time was over, what the
+//! check refused, how far the bracket closed, how wide the numbers of the scene are spread. The
+//! first that fits is named, the most certain first.
+
+use super::{
+    Answer, Assessment, Control, Critical, LoadFactor, Proved, Tilt, coulomb::DryLoadFactor,
+    critical::Scanned,
+};
+#[cfg(feature = "dynamics")]
+use crate::{
+    dynamics::SimulationOutcome,
+    terms::{Fate, Stop},
+};
+use crate::{
+    interface::Model,
+    number::{count, short},
+    scene::Friction,
+    terms::{Attempt, Doubt, DoubtCause, Found, Outcome, StateMotion},
+    tolerance,
+    verdict::{Verdict, certificate},
+};
+
+/// Why an answer, or the governing part of it, is undecided; nothing where it is decided.
+pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt> {
+    let about = About { model, late: control.deadline.is_set() && control.deadline.is_over() };
+    match answer {
+        Answer::Assess(a) => about.verdict(a),
+        Answer::Limit(l) => about
+            .bound(&l.bound)
+            .or_else(|| {
+                l.dry.as_ref().and_then(|dry| {
+                    about.dry(
+                        dry,
+                        "simulate the load that matters: `voussoir simulate` with --load-factor",
+                    )
+                })
+            })
+            .or_else(|| l.dead.as_ref().and_then(|dead| about.verdict(dead))),
+        Answer::Tilt(t) => t
+            .directions
+            .iter()
+            .find_map(|tilt| about.tilt(tilt))
+            .or_else(|| t.level.as_ref().and_then(|level| about.verdict(level))),
+        Answer::Repose(p) => p
+            .directions
+            .iter()
+            .filter_map(|d| d.rounds.get(d.answer))
+            .find_map(|round| about.tilt(&round.tilt)),
+        Answer::Thrust(t) => about.verdict(&t.standing).or_else(|| {
+            let end = t.ends.iter().find(|e| e.outcome == Outcome::Undecided)?;
+            about.search(
+                &end.attempts,
+                end.findings().fails.first(),
+                end.bracket.lower,
+                end.bracket.upper,
+            )
+        }),
+        Answer::Critical(c) => about.range(c),
+        #[cfg(feature = "dynamics")]
+        Answer::Simulate(outcome) => in_time(outcome),
+    }
+}
+
+struct About<'a> {
+    model: &'a Model,
+    late: bool,
+}
+
+impl About<'_> {
+    fn verdict(&self, a: &Proved<Assessment>) -> Option<Doubt> {
+        if a.verdict != Verdict::Undecided {
+            return None;
+        }
+        let b = a.unbalance;
+        let state = a.state.as_ref().filter(|s| s.motion == StateMotion::Undecided);
+        match (self.late, state) {
+            (false, Some(state)) if a.findings().fails.is_empty() => {
+                let left = state.steps.last().map_or(String::new(), |s| {
+                    format!(
+                        ": {:.1e} g is left at a compliance of {:.0e}",
+                        s.acceleration, s.epsilon
+                    )
+                });
+                return Doubt::new(
+                    DoubtCause::DryFriction,
+                    format!(
+                        "forces that balance it exist, but the state under dry friction comes neither to rest nor to a motion{left}"
+                    ),
+                    "ask `voussoir simulate`, which lets it move in time",
+                );
+            }
+            (false, None) if b.upper <= tolerance::ON_THE_LINE && a.findings().fails.is_empty() => {
+                return Doubt::new(
+                    DoubtCause::OnTheLine,
+                    format!(
+                        "the least unbalance lies between {:.0e} and {:.0e} of the weight, which may be none",
+                        b.lower, b.upper
+                    ),
+                    "change what is uncertain (friction, thickness) by 1 % to either side and ask both",
+                );
+            }
+            _ => {}
+        }
+        self.search(&a.attempts, a.findings().fails.first(), b.lower, b.upper)
+    }
+
+    fn bound(&self, l: &Proved<LoadFactor>) -> Option<Doubt> {
+        if l.outcome != Outcome::Undecided {
+            return None;
+        }
+        self.search(&l.attempts, l.findings().fails.first(), l.bracket.lower, l.bracket.upper)
+    }
+
+    fn tilt(&self, tilt: &Tilt) -> Option<Doubt> {
+        self.bound(&tilt.load_factor).or_else(|| {
+            let dry = tilt.dry.as_ref()?;
+            self.dry(
+                &dry.load_factor,
+                "simulate the scene with gravity turned by the tilt that matters",
+            )
+        })
+    }
+
+    /// A value with dry friction that did not come out, or was not seen to be reached.
+    fn dry(&self, dry: &Proved<DryLoadFactor>, next: &str) -> Option<Doubt> {
+        let claims = matches!(dry.found, Found::NothingSlides | Found::FixedPoint);
+        if !(dry.found == Found::Undecided || claims && !dry.is_reached()) {
+            return None;
+        }
+        if self.late {
+            return Self::time(dry.solves);
+        }
+        if let Some(why) = dry.findings().fails.first() {
+            return Self::refused(why);
+        }
+        let rests = if dry.rests_at > 0.0 {
+            format!("; at rest up to {}", short(dry.rests_at))
+        } else {
+            String::new()
+        };
+        let programs = count(dry.solves, "program");
+        Doubt::new(
+            DoubtCause::DryFriction,
+            format!("the friction limits had not settled after {programs}{rests}"),
+            next,
+        )
+    }
+
+    fn time(attempts: usize) -> Option<Doubt> {
+        Doubt::new(
+            DoubtCause::TimeLimit,
+            format!("time was over after {}", count(attempts, "attempt")),
+            "give it more with --time-limit",
+        )
+    }
+
+    fn refused(why: &str) -> Option<Doubt> {
+        Doubt::new(
+            DoubtCause::Refused,
+            format!("what came out was refused by its own check: {why}"),
+            "ask again with --keep-all",
+        )
+    }
+
+    /// A bracket that did not close.
+    fn search(
+        &self,
+        attempts: &[Attempt],
+        refused: Option<&String>,
+        lower: f64,
+        upper: f64,
+    ) -> Option<Doubt> {
+        if self.late {
+            return Self::time(attempts.len());
+        }
+        if let Some(why) = refused {
+            return Self::refused(why);
+        }
+        if let Some(spread) = spread(self.model) {
+            return Doubt::new(
+                DoubtCause::WideNumbers,
+                spread,
+                "leave out blocks that are much smaller or lighter than the rest, or give friction that stone has",
+            );
+        }
+        let tried = count(attempts.len(), "attempt");
+        let status = attempts.last().map_or_else(String::new, |a| {
+            format!(", the last of which ended with {:?}", a.engine_status)
+        });
+        match lower.is_finite() && upper.is_finite() && upper < f64::MAX {
+            true => Doubt::new(
+                DoubtCause::OpenBracket,
+                format!(
+                    "after {tried} it is known only to lie between {} and {}{status}",
+                    short(lower),
+                    short(upper)
+                ),
+                "ask again with --keep-all, and take the end on the safe side until then",
+            ),
+            false => Doubt::new(
+                DoubtCause::NoAttempt,
+                format!("none of {tried} gave both ends{status}"),
+                "ask again with --keep-all",
+            ),
+        }
+    }
+
+    /// A range without a flip whose verdict is not one throughout.
+    fn range(&self, c: &Critical) -> Option<Doubt> {
+        if !c.changes.is_empty() {
+            return None;
+        }
+        let is_open = |s: &&Scanned| matches!(s.outcome, Ok((Verdict::Undecided, _)));
+        let undecided = c.scan.iter().filter(is_open).count();
+        let none = c.scan.iter().filter(|s| s.outcome.is_err()).count();
+        let ends = c.ends.iter().find_map(|p| self.verdict(&p.assessment));
+        if undecided + none == 0 && ends.is_none() {
+            return None;
+        }
+        if self.late {
+            return Self::time(c.probes);
+        }
+        Doubt::new(
+            DoubtCause::Range,
+            format!(
+                "of {} {undecided} are undecided and {none} make no scene",
+                count(c.scan.len(), "value")
+            ),
+            "narrow --between to values that make scenes",
+        )
+    }
+}
+
+/// How wide the numbers of a scene are spread, where that is wider than solvers carry.
+fn spread(model: &Model) -> Option<String> {
+    let wide = |what: &str, values: &mut dyn Iterator<Item = f64>| {
+        let (low, high) = values
+            .filter(|v| *v > 0.0)
+            .fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
+        (high > tolerance::WIDE_NUMBERS * low)
+            .then(|| format!("{what} run from {} to {}", short(low), short(high)))
+    };
+    let assembly = &model.assembly;
+    let steepest = model
+        .interfaces
+        .list
+        .iter()
+        .filter_map(|f| match f.law.friction {
+            Friction::Coefficient(mu) => Some(mu),
+            Friction::Infinite => None,
+        })
+        .fold(0.0, f64::max);
+    wide(
+        "the blocks' loads in N",
+        &mut assembly.free().map(|i| certificate::load_scale(assembly, i)),
+    )
+    .or_else(|| {
+        wide("the blocks' sizes in m", &mut assembly.free().map(|i| assembly.blocks[i].size))
+    })
+    .or_else(|| {
+        (steepest > tolerance::STEEPEST_FRICTION)
+            .then(|| format!("a coefficient of friction is {}", short(steepest)))
+    })
+}
+
+#[cfg(feature = "dynamics")]
+fn in_time(outcome: &SimulationOutcome) -> Option<Doubt> {
+    if outcome.fate != Fate::Undecided {
+        return None;
+    }
+    let run = outcome.runs.last()?;
+    let moved = format!(
+        "{} moved by {} of its thickness in {} s",
+        run.farthest,
+        short(run.relative),
+        short(run.time)
+    );
+    match run.stop {
+        Stop::Stopped => Doubt::new(
+            DoubtCause::TimeLimit,
+            format!("stopped after {} of {} s; {moved}", short(run.time), short(run.horizon)),
+            "give it more with --time-limit",
+        ),
+        Stop::Broken => Doubt::new(
+            DoubtCause::BrokeOff,
+            format!("the engine's numbers broke down after {} s", short(run.time)),
+            "ask `voussoir assess`, which needs no steps in time",
+        ),
+        Stop::Rest => Doubt::new(
+            DoubtCause::StillMoving,
+            format!("it came to rest, but only after {moved}"),
+            "look at what slipped (--svg), and ask `voussoir assess`",
+        ),
+        Stop::Fallen | Stop::Horizon => Doubt::new(
+            DoubtCause::StillMoving,
+            format!("it neither rests nor has it fallen: {moved}"),
+            format!("simulate longer: --seconds {}", short(2.0 * run.horizon)),
+        ),
+    }
+}

@@ -1,0 +1,70 @@
+//! Contacts that were left out: their numbers are those of the scene, and the answer with them
+//! closed is asked again.
+
+use super::{again::computed, failure, require, states};
+use crate::{
+    interface::{LeftOut, Model},
+    proof::{
+        answer::Answer,
+        result::{QuestionKind, ResultFile},
+    },
+    scene::Scene,
+    terms::{ClosedAnswer, Difference},
+    tolerance,
+    verdict::check::Findings,
+};
+
+/// The numbers of what was left out are those of the scene; the answer with it is asked again.
+pub(super) fn left_out(file: &ResultFile, scene: &Scene, model: &Model) -> Findings {
+    let mut f = Findings::default();
+    let (said, here) = (file.left_out_contacts, model.interfaces.left_out);
+    let same = match (said.map(|s| s.contacts), here) {
+        (None, None) => return f,
+        (Some(said), Some(here)) => alike(said, here),
+        _ => false,
+    };
+    require(&mut f, same, "the contacts that were left out are those of the scene");
+    let Some(closed) = said.and_then(|s| s.closed).filter(|_| same) else { return f };
+    let given = match (file.question, file.answer.verdict(), file.answer.bound()) {
+        (QuestionKind::Assess, Some(verdict), _) => {
+            Some(ClosedAnswer::verdict(verdict, closed.law))
+        }
+        (QuestionKind::Limit, _, Some(b)) => {
+            Some(ClosedAnswer::LoadFactor { status: b.status, value: b.value })
+        }
+        (QuestionKind::Tilt, ..) => file
+            .directions
+            .iter()
+            .map(|d| &d.answer)
+            .chain([&file.answer])
+            .filter_map(Answer::bound)
+            .map(|b| ClosedAnswer::LoadFactor { status: b.status, value: b.value })
+            .min_by(|a, b| a.height().total_cmp(&b.height())),
+        (QuestionKind::Assess | QuestionKind::Limit, ..) => None,
+        _ => return failure("the question is not one that is asked again with contacts closed"),
+    };
+    let all = file.directions.iter().map(|d| &d.answer).chain([&file.answer]);
+    let toward = all.filter_map(Answer::toward).collect();
+    let again = states::closed(file.question, (closed.law, toward), scene, model);
+    let ok = again.map(|again| {
+        again.is_some_and(|(law, answer)| {
+            law == closed.law
+                && (answer == closed.answer || answer.beside(closed.answer) == Difference::None)
+        })
+    });
+    let follows = given.is_some_and(|given| closed.answer.beside(given) == closed.difference);
+    computed(&mut f, ok, "the answer with contacts closed that were left out".into());
+    require(&mut f, follows, "how it differs follows from the two");
+    f
+}
+
+/// Counts alike, lengths up to the digits that a file keeps.
+fn alike(said: LeftOut, here: LeftOut) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() <= tolerance::SAVED * b.abs();
+    (said.near_misses, said.overlaps, said.too_deep)
+        == (here.near_misses, here.overlaps, here.too_deep)
+        && near(said.greatest_gap, here.greatest_gap)
+        && near(said.deepest_overlap, here.deepest_overlap)
+        && near(said.closing_gap, here.closing_gap)
+        && near(said.closing_angle_deg, here.closing_angle_deg)
+}

@@ -1,0 +1,157 @@
+//! What weakens an answer reaches whoever reads one line, one number or one exit code.
+
+use super::*;
+
+/// Rings that are cut into different numbers of voussoirs: chords of one lie inside those of the
+/// other, so that most joints between them overlap and are no contacts.
+fn rings() -> Value {
+    let ring = |k: usize, voussoirs: usize| json!({ "arch": { "prefix": format!("r{k}_"), "radius": 2.5 + 0.1 * k as f64, "embrace_deg": 120, "thickness": 0.1, "depth": 1, "voussoirs": voussoirs, "material": "b" } });
+    json!({
+        "format": "voussoir-scene/1", "name": "rings", "materials": { "b": { "density": 2000 } },
+        "joints": { "default": { "friction": 0.5 } }, "templates": [ring(0, 20), ring(1, 21)],
+        "loads": { "live": [{ "weight": [1, 0, 0] }] }, "contact": { "gap": 1e-4 }
+    })
+}
+
+/// A stone that was drawn into the ground, by this much.
+fn sunk(depth: f64) -> Value {
+    json!({
+        "format": "voussoir-scene/1", "name": "Sunk", "joints": { "default": { "friction": 0.6 } },
+        "blocks": [
+            { "id": "ground", "shape": { "box": { "size": [4, 4, 1] } }, "at": [0, 0, -0.5], "support": true },
+            { "id": "stone", "shape": { "box": { "size": [1, 1, 1] } }, "at": [0, 0, 0.5 - depth] }
+        ]
+    })
+}
+
+#[test]
+fn rings_that_overlap_say_so_on_the_line_that_has_the_number() {
+    let desk = Desk::new();
+    let scene = desk.write("rings.json", &rings());
+    for law in ["associative", "coulomb"] {
+        let limit = voussoir(&["limit", &scene, "-q", "--skip-dead", "--law", law]);
+        let line = out(&limit);
+        assert_eq!(line.lines().count(), 1, "{line}");
+        for word in
+            ["λ = ", "without contacts between ", " overlap by up to ", "with them closed λ = "]
+        {
+            assert!(line.contains(word), "{word}: {line}");
+        }
+        // On standard error too, for who reads the number from JSON or a picture.
+        assert!(err(&limit).contains("warning: without contacts between"), "{}", err(&limit));
+    }
+    let saved = desk.saved(YES, &["limit", &scene, "--law", "associative", "--skip-dead"]);
+    let said = &saved["left_out_contacts"];
+    assert!(said["contacts"]["overlaps"].as_u64().unwrap() > 20, "{said}");
+    assert_eq!(said["closed"]["difference"], "stronger");
+    let closed = said["closed"]["answer"]["load_factor"]["value"].as_f64().unwrap();
+    let given = saved["answer"]["load_factor"]["value"].as_f64().unwrap();
+    assert!(closed > 1.05 * given, "{closed}, {given}");
+    // The number beside it is what the advised tolerances give.
+    let mut wide = rings();
+    wide["contact"] = json!({
+        "gap": said["contacts"]["closing_gap"], "angle_deg": said["contacts"]["closing_angle_deg"]
+    });
+    let wide = desk.write("wide.json", &wide);
+    let there = desk.saved(YES, &["limit", &wide, "--law", "associative", "--skip-dead"]);
+    let there = there["answer"]["load_factor"]["value"].as_f64().unwrap();
+    assert!((there - closed).abs() < 1e-6 * closed, "{there}, {closed}");
+    // It is verified like the rest, and a false one is refused.
+    desk.checked(YES, &saved);
+    for (key, value) in [
+        ("difference", json!("none")),
+        ("answer", json!({ "load_factor": { "status": "unbounded" } })),
+    ] {
+        let mut forged = saved.clone();
+        forged["left_out_contacts"]["closed"][key] = value;
+        desk.checked(NO, &forged);
+    }
+    let mut silent = saved;
+    silent.as_object_mut().unwrap().remove("left_out_contacts");
+    desk.checked(NO, &silent);
+}
+
+#[test]
+fn what_falls_for_a_joint_that_overlaps_says_that_it_stands_with_it() {
+    let desk = Desk::new();
+    let scene = desk.write("sunk.json", &sunk(0.0058));
+    let assess = expect(NO, voussoir(&["assess", &scene, "-q"]));
+    assert_eq!(
+        out(&assess),
+        "Sunk: falls; without contacts between 1 pair of blocks that overlap by up to 0.0058 m; with them closed it stands\n"
+    );
+    let json: Value =
+        serde_json::from_str(&out(&expect(NO, voussoir(&["assess", &scene, "--json"])))).unwrap();
+    assert_eq!(json["answer"]["verdict"], "unstable");
+    assert_eq!(
+        (
+            &json["left_out_contacts"]["closed"]["answer"]["verdict"],
+            &json["left_out_contacts"]["closed"]["difference"]
+        ),
+        (&json!("stable"), &json!("stronger"))
+    );
+    // No tolerance closes this one, and that is said as well.
+    let deep = desk.write("deep.json", &sunk(0.3));
+    let line = out(&voussoir(&["assess", &deep, "-q"]));
+    assert!(line.contains("overlap by up to 0.3 m; with them it may be another one"), "{line}");
+}
+
+/// A near miss that carries nothing either way is not on the line.
+#[test]
+fn contacts_that_change_nothing_are_not_said() {
+    let desk = Desk::new();
+    let mut scene = sunk(0.0);
+    let mut beside = scene["blocks"][1].clone();
+    (beside["id"], beside["at"]) = (json!("beside"), json!([1.001, 0, 0.5]));
+    scene["blocks"].as_array_mut().unwrap().push(beside);
+    let scene = desk.write("beside.json", &scene);
+    let assess = expect(YES, voussoir(&["assess", &scene, "-q"]));
+    assert_eq!((out(&assess).as_str(), err(&assess).as_str()), ("Sunk: stands\n", ""));
+    let saved = desk.saved(YES, &["assess", &scene]);
+    assert_eq!(saved["left_out_contacts"]["contacts"]["near_misses"], 1);
+    assert_eq!(saved["left_out_contacts"]["closed"]["difference"], "none");
+    desk.checked(YES, &saved);
+}
+
+/// Undecided answers name the most probable cause and the next step, in every form.
+#[test]
+fn undecided_answers_say_why_and_what_next() {
+    let desk = Desk::new();
+    let (arch, pushed, thin) = (desk.at("arch.json"), desk.at("pushed.json"), desk.at("thin.json"));
+    let late = ["--time-limit", "1e-9"];
+    for (question, cause, next) in [
+        (
+            [&["assess", arch.as_str()][..], &late].concat(),
+            "time_limit",
+            "give it more with --time-limit",
+        ),
+        ([&["limit", &pushed][..], &late].concat(), "time_limit", "give it more with --time-limit"),
+        (
+            [&["tilt", &arch, "--all", "2"][..], &late].concat(),
+            "time_limit",
+            "give it more with --time-limit",
+        ),
+        ([&["thrust", &arch][..], &late].concat(), "time_limit", "give it more with --time-limit"),
+        (
+            vec!["simulate", &thin, "--fast", "--seconds", "0.01", "--skip-verdict"],
+            "still_moving",
+            "simulate longer: --seconds 0.02",
+        ),
+    ] {
+        let line = out(&expect(UNDECIDED, voussoir(&[&question[..], &["-q"]].concat())));
+        assert!(line.lines().count() == 1 && line.contains("undecided"), "{question:?}: {line}");
+        assert!(line.trim_end().ends_with(next), "{question:?}: {line}");
+        let json: Value = serde_json::from_str(&out(&expect(
+            UNDECIDED,
+            voussoir(&[&question[..], &["--json"]].concat()),
+        )))
+        .unwrap();
+        assert_eq!(json["doubt"]["cause"], cause, "{question:?}");
+        assert!(!json["doubt"]["evidence"].as_str().unwrap().is_empty());
+        assert_eq!(json["doubt"]["next"], next);
+    }
+    // What is decided has no doubt.
+    let json: Value =
+        serde_json::from_str(&out(&expect(YES, voussoir(&["assess", &arch, "--json"])))).unwrap();
+    assert!(json.get("doubt").is_none());
+}
