@@ -68,7 +68,11 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
             continue;
         }
         if let Some(near) = meeting.near {
-            tally.near(near.closing, &limits, a, b);
+            let grains = [a, b].iter().all(|&i| assembly.blocks[i].solid.is_round());
+            match grains {
+                true => tally.neighbours(near.closing),
+                false => tally.near(near.closing, &limits, a, b),
+            }
         }
         if let Some(overlap) = meeting.overlap {
             tally.overlap(overlap.depth, overlap.closing, &limits, a, b);

@@ -17,6 +17,8 @@ pub(super) struct Tally {
     pressed: Extreme,
     small: Extreme,
     near: Vec<(Apart, usize, usize)>,
+    /// Round blocks near each other: neighbours in a packing, not faces that fail to meet.
+    neighbours: Vec<f64>,
     /// `(depth, what would close it, a, b)`
     overlaps: Vec<(f64, Option<Apart>, usize, usize)>,
     without_normal: Vec<(usize, usize)>,
@@ -83,6 +85,10 @@ impl Tally {
         b: usize,
     ) {
         self.overlaps.push((depth, closing.map(|c| Apart::new(c, limits)), a, b));
+    }
+
+    pub fn neighbours(&mut self, closing: Closing) {
+        self.neighbours.push(closing.gap.max(0.0));
     }
 
     pub fn without_normal(&mut self, a: usize, b: usize) {
@@ -158,6 +164,19 @@ impl Tally {
                 short(greatest),
                 worst.join(", "),
                 remedy(self.near.iter().map(|n| n.0), assembly),
+            );
+            findings.push(Finding::new(FindingCode::NearMiss, text));
+        }
+        if !self.neighbours.is_empty() {
+            let ends = self
+                .neighbours
+                .iter()
+                .fold((f64::INFINITY, 0.0_f64), |(l, h), g| (l.min(*g), h.max(*g)));
+            let text = format!(
+                "{} of round blocks lie next to each other without touching, as grains do: gaps from {} to {} m, more than contact.gap ({tolerance} × the smaller block's size)",
+                pairs(self.neighbours.len()),
+                short(ends.0),
+                short(ends.1),
             );
             findings.push(Finding::new(FindingCode::NearMiss, text));
         }

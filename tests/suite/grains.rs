@@ -402,3 +402,16 @@ fn a_heap_that_is_stopped_says_that_it_still_moves() {
     assert!(!heap.rested);
     assert!(heap.findings.iter().any(|f| f.text.contains("still moves")), "{:?}", heap.findings);
 }
+
+/// Grains that lie next to each other are no faces that fail to meet: nobody is told to widen a
+/// tolerance fifty-fold, and no answer is asked again with such contacts closed.
+#[test]
+fn neighbours_in_a_packing_are_no_near_misses() {
+    let ground = json!({ "id": "ground", "shape": { "box": { "size": [4, 4, 1] } }, "at": [0, 0, -0.5], "support": true });
+    let ball = |id: &str, x: f64| json!({ "id": id, "shape": { "sphere": { "radius": 0.5 } }, "at": [x, 0, 0.5] });
+    let balls = model(&scene(0.5, json!([ground, ball("a", 0.0), ball("b", 1.01)]), json!({})));
+    let text: Vec<String> = balls.findings().map(|f| f.text.clone()).collect();
+    assert!(text.iter().any(|t| t.contains("1 pair of round blocks lie")), "{text:?}");
+    assert!(!text.iter().any(|t| t.contains("raise")), "{text:?}");
+    assert_eq!(balls.interfaces.left_out, None);
+}
