@@ -11,6 +11,7 @@ mod faces;
 mod features;
 mod given;
 mod limits;
+mod member;
 mod model;
 mod overlap;
 mod parts;
@@ -30,14 +31,14 @@ pub(crate) use plane::Plane;
 pub use reach::{floating, is_forest};
 
 use crate::{
-    assembly::JointLaw,
+    assembly::{JointLaw, Member},
     error::Finding,
     plane::{clip, polygon},
 };
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// All contacts of an assembly, sorted by `(a, b)`.
+/// All contacts of an assembly, sorted by `(a, b)`, and the members that act beside them.
 #[derive(Clone, Debug, Default)]
 pub struct Interfaces {
     /// The contacts. Pairs of two supports are left out.
@@ -46,6 +47,8 @@ pub struct Interfaces {
     pub support_pairs: usize,
     /// Gaps closed, near misses, overlaps, ignored contacts.
     pub findings: Vec<Finding>,
+    /// Ties, struts, tendons, joints of strips, dowels, soil and grips.
+    pub members: Vec<Member>,
 }
 
 /// One contact between two blocks on one plane.
