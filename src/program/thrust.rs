@@ -27,6 +27,11 @@ pub fn thrust_columns(
             columns[bearing.column + k] = sign * bearing.unit * direction.dot(&basis.force);
         }
     }
+    for member in &statics.members {
+        // Columns know free blocks only: what a member does to a support is read off itself.
+        let Some(force) = member.on(&interfaces.members[member.member], support) else { continue };
+        columns[member.column] = member.unit * direction.dot(&force);
+    }
     columns
 }
 

@@ -3,6 +3,7 @@
 
 pub mod answer;
 pub mod critical;
+pub mod member;
 pub mod packing;
 mod part;
 pub mod read;

@@ -5,6 +5,7 @@
 use super::{
     answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
     critical::CriticalResult,
+    member::{MemberLine, lines},
     simulation::Simulation,
     thrust::ThrustResult,
     work::Work,
@@ -19,10 +20,13 @@ use crate::{
     interface::{Model, Timings},
     scene::Scene,
     verdict::{
-        Evidence, Verdict,
+        Evidence, Forces, Verdict,
         check::Claim,
-        evidence::{BlockRate, ContactForces, write_forces, write_rates},
-        mechanism::{JointMotion, Mechanism},
+        evidence::{
+            BlockRate, ContactForces, MemberForce, read_forces, read_members, write_forces,
+            write_members, write_rates,
+        },
+        mechanism::{JointMotion, Mechanism, MemberMotion},
     },
 };
 use serde::{Deserialize, Serialize};
@@ -76,6 +80,9 @@ pub struct ResultFile {
     /// The mechanism in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
+    /// The forces in the members of the scene, of the forces that prove the answer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<MemberLine>,
     /// What the scene did not need.
     pub left_out: Vec<String>,
     /// What the user should know.
@@ -136,10 +143,16 @@ pub struct Certificate {
     pub claim: Option<Claim>,
     /// Static side: forces per contact.
     pub forces: Vec<ContactForces>,
+    /// The same for members: ties, struts, soil, …
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<MemberForce>,
     /// Unbounded: forces at a load factor at which the scene stands. Conditional: the forces
     /// without the pre-stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<Vec<ContactForces>>,
+    /// The same for members.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub base_members: Vec<MemberForce>,
     /// Kinematic side: rates per moving block.
     pub rates: Vec<BlockRate>,
     /// What the verification found when the answer was given. Not saved, for nobody could tell
@@ -233,6 +246,9 @@ pub struct MechanismWords {
     pub moving: Vec<String>,
     /// Moving joints.
     pub joints: Vec<JointWords>,
+    /// Members that yield, go slack or slide.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<MemberWords>,
 }
 
 /// A joint of a mechanism with names.
@@ -245,6 +261,18 @@ pub struct JointWords {
     pub motion: JointMotion,
     /// Where, m.
     pub at: [f64; 3],
+}
+
+/// A member of a mechanism.
+#[derive(
+    Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, schemars::JsonSchema,
+)]
+#[serde(deny_unknown_fields)]
+pub struct MemberWords {
+    /// Its name.
+    pub member: String,
+    /// What it does.
+    pub motion: MemberMotion,
 }
 
 /// Versions of what made a result.
@@ -261,12 +289,32 @@ impl Default for Versions {
 }
 
 impl Certificate {
+    /// The forces that it holds, of contacts and members, and those without the pre-stress or at
+    /// another load factor.
+    ///
+    /// # Errors
+    /// As [`read_forces`] and [`read_members`].
+    pub fn read(&self, model: &Model) -> Result<(Forces, Option<Forces>), String> {
+        let read = |contacts: &[ContactForces], members: &[MemberForce]| {
+            let mut forces = read_forces(model, contacts)?;
+            read_members(model, members, &mut forces)?;
+            Ok::<Forces, String>(forces)
+        };
+        let base = self.base.as_ref().map(|base| read(base, &self.base_members)).transpose()?;
+        if base.is_none() && !self.base_members.is_empty() {
+            return Err("forces of members stand without those of the contacts".into());
+        }
+        Ok((read(&self.forces, &self.members)?, base))
+    }
+
     /// Nothing is claimed.
     pub fn none() -> Self {
         Self {
             claim: None,
             forces: Vec::new(),
+            members: Vec::new(),
             base: None,
+            base_members: Vec::new(),
             rates: Vec::new(),
             verified: Vec::new(),
         }
@@ -279,7 +327,9 @@ pub fn certificate<T: Claims>(model: &Model, proved: &Proved<T>) -> Certificate 
     Certificate {
         claim: proved.claim(),
         forces: write_forces(model, forces),
+        members: write_members(model, forces),
         base: base.map(|f| write_forces(model, f)),
+        base_members: base.map_or_else(Vec::new, |f| write_members(model, f)),
         rates: write_rates(&model.assembly, rates),
         verified: proved.findings().holds.clone(),
     }
@@ -314,6 +364,7 @@ impl ResultFile {
             thrust: None,
             simulation: None,
             mechanism: None,
+            members: Vec::new(),
             left_out: Vec::new(),
             warnings: model.findings().cloned().collect(),
             timings: model.timings,
@@ -347,6 +398,7 @@ impl ResultFile {
             certificate(model, a),
         );
         file.mechanism = a.mechanism.as_ref().map(|m| words(model, m));
+        file.members = lines(model, a.evidence().forces);
         file.coulomb_state =
             a.state.as_ref().map(|s| CoulombState { motion: s.motion, steps: s.steps.clone() });
         file.left_out.clone_from(&a.left_out);
@@ -373,6 +425,7 @@ impl ResultFile {
             certificate(model, l),
         );
         file.mechanism = l.mechanism.as_ref().map(|m| words(model, m));
+        file.members = lines(model, l.evidence().forces);
         file.left_out.clone_from(&l.left_out);
         file.trace.clone_from(&l.attempts);
         file.warn(l);
@@ -402,6 +455,7 @@ impl ResultFile {
         );
         file.dry = direction.dry;
         file.mechanism = tilt.load_factor.mechanism.as_ref().map(|m| words(&tilt.model, m));
+        file.members = lines(&tilt.model, tilt.load_factor.evidence().forces);
         file.left_out.clone_from(&tilt.load_factor.left_out);
         file.trace = list.iter().flat_map(|t| t.load_factor.attempts.iter().cloned()).collect();
         if directions.len() > 1 {
@@ -538,6 +592,14 @@ pub(super) fn words(model: &Model, m: &Mechanism) -> MechanismWords {
             .map(|j| {
                 let face = &model.interfaces.list[j.interface];
                 JointWords { between: [id(face.a), id(face.b)], motion: j.motion, at: j.at.into() }
+            })
+            .collect(),
+        members: m
+            .members
+            .iter()
+            .map(|m| MemberWords {
+                member: model.interfaces.members[m.member].id.clone(),
+                motion: m.motion,
             })
             .collect(),
     }

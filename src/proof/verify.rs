@@ -6,7 +6,7 @@ mod again;
 use super::{
     ResultFile,
     answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
-    critical, part,
+    critical, member, part,
     result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind, words},
     thrust,
 };
@@ -19,7 +19,7 @@ use crate::{
     verdict::{
         Evidence, Forces, Rate, Verdict, certificate,
         check::{self, Claim, Findings},
-        evidence::{read_forces, read_rates},
+        evidence::read_rates,
         exact::Grade,
         mechanism,
     },
@@ -84,6 +84,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             let (mut f, rates) =
                 answer(model, file.question, &file.answer, &file.certificate, all.refuted());
             mechanism_words(&mut f, file, model, rates.as_deref());
+            members(&mut f, file, model);
             follows(&mut f, &file.answer, file.dry.as_ref());
             all.part("answer", f);
             let stray = !file.directions.is_empty()
@@ -248,6 +249,7 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
                 follows(&mut f, &direction.answer, direction.dry.as_ref());
                 if index == least {
                     mechanism_words(&mut f, file, &turned, rates.as_deref());
+                    members(&mut f, file, &turned);
                 }
                 all.part(title.clone(), f);
             }
@@ -278,8 +280,8 @@ pub(super) fn answer(
     says_what_is_claimed(&mut f, question, answer, evidence.claim.as_ref());
     let assembly = &model.assembly;
     let read = || -> Result<(Forces, Option<Forces>, Vec<Rate>), String> {
-        let base = evidence.base.as_ref().map(|b| read_forces(model, b)).transpose()?;
-        Ok((read_forces(model, &evidence.forces)?, base, read_rates(assembly, &evidence.rates)?))
+        let (forces, base) = evidence.read(model)?;
+        Ok((forces, base, read_rates(assembly, &evidence.rates)?))
     };
     let (forces, base, rates) = match read() {
         Ok(evidence) => evidence,
@@ -470,6 +472,20 @@ fn places_agree(model: &Model, said: &MechanismWords, here: &MechanismWords) -> 
             .all(|((s, a), (h, b))| s == h && a.len() == b.len() && all(a, b) && all(b, a))
 }
 
+/// The forces in the members are those of the evidence.
+fn members(f: &mut Findings, file: &ResultFile, model: &Model) {
+    if model.interfaces.members.is_empty() && file.members.is_empty() {
+        return;
+    }
+    let Ok((forces, _)) = file.certificate.read(model) else { return };
+    let here = member::lines(model, &forces);
+    require(
+        f,
+        member::agree(&here, &file.members),
+        format!("the forces in {} members are those of the evidence", here.len()),
+    );
+}
+
 /// The mechanism in words is the one of the rates.
 pub(super) fn mechanism_words(
     f: &mut Findings,
@@ -482,7 +498,9 @@ pub(super) fn mechanism_words(
     let moving = |w: &MechanismWords| w.moving.iter().cloned().collect::<BTreeSet<String>>();
     require(
         f,
-        moving(said) == moving(&here) && places_agree(model, said, &here),
+        moving(said) == moving(&here)
+            && places_agree(model, said, &here)
+            && said.members.iter().collect::<BTreeSet<_>>() == here.members.iter().collect(),
         format!(
             "the mechanism in words is that of the rates: {} blocks move, {} joints",
             here.moving.len(),

@@ -8,7 +8,7 @@
 //! f_n`, with `D` the dissipation of cohesion, tension and crushing: a bound from below (σ = 1, the
 //! support yields) or above (σ = −1, it is pushed in).
 
-use super::{Forces, Rate, certificate, findings::Findings, joint::water, no_forces};
+use super::{Forces, Rate, certificate, findings::Findings, joint::water, member, no_forces};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interfaces, Model},
@@ -66,6 +66,15 @@ impl ThrustAt {
                     .chain(water(face).map(|w| w.force))
                     .sum::<Vector3<f64>>();
                 sum += sign * self.d().dot(&total);
+            }
+        }
+        for (own, forces) in
+            interfaces.members.iter().zip(forces.iter().skip(interfaces.list.len()))
+        {
+            let amounts = member::amounts(forces);
+            for leg in member::legs(own) {
+                let on = |end: Option<usize>| f64::from(u8::from(end == Some(self.support)));
+                sum += (on(leg.b) - on(leg.a)) * amounts[leg.axis] * self.d().dot(&leg.direction);
             }
         }
         sum

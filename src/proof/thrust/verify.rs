@@ -13,7 +13,7 @@ use crate::{
     verdict::{
         Evidence, Forces, Rate,
         check::{self, Claim, Findings},
-        evidence::{read_forces, read_rates},
+        evidence::read_rates,
         thrust::{Extreme, ThrustAt},
     },
 };
@@ -117,8 +117,8 @@ fn end(
     require(&mut f, agrees, "the answer says what the certificate claims");
     let assembly = &model.assembly;
     let read = || -> Result<(Forces, Option<Forces>, Vec<Rate>), String> {
-        let base = evidence.base.as_ref().map(|b| read_forces(model, b)).transpose()?;
-        Ok((read_forces(model, &evidence.forces)?, base, read_rates(assembly, &evidence.rates)?))
+        let (forces, base) = evidence.read(model)?;
+        Ok((forces, base, read_rates(assembly, &evidence.rates)?))
     };
     match (read(), &evidence.claim) {
         (Ok((forces, base, rates)), Some(claim)) => {

@@ -62,6 +62,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     answer::why(&mut page, file);
     page.blank();
     mechanism::rows(&mut page, file, options);
+    mechanism::members(&mut page, file, options);
     answer::directions(&mut page, file, options);
     answer::part(&mut page, file);
     critical::rows(&mut page, file, options);
