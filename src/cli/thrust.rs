@@ -15,6 +15,7 @@ pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
         law,
         support,
         direction,
+        member: args.member.clone(),
         greatest: false,
         range: true,
     }))?;

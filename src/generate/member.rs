@@ -44,7 +44,10 @@ impl Member {
             end.at.iter_mut().chain(&mut end.ground).for_each(&mut change);
         }
         self.dowel.iter_mut().for_each(|d| change(&mut d.at));
-        self.grip.iter_mut().for_each(|g| change(&mut g.at));
+        let grips = self.grip.iter_mut();
+        grips
+            .flat_map(|g| g.at.iter_mut().chain(g.fingers.iter_mut().map(|f| &mut f.at)))
+            .for_each(&mut change);
         let faces = self.strip.iter_mut().map(|s| &mut s.face);
         for face in faces.chain(self.soil.iter_mut().map(|s| &mut s.face)) {
             if let Face::Near(near) = face {

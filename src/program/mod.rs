@@ -39,7 +39,7 @@ pub use opening::opening;
 pub use options::{Pyramid, StaticsOptions};
 pub use planar::Plane;
 pub use statics::{FreeBlock, Statics};
-pub use thrust::{endless_thrust, thrust, thrust_columns};
+pub use thrust::{endless_thrust, member_columns, thrust, thrust_columns};
 pub use unbalance::{LiveLoad, unbalance};
 
 /// Which unknowns a program is written in; the others come out as multipliers.

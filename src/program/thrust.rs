@@ -35,6 +35,17 @@ pub fn thrust_columns(
     columns
 }
 
+/// Force in one member per unit of every column, N: its first amount.
+pub fn member_columns(statics: &Statics, member: usize) -> Vec<f64> {
+    let mut columns = vec![0.0; statics.matrix.columns];
+    for own in statics.members.iter().filter(|own| own.member == member) {
+        for (k, (_, sign)) in own.amounts.iter().enumerate().filter(|(_, (axis, _))| *axis == 0) {
+            columns[own.column + k] = sign * own.unit;
+        }
+    }
+    columns
+}
+
 /// Builds program T with the objective `objective · x`.
 pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Positions) {
     let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);

@@ -382,6 +382,8 @@ fn says_what_is_claimed(
         Some(Claim::Unbounded { .. }) => "that the live load has no limit".into(),
         Some(Claim::Thrust { value, .. }) => format!("a thrust of {value} N"),
         Some(Claim::EndlessThrust { .. }) => "a thrust without end".into(),
+        Some(Claim::MemberForce { value, .. }) => format!("a force of {value} N in a member"),
+        Some(Claim::EndlessMemberForce { .. }) => "a force without end in a member".into(),
         Some(Claim::Impossible) => "that it falls whatever the live load".into(),
     };
     if agrees {

@@ -162,23 +162,46 @@ pub struct Soil {
     pub k: f64,
 }
 
-/// A grip.
+/// A grip: one finger, or several that all press with the same force.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Grip {
     /// The block that is gripped.
     pub block: String,
     /// Where the finger touches it, m.
-    pub at: [f64; 3],
-    /// An arm of no weight carries the force from `at` to the block.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<[f64; 3]>,
+    /// Direction in which the finger presses, into the block.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<[f64; 3]>,
+    /// Several fingers, in place of `at` and `normal`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fingers: Vec<Finger>,
+    /// An arm of no weight carries the force from where a finger touches to the block.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub arm: bool,
-    /// Direction in which the finger presses, into the block.
-    pub normal: [f64; 3],
-    /// Coefficient of friction between finger and block.
+    /// Coefficient of friction between fingers and block.
     pub friction: f64,
-    /// Greatest normal force, N. The finger applies it.
+    /// Greatest normal force of each finger, N. The fingers apply it.
     pub strength: Strength,
+}
+
+/// One of several fingers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Finger {
+    /// Where it touches the block, m.
+    pub at: [f64; 3],
+    /// Direction in which it presses, into the block.
+    pub normal: [f64; 3],
+}
+
+impl Grip {
+    /// Where its fingers touch, and the directions in which they press.
+    pub fn all(&self) -> Vec<Finger> {
+        let one = self.at.zip(self.normal).map(|(at, normal)| Finger { at, normal });
+        one.into_iter().chain(self.fingers.iter().copied()).collect()
+    }
 }
 
 /// The friction of a toothed corner (Circolare 7/2019, eq. C8.7.1.2): `F = 0.4 n (n + 1) Φ μ l² t w`

@@ -47,7 +47,9 @@ pub(in crate::assembly) fn members(
             .chain(spec.bar.iter().flat_map(|b| &b.between))
             .chain(spec.tendon.iter().flat_map(|t| &t.through))
             .filter_map(|e| Some((find(e.block.as_deref()?)?, e.at?, e.arm)))
-            .chain(spec.grip.iter().filter_map(|g| Some((find(&g.block)?, g.at, g.arm))))
+            .chain(spec.grip.iter().flat_map(|g| {
+                g.all().into_iter().filter_map(|f| Some((find(&g.block)?, f.at, g.arm)))
+            }))
             .chain(
                 spec.dowel
                     .iter()

@@ -46,7 +46,7 @@ pub(super) fn resolve(
                 "every member needs a name of its own; a template's \"prefix\" is put before",
             ));
         }
-        plans.push(place.member(spec, path, &mut findings)?);
+        plans.extend(place.member(spec, path, &mut findings)?);
     }
     findings.extend(plausible::members(&plans, &specs, assembly));
     Ok((plans, findings))
@@ -64,7 +64,7 @@ impl Place<'_> {
         spec: &Spec,
         path: &JsonPath,
         findings: &mut Vec<Finding>,
-    ) -> Result<MemberPlan, InputError> {
+    ) -> Result<Vec<MemberPlan>, InputError> {
         // Everything taken apart, so that a further kind cannot be forgotten here.
         let Spec { id, tie, strut, bar, tendon, strip, dowel, soil, grip, toothing } = spec;
         let given = [
@@ -91,7 +91,8 @@ impl Place<'_> {
             }
         }
         let whole = |key: &str, member: Result<Member, InputError>| {
-            member.map(|m| MemberPlan::Whole(Member { id: id.clone(), path: path.key(key), ..m }))
+            let named = |m| MemberPlan::Whole(Member { id: id.clone(), path: path.key(key), ..m });
+            member.map(|m| vec![named(m)])
         };
         if let Some(line) = tie {
             return whole("tie", self.line(line, MemberKind::Tie, &path.key("tie")));
@@ -106,10 +107,10 @@ impl Place<'_> {
             return whole("tendon", self.tendon(t, &path.key("tendon")));
         }
         if let Some(s) = strip {
-            return self.strip(s, id, &path.key("strip"));
+            return Ok(vec![self.strip(s, id, &path.key("strip"))?]);
         }
         if let Some(d) = dowel {
-            return self.dowel(d, id, &path.key("dowel"));
+            return Ok(vec![self.dowel(d, id, &path.key("dowel"))?]);
         }
         if let Some(s) = soil {
             let soil = self.soil(s, &path.key("soil"))?;
@@ -123,7 +124,7 @@ impl Place<'_> {
             return whole("soil", Ok(soil));
         }
         if let Some(g) = grip {
-            return whole("grip", self.grip(g, &path.key("grip"), findings));
+            return self.grip(g, id, &path.key("grip"), findings);
         }
         let Some(t) = toothing else {
             return Err(InputError::at(path.clone(), "the member is of no kind"));
@@ -346,13 +347,11 @@ impl Place<'_> {
     fn grip(
         &self,
         g: &Grip,
+        id: &str,
         path: &JsonPath,
         findings: &mut Vec<Finding>,
-    ) -> Result<Member, InputError> {
+    ) -> Result<Vec<MemberPlan>, InputError> {
         let on = self.free(&g.block, &path.key("block"))?;
-        let at = check::vector(g.at, &path.key("at"))?;
-        self.on_block(on, at, g.arm, &path.key("at"))?;
-        let normal = check::direction(g.normal, &path.key("normal"))?;
         let friction = at_least_zero(g.friction, &path.key("friction"), "a coefficient")?;
         let strength = strength(g.strength, &path.key("strength"))?;
         if strength.is_infinite() {
@@ -360,17 +359,40 @@ impl Place<'_> {
             return Err(InputError::at(path.key("strength"), text)
                 .hint("N; what only holds against is a strut or a block"));
         }
-        let middle = self.assembly.blocks[on].centroid - at;
-        if normal.dot(&middle) < 0.0 {
-            let text = format!(
-                "{}: the finger presses away from the middle of block {:?}. Is the direction the one in which it presses, into the block?",
-                path.key("normal"),
-                g.block
-            );
-            findings.push(Finding::new(FindingCode::Orientation, text));
+        let places = match (g.at.is_some(), g.normal.is_some(), g.fingers.is_empty()) {
+            (true, true, true) => vec![path.clone()],
+            (false, false, false) => {
+                (0..g.fingers.len()).map(|k| path.key("fingers").index(k)).collect()
+            }
+            _ => {
+                let text = "it is not said where the fingers are";
+                return Err(InputError::at(path.clone(), text).hint(
+                    "give \"at\" and \"normal\", or \"fingers\": [ { \"at\": …, \"normal\": … } ]",
+                ));
+            }
+        };
+        let one = places.len() == 1;
+        let mut list = Vec::with_capacity(places.len());
+        for (k, (finger, path)) in g.all().into_iter().zip(&places).enumerate() {
+            let at = check::vector(finger.at, &path.key("at"))?;
+            self.on_block(on, at, g.arm, &path.key("at"))?;
+            let normal = check::direction(finger.normal, &path.key("normal"))?;
+            if normal.dot(&(self.assembly.blocks[on].centroid - at)) < 0.0 {
+                let text = format!(
+                    "{}: the finger presses away from the middle of block {:?}. Is the direction the one in which it presses, into the block?",
+                    path.key("normal"),
+                    g.block
+                );
+                findings.push(Finding::new(FindingCode::Orientation, text));
+            }
+            let action = Action::Press { on, at, normal, friction };
+            list.push(MemberPlan::Whole(Member {
+                id: if one { id.to_string() } else { format!("{id}/{}", k + 1) },
+                path: path.clone(),
+                ..member(MemberKind::Grip, action, [0.0, strength], None)
+            }));
         }
-        let action = Action::Press { on, at, normal, friction };
-        Ok(member(MemberKind::Grip, action, [0.0, strength], None))
+        Ok(list)
     }
 
     fn toothing(&self, t: &Toothing, path: &JsonPath) -> Result<Member, InputError> {

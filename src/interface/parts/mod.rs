@@ -23,6 +23,8 @@ pub struct Part {
     pub blocks: Vec<usize>,
     /// Its contacts in the scene, in order.
     pub contacts: Vec<usize>,
+    /// Its members in the scene, in order.
+    pub members: Vec<usize>,
     /// The places of its forces among those of the scene: its contacts, then its members.
     places: Vec<usize>,
     /// What its numbers count.
@@ -162,7 +164,7 @@ impl Part {
         };
         let interfaces =
             Interfaces { list, support_pairs: 0, findings: Vec::new(), members: joined };
-        Self { blocks, contacts, places, units, model: Model::new(assembly, interfaces) }
+        Self { blocks, contacts, members, places, units, model: Model::new(assembly, interfaces) }
     }
 
     /// The name of the part: that of its first free block.
@@ -183,6 +185,11 @@ impl Part {
     /// The number that a block of the scene has in the part.
     pub fn find(&self, block: usize) -> Option<usize> {
         self.blocks.binary_search(&block).ok()
+    }
+
+    /// The number that a member of the scene has in the part.
+    pub fn find_member(&self, member: usize) -> Option<usize> {
+        self.members.binary_search(&member).ok()
     }
 
     /// Its forces, per contact and point and per member, from those of the scene (N, N·m).

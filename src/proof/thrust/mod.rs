@@ -19,18 +19,26 @@ use crate::{
     interface::Model,
     scene::Scene,
     tolerance,
-    verdict::section::{SectionForce, sections},
+    verdict::{
+        section::{SectionForce, sections},
+        thrust::Sought,
+    },
 };
 use serde::{Deserialize, Serialize};
 
-/// The range of the thrust on a support.
+/// The range of the thrust on a support, or of the force in a member.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThrustAnswer {
     /// The support.
-    pub support: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support: Option<String>,
     /// Unit direction of the thrust.
-    pub direction: [f64; 3],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 3]>,
+    /// The member whose force is meant, in place of a support.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub member: Option<String>,
     /// Its least value.
     pub least: ThrustValue,
     /// Its greatest value.
@@ -163,9 +171,16 @@ impl ResultFile {
         };
         let refused: Vec<_> = shrunk.iter().map(|probe| &probe.assessment).collect();
         let shrunk: Vec<Side> = shrunk.iter().map(|probe| Side::of(probe)).collect();
+        let (support, direction, member) = match t.at {
+            Sought::Thrust(at) => {
+                (Some(model.assembly.blocks[at.support].id.clone()), Some(at.direction), None)
+            }
+            Sought::Member(m) => (None, None, Some(model.interfaces.members[m].id.clone())),
+        };
         let answer = ThrustAnswer {
-            support: model.assembly.blocks[t.at.support].id.clone(),
-            direction: t.at.direction,
+            support,
+            direction,
+            member,
             least: least.into(),
             greatest: greatest.into(),
             geometric_factor: factor(&shrunk, value),

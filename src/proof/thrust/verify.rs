@@ -14,7 +14,7 @@ use crate::{
         Evidence, Forces, Rate,
         check::{self, Claim, Findings},
         evidence::read_rates,
-        thrust::{Extreme, ThrustAt},
+        thrust::{Extreme, Sought, ThrustAt},
     },
 };
 
@@ -32,14 +32,27 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     };
     let mut form = Findings::default();
     require(&mut form, file.certificate.claim.is_none(), "nothing else is claimed");
-    let Some(support) = model.assembly.find(&said.support) else {
-        return all.part("answer", failure(format!("the scene has no block {}", said.support)));
+    let at = match (&said.support, said.direction, &said.member) {
+        (Some(id), Some(direction), None) => match model.assembly.find(id) {
+            Some(support) => Sought::Thrust(ThrustAt { support, direction }),
+            None => return all.part("answer", failure(format!("the scene has no block {id}"))),
+        },
+        (None, None, Some(id)) => {
+            match model.interfaces.members.iter().position(|m| m.id == *id) {
+                Some(member) => Sought::Member(member),
+                None => return all.part("answer", failure(format!("the scene has no member {id}"))),
+            }
+        }
+        _ => return all.part("answer", failure("it is not said whose force is meant")),
     };
-    let at = ThrustAt { support, direction: said.direction };
+    let [least, greatest] = match at {
+        Sought::Thrust(_) => ["least thrust", "greatest thrust"],
+        Sought::Member(_) => ["least force", "greatest force"],
+    };
     let mut found = Vec::new();
     for (title, extreme, value, evidence) in [
-        ("least thrust", Extreme::Least, &said.least, &proof.least),
-        ("greatest thrust", Extreme::Greatest, &said.greatest, &proof.greatest),
+        (least, Extreme::Least, &said.least, &proof.least),
+        (greatest, Extreme::Greatest, &said.greatest, &proof.greatest),
     ] {
         let (findings, forces) = end(model, at, extreme, value, evidence);
         all.part(title, findings);
@@ -92,7 +105,7 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
 /// One end of the range; gives back its forces where they could be read.
 fn end(
     model: &Model,
-    here: ThrustAt,
+    here: Sought,
     wanted: Extreme,
     said: &ThrustValue,
     evidence: &Certificate,
@@ -105,12 +118,23 @@ fn end(
             return (f, None);
         }
         (Some(Claim::Thrust { at, extreme, value, lower, upper }), Outcome::Found) => {
-            *at == here
+            Sought::Thrust(*at) == here
+                && *extreme == wanted
+                && numbers == (Some(*value), Some(*lower), Some(*upper))
+        }
+        (
+            Some(Claim::MemberForce { member, extreme, value, lower, upper }),
+            Outcome::Found,
+        ) => {
+            Sought::Member(*member) == here
                 && *extreme == wanted
                 && numbers == (Some(*value), Some(*lower), Some(*upper))
         }
         (Some(Claim::EndlessThrust { at, extreme }), Outcome::Unbounded) => {
-            *at == here && *extreme == wanted && numbers == (None, None, None)
+            Sought::Thrust(*at) == here && *extreme == wanted && numbers == (None, None, None)
+        }
+        (Some(Claim::EndlessMemberForce { member, extreme }), Outcome::Unbounded) => {
+            Sought::Member(*member) == here && *extreme == wanted && numbers == (None, None, None)
         }
         _ => false,
     };
