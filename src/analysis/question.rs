@@ -233,11 +233,9 @@ impl Question {
     pub fn quantity(&self) -> Option<&'static str> {
         match self {
             Self::Assess(_) | Self::Simulate(_) => None,
-            Self::Thrust(ThrustOptions { member: Some(_), greatest, .. }) => Some(if *greatest {
-                "greatest force in N"
-            } else {
-                "least force in N"
-            }),
+            Self::Thrust(ThrustOptions { member: Some(_), greatest, .. }) => {
+                Some(if *greatest { "greatest force in N" } else { "least force in N" })
+            }
             Self::Thrust(o) => {
                 Some(if o.greatest { "greatest thrust in N" } else { "least thrust in N" })
             }

@@ -19,9 +19,10 @@ use crate::{
     strength::laws::unlimited,
     tolerance,
     verdict::{
-        Forces, Rate, Verdict, certificate, no_forces,
-        section::centroid,
+        Forces, Rate, Verdict, certificate,
         member::Bounds,
+        no_forces,
+        section::centroid,
         thrust::{Extreme, Sought, ThrustAt, width},
     },
 };
@@ -393,8 +394,7 @@ impl Problem<'_> {
             );
             let s = certificate::statics(&bare, &forces, 0.0);
             endless = s.balanced
-                && -self.extreme.sigma() * at.value(&bare.interfaces, &forces)
-                    >= 0.5 * self.total;
+                && -self.extreme.sigma() * at.value(&bare.interfaces, &forces) >= 0.5 * self.total;
             if endless {
                 ends = [-self.extreme.sigma() * f64::INFINITY; 2];
                 answer.forces = no_forces(&self.model.interfaces);

@@ -92,9 +92,7 @@ fn line(member: &Member, a: &Vector3<f64>, total: f64) -> MemberLine {
 /// Whether two lists say the same, forces up to rounding.
 pub(super) fn agree(here: &[MemberLine], said: &[MemberLine]) -> bool {
     let most = here.iter().map(|l| l.force.abs()).fold(0.0, f64::max);
-    let near = |a: f64, b: f64| {
-        (a - b).abs() <= crate::tolerance::SAVED * most.max(a.abs())
-    };
+    let near = |a: f64, b: f64| (a - b).abs() <= crate::tolerance::SAVED * most.max(a.abs());
     let same = |(a, b): (&MemberLine, &MemberLine)| {
         near(a.force, b.force)
             && near(a.friction.unwrap_or(0.0), b.friction.unwrap_or(0.0))

@@ -38,13 +38,7 @@ pub fn thrust(
         return of_part(scene, at, extreme, standing, control);
     }
     let ask = |(part, at): &(&Part, Sought)| {
-        of_part(
-            &part.model,
-            at,
-            extreme,
-            &part.take_forces(standing),
-            control,
-        )
+        of_part(&part.model, at, extreme, &part.take_forces(standing), control)
     };
     let ends: Vec<ThrustEnd> = touching.iter().map(ask).collect();
     let any = |outcome: Outcome| ends.iter().any(|e| e.outcome == outcome);

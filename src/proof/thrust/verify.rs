@@ -37,12 +37,10 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
             Some(support) => Sought::Thrust(ThrustAt { support, direction }),
             None => return all.part("answer", failure(format!("the scene has no block {id}"))),
         },
-        (None, None, Some(id)) => {
-            match model.interfaces.members.iter().position(|m| m.id == *id) {
-                Some(member) => Sought::Member(member),
-                None => return all.part("answer", failure(format!("the scene has no member {id}"))),
-            }
-        }
+        (None, None, Some(id)) => match model.interfaces.members.iter().position(|m| m.id == *id) {
+            Some(member) => Sought::Member(member),
+            None => return all.part("answer", failure(format!("the scene has no member {id}"))),
+        },
         _ => return all.part("answer", failure("it is not said whose force is meant")),
     };
     let [least, greatest] = match at {
@@ -122,10 +120,7 @@ fn end(
                 && *extreme == wanted
                 && numbers == (Some(*value), Some(*lower), Some(*upper))
         }
-        (
-            Some(Claim::MemberForce { member, extreme, value, lower, upper }),
-            Outcome::Found,
-        ) => {
+        (Some(Claim::MemberForce { member, extreme, value, lower, upper }), Outcome::Found) => {
             Sought::Member(*member) == here
                 && *extreme == wanted
                 && numbers == (Some(*value), Some(*lower), Some(*upper))

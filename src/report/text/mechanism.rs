@@ -79,7 +79,8 @@ pub(super) fn members(page: &mut Page, file: &ResultFile, options: TextOptions) 
             MemberState::Carries => "",
             MemberState::AtStrength => " (at its strength)",
         };
-        let friction = l.friction.map_or_else(String::new, |f| format!(", friction {} N", short(f)));
+        let friction =
+            l.friction.map_or_else(String::new, |f| format!(", friction {} N", short(f)));
         let name = format!("{} ({})", l.member, l.kind.word());
         (name, format!("{} N{strength}{friction}{state}", short(l.force)))
     };
