@@ -7,6 +7,7 @@ use crate::{
     tolerance,
 };
 use nalgebra::Vector3;
+use std::collections::HashSet;
 
 impl Interfaces {
     /// Takes over the members of an assembly, whose contacts these are; says what has no effect.
@@ -35,6 +36,13 @@ impl Interfaces {
                     self.members.extend(joints);
                 }
             }
+        }
+        let mut seen = HashSet::new();
+        if let Some(twice) = self.members.iter().find(|m| !seen.insert(m.id.as_str())) {
+            let text =
+                format!("the id {:?} is that of two members, parts of one among them", twice.id);
+            return Err(InputError::at(twice.path.clone(), text)
+                .hint("joints of a strip and fingers of a grip are called \"id/1\", \"id/2\", …"));
         }
         Ok(told)
     }

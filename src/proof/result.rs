@@ -130,6 +130,9 @@ pub struct SceneSummary {
     pub interfaces: usize,
     /// Number of contact points.
     pub contact_points: usize,
+    /// Number of members: ties, struts, soil, …
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub members: usize,
     /// The scene itself, so that the result can be verified on its own.
     pub input: Scene,
 }
@@ -352,6 +355,7 @@ impl ResultFile {
                 supports: model.assembly.blocks.iter().filter(|b| b.support).count(),
                 interfaces: model.interfaces.list.len(),
                 contact_points: model.contact_points(),
+                members: model.interfaces.members.len(),
                 input: scene.clone(),
             },
             answer,
@@ -548,6 +552,10 @@ fn direction(tilt: &Tilt, level: Option<Verdict>) -> Direction {
         certificate: certificate(&tilt.model, &tilt.load_factor),
         dry,
     }
+}
+
+fn is_zero(n: &usize) -> bool {
+    *n == 0
 }
 
 fn finite(v: f64) -> Option<f64> {

@@ -194,10 +194,15 @@ fn counts(file: &ResultFile, model: &Model) -> Findings {
         supports,
         model.interfaces.list.len(),
         model.contact_points(),
+        model.interfaces.members.len(),
     ];
-    let said = [s.blocks, s.supports, s.interfaces, s.contact_points];
-    let words = |c: [usize; 4]| {
-        format!("{} blocks ({} supports), {} interfaces, {} contact points", c[0], c[1], c[2], c[3])
+    let said = [s.blocks, s.supports, s.interfaces, s.contact_points, s.members];
+    let words = |c: [usize; 5]| {
+        let members = if c[4] > 0 { format!(", {} members", c[4]) } else { String::new() };
+        format!(
+            "{} blocks ({} supports), {} interfaces, {} contact points{members}",
+            c[0], c[1], c[2], c[3]
+        )
     };
     if here == said {
         f.holds.push(words(here));

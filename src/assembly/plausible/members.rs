@@ -2,11 +2,12 @@
 
 use super::{Told, Weights, bounds, loads::Off, short};
 use crate::{
-    assembly::{Assembly, Block, MemberPlan},
+    assembly::{Assembly, Block, MemberKind, MemberPlan},
     error::{Finding, FindingCode, InputError, JsonPath},
     scene::Member as Spec,
 };
 use nalgebra::Vector3;
+use std::collections::HashMap;
 
 /// Refuses a point of a member that lies far off its block, where no arm is said to carry the
 /// force; `path` is that of the point.
@@ -38,7 +39,13 @@ pub(in crate::assembly) fn members(
     assembly: &Assembly,
 ) -> Vec<Finding> {
     let (mut off, mut units) = (Told::default(), Told::default());
-    let find = |id: &str| assembly.find(id).map(|i| &assembly.blocks[i]);
+    if plans.is_empty() {
+        return Vec::new();
+    }
+    let index: HashMap<&str, usize> =
+        assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
+    let find = |id: &str| index.get(id).map(|&i| &assembly.blocks[i]);
+    let is_heavy = Weights::of(assembly).is_some();
     for (spec, path) in specs {
         let ends = [&spec.tie, &spec.strut]
             .into_iter()
@@ -63,9 +70,7 @@ pub(in crate::assembly) fn members(
         let soil = spec.soil.iter().map(|s| (path.key("soil"), s.unit_weight));
         let walls = spec.toothing.iter().map(|t| (path.key("toothing"), t.unit_weight));
         for (path, weight) in soil.chain(walls) {
-            if bounds::UNIT_WEIGHT_IN_KILONEWTONS.contains(&weight)
-                && Weights::of(assembly).is_some()
-            {
+            if bounds::UNIT_WEIGHT_IN_KILONEWTONS.contains(&weight) && is_heavy {
                 units.add("unit_weight", || {
                     format!(
                         "{} is {} N/m³, lighter than foam. It looks like kN/m³: write {:e}",
@@ -79,12 +84,8 @@ pub(in crate::assembly) fn members(
     }
     for plan in plans {
         let MemberPlan::Whole(member) = plan else { continue };
-        if Weights::of(assembly).is_none()
-            || matches!(
-                member.kind,
-                crate::assembly::MemberKind::Soil | crate::assembly::MemberKind::Toothing
-            )
-        {
+        // What these can take follows from other numbers.
+        if !is_heavy || matches!(member.kind, MemberKind::Soil | MemberKind::Toothing) {
             continue;
         }
         let weight = member

@@ -73,11 +73,12 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     page.row(
         "scene",
         [format!(
-            "{} ({}), {}, {}",
+            "{} ({}), {}, {}{}",
             count(s.blocks, "block"),
             count(s.supports, "support"),
             count(s.interfaces, "interface"),
-            count(s.contact_points, "contact point")
+            count(s.contact_points, "contact point"),
+            with_members(s.members)
         )],
     );
     page.row("left out", cut(&file.left_out, SHOWN, options));
@@ -93,6 +94,11 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     page.blank();
     next(&mut page, file, asked);
     page
+}
+
+/// How many members there are beside the contacts.
+fn with_members(members: usize) -> String {
+    if members > 0 { format!(", {}", count(members, "member")) } else { String::new() }
 }
 
 /// The first items of a list, and how many there are more.
