@@ -5,7 +5,7 @@
 use super::{
     answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
     critical::CriticalResult,
-    member::{MemberLine, lines},
+    member::{MemberLine, MemberWords, lines},
     simulation::Simulation,
     thrust::ThrustResult,
     work::Work,
@@ -20,13 +20,12 @@ use crate::{
     interface::{Model, Timings},
     scene::Scene,
     verdict::{
-        Evidence, Forces, Verdict,
+        Evidence, Verdict,
         check::Claim,
         evidence::{
-            BlockRate, ContactForces, MemberForce, read_forces, read_members, write_forces,
-            write_members, write_rates,
+            BlockRate, ContactForces, MemberForce, write_forces, write_members, write_rates,
         },
-        mechanism::{JointMotion, Mechanism, MemberMotion},
+        mechanism::{JointMotion, Mechanism},
     },
 };
 use serde::{Deserialize, Serialize};
@@ -266,18 +265,6 @@ pub struct JointWords {
     pub at: [f64; 3],
 }
 
-/// A member of a mechanism.
-#[derive(
-    Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, schemars::JsonSchema,
-)]
-#[serde(deny_unknown_fields)]
-pub struct MemberWords {
-    /// Its name.
-    pub member: String,
-    /// What it does.
-    pub motion: MemberMotion,
-}
-
 /// Versions of what made a result.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Versions {
@@ -292,24 +279,6 @@ impl Default for Versions {
 }
 
 impl Certificate {
-    /// The forces that it holds, of contacts and members, and those without the pre-stress or at
-    /// another load factor.
-    ///
-    /// # Errors
-    /// As [`read_forces`] and [`read_members`].
-    pub fn read(&self, model: &Model) -> Result<(Forces, Option<Forces>), String> {
-        let read = |contacts: &[ContactForces], members: &[MemberForce]| {
-            let mut forces = read_forces(model, contacts)?;
-            read_members(model, members, &mut forces)?;
-            Ok::<Forces, String>(forces)
-        };
-        let base = self.base.as_ref().map(|base| read(base, &self.base_members)).transpose()?;
-        if base.is_none() && !self.base_members.is_empty() {
-            return Err("forces of members stand without those of the contacts".into());
-        }
-        Ok((read(&self.forces, &self.members)?, base))
-    }
-
     /// Nothing is claimed.
     pub fn none() -> Self {
         Self {

@@ -5,7 +5,8 @@
 //! `block`, `other block` and `joint` are indices in scene order (−1: none), the names of blocks
 //! stand in the field data. Arrays that belong to a system of forces or a mechanism carry its name
 //! in parentheses: `force (…)`, N, on the points of contact forces; `load`, N, on the places of
-//! loads (live ones not yet multiplied by λ); `normal force (…)`, N, and `used (…)`, the share of
+//! loads (live ones not yet multiplied by λ); `member force`, N, on members, where the scene has
+//! any; `normal force (…)`, N, and `used (…)`, the share of
 //! the section or of the friction, on joints and blocks; `displacement (…)`, m, on the points of
 //! blocks, to first order and as far as it is seen well. A simulation is a collection (`.pvd`) of
 //! such files, one a time, that hold the blocks alone with their velocity: readers of VTK 9 add up
@@ -41,6 +42,8 @@ pub enum VtkPart {
     Load = 5,
     /// The place of a live load.
     LiveLoad = 6,
+    /// A tie, strut or other member.
+    Member = 7,
 }
 
 /// The file of an answer.
@@ -166,6 +169,10 @@ fn cell_data(xml: &mut Xml, view: &View, mesh: &Mesh, statics: bool) {
     xml.integers("block", cells().map(|c| index(c.block)));
     xml.integers("other block", cells().map(|c| index(c.other)));
     xml.integers("joint", cells().map(|c| index(c.joint)));
+    if statics && !view.members.is_empty() {
+        let force = |c: &mesh::Cell| c.member.and_then(|m| view.members[m].force).unwrap_or(0.0);
+        xml.numbers("member force", cells().map(force));
+    }
     if statics {
         for (k, state) in view.states.iter().enumerate() {
             let at = |c: &mesh::Cell| c.joint.and_then(|j| state.resultants[j]);
