@@ -136,6 +136,10 @@ pub const GREATEST_TWIST: f64 = 0.2;
 /// coordinates makes two corners of one.
 pub const CONTACT_WELD: f64 = 1e-9;
 
+/// A corner of a contact lies on the face that a strip is bonded to up to this × the smaller block's
+/// size. Larger: thin joints lie on both faces. Smaller: faces that detection moved are missed.
+pub const ON_FACE: f64 = 1e-4;
+
 /// Lengths below this × the largest coordinate are rounding: a floor under every contact length.
 /// Larger: real gaps far from the origin are lost. Smaller: sums of a few products of such
 /// coordinates no longer fit.

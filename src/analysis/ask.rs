@@ -171,7 +171,10 @@ fn tilted(options: &TiltOptions, model: &Model, control: &Control) -> Result<Til
 }
 
 fn pushed(options: &ThrustOptions, model: &Model, control: &Control) -> Result<Thrust, InputError> {
-    let at = thrust::place(model, options.support.as_deref(), options.direction)?;
+    let at = match &options.member {
+        Some(id) => thrust::member(model, id)?,
+        None => thrust::place(model, options.support.as_deref(), options.direction)?.into(),
+    };
     let ends = match options {
         ThrustOptions { range: true, .. } => thrust::Ends::Both,
         ThrustOptions { greatest: true, .. } => thrust::Ends::Greatest,

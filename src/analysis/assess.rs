@@ -117,11 +117,17 @@ pub(super) fn of_part(model: &Model, control: &Control) -> Assessment {
 /// How the line begins that says that program C was left out.
 pub(super) const NO_STATE_NEEDED: &str = "the state under dry friction";
 
+/// What the state under dry friction does not know about members.
+const MEMBERS_YIELD: &str = "the stiffness of members against that of the joints: in the state under dry friction a member yields like an average joint, among those with a stiffness as they do beside each other";
+
 /// Admissible forces exist: are they such as the loads produce?
 fn settle(model: &Model, control: &Control, answer: &mut Assessment) {
     if is_forest(model) {
         answer.left_out.push(format!("{NO_STATE_NEEDED}: contacts form no closed chain, so statics alone fixes what each one carries"));
         return;
+    }
+    if !model.interfaces.members.is_empty() {
+        answer.left_out.push(MEMBERS_YIELD.into());
     }
     let state = state(model, control);
     answer.verdict = match state.motion {

@@ -24,6 +24,7 @@ use crate::{
         certificate::{self, at},
         exact::motion::{MotionProof, motion},
         joint::{Strength, rolling_arm},
+        member::{self, Bounds},
         no_forces,
     },
 };
@@ -35,6 +36,15 @@ const CUT: f64 = 1e-14;
 
 /// Forces with every one that lies outside its friction cone cut to it.
 pub(super) fn cut(interfaces: &Interfaces, forces: &mut Forces) {
+    for (own, forces) in
+        interfaces.members.iter().zip(forces.iter_mut().skip(interfaces.list.len()))
+    {
+        for w in forces {
+            if Bounds::of(own).margin(&w.force) < 0.0 {
+                w.force = Bounds::of(own).cut(&w.force, CUT);
+            }
+        }
+    }
     for (face, forces) in interfaces.list.iter().zip(forces) {
         let strength = Strength::of(face);
         let n = face.frame.n;
@@ -155,6 +165,18 @@ pub(super) fn at_rest(model: &Model, rates: &[Rate]) -> Vec<Rate> {
 fn closing(model: &Model, rates: &[Rate]) -> Vec<(f64, f64)> {
     let Model { assembly, interfaces, .. } = model;
     let mut list = Vec::new();
+    // Of members only those close that take any force; the others dissipate.
+    for own in &interfaces.members {
+        let u = member::power(assembly, own, rates);
+        let endless = match Bounds::of(own) {
+            Bounds::Range(f64::NEG_INFINITY, f64::INFINITY) => u.x.abs(),
+            Bounds::Range(_, f64::INFINITY) => -u.x,
+            Bounds::Range(f64::NEG_INFINITY, _) => u.x,
+            Bounds::Disc(f64::INFINITY) => u.norm(),
+            _ => continue,
+        };
+        list.push((endless, 2.0 * member::fastest(assembly, own, rates)));
+    }
     for face in &interfaces.list {
         let mu = if let Friction::Coefficient(mu) = face.law.friction { mu } else { 0.0 };
         let rolling = rolling(face, rates);
@@ -246,7 +268,10 @@ fn fields(assembly: &Assembly) -> impl Iterator<Item = Vec<Rate>> + '_ {
 /// (forces that balance without a load hold some contact closed) or where joints have strengths.
 fn sought(model: &Model, deadline: Deadline) -> Option<Vec<Rate>> {
     let assembly = &model.assembly;
-    let statics = Statics::new(model, StaticsOptions::default());
+    // Whether it strains members is seen where it is added.
+    let contacts = Interfaces { members: Vec::new(), ..model.interfaces.clone() };
+    let bare = model.with_interfaces(contacts);
+    let statics = Statics::new(&bare, StaticsOptions::default());
     let program = opening(&statics)?;
     let settings = Settings { deadline, tolerance: 1e-6, ..Settings::default() };
     let solution = solve::solve(&program, &settings);

@@ -2,7 +2,7 @@
 //! that found it ([`check::verify`]). What the check refuses is taken back here and nowhere else.
 
 use super::{
-    Assessment, LoadFactor, Outcome,
+    Assessment, Bracket, LoadFactor, Outcome,
     assess::NO_STATE_NEEDED,
     coulomb::{DryLoadFactor, Found},
     thrust::ThrustEnd,
@@ -13,6 +13,7 @@ use crate::{
         Evidence, Forces, Verdict,
         check::{self, Claim, Findings},
         exact::Grade,
+        thrust::Sought,
     },
 };
 use std::{ops::Deref, time::Instant};
@@ -178,16 +179,19 @@ impl Claims for DryLoadFactor {
 impl Claims for ThrustEnd {
     fn claim(&self) -> Option<Claim> {
         let Self { at, extreme, value, .. } = *self;
-        match self.outcome {
-            Outcome::Found => Some(Claim::Thrust {
-                at,
-                extreme,
-                value,
-                lower: self.bracket.lower,
-                upper: self.bracket.upper,
-            }),
-            Outcome::Unbounded => Some(Claim::EndlessThrust { at, extreme }),
-            Outcome::Impossible | Outcome::Undecided => None,
+        let Bracket { lower, upper } = self.bracket;
+        match (self.outcome, at) {
+            (Outcome::Found, Sought::Thrust(at)) => {
+                Some(Claim::Thrust { at, extreme, value, lower, upper })
+            }
+            (Outcome::Found, Sought::Member(member)) => {
+                Some(Claim::MemberForce { member, extreme, value, lower, upper })
+            }
+            (Outcome::Unbounded, Sought::Thrust(at)) => Some(Claim::EndlessThrust { at, extreme }),
+            (Outcome::Unbounded, Sought::Member(member)) => {
+                Some(Claim::EndlessMemberForce { member, extreme })
+            }
+            (Outcome::Impossible | Outcome::Undecided, _) => None,
         }
     }
 

@@ -19,7 +19,7 @@ pub enum Question {
     Tilt(TiltOptions),
     /// At what value of a number in the scene does the verdict flip?
     Critical(CriticalOptions),
-    /// Least or greatest thrust on a support.
+    /// Least or greatest thrust on a support, or force in a member.
     Thrust(ThrustOptions),
     /// The angle of maximum stability of a packing of grains; in several directions the least.
     Repose(ReposeOptions),
@@ -100,6 +100,9 @@ pub struct ThrustOptions {
     /// Direction of the thrust; outwards where nothing is said.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
+    /// The force in this member in place of a thrust.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub member: Option<String>,
     /// The greatest thrust instead of the least.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub greatest: bool,
@@ -163,6 +166,11 @@ impl Question {
         let path = JsonPath::root().key(self.word());
         let refuse = |key: &str, text: String| Err(InputError::at(path.key(key), text));
         match self {
+            Self::Thrust(o)
+                if o.member.is_some() && (o.support.is_some() || o.direction.is_some()) =>
+            {
+                refuse("member", "a member and a support are both given".into())
+            }
             Self::Assess(_) | Self::Limit(_) | Self::Thrust(_) => Ok(()),
             Self::Tilt(o) => check_directions(&path, &o.toward, o.all),
             Self::Repose(o) if !(0.0..=1.0).contains(&o.moving_mass) => {
@@ -251,6 +259,9 @@ impl Question {
     pub fn quantity(&self) -> Option<&'static str> {
         match self {
             Self::Assess(_) | Self::Simulate(_) => None,
+            Self::Thrust(ThrustOptions { member: Some(_), greatest, .. }) => {
+                Some(if *greatest { "greatest force in N" } else { "least force in N" })
+            }
             Self::Thrust(o) => {
                 Some(if o.greatest { "greatest thrust in N" } else { "least thrust in N" })
             }

@@ -175,11 +175,13 @@ pub fn without(scene: &Scene, ids: &[String]) -> Result<Scene, InputError> {
     let mut rest = scene.clone();
     for template in std::mem::take(&mut rest.templates) {
         rest.blocks.extend(generate::expand(&template)?);
+        rest.members.extend(generate::members(&template));
     }
     let stays = |id: &String| !gone.contains(id.as_str());
     rest.blocks.retain(|b| stays(&b.id));
     rest.joints.overrides.retain(|o| o.blocks.iter().flatten().all(stays));
     rest.interfaces.retain(|f| f.between.iter().all(stays));
+    rest.members.retain(|m| m.blocks().iter().all(stays));
     for loads in [&mut rest.loads.dead, &mut rest.loads.live] {
         loads.retain(|l| l.block.iter().all(stays));
     }

@@ -20,9 +20,11 @@ use crate::{
     terms::{Attempt, Bracket, Law, Outcome},
     tolerance,
     verdict::{
-        Forces, Rate, Verdict, certificate, no_forces,
+        Forces, Rate, Verdict, certificate,
+        member::Bounds,
+        no_forces,
         section::centroid,
-        thrust::{Extreme, ThrustAt, width},
+        thrust::{Extreme, Sought, ThrustAt, width},
     },
 };
 use nalgebra::Vector3;
@@ -30,8 +32,8 @@ use nalgebra::Vector3;
 /// One end of the range of thrusts.
 #[derive(Clone, Debug)]
 pub struct ThrustEnd {
-    /// Where, and in which direction.
-    pub at: ThrustAt,
+    /// The thrust on a support, or the force in a member.
+    pub at: Sought,
     /// Which one.
     pub extreme: Extreme,
     /// What became of it ([`Outcome::Impossible`] does not occur).
@@ -128,6 +130,29 @@ pub fn place(
     Ok(ThrustAt { support, direction: direction.into() })
 }
 
+/// The member that is asked about.
+///
+/// # Errors
+/// There is no member of this name, or its force is not one number.
+pub fn member(model: &Model, id: &str) -> Result<Sought, InputError> {
+    let members = &model.interfaces.members;
+    let error = |text: String| InputError::at(JsonPath::root(), text);
+    let Some(index) = members.iter().position(|m| m.id == id) else {
+        let names = members.iter().map(|m| m.id.as_str()).take(8).collect::<Vec<_>>().join(", ");
+        let hint = if members.is_empty() {
+            "the scene has no members".into()
+        } else {
+            format!("members are {names}")
+        };
+        return Err(error(format!("member {id}: there is no such member")).hint(hint));
+    };
+    if Bounds::of(&members[index]).axes() == 2 {
+        return Err(error(format!("member {id}: the force of a dowel has no fixed direction"))
+            .hint("ask for the force of a tie, strut, bar, tendon, strip, soil or grip"));
+    }
+    Ok(Sought::Member(index))
+}
+
 /// Whether a support touches a free block.
 fn touches(model: &Model, support: usize) -> bool {
     let free = |i: usize| !model.assembly.blocks[i].support;
@@ -181,34 +206,35 @@ pub fn level(gravity: &Vector3<f64>, direction: Vector3<f64>, size: f64) -> Opti
     Some(unit.map(|c| if c.abs() < tolerance::ALONG { 0.0 } else { c }).normalize())
 }
 
-/// The least or greatest thrust of a scene that stands, summed over its parts; `standing` are
-/// forces that balance its loads.
+/// The least or greatest thrust of a scene that stands, summed over its parts, or the force in a
+/// member; `standing` are forces that balance its loads.
 pub fn thrust(
     model: &Model,
-    at: &ThrustAt,
+    at: impl Into<Sought>,
     extreme: Extreme,
     standing: &Forces,
     control: &Control,
 ) -> Proved<ThrustEnd> {
-    Proved::new(model, parts::thrust::thrust(model, at, extreme, standing, control))
+    Proved::new(model, parts::thrust::thrust(model, &at.into(), extreme, standing, control))
 }
 
 /// The same for one part.
 pub(super) fn of_part(
     model: &Model,
-    at: &ThrustAt,
+    at: &Sought,
     extreme: Extreme,
     standing: &Forces,
     control: &Control,
 ) -> ThrustEnd {
     let assembly = &model.assembly;
-    let direction = Vector3::from(at.direction);
     let build = |keep_all: bool| {
         Statics::new(model, StaticsOptions { keep_all, ..StaticsOptions::default() })
     };
     let mut base = build(control.keep_all);
     // A plane scene knows no thrust out of its plane.
-    if base.plane.is_some_and(|p| p.axis.dot(&direction).abs() > tolerance::ALONG) {
+    if let (Some(plane), Sought::Thrust(at)) = (base.plane, at)
+        && plane.axis.dot(&Vector3::from(at.direction)).abs() > tolerance::ALONG
+    {
         base = build(true);
     }
     let mut answer = ThrustEnd {
@@ -255,7 +281,7 @@ pub(super) fn of_part(
 
 struct Problem<'a> {
     model: &'a Model,
-    at: &'a ThrustAt,
+    at: &'a Sought,
     extreme: Extreme,
     /// Total load of the free blocks, N: the unit of the objective.
     total: f64,
@@ -264,8 +290,12 @@ struct Problem<'a> {
 impl Problem<'_> {
     fn objective(&self, statics: &Statics, interfaces: &Interfaces) -> Vec<f64> {
         let by = self.extreme.sigma() / self.total;
-        let columns =
-            program::thrust_columns(statics, interfaces, self.at.support, self.at.direction.into());
+        let columns = match self.at {
+            Sought::Thrust(at) => {
+                program::thrust_columns(statics, interfaces, at.support, at.direction.into())
+            }
+            Sought::Member(member) => program::member_columns(statics, *member),
+        };
         columns.into_iter().map(|c| c * by).collect()
     }
 
@@ -312,10 +342,11 @@ impl Problem<'_> {
                 answer.rates = rates;
             }
         }
-        let name = if self.extreme == Extreme::Least {
-            "least thrust in forces"
-        } else {
-            "greatest thrust in forces"
+        let name = match (self.at, self.extreme) {
+            (Sought::Thrust(_), Extreme::Least) => "least thrust in forces",
+            (Sought::Thrust(_), Extreme::Greatest) => "greatest thrust in forces",
+            (Sought::Member(_), Extreme::Least) => "least force in a member in forces",
+            (Sought::Member(_), Extreme::Greatest) => "greatest force in a member in forces",
         };
         answer.attempts.push(done.attempt(
             name.into(),
@@ -335,14 +366,24 @@ impl Problem<'_> {
         keep_all: bool,
         answer: &mut ThrustEnd,
     ) -> bool {
+        let joints = self.model.interfaces.list.len();
         let (unlimited, kept) = unlimited(&self.model.interfaces);
+        let at = match *self.at {
+            Sought::Thrust(at) => Sought::Thrust(at),
+            // What yields has an end; the others have new places.
+            Sought::Member(m) => match kept.iter().position(|&k| k == joints + m) {
+                Some(place) => Sought::Member(place - unlimited.list.len()),
+                None => return false,
+            },
+        };
+        let own = Problem { at: &at, ..*self };
         let unlimited = self.model.with_interfaces(unlimited);
         let mut statics =
             Statics::new(&unlimited, StaticsOptions { keep_all, ..StaticsOptions::default() });
         statics.rescale(step.unit, step.local);
         let settings = step.settings(deadline);
         let build = |statics: &Statics| {
-            program::endless_thrust(statics, &self.objective(statics, &unlimited.interfaces))
+            program::endless_thrust(statics, &own.objective(statics, &unlimited.interfaces))
         };
         let mut done = run(&unlimited, &mut statics, build, &settings);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
@@ -354,8 +395,7 @@ impl Problem<'_> {
             );
             let s = certificate::statics(&bare, &forces, 0.0);
             endless = s.balanced
-                && -self.extreme.sigma() * self.at.value(&bare.interfaces, &forces)
-                    >= 0.5 * self.total;
+                && -self.extreme.sigma() * at.value(&bare.interfaces, &forces) >= 0.5 * self.total;
             if endless {
                 ends = [-self.extreme.sigma() * f64::INFINITY; 2];
                 answer.forces = no_forces(&self.model.interfaces);
@@ -387,8 +427,8 @@ pub enum Ends {
 /// The answer about the thrust on a support.
 #[derive(Clone, Debug)]
 pub struct Thrust {
-    /// Where, and in which direction.
-    pub at: ThrustAt,
+    /// The thrust on a support, or the force in a member.
+    pub at: Sought,
     /// Whether it stands at all.
     pub standing: Proved<Assessment>,
     /// Least and greatest, as far as they were asked; none where no forces balance the loads, or
@@ -399,7 +439,8 @@ pub struct Thrust {
 }
 
 /// Least and greatest thrust and the geometric safety factor.
-pub fn answer(model: &Model, at: ThrustAt, ends: Ends, control: &Control) -> Thrust {
+pub fn answer(model: &Model, at: impl Into<Sought>, ends: Ends, control: &Control) -> Thrust {
+    let at = at.into();
     // Each question may take as much of the time as those after it.
     let share = |of: f64| Control { deadline: control.deadline.share(1.0 / of), ..*control };
     // Where time is short both ends are worth more than whether the loads produce the forces.
@@ -409,14 +450,15 @@ pub fn answer(model: &Model, at: ThrustAt, ends: Ends, control: &Control) -> Thr
     // Whether the loads produce them or not: there are forces.
     let balanced = certificate::statics(model, &first.forces, 0.0).balanced;
     let admissible = balanced && first.verdict != Verdict::Unstable;
-    let end = |extreme, of| thrust(model, &at, extreme, &first.forces, &share(of));
+    let end = |extreme, of| thrust(model, at, extreme, &first.forces, &share(of));
     let found = match ends {
         _ if !admissible => Vec::new(),
         Ends::Least => vec![end(Extreme::Least, 1.0)],
         Ends::Greatest => vec![end(Extreme::Greatest, 1.0)],
         Ends::Both => vec![end(Extreme::Least, 3.0), end(Extreme::Greatest, 2.0)],
     };
-    let factor = (admissible && ends == Ends::Both).then(|| geometric_factor(model, &share(1.0)));
+    let whole = ends == Ends::Both && matches!(at, Sought::Thrust(_));
+    let factor = (admissible && whole).then(|| geometric_factor(model, &share(1.0)));
     let standing = if statics_first && admissible { assess(model, control) } else { first };
     Thrust { at, standing, ends: found, factor }
 }

@@ -3,14 +3,17 @@
 
 mod clump;
 mod distance;
+mod face;
 mod gyration;
 mod joint;
+mod member;
 mod plausible;
 mod polyhedron;
 mod resolve;
 
 pub use gyration::Gyration;
 pub use joint::{JointLaw, JointRules};
+pub use member::{Action, Anchor, BlockFace, DowelPlan, Member, MemberKind, MemberPlan, StripPlan};
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
 pub use resolve::{Blocks, resolve, resolve_blocks, resolve_with};
 
@@ -42,6 +45,8 @@ pub struct Assembly {
     pub live_forces: Vec<AppliedForce>,
     /// Interfaces given by hand.
     pub given: Vec<GivenInterface>,
+    /// Ties, struts, tendons, strips, dowels, soil and grips, before contacts are known.
+    pub members: Vec<MemberPlan>,
     /// Contact tolerances.
     pub contact: ContactSpec,
     /// What was mended or assumed on the way.

@@ -45,7 +45,9 @@ impl Thrust {
         let support =
             self.support.as_ref().map(|s| format!("--support {}", super::question::quoted(s)));
         let direction = self.direction.map(|[x, y, z]| format!("--direction {x},{y},{z}"));
-        support.into_iter().chain(direction).collect()
+        let member = self.member.as_ref();
+        let member = member.map(|m| format!("--member {}", super::question::quoted(m)));
+        support.into_iter().chain(direction).chain(member).collect()
     }
 }
 

@@ -20,6 +20,8 @@ pub struct Pictures {
     frames: Option<PathBuf>,
     /// Joints and blocks.
     csv: Option<[Sink; 2]>,
+    /// Where the table of members goes, if the scene has any.
+    members: Option<PathBuf>,
     printed: usize,
 }
 
@@ -72,7 +74,9 @@ impl Pictures {
             Some(path) if is_dash(path) => {
                 bail!("--csv takes a file: the table of the blocks is written beside it")
             }
-            Some(path) => Some([Sink::open(Some(path))?, Sink::open(Some(&beside(path)))?]),
+            Some(path) => {
+                Some([Sink::open(Some(path))?, Sink::open(Some(&beside(path, "blocks")))?])
+            }
             None => None,
         };
         let (svg, vtk) = (open(args.svg.as_deref())?, open(args.vtk.as_deref())?);
@@ -82,6 +86,7 @@ impl Pictures {
             vtk,
             frames: None,
             csv: tables,
+            members: table.map(|path| beside(path, "members")),
             printed,
         })
     }
@@ -110,6 +115,10 @@ impl Pictures {
             joints.write(&table::joints(view).map_err(|e| anyhow::anyhow!("{e}"))?)?;
             blocks.write(&table::blocks(view).map_err(|e| anyhow::anyhow!("{e}"))?)?;
         }
+        if let Some(path) = self.members.as_deref().filter(|_| !view.members.is_empty()) {
+            let text = table::members(view).map_err(|e| anyhow::anyhow!("{e}"))?;
+            Sink::open(Some(path))?.write(&text)?;
+        }
         Ok(())
     }
 }
@@ -129,7 +138,7 @@ fn is_dash(path: &Path) -> bool {
 }
 
 /// `forces.csv` → `forces.blocks.csv`.
-fn beside(path: &Path) -> PathBuf {
+fn beside(path: &Path, what: &str) -> PathBuf {
     let ending = path.extension().map_or(String::new(), |e| format!(".{}", e.to_string_lossy()));
-    path.with_extension(format!("blocks{ending}"))
+    path.with_extension(format!("{what}{ending}"))
 }

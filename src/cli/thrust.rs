@@ -11,8 +11,14 @@ use voussoir::analysis::{Outcome, Question, ThrustOptions};
 pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
     let session = Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     let (law, support, direction) = (session.law(), args.support.clone(), args.direction);
-    let question =
-        Question::Thrust(ThrustOptions { law, support, direction, greatest: false, range: true });
+    let question = Question::Thrust(ThrustOptions {
+        law,
+        support,
+        direction,
+        member: args.member.clone(),
+        greatest: false,
+        range: true,
+    });
     let answer = session.ask(&question)?;
     let file = session.answer(terminal, &args.options(), session.result(&question, &answer)?)?;
     let Some(found) = file.answer.thrust() else { return Ok(verdict(file.answer.verdict())) };

@@ -73,6 +73,12 @@ pub fn simulate(
         frames: Vec::new(),
         findings: Vec::new(),
     };
+    if let Some(finding) = members(interfaces) {
+        // Without its members it is another scene, and what becomes of that answers nothing.
+        outcome.fate = Fate::Undecided;
+        outcome.findings.push(finding);
+        return Ok(outcome);
+    }
     let Some(units) = Units::of(assembly, &loads.total) else { return Ok(outcome) };
     let bodies = bodies(model, &units, SKIN)?;
     let frictions = Frictions::new(model, &units);
@@ -114,6 +120,19 @@ fn broken(runs: &[Run]) -> Option<Finding> {
         FindingCode::Numerics,
         format!("the engine's numbers were no longer finite after {:.3e} s", run.time),
     ))
+}
+
+/// Members that can take a force: the engine has none of them.
+fn members(interfaces: &Interfaces) -> Option<Finding> {
+    let own = || interfaces.members.iter().filter(|m| !m.is_idle());
+    let first = own().next()?;
+    let text = format!(
+        "the simulation has no members (ties, struts, tendons, strips, dowels, soil, grips), and the scene has {}, such as {} {:?}: it was not run, for without them it is another scene",
+        own().count(),
+        first.kind.word(),
+        first.id
+    );
+    Some(Finding::new(FindingCode::LeftOut, text))
 }
 
 fn strengths(interfaces: &Interfaces) -> Option<Finding> {

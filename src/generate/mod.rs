@@ -15,11 +15,13 @@ mod flat_arch;
 mod grain;
 mod hull;
 mod lattice;
+mod member;
 mod midline;
 mod stack;
 mod wall;
 
 pub use deposit::{Deposit, deposit};
+pub use member::members;
 
 use crate::{
     error::{InputError, JsonPath},

@@ -121,6 +121,8 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
     });
     interfaces.left_out = tally.left_out(assembly);
     interfaces.findings = tally.findings(assembly);
+    let told = interfaces.join(assembly)?;
+    interfaces.findings.extend(told);
     Ok(interfaces)
 }
 
@@ -145,6 +147,8 @@ impl Interfaces {
         for interface in interfaces.list.iter_mut().filter(|i| i.kind != ContactKind::Given) {
             interface.law = law(assembly, interface.a, interface.b)?;
         }
+        // What the joints of strips have to say was said where they were detected.
+        interfaces.join(assembly)?;
         Ok(interfaces)
     }
 }

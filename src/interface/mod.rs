@@ -12,6 +12,7 @@ mod features;
 mod given;
 mod left_out;
 mod limits;
+mod member;
 mod model;
 mod overlap;
 mod parts;
@@ -32,14 +33,14 @@ pub(crate) use plane::Plane;
 pub use reach::{floating, is_forest};
 
 use crate::{
-    assembly::JointLaw,
+    assembly::{JointLaw, Member},
     error::Finding,
     plane::{clip, polygon},
 };
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// All contacts of an assembly, sorted by `(a, b)`.
+/// All contacts of an assembly, sorted by `(a, b)`, and the members that act beside them.
 #[derive(Clone, Debug, Default)]
 pub struct Interfaces {
     /// The contacts. Pairs of two supports are left out.
@@ -50,6 +51,8 @@ pub struct Interfaces {
     pub findings: Vec<Finding>,
     /// The near misses and overlaps in numbers, where there are any.
     pub left_out: Option<LeftOut>,
+    /// Ties, struts, tendons, joints of strips, dowels, soil and grips.
+    pub members: Vec<Member>,
 }
 
 /// One contact between two blocks on one plane.

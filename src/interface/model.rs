@@ -2,7 +2,7 @@
 
 use super::{Interface, Interfaces, axes, detect, floating};
 use crate::{
-    assembly::{self, AppliedForce, Assembly},
+    assembly::{self, AppliedForce, Assembly, Member},
     error::{Finding, FindingCode, InputError},
     scene::Scene,
 };
@@ -93,6 +93,7 @@ impl Model {
             live_forces: forces(&of.live_forces),
             // Contacts given by hand are among the interfaces already.
             given: Vec::new(),
+            members: Vec::new(),
             name: of.name.clone(),
             gravity: of.gravity,
             joints: of.joints.clone(),
@@ -101,8 +102,12 @@ impl Model {
         };
         let list = self.interfaces.list.iter().filter(|f| stays[f.a] && stays[f.b]);
         let list = list.map(|f| Interface { a: place[f.a], b: place[f.b], ..f.clone() }).collect();
+        // A member goes with any of its blocks.
+        let stay = |m: &&Member| m.action.ends().into_iter().flatten().all(|i| stays[i]);
+        let members = self.interfaces.members.iter().filter(stay);
         let interfaces = Interfaces {
             list,
+            members: members.map(|m| m.renumbered(&place)).collect(),
             support_pairs: self.interfaces.support_pairs,
             findings: self.interfaces.findings.clone(),
             left_out: self.interfaces.left_out,

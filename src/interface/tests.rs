@@ -146,6 +146,7 @@ fn assembly(shapes: &[Shape]) -> Assembly {
         live_forces: Vec::new(),
         live: none,
         given: Vec::new(),
+        members: Vec::new(),
         contact: ContactSpec::default(),
         findings: Vec::new(),
     }

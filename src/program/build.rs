@@ -6,6 +6,7 @@ use super::{
     carried::carried,
     conic::Sparse,
     crushing::sections,
+    member,
     options::StaticsOptions,
     planar::{self, Plane},
     statics::{FreeBlock, Statics},
@@ -38,7 +39,7 @@ impl Statics {
             }
         };
         let unit = set_units(model, options, &mut list, weight);
-        let dead = with_water(model);
+        let mut dead = with_water(model);
         let mut left_out = Vec::new();
         if let Some(plane) = plane {
             left_out.push(plane_line(plane, list.len(), interfaces));
@@ -58,7 +59,15 @@ impl Statics {
         }
         let free = free_blocks(assembly, options, plane, blocks, weight);
         let rows = free.last().map_or(0, |f| f.rows.end);
-        let columns = list.last().map_or(0, |b| b.column + b.basis.len());
+        let contacts = list.last().map_or(0, |b| b.column + b.basis.len());
+        let (mut members, applied) = member::columns(model, plane, options, contacts);
+        let load = if members.is_empty() { Vec::new() } else { carried(model, weight) };
+        for m in &mut members {
+            // What passes there is no more than what the lighter block carries.
+            let ends = m.basis.iter().flatten().map(|(i, _)| load[*i]);
+            (m.presumed, m.unit) = (ends.fold(f64::INFINITY, f64::min), unit);
+        }
+        let columns = members.last().map_or(contacts, |m| m.column + m.amounts.len());
         let mut this = Self {
             plane,
             matrix: Sparse::zeros(rows, columns),
@@ -66,12 +75,15 @@ impl Statics {
             live: vec![0.0; rows],
             unit,
             free,
+            members,
+            applied,
             sections: sections(interfaces, &list),
             bearings: Vec::new(),
             left_out,
             orbits,
         };
         this.fill(model, &list);
+        this.applied.iter().for_each(|(block, wrench)| dead[*block] += *wrench);
         for row in 0..this.free.len() {
             let (block, first) = (this.free[row].block, this.free[row].rows.start);
             let (dead, live) =
@@ -121,6 +133,20 @@ impl Statics {
                     let first = self.free[row].rows.start;
                     for (k, value) in self.scaled(row, wrench).into_iter().enumerate() {
                         self.matrix.push(first + k, bearing.column + c, value);
+                    }
+                }
+            }
+        }
+        for m in 0..self.members.len() {
+            for c in 0..self.members[m].basis.len() {
+                for e in 0..self.members[m].basis[c].len() {
+                    let (block, wrench) = self.members[m].basis[c][e];
+                    let Some(row) = row_of[block] else { continue };
+                    let first = self.free[row].rows.start;
+                    let values = self.scaled(row, wrench * self.unit);
+                    let column = self.members[m].column + c;
+                    for (k, value) in values.into_iter().enumerate() {
+                        self.matrix.push(first + k, column, value);
                     }
                 }
             }
@@ -191,7 +217,8 @@ fn with_water(model: &Model) -> Vec<Wrench> {
 }
 
 /// The part that a symmetric scene is reduced to. Bounds on crushing tie the points of a joint
-/// together: no symmetry is looked for there.
+/// together, and members join places that the images of blocks say nothing about: no symmetry is
+/// looked for there.
 fn part(
     model: &Model,
     options: StaticsOptions,
@@ -204,6 +231,7 @@ fn part(
         || options.keep_all
         || options.unscaled
         || interfaces.list.iter().any(crushes)
+        || !interfaces.members.is_empty()
     {
         return None;
     }

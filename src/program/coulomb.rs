@@ -26,7 +26,10 @@
 //! Acary, Brémond & Huber 2018 (natural map), Gilbert, Casapulla & Ahmed 2006 (sequence of convex
 //! programs for non-associative limit analysis).
 
-use super::{BearingCone, Cone, ConicProgram, Disc, Statics, StaticsOptions, unbalance::copy};
+use super::{
+    BearingCone, Cone, ConicProgram, Disc, MemberColumns, MemberSet, Statics, StaticsOptions,
+    unbalance::copy,
+};
 use crate::{interface::Model, scene::Friction};
 
 /// A contact point of programs C and D.
@@ -36,8 +39,12 @@ pub struct SlidingPoint {
     pub column: usize,
     /// Number of columns.
     pub columns: usize,
-    /// Tensile strength, in units of the forces.
+    /// Tensile strength, in units of the forces; infinite where the first column has no lower bound.
     pub tension: f64,
+    /// Greatest first force, in units of the forces; infinite but for members.
+    pub most: f64,
+    /// The first force at which it is at ease: what a member was stressed to beforehand.
+    pub rest: f64,
     /// Its limits: friction, and rolling and twisting where there is an arm. None where sliding is
     /// excluded.
     pub discs: Vec<Disc>,
@@ -63,6 +70,25 @@ pub struct Contacts {
     /// the scene counts them.
     pub(super) row_images: Vec<f64>,
     pub(super) column_images: Vec<f64>,
+}
+
+impl SlidingPoint {
+    /// Of a member.
+    fn of(m: &MemberColumns) -> Self {
+        let (tension, most, discs) = match m.set {
+            MemberSet::Range(least, greatest) => (-least / m.unit, greatest / m.unit, Vec::new()),
+            MemberSet::Disc(most) if most.is_infinite() => {
+                (f64::INFINITY, f64::INFINITY, Vec::new())
+            }
+            // The normal force of a finger is given: its friction is a limit that stays.
+            MemberSet::Disc(most) | MemberSet::Cone { most, .. } => {
+                let disc = m.disc(m.column, 0, 0.0, most);
+                (f64::INFINITY, f64::INFINITY, vec![disc])
+            }
+        };
+        let rest = m.rest / m.unit;
+        Self { column: m.column, columns: m.amounts.len(), tension, most, rest, discs }
+    }
 }
 
 /// How friction is held fixed in one convex program.
@@ -114,7 +140,7 @@ impl Contacts {
         let mean_area = with_area().map(|(n, a)| n * a).sum::<f64>()
             / with_area().map(|(n, _)| n).sum::<f64>().max(1.0);
         let mut compliance = Vec::with_capacity(statics.matrix.columns);
-        let points: Vec<SlidingPoint> = statics
+        let mut points: Vec<SlidingPoint> = statics
             .bearings
             .iter()
             .zip(&areas)
@@ -136,14 +162,31 @@ impl Contacts {
                     _ => Vec::new(),
                 };
                 let tension = b.limits().map_or(0.0, |l| l.tension / b.unit);
-                SlidingPoint { column: b.column, columns: b.basis.len(), tension, discs: limits }
+                SlidingPoint {
+                    column: b.column,
+                    columns: b.basis.len(),
+                    tension,
+                    most: f64::INFINITY,
+                    rest: 0.0,
+                    discs: limits,
+                }
             })
             .collect();
+        let joints = points.len();
+        for m in &statics.members {
+            // Of the order of a joint; among members whose stiffness is known, as that.
+            let c = m.stiffness.map_or(1.0, |k| 1.0 / k);
+            compliance.extend(std::iter::repeat_n(c, m.amounts.len()));
+            points.push(SlidingPoint::of(m));
+        }
         let row_images = statics.row_images();
         let passing = points
             .iter()
             .zip(&statics.bearings)
-            .flat_map(|(p, b)| p.discs.iter().map(|_| b.presumed / b.unit))
+            .flat_map(|(p, b)| p.discs.iter().map(|_| b.presumed / b.unit));
+        let of_members = || points[joints..].iter().zip(&statics.members);
+        let passing = passing
+            .chain(of_members().flat_map(|(p, m)| p.discs.iter().map(|_| m.presumed / m.unit)))
             .collect();
         let weight = |block: usize| {
             let loaded = assembly.weight(block).max(assembly.dead[block].force.norm());
@@ -157,6 +200,11 @@ impl Contacts {
             .iter()
             .zip(&statics.bearings)
             .flat_map(|(p, b)| p.discs.iter().map(move |_| lighter(b)))
+            .chain(of_members().flat_map(|(p, m)| {
+                let least = m.basis.iter().flatten().map(|(i, _)| weight(*i));
+                let least = least.fold(f64::INFINITY, f64::min) / m.unit;
+                p.discs.iter().map(move |_| least)
+            }))
             .collect();
         Self { statics, points, compliance, passing, lighter, row_images, column_images }
     }
@@ -175,6 +223,9 @@ impl Contacts {
         let mut passing = vec![0.0; matrix.columns];
         for b in bearings {
             passing[b.column..b.column + b.basis.len()].fill(b.presumed);
+        }
+        for m in &self.statics.members {
+            passing[m.column..m.column + m.amounts.len()].fill(m.presumed);
         }
         let block: Vec<usize> =
             free.iter().enumerate().flat_map(|(k, f)| f.rows.clone().map(move |_| k)).collect();
@@ -225,8 +276,18 @@ impl Contacts {
             HeldQuantity::Limits => self.limit_cones(&mut p),
             HeldQuantity::SlidingRates => self.friction_cones(&mut p),
         }
+        // Of `½ c (x − r)²` what is linear.
+        for point in self.points.iter().filter(|point| point.rest != 0.0) {
+            p.objective[point.column] = -self.at_ease(point, weight);
+        }
         self.hold(&mut p, quantity, held);
         p
+    }
+
+    /// The slope at zero that the compliance of a stressed member adds, times the number of images.
+    fn at_ease(&self, point: &SlidingPoint, weight: f64) -> f64 {
+        let column = point.column;
+        self.compliance[column] * weight * self.column_images[column] * point.rest
     }
 
     /// Every limit, point by point.
@@ -249,7 +310,7 @@ impl Contacts {
                 }
             }
             HeldQuantity::SlidingRates => {
-                for point in &self.points {
+                for point in self.points.iter().filter(|point| point.rest == 0.0) {
                     p.objective[point.column] = 0.0;
                 }
                 for (disc, &rate) in self.discs().zip(held) {
@@ -263,6 +324,11 @@ impl Contacts {
     fn limit_cones(&self, p: &mut ConicProgram) {
         let first = p.cone(Cone::NonNegative(self.points.len()));
         for (k, point) in self.points.iter().enumerate() {
+            // A row for every point, so that limits keep their places.
+            if point.tension.is_infinite() {
+                p.rhs[first + k] = 1.0;
+                continue;
+            }
             p.matrix.push(first + k, point.column, -1.0);
             p.rhs[first + k] = point.tension;
         }
@@ -277,13 +343,26 @@ impl Contacts {
                 p.matrix.push(row + 2, disc.first + 1, -1.0);
             }
         }
+        self.most_rows(p);
         self.statics.section_rows(p, 0);
+    }
+
+    /// The upper bounds of members.
+    fn most_rows(&self, p: &mut ConicProgram) {
+        for point in self.points.iter().filter(|point| point.most.is_finite()) {
+            let by = 1.0 / point.most.abs().max(1.0);
+            let row = p.cone(Cone::NonNegative(1));
+            p.matrix.push(row, point.column, by);
+            p.rhs[row] = point.most * by;
+        }
     }
 
     fn friction_cones(&self, p: &mut ConicProgram) {
         for point in &self.points {
             // A cone with its apex at zero bounds the normal force by itself.
-            if !point.discs.iter().any(|d| d.slope > 0.0 && d.constant == 0.0) {
+            if point.tension.is_finite()
+                && !point.discs.iter().any(|d| d.slope > 0.0 && d.constant == 0.0)
+            {
                 let row = p.cone(Cone::NonNegative(1));
                 p.matrix.push(row, point.column, -1.0);
                 p.rhs[row] = point.tension;
@@ -292,6 +371,7 @@ impl Contacts {
                 disc.cone(p);
             }
         }
+        self.most_rows(p);
         self.statics.section_rows(p, 0);
     }
 
@@ -364,7 +444,7 @@ impl Contacts {
     pub fn cut(&self, forces: &[f64]) -> Vec<f64> {
         let mut f = forces.to_vec();
         for p in &self.points {
-            let normal = f[p.column].max(-p.tension);
+            let normal = f[p.column].max(-p.tension).min(p.most);
             f[p.column] = normal;
             for disc in &p.discs {
                 let part = &mut f[disc.first..disc.first + disc.count];

@@ -5,8 +5,10 @@
 //! resultant across the plane; dropping the components along `axis` keeps them inside the friction
 //! cone. Three unknown rates a block remain, each interface is a segment with two ends, and the
 //! friction cone is two rays: a linear program instead of a second-order one, with exactly the same
-//! answer. Rates in the plane are admissible in space as they stand.
+//! answer. Rates in the plane are admissible in space as they stand. Members have to lie in the
+//! mirror plane.
 
+use super::member;
 use crate::{assembly::Wrench, interface::Model, tolerance};
 use nalgebra::Vector3;
 
@@ -104,6 +106,9 @@ fn mirrored(
         {
             return None;
         }
+    }
+    if !interfaces.members.iter().all(|m| member::lies_in(model, m, &axis, offset)) {
+        return None;
     }
     let down = assembly.gravity.normalize();
     let e2 = -(down - axis * axis.dot(&down)).normalize();

@@ -286,6 +286,7 @@ fn answer(
     mut slope: Option<&mut [[f64; MOST]; MOST]>,
 ) -> [f64; MOST] {
     let mut f = *wanted;
+    f[0] += point.rest;
     if let Some(slope) = slope.as_deref_mut() {
         for (k, row) in slope.iter_mut().enumerate().take(point.columns) {
             row[k] = 1.0;
@@ -307,6 +308,12 @@ fn answer(
             slope[0][0] = 0.0;
         }
     }
+    if f[0] > point.most {
+        f[0] = point.most;
+        if let Some(slope) = slope.as_deref_mut() {
+            slope[0][0] = 0.0;
+        }
+    }
     for (k, disc) in point.discs.iter().enumerate() {
         let s = match friction {
             FrictionLimits::Held(HeldQuantity::Limits, held) => held.get(k).copied().unwrap_or(0.0),
@@ -316,7 +323,7 @@ fn answer(
         let at = disc.first - point.column..disc.first - point.column + disc.count;
         let cut = onto_disc(&mut f, at.clone(), s, slope.as_deref_mut());
         if let (FrictionLimits::Law, true, Some(slope)) =
-            (friction, cut && s > 0.0, slope.as_deref_mut())
+            (friction, cut && s > 0.0 && disc.slope > 0.0, slope.as_deref_mut())
         {
             let normal = slope[0][0];
             for i in at {

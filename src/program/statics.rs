@@ -1,8 +1,8 @@
 //! The equilibrium of the free blocks, reduced and scaled.
 
 use super::{
-    Unknowns, bearing::Bearing, conic::Sparse, crushing::CrushingJoint, planar::Plane,
-    symmetry::Orbits,
+    Unknowns, bearing::Bearing, conic::Sparse, crushing::CrushingJoint, member::MemberColumns,
+    planar::Plane, symmetry::Orbits,
 };
 use crate::assembly::{Gyration, Wrench};
 use nalgebra::{DMatrix, DVector};
@@ -45,6 +45,10 @@ pub struct Statics {
     pub free: Vec<FreeBlock>,
     /// The contact points in column order.
     pub bearings: Vec<Bearing>,
+    /// The members, in column order after the contact points.
+    pub members: Vec<MemberColumns>,
+    /// What fingers apply, N and N·m about the centres of mass; contained in `dead`.
+    pub(super) applied: Vec<(usize, Wrench)>,
     /// The joints that can crush.
     pub sections: Vec<CrushingJoint>,
     /// Scaled equilibrium operator.
@@ -90,6 +94,7 @@ impl Statics {
         self.bearings
             .iter()
             .flat_map(|b| std::iter::repeat_n(b.image_count() as f64, b.basis.len()))
+            .chain(self.members.iter().flat_map(|m| m.amounts.iter().map(|_| 1.0)))
             .collect()
     }
 
@@ -124,6 +129,11 @@ impl Statics {
             by[bearing.column..bearing.column + bearing.basis.len()].fill(unit / bearing.unit);
             bearing.unit = unit;
         }
+        for member in &mut self.members {
+            let unit = if local { self.unit.min(LOCAL_UNIT * member.presumed) } else { self.unit };
+            by[member.column..member.column + member.amounts.len()].fill(unit / member.unit);
+            member.unit = unit;
+        }
         for (j, v) in self.matrix.j.iter().zip(&mut self.matrix.v) {
             *v *= by[*j];
         }
@@ -153,9 +163,10 @@ impl Statics {
         self.free.iter_mut().for_each(|f| f.weight = scale(f.weight));
     }
 
-    /// Whether joints have strengths or couples, for which only programs in forces exist.
+    /// Whether joints have strengths or couples, or there are members, for which only programs in
+    /// forces exist.
     pub fn in_forces_only(&self) -> bool {
-        self.bearings.iter().any(|b| b.limits().is_some())
+        !self.members.is_empty() || self.bearings.iter().any(|b| b.limits().is_some())
     }
 
     /// The unknowns that a program can be written in.

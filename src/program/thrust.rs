@@ -27,6 +27,22 @@ pub fn thrust_columns(
             columns[bearing.column + k] = sign * bearing.unit * direction.dot(&basis.force);
         }
     }
+    for member in &statics.members {
+        // Columns know free blocks only: what a member does to a support is read off itself.
+        let Some(force) = member.on(&interfaces.members[member.member], support) else { continue };
+        columns[member.column] = member.unit * direction.dot(&force);
+    }
+    columns
+}
+
+/// Force in one member per unit of every column, N: its first amount.
+pub fn member_columns(statics: &Statics, member: usize) -> Vec<f64> {
+    let mut columns = vec![0.0; statics.matrix.columns];
+    for own in statics.members.iter().filter(|own| own.member == member) {
+        for (k, (_, sign)) in own.amounts.iter().enumerate().filter(|(_, (axis, _))| *axis == 0) {
+            columns[own.column + k] = sign * own.unit;
+        }
+    }
     columns
 }
 

@@ -122,6 +122,9 @@ pub(super) fn force_cones(p: &mut ConicProgram, statics: &Statics, column: usize
     for bearing in &statics.bearings {
         bearing.rows(p, column);
     }
+    for member in &statics.members {
+        member.rows(p, column);
+    }
     statics.section_rows(p, column);
 }
 

@@ -1,12 +1,15 @@
 //! From the columns and rows of a solved program back to the whole scene.
 
 use super::Statics;
-use crate::{assembly::Wrench, interface::Interfaces};
+use crate::{
+    assembly::{Action, Wrench},
+    interface::Interfaces,
+};
 use nalgebra::{DVector, Vector3};
 
 impl Statics {
-    /// What acts on block `b` at every point of every interface, N and N·m, from scaled columns `x`
-    /// brought into their cones.
+    /// What acts on block `b` at every point of every interface, N and N·m, and the amounts of every
+    /// member, N, from scaled columns `x` brought into their cones.
     pub fn forces(&self, interfaces: &Interfaces, x: &[f64]) -> Vec<Vec<Wrench>> {
         let mut forces: Vec<Vec<Wrench>> =
             interfaces.list.iter().map(|f| vec![Wrench::zero(); f.points.len()]).collect();
@@ -28,6 +31,23 @@ impl Statics {
                 _ => {
                     bearing.points.iter().for_each(|&p| forces[bearing.interface][p] += total * 0.5)
                 }
+            }
+        }
+        let joints = forces.len();
+        forces.extend(interfaces.members.iter().map(|_| vec![Wrench::zero()]));
+        if !self.applied.is_empty() {
+            // Fingers apply their strength.
+            for (m, member) in interfaces.members.iter().enumerate() {
+                if let Action::Press { .. } = member.action {
+                    forces[joints + m][0].force.x = member.greatest;
+                }
+            }
+        }
+        for member in &self.members {
+            let mut x = x[member.column..member.column + member.amounts.len()].to_vec();
+            member.admit(&mut x);
+            for (x, (axis, sign)) in x.iter().zip(&member.amounts) {
+                forces[joints + member.member][0].force[*axis] = sign * x * member.unit + 0.0;
             }
         }
         forces

@@ -3,6 +3,7 @@
 
 pub mod answer;
 pub mod critical;
+pub mod member;
 #[cfg(feature = "solve")]
 mod pack;
 pub mod packing;

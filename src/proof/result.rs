@@ -3,7 +3,11 @@
 //! friction by computing them again.
 
 use super::{
-    answer::Answer, critical::CriticalResult, simulation::Simulation, thrust::ThrustResult,
+    answer::Answer,
+    critical::CriticalResult,
+    member::{MemberLine, MemberWords},
+    simulation::Simulation,
+    thrust::ThrustResult,
     work::Work,
 };
 use crate::{
@@ -16,7 +20,7 @@ use crate::{
     },
     verdict::{
         check::Claim,
-        evidence::{BlockRate, ContactForces},
+        evidence::{BlockRate, ContactForces, MemberForce},
         mechanism::{JointMotion, Mechanism},
     },
 };
@@ -78,6 +82,9 @@ pub struct ResultFile {
     /// Why the answer is undecided, where it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubt: Option<Doubt>,
+    /// The forces in the members of the scene, of the forces that prove the answer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<MemberLine>,
     /// What the scene did not need.
     pub left_out: Vec<String>,
     /// What the user should know.
@@ -125,6 +132,9 @@ pub struct SceneSummary {
     pub interfaces: usize,
     /// Number of contact points.
     pub contact_points: usize,
+    /// Number of members: ties, struts, soil, …
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub members: usize,
     /// The scene itself, so that the result can be verified on its own.
     pub input: Scene,
 }
@@ -138,10 +148,16 @@ pub struct Certificate {
     pub claim: Option<Claim>,
     /// Static side: forces per contact.
     pub forces: Vec<ContactForces>,
+    /// The same for members: ties, struts, soil, …
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<MemberForce>,
     /// Unbounded: forces at a load factor at which the scene stands. Conditional: the forces
     /// without the pre-stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<Vec<ContactForces>>,
+    /// The same for members.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub base_members: Vec<MemberForce>,
     /// Kinematic side: rates per moving block.
     pub rates: Vec<BlockRate>,
     /// What the verification found when the answer was given. Not saved, for nobody could tell
@@ -233,6 +249,9 @@ pub struct MechanismWords {
     pub moving: Vec<String>,
     /// Moving joints.
     pub joints: Vec<JointWords>,
+    /// Members that yield, go slack or slide.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<MemberWords>,
 }
 
 /// A joint of a mechanism with names.
@@ -266,7 +285,9 @@ impl Certificate {
         Self {
             claim: None,
             forces: Vec::new(),
+            members: Vec::new(),
             base: None,
+            base_members: Vec::new(),
             rates: Vec::new(),
             verified: Vec::new(),
         }
@@ -291,8 +312,20 @@ impl MechanismWords {
                     }
                 })
                 .collect(),
+            members: m
+                .members
+                .iter()
+                .map(|m| MemberWords {
+                    member: model.interfaces.members[m.member].id.clone(),
+                    motion: m.motion,
+                })
+                .collect(),
         }
     }
+}
+
+fn is_zero(n: &usize) -> bool {
+    *n == 0
 }
 
 /// The JSON Schema (draft 2020-12) of a result file.

@@ -8,7 +8,7 @@ pub(super) mod states;
 use super::{
     ResultFile,
     answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
-    critical, part,
+    critical, member, part,
     result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
     thrust,
 };
@@ -22,7 +22,7 @@ use crate::{
     verdict::{
         Evidence, Forces, Rate, Verdict, certificate,
         check::{self, Claim, Findings},
-        evidence::{read_forces, read_rates},
+        evidence::read_rates,
         exact::Grade,
         mechanism,
     },
@@ -96,6 +96,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             let (mut f, rates) =
                 answer(model, file.question, &file.answer, &file.certificate, all.refuted());
             mechanism_words(&mut f, file, model, rates.as_deref());
+            members(&mut f, file, model);
             follows(&mut f, &file.answer, file.dry.as_ref());
             all.part("answer", f);
             let stray = !file.directions.is_empty()
@@ -205,10 +206,15 @@ fn counts(file: &ResultFile, model: &Model) -> Findings {
         supports,
         model.interfaces.list.len(),
         model.contact_points(),
+        model.interfaces.members.len(),
     ];
-    let said = [s.blocks, s.supports, s.interfaces, s.contact_points];
-    let words = |c: [usize; 4]| {
-        format!("{} blocks ({} supports), {} interfaces, {} contact points", c[0], c[1], c[2], c[3])
+    let said = [s.blocks, s.supports, s.interfaces, s.contact_points, s.members];
+    let words = |c: [usize; 5]| {
+        let members = if c[4] > 0 { format!(", {} members", c[4]) } else { String::new() };
+        format!(
+            "{} blocks ({} supports), {} interfaces, {} contact points{members}",
+            c[0], c[1], c[2], c[3]
+        )
     };
     if here == said {
         f.holds.push(words(here));
@@ -260,6 +266,7 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
                 follows(&mut f, &direction.answer, direction.dry.as_ref());
                 if index == least {
                     mechanism_words(&mut f, file, &turned, rates.as_deref());
+                    members(&mut f, file, &turned);
                 }
                 all.part(title.clone(), f);
             }
@@ -290,8 +297,8 @@ pub(super) fn answer(
     says_what_is_claimed(&mut f, question, answer, evidence.claim.as_ref());
     let assembly = &model.assembly;
     let read = || -> Result<(Forces, Option<Forces>, Vec<Rate>), String> {
-        let base = evidence.base.as_ref().map(|b| read_forces(model, b)).transpose()?;
-        Ok((read_forces(model, &evidence.forces)?, base, read_rates(assembly, &evidence.rates)?))
+        let (forces, base) = evidence.read(model)?;
+        Ok((forces, base, read_rates(assembly, &evidence.rates)?))
     };
     let (forces, base, rates) = match read() {
         Ok(evidence) => evidence,
@@ -392,6 +399,8 @@ fn says_what_is_claimed(
         Some(Claim::Unbounded { .. }) => "that the live load has no limit".into(),
         Some(Claim::Thrust { value, .. }) => format!("a thrust of {value} N"),
         Some(Claim::EndlessThrust { .. }) => "a thrust without end".into(),
+        Some(Claim::MemberForce { value, .. }) => format!("a force of {value} N in a member"),
+        Some(Claim::EndlessMemberForce { .. }) => "a force without end in a member".into(),
         Some(Claim::Impossible) => "that it falls whatever the live load".into(),
     };
     if agrees {
@@ -482,6 +491,20 @@ fn places_agree(model: &Model, said: &MechanismWords, here: &MechanismWords) -> 
             .all(|((s, a), (h, b))| s == h && a.len() == b.len() && all(a, b) && all(b, a))
 }
 
+/// The forces in the members are those of the evidence.
+fn members(f: &mut Findings, file: &ResultFile, model: &Model) {
+    if model.interfaces.members.is_empty() && file.members.is_empty() {
+        return;
+    }
+    let Ok((forces, _)) = file.certificate.read(model) else { return };
+    let here = member::lines(model, &forces);
+    require(
+        f,
+        member::agree(&here, &file.members),
+        format!("the forces in {} members are those of the evidence", here.len()),
+    );
+}
+
 /// The mechanism in words is the one of the rates.
 pub(super) fn mechanism_words(
     f: &mut Findings,
@@ -494,7 +517,9 @@ pub(super) fn mechanism_words(
     let moving = |w: &MechanismWords| w.moving.iter().cloned().collect::<BTreeSet<String>>();
     require(
         f,
-        moving(said) == moving(&here) && places_agree(model, said, &here),
+        moving(said) == moving(&here)
+            && places_agree(model, said, &here)
+            && said.members.iter().collect::<BTreeSet<_>>() == here.members.iter().collect(),
         format!(
             "the mechanism in words is that of the rates: {} blocks move, {} joints",
             here.moving.len(),

@@ -7,10 +7,11 @@
 //! Indices count `blocks` from 0.
 
 use crate::{
-    assembly::{JointLaw, Wrench},
+    assembly::{Action, JointLaw, Member, MemberKind, Wrench},
     error::Finding,
     interface::{ContactKind, Model},
     scene::Friction,
+    verdict::member::legs,
 };
 use schemars::{JsonSchema, generate::SchemaSettings};
 use serde::Serialize;
@@ -23,6 +24,8 @@ pub struct Inspection<'a> {
     gravity: [f64; 3],
     blocks: Vec<Block<'a>>,
     interfaces: Vec<Contact<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    members: Vec<Joined<'a>>,
     findings: Vec<&'a Finding>,
 }
 
@@ -54,6 +57,29 @@ struct Contact<'a> {
     gap: f64,
     #[serde(flatten)]
     law: Law<'a>,
+}
+
+/// A member: its amounts act along these legs, each on the second block and oppositely on the first
+/// (the ground where there is none).
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct Joined<'a> {
+    id: &'a str,
+    kind: MemberKind,
+    legs: Vec<Pull>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    least: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    greatest: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    friction: Option<f64>,
+}
+
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct Pull {
+    amount: usize,
+    between: [Option<usize>; 2],
+    at: [f64; 3],
+    direction: [f64; 3],
 }
 
 /// Strengths that a joint does not have are left out.
@@ -103,7 +129,32 @@ impl<'a> Inspection<'a> {
             gravity: assembly.gravity.into(),
             blocks: blocks.collect(),
             interfaces: contacts.collect(),
+            members: interfaces.members.iter().map(Into::into).collect(),
             findings: model.findings().collect(),
+        }
+    }
+}
+
+impl<'a> From<&'a Member> for Joined<'a> {
+    fn from(m: &'a Member) -> Self {
+        let legs = legs(m).into_iter().map(|leg| Pull {
+            amount: leg.axis,
+            between: [leg.a, leg.b],
+            at: leg.at.into(),
+            direction: leg.direction.into(),
+        });
+        let finite = |v: f64| v.is_finite().then_some(v);
+        let friction = match &m.action {
+            Action::Press { friction, .. } => Some(*friction),
+            _ => None,
+        };
+        Self {
+            id: &m.id,
+            kind: m.kind,
+            legs: legs.collect(),
+            least: finite(m.least),
+            greatest: finite(m.greatest),
+            friction,
         }
     }
 }

@@ -48,6 +48,34 @@ const BLOCKS: [&str; 14] = [
     "wz",
 ];
 
+/// Members: name, kind, force (N; empty where no answer has one), greatest force (N), whether it is
+/// slack, first and last point (m).
+const MEMBERS: [&str; 11] =
+    ["member", "kind", "force", "strength", "slack", "x", "y", "z", "x2", "y2", "z2"];
+
+/// The table of members.
+///
+/// # Errors
+/// The table cannot be written.
+pub fn members(view: &View) -> Result<String, Box<dyn Error + Send + Sync>> {
+    let mut writer = Table::new();
+    writer.write_record(MEMBERS)?;
+    for m in &view.members {
+        let mut row = vec![
+            m.id.clone(),
+            m.kind.word().to_string(),
+            m.force.map_or(String::new(), |f| f.to_string()),
+            m.strength.to_string(),
+            m.slack.to_string(),
+        ];
+        for p in [m.points.first(), m.points.last()] {
+            row.extend((0..3).map(|k| p.map_or(String::new(), |p| p[k].to_string())));
+        }
+        writer.write_record(row)?;
+    }
+    Ok(writer.end()?)
+}
+
 /// The table of joints.
 ///
 /// # Errors

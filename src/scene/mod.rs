@@ -12,6 +12,7 @@ mod field;
 mod interface;
 mod joint;
 mod load;
+pub mod member;
 mod protocol;
 mod read;
 mod schema;
@@ -27,6 +28,7 @@ pub use contact::ContactSpec;
 pub use interface::InterfaceSpec;
 pub use joint::{Friction, JointOverride, JointSpec, Joints, Material};
 pub use load::{At, Load, Loads};
+pub use member::Member;
 pub use protocol::{GrainKind, Protocol, ProtocolKind};
 pub(crate) use read::{Kind, read_as, text};
 pub use read::{read_bytes, read_file, read_str};
@@ -85,6 +87,10 @@ pub struct Scene {
     /// Loads besides the weight of the blocks.
     #[serde(default, skip_serializing_if = "Loads::is_empty")]
     pub loads: Loads,
+    /// Ties, struts, tendons, strips, dowels, soil and grips beside the contacts; templates may
+    /// carry members of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<Member>,
     /// When faces touch.
     #[serde(default, skip_serializing_if = "ContactSpec::is_default")]
     pub contact: ContactSpec,
@@ -108,6 +114,7 @@ impl Default for Scene {
             templates: Vec::new(),
             interfaces: Vec::new(),
             loads: Loads::default(),
+            members: Vec::new(),
             contact: ContactSpec::default(),
         }
     }

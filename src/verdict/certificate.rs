@@ -15,12 +15,14 @@
 //! With a compressive strength σ, joints may close: a joint that closes at the rate g, affine over
 //! its area, dissipates at least `(σ + T) ∫ g⁺ dA` (see [`crushing`]). A rolling arm r adds couples
 //! `‖m_t‖ ≤ r f_n`, `|m_n| ≤ r f_n`, which count in `e` with the rates of rolling and twisting.
-//! Water in the joint is a load. Sources: Drucker, Prager & Greenberg 1952 (both theorems), Drucker
+//! Water in the joint is a load. Members act beside the joints ([`member`]): ties, struts and soil
+//! dissipate as they yield, and one that never yields makes a mechanism inadmissible. Sources: Drucker, Prager & Greenberg 1952 (both theorems), Drucker
 //! & Prager 1952 (cohesion).
 
 use super::{
     Forces, Rate,
     joint::{Strength, rolling_arm, tension, water},
+    member,
 };
 use crate::{
     assembly::{Assembly, Wrench},
@@ -145,6 +147,24 @@ pub fn statics(model: &Model, forces: &Forces, lambda: f64) -> Residuals {
             }
         }
     }
+    for (own, forces) in interfaces.members.iter().zip(forces.iter().skip(interfaces.list.len())) {
+        let amounts = member::amounts(forces);
+        let margin = member::Bounds::of(own).margin(&amounts);
+        if margin.is_nan() {
+            excess = f64::INFINITY;
+        } else if margin < 0.0 {
+            excess = excess.max(-margin / amounts.norm());
+        }
+        for leg in member::legs(own) {
+            let force = leg.direction * amounts[leg.axis];
+            for (block, sign) in [(leg.a, -1.0), (leg.b, 1.0)] {
+                let Some(block) = block else { continue };
+                let arm = leg.at - assembly.blocks[block].centroid;
+                residuals[block] +=
+                    Wrench { force: force * sign, moment: arm.cross(&force) * sign };
+            }
+        }
+    }
     let (mut unbalance, mut worst) = (0.0, 0);
     for (i, residual) in residuals.iter_mut().enumerate() {
         if assembly.blocks[i].support {
@@ -216,7 +236,7 @@ pub struct Kinematics {
     pub dead_power: f64,
     /// Power of the live load, `ℓ·q`.
     pub live_power: f64,
-    /// What cohesion, tension and crushing dissipate.
+    /// What cohesion, tension, crushing and members dissipate.
     pub dissipation: f64,
     /// `Σ` load scale × [`speed`] over the free blocks: the power that an unbalance of 1 g
     /// everywhere would have.
@@ -296,6 +316,7 @@ pub fn kinematics(model: &Model, rates: &[Rate], forces: &Forces) -> Kinematics 
         .list
         .iter()
         .flat_map(|face| face.points.iter().map(|p| local(face, p)))
+        .chain(interfaces.members.iter().map(|m| member::fastest(assembly, m, rates)))
         .fold(0.0, f64::max);
     let mut worst = 0.0_f64;
     for (face, forces) in interfaces.list.iter().zip(forces) {
@@ -355,6 +376,19 @@ pub fn kinematics(model: &Model, rates: &[Rate], forces: &Forces) -> Kinematics 
         if let Some(push) = water(face) {
             k.dead_power += power(&push, &Rate { velocity: joint[0], spin });
         }
+    }
+    for (own, forces) in interfaces.members.iter().zip(forces.iter().skip(interfaces.list.len())) {
+        let u = member::power(assembly, own, rates);
+        let loss = member::Bounds::of(own).loss(&u);
+        k.dissipation += loss.bounded;
+        k.slack += loss.endless * member::amounts(forces).norm();
+        k.excess += loss.endless;
+        if loss.endless > tolerance::ADMISSIBLE * member::fastest(assembly, own, rates)
+            || loss.endless.is_nan()
+        {
+            k.coarse += loss.endless;
+        }
+        worst = worst.max(loss.endless);
     }
     k.inadmissibility = if fastest > 0.0 { worst / fastest } else { 0.0 };
     k

@@ -1,6 +1,9 @@
 //! Evidence in a form that can be saved and read back: names instead of indices.
 
-use super::{Forces, Rate};
+use super::{
+    Forces, Rate,
+    member::{self, Bounds},
+};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::Model,
@@ -22,6 +25,18 @@ pub struct ContactForces {
     /// Couple on the second block at each point, N·m; empty where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub couples: Vec<[f64; 3]>,
+}
+
+/// The force of one member.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MemberForce {
+    /// Its name; that of a strip with the number of the joint.
+    pub member: String,
+    /// Its amounts, N: one for a tie, strut, bar or tendon (tension > 0), a joint of a strip, soil
+    /// or a toothed corner; two in the plane of the joint for a dowel; three for a finger, of which
+    /// the first is normal.
+    pub force: Vec<f64>,
 }
 
 /// The motion of one block; blocks at rest are left out.
@@ -54,6 +69,53 @@ pub fn write_forces(model: &Model, forces: &Forces) -> Vec<ContactForces> {
             },
         })
         .collect()
+}
+
+/// Forces of members as evidence; those that carry nothing are left out.
+pub fn write_members(model: &Model, forces: &Forces) -> Vec<MemberForce> {
+    let Model { interfaces, .. } = model;
+    let own = interfaces.members.iter().zip(forces.iter().skip(interfaces.list.len()));
+    own.map(|(member, forces)| {
+        let amounts = member::amounts(forces);
+        let axes = Bounds::of(member).axes();
+        MemberForce { member: member.id.clone(), force: (0..axes).map(|k| amounts[k]).collect() }
+    })
+    .filter(|f| f.force.iter().any(|v| *v != 0.0))
+    .collect()
+}
+
+/// Fits saved forces of members to those of the scene.
+///
+/// # Errors
+/// A member that the scene does not have, or has with other amounts, or twice in the result;
+/// numbers that are not finite.
+pub fn read_members(
+    model: &Model,
+    saved: &[MemberForce],
+    forces: &mut Forces,
+) -> Result<(), String> {
+    let Model { interfaces, .. } = model;
+    let mut index: std::collections::HashMap<&str, usize> =
+        interfaces.members.iter().enumerate().map(|(m, own)| (own.id.as_str(), m)).collect();
+    for saved in saved {
+        let Some(m) = index.remove(saved.member.as_str()) else {
+            return Err(format!(
+                "member {}: the scene has none of this name, or the result has it twice",
+                saved.member
+            ));
+        };
+        let axes = Bounds::of(&interfaces.members[m]).axes();
+        if saved.force.len() != axes {
+            let got = saved.force.len();
+            return Err(format!("member {}: {got} numbers, it has {axes}", saved.member));
+        }
+        if !saved.force.iter().all(|v| v.is_finite()) {
+            return Err(format!("member {}: a number is not finite", saved.member));
+        }
+        let force = Vector3::from_fn(|k, _| saved.force.get(k).copied().unwrap_or(0.0));
+        forces[interfaces.list.len() + m] = vec![Wrench { force, moment: Vector3::zeros() }];
+    }
+    Ok(())
 }
 
 /// Rates as evidence.

@@ -4,9 +4,10 @@ use super::{
     Forces, Rate,
     certificate::{at, load_scale, power, size, speed, statics},
     joint::{Strength, rolling_arm},
+    member::{self, Bounds},
 };
 use crate::{
-    assembly::{Assembly, Wrench},
+    assembly::{Assembly, Member, Wrench},
     interface::{Interface, Model},
     scene::Friction,
     strength::crushing::{closing_volume, crushes},
@@ -33,7 +34,8 @@ pub fn natural_map(model: &Model, forces: &Forces, rates: &[Rate]) -> Option<f64
     let speeds = interfaces.list.iter().flat_map(|face| {
         face.points.iter().map(move |p| joint_rate(assembly, rates, face, p).norm())
     });
-    let fastest = speeds.fold(0.0, greatest);
+    let members = interfaces.members.iter().map(|m| member::power(assembly, m, rates).norm());
+    let fastest = speeds.chain(members).fold(0.0, greatest);
     (fastest > 0.0).then(|| map(model, forces, rates, 1.0 / fastest))
 }
 
@@ -84,13 +86,19 @@ fn measures(model: &Model, forces: &Forces) -> Vec<f64> {
             own[block] = forces.iter().map(|f| f.force.norm()).fold(own[block], f64::max);
         }
     }
+    for (member, forces) in interfaces.members.iter().zip(forces.iter().skip(interfaces.list.len()))
+    {
+        for block in member.action.ends().into_iter().flatten() {
+            own[block] = forces.iter().map(|f| f.force.norm()).fold(own[block], f64::max);
+        }
+    }
     let of = |block: usize| if assembly.blocks[block].support { f64::INFINITY } else { own[block] };
-    interfaces
-        .list
+    let joints = interfaces.list.iter().map(|face| of(face.a).min(of(face.b)));
+    let members = interfaces
+        .members
         .iter()
-        .map(|face| of(face.a).min(of(face.b)))
-        .map(|size| if size > 0.0 { size } else { 1.0 })
-        .collect()
+        .map(|m| m.action.ends().into_iter().flatten().map(of).fold(f64::INFINITY, f64::min));
+    joints.chain(members).map(|size| if size > 0.0 { size } else { 1.0 }).collect()
 }
 
 /// The greatest breach of a joint over its own forces; rates of `1 / scale` count as much as these.
@@ -98,7 +106,19 @@ fn map(model: &Model, forces: &Forces, rates: &[Rate], scale: f64) -> f64 {
     let Model { assembly, interfaces, .. } = model;
     let spins = |block: usize| rates[block].spin;
     let mut worst = 0.0;
-    for ((face, forces), size) in interfaces.list.iter().zip(forces).zip(measures(model, forces)) {
+    let measures = measures(model, forces);
+    let joints = interfaces.list.len();
+    for ((own, forces), size) in interfaces
+        .members
+        .iter()
+        .zip(forces.iter().skip(joints))
+        .zip(measures.iter().skip(joints))
+        .filter(|(_, size)| size.is_finite())
+    {
+        let u = member::power(assembly, own, rates) * scale;
+        worst = greatest(worst, member_breach(own, &(member::amounts(forces) / *size), &u, *size));
+    }
+    for ((face, forces), size) in interfaces.list.iter().zip(forces).zip(measures) {
         if !size.is_finite() {
             continue;
         }
@@ -148,6 +168,19 @@ fn contact_breach(
     };
     let nearest = onto_cone(force - u - n * shift, n, face.law.friction, cohesion, tension);
     (force - nearest).norm_squared()
+}
+
+/// How far the amounts of a member and the rates there, in its own measure, are from yielding by the
+/// greatest dissipation. A finger applies its force: the normal one is its strength, and only its
+/// friction reacts.
+fn member_breach(own: &Member, amounts: &Vector3<f64>, u: &Vector3<f64>, size: f64) -> f64 {
+    let applied = own.times(1.0 / size);
+    if let Bounds::Cone { mu, most } = Bounds::of(&applied) {
+        let by_friction = |a: &Vector3<f64>| onto_disc(Vector3::new(0.0, a.y, a.z), mu * most);
+        let tangential = Vector3::new(0.0, amounts.y, amounts.z);
+        return (amounts.x - most).hypot((tangential - by_friction(&(amounts - u))).norm());
+    }
+    (amounts - Bounds::of(&applied).nearest(&(amounts - u))).norm()
 }
 
 /// The same for the tangential parts alone, the normal force taken as it is.

@@ -1,8 +1,11 @@
 //! Reading a collapse mechanism: which blocks move, which joints hinge, slide or part.
 
-use super::{Rate, certificate};
+use super::{
+    Rate, certificate,
+    member::{self, Bounds},
+};
 use crate::{
-    assembly::Assembly,
+    assembly::{Assembly, Member},
     interface::{Interface, Model},
     scene::Friction,
     strength::crushing::crushes,
@@ -42,6 +45,29 @@ pub struct MovingJoint {
     pub at: Vector3<f64>,
 }
 
+/// What a member does in a mechanism.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum MemberMotion {
+    /// Gives way at its strength: a tie lengthens, a strut shortens, soil is pushed back.
+    Yields,
+    /// Goes slack, or lets go.
+    Slackens,
+    /// A finger slides over the block.
+    Slides,
+}
+
+/// A member that lengthens, shortens, goes slack or slides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MovingMember {
+    /// Index of the member.
+    pub member: usize,
+    /// What it does.
+    pub motion: MemberMotion,
+}
+
 /// A collapse mechanism in words.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mechanism {
@@ -49,6 +75,8 @@ pub struct Mechanism {
     pub moving: Vec<usize>,
     /// Joints that move, in interface order.
     pub joints: Vec<MovingJoint>,
+    /// Members that move, in their order.
+    pub members: Vec<MovingMember>,
 }
 
 /// Reads the rates of a mechanism.
@@ -66,7 +94,42 @@ pub fn read(model: &Model, rates: &[Rate]) -> Mechanism {
                     .map(|(motion, at)| MovingJoint { interface: k, motion, at })
             })
             .collect();
-    Mechanism { moving, joints }
+    let members = (0..interfaces.members.len()).filter_map(|m| {
+        let motion = member_motion(assembly, &interfaces.members[m], rates, fastest)?;
+        Some(MovingMember { member: m, motion })
+    });
+    Mechanism { moving, joints, members: members.collect() }
+}
+
+fn member_motion(
+    assembly: &Assembly,
+    own: &Member,
+    rates: &[Rate],
+    fastest: f64,
+) -> Option<MemberMotion> {
+    let rest = tolerance::MECHANISM_REST * fastest;
+    let u = member::power(assembly, own, rates);
+    if u.norm() <= rest {
+        return None;
+    }
+    Some(match Bounds::of(own) {
+        Bounds::Range(least, greatest) => {
+            // Lengthening is power against a tension.
+            let gives = if u.x < 0.0 { greatest > 0.0 } else { least < 0.0 };
+            if gives { MemberMotion::Yields } else { MemberMotion::Slackens }
+        }
+        Bounds::Disc(_) => MemberMotion::Yields,
+        Bounds::Cone { mu, .. } => {
+            let lift = u.x - mu * u.y.hypot(u.z);
+            if lift > rest {
+                MemberMotion::Slackens
+            } else if u.y.hypot(u.z) > rest {
+                MemberMotion::Slides
+            } else {
+                MemberMotion::Yields
+            }
+        }
+    })
 }
 
 fn joint(

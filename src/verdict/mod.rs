@@ -11,6 +11,7 @@ mod findings;
 pub mod joint;
 pub mod law;
 pub mod mechanism;
+pub mod member;
 pub mod section;
 pub mod thrust;
 pub mod tilted;
@@ -37,12 +38,14 @@ pub enum Verdict {
 }
 
 /// What acts on block `b` at each contact point of each interface: force, N, and couple about that
-/// point, N·m (zero unless the joint has a rolling arm).
+/// point, N·m (zero unless the joint has a rolling arm). After the interfaces one entry for each
+/// member, of one wrench whose force holds its amounts, N ([`member`]).
 pub type Forces = Vec<Vec<Wrench>>;
 
-/// No contact forces at all.
+/// No forces at all.
 pub fn no_forces(interfaces: &Interfaces) -> Forces {
-    interfaces.list.iter().map(|face| vec![Wrench::zero(); face.points.len()]).collect()
+    let contacts = interfaces.list.iter().map(|face| vec![Wrench::zero(); face.points.len()]);
+    contacts.chain(interfaces.members.iter().map(|_| vec![Wrench::zero()])).collect()
 }
 
 /// What a claim is proved by.

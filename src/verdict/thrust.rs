@@ -8,7 +8,7 @@
 //! f_n`, with `D` the dissipation of cohesion, tension and crushing: a bound from below (σ = 1, the
 //! support yields) or above (σ = −1, it is pushed in).
 
-use super::{Forces, Rate, certificate, findings::Findings, joint::water, no_forces};
+use super::{Forces, Rate, certificate, findings::Findings, joint::water, member, no_forces};
 use crate::{
     assembly::{Assembly, Wrench},
     interface::{Interfaces, Model},
@@ -48,6 +48,27 @@ pub struct ThrustAt {
     pub direction: [f64; 3],
 }
 
+/// What an extreme is sought of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sought {
+    /// The thrust on a support.
+    Thrust(ThrustAt),
+    /// The force in a member, by its index.
+    Member(usize),
+}
+
+impl From<ThrustAt> for Sought {
+    fn from(at: ThrustAt) -> Self {
+        Self::Thrust(at)
+    }
+}
+
+impl From<&ThrustAt> for Sought {
+    fn from(at: &ThrustAt) -> Self {
+        Self::Thrust(*at)
+    }
+}
+
 impl ThrustAt {
     fn d(&self) -> Vector3<f64> {
         self.direction.into()
@@ -68,6 +89,14 @@ impl ThrustAt {
                 sum += sign * self.d().dot(&total);
             }
         }
+        let joints = interfaces.list.len();
+        for (own, forces) in interfaces.members.iter().zip(forces.iter().skip(joints)) {
+            let amounts = member::amounts(forces);
+            for leg in member::legs(own) {
+                let on = |end: Option<usize>| f64::from(u8::from(end == Some(self.support)));
+                sum += (on(leg.b) - on(leg.a)) * amounts[leg.axis] * self.d().dot(&leg.direction);
+            }
+        }
         sum
     }
 
@@ -79,6 +108,18 @@ impl ThrustAt {
         }
         rates
     }
+}
+
+impl Sought {
+    /// Its value under these forces, N; of a member its first amount.
+    pub fn value(&self, interfaces: &Interfaces, forces: &Forces) -> f64 {
+        match self {
+            Self::Thrust(at) => at.value(interfaces, forces),
+            Self::Member(m) => {
+                forces.get(interfaces.list.len() + m).map_or(f64::NAN, |f| member::amounts(f).x)
+            }
+        }
+    }
 
     /// What forces and rates prove about an extreme.
     pub fn bracket(
@@ -88,23 +129,90 @@ impl ThrustAt {
         forces: &Forces,
         rates: &[Rate],
     ) -> Proof {
-        let Model { assembly, interfaces, .. } = model;
+        let assembly = &model.assembly;
         let sigma = extreme.sigma();
-        let rates = self.with_support(rates, sigma);
         let s = certificate::statics(model, forces, 0.0);
-        let k = certificate::kinematics(model, &rates, forces);
-        let hidden: f64 =
-            assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
-        let (value, bound) = (self.value(interfaces, forces), sigma * (k.gain() - k.slack));
+        let value = self.value(&model.interfaces, forces);
         let largest = forces.iter().flatten().map(|f| f.force.norm()).fold(0.0, f64::max);
-        let reached = value + sigma * hidden;
-        let (lower, upper) =
-            if extreme == Extreme::Least { (bound, reached) } else { (reached, bound) };
         // As if every contact carried the largest force, or the total load: forces that vanish
         // would hide everything.
         let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
-        Proof { value, lower, upper, behind: k.excess * largest.max(total), statics: s }
+        let hidden = |rates: &[Rate]| -> f64 {
+            assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum()
+        };
+        let (bound, hidden, behind) = match self {
+            Self::Thrust(at) => {
+                let rates = at.with_support(rates, sigma);
+                let k = certificate::kinematics(model, &rates, forces);
+                let bound = sigma * (k.gain() - k.slack);
+                (bound, hidden(&rates), k.excess * largest.max(total))
+            }
+            Self::Member(m) => {
+                let own = &model.interfaces.members[*m];
+                // What its own bounds say needs no mechanism.
+                let end = if sigma > 0.0 { own.least } else { own.greatest };
+                let (others, forces) = without(model, *m, forces);
+                let k = certificate::kinematics(&others, rates, &forces);
+                let u = member::power(assembly, own, rates);
+                let friction = match member::Bounds::of(own) {
+                    member::Bounds::Cone { mu, .. } => mu * u.y.hypot(u.z),
+                    _ => 0.0,
+                };
+                // Virtual work without the member: σ T × speed ≥ w·q − D − Σ e f_n.
+                let speed = sigma * (friction - u.x);
+                let behind = k.excess * largest.max(total) / speed;
+                let bound = sigma * (k.gain() - k.slack) / speed;
+                let moves = speed > 0.0 && rounding(behind, value, total);
+                let better = moves && if sigma > 0.0 { bound > end } else { bound < end };
+                if better { (bound, hidden(rates) / speed, behind) } else { (end, 0.0, 0.0) }
+            }
+        };
+        let reached = value + sigma * hidden;
+        let (lower, upper) =
+            if extreme == Extreme::Least { (bound, reached) } else { (reached, bound) };
+        Proof { value, lower, upper, behind, statics: s }
     }
+
+    /// Whether the scene has such a support, or such a member.
+    fn is_there(&self, f: &mut Findings, model: &Model) -> bool {
+        match self {
+            Self::Thrust(at) => is_support(f, &model.assembly, at),
+            Self::Member(m) => {
+                let there = model
+                    .interfaces
+                    .members
+                    .get(*m)
+                    .is_some_and(|own| member::Bounds::of(own).axes() != 2);
+                if !there {
+                    f.fails.push("the force is not one of a member along its direction".into());
+                }
+                there
+            }
+        }
+    }
+
+    fn word(&self) -> &'static str {
+        match self {
+            Self::Thrust(_) => "thrust",
+            Self::Member(_) => "force",
+        }
+    }
+}
+
+/// The scene without one of its members, and the forces of the rest.
+fn without(model: &Model, m: usize, forces: &Forces) -> (Model, Forces) {
+    let mut interfaces = model.interfaces.clone();
+    interfaces.members.remove(m);
+    let mut forces = forces.clone();
+    if interfaces.list.len() + m < forces.len() {
+        forces.remove(interfaces.list.len() + m);
+    }
+    (model.with_interfaces(interfaces), forces)
+}
+
+/// Whether what a mechanism could hide, N, is rounding.
+fn rounding(behind: f64, value: f64, total: f64) -> bool {
+    behind <= tolerance::LOAD_FACTOR_BEHIND * value.abs() + tolerance::LOAD_FACTOR_WIDTH * total
 }
 
 /// What forces and a mechanism prove about a thrust.
@@ -126,9 +234,7 @@ pub struct Proof {
 impl Proof {
     /// Whether the mechanism's inadmissibility is rounding; `total` is the total load, N.
     pub fn is_admissible(&self, total: f64) -> bool {
-        self.behind
-            <= tolerance::LOAD_FACTOR_BEHIND * self.value.abs()
-                + tolerance::LOAD_FACTOR_WIDTH * total
+        rounding(self.behind, self.value, total)
     }
 }
 
@@ -151,11 +257,11 @@ pub(super) fn verify(
     f: &mut Findings,
     model: &Model,
     (forces, rates): (&Forces, &[Rate]),
-    (at, extreme): (&ThrustAt, Extreme),
+    (at, extreme): (&Sought, Extreme),
     [value, lower, upper]: [f64; 3],
 ) {
     let assembly = &model.assembly;
-    if !is_support(f, assembly, at) {
+    if !at.is_there(f, model) {
         return;
     }
     let p = at.bracket(model, extreme, forces, rates);
@@ -172,7 +278,7 @@ pub(super) fn verify(
     let width = width(assembly, p.value);
     f.require(
         (p.value - value).abs() <= width,
-        format!("their thrust is {:.9e} N, claimed {value:.9e} N", p.value),
+        format!("their {} is {:.9e} N, claimed {value:.9e} N", at.word(), p.value),
     );
     let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
     f.require(
@@ -206,11 +312,11 @@ pub(super) fn verify_endless(
     model: &Model,
     forces: &Forces,
     base: Option<&Forces>,
-    at: &ThrustAt,
+    at: &Sought,
     extreme: Extreme,
 ) {
     let Model { assembly, interfaces, .. } = model;
-    if !is_support(f, assembly, at) {
+    if !at.is_there(f, model) {
         return;
     }
     match base {

@@ -26,6 +26,7 @@ mod hostile;
 mod invariance;
 mod large;
 mod layering;
+mod members;
 mod mesh_files;
 mod meshes;
 mod mistakes;

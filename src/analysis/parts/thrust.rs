@@ -1,4 +1,4 @@
-//! The thrust on a support is the sum over the parts that touch it.
+//! The thrust on a support is the sum over the parts that touch it; a member belongs to one part.
 
 use super::{left_out, put_rates, scene_forces};
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
     interface::{self, Model, Part},
     verdict::{
         Forces, Rate,
-        thrust::{Extreme, ThrustAt},
+        thrust::{Extreme, Sought, ThrustAt},
     },
 };
 
@@ -19,26 +19,26 @@ use crate::{
 /// loads.
 pub fn thrust(
     scene: &Model,
-    at: &ThrustAt,
+    at: &Sought,
     extreme: Extreme,
     standing: &Forces,
     control: &Control,
 ) -> ThrustEnd {
     let Model { assembly, interfaces, .. } = scene;
     let parts = interface::parts(scene);
-    let touching: Vec<(&Part, usize)> =
-        parts.iter().filter_map(|p| p.find(at.support).map(|s| (p, s))).collect();
+    let own = |p: &Part| match *at {
+        Sought::Thrust(at) => {
+            p.find(at.support).map(|support| Sought::Thrust(ThrustAt { support, ..at }))
+        }
+        Sought::Member(m) => p.find_member(m).map(Sought::Member),
+    };
+    let touching: Vec<(&Part, Sought)> =
+        parts.iter().filter_map(|p| own(p).map(|at| (p, at))).collect();
     if touching.is_empty() {
         return of_part(scene, at, extreme, standing, control);
     }
-    let ask = |&(part, support): &(&Part, usize)| {
-        of_part(
-            &part.model,
-            &ThrustAt { support, ..*at },
-            extreme,
-            &part.take_forces(standing),
-            control,
-        )
+    let ask = |(part, at): &(&Part, Sought)| {
+        of_part(&part.model, at, extreme, &part.take_forces(standing), control)
     };
     let ends: Vec<ThrustEnd> = touching.iter().map(ask).collect();
     let any = |outcome: Outcome| ends.iter().any(|e| e.outcome == outcome);
@@ -76,8 +76,9 @@ pub fn thrust(
     let apart = parts.len() - touching.len();
     if apart > 0 {
         left_out.push(format!(
-            "{apart} of {} independent parts: they do not touch the support",
-            parts.len()
+            "{apart} of {} independent parts: they do not touch the {}",
+            parts.len(),
+            if matches!(at, Sought::Thrust(_)) { "support" } else { "member" }
         ));
     }
     let attempts = pushed().flat_map(|(part, e)| {

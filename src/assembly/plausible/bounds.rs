@@ -135,6 +135,10 @@ pub const LEAST_DEAD_FORCE: f64 = 2e-3;
 /// a pier pass.
 pub const FORCE_IN_KILONEWTONS: RangeInclusive<f64> = 0.1..=1e3;
 
+/// Weights of soil and masonry per volume, N/m³, that are kN/m³. Higher: snow is reported. Lower:
+/// granite passes.
+pub const UNIT_WEIGHT_IN_KILONEWTONS: RangeInclusive<f64> = 1.0..=100.0;
+
 /// Two vectors are one when they differ by less than this share: own weight typed again as a load.
 /// Larger: 1.01 times the weight, which somebody chose, is reported. Smaller: 9.80665 beside 9.81
 /// passes.

@@ -23,7 +23,7 @@ pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
                 load.block.as_deref().and_then(|id| index.get(id)).map(|&i| &assembly.blocks[i]);
             if let Some((block, off)) = block.and_then(|block| Some((block, Off::of(load, block)?)))
             {
-                told.add("off", || off.told(block, assembly, &path));
+                told.add("off", || off.told(("the force", "the load"), block, assembly, &path));
             }
             if let Some(text) = weight(load, &path) {
                 told.add("weight", || text);
@@ -60,31 +60,39 @@ pub(in crate::assembly) fn place(
             let meant =
                 off.meant(block, assembly).map_or(String::new(), |meant| format!("{meant}; "));
             let hint = format!("{meant}where an arm carries it that far, say \"arm\": true");
-            Err(InputError::at(path.key("at"), off.words(block)).hint(hint))
+            Err(InputError::at(path.key("at"), off.words("the force", block)).hint(hint))
         }
         _ => Ok(()),
     }
 }
 
 /// A force that acts off its block.
-struct Off {
+pub(super) struct Off {
     /// Where, m.
     point: Vector3<f64>,
     /// How far off, m.
-    distance: f64,
+    pub distance: f64,
 }
 
 impl Off {
     fn of(load: &Load, block: &Block) -> Option<Self> {
-        let (Some(At::Point(point)), false) = (load.at, load.arm) else { return None };
-        let point = Vector3::from(point);
+        let Some(At::Point(point)) = load.at else { return None };
+        Self::at(point.into(), load.arm, block)
+    }
+
+    /// A point off its block, where no arm carries the force.
+    pub fn at(point: Vector3<f64>, arm: bool, block: &Block) -> Option<Self> {
+        if arm {
+            return None;
+        }
         let distance = block.solid.distance(point);
         (distance > bounds::ON_THE_BLOCK * block.size).then_some(Self { point, distance })
     }
 
-    fn words(&self, block: &Block) -> String {
+    /// `what` acts there.
+    pub fn words(&self, what: &str, block: &Block) -> String {
         format!(
-            "the force acts {} m off block {:?}, which measures {} m",
+            "{what} acts {} m off block {:?}, which measures {} m",
             short(self.distance),
             block.id,
             short(block.size)
@@ -92,7 +100,7 @@ impl Off {
     }
 
     /// What may have been meant.
-    fn meant(&self, block: &Block, assembly: &Assembly) -> Option<String> {
+    pub fn meant(&self, block: &Block, assembly: &Assembly) -> Option<String> {
         let on = |b: &Block, p: Vector3<f64>| b.solid.distance(p) <= bounds::ON_THE_BLOCK * b.size;
         // A point near the origin is near it in any unit.
         if self.distance > bounds::FAR_OFF * block.size && on(block, self.point / 1e3) {
@@ -102,11 +110,18 @@ impl Off {
         other.map(|b| format!("the point lies on block {:?}: is that the one that is meant?", b.id))
     }
 
-    fn told(&self, block: &Block, assembly: &Assembly, path: &JsonPath) -> String {
+    /// `what` acts there, where an arm could carry `carried`.
+    pub fn told(
+        &self,
+        (what, carried): (&str, &str),
+        block: &Block,
+        assembly: &Assembly,
+        path: &JsonPath,
+    ) -> String {
         let remedy = self
             .meant(block, assembly)
-            .unwrap_or_else(|| "\"at\" is a point of the scene, in m; where an arm carries the load, say \"arm\": true".into());
-        format!("{path}: {}; {remedy}", self.words(block))
+            .unwrap_or_else(|| format!("\"at\" is a point of the scene, in m; where an arm carries {carried}, say \"arm\": true"));
+        format!("{path}: {}; {remedy}", self.words(what, block))
     }
 }
 

@@ -12,8 +12,10 @@ mod blocks;
 mod bounds;
 mod joints;
 mod loads;
+mod members;
 
 pub(super) use loads::place;
+pub(super) use members::{members, point};
 
 use crate::{
     assembly::{Assembly, Block},

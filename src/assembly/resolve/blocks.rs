@@ -79,6 +79,15 @@ pub(super) fn resolve(scene: &Scene) -> Result<(Vec<Block>, Vec<Finding>), Input
     Ok((blocks, findings))
 }
 
+/// A point of a block's own frame, in scene coordinates.
+pub(super) fn in_scene(
+    spec: &BlockSpec,
+    point: nalgebra::Vector3<f64>,
+) -> Result<nalgebra::Vector3<f64>, InputError> {
+    let place = Place { path: JsonPath::root(), generated: Some(spec.id.clone()) };
+    Ok(Frame::new(spec, &place)?.apply(point))
+}
+
 /// Refuses more blocks than a scene may have, or than fit into the memory.
 fn few(count: usize, path: &JsonPath) -> Result<(), InputError> {
     if count > limits::BLOCKS {

@@ -10,6 +10,7 @@ mod check;
 mod given;
 mod joints;
 mod loads;
+mod members;
 mod prism;
 mod shape;
 
@@ -91,6 +92,7 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
         dead_forces: Vec::new(),
         live_forces: Vec::new(),
         given: Vec::new(),
+        members: Vec::new(),
         contact: scene.contact.clone(),
         findings,
         joints,
@@ -101,6 +103,9 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     assembly.given = given;
     (assembly.dead, assembly.live) = (loads.dead, loads.live);
     (assembly.dead_forces, assembly.live_forces) = (loads.dead_forces, loads.live_forces);
+    assembly.findings.extend(told);
+    let (members, told) = members::resolve(scene, &assembly, &names)?;
+    assembly.members = members;
     assembly.findings.extend(told);
     let mistakes = plausible::mistakes(scene, &assembly);
     assembly.findings.extend(mistakes);

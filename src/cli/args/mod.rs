@@ -276,6 +276,10 @@ pub struct Thrust {
     /// mass where none is given.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub direction: Option<[f64; 3]>,
+    /// The force in this member of the scene (a tie, strut, bar, tendon, `strip/1`, soil or grip),
+    /// least and greatest, in place of a thrust.
+    #[arg(long, value_name = "ID", conflicts_with_all = ["support", "direction"])]
+    pub member: Option<String>,
 }
 
 /// What every question takes.

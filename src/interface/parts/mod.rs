@@ -1,4 +1,4 @@
-//! Independent parts: free blocks that are joined by contacts. Supports do not join, for they do
+//! Independent parts: free blocks that are joined by contacts or members. Supports do not join, for they do
 //! not move and take any force: what rests on one ground slab in two places does not feel each
 //! other. Loads, forces and rates of one part say nothing about another, so each is a problem of
 //! its own, in units and about an origin of its own ([`Units`]).
@@ -9,7 +9,7 @@ pub use units::Units;
 
 use super::{Interface, Interfaces};
 use crate::{
-    assembly::{AppliedForce, Assembly, Block, JointLaw, JointRules, Solid, Wrench},
+    assembly::{AppliedForce, Assembly, Block, JointLaw, JointRules, Member, Solid, Wrench},
     interface::Model,
     plane::Sets,
 };
@@ -23,6 +23,10 @@ pub struct Part {
     pub blocks: Vec<usize>,
     /// Its contacts in the scene, in order.
     pub contacts: Vec<usize>,
+    /// Its members in the scene, in order.
+    pub members: Vec<usize>,
+    /// The places of its forces among those of the scene: its contacts, then its members.
+    places: Vec<usize>,
     /// What its numbers count.
     pub units: Units,
     /// The blocks, loads and contacts, in these units. Shapes stay behind (a solid has its volume
@@ -58,6 +62,15 @@ pub fn members(model: &Model) -> Vec<Members> {
     for face in interfaces.list.iter().filter(|f| free(f.a) && free(f.b)) {
         sets.join(face.a, face.b);
     }
+    // What a member joins is one part; the ground does not join.
+    let ends = |m: &Member| -> Vec<usize> {
+        m.action.ends().into_iter().flatten().filter(|&i| free(i)).collect()
+    };
+    for member in &interfaces.members {
+        ends(member).windows(2).for_each(|pair| {
+            sets.join(pair[0], pair[1]);
+        });
+    }
     let mut number = vec![usize::MAX; n];
     let mut members: Vec<Members> = Vec::new();
     for i in assembly.free() {
@@ -72,6 +85,11 @@ pub fn members(model: &Model) -> Vec<Members> {
     for (k, face) in interfaces.list.iter().enumerate() {
         if let Some(i) = [face.a, face.b].into_iter().find(|&i| free(i)) {
             members[number[i]].contacts.push(k);
+        }
+    }
+    for (k, member) in interfaces.members.iter().enumerate() {
+        if let Some(&i) = ends(member).first() {
+            members[number[i]].members.push(k);
         }
     }
     for applied in assembly.dead_forces.iter().filter(|a| free(a.block)) {
@@ -90,6 +108,8 @@ pub struct Members {
     pub free: Vec<usize>,
     /// Contacts, in order.
     pub contacts: Vec<usize>,
+    /// Ties, struts and other members, in order.
+    pub members: Vec<usize>,
     dead_forces: Vec<AppliedForce>,
     live_forces: Vec<AppliedForce>,
 }
@@ -98,15 +118,23 @@ impl Part {
     /// `place` is room for the number that each block has in the part.
     fn new(model: &Model, members: Members, place: &mut [usize]) -> Self {
         let Model { assembly, interfaces, .. } = model;
-        let Members { free, contacts, dead_forces, live_forces } = members;
+        let Members { free, contacts, members, dead_forces, live_forces } = members;
         let faces = || contacts.iter().map(|&k| &interfaces.list[k]);
         let units = Units::of(assembly, &free, faces().flat_map(|f| f.points.iter().copied()));
-        let mut blocks: Vec<usize> =
-            free.iter().copied().chain(faces().flat_map(|f| [f.a, f.b])).collect();
+        let own = || members.iter().map(|&k| &interfaces.members[k]);
+        let mut blocks: Vec<usize> = free
+            .iter()
+            .copied()
+            .chain(faces().flat_map(|f| [f.a, f.b]))
+            .chain(own().flat_map(|m| m.action.ends()).flatten())
+            .collect();
         blocks.sort_unstable();
         blocks.dedup();
         blocks.iter().enumerate().for_each(|(own, &i)| place[i] = own);
         let list = faces().map(|f| contact(f, &units, place)).collect();
+        let joined = own().map(|m| member(m, &units, place)).collect();
+        let places = contacts.iter().copied();
+        let places = places.chain(members.iter().map(|k| interfaces.list.len() + k)).collect();
         let applied = |list: &[AppliedForce], unit: f64| {
             list.iter()
                 .map(|a| AppliedForce {
@@ -130,11 +158,12 @@ impl Part {
             dead_forces: applied(&dead_forces, units.force),
             live_forces: applied(&live_forces, units.live),
             given: Vec::new(),
+            members: Vec::new(),
             contact: assembly.contact.clone(),
             findings: Vec::new(),
         };
-        let interfaces = Interfaces { list, ..Interfaces::default() };
-        Self { blocks, contacts, units, model: Model::new(assembly, interfaces) }
+        let interfaces = Interfaces { list, members: joined, ..Interfaces::default() };
+        Self { blocks, contacts, members, places, units, model: Model::new(assembly, interfaces) }
     }
 
     /// The name of the part: that of its first free block.
@@ -157,17 +186,22 @@ impl Part {
         self.blocks.binary_search(&block).ok()
     }
 
-    /// Its contact forces, per contact and point, from those of the scene (N, N·m).
+    /// The number that a member of the scene has in the part.
+    pub fn find_member(&self, member: usize) -> Option<usize> {
+        self.members.binary_search(&member).ok()
+    }
+
+    /// Its forces, per contact and point and per member, from those of the scene (N, N·m).
     pub fn take_forces(&self, scene: &[Vec<Wrench>]) -> Vec<Vec<Wrench>> {
-        self.contacts
+        self.places
             .iter()
             .map(|&k| scene[k].iter().map(|w| self.units.inward(w)).collect())
             .collect()
     }
 
-    /// Puts its contact forces among those of the scene (N, N·m).
+    /// Puts its forces among those of the scene (N, N·m).
     pub fn put_forces(&self, own: &[Vec<Wrench>], scene: &mut [Vec<Wrench>]) {
-        for (&k, forces) in self.contacts.iter().zip(own) {
+        for (&k, forces) in self.places.iter().zip(own) {
             scene[k] = forces.iter().map(|w| self.units.outward(w)).collect();
         }
     }
@@ -191,6 +225,13 @@ fn block(block: &Block, units: &Units) -> Block {
         },
         size: block.size / length,
     }
+}
+
+fn member(member: &Member, units: &Units, place: &[usize]) -> Member {
+    let stiffness = member.stiffness.map(|k| k * units.length);
+    Member { stiffness, ..member.renumbered(place) }
+        .placed(|p| units.place(p))
+        .times(1.0 / units.force)
 }
 
 fn contact(face: &Interface, units: &Units, place: &[usize]) -> Interface {

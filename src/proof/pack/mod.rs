@@ -8,6 +8,7 @@ mod thrust;
 
 use super::{
     answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
+    member::lines,
     result::{
         Certificate, CoulombState, Direction, DryResult, MechanismWords, QuestionKind, ResultFile,
         ResultFormat, SceneSummary, Versions,
@@ -24,7 +25,7 @@ use crate::{
     terms::{Law, LeftOutContacts, Outcome},
     verdict::{
         Evidence, Verdict,
-        evidence::{write_forces, write_rates},
+        evidence::{write_forces, write_members, write_rates},
     },
 };
 
@@ -34,7 +35,9 @@ fn certificate<T: Claims>(model: &Model, proved: &Proved<T>) -> Certificate {
     Certificate {
         claim: proved.claim(),
         forces: write_forces(model, forces),
+        members: write_members(model, forces),
         base: base.map(|f| write_forces(model, f)),
+        base_members: base.map_or_else(Vec::new, |f| write_members(model, f)),
         rates: write_rates(&model.assembly, rates),
         verified: proved.findings().holds.clone(),
     }
@@ -57,6 +60,7 @@ impl ResultFile {
                 supports: model.assembly.blocks.iter().filter(|b| b.support).count(),
                 interfaces: model.interfaces.list.len(),
                 contact_points: model.contact_points(),
+                members: model.interfaces.members.len(),
                 input: scene.clone(),
             },
             answer,
@@ -69,6 +73,7 @@ impl ResultFile {
             thrust: None,
             simulation: None,
             mechanism: None,
+            members: Vec::new(),
             left_out_contacts: model
                 .interfaces
                 .left_out
@@ -123,6 +128,7 @@ impl ResultFile {
             certificate(model, a),
         );
         file.mechanism = a.mechanism.as_ref().map(|m| MechanismWords::new(model, m));
+        file.members = lines(model, a.evidence().forces);
         file.coulomb_state =
             a.state.as_ref().map(|s| CoulombState { motion: s.motion, steps: s.steps.clone() });
         file.left_out.clone_from(&a.left_out);
@@ -149,6 +155,7 @@ impl ResultFile {
             certificate(model, l),
         );
         file.mechanism = l.mechanism.as_ref().map(|m| MechanismWords::new(model, m));
+        file.members = lines(model, l.evidence().forces);
         file.left_out.clone_from(&l.left_out);
         file.trace.clone_from(&l.attempts);
         file.warn(l);
@@ -179,6 +186,7 @@ impl ResultFile {
         file.dry = direction.dry;
         file.mechanism =
             tilt.load_factor.mechanism.as_ref().map(|m| MechanismWords::new(&tilt.model, m));
+        file.members = lines(&tilt.model, tilt.load_factor.evidence().forces);
         file.left_out.clone_from(&tilt.load_factor.left_out);
         file.trace = list.iter().flat_map(|t| t.load_factor.attempts.iter().cloned()).collect();
         if directions.len() > 1 {

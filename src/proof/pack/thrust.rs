@@ -16,6 +16,7 @@ use crate::{
     },
     scene::Scene,
     terms::Outcome,
+    verdict::thrust::Sought,
 };
 
 impl ResultFile {
@@ -44,9 +45,16 @@ impl ResultFile {
         };
         let refused: Vec<_> = shrunk.iter().map(|probe| &probe.assessment).collect();
         let shrunk: Vec<Side> = shrunk.iter().map(|probe| Side::of(probe)).collect();
+        let (support, direction, member) = match t.at {
+            Sought::Thrust(at) => {
+                (Some(model.assembly.blocks[at.support].id.clone()), Some(at.direction), None)
+            }
+            Sought::Member(m) => (None, None, Some(model.interfaces.members[m].id.clone())),
+        };
         let answer = ThrustAnswer {
-            support: model.assembly.blocks[t.at.support].id.clone(),
-            direction: t.at.direction,
+            support,
+            direction,
+            member,
             least: least.into(),
             greatest: greatest.into(),
             geometric_factor: factor(&shrunk, value),

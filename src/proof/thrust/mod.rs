@@ -14,14 +14,19 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 
-/// The range of the thrust on a support.
+/// The range of the thrust on a support, or of the force in a member.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThrustAnswer {
     /// The support.
-    pub support: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support: Option<String>,
     /// Unit direction of the thrust.
-    pub direction: [f64; 3],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 3]>,
+    /// The member whose force is meant, in place of a support.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub member: Option<String>,
     /// Its least value.
     pub least: ThrustValue,
     /// Its greatest value.

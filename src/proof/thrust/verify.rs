@@ -14,8 +14,8 @@ use crate::{
     verdict::{
         Evidence, Forces, Rate,
         check::{self, Claim, Findings},
-        evidence::{read_forces, read_rates},
-        thrust::{Extreme, ThrustAt},
+        evidence::read_rates,
+        thrust::{Extreme, Sought, ThrustAt},
     },
 };
 
@@ -33,14 +33,25 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     };
     let mut form = Findings::default();
     require(&mut form, file.certificate.claim.is_none(), "nothing else is claimed");
-    let Some(support) = model.assembly.find(&said.support) else {
-        return all.part("answer", failure(format!("the scene has no block {}", said.support)));
+    let at = match (&said.support, said.direction, &said.member) {
+        (Some(id), Some(direction), None) => match model.assembly.find(id) {
+            Some(support) => Sought::Thrust(ThrustAt { support, direction }),
+            None => return all.part("answer", failure(format!("the scene has no block {id}"))),
+        },
+        (None, None, Some(id)) => match model.interfaces.members.iter().position(|m| m.id == *id) {
+            Some(member) => Sought::Member(member),
+            None => return all.part("answer", failure(format!("the scene has no member {id}"))),
+        },
+        _ => return all.part("answer", failure("it is not said whose force is meant")),
     };
-    let at = ThrustAt { support, direction: said.direction };
+    let [least, greatest] = match at {
+        Sought::Thrust(_) => ["least thrust", "greatest thrust"],
+        Sought::Member(_) => ["least force", "greatest force"],
+    };
     let mut found = Vec::new();
     for (title, extreme, value, evidence) in [
-        ("least thrust", Extreme::Least, &said.least, &proof.least),
-        ("greatest thrust", Extreme::Greatest, &said.greatest, &proof.greatest),
+        (least, Extreme::Least, &said.least, &proof.least),
+        (greatest, Extreme::Greatest, &said.greatest, &proof.greatest),
     ] {
         let (findings, forces) = end(model, at, extreme, value, evidence);
         all.part(title, findings);
@@ -93,7 +104,7 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
 /// One end of the range; gives back its forces where they could be read.
 fn end(
     model: &Model,
-    here: ThrustAt,
+    here: Sought,
     wanted: Extreme,
     said: &ThrustValue,
     evidence: &Certificate,
@@ -106,20 +117,28 @@ fn end(
             return (f, None);
         }
         (Some(Claim::Thrust { at, extreme, value, lower, upper }), Outcome::Found) => {
-            *at == here
+            Sought::Thrust(*at) == here
+                && *extreme == wanted
+                && numbers == (Some(*value), Some(*lower), Some(*upper))
+        }
+        (Some(Claim::MemberForce { member, extreme, value, lower, upper }), Outcome::Found) => {
+            Sought::Member(*member) == here
                 && *extreme == wanted
                 && numbers == (Some(*value), Some(*lower), Some(*upper))
         }
         (Some(Claim::EndlessThrust { at, extreme }), Outcome::Unbounded) => {
-            *at == here && *extreme == wanted && numbers == (None, None, None)
+            Sought::Thrust(*at) == here && *extreme == wanted && numbers == (None, None, None)
+        }
+        (Some(Claim::EndlessMemberForce { member, extreme }), Outcome::Unbounded) => {
+            Sought::Member(*member) == here && *extreme == wanted && numbers == (None, None, None)
         }
         _ => false,
     };
     require(&mut f, agrees, "the answer says what the certificate claims");
     let assembly = &model.assembly;
     let read = || -> Result<(Forces, Option<Forces>, Vec<Rate>), String> {
-        let base = evidence.base.as_ref().map(|b| read_forces(model, b)).transpose()?;
-        Ok((read_forces(model, &evidence.forces)?, base, read_rates(assembly, &evidence.rates)?))
+        let (forces, base) = evidence.read(model)?;
+        Ok((forces, base, read_rates(assembly, &evidence.rates)?))
     };
     match (read(), &evidence.claim) {
         (Ok((forces, base, rates)), Some(claim)) => {

@@ -17,7 +17,7 @@ use crate::{
     verdict::{
         Evidence,
         check::{self, Claim, Findings},
-        evidence::{read_forces, read_rates},
+        evidence::read_rates,
     },
 };
 
@@ -118,7 +118,7 @@ fn words(found: Found) -> &'static str {
 
 /// Forces and a mechanism that obey Coulomb's law.
 fn evidence(model: &Model, claim: &Claim, dry: &DryResult) -> Result<Findings, String> {
-    let forces = read_forces(model, &dry.certificate.forces)?;
+    let (forces, _) = dry.certificate.read(model)?;
     let rates = read_rates(&model.assembly, &dry.certificate.rates)?;
     Ok(check::verify(model, claim, Evidence::new(&forces, &rates)))
 }

@@ -14,6 +14,7 @@ mod forces;
 mod hull;
 mod legend;
 mod marks;
+mod members;
 mod order;
 mod projection;
 mod sheet;
@@ -68,7 +69,7 @@ pub fn svg(view: &View, aspect: Aspect) -> String {
         markup(&view.name),
         markup(&panels.iter().map(|p| p.caption.as_str()).collect::<Vec<_>>().join("; ")),
         sheet::STYLE,
-        thin(view, &paper)
+        thin(view, &paper) + if view.members.is_empty() { "" } else { members::STYLE }
     );
     out.push_str(&text);
     out.push_str("</svg>\n");
@@ -131,6 +132,7 @@ fn statics(
     for (class, state) in ["one", "two"].into_iter().zip(&choice.states) {
         forces::edges(&mut sheet, paper, state, class, legend);
     }
+    members::draw(&mut sheet, view, paper, legend);
     marks::loads(&mut sheet, view, paper, choice.states.first().copied(), legend);
     Panel { caption, content: sheet.text }
 }

@@ -3,9 +3,10 @@
 use super::page::{Layout, Page, Role};
 use crate::{
     analysis::Law,
+    assembly::Member,
     error::Finding,
     interface::Model,
-    number::count,
+    number::{count, short},
     proof::{result::ResultFile, verify::Verification},
 };
 
@@ -56,16 +57,27 @@ pub fn inspection(model: &Model, mistakes: &[Finding], notes: &[Finding], layout
     page.blank();
     page.row("findings", mistakes.iter().map(|f| f.text.clone()));
     page.row("note", notes.iter().map(|f| f.text.clone()));
+    let words = |m: &Member| {
+        let strength = m.greatest.max(-m.least);
+        let most = if strength.is_finite() {
+            format!("at most {} N", short(strength))
+        } else {
+            "never yields".into()
+        };
+        format!("{} ({}): {most}", m.id, m.kind.word())
+    };
+    page.row("members", model.interfaces.members.iter().map(words));
     let supports = model.assembly.blocks.iter().filter(|b| b.support).count();
     let interfaces = &model.interfaces.list;
     page.row(
         "scene",
         [format!(
-            "{} ({}), {}, {}",
+            "{} ({}), {}, {}{}",
             count(model.assembly.blocks.len(), "block"),
             count(supports, "support"),
             count(interfaces.len(), "interface"),
-            count(model.contact_points(), "contact point")
+            count(model.contact_points(), "contact point"),
+            super::with_members(model.interfaces.members.len())
         )],
     );
     page

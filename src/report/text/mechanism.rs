@@ -2,9 +2,12 @@
 
 use super::{SHOWN, TextOptions, cut, page::Page};
 use crate::{
-    number::{count, point},
-    proof::result::{JointWords, ResultFile},
-    verdict::mechanism::JointMotion,
+    number::{count, point, short},
+    proof::{
+        member::{MemberLine, MemberState},
+        result::{JointWords, ResultFile},
+    },
+    verdict::mechanism::{JointMotion, MemberMotion},
 };
 
 const LABELS: [(&str, JointMotion); 5] = [
@@ -13,6 +16,12 @@ const LABELS: [(&str, JointMotion); 5] = [
     ("slides", JointMotion::Slide),
     ("slip hinges", JointMotion::HingeAndSlide),
     ("parts", JointMotion::Part),
+];
+
+const MEMBERS: [(&str, MemberMotion); 3] = [
+    ("yield", MemberMotion::Yields),
+    ("go slack", MemberMotion::Slackens),
+    ("fingers slide", MemberMotion::Slides),
 ];
 
 /// So many joints of a kind are shown where there are several kinds.
@@ -50,6 +59,35 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             joints.iter().map(|j| format!("{:<width$}  at {}", between(j), point(j.at))).collect();
         page.row(label, cut(&lines, shown, options));
     }
+    for (label, motion) in MEMBERS {
+        let own = m.members.iter().filter(|m| m.motion == motion);
+        let names: Vec<String> = own.map(|m| m.member.clone()).collect();
+        page.row(label, cut(&names, shown, options));
+    }
+}
+
+/// The force in every member.
+pub(super) fn members(page: &mut Page, file: &ResultFile, options: TextOptions) {
+    let words = |l: &MemberLine| {
+        let of = |greatest: Option<f64>| match greatest {
+            Some(most) if most != 0.0 => format!(" of {} N", short(most.abs())),
+            _ => String::new(),
+        };
+        let strength = of(if l.force < 0.0 { l.least } else { l.greatest });
+        let state = match l.state {
+            MemberState::Slack => " (slack)",
+            MemberState::Carries => "",
+            MemberState::AtStrength => " (at its strength)",
+        };
+        let friction =
+            l.friction.map_or_else(String::new, |f| format!(", friction {} N", short(f)));
+        let name = format!("{} ({})", l.member, l.kind.word());
+        (name, format!("{} N{strength}{friction}{state}", short(l.force)))
+    };
+    let lines: Vec<(String, String)> = file.members.iter().map(words).collect();
+    let width = lines.iter().map(|l| l.0.chars().count()).max().unwrap_or(0);
+    let lines: Vec<String> = lines.iter().map(|(a, b)| format!("{a:<width$}  {b}")).collect();
+    page.row("members", cut(&lines, SHOWN, options));
 }
 
 fn between(j: &JointWords) -> String {

@@ -63,6 +63,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     answer::why(&mut page, file);
     page.blank();
     mechanism::rows(&mut page, file, options);
+    mechanism::members(&mut page, file, options);
     answer::directions(&mut page, file, options);
     answer::part(&mut page, file);
     critical::rows(&mut page, file, options);
@@ -73,11 +74,12 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     page.row(
         "scene",
         [format!(
-            "{} ({}), {}, {}",
+            "{} ({}), {}, {}{}",
             count(s.blocks, "block"),
             count(s.supports, "support"),
             count(s.interfaces, "interface"),
-            count(s.contact_points, "contact point")
+            count(s.contact_points, "contact point"),
+            with_members(s.members)
         )],
     );
     page.row("doubt", file.doubt.iter().map(|d| format!("{}; {}", d.evidence, d.next)));
@@ -94,6 +96,11 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     page.blank();
     next(&mut page, file, asked);
     page
+}
+
+/// How many members there are beside the contacts.
+fn with_members(members: usize) -> String {
+    if members > 0 { format!(", {}", count(members, "member")) } else { String::new() }
 }
 
 /// The first items of a list, and how many there are more.

@@ -27,6 +27,15 @@ fn resolution(file: &ResultFile) -> f64 {
     0.5 * tolerance::THRUST_FLOOR * lines.map(|l| l.normal.abs()).fold(0.0, f64::max)
 }
 
+/// Whose force it is.
+fn what(t: &ThrustAnswer) -> String {
+    match (&t.support, &t.member) {
+        (_, Some(id)) => format!("force in {id}"),
+        (Some(id), None) => format!("thrust on {id}"),
+        (None, None) => "thrust".into(),
+    }
+}
+
 /// The first line.
 pub(super) fn title(file: &ResultFile) -> (String, Role) {
     let Some(t) = file.answer.thrust() else {
@@ -35,24 +44,24 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
             _ => ("undecided".into(), Role::Unsure),
         };
     };
-    let (id, unit) = (&t.support, resolution(file));
+    let (what, unit) = (what(t), resolution(file));
     let text = match (
         value(&t.least, unit),
         value(&t.greatest, unit),
         t.least.status,
         t.greatest.status,
     ) {
-        (Some(low), Some(high), ..) => format!("thrust on {id} from {low} to {high}"),
+        (Some(low), Some(high), ..) => format!("{what} from {low} to {high}"),
         (Some(low), None, _, Outcome::Unbounded) => {
-            format!("thrust on {id} from {low} without end")
+            format!("{what} from {low} without end")
         }
         (None, Some(high), Outcome::Unbounded, _) => {
-            format!("thrust on {id} up to {high}, in the other direction without end")
+            format!("{what} up to {high}, in the other direction without end")
         }
         (None, None, Outcome::Unbounded, Outcome::Unbounded) => {
-            format!("thrust on {id} without end in both directions")
+            format!("{what} without end in both directions")
         }
-        _ => return (format!("thrust on {id} undecided"), Role::Unsure),
+        _ => return (format!("{what} undecided"), Role::Unsure),
     };
     (text, Role::Value)
 }
@@ -60,15 +69,26 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
 /// The sentences below it.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let Some(t) = file.answer.thrust() else { return super::answer::verdict(page, file) };
-    page.paragraph(&format!(
-        "The thrust is the horizontal force of the blocks on {} towards {}. Contact forces inside the friction cones reach its least value when the support yields and its greatest when it is pushed in; the mechanisms of the two movements prove that no others go further.",
-        t.support,
-        point(t.direction)
-    ));
-    if [t.least.status, t.greatest.status].contains(&Outcome::Unbounded) {
-        page.paragraph("Where it has no end, the blocks are wedged between supports: they hold any push of one against the other.");
+    match (&t.support, t.direction, &t.member) {
+        (Some(id), Some(direction), None) => page.paragraph(&format!(
+            "The thrust is the horizontal force of the blocks on {id} towards {}. Contact forces inside the friction cones reach its least value when the support yields and its greatest when it is pushed in; the mechanisms of the two movements prove that no others go further.",
+            point(direction)
+        )),
+        (.., Some(id)) => page.paragraph(&format!(
+            "Forces inside the friction cones and the strengths of the members balance the dead load with any force in {id} from the least to the greatest (tension > 0); mechanisms of the scene without it, or its own bounds, prove that no others go further."
+        )),
+        _ => {}
     }
-    page.paragraph(&factor(t, file));
+    if [t.least.status, t.greatest.status].contains(&Outcome::Unbounded) {
+        page.paragraph(if t.member.is_some() {
+            "Where it has no end, the member stresses blocks or members against each other, as much as one likes."
+        } else {
+            "Where it has no end, the blocks are wedged between supports: they hold any push of one against the other."
+        });
+    }
+    if t.member.is_none() {
+        page.paragraph(&factor(t, file));
+    }
     let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict()) {
         Some(Verdict::Conditional) => {
             "It stands only with a pre-stress that nobody applied: the loads do not produce such forces."

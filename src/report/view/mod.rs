@@ -6,11 +6,13 @@
 //! Forces and rates are those of the certificates in the result, fitted to the scene again.
 
 mod film;
+mod member;
 mod motion;
 mod state;
 mod surface;
 
 pub use film::Film;
+pub use member::ViewMember;
 pub use motion::{Mark, ViewMotion, ViewPose};
 pub use state::{Resultant, Segment, ViewPart, ViewState};
 pub use surface::{Surface, ViewShape};
@@ -54,6 +56,8 @@ pub struct View {
     pub joints: Vec<Joint>,
     /// Loads beside the blocks' own weight.
     pub loads: Vec<ViewLoad>,
+    /// Ties, struts, soil and other members, with their forces in the answer.
+    pub members: Vec<ViewMember>,
     /// Systems of contact forces; the first one goes with the answer.
     pub states: Vec<ViewState>,
     /// Mechanisms; the first one goes with the answer.
@@ -127,6 +131,7 @@ impl View {
             view.up = up;
         }
         view.front = front(view.up, view.high - view.low);
+        member::forces(&mut view.members, file);
         view.states = state::of(model, file).map_err(ViewError)?;
         view.motions = motion::of(model, file, &view.bodies).map_err(ViewError)?;
         view.film = film;
@@ -171,6 +176,7 @@ impl View {
             high,
             joints: joints.collect(),
             loads: loads(model),
+            members: member::of(model),
             states: Vec::new(),
             motions: Vec::new(),
             film: Vec::new(),

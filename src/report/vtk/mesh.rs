@@ -31,6 +31,8 @@ pub struct Cell {
     pub joint: Option<usize>,
     /// Of a line of thrust: the system of forces, and the force that passes, N.
     pub segment: Option<(usize, f64)>,
+    /// The member that it is.
+    pub member: Option<usize>,
     /// Its points.
     pub points: Vec<u32>,
 }
@@ -40,9 +42,10 @@ pub struct Cell {
 pub struct Mesh {
     /// Points.
     pub points: Vec<Point>,
-    /// Contact points that carry forces, contacts at points, and places of loads.
+    /// Contact points that carry forces, contacts at points, places of loads, and members that act at
+    /// a point.
     pub verts: Vec<Cell>,
-    /// Lines of thrust, and contacts along edges.
+    /// Lines of thrust, contacts along edges, and members.
     pub lines: Vec<Cell>,
     /// Faces of blocks, and joints.
     pub polys: Vec<Cell>,
@@ -55,6 +58,7 @@ impl Mesh {
         mesh.joints(view);
         mesh.thrust(view);
         mesh.loads(view);
+        mesh.members(view);
         mesh
     }
 
@@ -88,6 +92,7 @@ impl Mesh {
                     other: None,
                     joint: None,
                     segment: None,
+                    member: None,
                     points,
                 })
             };
@@ -131,6 +136,7 @@ impl Mesh {
                 other: Some(joint.a),
                 joint: Some(k),
                 segment: None,
+                member: None,
                 points,
             };
             for &p in &points {
@@ -157,7 +163,25 @@ impl Mesh {
                 other: None,
                 joint: None,
                 segment: None,
+                member: None,
                 points: vec![point],
+            });
+        }
+    }
+
+    fn members(&mut self, view: &View) {
+        for (k, member) in view.members.iter().enumerate() {
+            let points: Vec<u32> =
+                member.points.iter().map(|&at| self.point(at, None, None)).collect();
+            let cells = if points.len() > 1 { &mut self.lines } else { &mut self.verts };
+            cells.push(Cell {
+                part: VtkPart::Member,
+                block: None,
+                other: None,
+                joint: None,
+                segment: None,
+                member: Some(k),
+                points,
             });
         }
     }
@@ -173,6 +197,7 @@ impl Mesh {
                     other: None,
                     joint: None,
                     segment,
+                    member: None,
                     points,
                 });
             }

@@ -6,7 +6,7 @@
 //! stand in the field data. Arrays that belong to a system of forces or a mechanism end with what
 //! that is to the answer ([`ViewPart::suffix`]), so that they are named alike in every file of a
 //! question: `force`, N, on the points of contact forces; `load`, N, on the places of loads (live
-//! ones not yet multiplied by λ); `normal_force`, N, and `used`, the share of the section or of the
+//! ones not yet multiplied by λ); `member_force`, N, on members, where the scene has any; `normal_force`, N, and `used`, the share of the section or of the
 //! friction, on joints and blocks; `displacement`, m, on the points of blocks, to first order and as
 //! far as it is seen well. What each of them is in words stands in the field data `meaning`, and
 //! the number of the answer it belongs to in `load_factor`, `tilt_deg` or `thrust`. A simulation is a collection (`.pvd`) of
@@ -46,6 +46,8 @@ pub enum VtkPart {
     Load = 5,
     /// The place of a live load.
     LiveLoad = 6,
+    /// A tie, strut or other member.
+    Member = 7,
 }
 
 /// The file of an answer.
@@ -174,6 +176,10 @@ fn cell_data(xml: &mut Xml, view: &View, mesh: &Mesh, statics: bool) {
     xml.integers("block", cells().map(|c| index(c.block)));
     xml.integers("other_block", cells().map(|c| index(c.other)));
     xml.integers("joint", cells().map(|c| index(c.joint)));
+    if statics && !view.members.is_empty() {
+        let force = |c: &mesh::Cell| c.member.and_then(|m| view.members[m].force).unwrap_or(0.0);
+        xml.numbers("member_force", cells().map(force));
+    }
     if statics {
         for (k, state) in view.states.iter().enumerate() {
             let at = |c: &mesh::Cell| c.joint.and_then(|j| state.resultants[j]);

@@ -22,6 +22,9 @@ pub struct Arch {
     /// Name of the material of all blocks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+    /// Members that join its blocks, named without the prefix, with points about its origin.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<crate::scene::Member>,
     /// Shape of the mid-line.
     #[serde(default, skip_serializing_if = "super::is_default")]
     pub profile: Profile,

@@ -23,6 +23,9 @@ pub struct Dome {
     /// Name of the material of all blocks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+    /// Members that join its blocks, named without the prefix, with points about its origin.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<crate::scene::Member>,
     /// Radius of the mid-surface at the corners, m.
     pub radius: f64,
     /// Thickness along the radius at the corners, m.

@@ -1,9 +1,9 @@
 //! Templates: structures given by a few numbers. The geometry is made in [`crate::generate`].
 //!
 //! Lengths in m, angles in degrees, z up, the span of arches and walls along x and their depth
-//! along y, centred on y = 0. Every template takes three optional fields of its own: `prefix` (put
+//! along y, centred on y = 0. Every template takes four optional fields of its own: `prefix` (put
 //! before the ids of its blocks, so that one scene can hold two arches), `at` (where its origin
-//! lies) and `material` (of all its blocks).
+//! lies), `material` (of all its blocks) and `members` (that join its blocks).
 
 mod arch;
 mod barrel;
@@ -49,6 +49,35 @@ pub enum Template {
 }
 
 impl Template {
+    /// The members that it carries: names are those of its blocks without the prefix, points are in
+    /// coordinates about its origin.
+    pub fn members(&self) -> &[super::Member] {
+        match self {
+            Template::Arch(t) => &t.members,
+            Template::Barrel(t) => &t.members,
+            Template::Column(t) => &t.members,
+            Template::Dome(t) => &t.members,
+            Template::FlatArch(t) => &t.members,
+            Template::Lattice(t) => &t.members,
+            Template::Stack(t) => &t.members,
+            Template::Wall(t) => &t.members,
+        }
+    }
+
+    /// What is put before the ids of its blocks and members, and where its origin lies.
+    pub fn place(&self) -> (&str, [f64; 3]) {
+        match self {
+            Template::Arch(t) => (&t.prefix, t.at),
+            Template::Barrel(t) => (&t.prefix, t.at),
+            Template::Column(t) => (&t.prefix, t.at),
+            Template::Dome(t) => (&t.prefix, t.at),
+            Template::FlatArch(t) => (&t.prefix, t.at),
+            Template::Lattice(t) => (&t.prefix, t.at),
+            Template::Stack(t) => (&t.prefix, t.at),
+            Template::Wall(t) => (&t.prefix, t.at),
+        }
+    }
+
     /// The key of this template in a scene file.
     pub fn name(&self) -> &'static str {
         match self {
@@ -70,7 +99,7 @@ fn is_origin(at: &[f64; 3]) -> bool {
 }
 
 /// Is this zero, the default of a number?
-fn is_zero(x: &f64) -> bool {
+pub(super) fn is_zero(x: &f64) -> bool {
     *x == 0.0
 }
 

@@ -17,6 +17,9 @@ pub struct Stack {
     /// Name of the material of all blocks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+    /// Members that join its blocks, named without the prefix, with points about its origin.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<crate::scene::Member>,
     /// Number of blocks.
     pub blocks: usize,
     /// Size of one block along x, y, z, m.

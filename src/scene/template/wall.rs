@@ -19,6 +19,9 @@ pub struct Wall {
     /// Name of the material of all blocks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+    /// Members that join its blocks, named without the prefix, with points about its origin.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<crate::scene::Member>,
     /// Size of a whole block along x, y, z, m.
     pub size: [f64; 3],
     /// Number of free courses.

@@ -72,6 +72,11 @@ pub(in crate::verdict) fn by_themselves(
         let most = largest(std::slice::from_ref(forces));
         [face.a, face.b].into_iter().for_each(|i| greatest[i] = greatest[i].max(most));
     }
+    let joints = interfaces.list.len();
+    for (own, forces) in interfaces.members.iter().zip(forces.iter().skip(joints)) {
+        let most = largest(std::slice::from_ref(forces));
+        own.action.ends().into_iter().flatten().for_each(|i| greatest[i] = greatest[i].max(most));
+    }
     let scale = |i: usize| match certificate::size(assembly, i, &assembly.dead[i]) {
         0.0 => greatest[i],
         own => own,

@@ -13,7 +13,7 @@ pub use motion::moving;
 
 use super::{
     Evidence, Verdict, certificate, thrust,
-    thrust::{Extreme, ThrustAt},
+    thrust::{Extreme, Sought, ThrustAt},
 };
 use crate::interface::Model;
 use balance::live_alone_balances;
@@ -70,6 +70,28 @@ pub enum Claim {
         lower: f64,
         /// Claimed upper end, N.
         upper: f64,
+    },
+    /// The forces balance the dead load with `value` in a member; the mechanism without the member
+    /// admits nothing beyond the bracket on the other side.
+    MemberForce {
+        /// Index of the member.
+        member: usize,
+        /// Least or greatest.
+        extreme: Extreme,
+        /// Claimed force, N.
+        value: f64,
+        /// Claimed lower end, N.
+        lower: f64,
+        /// Claimed upper end, N.
+        upper: f64,
+    },
+    /// The forces balance without any load and stress a member (and other forces balance the dead
+    /// load): its force has no end.
+    EndlessMemberForce {
+        /// Index of the member.
+        member: usize,
+        /// Least or greatest.
+        extreme: Extreme,
     },
     /// The forces balance without any load and push a support (and other forces balance the dead
     /// load): the thrust has no end.
@@ -133,9 +155,18 @@ pub fn verify(model: &Model, claim: &Claim, evidence: Evidence) -> Findings {
             live_alone_balances(&mut f, model, forces);
         }
         Claim::Thrust { at, extreme, value, lower, upper } => {
+            let at = Sought::Thrust(at);
             thrust::verify(&mut f, model, (forces, rates), (&at, extreme), [value, lower, upper]);
         }
         Claim::EndlessThrust { at, extreme } => {
+            thrust::verify_endless(&mut f, model, forces, base, &at.into(), extreme)
+        }
+        Claim::MemberForce { member, extreme, value, lower, upper } => {
+            let at = Sought::Member(member);
+            thrust::verify(&mut f, model, (forces, rates), (&at, extreme), [value, lower, upper]);
+        }
+        Claim::EndlessMemberForce { member, extreme } => {
+            let at = Sought::Member(member);
             thrust::verify_endless(&mut f, model, forces, base, &at, extreme)
         }
         Claim::Impossible => falls(&mut f, model, rates, true),

@@ -8,12 +8,13 @@
 
 use super::interval::{Interval, Sum, difference, two_product};
 use crate::{
-    assembly::{Assembly, Block, Wrench},
+    assembly::{Assembly, Block, Member, Wrench},
     interface::{Interface, Model},
     scene::Friction,
     verdict::{
         Forces,
         joint::{Strength, rolling_arm, water},
+        member::{Bounds, amounts, legs},
     },
 };
 use nalgebra::Vector3;
@@ -77,7 +78,14 @@ impl<'a> Balance<'a> {
 
     /// Adds a force on block `b` of a contact at one of its points; its opposite acts on `a`.
     pub fn add(&mut self, face: &Interface, point: &Vector3<f64>, force: &Pair) {
-        for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
+        self.add_pair([Some(face.a), Some(face.b)], point, force);
+    }
+
+    /// Adds a force on the second block at a point; its opposite acts on the first. The ground
+    /// where there is no block.
+    pub fn add_pair(&mut self, blocks: [Option<usize>; 2], point: &Vector3<f64>, force: &Pair) {
+        for (block, sign) in blocks.into_iter().zip([-1.0, 1.0]) {
+            let Some(block) = block else { continue };
             if self.assembly.blocks[block].support {
                 continue;
             }
@@ -90,6 +98,13 @@ impl<'a> Balance<'a> {
                 add_product(&mut total[3 + k], sign, r[i], force[j]);
                 add_product(&mut total[3 + k], -sign, r[j], force[i]);
             }
+        }
+    }
+
+    /// Adds amounts of a member.
+    pub fn add_member(&mut self, own: &Member, amounts: &Vector3<f64>) {
+        for leg in legs(own) {
+            self.add_pair([leg.a, leg.b], &leg.at, &multiple(amounts[leg.axis], &leg.direction));
         }
     }
 
@@ -148,6 +163,21 @@ impl Unbalance {
                             * (1.0 + (point - centroid).norm() / gyration.least())
                             * ENLARGED;
                     }
+                }
+            }
+        }
+        let joints = interfaces.list.len();
+        for (own, forces) in interfaces.members.iter().zip(forces.iter().skip(joints)) {
+            let a = amounts(forces);
+            balance.add_member(own, &a);
+            let margin = shy(Bounds::of(own).margin(&a));
+            if margin < 0.0 || margin.is_nan() {
+                for i in own.action.ends().into_iter().flatten() {
+                    let Block { centroid, gyration, .. } = &assembly.blocks[i];
+                    let far = own.action.points().into_iter().map(|p| (p - centroid).norm());
+                    let arm = far.fold(0.0, f64::max);
+                    // A block that deviates a line is pulled from both sides.
+                    outside[i] -= 2.0 * margin * (1.0 + arm / gyration.least()) * ENLARGED;
                 }
             }
         }

@@ -17,11 +17,16 @@
 
 use super::balance::{Balance, ENLARGED, Pair, REDUCED, Room, exactly, multiple, room};
 use crate::{
+    assembly::Member,
     cholesky::{Cholesky, Pattern},
     interface::{Interfaces, Members, Model, members},
     strength::crushing::crushes,
     tolerance,
-    verdict::{Forces, certificate, joint::Strength},
+    verdict::{
+        Forces, certificate,
+        joint::Strength,
+        member::{self, Bounds},
+    },
 };
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::collections::{BTreeMap, HashMap};
@@ -46,8 +51,7 @@ pub const MOST_BLOCKS: usize = 1500;
 
 /// A force that can change, and what it does.
 struct Column {
-    interface: usize,
-    point: usize,
+    place: Place,
     /// Rows of the blocks that it acts on, with the arm; first the one that it acts on with the
     /// opposite sign.
     blocks: [Option<(usize, Vector3<f64>)>; 2],
@@ -55,7 +59,34 @@ struct Column {
     direction: Option<Vector3<f64>>,
 }
 
+/// Where a force stands.
+#[derive(Clone, Copy)]
+enum Place {
+    /// In a contact, at one of its points.
+    Contact(usize, usize),
+    /// In a member that acts at one point.
+    Member(usize),
+}
+
 impl Column {
+    /// Adds a change of it to a balance, without rounding.
+    fn put(&self, interfaces: &Interfaces, change: &Vector3<f64>, balance: &mut Balance) {
+        match self.place {
+            Place::Contact(k, point) => {
+                let force: Pair = match self.direction {
+                    Some(n) => multiple(n.dot(change) / n.norm_squared(), &n),
+                    None => exactly(change),
+                };
+                let face = &interfaces.list[k];
+                balance.add(face, &face.points[point], &force);
+            }
+            Place::Member(m) => {
+                let own = &interfaces.members[m];
+                balance.add_member(own, &in_amounts(own, change));
+            }
+        }
+    }
+
     /// `B_i` for one of its blocks.
     fn part(&self, side: usize) -> Option<(usize, SMatrix<f64, 6, 3>)> {
         let (row, arm) = self.blocks[side]?;
@@ -80,7 +111,7 @@ pub fn covered(model: &Model, forces: &Forces, lambda: f64) -> Vec<bool> {
     let (rooms, mut balance) = rooms(model, forces, lambda);
     let mut covered = vec![true; assembly.blocks.len()];
     for part in members(model) {
-        let held = part.has_room(&rooms)
+        let held = part.has_room(model.interfaces.list.len(), &rooms)
             && part.is_near(model, forces, lambda, &balance, tolerance::NEAR_BALANCE)
             && part.exists(model, &rooms, &mut balance);
         part.free.iter().for_each(|&i| covered[i] = held);
@@ -113,7 +144,38 @@ fn rooms<'a>(
         let inside = !crushes(face) && list.iter().all(|r| r.margin >= 0.0);
         inside.then_some(list)
     });
-    (rooms.collect(), balance)
+    let mut rooms: Vec<Option<Vec<Room>>> = rooms.collect();
+    for (own, forces) in interfaces.members.iter().zip(forces.iter().skip(interfaces.list.len())) {
+        let amounts = member::amounts(forces);
+        balance.add_member(own, &amounts);
+        let room = member_room(own, &amounts);
+        rooms.push((room.margin >= 0.0).then(|| vec![room]));
+    }
+    (rooms, balance)
+}
+
+/// The room of a member: of one amount along its direction, of the three of a finger in all
+/// directions. One that acts at several points, or a shear, is taken as it is: its room is not used.
+fn member_room(own: &Member, amounts: &Vector3<f64>) -> Room {
+    let margin = Bounds::of(own).margin(amounts);
+    let margin = if margin.is_nan() { f64::NEG_INFINITY } else { margin };
+    let legs = member::legs(own);
+    let directed = Bounds::of(own).axes() == 1;
+    let usable = if directed { legs.len() == 1 } else { legs.len() == 3 };
+    Room {
+        force: [(0.0, 0.0); 3],
+        margin: if usable || margin < 0.0 { margin * REDUCED } else { 0.0 },
+        direction: (directed && usable).then(|| legs[0].direction),
+    }
+}
+
+/// A change of the force of a member that acts at one point, as amounts.
+fn in_amounts(own: &Member, change: &Vector3<f64>) -> Vector3<f64> {
+    let mut amounts = Vector3::zeros();
+    for leg in member::legs(own) {
+        amounts[leg.axis] = leg.direction.dot(change) / leg.direction.norm_squared();
+    }
+    amounts
 }
 
 /// Forces near the given ones that leave no more than rounding, in their cones; `None` where there
@@ -123,7 +185,7 @@ pub fn improved(model: &Model, forces: &Forces, lambda: f64) -> Option<Forces> {
     let (rooms, mut balance) = rooms(model, forces, lambda);
     let mut improved = forces.clone();
     for part in members(model) {
-        if !part.has_room(&rooms)
+        if !part.has_room(model.interfaces.list.len(), &rooms)
             || !part.is_near(model, forces, lambda, &balance, tolerance::LOOSE_BALANCE)
         {
             return None;
@@ -137,9 +199,19 @@ pub fn improved(model: &Model, forces: &Forces, lambda: f64) -> Option<Forces> {
             fits.then_some(changes)
         })?;
         for (column, change) in columns.iter().zip(changes) {
-            let face = &interfaces.list[column.interface];
-            balance.add(face, &face.points[column.point], &exactly(&change));
-            improved[column.interface][column.point].force += change;
+            match column.place {
+                Place::Contact(k, point) => {
+                    let face = &interfaces.list[k];
+                    balance.add(face, &face.points[point], &exactly(&change));
+                    improved[k][point].force += change;
+                }
+                Place::Member(m) => {
+                    let own = &interfaces.members[m];
+                    let change = in_amounts(own, &change);
+                    balance.add_member(own, &change);
+                    improved[interfaces.list.len() + m][0].force += change;
+                }
+            }
         }
     }
     Some(improved)
@@ -147,9 +219,11 @@ pub fn improved(model: &Model, forces: &Forces, lambda: f64) -> Option<Forces> {
 
 impl Members {
     /// Whether a proof can be tried: a part of no more than [`MOST_BLOCKS`] whose joints have
-    /// [rooms].
-    fn has_room(&self, rooms: &[Option<Vec<Room>>]) -> bool {
-        self.free.len() <= MOST_BLOCKS && self.contacts.iter().all(|&k| rooms[k].is_some())
+    /// [rooms]; the members' stand after those of the `joints`.
+    fn has_room(&self, joints: usize, rooms: &[Option<Vec<Room>>]) -> bool {
+        self.free.len() <= MOST_BLOCKS
+            && self.contacts.iter().all(|&k| rooms[k].is_some())
+            && self.members.iter().all(|&k| rooms[joints + k].is_some())
     }
 
     /// Whether no block is left with more than `most` of its loads, or of the forces on it: a light
@@ -179,6 +253,16 @@ impl Members {
                 return false;
             }
             for i in [interfaces.list[k].a, interfaces.list[k].b] {
+                let known = greatest.entry(i).or_default();
+                *known = known.max(force);
+            }
+        }
+        for &m in &self.members {
+            let force = member::amounts(&forces[interfaces.list.len() + m]).norm();
+            if force > cap {
+                return false;
+            }
+            for i in interfaces.members[m].action.ends().into_iter().flatten() {
                 let known = greatest.entry(i).or_default();
                 *known = known.max(force);
             }
@@ -220,13 +304,30 @@ impl Members {
                 let blocks = [face.a, face.b]
                     .map(|i| Some((*row_of.get(&i)?, point - assembly.blocks[i].centroid)));
                 list.push(Column {
-                    interface: k,
-                    point: p,
+                    place: Place::Contact(k, p),
                     blocks,
                     room: r.margin,
                     direction: r.direction,
                 });
             }
+        }
+        for &m in &self.members {
+            let own = &interfaces.members[m];
+            let Some([room]) = rooms[interfaces.list.len() + m].as_deref() else { continue };
+            let Some(leg) = member::legs(own).into_iter().next().filter(|_| room.margin > 0.0)
+            else {
+                continue;
+            };
+            let blocks = [leg.a, leg.b].map(|i| {
+                let i = i?;
+                Some((*row_of.get(&i)?, leg.at - assembly.blocks[i].centroid))
+            });
+            list.push(Column {
+                place: Place::Member(m),
+                blocks,
+                room: room.margin,
+                direction: room.direction,
+            });
         }
         list
     }
@@ -343,16 +444,11 @@ impl Stiffness {
             }
             let Some(changes) = self.changes(columns, balance, part) else { break };
             for (at, (column, change)) in columns.iter().zip(changes).enumerate() {
-                let force: Pair = match column.direction {
-                    Some(n) => multiple(n.dot(&change) / n.norm_squared(), &n),
-                    None => exactly(&change),
-                };
                 sizes[at] += change.norm() * ENLARGED;
                 if sizes[at] > USED * column.room {
                     return false;
                 }
-                let face = &interfaces.list[column.interface];
-                balance.add(face, &face.points[column.point], &force);
+                column.put(interfaces, &change, balance);
             }
         }
         false

@@ -7,16 +7,17 @@
 
 use super::{
     balance::{ENLARGED, arm, norm},
-    interval::{Interval, Sum},
+    interval::{Interval, Sum, two_product},
 };
 use crate::{
-    assembly::{Assembly, Wrench},
+    assembly::{Assembly, Member, Wrench},
     interface::{Interface, Model},
     scene::Friction,
     strength::crushing::crushes,
     verdict::{
         Rate,
         joint::{Strength, rolling_arm, water},
+        member::{Bounds, legs},
     },
 };
 use nalgebra::Vector3;
@@ -28,7 +29,7 @@ pub struct MotionProof {
     pub dead: Interval,
     /// Power of the live load.
     pub live: Interval,
-    /// At most what cohesion and tension dissipate.
+    /// At most what cohesion, tension and members dissipate.
     pub dissipation: f64,
     /// At most `Σ` inadmissibility per newton of the whole force: 0 where no joint closes.
     pub excess: f64,
@@ -151,8 +152,72 @@ pub fn motion(model: &Model, rates: &[Rate]) -> Option<MotionProof> {
             });
         }
     }
+    for own in &interfaces.members {
+        let still = |i: usize| rates[i] == Rate::zero();
+        if own.action.ends().into_iter().flatten().all(still) {
+            continue;
+        }
+        let (bounded, endless) = loss(Bounds::of(own), &power(assembly, own, rates));
+        m.dissipation = (Interval::exactly(m.dissipation) + bounded).upper;
+        let endless = if endless.is_nan() { f64::INFINITY } else { endless };
+        m.excess += endless;
+        m.greatest = m.greatest.max(endless);
+    }
     m.excess *= ENLARGED;
     Some(m)
+}
+
+/// Power of each amount of a member.
+fn power(assembly: &Assembly, own: &Member, rates: &[Rate]) -> [Interval; 3] {
+    let mut sums = [Sum::ZERO; 3];
+    for leg in legs(own) {
+        for (block, sign) in [(leg.a, -1.0), (leg.b, 1.0)] {
+            let Some(block) = block else { continue };
+            let Rate { velocity, spin } = &rates[block];
+            let r = arm(&leg.at, &assembly.blocks[block].centroid);
+            let sum = &mut sums[leg.axis];
+            for k in 0..3 {
+                let d = sign * leg.direction[k];
+                sum.add_product(d, velocity[k]);
+                if spin.iter().any(|w| *w != 0.0) {
+                    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                    // A product of three doubles, of which the first two make two.
+                    for (by, r) in [(spin[i], r[j]), (-spin[j], r[i])] {
+                        let (product, rest) = two_product(d, by);
+                        sum.add_scaled(product, r);
+                        sum.add_scaled(rest, r);
+                    }
+                }
+            }
+        }
+    }
+    sums.map(Sum::total)
+}
+
+/// What a member takes up at most: power where its bounds end it, and the speed against which it
+/// takes up any force.
+fn loss(bounds: Bounds, u: &[Interval; 3]) -> (Interval, f64) {
+    let bounded = |most: f64, rate: Interval| {
+        let rate = rate.positive();
+        if rate.upper.is_nan() {
+            (Interval::ZERO, f64::NAN)
+        } else if most == f64::INFINITY {
+            (Interval::ZERO, rate.upper)
+        } else {
+            (Interval::exactly(most) * rate, 0.0)
+        }
+    };
+    match bounds {
+        Bounds::Range(least, greatest) => {
+            let (pulled, pushed) = (bounded(greatest, -u[0]), bounded(-least, u[0]));
+            // Of a rate whose sign is not known both count: more than either.
+            (pulled.0 + pushed.0, pulled.1 + pushed.1)
+        }
+        Bounds::Disc(most) => bounded(most, norm([u[0], u[1], Interval::ZERO])),
+        Bounds::Cone { mu, most } => {
+            bounded(most, Interval::exactly(mu) * norm([u[1], u[2], Interval::ZERO]) - u[0])
+        }
+    }
 }
 
 /// The power that a force of 1 N inside the friction cone can have at most against a joint that
