@@ -171,7 +171,7 @@ fn a_bonded_strip_strengthens_every_joint() {
         ] {
             let sideways = json!({ "weight": [1, 0, 0] });
             close(face, lambda(&strip(face, share, sideways)), body, 2e-8);
-            let down = json!({ "block": "v04", "force": [0, 0, -area] });
+            let down = json!({ "block": "v03", "force": [0, 0, -area] });
             close(face, lambda(&strip(face, share, down)), point, 2e-8);
         }
     }
