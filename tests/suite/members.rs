@@ -389,7 +389,8 @@ fn forged_members_are_refused() {
     let file = ResultFile::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
     assert!(survives(&s, &file, |_| {}));
     let force = "/certificate/members/0/force/0";
-    let edits: [(&str, &dyn Fn(&mut Value)); 6] = [
+    type Edit<'a> = (&'a str, &'a dyn Fn(&mut Value));
+    let edits: [Edit; 6] = [
         ("beyond its strength", &|v| *v.pointer_mut(force).unwrap() = json!(0.2)),
         ("a tie that pushes", &|v| *v.pointer_mut(force).unwrap() = json!(-0.05)),
         ("another force", &|v| {
