@@ -8,6 +8,7 @@
 use super::{
     Answer, Assessment, Control, Critical, LoadFactor, Proved, Tilt, coulomb::DryLoadFactor,
     critical::Scanned,
+    flip::Probe,
 };
 #[cfg(feature = "dynamics")]
 use crate::{
@@ -210,8 +211,17 @@ impl About<'_> {
 
     /// A range without a flip whose verdict is not one throughout.
     fn range(&self, c: &Critical) -> Option<Doubt> {
+        // A flip counts where both sides are decided.
         if !c.changes.is_empty() {
-            return None;
+            let open = |s: &Probe<Proved<Assessment>>| self.verdict(&s.assessment);
+            let doubts: Vec<Doubt> = c
+                .changes
+                .iter()
+                .filter_map(|f| open(&f.below).or_else(|| open(&f.above)))
+                .collect();
+            return doubts.into_iter().next().filter(|_| {
+                c.changes.iter().all(|f| open(&f.below).or_else(|| open(&f.above)).is_some())
+            });
         }
         let is_open = |s: &&Scanned| matches!(s.outcome, Ok((Verdict::Undecided, _)));
         let undecided = c.scan.iter().filter(is_open).count();

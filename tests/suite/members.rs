@@ -171,7 +171,7 @@ fn a_bonded_strip_strengthens_every_joint() {
         ] {
             let sideways = json!({ "weight": [1, 0, 0] });
             close(face, lambda(&strip(face, share, sideways)), body, 2e-8);
-            let down = json!({ "block": "v04", "force": [0, 0, -area] });
+            let down = json!({ "block": "v03", "force": [0, 0, -area] });
             close(face, lambda(&strip(face, share, down)), point, 2e-8);
         }
     }
@@ -389,7 +389,8 @@ fn forged_members_are_refused() {
     let file = ResultFile::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
     assert!(survives(&s, &file, |_| {}));
     let force = "/certificate/members/0/force/0";
-    let edits: [(&str, &dyn Fn(&mut Value)); 6] = [
+    type Edit<'a> = (&'a str, &'a dyn Fn(&mut Value));
+    let edits: [Edit; 6] = [
         ("beyond its strength", &|v| *v.pointer_mut(force).unwrap() = json!(0.2)),
         ("a tie that pushes", &|v| *v.pointer_mut(force).unwrap() = json!(-0.05)),
         ("another force", &|v| {

@@ -412,7 +412,7 @@ fn a_stranger_changes_no_digit_of_a_tilt_or_a_thrust() {
             let at = ThrustAt { support, direction: [1.0, 0.0, 0.0] };
             let standing = analysis::assess(m, &control());
             [Extreme::Least, Extreme::Greatest].map(|e| {
-                let end = thrust::thrust(m, &at, e, &standing.forces, &control());
+                let end = thrust::thrust(m, at, e, &standing.forces, &control());
                 (
                     end.outcome,
                     end.value.to_bits(),

@@ -137,7 +137,7 @@ fn fits(schema: &Value, value: &Value, what: &str) {
 #[test]
 fn every_verb_answers_as_the_schema_says() {
     let schema = run(&["schema", "result"]);
-    let questions: [&[&str]; 13] = [
+    let questions: [&[&str]; 17] = [
         &["assess", "structures/oppenheim-arch.json"],
         &["assess", "structures/semicircular-arch-thin.json", "--simulate"],
         &["assess", "structures/squeezed-block.json"],
@@ -149,6 +149,10 @@ fn every_verb_answers_as_the_schema_says() {
         &["tilt", "structures/column.json", "--all", "4"],
         &["tilt", "structures/oppenheim-arch.json", "--toward", "1,0,0", "--skip-dead"],
         &["thrust", "structures/oppenheim-arch.json"],
+        &["thrust", "structures/tied-arch.json", "--member", "tie"],
+        &["limit", "structures/tied-arch.json"],
+        &["assess", "structures/grip-two-fingers.json"],
+        &["simulate", "structures/grip-two-fingers.json", "--fast"],
         &[
             "critical",
             "structures/semicircular-arch-thick.json",
@@ -183,6 +187,8 @@ fn resolved_scenes_are_what_the_schema_says() {
         "mortared-pier",
         "floating-block",
         "column-with-closed-gap",
+        "tied-arch",
+        "grip-three-fingers",
     ] {
         fits(&schema, &run(&["check", &format!("structures/{name}.json"), "--json"]), name);
     }

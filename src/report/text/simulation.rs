@@ -7,6 +7,7 @@ use super::{
 use crate::{
     analysis::Agreement,
     dynamics::{Fate, Fidelity, Run, Stop},
+    error::FindingCode,
     number::{count, point, seconds, short},
     proof::{Simulation, result::ResultFile},
     verdict::Verdict,
@@ -38,15 +39,27 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         ),
         (_, Some(Fate::Falls)) => ("falls".into(), Role::Bad),
         (_, Some(Fate::Stands)) => ("stands".into(), Role::Good),
+        (Some(s), _) if not_run(s).is_some() => {
+            ("undecided: not simulated, for it has members".into(), Role::Unsure)
+        }
         _ => ("undecided".into(), Role::Unsure),
     }
+}
+
+/// Why a scene was not run.
+fn not_run(s: &Simulation) -> Option<&str> {
+    let said = s.findings.iter().find(|f| f.code == FindingCode::LeftOut);
+    said.filter(|_| s.runs.is_empty()).map(|f| f.text.as_str())
 }
 
 /// What was seen, and whether the verdict says the same.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let Some(s) = &file.simulation else { return };
     let Some(run) = s.runs.last() else {
-        return page.paragraph("Simulated in time: nothing is free, so nothing moves.");
+        return match not_run(s) {
+            Some(why) => page.paragraph(&format!("Not simulated: {why}.")),
+            None => page.paragraph("Simulated in time: nothing is free, so nothing moves."),
+        };
     };
     page.paragraph(&format!(
         "Simulated in time, its loads applied without any pre-stress: {}",

@@ -121,8 +121,8 @@ fn simulate_writes_trajectories_and_results_that_check_knows() {
     let rows: Vec<&str> = text.lines().collect();
     assert!(rows[0].starts_with("run,time,block,x,y,z,qw,") && rows.len() > 7, "{text}");
     assert!(
-        rows[1].starts_with("fast,0,ground,0,0,-0.5,1,0,0,0,0,0,0,")
-            && rows.iter().any(|r| r.starts_with("fine,")),
+        rows[1].starts_with("\"fast\",0,\"ground\",0,0,-0.5,1,0,0,0,0,0,0,")
+            && rows.iter().any(|r| r.starts_with("\"fine\",")),
         "{text}"
     );
     let file: Value = serde_json::from_str(&fs::read_to_string(&result).unwrap()).unwrap();
