@@ -7,8 +7,7 @@
 
 use super::{
     Answer, Assessment, Control, Critical, LoadFactor, Proved, Tilt, coulomb::DryLoadFactor,
-    critical::Scanned,
-    flip::Probe,
+    critical::Scanned, flip::Probe,
 };
 #[cfg(feature = "dynamics")]
 use crate::{

@@ -159,11 +159,19 @@ fn dry(
                 &computed
             }
         };
-        let at =
-            |tilt: f64| coulomb::complementary(&tilted_joints(part, tilt), &own(tilt), control);
+        let start = part.units.load_factor(bound.value);
+        // At the bound's own tilt it is the bound that is asked about, not another solve of it that
+        // differs in the last digits.
+        let at = |tilt: f64| {
+            let joints = tilted_joints(part, tilt);
+            match tilt == start {
+                true => coulomb::complementary(&joints, bound, control),
+                false => coulomb::complementary(&joints, &own(tilt), control),
+            }
+        };
         let value =
             |d: &DryLoadFactor| d.value.is_finite().then(|| part.units.load_factor(d.value));
-        let answer = match own_answer(part.units.load_factor(bound.value), at, value) {
+        let answer = match own_answer(start, at, value) {
             Ok(answer) => answer,
             Err(answer) => DryLoadFactor { found: Found::Undecided, value: f64::NAN, ..answer },
         };

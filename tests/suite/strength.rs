@@ -1,12 +1,12 @@
 //! Joints with cohesion, tension, crushing, water and a rolling arm, each against its formula.
 
 use crate::ask::{
-    cuboid, fixed, ground, load_factor, model, prism, push, scene, sphere, tilt_deg, verdict,
+    cuboid, fixed, ground, load_factor, model, prism, prove, push, scene, sphere, tilt_deg, verdict,
 };
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, Outcome, limit},
+    analysis::{Control, Law, Outcome, Question, TiltOptions, ask, limit},
     proof::ResultFile,
     scene::Scene,
     verdict::Verdict,
@@ -187,6 +187,20 @@ fn strengths_do_not_tilt_with_the_ground() {
     let s = block(mu, json!({ "pore_pressure": cohesion }), [1.0, 1.0, h]);
     let theta = tilt_deg(&s, [1.0, 0.0, 0.0]).to_radians();
     near(theta.tan(), mu * (1.0 - cohesion / h / theta.cos()), 1e-6);
+}
+
+/// Joints with strength that topple slide nowhere: the tilt with dry friction is the bound itself,
+/// to the last digit and with its evidence, or the check refuses it.
+#[test]
+fn a_tilt_at_which_strong_joints_hinge_is_proved_with_dry_friction() {
+    for size in [[0.3, 1.0, 1.0], [0.25, 1.0, 0.7], [0.4, 1.0, 1.1]] {
+        let mut s = block(0.9, json!({ "cohesion": 0.02, "tension": 0.01 }), size);
+        s.loads.live.clear();
+        let m = model(&s);
+        let toward = TiltOptions { toward: vec![[1.0, 0.0, 0.0]], ..TiltOptions::default() };
+        let answer = ask(&Question::Tilt(toward), &s, &m, &Control::default()).unwrap();
+        prove(&s, &ResultFile::of(&s, &m, &answer).unwrap());
+    }
 }
 
 /// Nothing that has a limit wedges: the block under a roof has a load factor when the joints can
