@@ -5,7 +5,7 @@ mod cli;
 use clap::Parser;
 use cli::{
     args::{Cli, Verb},
-    exit::Exit,
+    exit::{Exit, TimeIsUp},
     terminal::{self, Terminal},
 };
 use std::process::ExitCode;
@@ -45,7 +45,8 @@ fn main() -> ExitCode {
         Ok(exit) => exit.into(),
         Err(error) => {
             terminal::error(&error);
-            Exit::Usage.into()
+            let open = error.is::<TimeIsUp>();
+            if open { Exit::Undecided } else { Exit::Usage }.into()
         }
     }
 }

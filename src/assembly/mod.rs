@@ -15,7 +15,7 @@ pub use gyration::Gyration;
 pub use joint::{JointLaw, JointRules};
 pub use member::{Action, Anchor, BlockFace, DowelPlan, Member, MemberKind, MemberPlan, StripPlan};
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
-pub use resolve::{Blocks, resolve, resolve_blocks, resolve_with};
+pub use resolve::{Blocks, resolve, resolve_blocks, resolve_until, resolve_with};
 
 use crate::{
     error::{Finding, JsonPath},

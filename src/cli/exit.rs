@@ -22,3 +22,15 @@ impl From<Exit> for ExitCode {
         ExitCode::from(exit as u8)
     }
 }
+
+/// Nothing came out in time: an error that leaves the question open.
+#[derive(Debug)]
+pub struct TimeIsUp(pub String);
+
+impl std::fmt::Display for TimeIsUp {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for TimeIsUp {}

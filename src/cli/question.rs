@@ -3,7 +3,7 @@
 use super::{
     args::{self, Common},
     claim, deadline,
-    exit::Exit,
+    exit::{Exit, TimeIsUp},
     input,
     output::Sink,
     pictures::Pictures,
@@ -19,7 +19,7 @@ use voussoir::{
     deadline::Deadline,
     dynamics::Frame,
     error::{Finding, FindingCode, InputError},
-    interface::{Model, prepare},
+    interface::{Model, prepare, prepare_until},
     limits,
     proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, work::Work},
     report::{
@@ -59,6 +59,10 @@ pub struct Session<'a> {
     pub model: Model,
 }
 
+/// Contacts are searched for so many seconds whatever the limit. More: limits of a second are no
+/// limits. Less: small scenes have no answer that says what is open.
+const PATIENCE: f64 = 1.0;
+
 impl<'a> Session<'a> {
     /// Opens what will be written, then reads and prepares the scene.
     pub fn open(common: &'a Common) -> anyhow::Result<Self> {
@@ -89,7 +93,14 @@ impl<'a> Session<'a> {
         let (scene, source, said) = input::scene(&common.scene, common.outside.reach())?;
         let scene = change(scene);
         let read = start.elapsed().as_secs_f64();
-        let mut model = prepare(&scene).map_err(|e| e.located(&source))?;
+        // An answer that says what is open is worth a second.
+        let is_over = || deadline.is_over() && start.elapsed().as_secs_f64() > PATIENCE;
+        let mut model = prepare_until(&scene, &is_over).map_err(|e| -> anyhow::Error {
+            match is_over() {
+                true => TimeIsUp(e.to_string()).into(),
+                false => e.located(&source).into(),
+            }
+        })?;
         model.timings.read = read;
         model.assembly.findings.splice(0..0, said.iter().cloned());
         terminal::warnings(model.findings());

@@ -39,6 +39,17 @@ use std::collections::{HashMap, HashSet};
 /// # Errors
 /// Two blocks touch and no rule says what friction acts between them.
 pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
+    detect_until(assembly, &|| false)
+}
+
+/// The same, given up as soon as `is_over`.
+///
+/// # Errors
+/// As [`detect`], and where it was given up.
+pub fn detect_until(
+    assembly: &Assembly,
+    is_over: &dyn Fn() -> bool,
+) -> Result<Interfaces, InputError> {
     let bodies: Vec<Body> = assembly.blocks.iter().map(Body::new).collect();
     let by_hand: HashSet<(usize, usize)> =
         assembly.given.iter().map(|g| (g.a.min(g.b), g.a.max(g.b))).collect();
@@ -51,7 +62,15 @@ pub fn detect(assembly: &Assembly) -> Result<Interfaces, InputError> {
 
     let mut tally = Tally::default();
     let mut pairs = Vec::new();
-    for (a, b, limits) in candidates(&bodies, &assembly.contact)? {
+    for (looked_at, (a, b, limits)) in
+        candidates(&bodies, &assembly.contact)?.into_iter().enumerate()
+    {
+        if is_over() {
+            let text = format!(
+                "the time was up after {looked_at} pairs of blocks had been looked at for contacts"
+            );
+            return Err(InputError::at(JsonPath::root(), text).hint("allow more time"));
+        }
         if !by_hand.contains(&(a, b)) {
             let meeting = meet(&bodies[a], &bodies[b], &limits);
             if !meeting.is_nothing() {

@@ -25,9 +25,9 @@ mod tally;
 mod tests;
 
 pub use axes::on_its_side;
-pub use detect::detect;
+pub use detect::{detect, detect_until};
 pub use left_out::LeftOut;
-pub use model::{Model, Timings, closed, prepare};
+pub use model::{Model, Timings, closed, prepare, prepare_until};
 pub use parts::{Members, Part, Units, members, parts};
 pub(crate) use plane::Plane;
 pub use reach::{floating, is_forest};

@@ -1,6 +1,6 @@
 //! Scene → assembly → interfaces, timed.
 
-use super::{Interface, Interfaces, axes, detect, floating};
+use super::{Interface, Interfaces, axes, detect, detect_until, floating};
 use crate::{
     assembly::{self, AppliedForce, Assembly, Member},
     error::{Finding, FindingCode, InputError},
@@ -136,10 +136,19 @@ impl Model {
 /// # Errors
 /// The scene cannot be resolved, or its contacts cannot be found.
 pub fn prepare(scene: &Scene) -> Result<Model, InputError> {
-    let (assembly, resolve) = timed(|| assembly::resolve(scene));
+    prepare_until(scene, &|| false)
+}
+
+/// The same, given up as soon as `is_over`: a deadline is past, somebody cancelled it.
+///
+/// # Errors
+/// As [`prepare`], and where it was given up.
+pub fn prepare_until(scene: &Scene, is_over: &dyn Fn() -> bool) -> Result<Model, InputError> {
+    let (assembly, resolve) = timed(|| assembly::resolve_until(scene, is_over));
     let assembly = assembly?;
-    let (model, detect) =
-        timed(|| detect(&assembly).map(|interfaces| Model::detected(assembly, interfaces)));
+    let (model, detect) = timed(|| {
+        detect_until(&assembly, is_over).map(|interfaces| Model::detected(assembly, interfaces))
+    });
     Ok(Model { timings: Timings { resolve, detect, ..Timings::default() }, ..model? })
 }
 

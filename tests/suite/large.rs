@@ -1,10 +1,12 @@
 //! Large programs take the engine that is written for them; what it finds is proved like any other
 //! answer.
 
+use crate::ask::template;
+use serde_json::json;
 use voussoir::{
     analysis::{self, Control, Law, Outcome, limit::Formulation},
     deadline::{Cancel, Deadline},
-    interface::{Model, prepare},
+    interface::{Model, prepare, prepare_until},
     program::Unknowns,
     scene::read_str,
     solve::Engine,
@@ -91,4 +93,29 @@ fn a_cancelled_question_claims_nothing_and_a_lowered_flag_lets_the_next_one_go_o
     let found = analysis::limit(model, &control);
     assert_eq!(found.outcome, Outcome::Found);
     assert_eq!(found.value, analysis::limit(model, &Control::default()).value);
+}
+
+/// Who cancels, or is out of time, does not wait for blocks and contacts.
+#[test]
+fn resolving_and_detection_end_when_they_are_told_to() {
+    let wall = json!({ "wall": { "size": [1, 0.5, 0.4], "courses": 6, "blocks": 6 } });
+    let scene = template(0.6, wall, json!({}));
+    let asked = std::cell::Cell::new(0);
+    let after = |n: usize| {
+        asked.set(0);
+        move |asked: &std::cell::Cell<usize>| {
+            asked.set(asked.get() + 1);
+            asked.get() > n
+        }
+    };
+    let free = after(usize::MAX);
+    prepare_until(&scene, &|| free(&asked)).expect("a model");
+    let times = asked.get();
+    assert!(times > 60, "{times}");
+    for n in [0, 10, times - 1] {
+        let ends = after(n);
+        let error = prepare_until(&scene, &|| ends(&asked)).expect_err("given up").to_string();
+        assert!(error.contains("the time was up after"), "{n}: {error}");
+        assert_eq!(asked.get(), n + 1);
+    }
 }

@@ -41,7 +41,10 @@ pub(super) fn from_template(path: &JsonPath) -> bool {
 }
 
 /// All blocks, explicit ones first, and what was mended or assumed.
-pub(super) fn resolve(scene: &Scene) -> Result<(Vec<Block>, Vec<Finding>), InputError> {
+pub(super) fn resolve(
+    scene: &Scene,
+    is_over: &dyn Fn() -> bool,
+) -> Result<(Vec<Block>, Vec<Finding>), InputError> {
     let root = JsonPath::root();
     for (name, material) in &scene.materials {
         check::positive(
@@ -55,6 +58,10 @@ pub(super) fn resolve(scene: &Scene) -> Result<(Vec<Block>, Vec<Finding>), Input
     // Per block: its density, where somebody chose one.
     let mut chosen = Vec::with_capacity(scene.blocks.len());
     let mut add = |spec: &BlockSpec, place: &Place| -> Result<(), InputError> {
+        if is_over() {
+            let text = format!("the time was up after {} blocks had been resolved", blocks.len());
+            return Err(InputError::at(JsonPath::root(), text).hint("allow more time"));
+        }
         let (block, density) = block(scene, spec, place, &mut mended)?;
         blocks.push(block);
         chosen.push(density);

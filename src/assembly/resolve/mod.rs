@@ -31,10 +31,19 @@ use std::collections::HashMap;
 /// Anything in the scene that has no meaning: a missing reference, a non-positive density, an open
 /// shape, no support, …
 pub fn resolve(scene: &Scene) -> Result<Assembly, InputError> {
+    resolve_until(scene, &|| false)
+}
+
+/// The same, given up as soon as `is_over`.
+///
+/// # Errors
+/// As [`resolve`], and where it was given up.
+pub fn resolve_until(scene: &Scene, is_over: &dyn Fn() -> bool) -> Result<Assembly, InputError> {
     let root = JsonPath::root();
     gravity(scene, &root.key("gravity"))?;
     check::contact(&scene.contact, &root.key("contact"))?;
-    resolve_with(scene, resolve_blocks(scene)?)
+    let (list, findings) = blocks::resolve(scene, is_over)?;
+    resolve_with(scene, Blocks { list, findings })
 }
 
 /// The blocks of an assembly, before anything is said about joints and loads.
@@ -49,7 +58,7 @@ pub struct Blocks {
 /// # Errors
 /// As [`resolve`], for shapes, materials and masses.
 pub fn resolve_blocks(scene: &Scene) -> Result<Blocks, InputError> {
-    let (list, findings) = blocks::resolve(scene)?;
+    let (list, findings) = blocks::resolve(scene, &|| false)?;
     Ok(Blocks { list, findings })
 }
 
