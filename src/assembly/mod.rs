@@ -7,11 +7,13 @@ mod gyration;
 mod joint;
 mod plausible;
 mod polyhedron;
+mod pose;
 mod resolve;
 
 pub use gyration::Gyration;
 pub use joint::{JointLaw, JointRules};
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
+pub use pose::Pose;
 pub use resolve::{Blocks, resolve, resolve_blocks, resolve_with};
 
 use crate::{
