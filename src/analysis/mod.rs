@@ -8,6 +8,7 @@ mod attempt;
 pub mod coulomb;
 pub mod critical;
 pub mod flip;
+pub mod follow;
 pub mod geometric;
 mod in_time;
 pub mod limit;

@@ -44,8 +44,11 @@ impl Block {
                 volume: *volume,
             },
         };
-        let gyration =
-            if self.mass > 0.0 { Gyration::new(&inertia, self.mass) } else { self.gyration.clone() };
+        let gyration = if self.mass > 0.0 {
+            Gyration::new(&inertia, self.mass)
+        } else {
+            self.gyration.clone()
+        };
         Self { centroid: self.centroid + pose.shift, inertia, gyration, solid, ..self.clone() }
     }
 }
