@@ -36,8 +36,8 @@ pub use critical::{Critical, critical};
 pub use limit::{LoadFactor, limit};
 pub use proved::{Claims, Proved};
 pub use question::{
-    AssessOptions, CriticalOptions, LimitOptions, Question, ReposeOptions, SimulateOptions,
-    ThrustOptions, TiltOptions,
+    AssessOptions, ControlPoint, CriticalOptions, LimitOptions, PushOptions, Question,
+    ReposeOptions, SettleOptions, SimulateOptions, SupportMove, ThrustOptions, TiltOptions,
 };
 pub use stability::{Packing, Stability, stability};
 pub use tilt::{Tilt, tilt};

@@ -7,12 +7,16 @@
 //! edge that has become a hinge would be lost: it has no area. The normal is that of the face that
 //! goes on beyond the corner of the other, and half-way between the two faces where both end there.
 
+pub mod drive;
+pub mod reaction;
+pub mod saved;
 mod side;
 
 use crate::{
     assembly::Pose,
     interface::{ContactFrame, ContactKind, Interface, Interfaces, Model},
 };
+pub use drive::{Demand, Drive, Move, Moves};
 use nalgebra::Vector3;
 pub use side::Side;
 

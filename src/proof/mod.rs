@@ -7,6 +7,7 @@ pub mod critical;
 mod pack;
 pub mod packing;
 mod part;
+pub mod path;
 pub mod read;
 pub mod result;
 pub mod simulation;

@@ -3,8 +3,8 @@
 //! friction by computing them again.
 
 use super::{
-    answer::Answer, critical::CriticalResult, simulation::Simulation, thrust::ThrustResult,
-    work::Work,
+    answer::Answer, critical::CriticalResult, path::PathResult, simulation::Simulation,
+    thrust::ThrustResult, work::Work,
 };
 use crate::{
     error::Finding,
@@ -62,6 +62,9 @@ pub struct ResultFile {
     /// Thrust: the evidence for both ends and the line of thrust.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thrust: Option<ThrustResult>,
+    /// Settle and push: the curve, every point with its evidence.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathResult>,
     /// What happened in time, where it was simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub simulation: Option<Simulation>,
@@ -99,6 +102,10 @@ pub enum QuestionKind {
     Thrust,
     /// What happens in time, and does it agree with the verdict?
     Simulate,
+    /// How far may supports move until it falls?
+    Settle,
+    /// How does the load factor fall as it moves?
+    Push,
 }
 
 /// The scene a result is about.

@@ -1,7 +1,6 @@
 //! One linkage after the other, from event to event.
 
 use super::{
-    drive::Drive,
     drop::{self, Landing},
     linkage::{Linkage, Place},
     program::{self, Margin},
@@ -10,10 +9,11 @@ use super::{
 use crate::{
     analysis::{Control, assess},
     assembly::{Assembly, Pose, Wrench},
+    deadline::Deadline,
     interface::{Interface, Model, detect},
-    path::{Carried, Corner},
+    path::{Carried, Corner, Demand, Drive},
     terms::Law,
-    verdict::{Forces, Verdict},
+    verdict::{Forces, Rate, Verdict},
 };
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::HashSet;
@@ -32,7 +32,7 @@ pub struct Follow {
 }
 
 /// A point of a path.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Point {
     /// The parameter.
     pub value: f64,
@@ -46,6 +46,8 @@ pub struct Point {
     pub forces: Forces,
     /// The room that they have.
     pub room: f64,
+    /// The mechanism that lets it fall; none where it stands.
+    pub rates: Vec<Rate>,
 }
 
 /// What happens on the way.
@@ -79,7 +81,7 @@ pub struct Event {
 }
 
 /// How a path ends.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub enum End {
     /// All of it was followed.
     Reached,
@@ -95,6 +97,7 @@ pub enum End {
 }
 
 /// A path.
+#[derive(Clone, Debug)]
 pub struct Path {
     /// The points.
     pub points: Vec<Point>,
@@ -102,8 +105,8 @@ pub struct Path {
     pub events: Vec<Event>,
     /// How it ends.
     pub end: End,
-    /// At the start: least power of the moving supports; or the load factor.
-    pub first: f64,
+    /// At the start: the forces and rates of the first mechanism, supports among them.
+    pub first: Option<(Forces, Vec<Rate>)>,
 }
 
 /// Gaps below this × the size of the smaller block overlap.
@@ -118,6 +121,8 @@ pub(super) struct Tracker<'a> {
     pub drive: &'a Drive,
     /// Bounding box diagonal of the scene, m.
     pub size: f64,
+    /// When it has to end.
+    pub deadline: Deadline,
 }
 
 /// Where a linkage is at a value of the parameter.
@@ -255,12 +260,13 @@ impl<'a> Tracker<'a> {
             load_factor: if self.drive.is_push() { at.load_factor } else { 0.0 },
             forces: margin.forces.clone(),
             room: margin.room,
+            rates: Vec::new(),
         }
     }
 }
 
 /// Follows the motion of a scene from where it is.
-pub fn follow(start: &Model, how: &Follow) -> Path {
+pub fn follow(start: &Model, how: &Follow, deadline: Deadline) -> Path {
     let carried = Carried::new(start);
     let blocks = &start.assembly.blocks;
     let corners = || start.interfaces.list.iter().flat_map(|f| &f.points);
@@ -268,12 +274,11 @@ pub fn follow(start: &Model, how: &Follow) -> Path {
         corners().fold(Vector3::repeat(from), |a, p| a.zip_map(p, f))
     };
     let size = (all(f64::max, f64::NEG_INFINITY) - all(f64::min, f64::INFINITY)).norm();
-    let tracker = Tracker { carried: &carried, drive: &how.drive, size };
+    let tracker = Tracker { carried: &carried, drive: &how.drive, size, deadline };
     let poses = vec![Pose::start(); blocks.len()];
     let closed: Vec<Vec<usize>> =
         start.interfaces.list.iter().map(|f| (0..f.points.len()).collect()).collect();
-    let mut path =
-        Path { points: Vec::new(), events: Vec::new(), end: End::Reached, first: f64::NAN };
+    let mut path = Path { points: Vec::new(), events: Vec::new(), end: End::Reached, first: None };
     let mut state = State { value: 0.0, poses, closed };
     // So many mechanisms: more is no path but a fall.
     for round in 0..200 {
@@ -306,16 +311,32 @@ impl Tracker<'_> {
     /// From one change of the mechanism to the next.
     fn leg(&self, how: &Follow, state: State, path: &mut Path, first: bool) -> Result<State, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
-        let next =
-            program::next(self.carried, &state.poses, &state.closed, self.drive, state.value)
-                .ok_or_else(|| stuck("no mechanism was found"))?;
+        let next = program::next(self.carried, &state.poses, &state.closed, self.drive)
+            .ok_or_else(|| stuck("no mechanism was found"))?;
+        let wrong = self.drive.is_push() && !self.advances(&next.rates, &state.poses);
         if first {
-            path.first = next.value;
+            path.first = Some((next.forces, next.rates));
+        }
+        if wrong {
+            return Err(stuck(
+                "in the mechanism the control point does not move towards where it is to go",
+            ));
         }
         if let Some(k) = next.slides {
             return Err(End::Slides(k));
         }
         self.run(how, State { closed: next.closed, ..state }, path)
+    }
+
+    /// Whether the control point moves where it is to go.
+    fn advances(&self, rates: &[Rate], poses: &[Pose]) -> bool {
+        let Some(Demand { block, point, toward, .. }) = self.drive.demand(0.0) else { return true };
+        let blocks = &self.start().blocks;
+        let arm = poses[block].turn * (point - blocks[block].centroid);
+        let speed = (rates[block].velocity + rates[block].spin.cross(&arm)).dot(&toward);
+        let fastest =
+            rates.iter().zip(blocks).map(|(r, b)| r.velocity.norm() + b.size * r.spin.norm());
+        speed > 1e-6 * fastest.fold(0.0, f64::max)
     }
 
     /// Follows one linkage until it no longer holds.
@@ -341,6 +362,9 @@ impl Tracker<'_> {
         loop {
             if here.0 >= how.until {
                 return Err(End::Reached);
+            }
+            if self.deadline.is_over() {
+                return Err(stuck("the time was over"));
             }
             let stop = how.at.iter().copied().filter(|&v| v > here.0).fold(how.until, f64::min);
             // The next multiple of the step; what rounding left short of one is on it.
@@ -602,6 +626,7 @@ impl Tracker<'_> {
                     load_factor: 0.0,
                     forces: verdict.forces.clone(),
                     room: 0.0,
+                    rates: verdict.rates.clone(),
                 })
             })
         };

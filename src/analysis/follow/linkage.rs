@@ -1,33 +1,12 @@
 //! Blocks that move as one, and the corners that keep them together: finite rotations, gaps closed
 //! to rounding.
 
-use crate::path::Carried;
+use crate::path::{Carried, Demand, Drive};
 use crate::{
     assembly::{Pose, Wrench},
     interface::Model,
 };
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
-
-/// Supports that move: where they are and how fast they go at a value of the parameter.
-pub trait Prescribed {
-    /// The pose of a support.
-    fn pose(&self, support: usize, value: f64) -> Pose;
-    /// Whether two supports move as one.
-    fn together(&self, a: usize, b: usize) -> bool;
-}
-
-/// A further equation on the poses: a number that must have a value.
-#[derive(Clone, Copy, Debug)]
-pub struct Demand {
-    /// The block.
-    pub block: usize,
-    /// The point of it at the start, m.
-    pub point: Vector3<f64>,
-    /// The direction in which its way is measured.
-    pub toward: Vector3<f64>,
-    /// Its way, m.
-    pub value: f64,
-}
 
 /// A corner that must be open by a stated gap.
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +65,7 @@ const FREE: f64 = 1e-9;
 
 impl<'a> Linkage<'a> {
     /// The linkage of these closed corners.
-    pub fn new(carried: &'a Carried<'a>, closed: &[Vec<usize>], supports: &dyn Prescribed) -> Self {
+    pub fn new(carried: &'a Carried<'a>, closed: &[Vec<usize>], supports: &Drive) -> Self {
         let start = carried.start;
         let blocks = &start.assembly.blocks;
         let list = &start.interfaces.list;
@@ -173,7 +152,7 @@ impl<'a> Linkage<'a> {
     }
 
     /// Puts bodies of supports where they belong.
-    pub fn drive(&self, place: &Place, supports: &dyn Prescribed, value: f64) -> Place {
+    pub fn drive(&self, place: &Place, supports: &Drive, value: f64) -> Place {
         let mut poses = place.poses.clone();
         let mut motions = place.motions.clone();
         for (k, b) in self.bodies.iter().enumerate().filter(|(_, b)| b.column.is_none()) {
@@ -323,20 +302,6 @@ impl<'a> Linkage<'a> {
             }
         }
         motions.tr_mul(&unit)
-    }
-
-    /// How fast a point of a block moves along a direction in a motion.
-    pub fn speed(&self, place: &Place, demand: &Demand, motion: &DVector<f64>) -> f64 {
-        let mut j = DMatrix::zeros(1, self.unknowns);
-        let b = self.body_of[demand.block];
-        let x = place.motions[b].apply(&self.bodies[b].center, &demand.point);
-        self.row(place, &mut j, 0, b, &x, &demand.toward);
-        (j * motion)[0]
-    }
-
-    /// Whether anything can move.
-    pub fn unknowns(&self) -> usize {
-        self.unknowns
     }
 
     /// The motion between two places, in unknowns, to first order.

@@ -1,7 +1,6 @@
 //! What programs say at one pose: how much room its forces have, and where it goes next.
 
-use super::drive::Drive;
-use crate::path::Carried;
+use crate::path::{Carried, Drive};
 use crate::{
     assembly::Pose,
     interface::Model,
@@ -21,8 +20,6 @@ pub struct Margin {
     pub forces: Forces,
     /// The part of them that lies on the edge of what joints carry at the points that decide.
     pub bare: Forces,
-    /// The load factor, where one was free.
-    pub load_factor: f64,
 }
 
 /// Settings tried one after the other.
@@ -44,7 +41,6 @@ pub fn margin(model: &Model, live: bool) -> Option<Margin> {
         room,
         forces: statics.forces(&model.interfaces, &all),
         bare: statics.forces(&model.interfaces, x),
-        load_factor: if live { solution.x[x.len() + 1] } else { 0.0 },
     })
 }
 
@@ -54,8 +50,6 @@ pub struct Next {
     pub closed: Vec<Vec<usize>>,
     /// A joint that slides.
     pub slides: Option<usize>,
-    /// Power of the moving supports, W per unit of the parameter; or the load factor.
-    pub value: f64,
     /// Forces.
     pub forces: Forces,
     /// Rates of all blocks, supports among them.
@@ -71,13 +65,12 @@ pub fn next(
     poses: &[Pose],
     closed: &[Vec<usize>],
     drive: &Drive,
-    value: f64,
 ) -> Option<Next> {
     let displaced = carried.touching(poses, closed);
     let model = &displaced.model;
-    let (value, forces, rates) = match drive {
+    let (forces, rates) = match drive {
         Drive::Settle(moves) => {
-            let supports = moves.rates(model, value);
+            let supports = moves.rates(model);
             least_reaction(model, &supports)?
         }
         Drive::Push { .. } => load_factor(model)?,
@@ -122,11 +115,11 @@ pub fn next(
                 .collect()
         })
         .collect();
-    Some(Next { closed: kept, slides, value, forces, rates })
+    Some(Next { closed: kept, slides, forces, rates })
 }
 
-/// Least power of the forces on supports that move at these rates, with forces and rates.
-pub fn least_reaction(model: &Model, supports: &[Rate]) -> Option<(f64, Forces, Vec<Rate>)> {
+/// Forces of least power on supports that move at these rates, and the rates of all blocks.
+pub fn least_reaction(model: &Model, supports: &[Rate]) -> Option<(Forces, Vec<Rate>)> {
     // A plane scene knows no reaction out of its plane.
     let plane = Statics::new(model, StaticsOptions::default());
     let across = plane.plane.is_some_and(|p| {
@@ -152,17 +145,16 @@ pub fn least_reaction(model: &Model, supports: &[Rate]) -> Option<(f64, Forces, 
     let (program, layout) = program::thrust(&statics, &objective);
     let solution = solved(&program)?;
     let x = layout.forces(&solution.x, &solution.z);
-    let value: f64 = x.iter().zip(&columns).map(|(x, c)| x * c).sum();
     let mut rates = rates(&statics, blocks, layout.rates(&solution.x, &solution.z), by);
     for (i, r) in supports.iter().enumerate().filter(|(i, _)| model.assembly.blocks[*i].support) {
         rates[i] = *r;
     }
-    Some((value, statics.forces(&model.interfaces, x), rates))
+    Some((statics.forces(&model.interfaces, x), rates))
 }
 
-/// Greatest load factor, with forces and rates as the program has them: nothing is mended, so that
+/// Forces and rates at the greatest load factor, as the program has them: nothing is mended, so that
 /// what rests in it is at rest.
-fn load_factor(model: &Model) -> Option<(f64, Forces, Vec<Rate>)> {
+fn load_factor(model: &Model) -> Option<(Forces, Vec<Rate>)> {
     let statics = Statics::new(model, StaticsOptions { live: true, ..StaticsOptions::default() });
     let scale = check::natural_factor(&model.assembly);
     let (program, layout) = program::load_factor(&statics, scale, Unknowns::Forces);
@@ -170,7 +162,7 @@ fn load_factor(model: &Model) -> Option<(f64, Forces, Vec<Rate>)> {
     let x = layout.forces(&solution.x, &solution.z);
     let blocks = model.assembly.blocks.len();
     let rates = rates(&statics, blocks, layout.rates(&solution.x, &solution.z), 1.0);
-    Some((scale * solution.x[x.len()], statics.forces(&model.interfaces, x), rates))
+    Some((statics.forces(&model.interfaces, x), rates))
 }
 
 fn rates(statics: &Statics, blocks: usize, y: &[f64], by: f64) -> Vec<Rate> {

@@ -1,8 +1,20 @@
 //! What makes a structure move.
 
-use super::linkage::{Demand, Prescribed};
 use crate::{assembly::Pose, interface::Model, verdict::Rate};
 use nalgebra::{UnitQuaternion, Vector3};
+
+/// A number that the poses must have: the way of a point.
+#[derive(Clone, Copy, Debug)]
+pub struct Demand {
+    /// The block.
+    pub block: usize,
+    /// The point of it at the start, m.
+    pub point: Vector3<f64>,
+    /// The direction in which its way is measured.
+    pub toward: Vector3<f64>,
+    /// Its way, m.
+    pub value: f64,
+}
 
 /// What makes a structure move.
 #[derive(Clone, Debug)]
@@ -41,15 +53,16 @@ impl Moves {
     }
 
     /// Rates of the supports per unit of the parameter; free blocks rest.
-    pub fn rates(&self, model: &Model, _value: f64) -> Vec<Rate> {
+    pub fn rates(&self, model: &Model) -> Vec<Rate> {
         (0..model.assembly.blocks.len())
             .map(|i| self.of(i).map_or_else(Rate::zero, |m| Rate { velocity: m.way, spin: m.turn }))
             .collect()
     }
 }
 
-impl Prescribed for Drive {
-    fn pose(&self, support: usize, value: f64) -> Pose {
+impl Drive {
+    /// The pose of a support at a value of the parameter.
+    pub fn pose(&self, support: usize, value: f64) -> Pose {
         let Self::Settle(moves) = self else { return Pose::start() };
         moves.of(support).map_or_else(Pose::start, |m| Pose {
             shift: m.way * value,
@@ -57,7 +70,8 @@ impl Prescribed for Drive {
         })
     }
 
-    fn together(&self, a: usize, b: usize) -> bool {
+    /// Whether two supports move as one.
+    pub fn together(&self, a: usize, b: usize) -> bool {
         let Self::Settle(moves) = self else { return true };
         match (moves.of(a), moves.of(b)) {
             (None, None) => true,
@@ -65,9 +79,7 @@ impl Prescribed for Drive {
             _ => false,
         }
     }
-}
 
-impl Drive {
     /// Where the control point must be.
     pub fn demand(&self, value: f64) -> Option<Demand> {
         match *self {
