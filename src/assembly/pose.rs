@@ -19,11 +19,16 @@ impl Pose {
         Self { shift: Vector3::zeros(), turn: UnitQuaternion::identity() }
     }
 
-    /// Where a point of a block with this centre of mass has come, m.
-    pub fn apply(&self, center: &Vector3<f64>, point: &Vector3<f64>) -> Vector3<f64> {
-        // The way is added last: what has not moved stays as it was to the last digit.
+    /// The way of a point of a block with this centre of mass, m: without the rounding of distant
+    /// coordinates.
+    pub fn way(&self, center: &Vector3<f64>, point: &Vector3<f64>) -> Vector3<f64> {
         let arm = point - center;
-        point + (self.turn * arm - arm) + self.shift
+        (self.turn * arm - arm) + self.shift
+    }
+
+    /// Where such a point has come, m.
+    pub fn apply(&self, center: &Vector3<f64>, point: &Vector3<f64>) -> Vector3<f64> {
+        point + self.way(center, point)
     }
 }
 

@@ -78,6 +78,14 @@ impl<'a> Carried<'a> {
             .map(|i| poses[i].apply(&self.start.assembly.blocks[i].centroid, &face.points[point]))
     }
 
+    /// The way from the copy with block `a` to that with block `b`, m.
+    pub fn parted(&self, poses: &[Pose], interface: usize, point: usize) -> Vector3<f64> {
+        let face = &self.start.interfaces.list[interface];
+        let [a, b] = [face.a, face.b]
+            .map(|i| poses[i].way(&self.start.assembly.blocks[i].centroid, &face.points[point]));
+        b - a
+    }
+
     /// The normal at a corner, from block `a` into block `b`.
     pub fn normal(&self, poses: &[Pose], interface: usize, point: usize) -> Vector3<f64> {
         let face = &self.start.interfaces.list[interface];
@@ -91,8 +99,7 @@ impl<'a> Carried<'a> {
 
     /// One corner.
     pub fn corner(&self, poses: &[Pose], interface: usize, point: usize) -> Corner {
-        let [a, b] = self.copies(poses, interface, point);
-        let (way, size) = (b - a, self.size(interface));
+        let (way, size) = (self.parted(poses, interface, point), self.size(interface));
         let gap = self.normal(poses, interface, point).dot(&way) / size;
         Corner { interface, point, gap, apart: way.norm() / size }
     }

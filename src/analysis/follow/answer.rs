@@ -9,7 +9,10 @@ use crate::{
     assembly::{Solid, Wrench},
     error::{InputError, JsonPath},
     interface::Model,
-    path::{Carried, Drive, Move, Moves, reaction},
+    path::{
+        Carried, Drive, Move, Moves, reaction,
+        saved::{read_poses, write_poses},
+    },
     terms::Law,
     verdict::{
         Evidence, Forces, Rate,
@@ -188,28 +191,32 @@ fn answer(model: &Model, how: &Follow, control: &Control) -> Followed {
 
 /// Proves a point from its poses, as anybody who reads them can.
 fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> PointProof {
-    let model = carried.displaced(&point.poses).model;
+    // From the poses as they are saved: to the last digit what a reader of them proves.
+    let assembly = &carried.start.assembly;
+    let saved = write_poses(assembly, &point.poses);
+    let poses = read_poses(assembly, &saved).unwrap_or_else(|_| point.poses.clone());
+    let found = carried.displaced(&poses);
+    let model = &found.model;
     let rest = || vec![Rate::zero(); model.assembly.blocks.len()];
     let proved = |claim: Claim, forces: Forces, rates: Vec<Rate>| {
-        let findings = check::verify(&model, &claim, Evidence::new(&forces, &rates));
+        let findings = check::verify(model, &claim, Evidence::new(&forces, &rates));
         let claim = Some(claim).filter(|_| findings.proved());
         PointProof { model: model.clone(), claim, forces, rates, findings }
     };
     if how.drive.is_push() {
-        let l = limit(&model, &Control { law: Law::Associative, ..*control });
+        let l = limit(model, &Control { law: Law::Associative, ..*control });
         let (forces, rates) = (l.forces.clone(), l.rates.clone());
         return PointProof {
             claim: l.claim(),
             findings: l.findings().clone(),
-            model,
+            model: model.clone(),
             forces,
             rates,
         };
     }
     // Corners that touch again without having to are among the contacts, and carry nothing.
-    let touching = carried.touching(&point.poses, &point.closed);
+    let touching = carried.touching(&poses, &point.closed);
     let mut forces = crate::verdict::no_forces(&model.interfaces);
-    let found = carried.displaced(&point.poses);
     for (c, given) in point.forces.iter().enumerate() {
         let (k, from) = (touching.from[c], &touching.model.interfaces.list[c]);
         let Some(to) = found.from.iter().position(|&f| f == k) else { continue };

@@ -323,6 +323,18 @@ impl Tracker<'_> {
             ));
         }
         if let Some(k) = next.slides {
+            if first {
+                // What is known of the start, although nothing can be followed from there.
+                path.points.extend(path.first.iter().map(|(forces, _)| Point {
+                    value: state.value,
+                    poses: state.poses.clone(),
+                    closed: state.closed.clone(),
+                    load_factor: 0.0,
+                    forces: forces.clone(),
+                    room: 0.0,
+                    rates: Vec::new(),
+                }));
+            }
             return Err(End::Slides(k));
         }
         self.run(how, State { closed: next.closed, ..state }, path)
@@ -607,6 +619,15 @@ impl Tracker<'_> {
         };
         let most = list.enumerate().filter_map(used).max_by(|a, b| a.0.total_cmp(&b.0));
         most.map_or_else(|| End::Stuck("forces cease".into()), |m| End::Slides(m.1))
+    }
+
+    /// Whether nothing balances the loads there.
+    pub(super) fn falls_there(&self, poses: &[Pose], closed: &[Vec<usize>]) -> bool {
+        if self.drive.is_push() {
+            return false;
+        }
+        let control = Control { law: Law::Associative, ..Control::default() };
+        assess(&self.carried.touching(poses, closed).model, &control).verdict == Verdict::Unstable
     }
 
     /// Proof that it stands just before and falls just after.

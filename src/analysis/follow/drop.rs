@@ -185,6 +185,8 @@ fn landed(
             }
         }
         Some(_) => Landing::Nowhere,
+        // Nothing balances it there, whatever the room: it goes on.
+        None if t.falls_there(&place.poses, &now) => Landing::Nowhere,
         None => Landing::Lost("no forces were found after a jump".into()),
     }
 }

@@ -132,7 +132,7 @@ impl<'a> Linkage<'a> {
         let motion = |b: &Body| {
             let pose = poses[b.lead];
             let c = self.start.assembly.blocks[b.lead].centroid;
-            Pose { shift: pose.apply(&c, &b.center) - b.center, turn: pose.turn }
+            Pose { shift: pose.way(&c, &b.center), turn: pose.turn }
         };
         let motions: Vec<Pose> = self.bodies.iter().map(motion).collect();
         self.placed(motions, DMatrix::zeros(self.unknowns, 0))
@@ -143,8 +143,7 @@ impl<'a> Linkage<'a> {
         let poses = (0..blocks.len())
             .map(|i| {
                 let b = self.body_of[i];
-                let shift = motions[b].apply(&self.bodies[b].center, &blocks[i].centroid)
-                    - blocks[i].centroid;
+                let shift = motions[b].way(&self.bodies[b].center, &blocks[i].centroid);
                 Pose { shift, turn: motions[b].turn }
             })
             .collect();
@@ -159,7 +158,7 @@ impl<'a> Linkage<'a> {
             let c = self.start.assembly.blocks[b.lead].centroid;
             let pose = supports.pose(b.lead, value);
             poses[b.lead] = pose;
-            motions[k] = Pose { shift: pose.apply(&c, &b.center) - b.center, turn: pose.turn };
+            motions[k] = Pose { shift: pose.way(&c, &b.center), turn: pose.turn };
         }
         self.placed(motions, place.free.clone())
     }
@@ -208,32 +207,32 @@ impl<'a> Linkage<'a> {
         // Never fewer rows than unknowns: all right singular vectors are wanted.
         let mut j = DMatrix::zeros(rows.max(self.unknowns), self.unknowns);
         let mut r = DVector::zeros(rows.max(self.unknowns));
-        let at =
-            |body: usize, p: &Vector3<f64>| place.motions[body].apply(&self.bodies[body].center, p);
+        let way =
+            |body: usize, p: &Vector3<f64>| place.motions[body].way(&self.bodies[body].center, p);
         for (k, h) in self.hinges.iter().enumerate() {
-            let [xa, xb] = h.bodies.map(|b| at(b, &h.point));
+            let [a, b] = h.bodies.map(|b| way(b, &h.point));
             for axis in 0..3 {
-                let e = Vector3::ith(axis, 1.0 / h.size);
-                r[3 * k + axis] = e.dot(&(xb - xa));
-                self.row(place, &mut j, 3 * k + axis, h.bodies[1], &xb, &e);
-                self.row(place, &mut j, 3 * k + axis, h.bodies[0], &xa, &-e);
+                let (row, e) = (3 * k + axis, Vector3::ith(axis, 1.0 / h.size));
+                r[row] = e.dot(&(b - a));
+                self.row(place, &mut j, row, h.bodies[1], &(h.point + b), &e);
+                self.row(place, &mut j, row, h.bodies[0], &(h.point + a), &-e);
             }
         }
         let mut row = 3 * self.hinges.len();
         if let Some(d) = demand {
             let b = self.body_of[d.block];
-            let x = at(b, &d.point);
-            let e = d.toward / self.length;
-            r[row] = e.dot(&(x - d.point)) - d.value / self.length;
-            self.row(place, &mut j, row, b, &x, &e);
+            let (w, e) = (way(b, &d.point), d.toward / self.length);
+            r[row] = e.dot(&w) - d.value / self.length;
+            self.row(place, &mut j, row, b, &(d.point + w), &e);
             row += 1;
         }
         for o in open {
             let face = &self.start.interfaces.list[o.interface];
             let [xa, xb] = self.carried.copies(&place.poses, o.interface, o.point);
+            let parted = self.carried.parted(&place.poses, o.interface, o.point);
             let size = self.carried.size(o.interface);
             let n = self.carried.normal(&place.poses, o.interface, o.point) / size;
-            r[row] = n.dot(&(xb - xa)) - o.gap / size;
+            r[row] = n.dot(&parted) - o.gap / size;
             self.row(place, &mut j, row, self.body_of[face.b], &xb, &n);
             self.row(place, &mut j, row, self.body_of[face.a], &xa, &-n);
             row += 1;

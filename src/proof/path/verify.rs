@@ -154,8 +154,8 @@ fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings 
     let same = here.len() == point.hinges.len()
         && here.iter().zip(&point.hinges).all(|(a, b)| {
             a.between == b.between
-                && near(&a.at, b.at.into(), size(a))
-                && (a.width - b.width).abs() <= tolerance::SAVED * size(a)
+                && (Vector3::from(a.at) - Vector3::from(b.at)).norm() <= CLOSED * size(a)
+                && (a.width - b.width).abs() <= CLOSED * size(a)
         });
     require(&mut f, same, format!("its hinges are those of its poses, {} of them", here.len()));
     f
@@ -174,8 +174,8 @@ fn follows(f: &mut Findings, carried: &Carried, drive: &Drive, poses: &[Pose], v
         .fold(0.0, f64::max);
     require(f, off <= ON_THE_WAY, format!("the supports are where {value} puts them"));
     if let Some(d) = drive.demand(value) {
-        let moved = poses[d.block].apply(&blocks[d.block].centroid, &d.point);
-        let off = ((moved - d.point).dot(&d.toward) - value).abs() / blocks[d.block].size;
+        let way = poses[d.block].way(&blocks[d.block].centroid, &d.point);
+        let off = (way.dot(&d.toward) - value).abs() / blocks[d.block].size;
         require(f, off <= ON_THE_WAY, format!("the control point has gone {value} m"));
     }
 }
@@ -238,11 +238,11 @@ fn least_reaction(
         return f.holds.push("no least reaction is claimed".into());
     };
     let least = reaction::least(model, &forces, &rates);
-    let width = said.upper - said.lower + tolerance::SAVED * least.value.abs();
+    let near = |a: f64, b: f64| (a - b).abs() <= tolerance::SAVED * least.value.abs();
     let agrees = least.holds
-        && (least.value - said.value).abs() <= width
-        && least.lower >= said.lower - width
-        && least.upper <= said.upper + width;
+        && near(least.value, said.value)
+        && near(least.lower, said.lower)
+        && near(least.upper, said.upper);
     require(
         f,
         agrees,

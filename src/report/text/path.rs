@@ -16,6 +16,8 @@ use crate::{
 
 /// So many points are shown.
 const POINTS: usize = 12;
+/// So many supports are named.
+const FEW: usize = 3;
 
 /// The way of the support that goes farthest, m, where any goes straight.
 fn farthest(path: &PathResult) -> Option<f64> {
@@ -64,6 +66,15 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         }
         (PathStatus::Vanishes, Some(_), _) => {
             (format!("its load factor vanishes at {up_to}"), Role::Value)
+        }
+        (PathStatus::Slides, Some(0.0), _) => {
+            let push = a.least_reaction.filter(|_| farthest(path).is_some()).map(|l| {
+                let value = bracketed(l.value, l.lower, l.upper);
+                format!("the blocks push with {value} N·m at least as the supports begin to move; ")
+            });
+            let text =
+                format!("{}a joint slides at once, undecided beyond", push.unwrap_or_default());
+            (text, Role::Unsure)
         }
         (PathStatus::Slides, Some(_), _) => (
             format!("followed up to {up_to}, where a joint slides; undecided beyond"),
@@ -155,8 +166,19 @@ fn line(path: &PathResult, p: &PathPoint) -> String {
             format!("{head} λ = {}", bracketed(value, lower, upper))
         }
         Some(Claim::Stable) => {
+            let all = along(path, p);
+            if all.len() > FEW {
+                let least = all.iter().map(|f| f.1).fold(f64::INFINITY, f64::min);
+                let greatest = all.iter().map(|f| f.1).fold(f64::NEG_INFINITY, f64::max);
+                return format!(
+                    "{head} stands; along their ways on {} supports from {} N to {} N",
+                    all.len(),
+                    short(least),
+                    short(greatest)
+                );
+            }
             let forces: Vec<String> =
-                along(path, p).into_iter().map(|(id, f)| format!("{id} {} N", short(f))).collect();
+                all.into_iter().map(|(id, f)| format!("{id} {} N", short(f))).collect();
             format!("{head} stands; along its way on {}", forces.join(", on "))
         }
         _ => format!("{head} not proved"),
