@@ -16,7 +16,7 @@ use voussoir::{
     import, interface,
     program::{self, Statics, StaticsOptions, Unknowns},
     proof::ResultFile,
-    scene::{Friction, Load, Scene, read_str},
+    scene::{Friction, Load, Scene, read_file, read_str},
     sweep,
     verdict::{Evidence, check},
 };
@@ -112,6 +112,21 @@ fn figures(c: &mut Criterion) {
                 .output()
                 .expect("the program runs")
         })
+    });
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/spreading-arch.json");
+    let scene = read_file(path.as_ref()).expect("the scene is there").0;
+    let model = interface::prepare(&scene).expect("the scene resolves");
+    let to = |support: &str, x: f64| analysis::SupportMove {
+        support: support.into(),
+        way: [x, 0.0, 0.0],
+        turn_deg: [0.0; 3],
+    };
+    let question = analysis::Question::Settle(analysis::SettleOptions {
+        moves: vec![to("springer_left", -1.0), to("springer_right", 1.0)],
+        at: Vec::new(),
+    });
+    group.bench_function("supports of an arch of 16 voussoirs spread until it falls", |b| {
+        b.iter(|| analysis::ask(&question, &scene, &model, &Control::default()))
     });
     let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/sweeps/arch-in-earthquake.json");
     let sweep = sweep::open(plan.as_ref()).expect("the plan opens");

@@ -129,6 +129,8 @@ pub mod verdict;
 
 pub mod terms;
 
+pub mod path;
+
 #[cfg(feature = "solve")]
 pub mod program;
 

@@ -30,6 +30,8 @@ fn main() -> ExitCode {
         Verb::Tilt(a) => cli::tilt::run(&a, &terminal),
         Verb::Critical(a) => cli::critical::run(&a, &terminal),
         Verb::Thrust(a) => cli::thrust::run(&a, &terminal),
+        Verb::Settle(a) => cli::path::settle(&a, &terminal),
+        Verb::Push(a) => cli::path::push(&a, &terminal),
         Verb::Study(a) => cli::study::run(&a, &terminal),
         Verb::Simulate(a) => cli::simulate::run(&a, &terminal),
         Verb::Repose(a) => cli::repose::run(&a, &terminal),

@@ -6,7 +6,9 @@ use super::{
     Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt, assess,
     coulomb,
     coulomb::DryLoadFactor,
-    critical, in_time, limit,
+    critical, follow,
+    follow::answer::Followed,
+    in_time, limit,
     question::{
         CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
         directions,
@@ -41,6 +43,8 @@ pub enum Answer {
     Thrust(Box<Thrust>),
     /// How steep may a packing be?
     Repose(Packing),
+    /// How far does it go, and what holds it on the way?
+    Path(Box<Followed>),
     /// What happens in time?
     #[cfg(feature = "dynamics")]
     Simulate(Box<SimulationOutcome>),
@@ -128,6 +132,12 @@ fn answer(
         Question::Repose(ReposeOptions { toward, all, moving_mass, .. }) => {
             let toward = directions(model.assembly.gravity, toward, *all);
             Answer::Repose(stability::packing(model, &toward, *moving_mass, control)?)
+        }
+        Question::Settle(options) => {
+            Answer::Path(Box::new(follow::answer::settle(model, options, control)?))
+        }
+        Question::Push(options) => {
+            Answer::Path(Box::new(follow::answer::push(model, options, control)?))
         }
         Question::Simulate(options) => simulate(options)?,
     })

@@ -59,6 +59,8 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
             )
         }),
         Answer::Critical(c) => about.range(c),
+        // A path says itself where it ended, and why.
+        Answer::Path(_) => None,
         #[cfg(feature = "dynamics")]
         Answer::Simulate(outcome) => in_time(outcome),
     }

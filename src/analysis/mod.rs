@@ -10,6 +10,7 @@ pub mod coulomb;
 pub mod critical;
 pub mod doubt;
 pub mod flip;
+pub mod follow;
 pub mod geometric;
 mod in_time;
 pub mod limit;
@@ -40,8 +41,8 @@ pub use doubt::doubt;
 pub use limit::{LoadFactor, limit};
 pub use proved::{Claims, Proved};
 pub use question::{
-    AssessOptions, CriticalOptions, LimitOptions, Question, ReposeOptions, SimulateOptions,
-    ThrustOptions, TiltOptions,
+    AssessOptions, ControlPoint, CriticalOptions, LimitOptions, PushOptions, Question,
+    ReposeOptions, SettleOptions, SimulateOptions, SupportMove, ThrustOptions, TiltOptions,
 };
 pub use stability::{Packing, Stability, stability};
 pub use tilt::{Tilt, tilt};

@@ -25,6 +25,10 @@ pub enum Question {
     Repose(ReposeOptions),
     /// Does it stand in time, by the rigid-body engine? A second opinion, not a proof.
     Simulate(SimulateOptions),
+    /// How far may supports move until it falls?
+    Settle(SettleOptions),
+    /// How does the load factor fall as it moves?
+    Push(PushOptions),
 }
 
 /// Options of `assess`.
@@ -152,6 +156,57 @@ pub struct SimulateOptions {
     pub load_factor: Option<f64>,
 }
 
+/// Options of `settle`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SettleOptions {
+    /// Supports that move, all of them in proportion to one parameter, which goes from 0 to 1.
+    pub moves: Vec<SupportMove>,
+    /// Values of the parameter that become points of the curve, beside others.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub at: Vec<f64>,
+}
+
+/// How far a support moves while the parameter goes from 0 to 1.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SupportMove {
+    /// The support.
+    pub support: String,
+    /// The way, m.
+    pub way: [f64; 3],
+    /// The turn about its centre of mass: axis × angle in degrees.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub turn_deg: [f64; 3],
+}
+
+fn is_zero(v: &[f64; 3]) -> bool {
+    *v == [0.0; 3]
+}
+
+/// Options of `push`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PushOptions {
+    /// The point whose way is the parameter, m.
+    pub control: ControlPoint,
+    /// The direction in which its way is measured.
+    pub toward: [f64; 3],
+    /// Values of the parameter that become points of the curve, beside others, m.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub at: Vec<f64>,
+}
+
+/// A point of a block.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ControlPoint {
+    /// The block.
+    pub block: String,
+    /// Where it is at the start, m.
+    pub point: [f64; 3],
+}
+
 /// Directions of a tilt where nothing is said.
 pub const DIRECTIONS: u16 = 8;
 /// Most directions of a tilt: every tenth of a degree.
@@ -191,6 +246,14 @@ impl Question {
                 refuse("seconds", "must be > 0".into())
             }
             Self::Simulate(_) => Ok(()),
+            Self::Settle(o) => check_moves(&path, o),
+            Self::Push(o) if !Vector3::from(o.toward).normalize().iter().all(|v| v.is_finite()) => {
+                refuse("toward", "the direction has no length".into())
+            }
+            Self::Push(o) if o.at.iter().any(|v| !(*v >= 0.0 && v.is_finite())) => {
+                refuse("at", "must be ways from 0 on".into())
+            }
+            Self::Push(_) => Ok(()),
         }
     }
 
@@ -228,6 +291,8 @@ impl Question {
             Self::Thrust(_) => "thrust",
             Self::Repose(_) => "repose",
             Self::Simulate(_) => "simulate",
+            Self::Settle(_) => "settle",
+            Self::Push(_) => "push",
         }
     }
 
@@ -242,13 +307,20 @@ impl Question {
             Self::Repose(o) => o.law,
             // What slides in time does not open.
             Self::Simulate(_) => Law::Coulomb,
+            // Hinges alone are followed, which are the same for both.
+            Self::Settle(_) | Self::Push(_) => Law::Associative,
         }
     }
 
     /// The value below which an answer counts as failure.
     pub fn require(&self) -> Option<f64> {
         match self {
-            Self::Assess(_) | Self::Critical(_) | Self::Thrust(_) | Self::Simulate(_) => None,
+            Self::Assess(_)
+            | Self::Critical(_)
+            | Self::Thrust(_)
+            | Self::Simulate(_)
+            | Self::Settle(_)
+            | Self::Push(_) => None,
             Self::Limit(o) => o.require,
             Self::Tilt(o) => o.require,
             Self::Repose(o) => o.require,
@@ -269,6 +341,8 @@ impl Question {
             Self::Tilt(_) => Some("tilt in degrees"),
             Self::Critical(_) => Some("value at which the verdict flips"),
             Self::Repose(_) => Some("angle of maximum stability in degrees"),
+            Self::Settle(_) => Some("share of the movement up to which it stands"),
+            Self::Push(_) => Some("way of the control point up to which it resists in m"),
         }
     }
 
@@ -289,6 +363,25 @@ impl Question {
     pub(super) fn control(&self, control: &Control) -> Control {
         Control { law: self.law(), ..*control }
     }
+}
+
+fn check_moves(path: &JsonPath, o: &SettleOptions) -> Result<(), InputError> {
+    let refuse = |key: &str, text: String| Err(InputError::at(path.key(key), text));
+    for (k, m) in o.moves.iter().enumerate() {
+        if o.moves[..k].iter().any(|other| other.support == m.support) {
+            return refuse("moves", format!("{} is told to move twice", m.support));
+        }
+        if !m.way.iter().chain(&m.turn_deg).all(|v| v.is_finite()) {
+            return refuse("moves", format!("{}: a number is not finite", m.support));
+        }
+    }
+    if o.moves.iter().all(|m| m.way == [0.0; 3] && m.turn_deg == [0.0; 3]) {
+        return refuse("moves", "no support moves".into());
+    }
+    if o.at.iter().any(|v| !(0.0..=1.0).contains(v)) {
+        return refuse("at", "must be shares of the movement, from 0 to 1".into());
+    }
+    Ok(())
 }
 
 fn check_directions(

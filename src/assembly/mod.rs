@@ -9,12 +9,14 @@ mod joint;
 mod member;
 mod plausible;
 mod polyhedron;
+mod pose;
 mod resolve;
 
 pub use gyration::Gyration;
 pub use joint::{JointLaw, JointRules};
 pub use member::{Action, Anchor, BlockFace, DowelPlan, Member, MemberKind, MemberPlan, StripPlan};
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
+pub use pose::Pose;
 pub use resolve::{Blocks, resolve, resolve_blocks, resolve_until, resolve_with};
 
 use crate::{

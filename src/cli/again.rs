@@ -1,6 +1,8 @@
 //! The options that would have to be given again for the same answer, as typed.
 
-use super::args::{Assess, Common, Critical, DIRECTIONS, Law, Simulate, Thrust, Tilt};
+use super::args::{
+    Assess, Common, Critical, DIRECTIONS, Law, Push, Settle, Simulate, Thrust, Tilt,
+};
 use voussoir::sweep::Between;
 
 /// As typed, where it was given.
@@ -48,6 +50,39 @@ impl Thrust {
         let member = self.member.as_ref();
         let member = member.map(|m| format!("--member {}", super::question::quoted(m)));
         support.into_iter().chain(direction).chain(member).collect()
+    }
+}
+
+/// Numbers with commas between.
+fn list(numbers: &[f64]) -> String {
+    numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
+}
+
+/// As typed, where there are values.
+fn at(values: &[f64]) -> Option<String> {
+    (!values.is_empty()).then(|| format!("--at {}", list(values)))
+}
+
+impl Settle {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let moves = self.moves.iter().map(|m| {
+            let turn = if m.turn_deg == [0.0; 3] { &[][..] } else { &m.turn_deg };
+            let numbers = [&m.way[..], turn].concat();
+            let word = format!("{}={}", m.support, list(&numbers));
+            format!("--move {}", super::question::quoted(&word))
+        });
+        moves.chain(at(&self.at)).collect()
+    }
+}
+
+impl Push {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let word = format!("{}={}", self.control.0, list(&self.control.1));
+        let control = format!("--control {}", super::question::quoted(&word));
+        let toward = format!("--toward {}", list(&self.toward));
+        [control, toward].into_iter().chain(at(&self.at)).collect()
     }
 }
 

@@ -18,6 +18,7 @@ pub mod limit;
 pub mod man;
 pub mod memory;
 mod output;
+pub mod path;
 mod pictures;
 mod progress;
 mod question;

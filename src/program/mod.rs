@@ -18,6 +18,7 @@ mod conic;
 pub mod coulomb;
 mod crushing;
 mod load_factor;
+mod margin;
 mod member;
 mod opening;
 mod options;
@@ -34,12 +35,13 @@ pub use bearing::{Bearing, BearingCone, Disc, Limits};
 pub use conic::{Cone, ConicProgram, Sparse};
 pub use crushing::CrushingJoint;
 pub use load_factor::load_factor;
+pub use margin::margin;
 pub use member::{MemberColumns, MemberSet};
 pub use opening::opening;
 pub use options::{Pyramid, StaticsOptions};
 pub use planar::Plane;
 pub use statics::{FreeBlock, Statics};
-pub use thrust::{endless_thrust, member_columns, thrust, thrust_columns};
+pub use thrust::{endless_thrust, member_columns, reaction_columns, thrust, thrust_columns};
 pub use unbalance::{LiveLoad, unbalance};
 
 /// Which unknowns a program is written in; the others come out as multipliers.

@@ -9,7 +9,10 @@ use super::{
     Cone, ConicProgram, Positions, Statics, Unknowns,
     unbalance::{copy, force_cones},
 };
-use crate::interface::Interfaces;
+use crate::{
+    interface::{Interfaces, Model},
+    verdict::{Rate, certificate},
+};
 use nalgebra::Vector3;
 
 /// Thrust per unit of every column, N: the component along `direction` of the force on `support`.
@@ -41,6 +44,28 @@ pub fn member_columns(statics: &Statics, member: usize) -> Vec<f64> {
     for own in statics.members.iter().filter(|own| own.member == member) {
         for (k, (_, sign)) in own.amounts.iter().enumerate().filter(|(_, (axis, _))| *axis == 0) {
             columns[own.column + k] = sign * own.unit;
+        }
+    }
+    columns
+}
+
+/// Power per unit of every column, W, of the forces on supports that move at these rates (of all
+/// blocks; those of free blocks do not count).
+pub fn reaction_columns(statics: &Statics, model: &Model, rates: &[Rate]) -> Vec<f64> {
+    let Model { assembly, interfaces, .. } = model;
+    let mut columns = vec![0.0; statics.matrix.columns];
+    for bearing in &statics.bearings {
+        let face = &interfaces.list[bearing.interface];
+        let point = 0.5 * (face.points[bearing.points[0]] + face.points[bearing.points[1]]);
+        for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
+            if !assembly.blocks[block].support {
+                continue;
+            }
+            let velocity = certificate::at(assembly, rates, block, &point);
+            for (k, basis) in bearing.basis.iter().enumerate() {
+                let power = basis.force.dot(&velocity) + basis.moment.dot(&rates[block].spin);
+                columns[bearing.column + k] += sign * bearing.unit * power;
+            }
         }
     }
     columns

@@ -1,7 +1,7 @@
 //! Answers as results have them: one value of a sum, flat in JSON, where only the keys of its
 //! question stand.
 
-use super::{critical::CriticalValue, result::DryResult, thrust::ThrustAnswer};
+use super::{critical::CriticalValue, path::PathAnswer, result::DryResult, thrust::ThrustAnswer};
 use crate::{
     terms::{Bracket, Deciding, Fate, Found, Law, Outcome},
     verdict::{Verdict, exact::Grade},
@@ -23,6 +23,8 @@ pub enum Answer {
     Critical(Vec<CriticalValue>),
     /// The range of the thrust on a support.
     Thrust(Box<ThrustAnswer>),
+    /// How far supports or a control point move.
+    Path(Box<PathAnswer>),
     /// What became of it in time, beside the verdict where that was asked.
     Simulation(Fate, Option<VerdictAnswer>),
 }
@@ -217,7 +219,7 @@ impl Answer {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => Some(a.verdict),
             Self::Limit(a) => a.verdict,
             Self::Tilt(a) => a.verdict,
-            Self::Critical(_) | Self::Thrust(_) | Self::Simulation(_, None) => None,
+            Self::Critical(_) | Self::Thrust(_) | Self::Path(_) | Self::Simulation(_, None) => None,
         }
     }
 
@@ -263,6 +265,14 @@ impl Answer {
     pub fn thrust(&self) -> Option<&ThrustAnswer> {
         match self {
             Self::Thrust(a) => Some(a),
+            _ => None,
+        }
+    }
+
+    /// How far it goes.
+    pub fn path(&self) -> Option<&PathAnswer> {
+        match self {
+            Self::Path(a) => Some(a),
             _ => None,
         }
     }
@@ -337,6 +347,9 @@ pub(super) struct Flat {
     /// The range of the thrust on a support, and the geometric safety factor.
     #[serde(skip_serializing_if = "Option::is_none")]
     thrust: Option<Box<ThrustAnswer>>,
+    /// How far supports or a control point move.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    path: Option<Box<PathAnswer>>,
 }
 
 impl JsonSchema for Answer {
@@ -378,6 +391,7 @@ impl From<Answer> for Flat {
             },
             Answer::Critical(list) => Self { critical: Some(list), ..Self::default() },
             Answer::Thrust(thrust) => Self { thrust: Some(thrust), ..Self::default() },
+            Answer::Path(path) => Self { path: Some(path), ..Self::default() },
         }
     }
 }
@@ -401,7 +415,23 @@ impl TryFrom<Flat> for Answer {
             tilt_deg,
             critical,
             thrust,
+            path,
         } = flat;
+        let alone_in_all = verdict.is_none()
+            && law.is_none()
+            && fate.is_none()
+            && unbalance.is_none()
+            && part.is_none()
+            && proof.is_none()
+            && load_factor.is_none()
+            && toward.is_none()
+            && tan_tilt.is_none()
+            && tilt_deg.is_none()
+            && critical.is_none()
+            && thrust.is_none();
+        if let Some(path) = path {
+            return if alone_in_all { Ok(Self::Path(path)) } else { Err(MIXED) };
+        }
         let alone = verdict.is_none() && part.is_none() && proof.is_none();
         match (fate, load_factor, (toward, tan_tilt, tilt_deg), critical, thrust) {
             (None, Some(load_factor), (None, None, None), None, None)

@@ -8,6 +8,7 @@ pub mod member;
 mod pack;
 pub mod packing;
 mod part;
+pub mod path;
 pub mod read;
 pub mod result;
 pub mod simulation;

@@ -6,6 +6,7 @@ use super::{
     answer::Answer,
     critical::CriticalResult,
     member::{MemberLine, MemberWords},
+    path::PathResult,
     simulation::Simulation,
     thrust::ThrustResult,
     work::Work,
@@ -69,6 +70,9 @@ pub struct ResultFile {
     /// Thrust: the evidence for both ends and the line of thrust.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thrust: Option<ThrustResult>,
+    /// Settle and push: the curve, every point with its evidence.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathResult>,
     /// What happened in time, where it was simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub simulation: Option<Simulation>,
@@ -116,6 +120,10 @@ pub enum QuestionKind {
     Thrust,
     /// What happens in time, and does it agree with the verdict?
     Simulate,
+    /// How far may supports move until it falls?
+    Settle,
+    /// How does the load factor fall as it moves?
+    Push,
 }
 
 /// The scene a result is about.

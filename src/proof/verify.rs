@@ -8,7 +8,7 @@ pub(super) mod states;
 use super::{
     ResultFile,
     answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
-    critical, member, part,
+    critical, member, part, path,
     result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
     thrust,
 };
@@ -111,10 +111,12 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         QuestionKind::Tilt => tilts(&mut all, file, model),
         QuestionKind::Critical => critical::verify(&mut all, file, scene),
         QuestionKind::Thrust => thrust::verify(&mut all, file, model),
+        QuestionKind::Settle | QuestionKind::Push => path::verify(&mut all, file, model),
     }
     let strangers = [
         file.question != QuestionKind::Critical && file.critical.is_some(),
         file.question != QuestionKind::Thrust && file.thrust.is_some(),
+        !matches!(file.question, QuestionKind::Settle | QuestionKind::Push) && file.path.is_some(),
     ];
     if strangers.contains(&true) {
         all.part("form", failure("the file holds answers to a question that was not asked"));
@@ -142,9 +144,9 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             QuestionKind::Assess
             | QuestionKind::Simulate
             | QuestionKind::Critical
-            | QuestionKind::Thrust => {
-                failure("the file holds a load factor that was not asked for")
-            }
+            | QuestionKind::Thrust
+            | QuestionKind::Settle
+            | QuestionKind::Push => failure("the file holds a load factor that was not asked for"),
             _ => again::dry_friction(
                 &|_| Ok(model.clone()),
                 (&file.answer, &file.certificate),

@@ -8,6 +8,7 @@ pub mod imported;
 pub mod inspection;
 pub mod json;
 pub mod page;
+pub mod path;
 pub mod study;
 pub mod sweep;
 pub mod table;

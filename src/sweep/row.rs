@@ -6,6 +6,10 @@ use crate::{
         Answer, Assessment, Critical, LoadFactor, Outcome, Proved, Tilt,
         coulomb::{DryLoadFactor, Found},
         critical::{Method, Scanned},
+        follow::{
+            End,
+            answer::{Followed, PointProof},
+        },
         thrust::ThrustEnd,
     },
     dynamics::Fate,
@@ -189,11 +193,34 @@ impl RowAnswer {
             Answer::Thrust(t) => {
                 t.ends.first().map_or_else(|| Self::of_assessment(&t.standing), Self::of_thrust)
             }
+            Answer::Path(p) => Self::of_path(p),
             Answer::Simulate(outcome) => Self::of(match outcome.fate {
                 Fate::Stands => RowStatus::Stable,
                 Fate::Falls => RowStatus::Unstable,
                 Fate::Undecided => RowStatus::Undecided,
             }),
+        }
+    }
+
+    /// How far it goes: between where it is proved to stand and where to fall. Without an end there
+    /// is no limit; a path that was not followed to its end is undecided, with how far it is known.
+    fn of_path(p: &Followed) -> Self {
+        let proved = |p: &PointProof| p.claim.is_some();
+        let values = p.path.points.iter().map(|p| p.value);
+        let known = values.zip(&p.proofs).take_while(|(_, proof)| proved(proof)).last();
+        let (whole, last) = (p.proofs.iter().all(proved), known.map(|k| k.0));
+        match &p.path.end {
+            End::Falls(ends) if p.ends.len() == 2 && p.ends.iter().all(proved) => Self {
+                value: Some(ends[0].value),
+                lower: Some(ends[0].value),
+                upper: Some(ends[1].value),
+                ..Self::of(RowStatus::Found)
+            },
+            End::Vanishes if whole => {
+                Self { value: last, lower: last, upper: last, ..Self::of(RowStatus::Found) }
+            }
+            End::Reached if whole => Self { lower: last, ..Self::of(RowStatus::Unbounded) },
+            _ => Self { lower: last, ..Self::of(RowStatus::Undecided) },
         }
     }
 

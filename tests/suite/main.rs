@@ -32,6 +32,7 @@ mod meshes;
 mod mistakes;
 mod page;
 mod parts;
+mod path;
 mod pictures;
 mod published;
 mod readme;

@@ -137,7 +137,7 @@ fn fits(schema: &Value, value: &Value, what: &str) {
 #[test]
 fn every_verb_answers_as_the_schema_says() {
     let schema = run(&["schema", "result"]);
-    let questions: [&[&str]; 17] = [
+    let questions: [&[&str]; 19] = [
         &["assess", "structures/oppenheim-arch.json"],
         &["assess", "structures/semicircular-arch-thin.json", "--simulate"],
         &["assess", "structures/squeezed-block.json"],
@@ -153,6 +153,15 @@ fn every_verb_answers_as_the_schema_says() {
         &["limit", "structures/tied-arch.json"],
         &["assess", "structures/grip-two-fingers.json"],
         &["simulate", "structures/grip-two-fingers.json", "--fast"],
+        &["settle", "structures/spreading-arch.json", "--move", "springer_right=0.12,0,0"],
+        &[
+            "push",
+            "structures/oppenheim-arch.json",
+            "--control",
+            "v02=-2.0972209616733786,0,10.543441764334727",
+            "--toward",
+            "1,0",
+        ],
         &[
             "critical",
             "structures/semicircular-arch-thick.json",

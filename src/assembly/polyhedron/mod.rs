@@ -37,7 +37,7 @@ pub struct Polyhedron {
     pub convex: bool,
     /// Of the surface as given; joining facets straightens edges within tolerance and would lose
     /// digits.
-    mass: MassProperties,
+    pub(super) mass: MassProperties,
 }
 
 /// A plane facet, possibly non-convex or with holes: a union of convex pieces that overlap at most

@@ -2,6 +2,7 @@
 
 mod files;
 mod parse;
+mod path;
 mod pictures;
 mod repose;
 mod simulate;
@@ -9,6 +10,7 @@ mod study;
 mod sweep;
 
 pub use files::{Check, Completions, FileFormat, Generate, Import, Man, Schema};
+pub use path::{Curve, Push, Settle};
 pub use pictures::{Pictures, Tables};
 pub use repose::{Asked, Repose};
 pub use simulate::Simulate;
@@ -116,6 +118,23 @@ pub enum Verb {
     /// thrust. Exit code 0 if both ends are found or have no limit, 1 if the scene falls, 3 if that
     /// stays open.
     Thrust(Thrust),
+    /// How far may supports move until it falls?
+    ///
+    /// Supports move along given ways, slowly, and yield: at the start the blocks push them with
+    /// the least force that there can be. The motion is followed with finite rotations from hinge to
+    /// hinge; every point of the curve is a scene of its own with a proof that it stands, and where
+    /// it falls one pose is proved to stand and the next to fall. Joints that slide are said and not
+    /// followed. Exit code 0 if it stands through the whole movement, 1 if it falls, 3 if that stays
+    /// open.
+    Settle(Settle),
+    /// How does the load factor fall as it moves?
+    ///
+    /// The live load pushes the structure over, and the way of a point of it is the parameter: at
+    /// each value the load factor is that of the displaced scene, in a bracket (the capacity curve),
+    /// down to where it vanishes. Where the motion turns back it says so, and goes on at the same
+    /// value. Joints that slide are said and not followed. Exit code 0 if the load factor vanishes
+    /// on the way, 1 if it falls before, 3 if that stays open.
+    Push(Push),
     /// What happens in time, and does the verdict say the same?
     ///
     /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any

@@ -5,7 +5,7 @@ use std::{
     ffi::OsString,
     path::{Path, PathBuf},
 };
-use voussoir::{import::Up, scene::Friction};
+use voussoir::{analysis::SupportMove, import::Up, scene::Friction};
 
 /// What an output option writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,6 +174,34 @@ pub fn up(text: &str) -> Result<Up, String> {
         "-y" => Ok(Up::MinusY),
         "-z" => Ok(Up::MinusZ),
         _ => Err("not one of x, y, z, -x, -y, -z".into()),
+    }
+}
+
+/// A block and so many numbers, `BLOCK=1,2,3`. The last equals sign counts: ids may have some.
+fn block_and_numbers(text: &str) -> Option<(String, Vec<f64>)> {
+    let (id, numbers) = text.rsplit_once('=')?;
+    let numbers: Result<Vec<f64>, String> = numbers.split(',').map(finite).collect();
+    (!id.is_empty()).then_some((id.to_string(), numbers.ok()?))
+}
+
+pub fn support_move(text: &str) -> Result<SupportMove, String> {
+    let wrong = "not a support with three or six numbers, such as right=0.1,0,0";
+    let (support, numbers) = block_and_numbers(text).ok_or(wrong)?;
+    match numbers[..] {
+        [x, y, z] => Ok(SupportMove { support, way: [x, y, z], turn_deg: [0.0; 3] }),
+        [x, y, z, a, b, c] => Ok(SupportMove { support, way: [x, y, z], turn_deg: [a, b, c] }),
+        _ => Err(wrong.into()),
+    }
+}
+
+pub fn control(text: &str) -> Result<(String, [f64; 3]), String> {
+    let wrong = "not a block with a point of it, such as v03=0.2,0,1.1";
+    match block_and_numbers(text) {
+        Some((id, numbers)) => match numbers[..] {
+            [x, y, z] => Ok((id, [x, y, z])),
+            _ => Err(wrong.into()),
+        },
+        None => Err(wrong.into()),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod critical;
 mod packing;
+mod path;
 #[cfg(feature = "dynamics")]
 mod simulation;
 mod thrust;
@@ -71,6 +72,7 @@ impl ResultFile {
             coulomb_state: None,
             critical: None,
             thrust: None,
+            path: None,
             simulation: None,
             mechanism: None,
             members: Vec::new(),
@@ -97,6 +99,7 @@ impl ResultFile {
             Answered::Tilt(t) => return Self::tilt(scene, model, t),
             Answered::Critical(c) => Self::critical(scene, model, c),
             Answered::Thrust(t) => Self::thrust(scene, model, t),
+            Answered::Path(p) => Self::path(scene, model, p),
             #[cfg(feature = "dynamics")]
             Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
             Answered::Repose(_) => return None,

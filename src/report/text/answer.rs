@@ -111,6 +111,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         }
         QuestionKind::Critical => super::critical::title(file),
         QuestionKind::Thrust => super::thrust::title(file),
+        QuestionKind::Settle | QuestionKind::Push => super::path::title(file),
     };
     let (text, role) = match without_live_load(file) {
         Some(words) => (format!("{text}; {words}"), Role::Bad),
@@ -210,6 +211,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         QuestionKind::Simulate => return simulation::why(page, file),
         QuestionKind::Critical => return super::critical::why(page, file),
         QuestionKind::Thrust => return super::thrust::why(page, file),
+        QuestionKind::Settle | QuestionKind::Push => return super::path::why(page, file),
         QuestionKind::Limit | QuestionKind::Tilt => {}
     }
     let tilt = file.question == QuestionKind::Tilt;

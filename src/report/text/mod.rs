@@ -7,6 +7,7 @@ mod heaps;
 mod mechanism;
 mod packing;
 mod page;
+mod path;
 mod simulation;
 mod template;
 mod thrust;
@@ -68,6 +69,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     answer::part(&mut page, file);
     critical::rows(&mut page, file, options);
     thrust::rows(&mut page, file, options);
+    path::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
@@ -178,6 +180,8 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         QuestionKind::Critical => "critical",
         QuestionKind::Thrust => "thrust",
         QuestionKind::Simulate => "simulate",
+        QuestionKind::Settle => "settle",
+        QuestionKind::Push => "push",
     };
     let again = if asked.options.is_empty() {
         format!("voussoir {verb} {scene}")
@@ -185,7 +189,9 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         format!("voussoir {verb} {scene} {}", asked.options)
     };
     let look = (format!("voussoir check {scene}"), "mistakes in the scene, near misses, overlaps");
-    let elsewhere = file.critical.is_some() || file.thrust.is_some();
+    let elsewhere = file.critical.is_some()
+        || file.thrust.is_some()
+        || file.answer.path().is_some_and(|a| a.value.is_some());
     if file.question == QuestionKind::Simulate {
         return page.commands("next", &simulation::next(file, scene, &again));
     }

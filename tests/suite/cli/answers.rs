@@ -34,6 +34,21 @@ fn exit_codes_say_what_the_answer_is() {
     expect(NO, critical(&["--vary", "/joints/default/friction", "--between", "0.8", "0.9"]));
     expect(YES, voussoir(&["thrust", &arch, "--support", "springer_right", "--direction", "-1,0"]));
     expect(NO, voussoir(&["thrust", &thin]));
+    let settle = |moves: &str| voussoir(&["settle", &arch, "--move", moves]);
+    expect(YES, settle("springer_right=0.001,0,0"));
+    expect(NO, settle("springer_right=1,0,0"));
+    for wrong in
+        ["springer_right=1,0", "springer_right=0,0,0", "v03=1,0,0", "nobody=1,0,0", "1,0,0"]
+    {
+        expect(USAGE, settle(wrong));
+    }
+    let push = |control: &str, toward: &str| {
+        voussoir(&["push", &arch, "--control", control, "--toward", toward])
+    };
+    // There is no live load, no such point, no direction.
+    expect(USAGE, push("v03=0,0,1", "1,0"));
+    expect(USAGE, push("v03=0,0", "1,0"));
+    expect(USAGE, push("v03=0,0,1", "1"));
     expect(USAGE, critical(&["--vary", "/joints/default/frictoin", "--between", "0.1", "0.9"]));
     expect(USAGE, voussoir(&["thrust", &arch, "--support", "v03"]));
     expect(USAGE, voussoir(&["thrust", &arch, "--direction", "0,0,1"]));

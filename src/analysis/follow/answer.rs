@@ -1,0 +1,253 @@
+//! The answers of `settle` and `push`: a path whose every point is proved by itself.
+
+use super::{End, Follow, Path, Point, follow};
+use crate::{
+    analysis::{
+        Control, limit,
+        question::{PushOptions, SettleOptions},
+    },
+    assembly::{Solid, Wrench},
+    error::{InputError, JsonPath},
+    interface::Model,
+    path::{
+        Carried, Drive, Move, Moves, reaction,
+        saved::{read_poses, write_poses},
+    },
+    terms::Law,
+    verdict::{
+        Evidence, Forces, Rate,
+        check::{self, Claim, Findings},
+    },
+};
+use nalgebra::Vector3;
+
+/// A path with its proofs.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    /// What moves it.
+    pub drive: Drive,
+    /// Where it goes.
+    pub path: Path,
+    /// What proves each point, in order.
+    pub proofs: Vec<PointProof>,
+    /// It falls: what proves the last pose that stands and the first that falls.
+    pub ends: Vec<PointProof>,
+    /// At the start: least power of the supports that move, with forces and rates.
+    pub least: Option<(reaction::Least, Forces, Vec<Rate>)>,
+}
+
+/// What proves a point.
+#[derive(Clone, Debug)]
+pub struct PointProof {
+    /// The displaced scene.
+    pub model: Model,
+    /// What is proved of it; nothing where the check refused it.
+    pub claim: Option<Claim>,
+    /// Forces.
+    pub forces: Forces,
+    /// Rates.
+    pub rates: Vec<Rate>,
+    /// What the check found.
+    pub findings: Findings,
+}
+
+/// Steps of the curve, over the size of the scene.
+const STEP: f64 = 2e-3;
+
+/// Follows a scene whose supports move.
+///
+/// # Errors
+/// A support that is none, or is told to move twice or not at all; a scene that cannot be followed.
+pub fn settle(
+    model: &Model,
+    options: &SettleOptions,
+    control: &Control,
+) -> Result<Followed, InputError> {
+    let error = |text: String| InputError::at(JsonPath::root(), text);
+    followable(model)?;
+    let blocks = &model.assembly.blocks;
+    let mut moves = Vec::new();
+    for m in &options.moves {
+        let support = model.assembly.find(&m.support).filter(|&i| blocks[i].support);
+        let Some(support) = support else {
+            let supports: Vec<&str> =
+                blocks.iter().filter(|b| b.support).map(|b| b.id.as_str()).take(8).collect();
+            return Err(error(format!("{}: there is no such support", m.support))
+                .hint(format!("supports are {}", supports.join(", "))));
+        };
+        moves.push(Move {
+            support,
+            way: m.way.into(),
+            turn: Vector3::from(m.turn_deg).map(f64::to_radians),
+        });
+    }
+    let speed = moves
+        .iter()
+        .map(|m| m.way.norm() + m.turn.norm() * blocks[m.support].size)
+        .fold(0.0, f64::max);
+    let touches = model.interfaces.list.iter().any(|f| {
+        moves.iter().any(|m| {
+            (f.a == m.support || f.b == m.support) && (m.way, m.turn) != Default::default()
+        })
+    });
+    if !touches {
+        return Err(error("no support that moves touches a free block".into()));
+    }
+    let step = STEP * size(model) / speed;
+    let how =
+        Follow { drive: Drive::Settle(Moves(moves)), until: 1.0, at: options.at.clone(), step };
+    Ok(answer(model, &how, control))
+}
+
+/// Follows a scene under its live load, a point of it pushed along.
+///
+/// # Errors
+/// No such block, no live load; a scene that cannot be followed.
+pub fn push(
+    model: &Model,
+    options: &PushOptions,
+    control: &Control,
+) -> Result<Followed, InputError> {
+    let error = |text: String| InputError::at(JsonPath::root(), text);
+    followable(model)?;
+    if model.assembly.live.iter().all(|w| *w == Wrench::zero()) {
+        let path = JsonPath::root().key("loads").key("live");
+        return Err(InputError::at(path, "there is no live load on a free block to ask about")
+            .hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene"));
+    }
+    let blocks = &model.assembly.blocks;
+    let id = &options.control.block;
+    let Some(block) = model.assembly.find(id).filter(|&i| !blocks[i].support) else {
+        return Err(error(format!("{id}: there is no such free block")));
+    };
+    let point = Vector3::from(options.control.point);
+    if (point - blocks[block].centroid).norm() > blocks[block].size {
+        let c: [f64; 3] = blocks[block].centroid.into();
+        return Err(error(format!("the control point is no point of {id}"))
+            .hint(format!("its centre of mass is at {}", crate::number::point(c))));
+    }
+    let toward = Vector3::from(options.toward).normalize();
+    let size = size(model);
+    let how = Follow {
+        drive: Drive::Push { block, point, toward },
+        until: size,
+        at: options.at.clone(),
+        step: STEP * size,
+    };
+    Ok(answer(model, &how, control))
+}
+
+/// What cannot be followed.
+fn followable(model: &Model) -> Result<(), InputError> {
+    let refuse = |text: String, hint: &str| {
+        Err(InputError::at(JsonPath::root(), text).hint(hint.to_string()))
+    };
+    let blocks = &model.assembly.blocks;
+    if let Some(f) = model.interfaces.list.iter().find(|f| !f.law.is_dry()) {
+        return refuse(
+            format!(
+                "the joint between {} and {} has a strength, water or a rolling arm: motions are followed with dry joints only",
+                blocks[f.a].id, blocks[f.b].id
+            ),
+            "ask `assess` or `limit` about the first instant",
+        );
+    }
+    if let Some(m) = model.interfaces.members.iter().find(|m| !m.is_idle()) {
+        return refuse(
+            format!("member {:?}: motions are followed without members only", m.id),
+            "ask `assess` or `limit` about the first instant",
+        );
+    }
+    let round = |i: usize| !matches!(blocks[i].solid, Solid::Polyhedron(_));
+    if let Some(f) = model.interfaces.list.iter().find(|f| round(f.a) || round(f.b)) {
+        let id = &blocks[if round(f.a) { f.a } else { f.b }].id;
+        return refuse(
+            format!(
+                "{id} is round: what rolls touches at other points as it moves, which is not followed"
+            ),
+            "`voussoir simulate` runs it in time",
+        );
+    }
+    Ok(())
+}
+
+/// Bounding box diagonal of the contacts, m.
+fn size(model: &Model) -> f64 {
+    let corners = || model.interfaces.list.iter().flat_map(|f| &f.points);
+    let all = |f: fn(f64, f64) -> f64, from: f64| {
+        corners().fold(Vector3::repeat(from), |a, p| a.zip_map(p, f))
+    };
+    (all(f64::max, f64::NEG_INFINITY) - all(f64::min, f64::INFINITY)).norm()
+}
+
+fn answer(model: &Model, how: &Follow, control: &Control) -> Followed {
+    let path = follow(model, how, control.deadline);
+    let carried = Carried::new(model);
+    let prove = |point: &Point| proof(&carried, how, point, control);
+    let proofs = path.points.iter().map(prove).collect();
+    let ends = match &path.end {
+        End::Falls(ends) => ends.iter().map(prove).collect(),
+        _ => Vec::new(),
+    };
+    let least = path.first.as_ref().filter(|_| !how.drive.is_push()).map(|(forces, rates)| {
+        (reaction::least(model, forces, rates), forces.clone(), rates.clone())
+    });
+    Followed { drive: how.drive.clone(), path, proofs, ends, least }
+}
+
+/// Proves a point from its poses, as anybody who reads them can.
+fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> PointProof {
+    // From the poses as they are saved: to the last digit what a reader of them proves.
+    let assembly = &carried.start.assembly;
+    let saved = write_poses(assembly, &point.poses);
+    let poses = read_poses(assembly, &saved).unwrap_or_else(|_| point.poses.clone());
+    let found = carried.displaced(&poses);
+    let model = &found.model;
+    let rest = || vec![Rate::zero(); model.assembly.blocks.len()];
+    let proved = |claim: Claim, forces: Forces, rates: Vec<Rate>| {
+        let findings = check::verify(model, &claim, Evidence::new(&forces, &rates));
+        let claim = Some(claim).filter(|_| findings.proved());
+        PointProof { model: model.clone(), claim, forces, rates, findings }
+    };
+    if how.drive.is_push() {
+        let l = limit(model, &Control { law: Law::Associative, ..*control });
+        let (forces, rates) = (l.forces.clone(), l.rates.clone());
+        return PointProof {
+            claim: l.claim(),
+            findings: l.findings().clone(),
+            model: model.clone(),
+            forces,
+            rates,
+        };
+    }
+    // Corners that touch again without having to are among the contacts, and carry nothing.
+    let touching = carried.touching(&poses, &point.closed);
+    let mut forces = crate::verdict::no_forces(&model.interfaces);
+    for (c, given) in point.forces.iter().enumerate() {
+        let (k, from) = (touching.from[c], &touching.model.interfaces.list[c]);
+        let Some(to) = found.from.iter().position(|&f| f == k) else { continue };
+        for (p, w) in from.points.iter().zip(given) {
+            let near = |q: &&Vector3<f64>| (**q - p).norm() <= 1e-7 * carried.size(k);
+            if let Some(at) = model.interfaces.list[to].points.iter().position(|q| near(&q)) {
+                forces[to][at] += *w;
+            }
+        }
+    }
+    if point.rates.iter().all(|r| *r == Rate::zero()) {
+        return proved(Claim::Stable, forces, rest());
+    }
+    let falls = proved(Claim::Unstable, forces.clone(), point.rates.clone());
+    if falls.claim.is_some() { falls } else { proved(Claim::Stable, forces, rest()) }
+}
+
+impl Followed {
+    /// The forces on the supports that move, N, at a point.
+    pub fn reactions(&self, proof: &PointProof) -> Vec<(usize, Wrench)> {
+        let Drive::Settle(moves) = &self.drive else { return Vec::new() };
+        moves
+            .0
+            .iter()
+            .map(|m| (m.support, reaction::on_support(&proof.model, &proof.forces, m.support)))
+            .collect()
+    }
+}

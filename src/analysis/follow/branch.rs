@@ -1,0 +1,658 @@
+//! One linkage after the other, from event to event.
+
+use super::{
+    drop::{self, Landing},
+    linkage::{Linkage, Place},
+    program::{self, Margin},
+    root::narrow,
+};
+use crate::{
+    analysis::{Control, assess},
+    assembly::{Assembly, Pose, Wrench},
+    deadline::Deadline,
+    interface::{Interface, Model, detect},
+    path::{Carried, Corner, Demand, Drive},
+    terms::Law,
+    verdict::{Forces, Rate, Verdict},
+};
+use nalgebra::{DMatrix, DVector, Vector3};
+use std::collections::HashSet;
+
+/// How a path is followed.
+#[derive(Clone, Debug)]
+pub struct Follow {
+    /// What moves it.
+    pub drive: Drive,
+    /// The parameter at which it ends at the latest.
+    pub until: f64,
+    /// Values that become points of the curve, in order.
+    pub at: Vec<f64>,
+    /// The longest step.
+    pub step: f64,
+}
+
+/// A point of a path.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// The parameter.
+    pub value: f64,
+    /// The pose of every block.
+    pub poses: Vec<Pose>,
+    /// The corners that are closed and stay so, joint by joint at the start.
+    pub closed: Vec<Vec<usize>>,
+    /// The load factor; 0 where none is asked for.
+    pub load_factor: f64,
+    /// Contact forces at the closed corners ([`Carried::touching`]).
+    pub forces: Forces,
+    /// The room that they have.
+    pub room: f64,
+    /// The mechanism that lets it fall; none where it stands.
+    pub rates: Vec<Rate>,
+}
+
+/// What happens on the way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    /// A joint opens beside the others: motion goes on steadily.
+    Opens,
+    /// A joint closes.
+    Closes,
+    /// The motion turns back: at the same parameter it goes on elsewhere, by a jump.
+    Jumps,
+    /// It falls as these joints open.
+    Falls,
+}
+
+/// Something that happens on the way.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// The parameter: the last at which the linkage before was seen to hold.
+    pub value: f64,
+    /// The first at which it was seen not to hold.
+    pub beyond: f64,
+    /// What.
+    pub kind: EventKind,
+    /// Joints that open, as interfaces at the start.
+    pub opens: Vec<usize>,
+    /// Joints that close.
+    pub closes: Vec<usize>,
+    /// How far a block moves by the jump at most, m.
+    pub jump: f64,
+}
+
+/// How a path ends.
+#[derive(Clone, Debug)]
+pub enum End {
+    /// All of it was followed.
+    Reached,
+    /// It falls: the last value at which it stands and the first at which it falls, with both
+    /// poses.
+    Falls(Box<[Point; 2]>),
+    /// The load factor vanishes here.
+    Vanishes,
+    /// A joint slides from here on.
+    Slides(usize),
+    /// It could not be followed any further, and why.
+    Stuck(String),
+}
+
+/// A path.
+#[derive(Clone, Debug)]
+pub struct Path {
+    /// The points.
+    pub points: Vec<Point>,
+    /// The events.
+    pub events: Vec<Event>,
+    /// How it ends.
+    pub end: End,
+    /// At the start: the forces and rates of the first mechanism, supports among them.
+    pub first: Option<(Forces, Vec<Rate>)>,
+}
+
+/// Gaps below this × the size of the smaller block overlap.
+const OVERLAP: f64 = -1e-10;
+/// Values are known to this × what they are.
+const WIDTH: f64 = 1e-13;
+/// Rooms above this are none that is missing.
+const ROOM: f64 = -1e-9;
+
+pub(super) struct Tracker<'a> {
+    pub carried: &'a Carried<'a>,
+    pub drive: &'a Drive,
+    /// Bounding box diagonal of the scene, m.
+    pub size: f64,
+    /// When it has to end.
+    pub deadline: Deadline,
+}
+
+/// Where a linkage is at a value of the parameter.
+#[derive(Clone)]
+pub(super) struct At {
+    pub place: Place,
+    pub load_factor: f64,
+}
+
+impl<'a> Tracker<'a> {
+    pub fn start(&self) -> &'a Assembly {
+        &self.carried.start.assembly
+    }
+
+    pub fn linkage(&self, closed: &[Vec<usize>]) -> Linkage<'a> {
+        Linkage::new(self.carried, closed, self.drive)
+    }
+
+    /// Dead and live loads at poses.
+    pub fn loads(&self, poses: &[Pose]) -> [Vec<Wrench>; 2] {
+        self.start().loads_at(poses)
+    }
+
+    /// Where a linkage is at a value; equilibrium picks what its corners leave free.
+    pub fn at(&self, linkage: &Linkage, near: &Place, value: f64) -> Option<At> {
+        let demand = self.drive.demand(value);
+        let driven = linkage.drive(near, self.drive, value);
+        let mut place = linkage.close(&driven, demand.as_ref(), &[])?;
+        let basis = place.free.clone();
+        let count = basis.ncols();
+        if count == 0 {
+            let load_factor = self.load_factor(linkage, &place, &linkage.free(&place, None));
+            return Some(At { place, load_factor });
+        }
+        let wide = if self.drive.is_push() { linkage.free(&place, None) } else { basis.clone() };
+        let residual = |place: &Place| self.residual(linkage, place, &wide);
+        let go = |place: &Place, by: &DVector<f64>| {
+            linkage.close(&linkage.moved(place, &(&basis * by)), demand.as_ref(), &[])
+        };
+        let mut best = f64::INFINITY;
+        for _ in 0..30 {
+            let (r, scale) = residual(&place);
+            let size = r.amax() / scale;
+            if size <= 1e-14 || (size <= 1e-10 && size >= 0.5 * best) {
+                let load_factor = self.load_factor(linkage, &place, &wide);
+                return Some(At { place, load_factor });
+            }
+            best = best.min(size);
+            let mut j = DMatrix::zeros(r.len(), count);
+            const STEP: f64 = 1e-6;
+            for k in 0..count {
+                let mut by = DVector::zeros(count);
+                by[k] = STEP;
+                let ahead = residual(&go(&place, &by)?).0;
+                by[k] = -STEP;
+                let behind = residual(&go(&place, &by)?).0;
+                j.set_column(k, &((ahead - behind) / (2.0 * STEP)));
+            }
+            let svd = j.svd(true, true);
+            let least = 1e-9 * svd.singular_values.max();
+            let by = svd.solve(&-r, least).ok()?;
+            let by = &by * (0.1 / by.norm().max(0.1));
+            place = go(&place, &by)?;
+        }
+        None
+    }
+
+    /// Power of the loads in the free motions, aligned with those of `basis`, at the load factor
+    /// that leaves least of it; and its scale.
+    fn residual(
+        &self,
+        linkage: &Linkage,
+        place: &Place,
+        basis: &DMatrix<f64>,
+    ) -> (DVector<f64>, f64) {
+        let free = linkage.free(place, None);
+        let free = if self.drive.is_push() { free } else { place.free.clone() };
+        let aligned = &free * free.tr_mul(basis);
+        let [dead, live] = self.loads(&place.poses);
+        let a = linkage.power(place, &dead, &aligned);
+        let scale = dead.iter().map(|w| w.force.norm()).sum::<f64>() * self.size;
+        if !self.drive.is_push() {
+            return (a, scale);
+        }
+        let b = linkage.power(place, &live, &aligned);
+        let l = -a.dot(&b) / b.dot(&b);
+        (a + b * l, scale)
+    }
+
+    /// The load factor in equilibrium with a linkage.
+    fn load_factor(&self, linkage: &Linkage, place: &Place, free: &DMatrix<f64>) -> f64 {
+        if !self.drive.is_push() {
+            return 0.0;
+        }
+        let [dead, live] = self.loads(&place.poses);
+        let (a, b) = (linkage.power(place, &dead, free), linkage.power(place, &live, free));
+        -a.dot(&b) / b.dot(&b)
+    }
+
+    /// The room of the forces there.
+    pub fn margin(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Option<Margin> {
+        program::margin(&self.carried.touching(poses, closed).model, self.drive.is_push())
+    }
+
+    /// Blocks that touch now and did not at the start, in words.
+    fn meets(&self, poses: &[Pose]) -> Option<String> {
+        let start = self.carried.start;
+        let moved = start.assembly.at(poses);
+        let found = detect(&moved).ok()?;
+        let pair = |f: &Interface| (f.a.min(f.b), f.a.max(f.b));
+        let known: HashSet<_> = start.interfaces.list.iter().map(pair).collect();
+        found.list.iter().map(pair).find(|p| !known.contains(p)).map(|(a, b)| {
+            let id = |i: usize| &start.assembly.blocks[i].id;
+            format!("{} and {}, which were apart at the start, come to touch", id(a), id(b))
+        })
+    }
+
+    /// The corner that is open and has sunk deepest.
+    pub fn deepest(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Option<Corner> {
+        self.open(poses, closed).into_iter().min_by(|a, b| a.gap.total_cmp(&b.gap))
+    }
+
+    /// Corners that are not closed.
+    pub fn open(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Vec<Corner> {
+        let list = self.carried.corners(poses).into_iter().enumerate();
+        list.flat_map(|(k, c)| c.into_iter().filter(move |c| !closed[k].contains(&c.point)))
+            .collect()
+    }
+
+    pub fn point(&self, value: f64, at: &At, closed: &[Vec<usize>], margin: &Margin) -> Point {
+        Point {
+            value,
+            poses: at.place.poses.clone(),
+            closed: closed.to_vec(),
+            load_factor: if self.drive.is_push() { at.load_factor } else { 0.0 },
+            forces: margin.forces.clone(),
+            room: margin.room,
+            rates: Vec::new(),
+        }
+    }
+}
+
+/// Follows the motion of a scene from where it is.
+pub fn follow(start: &Model, how: &Follow, deadline: Deadline) -> Path {
+    let carried = Carried::new(start);
+    let blocks = &start.assembly.blocks;
+    let corners = || start.interfaces.list.iter().flat_map(|f| &f.points);
+    let all = |f: fn(f64, f64) -> f64, from: f64| {
+        corners().fold(Vector3::repeat(from), |a, p| a.zip_map(p, f))
+    };
+    let size = (all(f64::max, f64::NEG_INFINITY) - all(f64::min, f64::INFINITY)).norm();
+    let tracker = Tracker { carried: &carried, drive: &how.drive, size, deadline };
+    let poses = vec![Pose::start(); blocks.len()];
+    let closed: Vec<Vec<usize>> =
+        start.interfaces.list.iter().map(|f| (0..f.points.len()).collect()).collect();
+    let mut path = Path { points: Vec::new(), events: Vec::new(), end: End::Reached, first: None };
+    let mut state = State { value: 0.0, poses, closed };
+    // So many mechanisms: more is no path but a fall.
+    for round in 0..200 {
+        match tracker.leg(how, state, &mut path, round == 0) {
+            Ok(next) => state = next,
+            Err(end) => {
+                path.end = end;
+                return path;
+            }
+        }
+    }
+    path.end = End::Stuck("it changes its mechanism again and again".into());
+    path
+}
+
+/// A pose at which a mechanism is to be found.
+pub(super) struct State {
+    pub value: f64,
+    pub poses: Vec<Pose>,
+    pub closed: Vec<Vec<usize>>,
+}
+
+#[derive(Clone)]
+struct Trial {
+    at: At,
+    margin: Option<Margin>,
+}
+
+impl Tracker<'_> {
+    /// From one change of the mechanism to the next.
+    fn leg(&self, how: &Follow, state: State, path: &mut Path, first: bool) -> Result<State, End> {
+        let stuck = |text: &str| End::Stuck(text.to_string());
+        let next = program::next(self.carried, &state.poses, &state.closed, self.drive)
+            .ok_or_else(|| stuck("no mechanism was found"))?;
+        let wrong = self.drive.is_push() && !self.advances(&next.rates, &state.poses);
+        if first {
+            path.first = Some((next.forces, next.rates));
+        }
+        if wrong {
+            return Err(stuck(
+                "in the mechanism the control point does not move towards where it is to go",
+            ));
+        }
+        if let Some(k) = next.slides {
+            if first {
+                // What is known of the start, although nothing can be followed from there.
+                path.points.extend(path.first.iter().map(|(forces, _)| Point {
+                    value: state.value,
+                    poses: state.poses.clone(),
+                    closed: state.closed.clone(),
+                    load_factor: 0.0,
+                    forces: forces.clone(),
+                    room: 0.0,
+                    rates: Vec::new(),
+                }));
+            }
+            return Err(End::Slides(k));
+        }
+        self.run(how, State { closed: next.closed, ..state }, path)
+    }
+
+    /// Whether the control point moves where it is to go.
+    fn advances(&self, rates: &[Rate], poses: &[Pose]) -> bool {
+        let Some(Demand { block, point, toward, .. }) = self.drive.demand(0.0) else { return true };
+        let blocks = &self.start().blocks;
+        let arm = poses[block].turn * (point - blocks[block].centroid);
+        let speed = (rates[block].velocity + rates[block].spin.cross(&arm)).dot(&toward);
+        let fastest =
+            rates.iter().zip(blocks).map(|(r, b)| r.velocity.norm() + b.size * r.spin.norm());
+        speed > 1e-6 * fastest.fold(0.0, f64::max)
+    }
+
+    /// Follows one linkage until it no longer holds.
+    fn run(&self, how: &Follow, state: State, path: &mut Path) -> Result<State, End> {
+        let stuck = |text: &str| End::Stuck(text.to_string());
+        let State { value, poses, closed } = state;
+        let linkage = self.linkage(&closed);
+        let place = linkage.place(&poses);
+        let at =
+            self.at(&linkage, &place, value).ok_or_else(|| stuck("the linkage does not close"))?;
+        let margin =
+            self.margin(&at.place.poses, &closed).ok_or_else(|| stuck("no forces were found"))?;
+        if path.points.is_empty()
+            || path.points.last().is_some_and(|p| p.value < value || p.closed != closed)
+        {
+            path.points.push(self.point(value, &at, &closed, &margin));
+        }
+        if how.drive.is_push() && at.load_factor <= 0.0 {
+            return Err(End::Vanishes);
+        }
+        let mut here = (value, Trial { at, margin: Some(margin) });
+        let mut step = how.step;
+        loop {
+            if here.0 >= how.until {
+                return Err(End::Reached);
+            }
+            if self.deadline.is_over() {
+                return Err(stuck("the time was over"));
+            }
+            let stop = how.at.iter().copied().filter(|&v| v > here.0).fold(how.until, f64::min);
+            // The next multiple of the step; what rounding left short of one is on it.
+            let grid = ((here.0 / how.step + 1e-9).floor() + 1.0) * how.step;
+            // A step that all but reaches its aim reaches it.
+            let aim = stop.min(grid);
+            let value = if here.0 + 1.000_001 * step >= aim { aim } else { here.0 + step };
+            let Some(at) = self.at(&linkage, &here.1.at.place, value) else {
+                step *= 0.25;
+                if step < 1e-9 * how.step {
+                    return Err(stuck("the linkage does not go on"));
+                }
+                continue;
+            };
+            let trial = Trial { margin: self.margin(&at.place.poses, &closed), at };
+            let overlaps = self.deepest(&trial.at.place.poses, &closed).filter(|c| c.gap < OVERLAP);
+            let room = trial.margin.as_ref().map(|m| m.room);
+            let lacks = room.is_some_and(|r| r < ROOM);
+            if room.is_none() {
+                step *= 0.25;
+                if step < 1e-6 * how.step {
+                    return Err(stuck("no forces were found"));
+                }
+                continue;
+            }
+            if overlaps.is_none() && !lacks {
+                if how.drive.is_push() && trial.at.load_factor <= 0.0 {
+                    return Err(self.vanishes(&linkage, here, (value, trial), &closed, path));
+                }
+                if let Some(text) = self.meets(&trial.at.place.poses) {
+                    return Err(End::Stuck(text));
+                }
+                if let Some(m) = trial.margin.as_ref().filter(|_| value == aim) {
+                    path.points.push(self.point(value, &trial.at, &closed, m));
+                }
+                here = (value, trial);
+                step = how.step;
+                continue;
+            }
+            return self.event(how, &linkage, here, (value, trial), &closed, path);
+        }
+    }
+
+    fn vanishes(
+        &self,
+        linkage: &Linkage,
+        here: (f64, Trial),
+        there: (f64, Trial),
+        closed: &[Vec<usize>],
+        path: &mut Path,
+    ) -> End {
+        let ends = narrow(
+            (here.0, here.1.at.load_factor, here.1.at),
+            (there.0, there.1.at.load_factor, there.1.at),
+            WIDTH * there.0,
+            |v, near| self.at(linkage, &near.place, v).map(|at| (at.load_factor, at)),
+        );
+        if let Some([low, _]) = ends
+            && let Some(margin) = self.margin(&low.2.place.poses, closed)
+        {
+            path.points.push(self.point(low.0, &low.2, closed, &margin));
+            return End::Vanishes;
+        }
+        End::Stuck("the place where the load factor vanishes was not found".into())
+    }
+
+    /// The first event between two values, and what comes after it.
+    fn event(
+        &self,
+        how: &Follow,
+        linkage: &Linkage,
+        here: (f64, Trial),
+        there: (f64, Trial),
+        closed: &[Vec<usize>],
+        path: &mut Path,
+    ) -> Result<State, End> {
+        let stuck = |text: &str| End::Stuck(text.to_string());
+        let width = WIDTH * there.0;
+        let gap = |at: &At| self.deepest(&at.place.poses, closed).map_or(1.0, |c| c.gap - OVERLAP);
+        let mut high = there;
+        // The joint that closes first.
+        let mut closing = None;
+        if gap(&high.1.at) < 0.0 {
+            let [low, beyond] = narrow(
+                (here.0, gap(&here.1.at).max(0.0), here.1.at.clone()),
+                (high.0, gap(&high.1.at), high.1.at.clone()),
+                width,
+                |v, near| self.at(linkage, &near.place, v).map(|at| (gap(&at), at)),
+            )
+            .ok_or_else(|| stuck("the place where a joint closes was not found"))?;
+            let margin = self.margin(&low.2.place.poses, closed);
+            high = (low.0, Trial { at: low.2.clone(), margin });
+            closing = Some((low, beyond));
+        }
+        let room = |m: &Option<Margin>| m.as_ref().map_or(-1.0, |m| m.room);
+        if room(&high.1.margin) < ROOM {
+            let [low, beyond] = narrow(
+                (here.0, room(&here.1.margin).max(0.0), here.1.clone()),
+                (high.0, room(&high.1.margin), high.1.clone()),
+                width,
+                |v, near| {
+                    let at = self.at(linkage, &near.at.place, v)?;
+                    let margin = Some(self.margin(&at.place.poses, closed)?);
+                    Some((room(&margin), Trial { at, margin }))
+                },
+            )
+            .ok_or_else(|| stuck("the place where forces cease was not found"))?;
+            return self.changes(how, linkage, (low.0, low.2), (beyond.0, beyond.2), closed, path);
+        }
+        let Some((low, beyond)) = closing else { return Err(stuck("an event was lost")) };
+        let (now, closes) = self.with_closed(&low.2.place.poses, closed)?;
+        path.events.push(Event {
+            value: low.0,
+            beyond: beyond.0,
+            kind: EventKind::Closes,
+            opens: Vec::new(),
+            closes,
+            jump: 0.0,
+        });
+        if let Some(m) = self.margin(&low.2.place.poses, closed) {
+            path.points.push(self.point(low.0, &low.2, closed, &m));
+        }
+        Ok(State { value: low.0, poses: low.2.place.poses, closed: now })
+    }
+
+    /// Corners closed with those that have just come together, and the joints of these.
+    pub(super) fn with_closed(
+        &self,
+        poses: &[Pose],
+        closed: &[Vec<usize>],
+    ) -> Result<(Vec<Vec<usize>>, Vec<usize>), End> {
+        let mut now = closed.to_vec();
+        let mut joints = Vec::new();
+        for c in self.open(poses, closed).into_iter().filter(|c| c.gap.abs() <= 1e-8) {
+            // Copies that meet beside each other touch at other points than those that parted.
+            if c.apart > 1e-7 {
+                return Err(End::Stuck(
+                    "a joint that had opened all over closes at another place".into(),
+                ));
+            }
+            now[c.interface].push(c.point);
+            now[c.interface].sort_unstable();
+            joints.push(c.interface);
+        }
+        joints.dedup();
+        Ok((now, joints))
+    }
+
+    /// Corners that are about to open where the room is used up.
+    pub(super) fn lost(
+        &self,
+        poses: &[Pose],
+        closed: &[Vec<usize>],
+        margin: &Margin,
+    ) -> Vec<(usize, usize)> {
+        let displaced = self.carried.touching(poses, closed);
+        let mut lost = Vec::new();
+        let list = &displaced.model.interfaces.list;
+        let largest = margin.bare.iter().flatten().map(|w| w.force.norm()).fold(0.0, f64::max);
+        for (c, (face, forces)) in list.iter().zip(&margin.bare).enumerate() {
+            let k = displaced.from[c];
+            for (point, w) in face.points.iter().zip(forces) {
+                if w.force.dot(&face.frame.n) > 1e-6 * largest {
+                    continue;
+                }
+                let near = |p: &&usize| {
+                    (self.carried.copies(poses, k, **p)[0] - point).norm()
+                        <= 1e-9 * self.carried.size(k)
+                };
+                lost.extend(closed[k].iter().find(near).map(|&p| (k, p)));
+            }
+        }
+        lost
+    }
+
+    /// Forces cease: another joint opens, steadily or by a jump, or it falls.
+    fn changes(
+        &self,
+        how: &Follow,
+        old: &Linkage,
+        low: (f64, Trial),
+        beyond: (f64, Trial),
+        closed: &[Vec<usize>],
+        path: &mut Path,
+    ) -> Result<State, End> {
+        let stuck = |text: &str| End::Stuck(text.to_string());
+        if let Some(m) = &low.1.margin {
+            path.points.push(self.point(low.0, &low.1.at, closed, m));
+        }
+        let poses = &beyond.1.at.place.poses;
+        let lost = beyond.1.margin.as_ref().map_or_else(Vec::new, |m| self.lost(poses, closed, m));
+        if lost.is_empty() {
+            // Nothing is about to open: the edge that was reached is that of friction.
+            return Err(self.slides(&beyond.1, closed));
+        }
+        let mut now = closed.to_vec();
+        let mut opens: Vec<usize> = lost.iter().map(|l| l.0).collect();
+        opens.dedup();
+        for &(k, p) in &lost {
+            now[k].retain(|&q| q != p);
+        }
+        let event = |kind, opens, closes, jump| Event {
+            value: low.0,
+            beyond: beyond.0,
+            kind,
+            opens,
+            closes,
+            jump,
+        };
+        match drop::drop(self, &now, &lost, &beyond.1.at.place, beyond.0) {
+            Landing::Steady(closed) => {
+                path.events.push(event(EventKind::Opens, opens, Vec::new(), 0.0));
+                // Straight on: a program at this very pose would not tell this branch from others.
+                let state = State { value: beyond.0, poses: beyond.1.at.place.poses, closed };
+                self.run(how, state, path)
+            }
+            Landing::Elsewhere { poses, closed, closes, jump } => {
+                path.events.push(event(EventKind::Jumps, opens, closes, jump));
+                Ok(State { value: beyond.0, poses, closed })
+            }
+            Landing::Nowhere => {
+                path.events.push(event(EventKind::Falls, opens, Vec::new(), 0.0));
+                let end = self.falls(old, &low, closed);
+                Err(end.unwrap_or_else(|| stuck("it falls, but no proof of it was found")))
+            }
+            Landing::Lost(text) => Err(stuck(&text)),
+        }
+    }
+
+    fn slides(&self, trial: &Trial, closed: &[Vec<usize>]) -> End {
+        let displaced = self.carried.touching(&trial.at.place.poses, closed);
+        let list = displaced.model.interfaces.list.iter();
+        let used = |(c, face): (usize, &Interface)| {
+            let sum: Vector3<f64> = trial.margin.as_ref()?.bare[c].iter().map(|w| w.force).sum();
+            let n = face.frame.n.dot(&sum);
+            Some((
+                (sum - face.frame.n * n).norm() / (n * face.law.friction.mu()),
+                displaced.from[c],
+            ))
+        };
+        let most = list.enumerate().filter_map(used).max_by(|a, b| a.0.total_cmp(&b.0));
+        most.map_or_else(|| End::Stuck("forces cease".into()), |m| End::Slides(m.1))
+    }
+
+    /// Whether nothing balances the loads there.
+    pub(super) fn falls_there(&self, poses: &[Pose], closed: &[Vec<usize>]) -> bool {
+        if self.drive.is_push() {
+            return false;
+        }
+        let control = Control { law: Law::Associative, ..Control::default() };
+        assess(&self.carried.touching(poses, closed).model, &control).verdict == Verdict::Unstable
+    }
+
+    /// Proof that it stands just before and falls just after.
+    fn falls(&self, linkage: &Linkage, low: &(f64, Trial), closed: &[Vec<usize>]) -> Option<End> {
+        let control = Control { law: Law::Associative, ..Control::default() };
+        let side = |sign: f64, wanted: Verdict| {
+            // Away from the limit until a proof is found.
+            (0..12).find_map(|k| {
+                let value = low.0 * (1.0 + sign * 1e-10 * 4f64.powi(k));
+                let at = self.at(linkage, &low.1.at.place, value)?;
+                let displaced = self.carried.touching(&at.place.poses, closed);
+                let verdict = assess(&displaced.model, &control);
+                (verdict.verdict == wanted).then(|| Point {
+                    value,
+                    poses: at.place.poses,
+                    closed: closed.to_vec(),
+                    load_factor: 0.0,
+                    forces: verdict.forces.clone(),
+                    room: 0.0,
+                    rates: verdict.rates.clone(),
+                })
+            })
+        };
+        let stands = side(-1.0, Verdict::Stable)?;
+        let falls = side(1.0, Verdict::Unstable)?;
+        Some(End::Falls(Box::new([stands, falls])))
+    }
+}

@@ -1,0 +1,10 @@
+//! Following the motion: poses as functions of one parameter that only grows.
+
+pub mod answer;
+mod branch;
+mod drop;
+mod linkage;
+mod program;
+mod root;
+
+pub use branch::{End, Event, EventKind, Follow, Path, Point, follow};

@@ -1,0 +1,52 @@
+//! Arguments of `settle` and `push`.
+
+use super::{
+    Common,
+    parse::{Written, control, direction, finite, output, support_move},
+};
+use clap::Args;
+use std::path::PathBuf;
+use voussoir::analysis::SupportMove;
+
+#[derive(Debug, Args)]
+pub struct Settle {
+    #[command(flatten)]
+    pub common: Common,
+    /// How a support moves while the parameter goes from 0 to 1: its way in m and its turn about
+    /// its centre of mass in degrees (axis × angle). Once for every support that moves.
+    #[arg(long = "move", value_name = "SUPPORT=DX,DY,DZ[,RX,RY,RZ]", required = true, allow_hyphen_values = true, value_parser = support_move)]
+    pub moves: Vec<SupportMove>,
+    /// Shares of the movement that become points of the curve, beside others.
+    #[arg(long, value_name = "S1,S2,…", value_delimiter = ',', value_parser = finite)]
+    pub at: Vec<f64>,
+    #[command(flatten)]
+    pub curve: Curve,
+}
+
+#[derive(Debug, Args)]
+pub struct Push {
+    #[command(flatten)]
+    pub common: Common,
+    /// The point of a free block, m, whose way is the parameter.
+    #[arg(long, value_name = "BLOCK=X,Y,Z", allow_hyphen_values = true, value_parser = control)]
+    pub control: (String, [f64; 3]),
+    /// The direction in which its way is measured.
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
+    pub toward: [f64; 3],
+    /// Ways of the control point, m, that become points of the curve, beside others.
+    #[arg(long, value_name = "V1,V2,…", value_delimiter = ',', value_parser = finite)]
+    pub at: Vec<f64>,
+    #[command(flatten)]
+    pub curve: Curve,
+}
+
+/// The curve as a file.
+#[derive(Debug, Args)]
+pub struct Curve {
+    /// Write the curve to this file, comma-separated, a row a point.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
+    pub csv: Option<PathBuf>,
+    /// Draw the curve to this file (SVG).
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
+    pub chart: Option<PathBuf>,
+}

@@ -1,0 +1,171 @@
+//! Paths and their points.
+
+use crate::{
+    analysis::follow::{
+        End, EventKind, Point,
+        answer::{Followed, PointProof},
+    },
+    error::{Finding, FindingCode},
+    interface::Model,
+    path::{Carried, Drive, saved::write_poses},
+    proof::{
+        answer::Answer,
+        path::{
+            Bracketed, DrivenBy, MovingSupport, PathAnswer, PathEvent, PathEventKind, PathPoint,
+            PathResult, PathStatus, Reaction, hinges,
+        },
+        result::{Certificate, QuestionKind, ResultFile},
+    },
+    scene::Scene,
+    verdict::{
+        Rate,
+        check::Claim,
+        evidence::{write_forces, write_rates},
+    },
+};
+
+impl ResultFile {
+    /// The result of `settle` or `push`.
+    pub fn path(scene: &Scene, model: &Model, followed: &Followed) -> Self {
+        let carried = Carried::new(model);
+        let id = |i: usize| model.assembly.blocks[i].id.clone();
+        let (question, driven_by) = match &followed.drive {
+            Drive::Settle(moves) => {
+                let list = moves.0.iter().map(|m| MovingSupport {
+                    support: id(m.support),
+                    way: m.way.into(),
+                    turn: m.turn.into(),
+                });
+                (QuestionKind::Settle, DrivenBy::Supports(list.collect()))
+            }
+            Drive::Push { block, point, toward } => (
+                QuestionKind::Push,
+                DrivenBy::Control {
+                    block: id(*block),
+                    point: (*point).into(),
+                    toward: (*toward).into(),
+                },
+            ),
+        };
+        let point = |p: &Point, proof: &PointProof| point(&carried, followed, p, proof);
+        let path = &followed.path;
+        let points: Vec<PathPoint> =
+            path.points.iter().zip(&followed.proofs).map(|(p, proof)| point(p, proof)).collect();
+        let ends: Vec<PathPoint> = match &path.end {
+            End::Falls(list) => {
+                list.iter().zip(&followed.ends).map(|(p, proof)| point(p, proof)).collect()
+            }
+            _ => Vec::new(),
+        };
+        let joints = |list: &[usize]| -> Vec<[String; 2]> {
+            let faces = list.iter().map(|&k| &model.interfaces.list[k]);
+            faces.map(|f| [id(f.a), id(f.b)]).collect()
+        };
+        let events = path.events.iter().map(|e| PathEvent {
+            value: e.value,
+            kind: match e.kind {
+                EventKind::Opens => PathEventKind::Opens,
+                EventKind::Closes => PathEventKind::Closes,
+                EventKind::Jumps => PathEventKind::Jumps,
+                EventKind::Falls => PathEventKind::Falls,
+            },
+            opens: joints(&e.opens),
+            closes: joints(&e.closes),
+            jump: (e.jump > 0.0).then_some(e.jump),
+        });
+        let events = events.collect();
+        let least = followed.least.as_ref().map(|(_, forces, rates)| {
+            let free: Vec<Rate> = rates
+                .iter()
+                .zip(&model.assembly.blocks)
+                .map(|(r, b)| if b.support { Rate::zero() } else { *r })
+                .collect();
+            Certificate {
+                forces: write_forces(model, forces),
+                rates: write_rates(&model.assembly, &free),
+                ..Certificate::none()
+            }
+        });
+        let answer = answer(model, followed, &points, &ends);
+        let result = PathResult { driven_by, points, events, ends, least };
+        let mut file =
+            Self::new(question, scene, model, Answer::Path(Box::new(answer)), Certificate::none());
+        let refused = followed.proofs.iter().chain(&followed.ends).flat_map(|p| &p.findings.fails);
+        file.warnings.extend(
+            refused
+                .map(|f| Finding::new(FindingCode::Numerics, format!("certificate refused: {f}"))),
+        );
+        file.path = Some(result);
+        file
+    }
+}
+
+fn point(carried: &Carried, followed: &Followed, p: &Point, proof: &PointProof) -> PathPoint {
+    let model = carried.start;
+    let load_factor = match proof.claim {
+        Some(Claim::LoadFactor { value, .. }) => Some(value),
+        _ => None,
+    };
+    let reactions = followed.reactions(proof).into_iter().map(|(i, w)| Reaction {
+        support: model.assembly.blocks[i].id.clone(),
+        force: w.force.into(),
+        moment: w.moment.into(),
+    });
+    PathPoint {
+        value: p.value,
+        load_factor,
+        reactions: reactions.collect(),
+        hinges: hinges(carried, &p.poses),
+        poses: write_poses(&model.assembly, &p.poses),
+        certificate: Certificate {
+            claim: proof.claim,
+            forces: write_forces(&proof.model, &proof.forces),
+            members: Vec::new(),
+            base: None,
+            base_members: Vec::new(),
+            rates: write_rates(&proof.model.assembly, &proof.rates),
+            verified: proof.findings.holds.clone(),
+        },
+    }
+}
+
+/// The answer that the points prove.
+fn answer(
+    model: &Model,
+    followed: &Followed,
+    points: &[PathPoint],
+    ends: &[PathPoint],
+) -> PathAnswer {
+    let good = |p: &&PathPoint| {
+        matches!(p.certificate.claim, Some(Claim::Stable | Claim::LoadFactor { .. }))
+    };
+    let last = points.iter().take_while(good).last().map(|p| p.value);
+    let whole = points.iter().all(|p| good(&p));
+    let unproved = || Some("a point on the way could not be proved".to_string());
+    let open = |why| (PathStatus::Open, last, None, why);
+    let (status, value, falls_at, why) = match (&followed.path.end, ends) {
+        (End::Falls(_), [stands, falls])
+            if stands.certificate.claim == Some(Claim::Stable)
+                && falls.certificate.claim == Some(Claim::Unstable) =>
+        {
+            (PathStatus::Falls, Some(stands.value), Some(falls.value), None)
+        }
+        (End::Falls(_), _) => open(Some("it falls, but that could not be proved".into())),
+        (End::Reached, _) if whole => (PathStatus::Reached, last, None, None),
+        (End::Vanishes, _) if whole => (PathStatus::Vanishes, last, None, None),
+        (End::Reached | End::Vanishes, _) => open(unproved()),
+        (End::Slides(k), _) => {
+            let f = &model.interfaces.list[*k];
+            let [a, b] = [f.a, f.b].map(|i| &model.assembly.blocks[i].id);
+            let why = format!("{a} and {b} slide on each other");
+            (PathStatus::Slides, last, None, Some(why))
+        }
+        (End::Stuck(text), _) => open(Some(text.clone())),
+    };
+    let least_reaction = followed.least.as_ref().filter(|l| l.0.holds).map(|(l, ..)| Bracketed {
+        value: l.value,
+        lower: l.lower,
+        upper: l.upper,
+    });
+    PathAnswer { status, value, falls_at, least_reaction, why }
+}

@@ -1,0 +1,213 @@
+//! Results of `settle` and `push`: a curve, each point of it with its poses and its proof.
+
+mod verify;
+
+pub(super) use verify::verify;
+
+use super::result::Certificate;
+use crate::{interface::Model, path::Carried, path::saved::SavedPose};
+use serde::{Deserialize, Serialize};
+
+/// How far it goes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PathAnswer {
+    /// How it ends.
+    pub status: PathStatus,
+    /// The last value of the parameter that is proved: it stands there, or has the load factor of
+    /// the last point. Settle: a share of the movement; push: the way of the control point, m.
+    /// Absent where nothing is proved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// It falls: at this value it is proved to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub falls_at: Option<f64>,
+    /// Settle: the least power that the blocks' forces on the supports can have at the start as
+    /// these begin to move, J per unit of the parameter. Where one support moves straight by 1 m it
+    /// is its least reaction in that direction, N.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least_reaction: Option<Bracketed>,
+    /// Why it was not followed any further.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+}
+
+/// A value between two proved ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Bracketed {
+    /// The value.
+    pub value: f64,
+    /// Lower end.
+    pub lower: f64,
+    /// Upper end.
+    pub upper: f64,
+}
+
+/// How a path ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PathStatus {
+    /// All of the movement was followed: it stands to its end.
+    Reached,
+    /// It falls on the way.
+    Falls,
+    /// The load factor vanishes: beyond it would have to be pulled back.
+    Vanishes,
+    /// A joint slides from here on, which is not followed: what slides would open as well in limit
+    /// analysis, and does not.
+    Slides,
+    /// It was not followed any further.
+    Open,
+}
+
+/// The curve.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PathResult {
+    /// What moves it.
+    pub driven_by: DrivenBy,
+    /// Points, in order. A jump has two at one value.
+    pub points: Vec<PathPoint>,
+    /// What happens on the way.
+    pub events: Vec<PathEvent>,
+    /// It falls: the last pose that is proved to stand and the first that is proved to fall, of the
+    /// same linkage.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ends: Vec<PathPoint>,
+    /// Settle: evidence for the least reaction at the start; its rates are of the free blocks, and
+    /// the supports' are those of the movement.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least: Option<Certificate>,
+}
+
+/// What moves a structure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum DrivenBy {
+    /// Supports, in proportion to the parameter.
+    Supports(Vec<MovingSupport>),
+    /// Live loads, a point of a block going this way.
+    Control {
+        /// The block.
+        block: String,
+        /// The point of it at the start, m.
+        point: [f64; 3],
+        /// Unit direction.
+        toward: [f64; 3],
+    },
+}
+
+/// How far a support moves while the parameter goes from 0 to 1.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MovingSupport {
+    /// The support.
+    pub support: String,
+    /// The way, m.
+    pub way: [f64; 3],
+    /// The turn about its centre of mass: axis × angle, rad.
+    pub turn: [f64; 3],
+}
+
+/// A point of the curve: a scene of its own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PathPoint {
+    /// The parameter.
+    pub value: f64,
+    /// The load factor, where there is a live load; that of the certificate.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load_factor: Option<f64>,
+    /// The blocks' forces on the supports that move.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reactions: Vec<Reaction>,
+    /// Joints that have opened and still touch.
+    pub hinges: Vec<Hinge>,
+    /// Where the blocks are. Computed, not proved: the proof is about the scene that they make.
+    pub poses: Vec<SavedPose>,
+    /// What is proved of that scene.
+    pub certificate: Certificate,
+}
+
+/// The blocks' force on a support.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reaction {
+    /// The support.
+    pub support: String,
+    /// N.
+    pub force: [f64; 3],
+    /// About its centre of mass, N·m.
+    pub moment: [f64; 3],
+}
+
+/// A joint that has opened and still touches.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Hinge {
+    /// The blocks.
+    pub between: [String; 2],
+    /// The middle of what touches, m.
+    pub at: [f64; 3],
+    /// How wide it is open at most, m.
+    pub width: f64,
+}
+
+/// Something that happens on the way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PathEvent {
+    /// The parameter.
+    pub value: f64,
+    /// What.
+    pub kind: PathEventKind,
+    /// Joints that open.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub opens: Vec<[String; 2]>,
+    /// Joints that close.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub closes: Vec<[String; 2]>,
+    /// The longest way of a block in a jump, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub jump: Option<f64>,
+}
+
+/// What happens on the way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PathEventKind {
+    /// Another joint opens, and the motion goes on steadily.
+    Opens,
+    /// A joint closes.
+    Closes,
+    /// The motion turns back: it goes on elsewhere at the same value, by a jump.
+    Jumps,
+    /// It falls as these joints open.
+    Falls,
+}
+
+/// Joints that have opened and still touch, from the poses.
+pub(super) fn hinges(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<Hinge> {
+    let start: &Model = carried.start;
+    let id = |i: usize| start.assembly.blocks[i].id.clone();
+    let corners = carried.corners(poses).into_iter().enumerate();
+    corners
+        .filter_map(|(k, corners)| {
+            let (closed, open): (Vec<_>, Vec<_>) =
+                corners.into_iter().partition(|c| c.apart <= crate::path::CLOSED);
+            let widest = open.iter().map(|c| c.apart).fold(0.0, f64::max);
+            if closed.is_empty() || open.is_empty() {
+                return None;
+            }
+            let sum: nalgebra::Vector3<f64> =
+                closed.iter().map(|c| carried.copies(poses, k, c.point)[0]).sum();
+            let face = &start.interfaces.list[k];
+            Some(Hinge {
+                between: [id(face.a), id(face.b)],
+                at: (sum / closed.len() as f64).into(),
+                width: widest * carried.size(k),
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,251 @@
+//! Verifying paths: every point from its poses alone, and the answer from the points.
+
+use super::{DrivenBy, Hinge, PathAnswer, PathPoint, PathResult, PathStatus, hinges};
+use crate::{
+    assembly::Pose,
+    interface::Model,
+    path::{CLOSED, Carried, Drive, Move, Moves, reaction, saved::read_poses},
+    proof::{
+        result::{Certificate, QuestionKind, ResultFile},
+        verify::{Verification, failure, require},
+    },
+    tolerance,
+    verdict::{
+        Evidence, Forces, Rate,
+        check::{self, Claim, Findings},
+        evidence::{read_forces, read_rates},
+    },
+};
+use nalgebra::Vector3;
+
+/// Poses follow the parameter up to this × the size of a block. Larger: a point of another value
+/// passes. Smaller: rounding of poses is refused.
+const ON_THE_WAY: f64 = 1e-9;
+
+/// Adds the parts of a result of `settle` or `push`.
+pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
+    let (Some(said), Some(path)) = (file.answer.path(), &file.path) else {
+        return all.part("answer", failure("the answer is not one to its question"));
+    };
+    let drive = match drive(model, path, file.question) {
+        Ok(drive) => drive,
+        Err(text) => return all.part("answer", failure(text)),
+    };
+    let carried = Carried::new(model);
+    let mut stands = Vec::new();
+    for (k, point) in path.points.iter().enumerate() {
+        let findings = check_point(&carried, &drive, point);
+        stands.push(findings.fails.is_empty() && point.certificate.claim.is_some());
+        all.part(format!("point {} at {}", k + 1, point.value), findings);
+    }
+    for (end, point) in ["last that stands", "first that falls"].iter().zip(&path.ends) {
+        all.part(format!("{end}, at {}", point.value), check_point(&carried, &drive, point));
+    }
+    let mut f = Findings::default();
+    let ordered = path.points.windows(2).all(|w| w[0].value <= w[1].value);
+    require(&mut f, ordered, "the points are in order");
+    require(&mut f, file.certificate.claim.is_none(), "nothing else is claimed");
+    require(&mut f, says(said, path, &drive), "the answer is that of its points");
+    if let (Drive::Settle(moves), Some(least)) = (&drive, &path.least) {
+        least_reaction(&mut f, model, moves, said, least);
+    } else {
+        require(
+            &mut f,
+            said.least_reaction.is_none(),
+            "no least reaction is claimed without evidence",
+        );
+    }
+    f.holds.push("that the poses are on the way is computed, not proved: what is proved is what each point says of the scene there".into());
+    all.claimed = said.value.is_some();
+    all.part("answer", f);
+}
+
+fn drive(model: &Model, path: &PathResult, question: QuestionKind) -> Result<Drive, String> {
+    let find = |id: &str, support: bool| {
+        model
+            .assembly
+            .find(id)
+            .filter(|&i| model.assembly.blocks[i].support == support)
+            .ok_or_else(|| format!("the scene has no such block to move: {id}"))
+    };
+    match (&path.driven_by, question) {
+        (DrivenBy::Supports(list), QuestionKind::Settle) => {
+            let moves = list.iter().map(|m| {
+                let support = find(&m.support, true)?;
+                Ok(Move { support, way: m.way.into(), turn: m.turn.into() })
+            });
+            Ok(Drive::Settle(Moves(moves.collect::<Result<_, String>>()?)))
+        }
+        (DrivenBy::Control { block, point, toward }, QuestionKind::Push) => Ok(Drive::Push {
+            block: find(block, false)?,
+            point: (*point).into(),
+            toward: Vector3::from(*toward).normalize(),
+        }),
+        _ => Err("what moves it is not what was asked".into()),
+    }
+}
+
+/// One point: its contacts from its poses, its claim from these.
+fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings {
+    let mut f = Findings::default();
+    let assembly = &carried.start.assembly;
+    let poses = match read_poses(assembly, &point.poses) {
+        Ok(poses) => poses,
+        Err(text) => return failure(text),
+    };
+    follows(&mut f, carried, drive, &poses, point.value);
+    let displaced = carried.displaced(&poses);
+    let depth = displaced.deepest.map_or(0.0, |c| c.gap);
+    require(
+        &mut f,
+        depth >= -CLOSED,
+        format!(
+            "no two blocks overlap: the deepest corner by {:.1e} of its block",
+            (-depth).max(0.0)
+        ),
+    );
+    let model = &displaced.model;
+    let evidence = &point.certificate;
+    let read = || -> Result<(Forces, Vec<Rate>), String> {
+        Ok((read_forces(model, &evidence.forces)?, read_rates(&model.assembly, &evidence.rates)?))
+    };
+    let (forces, rates) = match read() {
+        Ok(read) => read,
+        Err(text) => {
+            f.fails.push(text);
+            return f;
+        }
+    };
+    let Some(claim) = &evidence.claim else {
+        require(&mut f, point.load_factor.is_none(), "undecided: nothing is claimed");
+        return f;
+    };
+    let said = match (claim, drive) {
+        (Claim::Stable | Claim::Unstable, Drive::Settle(_)) => point.load_factor.is_none(),
+        (Claim::LoadFactor { value, .. }, Drive::Push { .. }) => point.load_factor == Some(*value),
+        _ => false,
+    };
+    require(&mut f, said, "the point says what its certificate claims");
+    let claimed = check::verify(model, claim, Evidence::new(&forces, &rates));
+    f.grade = claimed.grade;
+    f.holds.extend(claimed.holds);
+    f.fails.extend(claimed.fails);
+    let total: f64 = assembly.free().map(|i| assembly.weight(i)).sum();
+    let near = |a: &[f64; 3], b: Vector3<f64>, scale: f64| {
+        (Vector3::from(*a) - b).norm() <= tolerance::SAVED * scale
+    };
+    let moving: Vec<usize> = match drive {
+        Drive::Settle(moves) => moves.0.iter().map(|m| m.support).collect(),
+        Drive::Push { .. } => Vec::new(),
+    };
+    let reactions = point.reactions.len() == moving.len()
+        && point.reactions.iter().zip(&moving).all(|(said, &i)| {
+            let w = reaction::on_support(model, &forces, i);
+            let block = &assembly.blocks[i];
+            said.support == block.id
+                && near(&said.force, w.force, total)
+                && near(&said.moment, w.moment, total * block.size)
+        });
+    require(&mut f, reactions, "the reactions are those of the forces");
+    let here = hinges(carried, &poses);
+    let size = |h: &Hinge| {
+        h.width.max(assembly.find(&h.between[0]).map_or(0.0, |i| assembly.blocks[i].size))
+    };
+    let same = here.len() == point.hinges.len()
+        && here.iter().zip(&point.hinges).all(|(a, b)| {
+            a.between == b.between
+                && (Vector3::from(a.at) - Vector3::from(b.at)).norm() <= CLOSED * size(a)
+                && (a.width - b.width).abs() <= CLOSED * size(a)
+        });
+    require(&mut f, same, format!("its hinges are those of its poses, {} of them", here.len()));
+    f
+}
+
+/// Supports and control point are where the parameter puts them.
+fn follows(f: &mut Findings, carried: &Carried, drive: &Drive, poses: &[Pose], value: f64) {
+    let blocks = &carried.start.assembly.blocks;
+    let supports = (0..blocks.len()).filter(|&i| blocks[i].support);
+    let off = supports
+        .map(|i| {
+            let (here, there) = (&poses[i], drive.pose(i, value));
+            let turn = here.turn.angle_to(&there.turn);
+            (here.shift - there.shift).norm() / blocks[i].size + turn
+        })
+        .fold(0.0, f64::max);
+    require(f, off <= ON_THE_WAY, format!("the supports are where {value} puts them"));
+    if let Some(d) = drive.demand(value) {
+        let way = poses[d.block].way(&blocks[d.block].centroid, &d.point);
+        let off = (way.dot(&d.toward) - value).abs() / blocks[d.block].size;
+        require(f, off <= ON_THE_WAY, format!("the control point has gone {value} m"));
+    }
+}
+
+/// Whether status and value follow from the points.
+fn says(said: &PathAnswer, path: &PathResult, drive: &Drive) -> bool {
+    let claim = |p: &PathPoint| p.certificate.claim;
+    let good = |p: &&PathPoint| matches!(claim(p), Some(Claim::Stable | Claim::LoadFactor { .. }));
+    let last = path.points.iter().take_while(|p| good(&p)).last().map(|p| p.value);
+    match said.status {
+        PathStatus::Falls => match &path.ends[..] {
+            [stands, falls] => {
+                claim(stands) == Some(Claim::Stable)
+                    && claim(falls) == Some(Claim::Unstable)
+                    && stands.value < falls.value
+                    && said.value == Some(stands.value)
+                    && said.falls_at == Some(falls.value)
+            }
+            _ => false,
+        },
+        _ if !path.ends.is_empty() || said.falls_at.is_some() => false,
+        PathStatus::Reached => {
+            let whole = !matches!(drive, Drive::Settle(_)) || last == Some(1.0);
+            said.value == last && whole && path.points.iter().all(|p| good(&p))
+        }
+        PathStatus::Vanishes => {
+            let zero = path.points.last().and_then(|p| p.load_factor);
+            said.value == last
+                && matches!(drive, Drive::Push { .. })
+                && path.points.iter().all(|p| good(&p))
+                && zero.is_some_and(|l| l.abs() <= VANISHES)
+        }
+        PathStatus::Slides | PathStatus::Open => said.value == last,
+    }
+}
+
+/// A load factor this near zero has vanished.
+const VANISHES: f64 = 1e-6;
+
+fn least_reaction(
+    f: &mut Findings,
+    model: &Model,
+    moves: &Moves,
+    said: &PathAnswer,
+    evidence: &Certificate,
+) {
+    let read = || -> Result<(Forces, Vec<Rate>), String> {
+        Ok((read_forces(model, &evidence.forces)?, read_rates(&model.assembly, &evidence.rates)?))
+    };
+    let (forces, mut rates) = match read() {
+        Ok(read) => read,
+        Err(text) => return f.fails.push(text),
+    };
+    for (i, rate) in moves.rates(model).into_iter().enumerate() {
+        if model.assembly.blocks[i].support {
+            rates[i] = rate;
+        }
+    }
+    let Some(said) = said.least_reaction else {
+        return f.holds.push("no least reaction is claimed".into());
+    };
+    let least = reaction::least(model, &forces, &rates);
+    let near = |a: f64, b: f64| (a - b).abs() <= tolerance::SAVED * least.value.abs();
+    let agrees = least.holds
+        && near(least.value, said.value)
+        && near(least.lower, said.lower)
+        && near(least.upper, said.upper);
+    require(
+        f,
+        agrees,
+        format!("least reaction recomputed: between {:.9e} and {:.9e} J", least.lower, least.upper),
+    );
+}

@@ -1,0 +1,194 @@
+//! Paths as tables and charts: what holds the structure against how far it has moved.
+
+use super::cells::{Cell, Table};
+use crate::{
+    number::short,
+    proof::{
+        ResultFile,
+        path::{DrivenBy, PathPoint, PathResult},
+    },
+    verdict::check::Claim,
+};
+use plotters::{
+    prelude::{
+        ChartBuilder, Circle, IntoDrawingArea, PathElement, RGBColor, SVGBackend,
+        SeriesLabelPosition, WHITE,
+    },
+    style::{Color, IntoFont},
+};
+
+/// A curve that cannot be written or drawn.
+#[derive(Debug, thiserror::Error)]
+#[error("no curve: {0}")]
+pub struct PathError(String);
+
+fn refused(e: impl std::fmt::Display) -> PathError {
+    PathError(e.to_string())
+}
+
+/// The unit of the parameter, in words.
+pub fn parameter(path: &PathResult) -> &'static str {
+    match path.driven_by {
+        DrivenBy::Supports(_) => "share of the movement",
+        DrivenBy::Control { .. } => "way of the control point, m",
+    }
+}
+
+/// Of every moving support the name and its force along its own way, N; nothing for one that only
+/// turns.
+pub fn along(path: &PathResult, point: &PathPoint) -> Vec<(String, f64)> {
+    let DrivenBy::Supports(list) = &path.driven_by else { return Vec::new() };
+    let component = |way: &[f64; 3], force: &[f64; 3]| {
+        let length = way.iter().map(|c| c * c).sum::<f64>().sqrt();
+        (length > 0.0).then(|| way.iter().zip(force).map(|(w, f)| w * f).sum::<f64>() / length)
+    };
+    list.iter()
+        .zip(&point.reactions)
+        .filter_map(|(m, r)| Some((m.support.clone(), component(&m.way, &r.force)?)))
+        .collect()
+}
+
+/// The least way of a block up to a point: how far any has come, m.
+fn farthest(point: &PathPoint) -> f64 {
+    let way = |s: &[f64; 3]| s.iter().map(|c| c * c).sum::<f64>().sqrt();
+    point.poses.iter().map(|p| way(&p.shift)).fold(0.0, f64::max)
+}
+
+/// The curve, a row a point: parameter, what is proved there, load factor with its bracket, the
+/// longest way of a block (m), the force (N) and moment (N·m about its centre of mass) on every
+/// support that moves, and the hinges.
+///
+/// # Errors
+/// The result holds no curve.
+pub fn csv(file: &ResultFile) -> Result<String, PathError> {
+    let path = file.path.as_ref().ok_or_else(|| PathError("this is no result of one".into()))?;
+    let mut head: Vec<String> =
+        ["value", "proved", "load_factor", "lower", "upper", "farthest"].map(String::from).into();
+    if let DrivenBy::Supports(list) = &path.driven_by {
+        for m in list {
+            head.extend(["fx", "fy", "fz", "mx", "my", "mz"].map(|c| format!("{} {c}", m.support)));
+        }
+    }
+    head.push("hinges".into());
+    let mut table = Table::new();
+    table.write_record(head).map_err(refused)?;
+    for p in path.points.iter().chain(&path.ends) {
+        let (proved, factor) = match p.certificate.claim {
+            Some(Claim::Stable) => ("stands", [None; 3]),
+            Some(Claim::Unstable) => ("falls", [None; 3]),
+            Some(Claim::LoadFactor { value, lower, upper }) => {
+                ("load factor", [value, lower, upper].map(Some))
+            }
+            _ => ("", [None; 3]),
+        };
+        let mut row: Vec<Cell> = vec![p.value.into(), proved.into()];
+        row.extend(factor.map(Cell::from));
+        row.push(farthest(p).into());
+        for r in &p.reactions {
+            row.extend(r.force.iter().chain(&r.moment).map(|&v| Cell::from(v)));
+        }
+        let hinges: Vec<String> =
+            p.hinges.iter().map(|h| format!("{} | {}", h.between[0], h.between[1])).collect();
+        row.push(hinges.join("; ").into());
+        table.write_record(row).map_err(refused)?;
+    }
+    table.end().map_err(refused)
+}
+
+const SIZE: (u32, u32) = (680, 420);
+/// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008).
+const COLOURS: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(230, 159, 0),
+    RGBColor(204, 121, 167),
+    RGBColor(0, 0, 0),
+];
+
+/// The curve as SVG: load factor, or the force on each moving support along its way, against the
+/// parameter; points proved are dots, events upright lines.
+///
+/// # Errors
+/// The result holds no curve, or none of two points.
+pub fn chart(file: &ResultFile) -> Result<String, PathError> {
+    let path = file.path.as_ref().ok_or_else(|| PathError("this is no result of one".into()))?;
+    let mut lines: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+    for p in &path.points {
+        let values = match p.load_factor {
+            Some(l) => vec![("load factor".to_string(), l)],
+            None => along(path, p),
+        };
+        for (name, y) in values {
+            match lines.iter_mut().find(|l| l.0 == name) {
+                Some(line) => line.1.push((p.value, y)),
+                None => lines.push((name, vec![(p.value, y)])),
+            }
+        }
+    }
+    let all = || lines.iter().flat_map(|l| &l.1);
+    let end = all().map(|p| p.0).fold(0.0, f64::max);
+    let (low, high) = all().fold((0.0_f64, 0.0_f64), |(l, h), p| (l.min(p.1), h.max(p.1)));
+    if end <= 0.0 || high <= low {
+        return Err(PathError("there are not two points to draw a line through".into()));
+    }
+    let y = if path.points.iter().any(|p| p.load_factor.is_some()) {
+        "load factor"
+    } else {
+        "force on the support along its way, N"
+    };
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        area.fill(&WHITE).map_err(refused)?;
+        let margin = 0.06 * (high - low);
+        let mut chart = ChartBuilder::on(&area)
+            .margin(12)
+            .caption(crate::plain::cell(&file.scene.name), ("sans-serif", 18))
+            .x_label_area_size(42)
+            .y_label_area_size(80)
+            .build_cartesian_2d(0.0..1.03 * end, low - margin..high + margin)
+            .map_err(refused)?;
+        chart
+            .configure_mesh()
+            .label_style(("sans-serif", 14))
+            .x_desc(parameter(path))
+            .y_desc(y)
+            .x_label_formatter(&|v| short(*v))
+            .y_label_formatter(&|v| short(*v))
+            .light_line_style(WHITE.mix(0.0))
+            .draw()
+            .map_err(refused)?;
+        let grey = RGBColor(120, 120, 120).stroke_width(1);
+        let ends = [low - margin, high + margin];
+        chart
+            .draw_series(
+                path.events
+                    .iter()
+                    .map(|e| PathElement::new(ends.map(|y| (e.value, y)).to_vec(), grey)),
+            )
+            .map_err(refused)?;
+        for (k, (name, line)) in lines.into_iter().enumerate() {
+            let colour = COLOURS[k % COLOURS.len()];
+            chart
+                .draw_series([PathElement::new(line.clone(), colour.stroke_width(2))])
+                .map_err(refused)?
+                .label(crate::plain::cell(&name))
+                .legend(move |(x, y)| {
+                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
+                });
+            chart
+                .draw_series(line.into_iter().map(|p| Circle::new(p, 3, colour.filled())))
+                .map_err(refused)?;
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::LowerLeft)
+            .background_style(WHITE.mix(0.8))
+            .label_font(("sans-serif", 13).into_font())
+            .draw()
+            .map_err(refused)?;
+        area.present().map_err(refused)?;
+    }
+    Ok(text)
+}

@@ -1,0 +1,343 @@
+//! Large displacements: closed forms of spreading arches, the exact four-bar of an arch that is
+//! pushed over, what a settling base carries; every point with proof, and none that was moved.
+
+use crate::ask::{cuboid, fixed, model, prove, push, scene, template};
+use nalgebra::Vector3;
+use serde_json::{Value, json};
+use voussoir::{
+    analysis::{
+        Answer, Control, ControlPoint, PushOptions, Question, SettleOptions, SupportMove, ask,
+    },
+    path::saved::read_poses,
+    proof::{
+        self, ResultFile,
+        path::{PathEventKind, PathPoint, PathResult, PathStatus},
+    },
+    scene::Scene,
+};
+
+const NO_SLIDING: f64 = f64::INFINITY;
+
+fn followed(scene: &Scene, question: &Question) -> ResultFile {
+    let model = model(scene);
+    let answer = ask(question, scene, &model, &Control::default()).expect("an answer");
+    assert!(matches!(answer, Answer::Path(_)));
+    let file = ResultFile::of(scene, &model, &answer).expect("a result");
+    prove(scene, &file);
+    file
+}
+
+fn path(file: &ResultFile) -> &PathResult {
+    file.path.as_ref().expect("a path")
+}
+
+fn arch(voussoirs: usize, thickness: f64, embrace_deg: f64, more: Value) -> Scene {
+    let arch = json!({
+        "radius": 1, "thickness": thickness, "depth": 1, "voussoirs": voussoirs,
+        "embrace_deg": embrace_deg,
+    });
+    template(NO_SLIDING, json!({ "arch": arch }), more)
+}
+
+fn to(support: &str, way: [f64; 3]) -> SupportMove {
+    SupportMove { support: support.into(), way, turn_deg: [0.0; 3] }
+}
+
+/// Both supports of an arch move outwards by the parameter, m.
+fn spread(scene: &Scene, at: &[f64]) -> ResultFile {
+    let moves = vec![to("springer_left", [-1.0, 0.0, 0.0]), to("springer_right", [1.0, 0.0, 0.0])];
+    followed(scene, &Question::Settle(SettleOptions { moves, at: at.to_vec() }))
+}
+
+/// Horizontal thrust on the right springer over the weight of the arch.
+fn thrust(scene: &Scene, point: &PathPoint) -> f64 {
+    let m = model(scene);
+    let weight: f64 = m.assembly.free().map(|i| m.assembly.weight(i)).sum();
+    let right = point.reactions.iter().find(|r| r.support == "springer_right").expect("it moves");
+    right.force[0] / weight
+}
+
+/// How far the extrados of the crown joint has sunk.
+fn crown_drop(scene: &Scene, point: &PathPoint, voussoirs: usize, thickness: f64) -> f64 {
+    let m = model(scene);
+    let poses = read_poses(&m.assembly, &point.poses).expect("poses");
+    let crown = m.assembly.find(&format!("v{:02}", voussoirs / 2)).expect("a keystone");
+    let top = Vector3::new(0.0, 0.0, 1.0 + 0.5 * thickness);
+    -(poses[crown].apply(&m.assembly.blocks[crown].centroid, &top) - top).z
+}
+
+fn close(value: f64, expected: f64, relative: f64) {
+    let off = (value - expected).abs();
+    assert!(off <= relative * expected.abs(), "{value} instead of {expected}");
+}
+
+/// Three hinges, at the extrados of the crown and the intrados of the haunches, until the thrust
+/// reaches the extrados of the springings: closed forms of that geometry.
+#[test]
+fn spreading_arches_fall_where_the_closed_form_says() {
+    for (n, t, falls, start, end, drop) in [
+        (12, 0.12, 0.025258679449, 0.191389585, 0.213214048, 0.03652223),
+        (16, 0.12, 0.01871430258, 0.19165171, 0.209233548, 0.028267788),
+        (12, 0.15, 0.070524908919, 0.17711496, 0.242019274, 0.105359767),
+        (16, 0.15, 0.058861058481, 0.176565897, 0.234573351, 0.091177719),
+        (12, 0.2, 0.135125230862, 0.155438863, 0.292044486, 0.209997974),
+        (20, 0.2, 0.152678286557, 0.154244839, 0.305047575, 0.233295142),
+    ] {
+        let scene = arch(n, t, 180.0, json!({}));
+        let file = spread(&scene, &[]);
+        let said = file.answer.path().expect("a path").clone();
+        assert_eq!(said.status, PathStatus::Falls, "{said:?}");
+        let (lower, upper) = (said.value.expect("it stands"), said.falls_at.expect("it falls"));
+        assert!(lower < upper && upper - lower < 1e-6 * upper);
+        close(lower, falls, 1e-7);
+        let p = path(&file);
+        let last = p.points.last().expect("points");
+        close(thrust(&scene, &p.points[0]), start, 1e-8);
+        close(thrust(&scene, last), end, 1e-8);
+        close(crown_drop(&scene, last, n, t), drop, 1e-6);
+        assert_eq!(last.hinges.len(), 3, "{:?}", last.hinges);
+        let [event] = &p.events[..] else { panic!("{:?}", p.events) };
+        let springings = event.opens.iter().flatten().filter(|id| id.starts_with("springer"));
+        assert_eq!((event.kind, springings.count()), (PathEventKind::Falls, 2));
+    }
+}
+
+#[test]
+fn thrust_and_crown_of_a_spreading_arch_on_the_way() {
+    let ways = [0.0, 0.01, 0.02, 0.03, 0.04, 0.05, 0.0588];
+    let thrusts = [
+        0.1765658973,
+        0.1844655331,
+        0.1930073919,
+        0.2022936067,
+        0.2124507186,
+        0.2236377617,
+        0.2344943028,
+    ];
+    let drops =
+        [0.0, 0.0139702592, 0.0284944294, 0.0436191487, 0.0593987285, 0.0758970563, 0.0910701536];
+    let turns =
+        [0.0, 0.0180463901, 0.0365690033, 0.0556145684, 0.0752376118, 0.0955024107, 0.1139268128];
+    let scene = arch(16, 0.15, 180.0, json!({}));
+    let file = spread(&scene, &ways);
+    let assembly = model(&scene).assembly;
+    for (k, way) in ways.into_iter().enumerate() {
+        let point = path(&file).points.iter().find(|p| p.value == way).expect("asked for");
+        close(thrust(&scene, point), thrusts[k], 1e-8);
+        let drop = crown_drop(&scene, point, 16, 0.15);
+        assert!((drop - drops[k]).abs() <= 1e-8 * drops[k] + 1e-10, "{drop}");
+        let poses = read_poses(&assembly, &point.poses).unwrap();
+        let turn = poses[assembly.find("v08").unwrap()].turn.angle();
+        assert!((turn - turns[k]).abs() <= 1e-8 * turns[k] + 1e-10, "{turn}");
+    }
+}
+
+/// The line of thrust meets the intrados of the next joint. With both hinges open the motion gains
+/// power at once, and where the first has closed again the line of thrust of the second leaves the
+/// arch elsewhere: at the springing by 0.47 of the thickness in the first of these, so that it falls.
+#[test]
+fn hinges_of_flatter_arches_jump() {
+    for (n, embrace, t, way, opens) in [
+        (16, 160.0, 0.15, 0.107189188, [["v02", "v03"], ["v12", "v13"]]),
+        (20, 140.0, 0.15, 0.1147231589, [["v02", "v03"], ["v16", "v17"]]),
+        (16, 120.0, 0.2, 0.1668102716, [["v00", "v01"], ["v14", "v15"]]),
+    ] {
+        let file = spread(&arch(n, t, embrace, json!({})), &[]);
+        let event = &path(&file).events[0];
+        close(event.value, way, 1e-7);
+        assert_eq!(event.opens, opens.map(|pair| pair.map(String::from)));
+    }
+}
+
+/// Voussoirs 0 to 2 turn about the intrados of the left springing, with hinges at the extrados of
+/// joint 3, the intrados of joint 5 and the extrados of the right springing: a four-bar linkage.
+fn capacity(at: &[f64]) -> (Scene, ResultFile) {
+    let scene = arch(7, 0.15, 157.5, push([1.0, 0.0, 0.0]));
+    let angle = (157.5 / 2.0 - 3.0 * 157.5 / 7.0_f64).to_radians();
+    let point = [-1.075 * angle.sin(), 0.0, 1.075 * angle.cos()];
+    let control = ControlPoint { block: "v02".into(), point };
+    let question =
+        Question::Push(PushOptions { control, toward: [1.0, 0.0, 0.0], at: at.to_vec() });
+    let file = followed(&scene, &question);
+    (scene, file)
+}
+
+#[test]
+fn the_capacity_curve_of_an_arch_is_that_of_its_linkage() {
+    // Ways of the control point at which voussoirs 0 to 2 have turned by 0.01 and 0.02.
+    let (scene, file) = capacity(&[0.00870383571502456, 0.01733705120616194]);
+    let p = path(&file);
+    let assembly = model(&scene).assembly;
+    let first = assembly.find("v00").unwrap();
+    let turn = |p: &PathPoint| read_poses(&assembly, &p.poses).unwrap()[first].turn.angle();
+    let mut seen = 0;
+    for (theta, load_factor) in [(0.0, 0.3736116923), (0.01, 0.2913682465), (0.02, 0.2250857921)] {
+        let near = p.points.iter().find(|p| (turn(p) - theta).abs() < 1e-9).expect("asked for");
+        close(near.load_factor.expect("a value"), load_factor, 1e-7);
+        seen += 1;
+    }
+    assert_eq!(seen, 3);
+    // The thrust reaches the intrados of joint 1 where the linkage's own equations say: at this
+    // turn it is 2e-10 of the joint's depth away.
+    let [event] = &p.events[..] else { panic!("{:?}", p.events) };
+    assert_eq!(event.kind, PathEventKind::Jumps);
+    assert_eq!(event.opens, [["v00", "v01"].map(String::from)]);
+    assert_eq!(event.closes, [["v00", "springer_left"].map(String::from)]);
+    let [before, after] =
+        [0, 1].map(|k| p.points.iter().filter(|p| p.value >= event.value).nth(k).expect("a jump"));
+    close(turn(before), 0.029530164516, 1e-8);
+    close(before.load_factor.unwrap(), 0.1715618741, 1e-8);
+    // Straight on, the linkage hinged at joint 1, down to where nothing is left.
+    assert!(turn(after) < 1e-9);
+    close(after.load_factor.unwrap(), 0.1445996059, 1e-6);
+    let said = file.answer.path().unwrap();
+    assert_eq!(said.status, PathStatus::Vanishes, "{said:?}");
+    close(said.value.unwrap(), 0.044874067, 1e-7);
+}
+
+/// Six courses of a wall of 6 on a base of two halves, the right one of which sinks: linear
+/// programming by two methods.
+fn wall_on_two_bases(friction: f64) -> Scene {
+    let mut blocks = vec![
+        fixed(cuboid("left", [3.0, 1.0, 0.5], [1.5, 0.0, -0.5])),
+        fixed(cuboid("right", [3.0, 1.0, 0.5], [4.5, 0.0, -0.5])),
+    ];
+    for course in 0..6 {
+        let odd = course % 2 == 1;
+        let mut x = 0.0;
+        while x < 6.0 {
+            let length = if odd && (x == 0.0 || x == 5.5) { 0.5 } else { 1.0 };
+            let id = format!("c{course}-{x}");
+            blocks.push(cuboid(
+                &id,
+                [length, 1.0, 0.5],
+                [x + 0.5 * length, 0.0, 0.5 * f64::from(course)],
+            ));
+            x += length;
+        }
+    }
+    scene(friction, json!(blocks), json!({}))
+}
+
+#[test]
+fn a_settling_base_carries_the_least_it_can() {
+    for (friction, share) in
+        [(0.0, 0.325), (0.3, 0.2708469787), (0.6, 0.2144607843), (1.0, 0.1458333333)]
+    {
+        let scene = wall_on_two_bases(friction);
+        let moves = vec![to("right", [0.0, 0.0, -1.0])];
+        let file = followed_open(&scene, moves);
+        let said = file.answer.path().expect("a path");
+        let least = said.least_reaction.expect("a least reaction");
+        let m = model(&scene);
+        let weight: f64 = m.assembly.free().map(|i| m.assembly.weight(i)).sum();
+        close(least.value / weight, share, 1e-8);
+        assert!(least.lower <= least.value && least.value <= least.upper);
+        assert!(least.upper - least.lower < 1e-6 * weight);
+    }
+}
+
+/// The answer, which may stay open.
+fn followed_open(scene: &Scene, moves: Vec<SupportMove>) -> ResultFile {
+    let model = model(scene);
+    let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
+    let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
+    let file = ResultFile::of(scene, &model, &answer).expect("a result");
+    let found = proof::verify(&file, scene).expect("a scene");
+    let fails: Vec<_> = found.parts.iter().flat_map(|(_, f)| &f.fails).collect();
+    assert!(fails.is_empty(), "{fails:#?}");
+    file
+}
+
+/// With friction its joints slide on each other as it sinks: nobody follows the dilatant motion.
+#[test]
+fn a_motion_that_slides_is_said_and_not_followed() {
+    let file = followed_open(&wall_on_two_bases(0.3), vec![to("right", [0.0, 0.0, -1.0])]);
+    let said = file.answer.path().unwrap();
+    assert_eq!(said.status, PathStatus::Slides, "{said:?}");
+    assert!(said.why.as_ref().is_some_and(|why| why.contains("slide")), "{said:?}");
+    assert!(path(&file).points.iter().all(|p| p.value == 0.0));
+}
+
+#[test]
+fn units_and_places_change_no_share_of_the_movement() {
+    let expected =
+        spread(&arch(12, 0.12, 180.0, json!({})), &[]).answer.path().unwrap().value.unwrap();
+    for (scale, density, at) in [(1e-3, 1e3, 0.0), (1e3, 1e-3, 0.0), (1.0, 1.0, 1e4)] {
+        let arch = json!({
+            "radius": scale, "thickness": 0.12 * scale, "depth": scale, "voussoirs": 12,
+            "at": [at, 0.0, -at],
+        });
+        let more = json!({ "materials": { "unit": { "density": density } } });
+        let scene = template(NO_SLIDING, json!({ "arch": arch }), more);
+        let moves =
+            vec![to("springer_left", [-scale, 0.0, 0.0]), to("springer_right", [scale, 0.0, 0.0])];
+        let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
+        let said = followed(&scene, &question).answer.path().unwrap().clone();
+        close(said.value.unwrap(), expected, 1e-7);
+    }
+}
+
+/// Nothing of a result can be changed without being refused.
+#[test]
+fn moved_poses_and_changed_numbers_are_refused() {
+    let scene = arch(12, 0.12, 180.0, json!({}));
+    let file = spread(&scene, &[0.01]);
+    let refuse = |what: &str, change: &dyn Fn(&mut ResultFile)| {
+        let mut forged = file.clone();
+        change(&mut forged);
+        assert_ne!(forged, file, "{what}");
+        assert!(!proof::verify(&forged, &scene).expect("a scene").proved(), "{what}");
+    };
+    let points = path(&file).points.len();
+    assert!(points > 3);
+    for k in 1..points {
+        refuse("a pose moved by 1e-3 of a block", &|f| {
+            let pose = &mut f.path.as_mut().unwrap().points[k].poses;
+            let moved = pose.iter_mut().find(|p| p.block == "v05").unwrap();
+            moved.shift[2] += 1e-3 * 0.3;
+        });
+        refuse("a pose turned", &|f| {
+            let pose = &mut f.path.as_mut().unwrap().points[k].poses;
+            pose.iter_mut().find(|p| p.block == "v05").unwrap().turn[1] += 1e-3;
+        });
+        refuse("another value", &|f| f.path.as_mut().unwrap().points[k].value *= 1.001);
+        refuse("another reaction", &|f| {
+            f.path.as_mut().unwrap().points[k].reactions[0].force[0] *= 1.001;
+        });
+        refuse("another hinge", &|f| {
+            f.path.as_mut().unwrap().points[k].hinges[0].width *= 1.001;
+        });
+    }
+    refuse("it stands farther", &|f| {
+        if let proof::Answer::Path(a) = &mut f.answer {
+            a.value = a.falls_at;
+        }
+    });
+    refuse("it does not fall", &|f| {
+        if let proof::Answer::Path(a) = &mut f.answer {
+            (a.status, a.falls_at) = (PathStatus::Reached, None);
+        }
+    });
+    refuse("less reaction", &|f| {
+        if let proof::Answer::Path(a) = &mut f.answer {
+            let least = a.least_reaction.as_mut().unwrap();
+            least.value *= 0.99;
+            least.lower *= 0.98;
+        }
+    });
+    refuse("the poses of the end swapped", &|f| f.path.as_mut().unwrap().ends.reverse());
+}
+
+/// What would follow another scene than the one that was given is refused.
+#[test]
+fn scenes_with_members_are_not_followed() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/tied-arch.json");
+    let (scene, _) = voussoir::scene::read_file(path.as_ref()).expect("a scene");
+    let model = voussoir::interface::prepare(&scene).expect("a model");
+    let support = model.assembly.blocks.iter().find(|b| b.support).expect("a support").id.clone();
+    let moves = vec![to(&support, [0.01, 0.0, 0.0])];
+    let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
+    let error = ask(&question, &scene, &model, &Default::default()).expect_err("refused");
+    assert!(error.to_string().contains("without members only"), "{error}");
+}
