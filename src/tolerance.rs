@@ -416,3 +416,16 @@ pub const WIDE_NUMBERS: f64 = 1e6;
 /// Coefficients of friction above this are a cause why nothing came out. Larger or smaller: as
 /// [`WIDE_NUMBERS`].
 pub const STEEPEST_FRICTION: f64 = 100.0;
+
+/// Copies of a corner of a carried joint that are closer than this × the smaller block's size touch,
+/// and blocks that overlap by more are no pose. Larger: a hinge that has hardly opened presses all
+/// over. Smaller: rounding of the poses opens what is closed.
+pub const JOINT_CLOSED: f64 = 1e-9;
+
+/// Supports and control points are where a parameter puts them up to this × the size of their block.
+/// Larger: a point of another value passes. Smaller: rounding of saved poses is refused.
+pub const ON_THE_WAY: f64 = 1e-9;
+
+/// A load factor smaller than this × the natural one (dead load over live load) has vanished. Larger: a curve ends
+/// early. Smaller: rounding of the last point is refused.
+pub const VANISHES: f64 = 1e-6;

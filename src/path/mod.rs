@@ -15,14 +15,11 @@ mod side;
 use crate::{
     assembly::Pose,
     interface::{ContactFrame, ContactKind, Interface, Interfaces, Model},
+    tolerance,
 };
 pub use drive::{Demand, Drive, Move, Moves};
 use nalgebra::Vector3;
 pub use side::Side;
-
-/// Copies of a corner that are closer than this × the smaller block's size touch. Larger: gaps of a
-/// hinge that has hardly opened press. Smaller: rounding of the poses opens what is closed.
-pub const CLOSED: f64 = 1e-9;
 
 /// The joints of a scene at its start, carried along with their blocks.
 #[derive(Clone, Debug)]
@@ -117,13 +114,15 @@ impl<'a> Carried<'a> {
         let corners = self.corners(poses);
         let closed: Vec<Vec<usize>> = corners
             .iter()
-            .map(|c| c.iter().filter(|c| c.apart <= CLOSED).map(|c| c.point).collect())
+            .map(|c| {
+                c.iter().filter(|c| c.apart <= tolerance::JOINT_CLOSED).map(|c| c.point).collect()
+            })
             .collect();
         let mut displaced = self.touching(poses, &closed);
         displaced.deepest = corners
             .into_iter()
             .flatten()
-            .filter(|c| c.apart > CLOSED)
+            .filter(|c| c.apart > tolerance::JOINT_CLOSED)
             .min_by(|a, b| a.gap.total_cmp(&b.gap));
         displaced
     }
@@ -172,7 +171,7 @@ impl<'a> Carried<'a> {
         let by = |p: &&usize, q: &&usize| along.dot(&start(**p)).total_cmp(&along.dot(&start(**q)));
         let ends = closed.iter().min_by(by).zip(closed.iter().max_by(by));
         match ends {
-            Some((&p, &q)) if along.norm() > CLOSED * self.size(k) => Interface {
+            Some((&p, &q)) if along.norm() > tolerance::JOINT_CLOSED * self.size(k) => Interface {
                 kind: ContactKind::Edge,
                 frame: ContactFrame::along(n, at(q) - at(p)),
                 points: vec![at(p), at(q)],

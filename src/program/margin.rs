@@ -28,8 +28,8 @@ pub fn margin(
     for k in 0..m.v.len() {
         press[m.i[k]] += m.v[k] * pressed[m.j[k]];
     }
-    for row in 0..rows {
-        p.matrix.push(row, forces, press[row]);
+    for (row, press) in press.into_iter().enumerate() {
+        p.matrix.push(row, forces, press);
         p.rhs[row] = -statics.dead[row];
         if live {
             p.matrix.push(row, forces + 1, statics.live[row]);

@@ -149,6 +149,37 @@ fn hinges_of_flatter_arches_jump() {
     }
 }
 
+/// Hinged at joint 1, then at joint 2, by the closed form of three hinges: the first has an
+/// equilibrium beyond it, the second has none.
+#[test]
+fn a_hinge_that_jumps_is_no_collapse() {
+    let file = spread(&arch(30, 0.15, 120.0, json!({})), &[]);
+    let p = path(&file);
+    let [jump, fall] = &p.events[..] else { panic!("{:?}", p.events) };
+    assert_eq!((jump.kind, fall.kind), (PathEventKind::Jumps, PathEventKind::Falls));
+    close(jump.value, 0.10353114576057415, 1e-8);
+    close(fall.value, 0.11384580641253933, 1e-8);
+    assert_eq!(jump.opens, [["v01", "v02"], ["v27", "v28"]].map(|pair| pair.map(String::from)));
+    assert_eq!(jump.closes, [["v00", "v01"], ["v28", "v29"]].map(|pair| pair.map(String::from)));
+    assert!(jump.jump.is_some_and(|way| way > 0.01 && way < 0.03));
+}
+
+/// In space: a barrel of courses in running bond, with friction, goes as its plane section does,
+/// whose thrust is that of the arch when its supports are as far apart.
+#[test]
+fn a_barrel_in_running_bond_goes_as_its_section() {
+    let barrel =
+        json!({ "radius": 1, "thickness": 0.15, "depth": 2, "voussoirs": 16, "courses": 3 });
+    let scene = template(0.6, json!({ "barrel": barrel }), json!({}));
+    let moves = vec![to("springer_right", [0.1, 0.0, 0.0])];
+    let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
+    let file = followed(&scene, &question);
+    assert_eq!(file.answer.path().unwrap().status, PathStatus::Reached);
+    let last = path(&file).points.last().unwrap();
+    assert_eq!(last.value, 1.0);
+    close(thrust(&scene, last), 0.2236377617, 1e-8);
+}
+
 /// Voussoirs 0 to 2 turn about the intrados of the left springing, with hinges at the extrados of
 /// joint 3, the intrados of joint 5 and the extrados of the right springing: a four-bar linkage.
 fn capacity(at: &[f64]) -> (Scene, ResultFile) {

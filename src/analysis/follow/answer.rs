@@ -17,6 +17,7 @@ use crate::{
     verdict::{
         Evidence, Forces, Rate,
         check::{self, Claim, Findings},
+        exact::existence,
     },
 };
 use nalgebra::Vector3;
@@ -233,11 +234,19 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
             }
         }
     }
+    let stands = |forces: Forces| {
+        let stands = proved(Claim::Stable, forces.clone(), rest());
+        // What a program leaves is more than what counts as balance in large scenes.
+        match existence::improved(model, &forces, 0.0).filter(|_| stands.claim.is_none()) {
+            Some(better) => proved(Claim::Stable, better, rest()),
+            None => stands,
+        }
+    };
     if point.rates.iter().all(|r| *r == Rate::zero()) {
-        return proved(Claim::Stable, forces, rest());
+        return stands(forces);
     }
     let falls = proved(Claim::Unstable, forces.clone(), point.rates.clone());
-    if falls.claim.is_some() { falls } else { proved(Claim::Stable, forces, rest()) }
+    if falls.claim.is_some() { falls } else { stands(forces) }
 }
 
 impl Followed {

@@ -312,7 +312,13 @@ impl Tracker<'_> {
     fn leg(&self, how: &Follow, state: State, path: &mut Path, first: bool) -> Result<State, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
         let next = program::next(self.carried, &state.poses, &state.closed, self.drive)
-            .ok_or_else(|| stuck("no mechanism was found"))?;
+            .ok_or_else(|| {
+                if self.falls_there(&state.poses, &state.closed) {
+                    stuck("the scene does not stand there, before anything moves")
+                } else {
+                    stuck("no mechanism was found: perhaps the blocks are wedged")
+                }
+            })?;
         let wrong = self.drive.is_push() && !self.advances(&next.rates, &state.poses);
         if first {
             path.first = Some((next.forces, next.rates));

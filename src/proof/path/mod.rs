@@ -195,7 +195,7 @@ pub(super) fn hinges(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<
     corners
         .filter_map(|(k, corners)| {
             let (closed, open): (Vec<_>, Vec<_>) =
-                corners.into_iter().partition(|c| c.apart <= crate::path::CLOSED);
+                corners.into_iter().partition(|c| c.apart <= crate::tolerance::JOINT_CLOSED);
             let widest = open.iter().map(|c| c.apart).fold(0.0, f64::max);
             if closed.is_empty() || open.is_empty() {
                 return None;

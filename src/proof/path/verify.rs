@@ -4,7 +4,7 @@ use super::{DrivenBy, Hinge, PathAnswer, PathPoint, PathResult, PathStatus, hing
 use crate::{
     assembly::Pose,
     interface::Model,
-    path::{CLOSED, Carried, Drive, Move, Moves, reaction, saved::read_poses},
+    path::{Carried, Drive, Move, Moves, reaction, saved::read_poses},
     proof::{
         result::{Certificate, QuestionKind, ResultFile},
         verify::{Verification, failure, require},
@@ -17,10 +17,6 @@ use crate::{
     },
 };
 use nalgebra::Vector3;
-
-/// Poses follow the parameter up to this × the size of a block. Larger: a point of another value
-/// passes. Smaller: rounding of poses is refused.
-const ON_THE_WAY: f64 = 1e-9;
 
 /// Adds the parts of a result of `settle` or `push`.
 pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
@@ -45,7 +41,11 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     let ordered = path.points.windows(2).all(|w| w[0].value <= w[1].value);
     require(&mut f, ordered, "the points are in order");
     require(&mut f, file.certificate.claim.is_none(), "nothing else is claimed");
-    require(&mut f, says(said, path, &drive), "the answer is that of its points");
+    require(
+        &mut f,
+        says(said, path, &drive, check::natural_factor(&model.assembly)),
+        "the answer is that of its points",
+    );
     if let (Drive::Settle(moves), Some(least)) = (&drive, &path.least) {
         least_reaction(&mut f, model, moves, said, least);
     } else {
@@ -98,7 +98,7 @@ fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings 
     let depth = displaced.deepest.map_or(0.0, |c| c.gap);
     require(
         &mut f,
-        depth >= -CLOSED,
+        depth >= -tolerance::JOINT_CLOSED,
         format!(
             "no two blocks overlap: the deepest corner by {:.1e} of its block",
             (-depth).max(0.0)
@@ -154,8 +154,9 @@ fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings 
     let same = here.len() == point.hinges.len()
         && here.iter().zip(&point.hinges).all(|(a, b)| {
             a.between == b.between
-                && (Vector3::from(a.at) - Vector3::from(b.at)).norm() <= CLOSED * size(a)
-                && (a.width - b.width).abs() <= CLOSED * size(a)
+                && (Vector3::from(a.at) - Vector3::from(b.at)).norm()
+                    <= tolerance::JOINT_CLOSED * size(a)
+                && (a.width - b.width).abs() <= tolerance::JOINT_CLOSED * size(a)
         });
     require(&mut f, same, format!("its hinges are those of its poses, {} of them", here.len()));
     f
@@ -172,19 +173,19 @@ fn follows(f: &mut Findings, carried: &Carried, drive: &Drive, poses: &[Pose], v
             (here.shift - there.shift).norm() / blocks[i].size + turn
         })
         .fold(0.0, f64::max);
-    require(f, off <= ON_THE_WAY, format!("the supports are where {value} puts them"));
+    require(f, off <= tolerance::ON_THE_WAY, format!("the supports are where {value} puts them"));
     if let Some(d) = drive.demand(value) {
         let way = poses[d.block].way(&blocks[d.block].centroid, &d.point);
         let off = (way.dot(&d.toward) - value).abs() / blocks[d.block].size;
-        require(f, off <= ON_THE_WAY, format!("the control point has gone {value} m"));
+        require(f, off <= tolerance::ON_THE_WAY, format!("the control point has gone {value} m"));
     }
 }
 
-/// Whether status and value follow from the points.
-fn says(said: &PathAnswer, path: &PathResult, drive: &Drive) -> bool {
+/// Whether status and value follow from the points; load factors are measured by the natural one.
+fn says(said: &PathAnswer, path: &PathResult, drive: &Drive, natural: f64) -> bool {
     let claim = |p: &PathPoint| p.certificate.claim;
     let good = |p: &&PathPoint| matches!(claim(p), Some(Claim::Stable | Claim::LoadFactor { .. }));
-    let last = path.points.iter().take_while(|p| good(&p)).last().map(|p| p.value);
+    let last = path.points.iter().take_while(good).last().map(|p| p.value);
     match said.status {
         PathStatus::Falls => match &path.ends[..] {
             [stands, falls] => {
@@ -206,14 +207,11 @@ fn says(said: &PathAnswer, path: &PathResult, drive: &Drive) -> bool {
             said.value == last
                 && matches!(drive, Drive::Push { .. })
                 && path.points.iter().all(|p| good(&p))
-                && zero.is_some_and(|l| l.abs() <= VANISHES)
+                && zero.is_some_and(|l| l.abs() <= tolerance::VANISHES * natural)
         }
         PathStatus::Slides | PathStatus::Open => said.value == last,
     }
 }
-
-/// A load factor this near zero has vanished.
-const VANISHES: f64 = 1e-6;
 
 fn least_reaction(
     f: &mut Findings,
