@@ -3,7 +3,7 @@
 use super::{End, Follow, Path, Point, follow};
 use crate::{
     analysis::{
-        Control, limit,
+        Claims, Control, Proved, limit,
         question::{PushOptions, SettleOptions},
     },
     assembly::{Solid, Wrench},
@@ -16,7 +16,7 @@ use crate::{
     terms::Law,
     verdict::{
         Evidence, Forces, Rate,
-        check::{self, Claim, Findings},
+        check::{Claim, Findings},
         exact::existence,
     },
 };
@@ -206,20 +206,11 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
     let model = &found.model;
     let rest = || vec![Rate::zero(); model.assembly.blocks.len()];
     let proved = |claim: Claim, forces: Forces, rates: Vec<Rate>| {
-        let findings = check::verify(model, &claim, Evidence::new(&forces, &rates));
-        let claim = Some(claim).filter(|_| findings.proved());
-        PointProof { model: model.clone(), claim, forces, rates, findings }
+        PointProof::of(model, &Proved::new(model, Side { claim: Some(claim), forces, rates }))
     };
     if how.drive.is_push() {
         let l = limit(model, &Control { law: Law::Associative, ..*control });
-        let (forces, rates) = (l.forces.clone(), l.rates.clone());
-        return PointProof {
-            claim: l.claim(),
-            findings: l.findings().clone(),
-            model: model.clone(),
-            forces,
-            rates,
-        };
+        return PointProof::of(model, &l);
     }
     // Corners that touch again without having to are among the contacts, and carry nothing.
     let touching = carried.touching(&poses, &point.closed);
@@ -247,6 +238,40 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
     }
     let falls = proved(Claim::Unstable, forces.clone(), point.rates.clone());
     if falls.claim.is_some() { falls } else { stands(forces) }
+}
+
+impl PointProof {
+    fn of<T: Claims>(model: &Model, proved: &Proved<T>) -> Self {
+        let Evidence { forces, rates, .. } = proved.evidence();
+        Self {
+            model: model.clone(),
+            claim: proved.claim(),
+            forces: forces.clone(),
+            rates: rates.to_vec(),
+            findings: proved.findings().clone(),
+        }
+    }
+}
+
+/// What is claimed of a pose at one side of the place where it falls, or on the way there.
+struct Side {
+    claim: Option<Claim>,
+    forces: Forces,
+    rates: Vec<Rate>,
+}
+
+impl Claims for Side {
+    fn claim(&self) -> Option<Claim> {
+        self.claim
+    }
+
+    fn evidence(&self) -> Evidence<'_> {
+        Evidence::new(&self.forces, &self.rates)
+    }
+
+    fn withdraw(&mut self) {
+        self.claim = None;
+    }
 }
 
 impl Followed {

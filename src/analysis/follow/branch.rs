@@ -2,21 +2,21 @@
 
 use super::{
     drop::{self, Landing},
-    linkage::{Linkage, Place},
+    linkage::Linkage,
     program::{self, Margin},
     root::narrow,
+    tracker::{At, Tracker},
 };
 use crate::{
     analysis::{Control, assess},
-    assembly::{Assembly, Pose, Wrench},
+    assembly::Pose,
     deadline::Deadline,
-    interface::{Interface, Model, detect},
-    path::{Carried, Corner, Demand, Drive},
+    interface::{Interface, Model},
+    path::{Carried, Demand, Drive},
     terms::Law,
     verdict::{Forces, Rate, Verdict},
 };
-use nalgebra::{DMatrix, DVector, Vector3};
-use std::collections::HashSet;
+use nalgebra::Vector3;
 
 /// How a path is followed.
 #[derive(Clone, Debug)]
@@ -115,155 +115,6 @@ const OVERLAP: f64 = -1e-10;
 const WIDTH: f64 = 1e-13;
 /// Rooms above this are none that is missing.
 const ROOM: f64 = -1e-9;
-
-pub(super) struct Tracker<'a> {
-    pub carried: &'a Carried<'a>,
-    pub drive: &'a Drive,
-    /// Bounding box diagonal of the scene, m.
-    pub size: f64,
-    /// When it has to end.
-    pub deadline: Deadline,
-}
-
-/// Where a linkage is at a value of the parameter.
-#[derive(Clone)]
-pub(super) struct At {
-    pub place: Place,
-    pub load_factor: f64,
-}
-
-impl<'a> Tracker<'a> {
-    pub fn start(&self) -> &'a Assembly {
-        &self.carried.start.assembly
-    }
-
-    pub fn linkage(&self, closed: &[Vec<usize>]) -> Linkage<'a> {
-        Linkage::new(self.carried, closed, self.drive)
-    }
-
-    /// Dead and live loads at poses.
-    pub fn loads(&self, poses: &[Pose]) -> [Vec<Wrench>; 2] {
-        self.start().loads_at(poses)
-    }
-
-    /// Where a linkage is at a value; equilibrium picks what its corners leave free.
-    pub fn at(&self, linkage: &Linkage, near: &Place, value: f64) -> Option<At> {
-        let demand = self.drive.demand(value);
-        let driven = linkage.drive(near, self.drive, value);
-        let mut place = linkage.close(&driven, demand.as_ref(), &[])?;
-        let basis = place.free.clone();
-        let count = basis.ncols();
-        if count == 0 {
-            let load_factor = self.load_factor(linkage, &place, &linkage.free(&place, None));
-            return Some(At { place, load_factor });
-        }
-        let wide = if self.drive.is_push() { linkage.free(&place, None) } else { basis.clone() };
-        let residual = |place: &Place| self.residual(linkage, place, &wide);
-        let go = |place: &Place, by: &DVector<f64>| {
-            linkage.close(&linkage.moved(place, &(&basis * by)), demand.as_ref(), &[])
-        };
-        let mut best = f64::INFINITY;
-        for _ in 0..30 {
-            let (r, scale) = residual(&place);
-            let size = r.amax() / scale;
-            if size <= 1e-14 || (size <= 1e-10 && size >= 0.5 * best) {
-                let load_factor = self.load_factor(linkage, &place, &wide);
-                return Some(At { place, load_factor });
-            }
-            best = best.min(size);
-            let mut j = DMatrix::zeros(r.len(), count);
-            const STEP: f64 = 1e-6;
-            for k in 0..count {
-                let mut by = DVector::zeros(count);
-                by[k] = STEP;
-                let ahead = residual(&go(&place, &by)?).0;
-                by[k] = -STEP;
-                let behind = residual(&go(&place, &by)?).0;
-                j.set_column(k, &((ahead - behind) / (2.0 * STEP)));
-            }
-            let svd = j.svd(true, true);
-            let least = 1e-9 * svd.singular_values.max();
-            let by = svd.solve(&-r, least).ok()?;
-            let by = &by * (0.1 / by.norm().max(0.1));
-            place = go(&place, &by)?;
-        }
-        None
-    }
-
-    /// Power of the loads in the free motions, aligned with those of `basis`, at the load factor
-    /// that leaves least of it; and its scale.
-    fn residual(
-        &self,
-        linkage: &Linkage,
-        place: &Place,
-        basis: &DMatrix<f64>,
-    ) -> (DVector<f64>, f64) {
-        let free = linkage.free(place, None);
-        let free = if self.drive.is_push() { free } else { place.free.clone() };
-        let aligned = &free * free.tr_mul(basis);
-        let [dead, live] = self.loads(&place.poses);
-        let a = linkage.power(place, &dead, &aligned);
-        let scale = dead.iter().map(|w| w.force.norm()).sum::<f64>() * self.size;
-        if !self.drive.is_push() {
-            return (a, scale);
-        }
-        let b = linkage.power(place, &live, &aligned);
-        let l = -a.dot(&b) / b.dot(&b);
-        (a + b * l, scale)
-    }
-
-    /// The load factor in equilibrium with a linkage.
-    fn load_factor(&self, linkage: &Linkage, place: &Place, free: &DMatrix<f64>) -> f64 {
-        if !self.drive.is_push() {
-            return 0.0;
-        }
-        let [dead, live] = self.loads(&place.poses);
-        let (a, b) = (linkage.power(place, &dead, free), linkage.power(place, &live, free));
-        -a.dot(&b) / b.dot(&b)
-    }
-
-    /// The room of the forces there.
-    pub fn margin(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Option<Margin> {
-        program::margin(&self.carried.touching(poses, closed).model, self.drive.is_push())
-    }
-
-    /// Blocks that touch now and did not at the start, in words.
-    fn meets(&self, poses: &[Pose]) -> Option<String> {
-        let start = self.carried.start;
-        let moved = start.assembly.at(poses);
-        let found = detect(&moved).ok()?;
-        let pair = |f: &Interface| (f.a.min(f.b), f.a.max(f.b));
-        let known: HashSet<_> = start.interfaces.list.iter().map(pair).collect();
-        found.list.iter().map(pair).find(|p| !known.contains(p)).map(|(a, b)| {
-            let id = |i: usize| &start.assembly.blocks[i].id;
-            format!("{} and {}, which were apart at the start, come to touch", id(a), id(b))
-        })
-    }
-
-    /// The corner that is open and has sunk deepest.
-    pub fn deepest(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Option<Corner> {
-        self.open(poses, closed).into_iter().min_by(|a, b| a.gap.total_cmp(&b.gap))
-    }
-
-    /// Corners that are not closed.
-    pub fn open(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Vec<Corner> {
-        let list = self.carried.corners(poses).into_iter().enumerate();
-        list.flat_map(|(k, c)| c.into_iter().filter(move |c| !closed[k].contains(&c.point)))
-            .collect()
-    }
-
-    pub fn point(&self, value: f64, at: &At, closed: &[Vec<usize>], margin: &Margin) -> Point {
-        Point {
-            value,
-            poses: at.place.poses.clone(),
-            closed: closed.to_vec(),
-            load_factor: if self.drive.is_push() { at.load_factor } else { 0.0 },
-            forces: margin.forces.clone(),
-            room: margin.room,
-            rates: Vec::new(),
-        }
-    }
-}
 
 /// Follows the motion of a scene from where it is.
 pub fn follow(start: &Model, how: &Follow, deadline: Deadline) -> Path {
@@ -508,56 +359,6 @@ impl Tracker<'_> {
         Ok(State { value: low.0, poses: low.2.place.poses, closed: now })
     }
 
-    /// Corners closed with those that have just come together, and the joints of these.
-    pub(super) fn with_closed(
-        &self,
-        poses: &[Pose],
-        closed: &[Vec<usize>],
-    ) -> Result<(Vec<Vec<usize>>, Vec<usize>), End> {
-        let mut now = closed.to_vec();
-        let mut joints = Vec::new();
-        for c in self.open(poses, closed).into_iter().filter(|c| c.gap.abs() <= 1e-8) {
-            // Copies that meet beside each other touch at other points than those that parted.
-            if c.apart > 1e-7 {
-                return Err(End::Stuck(
-                    "a joint that had opened all over closes at another place".into(),
-                ));
-            }
-            now[c.interface].push(c.point);
-            now[c.interface].sort_unstable();
-            joints.push(c.interface);
-        }
-        joints.dedup();
-        Ok((now, joints))
-    }
-
-    /// Corners that are about to open where the room is used up.
-    pub(super) fn lost(
-        &self,
-        poses: &[Pose],
-        closed: &[Vec<usize>],
-        margin: &Margin,
-    ) -> Vec<(usize, usize)> {
-        let displaced = self.carried.touching(poses, closed);
-        let mut lost = Vec::new();
-        let list = &displaced.model.interfaces.list;
-        let largest = margin.bare.iter().flatten().map(|w| w.force.norm()).fold(0.0, f64::max);
-        for (c, (face, forces)) in list.iter().zip(&margin.bare).enumerate() {
-            let k = displaced.from[c];
-            for (point, w) in face.points.iter().zip(forces) {
-                if w.force.dot(&face.frame.n) > 1e-6 * largest {
-                    continue;
-                }
-                let near = |p: &&usize| {
-                    (self.carried.copies(poses, k, **p)[0] - point).norm()
-                        <= 1e-9 * self.carried.size(k)
-                };
-                lost.extend(closed[k].iter().find(near).map(|&p| (k, p)));
-            }
-        }
-        lost
-    }
-
     /// Forces cease: another joint opens, steadily or by a jump, or it falls.
     fn changes(
         &self,
@@ -625,15 +426,6 @@ impl Tracker<'_> {
         };
         let most = list.enumerate().filter_map(used).max_by(|a, b| a.0.total_cmp(&b.0));
         most.map_or_else(|| End::Stuck("forces cease".into()), |m| End::Slides(m.1))
-    }
-
-    /// Whether nothing balances the loads there.
-    pub(super) fn falls_there(&self, poses: &[Pose], closed: &[Vec<usize>]) -> bool {
-        if self.drive.is_push() {
-            return false;
-        }
-        let control = Control { law: Law::Associative, ..Control::default() };
-        assess(&self.carried.touching(poses, closed).model, &control).verdict == Verdict::Unstable
     }
 
     /// Proof that it stands just before and falls just after.

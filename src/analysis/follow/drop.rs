@@ -2,9 +2,10 @@
 //! structure to the next equilibrium, or nowhere.
 
 use super::{
-    branch::{End, Tracker},
+    branch::End,
     linkage::{Linkage, OpenBy, Place},
     root::narrow,
+    tracker::Tracker,
 };
 use crate::assembly::Pose;
 use nalgebra::DVector;

@@ -6,5 +6,6 @@ mod drop;
 mod linkage;
 mod program;
 mod root;
+mod tracker;
 
 pub use branch::{End, Event, EventKind, Follow, Path, Point, follow};
