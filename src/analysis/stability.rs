@@ -84,7 +84,7 @@ pub fn packing(
 /// asked for, the round with the answer has the value with dry friction as well.
 ///
 /// # Errors
-/// As [`turned`](super::tilt::turned).
+/// As [`turned`](crate::verdict::tilted::turned).
 pub fn stability(
     model: &Model,
     loose: &[String],

@@ -45,9 +45,9 @@ pub struct StateStep {
     pub acceleration: f64,
     /// Last change of the friction limits, each in the load that passes there.
     pub change: f64,
-    /// How far the forces and that acceleration are from Coulomb's law ([`law::natural_map`]).
+    /// How far the forces and that acceleration are from Coulomb's law ([natural map](crate::verdict::law::natural_map)).
     pub natural_map: f64,
-    /// The same with accelerations in multiples of gravity ([`law::Released`]).
+    /// The same with accelerations in multiples of gravity ([released](crate::verdict::law::Released)).
     pub natural_map_in_loads: f64,
     /// Convex programs solved.
     pub solves: usize,
