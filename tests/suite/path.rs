@@ -372,3 +372,56 @@ fn scenes_with_members_are_not_followed() {
     let error = ask(&question, &scene, &model, &Default::default()).expect_err("refused");
     assert!(error.to_string().contains("without members only"), "{error}");
 }
+
+/// A block at rest beside the arch, whatever it weighs, however large it is and wherever it lies, is
+/// no part of what moves.
+#[test]
+fn a_stranger_changes_nothing_about_a_path() {
+    let with = |block: Option<(f64, f64, f64)>| {
+        let mut more = push([1.0, 0.0, 0.0]);
+        if let Some((x, size, density)) = block {
+            let cube = |id: &str, z: f64| json!({ "id": id, "shape": { "box": { "size": [size, size, size] } }, "at": [x, 0, z], "density": density });
+            more["blocks"] =
+                json!([fixed(cube("z_ground", -0.5 * size)), cube("z_block", 0.5 * size)]);
+        }
+        arch(12, 0.12, 180.0, more)
+    };
+    let settled = |scene: &Scene| {
+        let said = spread(scene, &[]).answer.path().cloned().unwrap();
+        (said.status, said.value, said.falls_at)
+    };
+    let pushed = |scene: &Scene| {
+        let m = model(scene);
+        let (block, point) =
+            ("v06".to_string(), m.assembly.blocks[m.assembly.find("v06").unwrap()].centroid);
+        let question = Question::Push(PushOptions {
+            control: ControlPoint { block, point: point.into() },
+            toward: [1.0, 0.0, 0.0],
+            at: Vec::new(),
+        });
+        let said = followed(scene, &question).answer.path().cloned().unwrap();
+        (said.status, said.value, said.falls_at)
+    };
+    let alone = with(None);
+    let expected = (settled(&alone), pushed(&alone));
+    assert_eq!(expected.0.0, PathStatus::Falls);
+    for stranger in
+        [(5.0, 1.0, 1e6), (5.0, 1.0, 1e-6), (500.0, 300.0, 1.0), (5.0, 1e-3, 1.0), (1e4, 1.0, 1.0)]
+    {
+        let scene = with(Some(stranger));
+        assert_eq!((settled(&scene), pushed(&scene)), expected, "{stranger:?}");
+    }
+}
+
+/// What moves may run into what rests beside it: that is said, and not followed.
+#[test]
+fn an_arch_that_spreads_into_a_stranger_is_not_followed_through_it() {
+    let cube = |id: &str, z: f64| json!({ "id": id, "shape": { "box": { "size": [0.4, 1, 1] } }, "at": [1.275, 0, z] });
+    let blocks = json!([fixed(cube("z_ground", -0.5)), cube("z_block", 0.5)]);
+    let scene = arch(12, 0.12, 180.0, json!({ "blocks": blocks }));
+    let moves = vec![to("springer_left", [-1.0, 0.0, 0.0]), to("springer_right", [1.0, 0.0, 0.0])];
+    let file = followed_open(&scene, moves);
+    let said = file.answer.path().unwrap();
+    assert_eq!(said.status, PathStatus::Open, "{said:?}");
+    assert!(said.why.as_ref().is_some_and(|why| why.contains("come to touch")), "{said:?}");
+}

@@ -1,12 +1,17 @@
 //! The answers of `settle` and `push`: a path whose every point is proved by itself.
 
-use super::{End, Follow, Path, Point, follow};
+use super::{
+    End, Follow, Path, Point,
+    branch::follow,
+    moved::Moved,
+    tracker::{meets, size},
+};
 use crate::{
     analysis::{
         Claims, Control, Proved, limit,
         question::{PushOptions, SettleOptions},
     },
-    assembly::{Solid, Wrench},
+    assembly::{Pose, Solid, Wrench},
     error::{InputError, JsonPath},
     interface::Model,
     path::{
@@ -94,9 +99,12 @@ pub fn settle(
     if !touches {
         return Err(error("no support that moves touches a free block".into()));
     }
-    let step = STEP * size(model) / speed;
-    let how =
-        Follow { drive: Drive::Settle(Moves(moves)), until: 1.0, at: options.at.clone(), step };
+    let how = |size: f64| Follow {
+        drive: Drive::Settle(Moves(moves.clone())),
+        until: 1.0,
+        at: options.at.clone(),
+        step: STEP * size / speed,
+    };
     Ok(answer(model, &how, control))
 }
 
@@ -128,8 +136,7 @@ pub fn push(
             .hint(format!("its centre of mass is at {}", crate::number::point(c))));
     }
     let toward = Vector3::from(options.toward).normalize();
-    let size = size(model);
-    let how = Follow {
+    let how = |size: f64| Follow {
         drive: Drive::Push { block, point, toward },
         until: size,
         at: options.at.clone(),
@@ -172,17 +179,19 @@ fn followable(model: &Model) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Bounding box diagonal of the contacts, m.
-fn size(model: &Model) -> f64 {
-    let corners = || model.interfaces.list.iter().flat_map(|f| &f.points);
-    let all = |f: fn(f64, f64) -> f64, from: f64| {
-        corners().fold(Vector3::repeat(from), |a, p| a.zip_map(p, f))
+/// `how` to follow what has this size, m.
+fn answer(model: &Model, how: &dyn Fn(f64) -> Follow, control: &Control) -> Followed {
+    let moved = Moved::of(model, &how(1.0).drive, control);
+    let how = &how(size(moved.as_ref().map_or(model, |m| &m.own)));
+    let path = match &moved {
+        None => follow(model, how, control.deadline, &|poses| meets(model, poses)),
+        Some(moved) => {
+            let own = Follow { drive: moved.drive(&how.drive), ..how.clone() };
+            // What moves may still run into what rests.
+            let meets = |poses: &[Pose]| meets(model, &moved.poses(poses));
+            moved.path(follow(&moved.own, &own, control.deadline, &meets))
+        }
     };
-    (all(f64::max, f64::NEG_INFINITY) - all(f64::min, f64::INFINITY)).norm()
-}
-
-fn answer(model: &Model, how: &Follow, control: &Control) -> Followed {
-    let path = follow(model, how, control.deadline);
     let carried = Carried::new(model);
     let prove = |point: &Point| proof(&carried, how, point, control);
     let proofs = path.points.iter().map(prove).collect();

@@ -5,7 +5,7 @@ use super::{
     linkage::Linkage,
     program::{self, Margin},
     root::narrow,
-    tracker::{At, Tracker},
+    tracker::{At, Tracker, size},
 };
 use crate::{
     analysis::{Control, assess},
@@ -109,23 +109,30 @@ pub struct Path {
     pub first: Option<(Forces, Vec<Rate>)>,
 }
 
-/// Gaps below this × the size of the smaller block overlap.
+/// Gaps below this × the size of the smaller block overlap. Nearer to zero: rounding of the poses is
+/// taken for a joint that closes. Farther: joints sink in before they are seen to close, up to
+/// [`tolerance::JOINT_CLOSED`](crate::tolerance::JOINT_CLOSED), where they are no pose any more.
 const OVERLAP: f64 = -1e-10;
-/// Values are known to this × what they are.
+/// Values of the parameter are known to this × what they are. Larger: the two sides of a fall are far
+/// apart. Smaller: the last digits of a double.
 const WIDTH: f64 = 1e-13;
-/// Rooms above this are none that is missing.
+/// Rooms above this, in mean loads of a contact point, are none that is missing. Nearer to zero: the
+/// noise of the engine ends a leg. Farther: forces that pull are taken for none.
 const ROOM: f64 = -1e-9;
 
 /// Follows the motion of a scene from where it is.
-pub fn follow(start: &Model, how: &Follow, deadline: Deadline) -> Path {
+///
+/// `meets` says which blocks touch at some poses and did not at the start.
+pub(super) fn follow(
+    start: &Model,
+    how: &Follow,
+    deadline: Deadline,
+    meets: &dyn Fn(&[Pose]) -> Option<String>,
+) -> Path {
     let carried = Carried::new(start);
     let blocks = &start.assembly.blocks;
-    let corners = || start.interfaces.list.iter().flat_map(|f| &f.points);
-    let all = |f: fn(f64, f64) -> f64, from: f64| {
-        corners().fold(Vector3::repeat(from), |a, p| a.zip_map(p, f))
-    };
-    let size = (all(f64::max, f64::NEG_INFINITY) - all(f64::min, f64::INFINITY)).norm();
-    let tracker = Tracker { carried: &carried, drive: &how.drive, size, deadline };
+    let tracker =
+        Tracker { carried: &carried, drive: &how.drive, size: size(start), deadline, meets };
     let poses = vec![Pose::start(); blocks.len()];
     let closed: Vec<Vec<usize>> =
         start.interfaces.list.iter().map(|f| (0..f.points.len()).collect()).collect();
@@ -263,7 +270,7 @@ impl Tracker<'_> {
                 if how.drive.is_push() && trial.at.load_factor <= 0.0 {
                     return Err(self.vanishes(&linkage, here, (value, trial), &closed, path));
                 }
-                if let Some(text) = self.meets(&trial.at.place.poses) {
+                if let Some(text) = (self.meets)(&trial.at.place.poses) {
                     return Err(End::Stuck(text));
                 }
                 if let Some(m) = trial.margin.as_ref().filter(|_| value == aim) {

@@ -4,8 +4,9 @@ pub mod answer;
 mod branch;
 mod drop;
 mod linkage;
+mod moved;
 mod program;
 mod root;
 mod tracker;
 
-pub use branch::{End, Event, EventKind, Follow, Path, Point, follow};
+pub use branch::{End, Event, EventKind, Follow, Path, Point};

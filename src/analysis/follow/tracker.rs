@@ -10,12 +10,12 @@ use crate::{
     analysis::{Control, assess},
     assembly::{Assembly, Pose, Wrench},
     deadline::Deadline,
-    interface::{Interface, detect},
+    interface::{Interface, Model, detect},
     path::{Carried, Corner, Drive},
     terms::Law,
     verdict::Verdict,
 };
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::HashSet;
 
 pub(super) struct Tracker<'a> {
@@ -25,6 +25,8 @@ pub(super) struct Tracker<'a> {
     pub size: f64,
     /// When it has to end.
     pub deadline: Deadline,
+    /// Blocks that touch at these poses and did not at the start, in words ([`meets`]).
+    pub meets: &'a dyn Fn(&[Pose]) -> Option<String>,
 }
 
 /// Where a linkage is at a value of the parameter.
@@ -129,19 +131,6 @@ impl<'a> Tracker<'a> {
         program::margin(&self.carried.touching(poses, closed).model, self.drive.is_push())
     }
 
-    /// Blocks that touch now and did not at the start, in words.
-    pub fn meets(&self, poses: &[Pose]) -> Option<String> {
-        let start = self.carried.start;
-        let moved = start.assembly.at(poses);
-        let found = detect(&moved).ok()?;
-        let pair = |f: &Interface| (f.a.min(f.b), f.a.max(f.b));
-        let known: HashSet<_> = start.interfaces.list.iter().map(pair).collect();
-        found.list.iter().map(pair).find(|p| !known.contains(p)).map(|(a, b)| {
-            let id = |i: usize| &start.assembly.blocks[i].id;
-            format!("{} and {}, which were apart at the start, come to touch", id(a), id(b))
-        })
-    }
-
     /// The corner that is open and has sunk deepest.
     pub fn deepest(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Option<Corner> {
         self.open(poses, closed).into_iter().min_by(|a, b| a.gap.total_cmp(&b.gap))
@@ -224,4 +213,27 @@ impl<'a> Tracker<'a> {
         let control = Control { law: Law::Associative, ..Control::default() };
         assess(&self.carried.touching(poses, closed).model, &control).verdict == Verdict::Unstable
     }
+}
+
+/// Bounding box diagonal of the contacts, m.
+pub(super) fn size(model: &Model) -> f64 {
+    let corners = || model.interfaces.list.iter().flat_map(|f| &f.points);
+    let all = |f: fn(f64, f64) -> f64, from: f64| {
+        corners().fold(Vector3::repeat(from), |a, p| a.zip_map(p, f))
+    };
+    (all(f64::max, f64::NEG_INFINITY) - all(f64::min, f64::INFINITY)).norm()
+}
+
+/// Blocks of a scene that touch at these poses and did not at the start, in words.
+pub(super) fn meets(start: &Model, poses: &[Pose]) -> Option<String> {
+    let found = match detect(&start.assembly.at(poses)) {
+        Ok(found) => found,
+        Err(e) => return Some(e.to_string()),
+    };
+    let pair = |f: &Interface| (f.a.min(f.b), f.a.max(f.b));
+    let known: HashSet<_> = start.interfaces.list.iter().map(pair).collect();
+    found.list.iter().map(pair).find(|p| !known.contains(p)).map(|(a, b)| {
+        let id = |i: usize| &start.assembly.blocks[i].id;
+        format!("{} and {}, which were apart at the start, come to touch", id(a), id(b))
+    })
 }

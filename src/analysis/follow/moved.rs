@@ -1,0 +1,152 @@
+//! The part of a scene that moves. What nothing that moves touches stays where it is, and none of
+//! its quantities bears on how the rest is followed: not its weight, its size, nor its place.
+
+use super::branch::{End, Event, Path, Point};
+use crate::{
+    analysis::{Control, assess, limit},
+    assembly::Pose,
+    interface::{self, Model},
+    path::{Drive, Move, Moves},
+    terms::{Law, Outcome},
+    verdict::{Forces, Rate, Verdict},
+};
+
+/// The part that moves, and what the rest does meanwhile.
+pub(super) struct Moved<'a> {
+    whole: &'a Model,
+    /// The part that moves with its supports.
+    pub own: Model,
+    /// Its blocks in the scene.
+    blocks: Vec<usize>,
+    /// Its contacts in the scene.
+    faces: Vec<usize>,
+    /// Forces that hold the rest, contact by contact of the scene; none in its own.
+    still: Forces,
+}
+
+impl<'a> Moved<'a> {
+    /// The part that is moved; nothing where that is the whole scene, or where the rest falls by
+    /// itself or under less live load, so that it decides.
+    pub fn of(whole: &'a Model, drive: &Drive, control: &Control) -> Option<Self> {
+        let (blocks, list) = (&whole.assembly.blocks, &whole.interfaces.list);
+        let moves = |part: &interface::Members| match drive {
+            Drive::Settle(Moves(moves)) => part.contacts.iter().any(|&k| {
+                let touches = |m: &Move| [list[k].a, list[k].b].contains(&m.support);
+                moves.iter().any(|m| (m.way, m.turn) != Default::default() && touches(m))
+            }),
+            Drive::Push { block, .. } => part.free.contains(block),
+        };
+        let (moving, resting): (Vec<_>, Vec<_>) =
+            interface::members(whole).into_iter().partition(moves);
+        let free = |parts: &[interface::Members]| -> Vec<usize> {
+            parts.iter().flat_map(|part| part.free.iter().copied()).collect()
+        };
+        let (moving, resting) = (free(&moving), free(&resting));
+        if moving.is_empty() || resting.is_empty() {
+            return None;
+        }
+        let (own, rest) = (whole.without(&resting), whole.without(&moving));
+        let statics = Control { law: Law::Associative, ..*control };
+        let held = assess(&rest, &statics);
+        if held.verdict != Verdict::Stable || (drive.is_push() && !bears(&rest, &own, &statics)) {
+            return None;
+        }
+        let mut is_own = vec![true; blocks.len()];
+        resting.iter().for_each(|&i| is_own[i] = false);
+        let (faces, others): (Vec<usize>, Vec<usize>) =
+            (0..list.len()).partition(|&k| is_own[list[k].a] && is_own[list[k].b]);
+        let mut still = vec![Vec::new(); list.len()];
+        others.into_iter().zip(&held.forces).for_each(|(k, f)| still[k].clone_from(f));
+        let blocks = (0..blocks.len()).filter(|&i| is_own[i]).collect();
+        Some(Self { whole, own, blocks, faces, still })
+    }
+
+    /// The drive by the numbers of the part.
+    pub fn drive(&self, drive: &Drive) -> Drive {
+        let own = |i: usize| self.blocks.binary_search(&i).ok();
+        match drive {
+            Drive::Settle(Moves(moves)) => Drive::Settle(Moves(
+                moves
+                    .iter()
+                    .filter_map(|m| Some(Move { support: own(m.support)?, ..*m }))
+                    .collect(),
+            )),
+            Drive::Push { block, point, toward } => {
+                Drive::Push { block: own(*block).unwrap_or(*block), point: *point, toward: *toward }
+            }
+        }
+    }
+
+    /// A path of the part as one of the scene.
+    pub fn path(&self, own: Path) -> Path {
+        let end = match own.end {
+            End::Falls(ends) => End::Falls(Box::new(ends.map(|p| self.point(p)))),
+            End::Slides(k) => End::Slides(self.faces[k]),
+            other => other,
+        };
+        let event = |e: Event| Event {
+            opens: e.opens.iter().map(|&k| self.faces[k]).collect(),
+            closes: e.closes.iter().map(|&k| self.faces[k]).collect(),
+            ..e
+        };
+        let first = own.first.map(|(forces, rates)| {
+            let mut all = self.still.clone();
+            self.faces.iter().zip(forces).for_each(|(&k, f)| all[k] = f);
+            (all, self.rates(&rates))
+        });
+        Path {
+            points: own.points.into_iter().map(|p| self.point(p)).collect(),
+            events: own.events.into_iter().map(event).collect(),
+            end,
+            first,
+        }
+    }
+
+    fn point(&self, own: Point) -> Point {
+        let list = &self.whole.interfaces.list;
+        let poses = self.poses(&own.poses);
+        let mut closed: Vec<Vec<usize>> =
+            list.iter().map(|f| (0..f.points.len()).collect()).collect();
+        self.faces.iter().zip(own.closed).for_each(|(&k, c)| closed[k] = c);
+        let rates = if own.rates.is_empty() { own.rates } else { self.rates(&own.rates) };
+        // Forces stand at what touches: at joints without a closed corner there are none.
+        let mut given = own.forces.into_iter();
+        let mut is_own = vec![false; list.len()];
+        self.faces.iter().for_each(|&k| is_own[k] = true);
+        let forces =
+            (0..list.len())
+                .filter(|&k| !closed[k].is_empty())
+                .map(|k| {
+                    if is_own[k] { given.next().unwrap_or_default() } else { self.still[k].clone() }
+                })
+                .collect();
+        Point { poses, closed, forces, rates, ..own }
+    }
+
+    /// Poses of all blocks.
+    pub fn poses(&self, own: &[Pose]) -> Vec<Pose> {
+        let mut poses = vec![Pose::start(); self.whole.assembly.blocks.len()];
+        self.blocks.iter().zip(own).for_each(|(&i, pose)| poses[i] = *pose);
+        poses
+    }
+
+    fn rates(&self, own: &[Rate]) -> Vec<Rate> {
+        let mut all = vec![Rate::zero(); self.whole.assembly.blocks.len()];
+        self.blocks.iter().zip(own).for_each(|(&i, q)| all[i] = *q);
+        all
+    }
+}
+
+/// Whether the rest bears as much live load as the part that is pushed.
+fn bears(rest: &Model, own: &Model, control: &Control) -> bool {
+    let factor = |model: &Model| {
+        let l = limit(model, control);
+        match l.outcome {
+            Outcome::Found => Some(l.value),
+            Outcome::Unbounded => Some(f64::INFINITY),
+            Outcome::Impossible | Outcome::Undecided => None,
+        }
+    };
+    let loaded = rest.assembly.live.iter().any(|w| *w != crate::assembly::Wrench::zero());
+    !loaded || factor(rest).zip(factor(own)).is_some_and(|(rest, own)| own < rest)
+}
