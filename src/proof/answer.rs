@@ -3,7 +3,7 @@
 
 use super::{critical::CriticalValue, path::PathAnswer, result::DryResult, thrust::ThrustAnswer};
 use crate::{
-    terms::{Bracket, Deciding, Fate, Found, Law, Outcome},
+    terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
     verdict::{Verdict, exact::Grade},
 };
 use schemars::JsonSchema;
@@ -101,23 +101,6 @@ pub struct LoadFactorAnswer {
     pub associative: Bound,
 }
 
-/// A bound on a load factor, proved on both sides.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Bound {
-    /// What became of it.
-    pub status: Outcome,
-    /// The value, where found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub value: Option<f64>,
-    /// Lower end of its bracket.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lower: Option<f64>,
-    /// Upper end of its bracket.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub upper: Option<f64>,
-}
-
 /// What became of a load factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -141,18 +124,6 @@ impl From<Outcome> for FactorStatus {
             Outcome::Unbounded => Self::Unbounded,
             Outcome::Impossible => Self::Impossible,
             Outcome::Undecided => Self::Undecided,
-        }
-    }
-}
-
-impl Bound {
-    /// Value and bracket, where found.
-    pub fn found(&self) -> Option<(f64, f64, f64)> {
-        match *self {
-            Self { status: Outcome::Found, value: Some(v), lower: Some(l), upper: Some(u) } => {
-                Some((v, l, u))
-            }
-            _ => None,
         }
     }
 }

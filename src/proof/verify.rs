@@ -7,7 +7,7 @@ pub(super) mod states;
 
 use super::{
     ResultFile,
-    answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
+    answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
     critical, member, part, path,
     result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
     thrust,
@@ -16,7 +16,7 @@ use crate::{
     error::{Finding, FindingCode, InputError},
     interface::{self, Model, Part, prepare},
     scene::Scene,
-    terms::{Outcome, agree},
+    terms::{Bound, Outcome, agree},
     tolerance,
     verdict::tilted::tilted,
     verdict::{

@@ -42,7 +42,7 @@ pub struct Doubt {
 }
 
 impl Doubt {
-    /// A doubt; always one.
+    /// A doubt, wrapped as every branch that looks for one gives it.
     pub(crate) fn new(
         cause: DoubtCause,
         evidence: impl Into<String>,

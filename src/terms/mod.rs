@@ -3,6 +3,7 @@
 
 mod agreement;
 mod attempt;
+mod bound;
 mod bracket;
 mod closed;
 mod deciding;
@@ -16,6 +17,7 @@ mod simulation;
 
 pub use agreement::{Agreement, ForceAgreement, agree};
 pub use attempt::{Attempt, Engine, Status};
+pub use bound::Bound;
 pub use bracket::Bracket;
 pub use closed::{Closed, ClosedAnswer, Difference, LeftOutContacts};
 pub use deciding::Deciding;

@@ -8,14 +8,9 @@ use std::path::PathBuf;
 use voussoir::{
     analysis::{Control, Limited, LoadFactor, Outcome, Proved, assess, coulomb, limit},
     interface::prepare,
-    proof::{
-        ResultFile,
-        answer::{Bound, LoadFactorAnswer},
-        read::read_str,
-        result::DryResult,
-        verify,
-    },
+    proof::{ResultFile, answer::LoadFactorAnswer, read::read_str, result::DryResult, verify},
     scene::Scene,
+    terms::Bound,
     verdict::Verdict,
 };
 

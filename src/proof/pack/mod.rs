@@ -8,7 +8,7 @@ mod simulation;
 mod thrust;
 
 use super::{
-    answer::{Answer, Bound, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
+    answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
     member::lines,
     result::{
         Certificate, CoulombState, Direction, DryResult, MechanismWords, QuestionKind, ResultFile,
@@ -23,7 +23,7 @@ use crate::{
     error::{Finding, FindingCode},
     interface::Model,
     scene::Scene,
-    terms::{Law, LeftOutContacts, Outcome},
+    terms::{Bound, Law, LeftOutContacts},
     verdict::{
         Evidence, Verdict,
         evidence::{write_forces, write_members, write_rates},
@@ -145,7 +145,7 @@ impl ResultFile {
         let l = &limited.bound;
         let dry = limited.dry.as_ref().map(|dry| dry_result(model, dry));
         let answer = LimitAnswer {
-            load_factor: LoadFactorAnswer::new(Bound::of(l), dry.as_ref()),
+            load_factor: LoadFactorAnswer::new(bound(l), dry.as_ref()),
             verdict: limited.dead.as_ref().map(|a| a.verdict),
             part: l.part.clone(),
             proof: l.grade(),
@@ -234,7 +234,7 @@ impl ResultFile {
 /// One direction of a tilt; `level` is the verdict at level, where it was asked.
 fn direction(tilt: &Tilt, level: Option<Verdict>) -> Direction {
     let dry = tilt.dry.as_ref().map(|d| dry_result(&d.model, &d.load_factor));
-    let tan_tilt = LoadFactorAnswer::new(Bound::of(&tilt.load_factor), dry.as_ref());
+    let tan_tilt = LoadFactorAnswer::new(bound(&tilt.load_factor), dry.as_ref());
     let answer = TiltAnswer {
         toward: tilt.toward.into(),
         tan_tilt,
@@ -282,16 +282,6 @@ fn assessment(a: &Proved<Assessment>) -> VerdictAnswer {
     }
 }
 
-impl Bound {
-    /// The bound that was proved.
-    fn of(l: &Proved<LoadFactor>) -> Self {
-        let finite = |v: f64| v.is_finite().then_some(v);
-        let value = (l.outcome == Outcome::Found).then_some(l.value);
-        Self {
-            status: l.outcome,
-            value,
-            lower: finite(l.bracket.lower),
-            upper: finite(l.bracket.upper),
-        }
-    }
+fn bound(l: &LoadFactor) -> Bound {
+    Bound::new(l.outcome, l.value, l.bracket)
 }

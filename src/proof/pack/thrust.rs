@@ -3,7 +3,6 @@
 use super::{assessment, certificate};
 use crate::{
     analysis::{
-        Proved,
         geometric::Geometric,
         thrust::{Thrust, ThrustEnd},
     },
@@ -12,10 +11,10 @@ use crate::{
         answer::Answer,
         critical::Side,
         result::{Certificate, MechanismWords, QuestionKind, ResultFile},
-        thrust::{ThrustAnswer, ThrustResult, ThrustValue, factor, table},
+        thrust::{ThrustAnswer, ThrustResult, factor, table},
     },
     scene::Scene,
-    terms::Outcome,
+    terms::{Bound, Outcome},
     verdict::thrust::Sought,
 };
 
@@ -55,8 +54,8 @@ impl ResultFile {
             support,
             direction,
             member,
-            least: least.into(),
-            greatest: greatest.into(),
+            least: bound(least),
+            greatest: bound(greatest),
             geometric_factor: factor(&shrunk, value),
         };
         let mut file = Self::new(
@@ -86,15 +85,6 @@ impl ResultFile {
     }
 }
 
-impl From<&Proved<ThrustEnd>> for ThrustValue {
-    fn from(e: &Proved<ThrustEnd>) -> Self {
-        let finite = |v: f64| v.is_finite().then_some(v);
-        let value = (e.outcome == Outcome::Found).then_some(e.value);
-        Self {
-            status: e.outcome,
-            value,
-            lower: finite(e.bracket.lower),
-            upper: finite(e.bracket.upper),
-        }
-    }
+fn bound(end: &ThrustEnd) -> Bound {
+    Bound::new(end.outcome, end.value, end.bracket)
 }

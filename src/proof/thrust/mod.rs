@@ -8,7 +8,7 @@ pub(super) use verify::verify;
 use super::{critical::Side, result::Certificate};
 use crate::{
     interface::Model,
-    terms::Outcome,
+    terms::Bound,
     tolerance,
     verdict::section::{SectionForce, sections},
 };
@@ -28,29 +28,12 @@ pub struct ThrustAnswer {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub member: Option<String>,
     /// Its least value.
-    pub least: ThrustValue,
+    pub least: Bound,
     /// Its greatest value.
-    pub greatest: ThrustValue,
+    pub greatest: Bound,
     /// The geometric safety factor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub geometric_factor: Option<Factor>,
-}
-
-/// One end of the range, N.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ThrustValue {
-    /// What became of it.
-    pub status: Outcome,
-    /// The thrust, where found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub value: Option<f64>,
-    /// Lower end of its bracket.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lower: Option<f64>,
-    /// Upper end of its bracket.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub upper: Option<f64>,
 }
 
 /// A geometric safety factor.

@@ -1,14 +1,14 @@
 //! Verifying thrusts: both ends from their forces and mechanisms, the factor from the shrunk
 //! sections, the table from the forces.
 
-use super::{ThrustSection, ThrustValue, factor, table};
+use super::{ThrustSection, factor, table};
 use crate::{
     interface::Model,
     proof::{
         result::{Certificate, QuestionKind, ResultFile},
         verify::{Verification, answer, failure, mechanism_words, require},
     },
-    terms::Outcome,
+    terms::{Bound, Outcome},
     tolerance,
     verdict::section::shrunk_model,
     verdict::{
@@ -106,7 +106,7 @@ fn end(
     model: &Model,
     here: Sought,
     wanted: Extreme,
-    said: &ThrustValue,
+    said: &Bound,
     evidence: &Certificate,
 ) -> (Findings, Option<Forces>) {
     let mut f = Findings::default();

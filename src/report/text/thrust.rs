@@ -9,13 +9,14 @@ use crate::{
     number::{bracketed, ends, fixed, point, short},
     proof::{
         result::ResultFile,
-        thrust::{Line, ThrustAnswer, ThrustSection, ThrustValue},
+        thrust::{Line, ThrustAnswer, ThrustSection},
     },
+    terms::Bound,
     tolerance,
     verdict::Verdict,
 };
 
-fn value(v: &ThrustValue, least: f64) -> Option<String> {
+fn value(v: &Bound, least: f64) -> Option<String> {
     let (value, lower, upper) = (v.value?, v.lower?, v.upper?);
     Some(format!("{} N", bracketed(value, lower.min(value - least), upper.max(value + least))))
 }

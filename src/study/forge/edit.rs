@@ -2,10 +2,8 @@
 
 use super::{Forgery, Honest};
 use crate::{
-    proof::{
-        answer::{Bound, LoadFactorAnswer},
-        result::DryResult,
-    },
+    proof::{answer::LoadFactorAnswer, result::DryResult},
+    terms::Bound,
     verdict::{
         Forces, Rate, certificate,
         evidence::{write_forces, write_rates},
