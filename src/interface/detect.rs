@@ -89,7 +89,7 @@ pub fn detect_until(
         if let Some(near) = meeting.near {
             let grains = [a, b].iter().all(|&i| assembly.blocks[i].solid.is_round());
             match grains {
-                true => tally.neighbours(near.closing),
+                true => tally.neighbours(near.closing, a, b),
                 false => tally.near(near.closing, &limits, a, b),
             }
         }

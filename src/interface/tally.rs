@@ -18,7 +18,7 @@ pub(super) struct Tally {
     small: Extreme,
     near: Vec<(Apart, usize, usize)>,
     /// Round blocks near each other: neighbours in a packing, not faces that fail to meet.
-    neighbours: Vec<f64>,
+    neighbours: Vec<(f64, usize, usize)>,
     /// `(depth, what would close it, a, b)`
     overlaps: Vec<(f64, Option<Apart>, usize, usize)>,
     without_normal: Vec<(usize, usize)>,
@@ -87,8 +87,8 @@ impl Tally {
         self.overlaps.push((depth, closing.map(|c| Apart::new(c, limits)), a, b));
     }
 
-    pub fn neighbours(&mut self, closing: Closing) {
-        self.neighbours.push(closing.gap.max(0.0));
+    pub fn neighbours(&mut self, closing: Closing, a: usize, b: usize) {
+        self.neighbours.push((closing.gap.max(0.0), a, b));
     }
 
     pub fn without_normal(&mut self, a: usize, b: usize) {
@@ -168,15 +168,15 @@ impl Tally {
             findings.push(Finding::new(FindingCode::NearMiss, text));
         }
         if !self.neighbours.is_empty() {
-            let ends = self
-                .neighbours
-                .iter()
-                .fold((f64::INFINITY, 0.0_f64), |(l, h), g| (l.min(*g), h.max(*g)));
+            self.neighbours.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
+            let (nearest, farthest) =
+                (self.neighbours[0], self.neighbours[self.neighbours.len() - 1]);
             let text = format!(
-                "{} of round blocks lie next to each other without touching, as grains do: gaps from {} to {} m, more than contact.gap ({tolerance} × the smaller block's size)",
+                "{} of round blocks lie next to each other without touching, as grains do: gaps from {} to {} m, more than contact.gap ({tolerance} × the smaller block's size); nearest: {}",
                 pairs(self.neighbours.len()),
-                short(ends.0),
-                short(ends.1),
+                short(nearest.0),
+                short(farthest.0),
+                pair(nearest.1, nearest.2),
             );
             findings.push(Finding::new(FindingCode::NearMiss, text));
         }

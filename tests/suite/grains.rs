@@ -411,7 +411,11 @@ fn neighbours_in_a_packing_are_no_near_misses() {
     let ball = |id: &str, x: f64| json!({ "id": id, "shape": { "sphere": { "radius": 0.5 } }, "at": [x, 0, 0.5] });
     let balls = model(&scene(0.5, json!([ground, ball("a", 0.0), ball("b", 1.01)]), json!({})));
     let text: Vec<String> = balls.findings().map(|f| f.text.clone()).collect();
-    assert!(text.iter().any(|t| t.contains("1 pair of round blocks lie")), "{text:?}");
+    assert!(
+        text.iter()
+            .any(|t| t.contains("1 pair of round blocks lie") && t.contains("nearest: a and b")),
+        "{text:?}"
+    );
     assert!(!text.iter().any(|t| t.contains("raise")), "{text:?}");
     assert_eq!(balls.interfaces.left_out, None);
 }
