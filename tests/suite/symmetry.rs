@@ -255,6 +255,7 @@ fn members_stand_for_their_images() {
         scene
     };
     let cases = [
+        ("hooped where no hoop is needed", hooped(0.3, json!(0.05), json!({})), around),
         ("hooped", hooped(0.02, json!("infinite"), json!({})), around),
         ("strong hoops", hooped(0.02, json!(1.0), json!({})), around),
         ("weak hoops", hooped(0.02, json!(1e-4), json!({})), around),
