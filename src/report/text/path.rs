@@ -159,7 +159,7 @@ fn thinned(points: &[PathPoint], options: TextOptions) -> Vec<&PathPoint> {
     (0..POINTS).map(|k| &points[k * (points.len() - 1) / (POINTS - 1)]).collect()
 }
 
-fn line(path: &PathResult, p: &PathPoint) -> String {
+pub(super) fn line(path: &PathResult, p: &PathPoint) -> String {
     let head = format!("{:<10}", short(p.value));
     match p.certificate.claim {
         Some(Claim::LoadFactor { value, lower, upper }) => {
@@ -185,7 +185,7 @@ fn line(path: &PathResult, p: &PathPoint) -> String {
     }
 }
 
-fn event(path: &PathResult, e: &PathEvent) -> String {
+pub(super) fn event(path: &PathResult, e: &PathEvent) -> String {
     let names = |list: &[[String; 2]]| -> String {
         list.iter().map(|[a, b]| format!("{a} | {b}")).collect::<Vec<_>>().join(", ")
     };
