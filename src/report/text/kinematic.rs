@@ -3,7 +3,7 @@
 use super::{
     TextOptions, cut,
     page::{Page, Role},
-    path::{event, line},
+    path::event,
 };
 use crate::{
     kinematic::{Capacity, LimitState, Participation, Unique},
@@ -15,6 +15,7 @@ use crate::{
         result::{Direction, ResultFile},
     },
     terms::{Law, Outcome},
+    verdict::check::Claim,
 };
 
 /// So many masses are shown, and so many points of the curve.
@@ -156,16 +157,16 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
                         short(c.d_over_control * p.value),
                         seven(m.acceleration(l, gravity, a.fc)),
                         short(p.value),
-                        line(path, p).split_whitespace().skip(1).collect::<Vec<_>>().join(" ")
+                        factor(p)
                     )
                 }
-                _ => line(path, p),
+                _ => format!("d_C = {:<10} {}", short(p.value), factor(p)),
             })
             .collect();
         page.row("curve", lines);
     }
     if let Some(c) = &a.numbers.capacity {
-        page.row("limit states", limit_states(c));
+        page.row("states", limit_states(c));
     }
     if let Some(d) = &a.numbers.demand {
         let floor = d.gamma_1.zip(d.a_z).map(|(gamma, a_z)| {
@@ -189,6 +190,16 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         page.row("site", floor.into_iter().chain(checks).chain([source]).chain(left));
     }
     directions(page, &file.directions, options);
+}
+
+/// The load factor of a point.
+fn factor(p: &PathPoint) -> String {
+    match p.certificate.claim {
+        Some(Claim::LoadFactor { value, lower, upper }) => {
+            format!("α = {}", bracketed(value, lower, upper))
+        }
+        _ => "not proved".into(),
+    }
 }
 
 fn gravity(file: &ResultFile) -> f64 {

@@ -159,7 +159,7 @@ fn thinned(points: &[PathPoint], options: TextOptions) -> Vec<&PathPoint> {
     (0..POINTS).map(|k| &points[k * (points.len() - 1) / (POINTS - 1)]).collect()
 }
 
-pub(super) fn line(path: &PathResult, p: &PathPoint) -> String {
+fn line(path: &PathResult, p: &PathPoint) -> String {
     let head = format!("{:<10}", short(p.value));
     match p.certificate.claim {
         Some(Claim::LoadFactor { value, lower, upper }) => {
