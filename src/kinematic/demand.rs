@@ -32,6 +32,11 @@ pub struct Check {
 pub struct Demand {
     /// The least ratio of all checks.
     pub ratio: f64,
+    /// The least ratio of the linear checks: a0 against accelerations over q.
+    pub linear: f64,
+    /// The least ratio of the checks of displacements, on the exact curve and on the straight line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub displacement: Option<f64>,
     /// The checks.
     pub checks: Vec<Check>,
     /// γ1 of the building, where there is one.
@@ -66,6 +71,7 @@ pub fn demand(site: &Site, a0: f64, curves: &[(&str, States)], gravity: f64) -> 
             floor.a_z / q,
         ));
     }
+    let linear_checks = checks.len();
     let slc = site.slc.as_ref().map(|s| ("SLC", Elastic::new(s, gravity)));
     let spectra: Vec<_> = [("SLV", ground)].into_iter().chain(slc).collect();
     if curves.is_empty() {
@@ -96,6 +102,16 @@ pub fn demand(site: &Site, a0: f64, curves: &[(&str, States)], gravity: f64) -> 
     if site.building.as_ref().is_some_and(|b| b.amplification.is_none()) {
         left_out.push("the floor spectrum beyond period 0: C7.2.3 amplifies by 1.1 ξ^-0.5 and gives ξ in percent beside it, with which that is below 1; as a fraction it is above 4. Give \"amplification\" in the building of the site, from the text that applies".into());
     }
-    let ratio = checks.iter().map(|c| c.ratio).fold(f64::INFINITY, f64::min);
-    Demand { ratio, checks, gamma_1: floor.map(|f| f.gamma), a_z: floor.map(|f| f.a_z), left_out }
+    let least = |list: &[Check]| list.iter().map(|c| c.ratio).fold(f64::INFINITY, f64::min);
+    let (first, rest) = checks.split_at(linear_checks);
+    let displacement = (!rest.is_empty()).then(|| least(rest));
+    Demand {
+        ratio: least(&checks),
+        linear: least(first),
+        displacement,
+        gamma_1: floor.map(|f| f.gamma),
+        a_z: floor.map(|f| f.a_z),
+        checks,
+        left_out,
+    }
 }

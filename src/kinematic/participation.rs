@@ -1,7 +1,10 @@
 //! What of the mass takes part in a mechanism: e*, M*, and the equivalent displacement (Circolare 7/2019,
 //! C8.7.1.2.1).
 
-use super::mass::{Mass, MassKind, Quake};
+use super::{
+    mass::{Mass, MassKind, Quake},
+    tells::bodies,
+};
 use crate::{
     assembly::Assembly,
     tolerance,
@@ -44,6 +47,9 @@ pub struct Participation {
     /// Σ(P+Q)δ² / Σ(P+Q)δ: what the way of a point is multiplied by, over its own δ, to give the
     /// equivalent displacement.
     pub delta_star: f64,
+    /// e* with blocks that move as one body counted as one, at their common centre of mass: never less than
+    /// e*, so that its acceleration is never more.
+    pub e_star_of_bodies: f64,
     /// The masses.
     pub masses: Vec<Share>,
 }
@@ -100,6 +106,7 @@ impl Participation {
             e_star,
             mass: e_star * weight / assembly.gravity.norm(),
             delta_star: second / first,
+            e_star_of_bodies: first * first / (weight * joined(quake, rates, &list, unit)),
             masses: masses.collect(),
         })
     }
@@ -117,6 +124,22 @@ impl Participation {
     pub fn acceleration(&self, alpha: f64, gravity: f64, confidence: f64) -> f64 {
         alpha * gravity / (self.e_star * confidence)
     }
+}
+
+/// Σ(P+Q)δ² with the blocks of a body at their common centre of mass.
+fn joined(quake: &Quake, rates: &[Rate], list: &[Moving], unit: f64) -> f64 {
+    let (of, leads) = bodies(&quake.model, rates);
+    let mut sums = vec![(0.0, 0.0); leads.len()];
+    let mut second = 0.0;
+    for m in list {
+        let (weight, delta) = (m.mass.weight, m.velocity / unit);
+        match of[m.mass.block].filter(|_| m.mass.kind == MassKind::Block) {
+            Some(body) => sums[body] = (sums[body].0 + weight, sums[body].1 + weight * delta),
+            None => second += weight * delta * delta,
+        }
+    }
+    let bodies = sums.iter().filter(|s| s.0 > 0.0).map(|(weight, first)| first * first / weight);
+    second + bodies.sum::<f64>()
 }
 
 /// δ of a point of a block, in the measure of [`Share::delta`]; nothing where no mass is driven.

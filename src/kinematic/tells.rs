@@ -46,12 +46,19 @@ struct Bodies<'a> {
     rows: Vec<Vec<(usize, f64)>>,
 }
 
-/// Whether the joints that a mechanism keeps closed allow no other.
-pub fn is_unique(model: &Model, rates: &[Rate]) -> Unique {
+/// Below this speed a block rests, m/s of the rates.
+fn resting(model: &Model, rates: &[Rate]) -> f64 {
     let assembly = &model.assembly;
     let speed = |i: usize| certificate::speed(assembly, i, &rates[i]);
-    let fastest = assembly.free().map(speed).fold(0.0, f64::max);
-    let rest = tolerance::MECHANISM_REST * fastest;
+    tolerance::MECHANISM_REST * assembly.free().map(speed).fold(0.0, f64::max)
+}
+
+/// The body that each block moves with, and one block of each: blocks whose joints stay closed all
+/// over are one. What rests has none.
+pub fn bodies(model: &Model, rates: &[Rate]) -> (Vec<Option<usize>>, Vec<usize>) {
+    let assembly = &model.assembly;
+    let speed = |i: usize| certificate::speed(assembly, i, &rates[i]);
+    let rest = resting(model, rates);
     let still = |i: usize| assembly.blocks[i].support || speed(i) <= rest;
     let mut sets = Sets::new(assembly.blocks.len());
     for f in model.interfaces.list.iter().filter(|f| !still(f.a) && !still(f.b)) {
@@ -72,6 +79,14 @@ pub fn is_unique(model: &Model, rates: &[Rate]) -> Unique {
             })
         })
         .collect();
+    (of, leads)
+}
+
+/// Whether the joints that a mechanism keeps closed allow no other.
+pub fn is_unique(model: &Model, rates: &[Rate]) -> Unique {
+    let assembly = &model.assembly;
+    let rest = resting(model, rates);
+    let (of, leads) = bodies(model, rates);
     if leads.len() > MOST_BODIES {
         return Unique::Unknown;
     }

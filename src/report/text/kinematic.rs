@@ -11,7 +11,7 @@ use crate::{
     proof::{
         answer::{FactorStatus, LoadFactorAnswer},
         kinematic::KinematicAnswer,
-        path::{PathEvent, PathPoint, PathStatus},
+        path::{PathEvent, PathEventKind, PathPoint, PathStatus},
         result::{Direction, ResultFile},
     },
     terms::{Law, Outcome},
@@ -66,7 +66,12 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     }
     text += &format!(" towards {}", point(a.toward));
     if let Some(d) = &a.numbers.demand {
-        text += &format!("; {} of what the site demands", seven(d.ratio));
+        let displacement =
+            d.displacement.map_or(String::new(), |r| format!(", by displacements {}", short(r)));
+        text += &format!(
+            "; of the demand it meets {} by the linear check{displacement}",
+            short(d.linear)
+        );
         role = if d.ratio < 1.0 || role == Role::Bad { Role::Bad } else { Role::Good };
     }
     (text, role)
@@ -119,6 +124,13 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         };
         page.paragraph(&format!(
             "The curve is known up to a way of the control point of {up_to}: {reason}. There is no d0, and no line is drawn in its place."
+        ));
+    }
+    let jumps = |e: &&PathEvent| e.kind == PathEventKind::Jumps;
+    if let Some(e) = file.path.as_ref().and_then(|p| p.events.iter().find(jumps)) {
+        page.paragraph(&format!(
+            "At a way of the control point of {} m the motion turns back and goes on elsewhere by a jump: what comes after it holds slowly, and inertia may carry it farther.",
+            short(e.value)
         ));
     }
     if let Some(c) = &a.numbers.capacity {
@@ -232,6 +244,15 @@ fn linear(page: &mut Page, a: &KinematicAnswer) {
         let [low, high] = ends(a0, low, high);
         lines.push(format!("a0 lies between {low} and {high} m/s², as α0 does in its bracket"));
     }
+    if p.e_star_of_bodies > p.e_star * (1.0 + 1e-6)
+        && let Some(a0) = a.numbers.a0
+    {
+        lines.push(format!(
+            "with blocks that move as one counted as one: e* = {}, a0 = {} m/s²",
+            seven(p.e_star_of_bodies),
+            seven(a0 * p.e_star / p.e_star_of_bodies)
+        ));
+    }
     page.row("linear", lines);
 }
 
@@ -294,7 +315,7 @@ fn directions(page: &mut Page, list: &[Direction], options: TextOptions) {
                 .numbers
                 .demand
                 .as_ref()
-                .map_or(String::new(), |d| format!(", {} of the demand", seven(d.ratio)));
+                .map_or(String::new(), |d| format!(", {} of the demand", short(d.ratio)));
             let bound = match a.alpha0.associative.status {
                 Outcome::Unbounded if a.alpha0.value.is_none() => "no limit".to_string(),
                 _ => start(&a.alpha0).0,
