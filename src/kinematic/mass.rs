@@ -141,6 +141,22 @@ fn rests(load: &Load, model: &Model, down: &Vector3<f64>) -> Vec<Mass> {
     }
 }
 
+/// Dead loads that pull down and sideways, as places in the list: no weight, and yet there may be one
+/// in them.
+pub fn oblique(scene: &Scene, model: &Model) -> Vec<usize> {
+    let down = model.assembly.gravity.normalize();
+    let pulls = |load: &Load| {
+        let force = load.force.or(load.acceleration).or(load.weight).map(Vector3::from);
+        force.is_some_and(|f| {
+            let along = f.dot(&down);
+            along > tolerance::ALONG * f.norm()
+                && (f - down * along).norm() > tolerance::ALONG * f.norm()
+        })
+    };
+    let dead = scene.loads.dead.iter().enumerate();
+    dead.filter(|(_, l)| !l.massless && pulls(l)).map(|(k, _)| k).collect()
+}
+
 /// A scene without its members: what lasts, where these are not counted on once they yield.
 #[must_use]
 pub fn without_members(model: &Model) -> Model {

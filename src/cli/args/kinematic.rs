@@ -2,7 +2,7 @@
 
 use super::{
     Common, DIRECTIONS,
-    parse::{Written, control, direction, finite, output, positive},
+    parse::{Written, at_least_one, control, direction, finite, output},
 };
 use clap::Args;
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ pub struct Kinematic {
     #[arg(long, value_name = "BLOCK=X,Y,Z", allow_hyphen_values = true, value_parser = control)]
     pub control: Option<(String, [f64; 3])>,
     /// Factor of confidence, by which accelerations are divided [default: 1.35].
-    #[arg(long, value_name = "FC", value_parser = positive)]
+    #[arg(long, value_name = "FC", value_parser = at_least_one)]
     pub fc: Option<f64>,
     /// Ways of the control point, m, that become points of the curve, beside others.
     #[arg(long, value_name = "V1,V2,…", value_delimiter = ',', value_parser = finite)]

@@ -3,7 +3,9 @@
 use super::{bound, certificate, dry_result};
 use crate::{
     analysis::{Claims, Kinematic, kinematic::Quaked},
+    error::{Finding, FindingCode},
     interface::Model,
+    kinematic::oblique,
     proof::{
         answer::{Answer, LoadFactorAnswer},
         kinematic::{Control, Given, KinematicAnswer, Numbers},
@@ -50,6 +52,14 @@ impl ResultFile {
         let refused = followed.into_iter().flat_map(|f| f.warnings);
         let known = file.warnings.clone();
         file.warnings.extend(refused.filter(|w| !known.contains(w)));
+        if !scene.loads.live.is_empty() {
+            file.left_out
+                .push("live loads of the scene: the earthquake stands in their place".into());
+        }
+        file.warnings.extend(oblique(scene, model).into_iter().map(|k| {
+            let text = format!("loads.dead[{k}] pulls down and sideways: it is taken for no weight. Where one is in it, make two loads of it, the weight straight down, or say \"massless\": true");
+            Finding::new(FindingCode::Loads, text)
+        }));
         if list.len() > 1 {
             file.directions = list;
         }
