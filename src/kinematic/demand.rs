@@ -64,7 +64,8 @@ pub fn demand(site: &Site, a0: f64, curves: &[(&str, States)], gravity: f64) -> 
     let linear = "linear SLV, on the ground: a0 ≥ a_g S / q";
     checks.push(check(format!("{linear}, q = {q}"), a0, ground.ground / q));
     let floor = site.building.as_ref().map(|b| Floor::new(b, &ground));
-    if let Some(floor) = &floor {
+    // At the foundation itself no floor moves against the ground.
+    if let Some(floor) = floor.as_ref().filter(|f| f.a_z > 0.0) {
         checks.push(check(
             format!("linear SLV, on the floor: a0 ≥ a_Z / q, q = {q}"),
             a0,
@@ -87,6 +88,7 @@ pub fn demand(site: &Site, a0: f64, curves: &[(&str, States)], gravity: f64) -> 
                 spectrum.displacement(period, xi),
             ));
             let above = site.building.as_ref().map(|b| Floor::new(b, spectrum));
+            let above = above.filter(|f| f.a_z > 0.0);
             let above = above.and_then(|f| f.acceleration(period, xi, spectrum));
             checks.extend(above.map(|a| {
                 let what = format!(

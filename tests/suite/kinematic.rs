@@ -189,7 +189,7 @@ fn the_curve_is_that_of_push() {
     let kinematic = file.path.expect("a curve");
     let at: Vec<f64> = kinematic.points.iter().map(|p| p.value).collect();
     let question =
-        Question::Push(PushOptions { control, toward: [1.0, 0.0, 0.0], at: at[1..4].to_vec() });
+        Question::Push(PushOptions { control, toward: [1.0, 0.0, 0.0], at: at[1..].to_vec() });
     let answer = ask(&question, &scene, &model, &Control::default()).expect("an answer");
     let pushed = ResultFile::of(&scene, &model, &answer).expect("a result").path.expect("a curve");
     assert!(pushed.events.len() == kinematic.events.len() && !pushed.events.is_empty());
@@ -201,7 +201,7 @@ fn the_curve_is_that_of_push() {
             compared += usize::from((a - b).abs() <= 1e-8);
         }
     }
-    assert!(compared > 10, "{compared} of {}", kinematic.points.len());
+    assert!(compared + 2 >= kinematic.points.len(), "{compared} of {}", kinematic.points.len());
     let [e, f] = [&pushed.events[0], &kinematic.events[0]];
     close(e.value, f.value, 1e-9);
     close(pushed.points.last().unwrap().value, kinematic.points.last().unwrap().value, 1e-9);
@@ -356,8 +356,7 @@ fn what_changes_nothing() {
             let mut value = wall(6.0, 0.6, json!({}));
             for (k, (x, z)) in [(0.0, -0.5), (-0.3, 3.0)].into_iter().enumerate() {
                 value["blocks"][k]["at"] = json!(at(x, z));
-                value["blocks"][k]["rotation"] =
-                    json!({ "axis": [0, 0, 1], "angle_deg": angle.to_degrees() });
+                value["blocks"][k]["rotation_deg"] = json!({ "z": angle.to_degrees() });
             }
             value["loads"] = json!({ "dead": [{ "block": "wall", "force": [0, 0, -40e3], "at": at(-0.4, 6.0) }] });
             let file = asked(&read(&value), options([c, s, 0.0]));
@@ -510,7 +509,10 @@ fn edited_results_are_refused() {
     forge("another mechanism", &|f| {
         f.certificate.rates.iter_mut().for_each(|r| r.velocity[0] *= 1.01);
     });
-    forge("another site", &|f| f.scene.input.site.as_mut().unwrap().slv.a_g *= 0.5);
+    let mut other = honest.clone();
+    other.scene.input.site.as_mut().unwrap().slv.a_g *= 0.5;
+    let input = other.scene.input.clone();
+    refused(&input, &other, "another site");
 }
 
 fn run(args: &[&str]) -> Output {

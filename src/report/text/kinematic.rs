@@ -6,7 +6,7 @@ use super::{
     path::event,
 };
 use crate::{
-    kinematic::{Capacity, LimitState, Participation, Unique},
+    kinematic::{Capacity, Elastic, LimitState, Participation, Unique},
     number::{bracketed, ends, point, short},
     proof::{
         answer::{FactorStatus, LoadFactorAnswer},
@@ -24,6 +24,10 @@ const POINTS: usize = 12;
 
 /// Seven digits, which is what such numbers are compared by.
 fn seven(v: f64) -> String {
+    // What is left of a search for zero.
+    if v.abs() < 1e-12 {
+        return "0".into();
+    }
     let decimals = (6 - v.abs().max(1e-300).log10().floor() as i32).clamp(0, 12);
     crate::number::fixed(v, decimals.unsigned_abs() as usize)
 }
@@ -198,6 +202,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             )
         });
         let left = d.left_out.iter().map(|t| format!("not checked: {t}"));
+        page.row("spectra", spectra(file));
         let source = "spectra of NTC 2018, 3.2.3.2; ratios are those of accelerations, with the periods of the spectrum held".to_string();
         page.row("site", floor.into_iter().chain(checks).chain([source]).chain(left));
     }
@@ -293,6 +298,39 @@ fn limit_states(c: &Capacity) -> Vec<String> {
     };
     let exact = c.exact.map(|s| both("exact curve", s)).into_iter().flatten();
     exact.chain(both("straight line", c.straight)).collect()
+}
+
+/// The spectra that are demanded, with the periods that nobody gave.
+fn spectra(file: &ResultFile) -> Vec<String> {
+    let Some(site) = &file.scene.input.site else { return Vec::new() };
+    let slc = site.slc.iter().map(|s| ("SLC", s));
+    let mut lines: Vec<String> = [("SLV", &site.slv)]
+        .into_iter()
+        .chain(slc)
+        .map(|(word, s)| {
+            let e = Elastic::new(s, gravity(file));
+            format!(
+                "{word}: a_g = {} m/s², F0 = {}, S = {}, T_B = {} s, T_C = {} s, T_D = {} s",
+                short(s.a_g),
+                short(s.f_0),
+                short(s.s),
+                short(e.t_b),
+                short(e.t_c),
+                short(e.t_d)
+            )
+        })
+        .collect();
+    if let Some(b) = &site.building {
+        lines.push(format!(
+            "building: T1 = {} s, {} storeys, H = {} m, z = {} m, ξ1 = {} %",
+            short(b.t_1),
+            b.storeys,
+            short(b.height),
+            short(b.z),
+            short(b.damping_percent.unwrap_or(crate::kinematic::DAMPING))
+        ));
+    }
+    lines
 }
 
 /// All points where there is room for them, else as many, evenly spread.
