@@ -131,6 +131,8 @@ pub mod terms;
 
 pub mod path;
 
+pub mod kinematic;
+
 #[cfg(feature = "solve")]
 pub mod program;
 

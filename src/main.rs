@@ -32,6 +32,7 @@ fn main() -> ExitCode {
         Verb::Thrust(a) => cli::thrust::run(&a, &terminal),
         Verb::Settle(a) => cli::path::settle(&a, &terminal),
         Verb::Push(a) => cli::path::push(&a, &terminal),
+        Verb::Kinematic(a) => cli::kinematic::run(&a, &terminal),
         Verb::Study(a) => cli::study::run(&a, &terminal),
         Verb::Simulate(a) => cli::simulate::run(&a, &terminal),
         Verb::Repose(a) => cli::repose::run(&a, &terminal),

@@ -14,6 +14,7 @@ pub mod generate;
 mod heap;
 pub mod import;
 mod input;
+pub mod kinematic;
 pub mod limit;
 pub mod man;
 pub mod memory;

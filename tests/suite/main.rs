@@ -24,6 +24,7 @@ mod grains;
 mod granular;
 mod hostile;
 mod invariance;
+mod kinematic;
 mod large;
 mod layering;
 mod members;
