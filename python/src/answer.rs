@@ -215,6 +215,22 @@ impl Answer {
         ))
     }
 
+    /// The frames of the joints, rows `t1`, `t2`, `n` of each, and their areas, m²; in the order of
+    /// the forces.
+    #[allow(clippy::type_complexity)]
+    fn frames<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)> {
+        let model = made(py, &self.kept, Kept::model)?;
+        let list = &model.interfaces.list;
+        let frame = |f: &voussoir::interface::ContactFrame| [f.t1, f.t2, f.n].map(Into::into);
+        Ok((
+            arrays::rows(py, list.iter().flat_map(|f| frame(&f.frame)).collect()),
+            PyArray1::from_vec(py, list.iter().map(|f| f.area).collect()),
+        ))
+    }
+
     /// The result as the command saves it.
     fn json(&self, py: Python) -> PyResult<String> {
         made(py, &self.kept, |kept| json::pretty(&kept.file).map_err(Trouble::other))

@@ -87,6 +87,12 @@ pub fn ask(
     wait::run(py, progress, move |watch| answer(&ready, &question, &manner, watch))
 }
 
+/// Whether a text is that of a saved result.
+#[pyfunction]
+pub fn is_result(text: &str) -> bool {
+    voussoir::proof::read::is_result(text)
+}
+
 /// A question of plain values.
 pub fn question(plain: &Bound<PyAny>) -> PyResult<Question> {
     value(plain, |text| {

@@ -14,6 +14,15 @@ pub enum Trouble {
     Other(String),
 }
 
+impl std::fmt::Display for Trouble {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Input(e) => e.fmt(f),
+            Self::TimeIsUp(text) | Self::Other(text) => f.write_str(text),
+        }
+    }
+}
+
 impl From<InputError> for Trouble {
     fn from(error: InputError) -> Self {
         Self::Input(Box::new(error))

@@ -50,8 +50,15 @@ impl Ready {
         Self { source: self.source.clone(), ..Self::new(scene, None, said) }
     }
 
-    /// The scene resolved, with its contacts: made once.
+    /// The scene resolved, with its contacts: made once, and kept for the next question.
     pub fn model(&self, is_over: &dyn Fn() -> bool) -> Result<Arc<Model>, Trouble> {
+        let model = self.prepared(is_over)?;
+        *self.model.lock().unwrap_or_else(PoisonError::into_inner) = Some(model.clone());
+        Ok(model)
+    }
+
+    /// The same, not kept: where there are many scenes, each asked once.
+    pub fn prepared(&self, is_over: &dyn Fn() -> bool) -> Result<Arc<Model>, Trouble> {
         if let Some(model) = &*self.model.lock().unwrap_or_else(PoisonError::into_inner) {
             return Ok(model.clone());
         }
@@ -66,9 +73,7 @@ impl Ready {
             points,
             limits::PER_CONTACT_POINT,
         )?;
-        let model = Arc::new(model);
-        *self.model.lock().unwrap_or_else(PoisonError::into_inner) = Some(model.clone());
-        Ok(model)
+        Ok(Arc::new(model))
     }
 
     /// An error with its place in the file.

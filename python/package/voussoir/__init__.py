@@ -51,7 +51,8 @@ from ._ask import (
 )
 from ._core import __version__
 from ._errors import InputError, SceneWarning, TimeIsUp, VoussoirError
-from ._scene import Scene, load
+from ._many import Heaps, Inspection, Many, Sweep, assess_many, check, heaps, sweep
+from ._scene import Scene, load, load_foreign
 
 __all__ = [
     "Answer",
@@ -65,10 +66,13 @@ __all__ = [
     "Doubt",
     "Finding",
     "Forces",
+    "Heaps",
     "InputError",
+    "Inspection",
     "JointMotion",
     "Limit",
     "LoadFactor",
+    "Many",
     "Mechanism",
     "Packing",
     "Path",
@@ -76,6 +80,7 @@ __all__ = [
     "Scene",
     "SceneWarning",
     "Simulation",
+    "Sweep",
     "Thrust",
     "Tilt",
     "TimeIsUp",
@@ -84,14 +89,19 @@ __all__ = [
     "VoussoirError",
     "__version__",
     "assess",
+    "assess_many",
+    "check",
     "critical",
+    "heaps",
     "limit",
     "load",
     "load_answer",
+    "load_foreign",
     "push",
     "repose",
     "settle",
     "simulate",
+    "sweep",
     "thrust",
     "tilt",
 ]

@@ -366,6 +366,18 @@ class Answer:
         """The two blocks of each joint."""
         return self.certificate.forces.between
 
+    @cached_property
+    def frames(self) -> Array:
+        """The frame of each joint, shape (joints, 3, 3): rows ``t1``, ``t2`` and the normal ``n``
+        from its first block into its second, right-handed. ``frames[k] @ forces.T`` are components."""
+        frames: Array = self._core.frames()[0].reshape(-1, 3, 3)
+        return frames
+
+    @cached_property
+    def areas(self) -> Array:
+        """The area of each joint that touches, m²; shape (joints,)."""
+        return self._core.frames()[1]
+
     @property
     def mechanism(self) -> Mechanism | None:
         """How it fails, where that is part of the answer."""

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._errors import InputError
-from ._plain import text, without_none
+from ._plain import without_none
 
 Vector: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
 """Three numbers."""
@@ -442,9 +442,60 @@ def load(
         return Scene._of(_core.Scene.parse(path, file.read(), os.fspath(folder), allow_outside))
 
 
+def load_foreign(
+    *paths: str | os.PathLike[str],
+    supports: Iterable[str] = (),
+    support_below: float | None = None,
+    support_files: Iterable[str | os.PathLike[str]] = (),
+    friction: Friction | None = None,
+    density: float | None = None,
+    scale: float = 1.0,
+    up: Literal["x", "y", "z", "-x", "-y", "-z"] = "z",
+    gap: float | None = None,
+    angle_deg: float | None = None,
+    stored_interfaces: bool = True,
+) -> Scene:
+    """Make a scene from files of other programs: COMPAS JSON, OBJ, PLY, STL.
+
+    Parameters
+    ----------
+    supports : ids of blocks
+        Held in place, beside those that the file names.
+    support_below : float, optional
+        Blocks whose lowest corner lies below this height are held, m.
+    support_files : paths
+        All their blocks are held.
+    friction : float or "infinite", optional
+        Of every joint.
+    density : float, optional
+        kg/m³, in place of what the file says.
+    scale : float
+        Multiplies coordinates: 0.001 for a file in millimetres.
+    up : str
+        The axis of the file that points up.
+    gap, angle_deg : float, optional
+        When faces touch, as in :meth:`Scene.contact`.
+    stored_interfaces : bool
+        Keep those of the file in place of contacts that are detected.
+    """
+    scene, _ = _core.import_scene(
+        [os.fspath(path) for path in paths],
+        supports=list(supports),
+        support_below=support_below,
+        support_files=[os.fspath(path) for path in support_files],
+        friction=float("inf") if friction == "infinite" else friction,
+        density=density,
+        scale=scale,
+        up=up,
+        gap=gap,
+        angle_deg=angle_deg,
+        stored_interfaces=stored_interfaces,
+    )
+    return Scene._of(scene)
+
+
 def core(scene: SceneLike) -> _core.Scene:
     """What questions are asked of."""
     return scene._core if isinstance(scene, Scene) else load(scene)._core
 
 
-__all__ = ["Friction", "Scene", "SceneLike", "Vector", "core", "load", "text"]
