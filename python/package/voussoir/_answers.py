@@ -367,11 +367,12 @@ class Answer:
         return self.certificate.forces.between
 
     @cached_property
-    def frames(self) -> Array:
-        """The frame of each joint, shape (joints, 3, 3): rows ``t1``, ``t2`` and the normal ``n``
-        from its first block into its second, right-handed. ``frames[k] @ forces.T`` are components."""
-        frames: Array = self._core.frames()[0].reshape(-1, 3, 3)
-        return frames
+    def axes(self) -> Array:
+        """The axes of each joint, shape (joints, 3, 3): rows ``t1``, ``t2`` and the normal ``n`` from
+        its first block into its second, right-handed. Components of forces are
+        ``forces @ axes[k].T``."""
+        axes: Array = self._core.frames()[0].reshape(-1, 3, 3)
+        return axes
 
     @cached_property
     def areas(self) -> Array:

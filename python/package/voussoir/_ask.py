@@ -7,6 +7,8 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, TypeAlias
 
+import numpy as np
+
 from . import _core
 from ._answers import (
     Assessment,
@@ -130,8 +132,9 @@ def limit(
 def _directions(toward: Sequence[Vector] | Vector | None, all: int | None) -> dict[str, Any]:
     if toward is None:
         return {"all": 8 if all is None else all}
-    listed = toward if hasattr(toward[0], "__len__") else [toward]
-    directions = [[*(float(x) for x in d), 0.0][:3] for d in listed]  # type: ignore[union-attr]
+    # One direction is a list of one.
+    listed = np.atleast_2d(np.asarray(toward, dtype=np.float64)).tolist()
+    directions = [[*direction, 0.0][:3] for direction in listed]
     return {"toward": directions} if all is None else {"toward": directions, "all": all}
 
 

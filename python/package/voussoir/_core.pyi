@@ -10,6 +10,22 @@ import numpy.typing as npt
 _Array = npt.NDArray[np.float64]
 _Finding = tuple[str, str, bool, bool]
 
+__all__ = [
+    "__version__",
+    "Scene",
+    "Answer",
+    "Rows",
+    "Heaps",
+    "ask",
+    "is_result",
+    "ask_many",
+    "sweep_file",
+    "sweep_scene",
+    "heaps",
+    "import_scene",
+    "command",
+]
+
 __version__: str
 
 @final

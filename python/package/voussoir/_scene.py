@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal, TypeAlias
@@ -371,7 +372,8 @@ class Scene:
 
     def to_dict(self) -> dict[str, Any]:
         """What stands in the file of the scene, as plain values."""
-        return self._core.plain()
+        data: dict[str, Any] = json.loads(self._core.json())
+        return data
 
     def to_json(self) -> str:
         """The file of the scene."""

@@ -120,7 +120,7 @@ def to_assembly(
             graph.edge_attribute(edge, attribute, [])
     found: dict[tuple[Any, Any], list[Any]] = {}
     forces = evidence.forces
-    axes, areas = answer.frames, answer.areas
+    axes, areas = answer.axes, answer.areas
     for k, ((a, b), points, own) in enumerate(forces):
         edge, frame, sign = (nodes[a], nodes[b]), axes[k], 1.0
         if not graph.has_edge(edge) and graph.has_edge(edge[::-1]):
