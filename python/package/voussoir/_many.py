@@ -297,8 +297,9 @@ class Heaps:
         """One row a heap."""
         import pandas
 
-        rows = [{k: v for k, v in h.items() if k != "margin"} for h in self._data["heaps"]]
-        frame = pandas.DataFrame(rows)
+        keys = ("seed", "rested", "grains", "discarded", "angle_deg", "r_squared", "avalanche_deg")
+        rows = [{key: heap.get(key) for key in keys} for heap in self._data["heaps"]]
+        frame = pandas.DataFrame(rows, columns=list(keys))
         frame["margin_deg"] = self.margins_deg
         return frame
 

@@ -80,7 +80,8 @@ def from_assembly(
     )
     scene = Scene._of(core)
     if name is None:
-        name = getattr(assembly, "name", None)
+        attributes = getattr(assembly, "attributes", None) or {}
+        name = attributes.get("name") or getattr(assembly, "name", None)
     if isinstance(name, str):
         scene.name = name
     return scene
