@@ -155,3 +155,19 @@ pub mod study;
 
 #[cfg(feature = "report")]
 pub mod report;
+
+#[cfg(feature = "cli")]
+mod cli;
+
+/// The command `voussoir`, for programs that carry it: its binary, the wheel for Python.
+#[cfg(feature = "cli")]
+pub mod command {
+    pub use crate::cli::{
+        exit::Exit,
+        run::{Memory, run, run_as},
+    };
+}
+
+// The command names the library as any other program does.
+#[cfg(feature = "cli")]
+extern crate self as voussoir;
