@@ -403,7 +403,7 @@ impl Question {
             Self::Critical(_) => Some("value at which the verdict flips"),
             Self::Repose(_) => Some("angle of maximum stability in degrees"),
             Self::Settle(_) => Some("share of the movement up to which it stands"),
-            Self::Kinematic(_) => Some("load factor α0"),
+            Self::Kinematic(_) => Some("α0"),
             Self::Push(_) => Some("way of the control point up to which it resists in m"),
         }
     }

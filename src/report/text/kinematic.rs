@@ -100,7 +100,8 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
             }
         };
         page.paragraph(law);
-        if file.mechanism.as_ref().is_some_and(|m| m.joints.iter().any(slides)) {
+        let slides = file.mechanism.as_ref().is_some_and(|m| m.joints.iter().any(slides));
+        if slides && a.alpha0.found != Some(crate::terms::Found::NothingSlides) {
             let whose = if a.alpha0.found == Some(crate::terms::Found::FixedPoint) {
                 "δ, e* and M* are those of the mechanism with dry friction, not of the one that is shown."
             } else {

@@ -17,6 +17,7 @@ pub use motion::{Mark, ViewMotion, ViewPose};
 pub use state::{Resultant, Segment, ViewPart, ViewState};
 pub use surface::{Surface, ViewShape};
 
+use crate::kinematic::quake;
 use crate::proof::result::{QuestionKind, ResultFile};
 use crate::{
     assembly::{AppliedForce, JointLaw},
@@ -124,6 +125,12 @@ impl View {
     /// # Errors
     /// A certificate that does not belong to the scene.
     pub fn new(model: &Model, file: &ResultFile, film: Vec<Frame>) -> Result<Self, ViewError> {
+        // What an earthquake pushes with is no load of the scene itself.
+        let pushed = file
+            .answer
+            .kinematic()
+            .and_then(|a| quake(&file.scene.input, model, Vector3::from(a.toward)).ok());
+        let model = pushed.as_ref().map_or(model, |q| &q.model);
         let mut view = Self::bare(model);
         view.name.clone_from(&file.scene.name);
         if let Some(up) = tipped(view.up, file) {
