@@ -73,15 +73,22 @@ pub fn ask(
     progress: Option<&Bound<PyAny>>,
 ) -> PyResult<Answer> {
     let question: Question = self::question(question)?;
+    let unknown = |key: &str, word: &str| {
+        let error = InputError::at(JsonPath::root().key(key), format!("unknown word {word:?}"));
+        Trouble::from(error).raise(py)
+    };
     let simulate = match simulate {
         "always" => Beside::Always,
         "in doubt" => Beside::InDoubt,
-        _ => Beside::Never,
+        "never" => Beside::Never,
+        word => return Err(unknown("simulate", word)),
     };
-    let verdict = verdict.map(|law| match law {
-        "associative" => Law::Associative,
-        _ => Law::Coulomb,
-    });
+    let verdict = match verdict {
+        None => None,
+        Some("associative") => Some(Law::Associative),
+        Some("coulomb") => Some(Law::Coulomb),
+        Some(word) => return Err(unknown("law", word)),
+    };
     let manner = Manner { keep_all, time_limit, worst, simulate, threads, frames, film, verdict };
     let ready = scene.ready();
     wait::run(py, progress, move |watch| answer(&ready, &question, &manner, watch))

@@ -235,3 +235,32 @@ def test_film() -> None:
     assert (np.diff(times) > 0).all() and poses[-1, 1, 0] > poses[0, 1, 0]
     asked = voussoir.simulate(table(), frames=5, film=False, fast=True)
     assert asked.fate == "stands" and asked.verdict and asked.frames[1].shape[1:] == (2, 7)
+
+
+def test_contacts_and_members_of_scenes_in_code(structures: Path) -> None:
+    apart = table()
+    apart.box("upper", (0.4, 0.4, 1), (0, 0, 1.505))
+    assert isinstance(found := voussoir.check(apart), voussoir.Inspection)
+    assert "near_miss" in {f.code for f in found.mistakes}
+    assert voussoir.check(apart.contact(gap=1e-2))
+    tied = json.loads((structures / "tied-arch.json").read_text())
+    built = voussoir.load({k: v for k, v in tied.items() if k != "members"})
+    for member in tied["members"]:
+        built.member(**member)
+    assert built.to_dict() == voussoir.load(tied).to_dict()
+    answer = voussoir.limit(built)
+    assert answer.load_factor.value == pytest.approx(0.1140764611, rel=1e-6)
+    (tie,) = answer.members
+    least = voussoir.thrust(built, member=tied["members"][0]["id"])
+    assert least.least is not None and tie
+
+
+def test_words_that_nobody_knows() -> None:
+    for ask in (
+        lambda: voussoir.simulate(table(), law="dry"),  # type: ignore[arg-type]
+        lambda: voussoir.assess(table(), simulate="perhaps"),  # type: ignore[arg-type]
+        lambda: voussoir.assess(table(), worst={"nothing": (0, 1)}),
+        lambda: table().load("alive"),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(voussoir.InputError):
+            ask()

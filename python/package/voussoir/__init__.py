@@ -12,96 +12,28 @@ Units are SI (m, kg, s, N), z points up, angles are in degrees where the name sa
 carries its proof, and numbers are those of the command ``voussoir`` to the last bit.
 """
 
-from ._answers import (
-    Answer,
-    Assessment,
-    Blocks,
-    Bound,
-    Bracket,
-    Certificate,
-    Critical,
-    CriticalValue,
-    Doubt,
-    Finding,
-    Forces,
-    JointMotion,
-    Limit,
-    LoadFactor,
-    Mechanism,
-    Packing,
-    Path,
-    Rates,
-    Simulation,
-    Thrust,
-    Tilt,
-    Verdict,
-    Verification,
-)
-from ._ask import (
-    assess,
-    critical,
-    limit,
-    load_answer,
-    push,
-    repose,
-    settle,
-    simulate,
-    thrust,
-    tilt,
-)
-from ._core import __version__
-from ._errors import InputError, SceneWarning, TimeIsUp, VoussoirError
-from ._many import Heaps, Inspection, Many, Sweep, assess_many, check, heaps, sweep
-from ._scene import Scene, load, load_foreign
+from __future__ import annotations
 
-__all__ = [
-    "Answer",
-    "Assessment",
-    "Blocks",
-    "Bound",
-    "Bracket",
-    "Certificate",
-    "Critical",
-    "CriticalValue",
-    "Doubt",
-    "Finding",
-    "Forces",
-    "Heaps",
-    "InputError",
-    "Inspection",
-    "JointMotion",
-    "Limit",
-    "LoadFactor",
-    "Many",
-    "Mechanism",
-    "Packing",
-    "Path",
-    "Rates",
-    "Scene",
-    "SceneWarning",
-    "Simulation",
-    "Sweep",
-    "Thrust",
-    "Tilt",
-    "TimeIsUp",
-    "Verdict",
-    "Verification",
-    "VoussoirError",
-    "__version__",
-    "assess",
-    "assess_many",
-    "check",
-    "critical",
-    "heaps",
-    "limit",
-    "load",
-    "load_answer",
-    "load_foreign",
-    "push",
-    "repose",
-    "settle",
-    "simulate",
-    "sweep",
-    "thrust",
-    "tilt",
-]
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._api import *
+
+
+def __getattr__(name: str) -> Any:
+    """What the package shows, with numpy, once it is asked for: the command needs neither."""
+    from importlib import import_module
+
+    api = import_module("._api", __name__)
+    try:
+        value = getattr(api, name)
+    except AttributeError:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}") from None
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    from ._api import __all__
+
+    return sorted(__all__)

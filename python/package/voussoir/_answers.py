@@ -549,11 +549,15 @@ class Tilt(Answer):
 class CriticalValue:
     """A value at which the verdict flips, between the nearest proved ones."""
 
-    value: float | None
-    lower: float | None
-    upper: float | None
+    value: float
+    lower: float
+    """The nearest value below whose verdict is proved."""
+    upper: float
+    """The nearest value above whose verdict is proved."""
     below: Verdict
+    """The verdict below."""
     above: Verdict
+    """The verdict above."""
 
 
 class Critical(Answer):
@@ -566,11 +570,7 @@ class Critical(Answer):
         """The flips, in order."""
         return [
             CriticalValue(
-                c.get("value"),
-                c.get("lower"),
-                c.get("upper"),
-                Verdict(c["below"]),
-                Verdict(c["above"]),
+                c["value"], c["lower"], c["upper"], Verdict(c["below"]), Verdict(c["above"])
             )
             for c in self._answer["critical"]
         ]
@@ -752,9 +752,15 @@ class Packing(Answer):
 
     question = "repose"
 
+    def to_json(self) -> str:
+        """The answer as ``--json`` prints it; :meth:`save` writes the proof of its least direction."""
+        text = self._core.packing_json()
+        assert text is not None
+        return text
+
     @cached_property
     def packing(self) -> dict[str, Any]:
-        """The answer as ``--json`` prints it."""
+        """The same as plain values."""
         packing: dict[str, Any] = self._core.part("packing")
         return packing
 

@@ -85,9 +85,7 @@ def assess(
     threads : int
         Of the simulation; 0 for as many as there are processors.
     """
-    beside = {False: "never", True: "always"}.get(simulate, "in doubt") if isinstance(
-        simulate, bool
-    ) else "in doubt"
+    beside = simulate if isinstance(simulate, str) else "always" if simulate else "never"
     answer = _ask(
         scene,
         {"assess": {"law": law}},
