@@ -38,6 +38,7 @@ mod published;
 mod readme;
 mod real;
 mod reference;
+mod rocking;
 mod same;
 mod scenes;
 mod schema;

@@ -1,0 +1,195 @@
+//! Rocking: closed forms of blocks and frames, integrated as mechanisms of one degree of freedom.
+
+use crate::ask::{fixed, model, prism, scene};
+use nalgebra::Vector3;
+use serde_json::{Value, json};
+use voussoir::{
+    analysis::{
+        Control,
+        follow::machine::{Built, Exactness, MachineOptions, machine},
+    },
+    ground::{Motion, Pulse},
+    rocking::{RunSettings, Search, run, scan},
+    scene::Scene,
+};
+
+const NO_SLIDING: f64 = f64::INFINITY;
+
+fn close(what: &str, got: f64, want: f64, relative: f64) {
+    assert!((got - want).abs() <= relative * want.abs(), "{what}: {got} instead of {want}");
+}
+
+fn ground(half: f64) -> Value {
+    fixed(prism("ground", &[[-half, -1.0], [half, -1.0], [half, 0.0], [-half, 0.0]]))
+}
+
+/// A block of these half sizes on the ground, g = 9.81 m/s².
+fn block(b: f64, h: f64) -> Scene {
+    let stone = prism("stone", &[[-b, 0.0], [b, 0.0], [b, 2.0 * h], [-b, 2.0 * h]]);
+    let blocks = json!([ground(20.0 * h), stone]);
+    scene(NO_SLIDING, blocks, json!({ "gravity": [0, 0, -9.81] }))
+}
+
+fn options() -> MachineOptions {
+    MachineOptions { toward: Vector3::x(), control: None, restitution: None }
+}
+
+fn built(scene: &Scene, options: &MachineOptions) -> Built {
+    machine(&model(scene), options, &Control::default()).expect("a machine")
+}
+
+/// The block of Housner's examples: b = 0.2 m, h = 1 m.
+fn housner() -> Built {
+    built(&block(0.2, 1.0), &options())
+}
+
+const ALPHA: f64 = 0.197_395_559_849_880_78;
+
+/// The least scale at which it overturns, by halving what a scan of 40 finds.
+fn overturns(built: &Built, motion: &Motion, from: f64, to: f64) -> f64 {
+    let search = Search { from, to, steps: 40, width: 1e-12 };
+    scan(&built.machine, motion, &RunSettings::default(), &search).flips[0].overturns_at()
+}
+
+#[test]
+fn a_block_is_exact_and_has_housners_numbers() {
+    for (ratio, e) in [(5.0, 0.942_307_692_3), (6.0, 0.959_459_459_5), (4.0, 0.911_764_705_9), (3.0, 0.85)] {
+        let built = built(&block(0.2, 0.2 * ratio), &options());
+        assert_eq!(built.exactness, Exactness::Exact);
+        built.conserving.iter().for_each(|&c| close("restitution", c, e, 1e-9));
+    }
+    let built = housner();
+    let sense = built.machine.senses[0].as_ref().expect("it rocks");
+    close("p", sense.frequency().expect("unstable"), 2.686_004_899_734_165_5, 1e-10);
+    close("unstable", sense.unstable.expect("unstable"), ALPHA, 1e-10);
+    close("release", sense.release(), 9.81 * 0.2, 1e-10);
+    close("load factor", built.proofs[0].1.value, 0.2, 1e-6);
+}
+
+/// Housner 1963, exact quarter periods by quadrature (25 digits).
+#[test]
+fn quarter_periods_of_a_free_block() {
+    let built = housner();
+    for (from, quarter) in [(0.2, 0.258643526), (0.5, 0.490864458), (0.8, 0.853852115), (0.95, 1.37344781)] {
+        let settings = RunSettings { from, ..RunSettings::default() };
+        let history = run(&built.machine, &Motion::default(), &settings);
+        close("first impact", history.impacts[0].time, quarter, 1e-8);
+    }
+}
+
+#[test]
+fn amplitudes_decay_over_impacts() {
+    let built = housner();
+    let settings = RunSettings { from: 0.5, ..RunSettings::default() };
+    let history = run(&built.machine, &Motion::default(), &settings);
+    let times = [0.490864, 1.344805, 2.104264, 2.788931, 3.411862];
+    let peaks = [0.4221935, 0.3609679, 0.3111273, 0.2697009, 0.2347818];
+    for k in 0..5 {
+        assert!((history.impacts[k].time - times[k]).abs() < 1e-6);
+        let peak = history.impacts[k + 1].peak / ALPHA;
+        assert!((peak - peaks[k]).abs() < 2e-7, "{peak} {}", peaks[k]);
+    }
+    assert_eq!(history.fate, voussoir::rocking::Fate::Rests);
+    assert!(history.steps < 20_000, "{}", history.steps);
+}
+
+#[test]
+fn rectangle_that_just_overturns() {
+    let built = housner();
+    let p = 2.686_004_899_734_165_5;
+    for (a, want) in [(1.5, 1.0987024), (2.0, 0.6941387), (3.0, 0.4065343)] {
+        let acceleration = a * 9.81 * 0.2;
+        let fate = |t: f64| {
+            let motion = Pulse::Rectangle { acceleration, duration: t }.motion();
+            run(&built.machine, &motion, &RunSettings::default()).overturned()
+        };
+        let (mut low, mut high) = (0.5 * want / p, 2.0 * want / p);
+        assert!(!fate(low) && fate(high));
+        while high - low > 1e-13 {
+            let middle = 0.5 * (low + high);
+            if fate(middle) { high = middle } else { low = middle }
+        }
+        close("p t1", p * high, want, 1e-6);
+    }
+}
+
+#[test]
+fn half_sine_that_just_overturns() {
+    // alpha = 0.2 rad.
+    let built = built(&block(0.2_f64.tan(), 1.0), &options());
+    let p = built.machine.senses[0].as_ref().and_then(|s| s.frequency()).expect("p");
+    let want = [1.321685, 1.801227, 2.296165, 2.795134, 3.295663, 3.796937, 4.800531, 5.804775];
+    for (ratio, want) in [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0].into_iter().zip(want) {
+        let duration = std::f64::consts::PI / (ratio * p);
+        let acceleration = 9.81 * 0.2_f64.tan();
+        let motion = Pulse::HalfSine { acceleration, duration }.motion();
+        close("A", overturns(&built, &motion, 1.0, 8.0), want, 2e-6);
+    }
+}
+
+/// Zhang & Makris 2001: bands.
+#[test]
+fn a_full_sine_overturns_in_bands() {
+    let (p, alpha): (f64, f64) = (2.14, 0.25);
+    let r = 3.0 * 9.81 / (4.0 * p * p);
+    let scene = block(r * alpha.sin(), r * alpha.cos());
+    let built = built(&scene, &MachineOptions { restitution: Some(0.9), ..options() });
+    let duration = 2.0 * std::f64::consts::PI / (5.0 * p);
+    let unit = |a: f64| Pulse::Sine { acceleration: a, duration }.motion();
+    let search = Search { from: 1.0, to: 9.0, steps: 160, width: 1e-10 };
+    for scale in [9.81 * alpha, 9.81 * alpha.tan()] {
+        let scan = scan(&built.machine, &unit(scale), &RunSettings::default(), &search);
+        println!("{:?}", scan.flips);
+    }
+}
+
+#[test]
+fn velocity_jumps_that_just_overturn() {
+    let built = housner();
+    let single = overturns(&built, &Pulse::Jump { velocity: 1.0 }.motion(), 0.1, 2.0);
+    close("V single", single, 0.734_025_135_1, 1e-8);
+    let double = overturns(&built, &Pulse::DoubleJump { velocity: 1.0 }.motion(), 0.1, 0.7);
+    close("V double", double, 0.377_913_930_9, 1e-8);
+}
+
+/// Columns of b = 0.3 m, h = 1.5 m under a beam of `gamma` times their mass.
+fn frame(columns: usize, gamma: f64) -> Scene {
+    let (b, h) = (0.3, 1.5);
+    let mut blocks = vec![ground(40.0)];
+    let at = |k: usize| 4.0 * k as f64;
+    for k in 0..columns {
+        let x = at(k);
+        let outline = [[x - b, 0.0], [x + b, 0.0], [x + b, 2.0 * h], [x - b, 2.0 * h]];
+        blocks.push(prism(&format!("column{k}"), &outline));
+    }
+    if gamma > 0.0 {
+        let (x0, x1) = (-b, at(columns - 1) + b);
+        let mut beam = prism("beam", &[[x0, 3.0], [x1, 3.0], [x1, 3.5], [x0, 3.5]]);
+        let column = 4.0 * b * h;
+        beam["density"] = json!(gamma * columns as f64 * column / (0.5 * (x1 - x0)));
+        blocks.push(beam);
+    }
+    scene(NO_SLIDING, json!(blocks), json!({ "gravity": [0, 0, -9.81] }))
+}
+
+/// Makris & Vassiliou 2013.
+#[test]
+fn frames_with_a_loose_beam() {
+    let want = [
+        (0.5, 1.961580631, 0.9307692308, 0.6713758671),
+        (2.0, 1.853519474, 0.9258241758, 0.7105174322),
+        (10.0, 1.805053055, 0.9236972705, 0.729595118),
+    ];
+    for columns in [2, 3] {
+        for (gamma, p, e, quarter) in want {
+            let built = built(&frame(columns, gamma), &options());
+            assert_eq!(built.exactness, Exactness::Exact);
+            let own = built.machine.senses[0].as_ref().and_then(|s| s.frequency()).expect("p");
+            close("p", own, p, 1e-8);
+            close("linear quarter period", 2.0_f64.acosh() / own, quarter, 1e-8);
+            built.conserving.iter().for_each(|&c| close("e", c, e, 1e-8));
+            close("load factor", built.proofs[0].1.value, 0.2, 1e-6);
+            close("release", built.machine.senses[0].as_ref().unwrap().release(), 1.962, 1e-9);
+        }
+    }
+}
