@@ -2,6 +2,8 @@
 
 mod motion;
 mod pulse;
+mod record;
 
 pub use motion::{Jump, Motion, Piece, Shape, When};
 pub use pulse::{PULSES, Pulse};
+pub use record::{Format, Record, STANDARD_GRAVITY, STRONGEST, UNITS, Unit, WEAKEST};

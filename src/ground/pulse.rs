@@ -41,7 +41,8 @@ pub enum Pulse {
 }
 
 /// How pulses are written.
-pub const PULSES: &str = "rectangle:A,T, half-sine:A,T, sine:A,T (m/s², s), jump:V or double-jump:V (m/s)";
+pub const PULSES: &str =
+    "rectangle:A,T, half-sine:A,T, sine:A,T (m/s², s), jump:V or double-jump:V (m/s)";
 
 impl Pulse {
     /// The motion of the ground.
@@ -53,27 +54,27 @@ impl Pulse {
         };
         let jump = |when: When, v: f64| Jump { when, by: along(v) };
         match *self {
-            Self::Rectangle { acceleration, duration } => one(
-                duration,
-                Shape::Line { from: along(acceleration), slope: Vector3::zeros() },
-            ),
+            Self::Rectangle { acceleration, duration } => {
+                one(duration, Shape::Line { from: along(acceleration), slope: Vector3::zeros() })
+            }
             Self::HalfSine { acceleration, duration } => one(
                 duration,
                 Shape::Sine { amplitude: along(acceleration), omega: PI / duration, phase: 0.0 },
             ),
             Self::Sine { acceleration, duration } => one(
                 duration,
-                Shape::Sine { amplitude: along(acceleration), omega: 2.0 * PI / duration, phase: 0.0 },
+                Shape::Sine {
+                    amplitude: along(acceleration),
+                    omega: 2.0 * PI / duration,
+                    phase: 0.0,
+                },
             ),
             Self::Jump { velocity } => {
                 Motion { pieces: Vec::new(), jumps: vec![jump(When::At(0.0), velocity)] }
             }
             Self::DoubleJump { velocity } => Motion {
                 pieces: Vec::new(),
-                jumps: vec![
-                    jump(When::At(0.0), velocity),
-                    jump(When::FirstLanding, -velocity),
-                ],
+                jumps: vec![jump(When::At(0.0), velocity), jump(When::FirstLanding, -velocity)],
             },
         }
     }

@@ -97,9 +97,7 @@ impl Law {
 
 /// Where the nodes of a piece lie, from −1 to 1.
 pub fn nodes() -> [f64; NODES] {
-    std::array::from_fn(|k| {
-        -(std::f64::consts::PI * (k as f64 + 0.5) / NODES as f64).cos()
-    })
+    std::array::from_fn(|k| -(std::f64::consts::PI * (k as f64 + 0.5) / NODES as f64).cos())
 }
 
 /// Coefficients of the polynomial through values at the [`nodes`].

@@ -18,6 +18,9 @@ pub struct RunSettings {
     /// It counts as overturned from this multiple of its unstable equilibrium on; by default where
     /// no acceleration still to come could bring it back.
     pub overturned_at: Option<f64>,
+    /// End as soon as it is known whether it overturns: when the ground is at rest and the joints
+    /// have closed out of either sense, for from then on it only loses energy.
+    pub fate_only: bool,
     /// Keep where it is after every step.
     pub keep: bool,
     /// Errors of a step, over the unstable equilibrium.
@@ -26,7 +29,14 @@ pub struct RunSettings {
 
 impl Default for RunSettings {
     fn default() -> Self {
-        Self { from: 0.0, until: None, overturned_at: None, keep: false, tolerance: TOLERANCE }
+        Self {
+            from: 0.0,
+            until: None,
+            overturned_at: None,
+            fate_only: false,
+            keep: false,
+            tolerance: TOLERANCE,
+        }
     }
 }
 
@@ -122,6 +132,8 @@ struct Run<'a> {
     step: f64,
     peak: f64,
     waiting: Option<Jump>,
+    /// Senses that have ended since the ground is at rest.
+    back: [bool; 2],
     history: History,
 }
 
@@ -145,8 +157,17 @@ pub fn run(machine: &Machine, motion: &Motion, settings: &RunSettings) -> Histor
         samples: Vec::new(),
         steps: 0,
     };
-    let mut run =
-        Run { machine, settings, now, time: 0.0, step: 0.01 * own, peak: 0.0, waiting, history };
+    let mut run = Run {
+        machine,
+        settings,
+        now,
+        time: 0.0,
+        step: 0.01 * own,
+        peak: 0.0,
+        waiting,
+        back: [false; 2],
+        history,
+    };
     run.note();
     let (pieces, jumps) = (stretches(motion, settings.until, AFTER * own), jumps(motion));
     let mut ahead = vec![0.0; pieces.len() + 1];
@@ -236,7 +257,13 @@ impl Run<'_> {
     fn sample(&self) -> Sample {
         let (q, rate) = match self.now {
             Now::Rest => (0.0, 0.0),
-            Now::In(k, [q, u]) => if k == 0 { (q, u) } else { (-q, -u) },
+            Now::In(k, [q, u]) => {
+                if k == 0 {
+                    (q, u)
+                } else {
+                    (-q, -u)
+                }
+            }
         };
         Sample { time: self.time, q, rate }
     }
@@ -305,6 +332,9 @@ impl Run<'_> {
             if self.is_over(peak) || self.history.impacts.len() > MOST_IMPACTS {
                 return Break(());
             }
+            if self.settings.fate_only && still && peak == 0.0 && self.cannot_overturn() {
+                return Break(());
+            }
         }
         Continue(())
     }
@@ -339,7 +369,11 @@ impl Run<'_> {
             let grow = if ratio > 0.0 { (0.9 * ratio.powf(-0.2)).clamp(0.2, 4.0) } else { 4.0 };
             if ratio <= 1.0 || h < 1e-12 * self.time.max(piece.end - piece.start) {
                 // A step that was cut short says nothing against a longer one.
-                self.step = self.step.max(h * grow).min(if h < self.step { f64::INFINITY } else { h * grow });
+                self.step = self.step.max(h * grow).min(if h < self.step {
+                    f64::INFINITY
+                } else {
+                    h * grow
+                });
                 break (next, h);
             }
             if !size.is_finite() {
@@ -402,22 +436,36 @@ impl Run<'_> {
         let (time, peak) = (self.time, std::mem::replace(&mut self.peak, 0.0));
         self.history.impacts.push(Impact { time, before: sign * rate, factor, peak });
         let speed = (-rate * factor).max(0.0);
-        let slow = self.sense(other).is_none_or(|s| {
-            speed <= REST * s.scale() * s.frequency().unwrap_or(0.0)
-        });
+        let slow = self
+            .sense(other)
+            .is_none_or(|s| speed <= REST * s.scale() * s.frequency().unwrap_or(0.0));
         self.now = if slow { Now::Rest } else { Now::In(other, [0.0, speed]) };
         if slow {
             // What drives it already sets it off again at once.
             let drive = |k: usize| Some((k, self.sense(k)?.drive(ground)));
-            let best = [drive(0), drive(1)].into_iter().flatten().max_by(|a, b| a.1.total_cmp(&b.1));
+            let best =
+                [drive(0), drive(1)].into_iter().flatten().max_by(|a, b| a.1.total_cmp(&b.1));
             if let Some((k, _)) = best.filter(|b| b.1 > 0.0) {
                 self.now = Now::In(k, [0.0, speed.max(0.0)]);
             }
         }
         self.note();
+        if *ground == Vector3::zeros() {
+            self.back[k] = true;
+        } else {
+            self.back = [false; 2];
+        }
         if let Some(jump) = self.waiting.take() {
             self.jump(&jump);
+            self.back = [false; 2];
         }
+    }
+
+    /// Whether it has come back from wherever it can go, with nothing left to drive it.
+    fn cannot_overturn(&self) -> bool {
+        self.waiting.is_none()
+            && [0, 1].into_iter().all(|k| self.sense(k).is_none() || self.back[k])
+            && self.machine.restitution.iter().all(|&e| e <= 1.0)
     }
 
     /// Whether it has overturned.

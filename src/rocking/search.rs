@@ -54,14 +54,13 @@ pub struct Scan {
 /// Scans scales and narrows every flip down by halving.
 pub fn scan(machine: &Machine, motion: &Motion, settings: &RunSettings, search: &Search) -> Scan {
     let fate = |scale: f64| {
-        let settings = RunSettings { keep: false, ..settings.clone() };
+        let settings = RunSettings { keep: false, fate_only: true, ..settings.clone() };
         let history = run(machine, &motion.scaled(scale), &settings);
         matches!(history.fate, Fate::Overturns { .. }).then_some(history.impacts.len())
     };
     let steps = search.steps.max(1);
     let at = |k: usize| search.from + (search.to - search.from) * k as f64 / steps as f64;
-    let seen: Vec<(f64, Option<usize>)> =
-        (0..=steps).map(|k| (at(k), fate(at(k)))).collect();
+    let seen: Vec<(f64, Option<usize>)> = (0..=steps).map(|k| (at(k), fate(at(k)))).collect();
     let flips = seen
         .windows(2)
         .filter(|pair| pair[0].1.is_some() != pair[1].1.is_some())
@@ -73,7 +72,11 @@ pub fn scan(machine: &Machine, motion: &Motion, settings: &RunSettings, search: 
                 if !(lower < middle && middle < upper) {
                     break;
                 }
-                if fate(middle).is_some() == overturns_above { upper = middle } else { lower = middle }
+                if fate(middle).is_some() == overturns_above {
+                    upper = middle
+                } else {
+                    lower = middle
+                }
             }
             Bracket { lower, upper, overturns_above }
         })

@@ -53,7 +53,9 @@ fn overturns(built: &Built, motion: &Motion, from: f64, to: f64) -> f64 {
 
 #[test]
 fn a_block_is_exact_and_has_housners_numbers() {
-    for (ratio, e) in [(5.0, 0.942_307_692_3), (6.0, 0.959_459_459_5), (4.0, 0.911_764_705_9), (3.0, 0.85)] {
+    for (ratio, e) in
+        [(5.0, 0.942_307_692_3), (6.0, 0.959_459_459_5), (4.0, 0.911_764_705_9), (3.0, 0.85)]
+    {
         let built = built(&block(0.2, 0.2 * ratio), &options());
         assert_eq!(built.exactness, Exactness::Exact);
         built.conserving.iter().for_each(|&c| close("restitution", c, e, 1e-9));
@@ -66,14 +68,19 @@ fn a_block_is_exact_and_has_housners_numbers() {
     close("load factor", built.proofs[0].1.value, 0.2, 1e-6);
 }
 
-/// Housner 1963, exact quarter periods by quadrature (25 digits).
+/// Housner 1963, exact quarter periods by quadrature (30 digits).
 #[test]
 fn quarter_periods_of_a_free_block() {
     let built = housner();
-    for (from, quarter) in [(0.2, 0.258643526), (0.5, 0.490864458), (0.8, 0.853852115), (0.95, 1.37344781)] {
+    for (from, quarter) in [
+        (0.2, 0.258_643_530_042_807),
+        (0.5, 0.490_864_457_849_559),
+        (0.8, 0.853_852_114_838_999),
+        (0.95, 1.373_447_810_392_98),
+    ] {
         let settings = RunSettings { from, ..RunSettings::default() };
         let history = run(&built.machine, &Motion::default(), &settings);
-        close("first impact", history.impacts[0].time, quarter, 1e-8);
+        close("first impact", history.impacts[0].time, quarter, 1e-11);
     }
 }
 
@@ -135,12 +142,20 @@ fn a_full_sine_overturns_in_bands() {
     let scene = block(r * alpha.sin(), r * alpha.cos());
     let built = built(&scene, &MachineOptions { restitution: Some(0.9), ..options() });
     let duration = 2.0 * std::f64::consts::PI / (5.0 * p);
-    let unit = |a: f64| Pulse::Sine { acceleration: a, duration }.motion();
-    let search = Search { from: 1.0, to: 9.0, steps: 160, width: 1e-10 };
-    for scale in [9.81 * alpha, 9.81 * alpha.tan()] {
-        let scan = scan(&built.machine, &unit(scale), &RunSettings::default(), &search);
-        println!("{:?}", scan.flips);
+    // A = a / (g alpha).
+    let motion = Pulse::Sine { acceleration: 9.81 * alpha, duration }.motion();
+    let search = Search { from: 1.0, to: 9.0, steps: 80, width: 1e-9 };
+    let scan = scan(&built.machine, &motion, &RunSettings::default(), &search);
+    let want = [(3.032339, true), (6.743019, false), (7.493, true)];
+    assert_eq!(scan.flips.len(), 3);
+    for (flip, (value, above)) in scan.flips.iter().zip(want) {
+        assert_eq!(flip.overturns_above, above);
+        assert!((flip.upper - value).abs() < 2e-6, "{flip:?}");
     }
+    // With one impact in the first band, without any beyond the second.
+    let impacts =
+        |a: f64| scan.seen.iter().find(|s| s.0 > a).and_then(|s| s.1).expect("it overturns there");
+    assert_eq!([impacts(4.0), impacts(8.0)], [1, 0]);
 }
 
 #[test]
@@ -186,7 +201,7 @@ fn frames_with_a_loose_beam() {
             assert_eq!(built.exactness, Exactness::Exact);
             let own = built.machine.senses[0].as_ref().and_then(|s| s.frequency()).expect("p");
             close("p", own, p, 1e-8);
-            close("linear quarter period", 2.0_f64.acosh() / own, quarter, 1e-8);
+            close("linear quarter period", 2.0_f64.acosh() / own, quarter, 1e-11);
             built.conserving.iter().for_each(|&c| close("e", c, e, 1e-8));
             close("load factor", built.proofs[0].1.value, 0.2, 1e-6);
             close("release", built.machine.senses[0].as_ref().unwrap().release(), 1.962, 1e-9);

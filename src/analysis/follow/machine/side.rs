@@ -86,7 +86,11 @@ impl<'a> Side<'a> {
         let mut rates = linkage.rates(&place, &free.column(0).into_owned());
         let power = |rates: &[Rate], live: bool| -> f64 {
             let loads = if live { &model.assembly.live } else { &model.assembly.dead };
-            rates.iter().zip(loads).map(|(r, w)| r.velocity.dot(&w.force) + r.spin.dot(&w.moment)).sum()
+            rates
+                .iter()
+                .zip(loads)
+                .map(|(r, w)| r.velocity.dot(&w.force) + r.spin.dot(&w.moment))
+                .sum()
         };
         // Of blocks that turn equally fast, but for rounding, the first.
         let fastest = rates.iter().map(|r| r.spin.norm()).fold(0.0, f64::max);
@@ -128,8 +132,7 @@ impl<'a> Side<'a> {
         let linkage = Linkage::new(&self.carried, &self.closed, &drive);
         let start = linkage.place(&vec![Pose::start(); self.rates.len()]);
         let at = |near: &Place, angle: f64| -> Option<(Place, [f64; 6])> {
-            let place =
-                linkage.turn(near, &Turned { block: self.lead, axis: self.axis, angle })?;
+            let place = linkage.turn(near, &Turned { block: self.lead, axis: self.axis, angle })?;
             (place.free.ncols() == 1).then_some(())?;
             let mut rates = linkage.rates(&place, &place.free.column(0).into_owned());
             let speed = rates[self.lead].spin.dot(&self.axis);
@@ -243,13 +246,12 @@ pub(super) fn thickness(block: &Block) -> f64 {
         Solid::Polyhedron(p) => {
             let depth = |n: &Vector3<f64>| {
                 let heights = || p.vertices.iter().map(|v| n.dot(&(v - block.centroid)));
-                heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min)
+                heights().fold(f64::NEG_INFINITY, f64::max)
+                    - heights().fold(f64::INFINITY, f64::min)
             };
             p.facets.iter().map(|f| depth(&f.normal)).fold(block.size, f64::min)
         }
         Solid::Sphere { radius, .. } => 2.0 * radius,
-        Solid::Clump { balls, .. } => {
-            2.0 * balls.iter().map(|b| b.1).fold(f64::INFINITY, f64::min)
-        }
+        Solid::Clump { balls, .. } => 2.0 * balls.iter().map(|b| b.1).fold(f64::INFINITY, f64::min),
     }
 }
