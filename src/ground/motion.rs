@@ -73,6 +73,18 @@ impl Piece {
         }
     }
 
+    /// What the velocity gains between two times from its start, m/s.
+    fn velocity(&self, from: f64, to: f64) -> Vector3<f64> {
+        match self.shape {
+            Shape::Line { from: a, slope } => (a + slope * (0.5 * (from + to))) * (to - from),
+            Shape::Sine { amplitude, omega, phase } => {
+                // cos a − cos b without cancellation.
+                let (half, middle) = (0.5 * omega * (to - from), 0.5 * omega * (to + from) + phase);
+                amplitude * (2.0 * half.sin() * middle.sin() / omega)
+            }
+        }
+    }
+
     /// A bound of the acceleration in it, m/s².
     pub fn peak(&self) -> f64 {
         match self.shape {
@@ -122,6 +134,19 @@ impl Motion {
     pub fn end(&self) -> f64 {
         let jumps = self.jumps.iter().map(|j| if let When::At(t) = j.when { t } else { 0.0 });
         self.pieces.iter().map(|p| p.end).chain(jumps).fold(0.0, f64::max)
+    }
+
+    /// What the velocity of the ground gains from one time to a later one, m/s; a jump counts with
+    /// the stretch that begins with it.
+    pub fn velocity(&self, from: f64, to: f64) -> Vector3<f64> {
+        let first = self.pieces.partition_point(|p| p.end <= from);
+        let own = self.pieces[first..].iter().take_while(|p| p.start < to);
+        let gained = own.map(|p| p.velocity(from.max(p.start) - p.start, to.min(p.end) - p.start));
+        let jumps = self.jumps.iter().filter_map(|j| match j.when {
+            When::At(t) if from <= t && t < to => Some(j.by),
+            _ => None,
+        });
+        gained.chain(jumps).sum()
     }
 
     /// The greatest acceleration, m/s².
