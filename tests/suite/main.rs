@@ -22,6 +22,7 @@ mod faults;
 mod findings;
 mod grains;
 mod granular;
+mod ground;
 mod hostile;
 mod invariance;
 mod large;

@@ -208,3 +208,76 @@ fn frames_with_a_loose_beam() {
         }
     }
 }
+
+mod engine {
+    //! The same blocks in the engine, which knows nothing of mechanisms.
+
+    use super::{ALPHA, block, close};
+    use crate::ask::model;
+    use nalgebra::Vector3;
+    use voussoir::{
+        dynamics::{Fidelity, Shaken, ShakenFate, SimulationSettings, shake},
+        ground::{Motion, Pulse},
+        scene::Scene,
+    };
+
+    const AXES: fn() -> [Vector3<f64>; 3] = || [Vector3::x(), Vector3::y(), Vector3::z()];
+
+    fn shaken(scene: &Scene, motion: &Motion, more: SimulationSettings) -> Shaken {
+        let settings = SimulationSettings { fidelity: Some(Fidelity::Fine), ..more };
+        let mut watch =
+            |_: &voussoir::dynamics::Progress| std::ops::ControlFlow::Continue(());
+        shake(&model(scene), motion, &AXES(), &settings, &mut watch).expect("an outcome")
+    }
+
+    fn overturns(scene: &Scene, motion: &Motion) -> bool {
+        let outcome = shaken(scene, motion, SimulationSettings::default());
+        matches!(outcome.fate, ShakenFate::Overturned { .. })
+    }
+
+    /// First amplitudes that overturn, within 2 %.
+    #[test]
+    fn first_overturning_amplitudes() {
+        let scene = block(0.2, 1.0);
+        let p = 2.686_004_899_734_165_5;
+        for (a, pt) in [(1.5, 1.0987024), (3.0, 0.4065343)] {
+            let motion =
+                Pulse::Rectangle { acceleration: a * 9.81 * 0.2, duration: pt / p }.motion();
+            assert_eq!([0.98, 1.02].map(|k| overturns(&scene, &motion.scaled(k))), [false, true]);
+        }
+        let jump = Pulse::Jump { velocity: 0.734_025_135_1 }.motion();
+        assert_eq!([0.98, 1.02].map(|k| overturns(&scene, &jump.scaled(k))), [false, true]);
+        let scene = block(0.2_f64.tan(), 1.0);
+        let p = (0.75 * 9.81 * 0.2_f64.cos()).sqrt();
+        for (ratio, a) in [(1.0, 1.321685), (4.0, 2.795134), (10.0, 5.804775)] {
+            let duration = std::f64::consts::PI / (ratio * p);
+            let acceleration = a * 9.81 * 0.2_f64.tan();
+            let motion = Pulse::HalfSine { acceleration, duration }.motion();
+            assert_eq!([0.98, 1.02].map(|k| overturns(&scene, &motion.scaled(k))), [false, true]);
+        }
+    }
+
+    /// Housner 1963: an impact leaves 0.9423 of the speed at h/b = 5; told from the highest points
+    /// before and after it.
+    #[test]
+    fn an_impact_keeps_housners_speed() {
+        let more =
+            SimulationSettings { seconds: Some(3.0), every_step: true, ..Default::default() };
+        let settings = SimulationSettings { fidelity: Some(Fidelity::Fine), ..more };
+        let mut angles: Vec<f64> = Vec::new();
+        let mut watch = |progress: &voussoir::dynamics::Progress| {
+            angles.extend(progress.moment.map(|f| f.blocks[1].turn.scaled_axis().y));
+            std::ops::ControlFlow::Continue(())
+        };
+        let motion = Pulse::Jump { velocity: 0.5 }.motion();
+        shake(&model(&block(0.2, 1.0)), &motion, &AXES(), &settings, &mut watch)
+            .expect("an outcome");
+        // The ground goes to +x, the block leans to −x, comes back, and leans to +x.
+        let first = angles.iter().copied().fold(0.0, f64::min);
+        let lowest = angles.iter().position(|a| *a == first).expect("an angle");
+        let second = angles[lowest..].iter().copied().fold(0.0, f64::max);
+        let energy = |angle: f64| (ALPHA - angle.abs()).cos() - ALPHA.cos();
+        let left = (energy(second) / energy(first)).sqrt();
+        close("what is left of the speed", left, 0.942_307_692_3, 5e-3);
+    }
+}
