@@ -179,8 +179,10 @@ proptest! {
         let cut = &text[..(part * text.len() as f64) as usize];
         let whole = parse(name, text).expect("a record");
         if let Ok(record) = parse(name, cut) {
-            prop_assert!(*name == "ricker.csv");
-            prop_assert!(record.samples.len() <= whole.samples.len());
+            // A table announces nothing; elsewhere only digits of the last number may be lost.
+            let (own, all) = (record.samples.len(), whole.samples.len());
+            prop_assert!(own <= all && (*name == "ricker.csv" || own == all));
+            prop_assert!(record.samples[..own - 1] == whole.samples[..own - 1]);
         }
     }
 

@@ -93,7 +93,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
             column.lines.push(*line);
         }
     }
-    let resolution = 10.0_f64.powi(-decimals) * time_unit.unwrap_or(1.0);
+    let resolution = 0.5 * 10.0_f64.powi(-decimals) * time_unit.unwrap_or(1.0);
     let step = even(&times, resolution)?;
     Ok(Raw { format: Format::Csv, step, columns, unit_line, findings })
 }
@@ -188,7 +188,8 @@ fn even(times: &[(usize, f64)], resolution: f64) -> Result<f64, InputError> {
     }
     let step = (last.1 - first.1) / (times.len() - 1) as f64;
     let off = |k: usize| times[k].1 - (first.1 + step * k as f64);
-    let allowed = resolution.max(1e-6 * step);
+    // Times with so few digits that steps are unequal by more than that say nothing certain.
+    let allowed = resolution.min(0.05 * step).max(1e-6 * step);
     if (0..times.len()).all(|k| off(k).abs() <= allowed) {
         return Ok(step);
     }
@@ -210,5 +211,5 @@ fn even(times: &[(usize, f64)], resolution: f64) -> Result<f64, InputError> {
             crate::number::short(common)
         ),
     )
-    .hint("samples may be missing; resample the record with an even step"))
+    .hint("samples may be missing, or times written with too few digits; give the record an even step"))
 }

@@ -45,6 +45,16 @@ pub struct Record {
     pub samples: Vec<Vector3<f64>>,
     /// What should be known about it.
     pub findings: Vec<Finding>,
+    /// The greatest number in the files, its unit and its place.
+    peak: Peak,
+}
+
+/// The greatest number in a file.
+#[derive(Clone, Debug, PartialEq)]
+struct Peak {
+    value: f64,
+    unit: Unit,
+    place: String,
 }
 
 /// A peak above this, in g, is likely one of other units. Larger: m/s² read as g pass (the greatest
@@ -70,13 +80,15 @@ impl Record {
         for path in paths {
             let name = path.display().to_string();
             let bytes = limits::read_file(path, limits::PER_KEPT_BYTE)?;
-            let next = Self::parse(&name, &bytes, units)?;
+            let next = Self::unjudged(&name, &bytes, units)?;
             record = Some(match record {
                 None => next,
                 Some(first) => first.beside(next)?,
             });
         }
-        record.ok_or_else(|| InputError::at(JsonPath::root(), "no record is given"))
+        let record =
+            record.ok_or_else(|| InputError::at(JsonPath::root(), "no record is given"))?;
+        Ok(record.judged())
     }
 
     /// A record from the bytes of a file of this name.
@@ -84,6 +96,10 @@ impl Record {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn parse(name: &str, bytes: &[u8], units: Option<Unit>) -> Result<Self, InputError> {
+        Ok(Self::unjudged(name, bytes, units)?.judged())
+    }
+
+    fn unjudged(name: &str, bytes: &[u8], units: Option<Unit>) -> Result<Self, InputError> {
         let in_file = |e: InputError| InputError { file: Some(name.to_string()), ..e };
         raw_of(name, bytes).and_then(|raw| Self::of(name, raw, units)).map_err(in_file)
     }
@@ -95,6 +111,7 @@ impl Record {
             return Err(error(raw.unit_line, format!("{count} samples are no record")));
         }
         let mut samples = vec![Vector3::zeros(); count];
+        let mut peak: Option<Peak> = None;
         for (k, column) in raw.columns.iter().enumerate() {
             let unit = match (column.unit, units) {
                 (Some(own), Some(given)) if own != given => {
@@ -116,7 +133,8 @@ impl Record {
                 sample[k] = value * unit.value();
             }
             let (most, line) = greatest(column);
-            findings.extend(plausible(name, most, line, unit));
+            let own = Peak { value: most, unit, place: format!("{name}:{line}") };
+            peak = Some(peak.map_or(own.clone(), |p| p.greater(own)));
             if let Some(announced) = column.announced
                 && (most * unit.value() - announced).abs() > ANNOUNCED * announced
             {
@@ -146,6 +164,7 @@ impl Record {
             components: raw.columns.len(),
             samples,
             findings,
+            peak: peak.ok_or_else(|| error(raw.unit_line, "there are no accelerations"))?,
         })
     }
 
@@ -184,9 +203,16 @@ impl Record {
             (0..other.components).for_each(|k| sample[self.components + k] = more[k]);
         }
         self.components += other.components;
+        self.peak = self.peak.greater(other.peak);
         self.name = format!("{}, {}", self.name, other.name);
         self.findings.extend(other.findings);
         Ok(self)
+    }
+
+    /// With what its peak gives to think.
+    fn judged(mut self) -> Self {
+        self.findings.extend(self.peak.plausible());
+        self
     }
 
     /// How long it is, s.
@@ -266,22 +292,30 @@ fn greatest(column: &Column) -> (f64, usize) {
     pairs.fold((0.0, 1), |a, b| if b.0 > a.0 { b } else { a })
 }
 
-fn plausible(name: &str, most: f64, line: usize, unit: Unit) -> Option<Finding> {
-    let peak = most * unit.value() / STANDARD_GRAVITY;
-    let text = if most == 0.0 {
-        format!("{name}: all accelerations are zero")
-    } else if peak > STRONGEST {
-        format!(
-            "{name}:{line}: a peak of {} g is more than earthquakes reach: are the accelerations really in {unit}? (--units says it where the file does not)",
-            crate::number::short(peak)
-        )
-    } else if peak < WEAKEST {
-        format!(
-            "{name}:{line}: a peak of {} g is weak: are the accelerations really in {unit}, not in g? (--units says it where the file does not)",
-            crate::number::short(peak)
-        )
-    } else {
-        return None;
-    };
-    Some(Finding::new(FindingCode::Units, text))
+impl Peak {
+    fn greater(self, other: Self) -> Self {
+        let size = |p: &Self| p.value * p.unit.value();
+        if size(&other) > size(&self) { other } else { self }
+    }
+
+    fn plausible(&self) -> Option<Finding> {
+        let Self { value, unit, place } = self;
+        let peak = value * unit.value() / STANDARD_GRAVITY;
+        let g = crate::number::short(peak);
+        let text = if *value == 0.0 {
+            format!("{place}: all accelerations are zero")
+        } else if peak > STRONGEST {
+            format!(
+                "{place}: a peak of {g} g is more than earthquakes reach: are the accelerations really in {unit}?"
+            )
+        } else if peak < WEAKEST {
+            let other = if *unit == Unit::Gravity { "m/s²" } else { "g" };
+            format!(
+                "{place}: a peak of {g} g is weak: are the accelerations really in {unit}, not in {other}?"
+            )
+        } else {
+            return None;
+        };
+        Some(Finding::new(FindingCode::Units, text))
+    }
 }
