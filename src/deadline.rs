@@ -84,6 +84,11 @@ impl Deadline {
         self.left() <= 0.0
     }
 
+    /// Whether it is over at some moment, whoever cancels it or not.
+    pub fn is_timed(&self) -> bool {
+        self.end.is_some()
+    }
+
     /// Whether it can be over at all.
     pub fn is_set(&self) -> bool {
         self.end.is_some() || self.cancel.is_some()
@@ -123,6 +128,8 @@ mod tests {
         let flag = Cancel::new();
         let deadline = Deadline::within(3600.0).or_when(flag);
         assert!(!deadline.is_over() && deadline.at_most(1800.0).is_set());
+        let alone = Deadline::NEVER.or_when(flag);
+        assert!(alone.is_set() && !alone.is_timed() && alone.at_most(1.0).is_timed());
         flag.raise();
         assert!(
             deadline.is_over()

@@ -135,6 +135,8 @@ pub mod terms;
 
 pub mod path;
 
+pub mod kinematic;
+
 #[cfg(feature = "solve")]
 pub mod program;
 
@@ -157,3 +159,19 @@ pub mod study;
 
 #[cfg(feature = "report")]
 pub mod report;
+
+#[cfg(feature = "cli")]
+mod cli;
+
+/// The command `voussoir`, for programs that carry it: its binary, the wheel for Python.
+#[cfg(feature = "cli")]
+pub mod command {
+    pub use crate::cli::{
+        exit::Exit,
+        run::{Memory, run, run_as},
+    };
+}
+
+// The command names the library as any other program does.
+#[cfg(feature = "cli")]
+extern crate self as voussoir;

@@ -8,7 +8,9 @@ use super::{
     coulomb::DryLoadFactor,
     critical, follow,
     follow::answer::Followed,
-    in_time, limit,
+    in_time,
+    kinematic::{self, Kinematic},
+    limit,
     question::{
         CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
         directions,
@@ -45,6 +47,8 @@ pub enum Answer {
     Repose(Packing),
     /// How far does it go, and what holds it on the way?
     Path(Box<Followed>),
+    /// Under an earthquake: at what acceleration does it start to move?
+    Kinematic(Box<Kinematic>),
     /// What happens in time?
     #[cfg(feature = "dynamics")]
     Simulate(Box<SimulationOutcome>),
@@ -139,6 +143,9 @@ fn answer(
         Question::Push(options) => {
             Answer::Path(Box::new(follow::answer::push(model, options, control)?))
         }
+        Question::Kinematic(options) => {
+            Answer::Kinematic(Box::new(kinematic::kinematic(options, scene, model, control)?))
+        }
         Question::Simulate(options) => simulate(options)?,
     })
 }
@@ -163,10 +170,20 @@ fn limited(
     let settled = bound.outcome == Outcome::Impossible
         || (bound.outcome == Outcome::Found && bound.bracket.upper < 0.0);
     let dead = (!settled && !options.skip_dead).then(|| assess(model, control));
-    let ask_dry = control.law == Law::Coulomb && bounds(bound.outcome);
-    let level = dead.as_ref().map(|d| d.verdict);
-    let dry = ask_dry.then(|| coulomb::load_factor_from(model, &bound, level, control));
+    let dry = dry(model, &bound, dead.as_ref().map(|d| d.verdict), control);
     Ok(Limited { bound, dry, dead })
+}
+
+/// The load factor with dry friction beside its bound, where that is asked for and leaves something
+/// to ask; `level` is the verdict without the live load, where it is known.
+pub(super) fn dry(
+    model: &Model,
+    bound: &Proved<LoadFactor>,
+    level: Option<crate::verdict::Verdict>,
+    control: &Control,
+) -> Option<Proved<DryLoadFactor>> {
+    let ask_dry = control.law == Law::Coulomb && bounds(bound.outcome);
+    ask_dry.then(|| coulomb::load_factor_from(model, bound, level, control))
 }
 
 fn tilted(options: &TiltOptions, model: &Model, control: &Control) -> Result<Tilted, InputError> {

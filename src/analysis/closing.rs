@@ -5,7 +5,9 @@
 //! which takes a small part of the time that dry friction takes, and compared with the bound of the
 //! answer; a verdict as it was asked in scenes of few contacts, else whether forces exist.
 
-use super::{Answer, AssessOptions, Control, LimitOptions, Question, TiltOptions, ask};
+use super::{
+    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, Question, TiltOptions, ask,
+};
 use crate::{
     interface::{self, Model},
     scene::Scene,
@@ -32,6 +34,11 @@ fn compared(answer: &Answer, law: Law) -> Option<ClosedAnswer> {
             .directions
             .iter()
             .map(|d| factor(d.load_factor.outcome, d.load_factor.value))
+            .min_by(|a, b| a.height().total_cmp(&b.height())),
+        Answer::Kinematic(k) => k
+            .directions
+            .iter()
+            .map(|d| factor(d.bound.outcome, d.bound.value))
             .min_by(|a, b| a.height().total_cmp(&b.height())),
         _ => None,
     }
@@ -66,6 +73,14 @@ pub fn again(
         Question::Tilt(o) => {
             Question::Tilt(TiltOptions { law, require: None, skip_dead: true, ..o.clone() })
         }
+        Question::Kinematic(o) => Question::Kinematic(KinematicOptions {
+            law,
+            require: None,
+            skip_dead: true,
+            linear: true,
+            at: Vec::new(),
+            ..o.clone()
+        }),
         _ => return None,
     };
     let answer = ask(&question, scene, &other, control).ok()?;

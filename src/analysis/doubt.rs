@@ -59,6 +59,14 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
             )
         }),
         Answer::Critical(c) => about.range(c),
+        Answer::Kinematic(k) => k
+            .directions
+            .iter()
+            .find_map(|d| {
+                let dry = |dry| about.dry(dry, "ask with `--law associative` for the bound alone");
+                about.bound(&d.bound).or_else(|| d.dry.as_ref().and_then(dry))
+            })
+            .or_else(|| k.dead.as_ref().and_then(|dead| about.verdict(dead))),
         // A path says itself where it ended, and why.
         Answer::Path(_) => None,
         #[cfg(feature = "dynamics")]

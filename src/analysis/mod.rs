@@ -13,6 +13,7 @@ pub mod flip;
 pub mod follow;
 pub mod geometric;
 mod in_time;
+pub mod kinematic;
 pub mod limit;
 mod mend;
 mod parts;
@@ -38,11 +39,13 @@ pub use attempt::Control;
 pub use closing::left_out;
 pub use critical::{Critical, critical};
 pub use doubt::doubt;
+pub use kinematic::Kinematic;
 pub use limit::{LoadFactor, limit};
 pub use proved::{Claims, Proved};
 pub use question::{
-    AssessOptions, ControlPoint, CriticalOptions, LimitOptions, PushOptions, Question,
-    ReposeOptions, SettleOptions, SimulateOptions, SupportMove, ThrustOptions, TiltOptions,
+    AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, PushOptions,
+    Question, ReposeOptions, SettleOptions, SimulateOptions, SupportMove, ThrustOptions,
+    TiltOptions,
 };
 pub use stability::{Packing, Stability, stability};
 pub use tilt::{Tilt, tilt};

@@ -29,6 +29,9 @@ pub enum Question {
     Settle(SettleOptions),
     /// How does the load factor fall as it moves?
     Push(PushOptions),
+    /// At what acceleration does a mechanism start under an earthquake, and how does its resistance
+    /// fall as it moves? In several directions the least.
+    Kinematic(KinematicOptions),
 }
 
 /// Options of `assess`.
@@ -197,6 +200,42 @@ pub struct PushOptions {
     pub at: Vec<f64>,
 }
 
+/// Options of `kinematic`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct KinematicOptions {
+    /// How joints slide.
+    pub law: Law,
+    /// A load factor α0 below this counts as failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub require: Option<f64>,
+    /// Earthquakes towards these directions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub toward: Vec<[f64; 3]>,
+    /// Earthquakes towards this many directions, evenly spread, the first along x; 8 where nothing is
+    /// said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub all: Option<u16>,
+    /// The point whose way measures the motion; where nothing is said the centre of mass of the block
+    /// next to the centre of all masses that move.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control: Option<ControlPoint>,
+    /// Factor of confidence; 1.35 where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fc: Option<f64>,
+    /// Ways of the control point that become points of the curve, beside others, m.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at: Vec<f64>,
+    /// The linear analysis alone, without a curve. Rows of a sweep ask nothing else: a plan has no
+    /// such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub linear: bool,
+    /// Whether it stands under its dead load alone is not asked as well. Rows of a sweep ask it with
+    /// dry friction only: a plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub skip_dead: bool,
+}
+
 /// A point of a block.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -254,6 +293,17 @@ impl Question {
                 refuse("at", "must be ways from 0 on".into())
             }
             Self::Push(_) => Ok(()),
+            Self::Kinematic(o) if o.fc.is_some_and(|f| !(f >= 1.0 && f.is_finite())) => refuse(
+                "fc",
+                format!("a factor of confidence is at least 1, got {}", o.fc.unwrap_or(f64::NAN)),
+            ),
+            Self::Kinematic(o) if o.at.iter().any(|v| !(*v >= 0.0 && v.is_finite())) => {
+                refuse("at", "must be ways from 0 on".into())
+            }
+            Self::Kinematic(o) if o.linear && !o.at.is_empty() => {
+                refuse("at", "the linear analysis has no curve".into())
+            }
+            Self::Kinematic(o) => check_directions(&path, &o.toward, o.all),
         }
     }
 
@@ -275,6 +325,14 @@ impl Question {
                 "range",
                 "remove it: a row has one number, the least thrust or with \"greatest\": true the greatest; two plans give both",
             ),
+            Self::Kinematic(KinematicOptions { skip_dead: true, .. }) => (
+                "skip_dead",
+                "remove it: rows ask for the verdict without an earthquake where dry friction needs it, and nowhere else",
+            ),
+            Self::Kinematic(KinematicOptions { linear: true, .. }) => {
+                ("linear", "remove it: rows show α0, and ask for no curve")
+            }
+            Self::Kinematic(o) if !o.at.is_empty() => ("at", "remove it: rows ask for no curve"),
             _ => return Ok(()),
         };
         let path = JsonPath::root().key(self.word()).key(key);
@@ -293,6 +351,7 @@ impl Question {
             Self::Simulate(_) => "simulate",
             Self::Settle(_) => "settle",
             Self::Push(_) => "push",
+            Self::Kinematic(_) => "kinematic",
         }
     }
 
@@ -305,6 +364,7 @@ impl Question {
             Self::Critical(o) => o.law,
             Self::Thrust(o) => o.law,
             Self::Repose(o) => o.law,
+            Self::Kinematic(o) => o.law,
             // What slides in time does not open.
             Self::Simulate(_) => Law::Coulomb,
             // Hinges alone are followed, which are the same for both.
@@ -324,6 +384,7 @@ impl Question {
             Self::Limit(o) => o.require,
             Self::Tilt(o) => o.require,
             Self::Repose(o) => o.require,
+            Self::Kinematic(o) => o.require,
         }
     }
 
@@ -342,6 +403,7 @@ impl Question {
             Self::Critical(_) => Some("value at which the verdict flips"),
             Self::Repose(_) => Some("angle of maximum stability in degrees"),
             Self::Settle(_) => Some("share of the movement up to which it stands"),
+            Self::Kinematic(_) => Some("load factor α0"),
             Self::Push(_) => Some("way of the control point up to which it resists in m"),
         }
     }
@@ -355,6 +417,11 @@ impl Question {
             // With dry friction all directions share it.
             Self::Tilt(o) => Self::Tilt(TiltOptions { skip_dead: o.law == Law::Associative, ..o }),
             Self::Thrust(o) => Self::Thrust(ThrustOptions { range: false, ..o }),
+            Self::Kinematic(o) => Self::Kinematic(KinematicOptions {
+                skip_dead: o.law == Law::Associative,
+                linear: true,
+                ..o
+            }),
             other => other,
         }
     }

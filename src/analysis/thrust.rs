@@ -444,7 +444,7 @@ pub fn answer(model: &Model, at: impl Into<Sought>, ends: Ends, control: &Contro
     // Each question may take as much of the time as those after it.
     let share = |of: f64| Control { deadline: control.deadline.share(1.0 / of), ..*control };
     // Where time is short both ends are worth more than whether the loads produce the forces.
-    let statics_first = control.deadline.is_set() && control.law == Law::Coulomb;
+    let statics_first = control.deadline.is_timed() && control.law == Law::Coulomb;
     let law = if statics_first { Law::Associative } else { control.law };
     let first = assess(model, &Control { law, ..*control });
     // Whether the loads produce them or not: there are forces.

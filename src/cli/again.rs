@@ -1,7 +1,7 @@
 //! The options that would have to be given again for the same answer, as typed.
 
 use super::args::{
-    Assess, Common, Critical, DIRECTIONS, Law, Push, Settle, Simulate, Thrust, Tilt,
+    Assess, Common, Critical, DIRECTIONS, Kinematic, Law, Push, Settle, Simulate, Thrust, Tilt,
 };
 use voussoir::sweep::Between;
 
@@ -83,6 +83,24 @@ impl Push {
         let control = format!("--control {}", super::question::quoted(&word));
         let toward = format!("--toward {}", list(&self.toward));
         [control, toward].into_iter().chain(at(&self.at)).collect()
+    }
+}
+
+impl Kinematic {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let toward = self.toward.iter().map(|[x, y, z]| {
+            if *z == 0.0 { format!("--toward {x},{y}") } else { format!("--toward {x},{y},{z}") }
+        });
+        let all = (self.all != DIRECTIONS).then(|| format!("--all {}", self.all));
+        let control = self.control.as_ref().map(|(id, point)| {
+            let word = format!("{id}={}", list(point));
+            format!("--control {}", super::question::quoted(&word))
+        });
+        let fc = self.fc.map(|f| format!("--fc {f}"));
+        let linear = self.linear.then(|| "--linear".to_string());
+        let more = [all, control, fc, at(&self.at), linear].into_iter().flatten();
+        toward.chain(more).chain(skip_dead(self.skip_dead)).collect()
     }
 }
 

@@ -35,8 +35,14 @@ const FRAMES: usize = 2000;
 
 /// The motion that was asked for.
 fn shaking(args: &args::Ground) -> anyhow::Result<Shaking> {
+    let (source, record, motion) = given(args)?;
     let scale = args.scale.unwrap_or(1.0);
-    let (source, record, motion) = match &args.pulse {
+    Ok(Shaking { source, record, scale, motion: motion.scaled(scale), given: motion })
+}
+
+/// The motion as it is in its file or formula, with its name.
+fn given(args: &args::Ground) -> anyhow::Result<(String, Option<Record>, Motion)> {
+    Ok(match &args.pulse {
         Some((text, pulse)) => (text.clone(), None, pulse.motion()),
         None if args.ground.is_empty() => (String::new(), None, Motion::default()),
         None => {
@@ -47,8 +53,7 @@ fn shaking(args: &args::Ground) -> anyhow::Result<Shaking> {
             let motion = record.motion();
             (record.name.clone(), Some(record), motion)
         }
-    };
-    Ok(Shaking { source, record, scale, motion: motion.scaled(scale) })
+    })
 }
 
 /// What the mechanism of a scene does in time.
@@ -81,9 +86,8 @@ pub fn rock(
     let settings = RunSettings { from, until: ask.args.seconds, keep, ..RunSettings::default() };
     let history = run_machine(&built.machine, &shaking.motion, &settings);
     let found = ask.args.scan.map(|(from, to)| {
-        let unscaled = shaking.motion.scaled(1.0 / shaking.scale);
         let search = Search { from, to, steps: SCALES, width: WIDTH };
-        scan(&built.machine, &unscaled, &settings, &search)
+        scan(&built.machine, &shaking.given, &settings, &search)
     });
     let blocks = &session.model.assembly.blocks;
     let ids: Vec<String> = blocks.iter().map(|b| b.id.clone()).collect();

@@ -1,5 +1,6 @@
 //! Arguments, terminal and exit codes; one file per verb. No mechanics: what is asked is a call to
-//! the library.
+//! the library. Of all this the library shows [`run`](run::run) alone, for programs that carry the
+//! command.
 
 pub mod again;
 pub mod args;
@@ -15,9 +16,9 @@ mod ground;
 mod heap;
 pub mod import;
 mod input;
+pub mod kinematic;
 pub mod limit;
 pub mod man;
-pub mod memory;
 mod output;
 pub mod path;
 mod pictures;
@@ -25,6 +26,7 @@ mod progress;
 mod question;
 mod report;
 pub mod repose;
+pub mod run;
 pub mod schema;
 pub mod simulate;
 mod slurm;

@@ -23,7 +23,7 @@ use voussoir::{
     limits,
     proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, work::Work},
     report::{
-        json, page,
+        json, kinematic, page,
         text::{self, Asked, TextOptions},
         view::View,
     },
@@ -282,7 +282,9 @@ impl<'a> Session<'a> {
             };
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
-                report.write(&page::page(&text, &view, page::attempts(&file).as_slice())?)?;
+                let charts: Vec<_> =
+                    kinematic::page_chart(&file).into_iter().chain(page::attempts(&file)).collect();
+                report.write(&page::page(&text, &view, &charts)?)?;
             }
             if file.question != Kind::Simulate {
                 // A verdict is drawn with its mechanism, whatever else was seen.

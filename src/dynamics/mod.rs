@@ -12,12 +12,14 @@
 //! refined, and then it stays undecided.
 //!
 //! Joints resist by friction, by their rolling arm, and by the water in them, which pushes as it
-//! does at the start. Cohesion, tensile and compressive strength are left out, which the outcome's
-//! findings say.
+//! does at the start. Members act as springs as stiff as a step allows, cut at their bounds; a scene
+//! with dowels or fingers is not run. Cohesion, tensile and compressive strength are left out, which
+//! the outcome's findings say.
 
 mod bodies;
 mod cell;
 pub mod granular;
+mod members;
 mod outcome;
 mod pieces;
 mod rapier;

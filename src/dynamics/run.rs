@@ -8,12 +8,13 @@ use super::{
     FIRST_MOTION, Fate, Fidelity, FirstMotion, Frame, MeanContact, Pose, Progress, Run,
     SimulationOutcome, SimulationSettings, Stop,
     bodies::{Body, Frictions, bodies},
+    members::{self, Pulls, Springs},
     rapier::{PREDICTION, Step, World},
     rolling::Rolling,
     units::Units,
 };
 use crate::{
-    assembly::{Assembly, Wrench},
+    assembly::Wrench,
     error::{Finding, FindingCode, InputError},
     interface::{Interface, Interfaces, Model},
     strength::{crushing::crushes, uplift},
@@ -77,7 +78,7 @@ pub fn simulate(
         frames: Vec::new(),
         findings: Vec::new(),
     };
-    if let Some(finding) = members(interfaces) {
+    if let Some(finding) = unknown_members(interfaces) {
         // Without its members it is another scene, and what becomes of that answers nothing.
         outcome.fate = Fate::Undecided;
         outcome.findings.push(finding);
@@ -87,7 +88,7 @@ pub fn simulate(
     let bodies = bodies(model, &units, SKIN)?;
     let frictions = Frictions::new(model, &units);
     let scene =
-        Stage { assembly, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
+        Stage { model, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
     let ladder = match settings.fidelity {
         Some(one) => vec![one],
         None => vec![Fidelity::Fast, Fidelity::Fine],
@@ -126,13 +127,12 @@ fn broken(runs: &[Run]) -> Option<Finding> {
     ))
 }
 
-/// Members that can take a force: the engine has none of them.
-fn members(interfaces: &Interfaces) -> Option<Finding> {
-    let own = || interfaces.members.iter().filter(|m| !m.is_idle());
-    let first = own().next()?;
+/// Dowels and fingers that can take a force: the simulation has none of them.
+fn unknown_members(interfaces: &Interfaces) -> Option<Finding> {
+    let first = members::left_out(interfaces).next()?;
     let text = format!(
-        "the simulation has no members (ties, struts, tendons, strips, dowels, soil, grips), and the scene has {}, such as {} {:?}: it was not run, for without them it is another scene",
-        own().count(),
+        "the simulation has no dowels and no grips, and the scene has {}, such as {} {:?}: it was not run, for without them it is another scene",
+        members::left_out(interfaces).count(),
         first.kind.word(),
         first.id
     );
@@ -175,7 +175,7 @@ impl Loads {
 
 /// What stays the same from run to run.
 struct Stage<'a> {
-    assembly: &'a Assembly,
+    model: &'a Model,
     bodies: &'a [Body],
     frictions: &'a Frictions<'a>,
     units: Units,
@@ -207,7 +207,7 @@ struct State {
 impl Stage<'_> {
     /// In the engine's units.
     fn horizon(&self) -> f64 {
-        let up = -self.assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
+        let up = -self.model.assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
         let heights =
             || self.bodies.iter().filter(|b| !b.support).map(|b| (up.dot(&b.center), b.reach));
         let top = heights().map(|(h, r)| h + r).fold(f64::NEG_INFINITY, f64::max);
@@ -232,9 +232,11 @@ impl Stage<'_> {
         let total = (horizon / dt).ceil().max(1.0) as usize;
         let every = total.checked_div(self.settings.frames).map_or(usize::MAX, |n| n.max(1));
         let (mut rolling, mut couples) = (Rolling::default(), BTreeMap::new());
+        let mut springs = Springs::new(&self.model.interfaces, self.bodies, &self.units, dt);
+        let mut pulls = Pulls::new();
         let (mut steps, mut resting) = (0, 0.0);
         let mut state = State {
-            farthest: (self.assembly.free().next().unwrap_or(0), 0.0),
+            farthest: (self.model.assembly.free().next().unwrap_or(0), 0.0),
             now: 0.0,
             energy: 0.0,
             fallen: false,
@@ -265,7 +267,9 @@ impl Stage<'_> {
                 break Stop::Horizon;
             }
             let time = (steps + 1) as f64 * dt;
-            self.load(&mut world, smooth(time / ONSET), time - dt < ONSET, &couples);
+            let part = smooth(time / ONSET);
+            pulls = springs.pulls(&world, self.bodies, part);
+            self.load(&mut world, part, time - dt < ONSET, &couples, &pulls);
             world.step();
             steps += 1;
             if self.frictions.resist_rolling() {
@@ -312,7 +316,7 @@ impl Stage<'_> {
                 break Stop::Fallen;
             }
             let rested = resting >= REST_TIME && steps % REPORT == 0 && !self.settings.to_the_end;
-            if rested && self.reaction_error(&self.contacts(&world)) < BALANCED {
+            if rested && self.reaction_error(&self.contacts(&world), &pulls) < BALANCED {
                 break Stop::Rest;
             }
         };
@@ -339,14 +343,20 @@ impl Stage<'_> {
                 steps,
                 time: fell_at.unwrap_or(steps as f64 * dt) * self.units.time,
                 horizon: horizon * self.units.time,
-                farthest: self.assembly.blocks.get(block).map(|b| b.id.clone()).unwrap_or_default(),
+                farthest: self
+                    .model
+                    .assembly
+                    .blocks
+                    .get(block)
+                    .map(|b| b.id.clone())
+                    .unwrap_or_default(),
                 displacement: relative * self.thickness(block) * self.units.length,
                 relative,
                 energy: state.energy,
                 seconds: begin.elapsed().as_secs_f64(),
             },
             first_motion,
-            reaction_error: self.reaction_error(&contacts),
+            reaction_error: self.reaction_error(&contacts, &pulls),
             contacts,
             frames,
         })
@@ -357,8 +367,8 @@ impl Stage<'_> {
         body.thickness.max(THINNEST * body.reach)
     }
 
-    /// Sets this part of the loads and the couples of rolling joints (in the engine's units), on
-    /// every block or only where they change. Forces that act at a point of a block keep their
+    /// Sets this part of the loads, the couples of rolling joints and the pulls of members (in the
+    /// engine's units), on every block or only where they change. Forces that act at a point of a block keep their
     /// direction while the point moves with the block.
     fn load(
         &self,
@@ -366,6 +376,7 @@ impl Stage<'_> {
         part: f64,
         every: bool,
         couples: &BTreeMap<usize, Vector3<f64>>,
+        pulls: &Pulls,
     ) {
         let mut moments: BTreeMap<usize, Vector3<f64>> = BTreeMap::new();
         for &(block, force, arm) in &self.loads.turning {
@@ -373,22 +384,28 @@ impl Stage<'_> {
             *moments.entry(block).or_default() += (turned - arm).cross(&force);
         }
         // A block whose joints have parted loses its couple.
-        let rolls = |i: &usize| every || moments.contains_key(i) || self.frictions.resist_rolling();
-        for i in self.assembly.free().filter(rolls) {
+        let changes = |i: &usize| {
+            every
+                || moments.contains_key(i)
+                || pulls.contains_key(i)
+                || self.frictions.resist_rolling()
+        };
+        for i in self.model.assembly.free().filter(changes) {
             let Wrench { force, moment } = self.loads.total[i];
             let moment = moment + moments.get(&i).copied().unwrap_or_default();
             let couple = couples.get(&i).copied().unwrap_or_default();
+            let (pull, torque) = pulls.get(&i).copied().unwrap_or_default();
             world.load(
                 i,
-                force * part / self.units.force(),
-                moment * part / self.units.moment() + couple,
+                force * part / self.units.force() + pull,
+                moment * part / self.units.moment() + couple + torque,
             );
         }
     }
 
     fn look(&self, world: &World, state: &mut State) {
         (state.now, state.energy) = (0.0, 0.0);
-        for i in self.assembly.free() {
+        for i in self.model.assembly.free() {
             let body = &self.bodies[i];
             let (center, turn) = world.pose(i);
             let (velocity, spin) = world.velocity(i);
@@ -410,7 +427,7 @@ impl Stage<'_> {
     }
 
     fn size(&self, block: usize) -> f64 {
-        self.assembly.blocks[block].size / self.units.length
+        self.model.assembly.blocks[block].size / self.units.length
     }
 
     fn motions(&self, world: &World) -> Vec<FirstMotion> {
@@ -473,9 +490,11 @@ impl Stage<'_> {
             .collect()
     }
 
-    fn reaction_error(&self, contacts: &[MeanContact]) -> f64 {
+    fn reaction_error(&self, contacts: &[MeanContact], pulls: &Pulls) -> f64 {
         let held = |i: usize| self.bodies[i].support;
-        let mut left: Vector3<f64> = self.assembly.free().map(|i| self.loads.total[i].force).sum();
+        let mut left: Vector3<f64> =
+            self.model.assembly.free().map(|i| self.loads.total[i].force).sum();
+        left += pulls.values().map(|(pull, _)| pull).sum::<Vector3<f64>>() * self.units.force();
         for c in contacts {
             match (held(c.a), held(c.b)) {
                 (true, false) => left += c.force,
@@ -483,7 +502,7 @@ impl Stage<'_> {
                 _ => {}
             }
         }
-        let size: f64 = self.assembly.free().map(|i| self.loads.total[i].force.norm()).sum();
+        let size: f64 = self.model.assembly.free().map(|i| self.loads.total[i].force.norm()).sum();
         if size > 0.0 { left.norm() / size } else { 0.0 }
     }
 }

@@ -45,7 +45,8 @@ impl Statics {
             left_out.push(plane_line(plane, list.len(), interfaces));
         }
         let part = part(model, options, plane, &dead, &list);
-        let (orbits, mut blocks) = (part.as_ref().map(|p| p.orbits.clone()), None);
+        let (orbits, mut blocks, mut images) =
+            (part.as_ref().map(|p| p.orbits.clone()), None, None);
         if let Some(part) = part {
             left_out.push(format!(
                 "symmetry ({}): {} of {} free blocks, {} of {} contact points",
@@ -55,12 +56,12 @@ impl Statics {
                 part.bearings.len(),
                 list.len()
             ));
-            (blocks, list) = (Some(part.blocks), part.bearings);
+            (blocks, list, images) = (Some(part.blocks), part.bearings, Some(part.members));
         }
         let free = free_blocks(assembly, options, plane, blocks, weight);
         let rows = free.last().map_or(0, |f| f.rows.end);
         let contacts = list.last().map_or(0, |b| b.column + b.basis.len());
-        let (mut members, applied) = member::columns(model, plane, options, contacts);
+        let (mut members, applied) = member::columns(model, plane, options, images, contacts);
         let load = if members.is_empty() { Vec::new() } else { carried(model, weight) };
         for m in &mut members {
             // What passes there is no more than what the lighter block carries.
@@ -107,6 +108,11 @@ impl Statics {
         this
     }
 
+    /// The block that stands for a block, and the symmetry that takes it there.
+    fn home(&self, block: usize) -> (usize, usize) {
+        self.orbits.as_ref().and_then(|orbits| orbits.home(block)).unwrap_or((block, 0))
+    }
+
     /// The entries of the operator.
     fn fill(&mut self, model: &Model, list: &[Bearing]) {
         let Model { assembly, interfaces, .. } = model;
@@ -118,10 +124,7 @@ impl Statics {
             for (block, sign) in [(face.a, -1.0), (face.b, 1.0)] {
                 // What an image of the bearing does to the block that is kept is the image of what
                 // the bearing does here.
-                let (home, element) = match &self.orbits {
-                    Some(orbits) => orbits.home(block).unwrap_or((block, 0)),
-                    None => (block, 0),
-                };
+                let (home, element) = self.home(block);
                 let Some(row) = row_of[home] else { continue };
                 let count = bearing.image_count() as f64 / self.free[row].image_count() as f64;
                 for (c, Wrench { force, moment }) in bearing.basis.iter().enumerate() {
@@ -141,9 +144,16 @@ impl Statics {
             for c in 0..self.members[m].basis.len() {
                 for e in 0..self.members[m].basis[c].len() {
                     let (block, wrench) = self.members[m].basis[c][e];
-                    let Some(row) = row_of[block] else { continue };
+                    let (home, element) = self.home(block);
+                    let Some(row) = row_of[home] else { continue };
+                    let mut wrench = wrench * self.unit;
+                    if let Some(orbits) = &self.orbits {
+                        let images = self.members[m].images.len() as f64;
+                        let count = images / self.free[row].image_count() as f64;
+                        wrench = orbits.wrench(element, &wrench) * count;
+                    }
                     let first = self.free[row].rows.start;
-                    let values = self.scaled(row, wrench * self.unit);
+                    let values = self.scaled(row, wrench);
                     let column = self.members[m].column + c;
                     for (k, value) in values.into_iter().enumerate() {
                         self.matrix.push(first + k, column, value);
@@ -217,8 +227,8 @@ fn with_water(model: &Model) -> Vec<Wrench> {
 }
 
 /// The part that a symmetric scene is reduced to. Bounds on crushing tie the points of a joint
-/// together, and members join places that the images of blocks say nothing about: no symmetry is
-/// looked for there.
+/// together, and the components of a dowel's shear or a finger's friction have directions that an
+/// image turns: no symmetry is looked for there.
 fn part(
     model: &Model,
     options: StaticsOptions,
@@ -231,7 +241,7 @@ fn part(
         || options.keep_all
         || options.unscaled
         || interfaces.list.iter().any(crushes)
-        || !interfaces.members.is_empty()
+        || !interfaces.members.iter().all(member::is_scalar)
     {
         return None;
     }

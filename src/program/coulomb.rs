@@ -173,9 +173,13 @@ impl Contacts {
             })
             .collect();
         let joints = points.len();
+        // An average joint is as many bearings side by side; in a plane they are pairs, so that a
+        // member that yielded like one bearing would be another one there.
+        let bearings: f64 = statics.bearings.iter().map(|b| b.image_count() as f64).sum();
+        let joint = interfaces.list.len() as f64 / bearings.max(1.0);
         for m in &statics.members {
-            // Of the order of a joint; among members whose stiffness is known, as that.
-            let c = m.stiffness.map_or(1.0, |k| 1.0 / k);
+            // As an average joint; among members whose stiffness is known, as that.
+            let c = joint * m.stiffness.map_or(1.0, |k| 1.0 / k);
             compliance.extend(std::iter::repeat_n(c, m.amounts.len()));
             points.push(SlidingPoint::of(m));
         }

@@ -1,6 +1,6 @@
 //! Members in a program: columns with bounds beside those of the contact points.
 
-use super::{Cone, ConicProgram, Disc, StaticsOptions, planar::Plane};
+use super::{Cone, ConicProgram, Disc, StaticsOptions, planar::Plane, symmetry::MemberOrbit};
 use crate::{
     assembly::{Action, Member, Wrench},
     interface::{ContactFrame, Model},
@@ -16,6 +16,8 @@ pub type Effect = (usize, Wrench);
 pub struct MemberColumns {
     /// Index of the member.
     pub member: usize,
+    /// The members that it stands for, itself among them.
+    pub(super) images: MemberOrbit,
     /// First column.
     pub column: usize,
     /// Per column what a unit of it does to each block.
@@ -55,18 +57,22 @@ pub enum MemberSet {
 pub type Applied = Vec<Effect>;
 
 /// The columns of all members that can take a force, from column `first` on; and what is applied
-/// and no column. With [`StaticsOptions::split`] the normal force of a finger is its strength.
+/// and no column. With [`StaticsOptions::split`] the normal force of a finger is its strength. In a
+/// part of a symmetric scene only members that stand for others or for themselves have columns.
 pub(super) fn columns(
     model: &Model,
     plane: Option<Plane>,
     options: StaticsOptions,
+    orbits: Option<Vec<MemberOrbit>>,
     first: usize,
 ) -> (Vec<MemberColumns>, Applied) {
     let members = &model.interfaces.members;
     let (mut list, mut applied, mut column) = (Vec::new(), Vec::new(), first);
     let known: Vec<f64> = members.iter().filter_map(|m| m.stiffness).collect();
     let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
-    for (index, member) in members.iter().enumerate().filter(|(_, m)| !m.is_idle()) {
+    let orbits = orbits.unwrap_or_else(|| (0..members.len()).map(|m| vec![m]).collect());
+    let kept = members.iter().zip(orbits).enumerate();
+    for (index, (member, images)) in kept.filter(|(_, (m, all))| !m.is_idle() && !all.is_empty()) {
         let across = |v: &Vector3<f64>| plane.is_some_and(|p| p.axis.dot(v).abs() > 0.5);
         let effect = |axes: &[(usize, f64)]| -> Vec<Vec<Effect>> {
             axes.iter().map(|&(axis, sign)| effects(model, member, axis, sign)).collect()
@@ -109,6 +115,7 @@ pub(super) fn columns(
         let sign = amounts[0].1;
         let columns = MemberColumns {
             member: index,
+            images,
             column,
             basis: effect(&amounts),
             set,
@@ -122,6 +129,11 @@ pub(super) fn columns(
         list.push(columns);
     }
     (list, applied)
+}
+
+/// Whether a member acts by one amount, which no isometry turns.
+pub(super) fn is_scalar(member: &Member) -> bool {
+    matches!(member.action, Action::Line(_) | Action::Push { .. })
 }
 
 /// What one amount of a member does, as wrenches about the centres of mass.

@@ -94,7 +94,11 @@ impl Statics {
         self.bearings
             .iter()
             .flat_map(|b| std::iter::repeat_n(b.image_count() as f64, b.basis.len()))
-            .chain(self.members.iter().flat_map(|m| m.amounts.iter().map(|_| 1.0)))
+            .chain(
+                self.members
+                    .iter()
+                    .flat_map(|m| std::iter::repeat_n(m.images.len() as f64, m.amounts.len())),
+            )
             .collect()
     }
 

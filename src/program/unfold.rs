@@ -47,7 +47,9 @@ impl Statics {
             let mut x = x[member.column..member.column + member.amounts.len()].to_vec();
             member.admit(&mut x);
             for (x, (axis, sign)) in x.iter().zip(&member.amounts) {
-                forces[joints + member.member][0].force[*axis] = sign * x * member.unit + 0.0;
+                for image in &member.images {
+                    forces[joints + image][0].force[*axis] = sign * x * member.unit + 0.0;
+                }
             }
         }
         forces

@@ -1,7 +1,10 @@
 //! Answers as results have them: one value of a sum, flat in JSON, where only the keys of its
 //! question stand.
 
-use super::{critical::CriticalValue, path::PathAnswer, result::DryResult, thrust::ThrustAnswer};
+use super::{
+    critical::CriticalValue, kinematic::KinematicAnswer, path::PathAnswer, result::DryResult,
+    thrust::ThrustAnswer,
+};
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
     verdict::{Verdict, exact::Grade},
@@ -25,6 +28,8 @@ pub enum Answer {
     Thrust(Box<ThrustAnswer>),
     /// How far supports or a control point move.
     Path(Box<PathAnswer>),
+    /// Under an earthquake: at what acceleration it starts to move, and what then.
+    Kinematic(Box<KinematicAnswer>),
     /// What became of it in time, beside the verdict where that was asked.
     Simulation(Fate, Option<VerdictAnswer>),
 }
@@ -190,6 +195,7 @@ impl Answer {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => Some(a.verdict),
             Self::Limit(a) => a.verdict,
             Self::Tilt(a) => a.verdict,
+            Self::Kinematic(a) => a.verdict,
             Self::Critical(_) | Self::Thrust(_) | Self::Path(_) | Self::Simulation(_, None) => None,
         }
     }
@@ -207,6 +213,7 @@ impl Answer {
         match self {
             Self::Limit(a) => Some(&a.load_factor),
             Self::Tilt(a) => Some(&a.tan_tilt),
+            Self::Kinematic(a) => Some(&a.alpha0),
             _ => None,
         }
     }
@@ -216,10 +223,11 @@ impl Answer {
         self.load_factor().map(|l| &l.associative)
     }
 
-    /// The direction of a tilt.
+    /// The direction of a tilt or an earthquake.
     pub fn toward(&self) -> Option<[f64; 3]> {
         match self {
             Self::Tilt(a) => Some(a.toward),
+            Self::Kinematic(a) => Some(a.toward),
             _ => None,
         }
     }
@@ -262,6 +270,7 @@ impl Answer {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => a.part.as_ref(),
             Self::Limit(a) => a.part.as_ref(),
             Self::Tilt(a) => a.part.as_ref(),
+            Self::Kinematic(a) => a.part.as_ref(),
             _ => None,
         }
     }
@@ -272,6 +281,7 @@ impl Answer {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => a.proof,
             Self::Limit(a) => a.proof,
             Self::Tilt(a) => a.proof,
+            Self::Kinematic(a) => a.proof,
             _ => None,
         }
     }
@@ -321,6 +331,9 @@ pub(super) struct Flat {
     /// How far supports or a control point move.
     #[serde(skip_serializing_if = "Option::is_none")]
     path: Option<Box<PathAnswer>>,
+    /// What an earthquake does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kinematic: Option<Box<KinematicAnswer>>,
 }
 
 impl JsonSchema for Answer {
@@ -363,6 +376,7 @@ impl From<Answer> for Flat {
             Answer::Critical(list) => Self { critical: Some(list), ..Self::default() },
             Answer::Thrust(thrust) => Self { thrust: Some(thrust), ..Self::default() },
             Answer::Path(path) => Self { path: Some(path), ..Self::default() },
+            Answer::Kinematic(a) => Self { kinematic: Some(a), ..Self::default() },
         }
     }
 }
@@ -387,6 +401,7 @@ impl TryFrom<Flat> for Answer {
             critical,
             thrust,
             path,
+            kinematic,
         } = flat;
         let alone_in_all = verdict.is_none()
             && law.is_none()
@@ -400,8 +415,11 @@ impl TryFrom<Flat> for Answer {
             && tilt_deg.is_none()
             && critical.is_none()
             && thrust.is_none();
-        if let Some(path) = path {
-            return if alone_in_all { Ok(Self::Path(path)) } else { Err(MIXED) };
+        match (path, kinematic) {
+            (None, None) => {}
+            (Some(path), None) if alone_in_all => return Ok(Self::Path(path)),
+            (None, Some(a)) if alone_in_all => return Ok(Self::Kinematic(a)),
+            _ => return Err(MIXED),
         }
         let alone = verdict.is_none() && part.is_none() && proof.is_none();
         match (fate, load_factor, (toward, tan_tilt, tilt_deg), critical, thrust) {

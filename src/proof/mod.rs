@@ -3,6 +3,7 @@
 
 pub mod answer;
 pub mod critical;
+pub mod kinematic;
 pub mod member;
 #[cfg(feature = "solve")]
 mod pack;

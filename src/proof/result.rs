@@ -52,13 +52,14 @@ pub struct ResultFile {
     pub answer: Answer,
     /// The evidence for `answer`.
     pub certificate: Certificate,
-    /// Tilt: every direction asked for.
+    /// Tilt and kinematic: every direction asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<Direction>,
-    /// Limit and tilt, where asked as well: whether it stands under its dead load alone.
+    /// Limit, tilt and kinematic, where asked as well: whether it stands under its dead load alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead_load: Option<Direction>,
-    /// Limit, and the least direction of a tilt: the load factor with dry friction.
+    /// Limit, the least direction of a tilt and the worst of `kinematic`: the load factor with dry
+    /// friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry: Option<DryResult>,
     /// The state under dry friction, where it had to be computed.
@@ -70,7 +71,7 @@ pub struct ResultFile {
     /// Thrust: the evidence for both ends and the line of thrust.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thrust: Option<ThrustResult>,
-    /// Settle and push: the curve, every point with its evidence.
+    /// Settle, push and kinematic: the curve, every point with its evidence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<PathResult>,
     /// What happened in time, where it was simulated.
@@ -124,6 +125,8 @@ pub enum QuestionKind {
     Settle,
     /// How does the load factor fall as it moves?
     Push,
+    /// Under an earthquake: at what acceleration does it start to move, and what then?
+    Kinematic,
 }
 
 /// The scene a result is about.
@@ -183,7 +186,7 @@ pub struct Direction {
     pub answer: Answer,
     /// The evidence for it.
     pub certificate: Certificate,
-    /// A direction of a tilt: its load factor with dry friction.
+    /// A direction of a tilt or an earthquake: its load factor with dry friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry: Option<DryResult>,
 }

@@ -1,14 +1,14 @@
 //! Verifying a saved result from the scene: every claim with its evidence, and every word and
 //! number of the answer against the claim. Nothing that the file says about itself is believed.
 
-mod again;
+pub(super) mod again;
 mod left_out;
 pub(super) mod states;
 
 use super::{
     ResultFile,
     answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
-    critical, member, part, path,
+    critical, kinematic, member, part, path,
     result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
     thrust,
 };
@@ -112,11 +112,15 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         QuestionKind::Critical => critical::verify(&mut all, file, scene),
         QuestionKind::Thrust => thrust::verify(&mut all, file, model),
         QuestionKind::Settle | QuestionKind::Push => path::verify(&mut all, file, model),
+        QuestionKind::Kinematic => kinematic::verify(&mut all, file, scene, model),
     }
     let strangers = [
         file.question != QuestionKind::Critical && file.critical.is_some(),
         file.question != QuestionKind::Thrust && file.thrust.is_some(),
-        !matches!(file.question, QuestionKind::Settle | QuestionKind::Push) && file.path.is_some(),
+        !matches!(
+            file.question,
+            QuestionKind::Settle | QuestionKind::Push | QuestionKind::Kinematic
+        ) && file.path.is_some(),
     ];
     if strangers.contains(&true) {
         all.part("form", failure("the file holds answers to a question that was not asked"));
@@ -127,7 +131,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             answer(model, QuestionKind::Assess, &dead.answer, &dead.certificate, all.refuted()).0,
         );
     }
-    if matches!(file.question, QuestionKind::Limit | QuestionKind::Tilt) {
+    if matches!(file.question, QuestionKind::Limit | QuestionKind::Tilt | QuestionKind::Kinematic) {
         let (dead, mut f) =
             (file.dead_load.as_ref().and_then(|d| d.answer.verdict()), Findings::default());
         let said = file
@@ -139,7 +143,8 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         require(&mut f, said, "the verdict beside it is that of the dead load alone");
         all.part("dead load alone", f);
     }
-    if let Some(dry) = file.dry.as_ref().filter(|_| file.question != QuestionKind::Tilt) {
+    let by_direction = matches!(file.question, QuestionKind::Tilt | QuestionKind::Kinematic);
+    if let Some(dry) = file.dry.as_ref().filter(|_| !by_direction) {
         let findings = match file.question {
             QuestionKind::Assess
             | QuestionKind::Simulate
@@ -348,6 +353,20 @@ fn is_no_better(said: Grade, here: Grade) -> bool {
     }
 }
 
+/// Whether the bound on a load factor is what is claimed.
+fn bound_says(bound: &Bound, claim: Option<&Claim>) -> bool {
+    let Bound { status, value: said, lower: low, upper: high } = *bound;
+    match (status, claim) {
+        (Outcome::Undecided, None) => true,
+        (Outcome::Found, Some(&Claim::LoadFactor { value, lower, upper })) => {
+            (said, low, high) == (Some(value), Some(lower), Some(upper))
+        }
+        (Outcome::Unbounded, Some(Claim::Unbounded { .. }))
+        | (Outcome::Impossible, Some(Claim::Impossible)) => (said, low, high) == (None, None, None),
+        _ => false,
+    }
+}
+
 /// The words and numbers of an answer are those of its claim.
 fn says_what_is_claimed(
     f: &mut Findings,
@@ -371,18 +390,10 @@ fn says_what_is_claimed(
         }
         (QuestionKind::Limit, Answer::Limit(LimitAnswer { load_factor: l, .. }), claim)
         | (QuestionKind::Tilt, Answer::Tilt(TiltAnswer { tan_tilt: l, .. }), claim) => {
-            let Bound { status, value: said, lower: low, upper: high } = l.associative;
-            match (status, claim) {
-                (Outcome::Undecided, None) => true,
-                (Outcome::Found, Some(&Claim::LoadFactor { value, lower, upper })) => {
-                    (said, low, high) == (Some(value), Some(lower), Some(upper))
-                }
-                (Outcome::Unbounded, Some(Claim::Unbounded { .. }))
-                | (Outcome::Impossible, Some(Claim::Impossible)) => {
-                    (said, low, high) == (None, None, None)
-                }
-                _ => false,
-            }
+            bound_says(&l.associative, claim)
+        }
+        (QuestionKind::Kinematic, Answer::Kinematic(a), claim) => {
+            bound_says(&a.alpha0.associative, claim)
         }
         _ => return f.fails.push("the answer is not one to its question".into()),
     };
@@ -414,7 +425,7 @@ fn says_what_is_claimed(
 
 /// The load factor to use follows from the bound and what is known with dry friction; a tilt in
 /// degrees is its arc tangent.
-fn follows(f: &mut Findings, answer: &Answer, dry: Option<&DryResult>) {
+pub(super) fn follows(f: &mut Findings, answer: &Answer, dry: Option<&DryResult>) {
     let Some(said) = answer.load_factor() else { return };
     require(
         f,
@@ -494,7 +505,7 @@ fn places_agree(model: &Model, said: &MechanismWords, here: &MechanismWords) -> 
 }
 
 /// The forces in the members are those of the evidence.
-fn members(f: &mut Findings, file: &ResultFile, model: &Model) {
+pub(super) fn members(f: &mut Findings, file: &ResultFile, model: &Model) {
     if model.interfaces.members.is_empty() && file.members.is_empty() {
         return;
     }

@@ -8,6 +8,7 @@ pub mod heaps;
 pub mod imported;
 pub mod inspection;
 pub mod json;
+pub mod kinematic;
 pub mod page;
 pub mod path;
 pub mod study;

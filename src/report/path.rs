@@ -22,6 +22,13 @@ use plotters::{
 #[error("no curve: {0}")]
 pub struct PathError(String);
 
+impl PathError {
+    /// For this reason.
+    pub(super) fn new(e: impl std::fmt::Display) -> Self {
+        Self(e.to_string())
+    }
+}
+
 fn refused(e: impl std::fmt::Display) -> PathError {
     PathError(e.to_string())
 }

@@ -13,6 +13,22 @@ pub struct Loads {
     /// Multiplied by the load factor λ.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub live: Vec<Load>,
+    /// Masses that an earthquake pushes against a block without resting on it, such as a floor that
+    /// spans along a wall. `kinematic` alone counts them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub masses: Vec<PushingMass>,
+}
+
+/// A mass that an earthquake pushes against a block, and that rests elsewhere.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PushingMass {
+    /// The block that it pushes.
+    pub block: String,
+    /// Where: a point of the scene, m.
+    pub at: [f64; 3],
+    /// Mass, kg.
+    pub mass: f64,
 }
 
 /// One load: a `force` and/or `moment` on a `block`, or an `acceleration` or `weight` on one block
@@ -36,6 +52,11 @@ pub struct Load {
     /// Without it such a force is taken for a mistake.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub arm: bool,
+    /// Of a dead load along gravity: no mass stands behind it (the thrust of a vault, the pull of a
+    /// cable), so that an earthquake does not push it. `kinematic` takes other loads along gravity for
+    /// weights.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub massless: bool,
     /// Body force: mass × this acceleration, m/s².
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<[f64; 3]>,
@@ -77,7 +98,8 @@ impl Loads {
     #[must_use]
     pub fn fixed(&self, factor: f64) -> Self {
         let added = self.live.iter().filter(|_| factor != 0.0).map(|l| l.times(factor));
-        Self { dead: self.dead.iter().cloned().chain(added).collect(), live: Vec::new() }
+        let dead = self.dead.iter().cloned().chain(added).collect();
+        Self { dead, live: Vec::new(), masses: self.masses.clone() }
     }
 
     pub(super) fn is_empty(&self) -> bool {

@@ -16,6 +16,7 @@ pub mod member;
 mod protocol;
 mod read;
 mod schema;
+pub mod site;
 mod source;
 mod suggest;
 pub mod template;
@@ -27,12 +28,13 @@ pub use block::{Ball, BlockSpec, Rotation, Shape};
 pub use contact::ContactSpec;
 pub use interface::InterfaceSpec;
 pub use joint::{Friction, JointOverride, JointSpec, Joints, Material};
-pub use load::{At, Load, Loads};
+pub use load::{At, Load, Loads, PushingMass};
 pub use member::Member;
 pub use protocol::{GrainKind, Protocol, ProtocolKind};
 pub(crate) use read::{Kind, read_as, text};
 pub use read::{read_bytes, read_file, read_str};
 pub use schema::schema;
+pub use site::Site;
 pub use source::Source;
 pub(crate) use suggest::suggest;
 pub use template::Template;
@@ -94,6 +96,9 @@ pub struct Scene {
     /// When faces touch.
     #[serde(default, skip_serializing_if = "ContactSpec::is_default")]
     pub contact: ContactSpec,
+    /// The earthquakes of the place where it stands. `kinematic` alone asks for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub site: Option<Site>,
 }
 
 /// 9.81 m/s² downward.
@@ -116,6 +121,7 @@ impl Default for Scene {
             loads: Loads::default(),
             members: Vec::new(),
             contact: ContactSpec::default(),
+            site: None,
         }
     }
 }

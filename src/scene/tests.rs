@@ -321,16 +321,17 @@ fn load() -> impl Strategy<Value = Load> {
         some(vector()),
         some(vector()),
         at,
-        any::<bool>(),
+        [any::<bool>(), any::<bool>()],
         some(vector()),
         some(vector()),
     )
-        .prop_map(|(block, force, moment, at, arm, acceleration, weight)| Load {
+        .prop_map(|(block, force, moment, at, [arm, massless], acceleration, weight)| Load {
             block,
             force,
             moment,
             at,
             arm,
+            massless,
             acceleration,
             weight,
         })
@@ -347,8 +348,14 @@ fn scene() -> impl Strategy<Value = Scene> {
                 friction,
             },
         );
-    let loads = (prop::collection::vec(load(), list(3)), prop::collection::vec(load(), list(3)))
-        .prop_map(|(dead, live)| Loads { dead, live });
+    let mass =
+        (name(), vector(), number()).prop_map(|(block, at, mass)| PushingMass { block, at, mass });
+    let loads = (
+        prop::collection::vec(load(), list(3)),
+        prop::collection::vec(load(), list(3)),
+        prop::collection::vec(mass, list(2)),
+    )
+        .prop_map(|(dead, live, masses)| Loads { dead, live, masses });
     let materials = prop::collection::btree_map(
         name(),
         number().prop_map(|density| Material { density }),

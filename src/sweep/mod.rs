@@ -45,7 +45,7 @@ pub use merge::{Merged, merge};
 pub use open::{MOST_ROWS, Sweep, open, open_bytes, read_plan};
 pub use plan::{Lognormal, Normal, Parameter, Plan, Sampling, Vary, schema};
 pub use row::{Header, Row, RowAnswer, RowStatus};
-pub use run::{Done, Event, RunOptions, measure, run, run_in};
+pub use run::{Done, Event, RunOptions, measure, run, run_in, run_until};
 pub use shard::Shard;
 pub use summary::{Quantiles, Shown, Summary, summarize, value_of};
 pub use worst::{Between, Worst, worst};

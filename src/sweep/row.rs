@@ -194,6 +194,10 @@ impl RowAnswer {
                 t.ends.first().map_or_else(|| Self::of_assessment(&t.standing), Self::of_thrust)
             }
             Answer::Path(p) => Self::of_path(p),
+            Answer::Kinematic(k) => least(&mut k.directions.iter().map(|d| Self {
+                toward: Some(d.quake.toward.into()),
+                ..Self::of_load_factor(&d.bound, d.dry.as_ref(), |lambda| lambda)
+            })),
             Answer::Simulate(outcome) => Self::of(match outcome.fate {
                 Fate::Stands => RowStatus::Stable,
                 Fate::Falls => RowStatus::Unstable,

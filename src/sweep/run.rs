@@ -68,13 +68,27 @@ pub fn run(
     options: &RunOptions,
     watch: &(dyn Fn(Event) + Sync),
 ) -> Result<Done, RowsError> {
+    run_until(sweep, path, options, watch, &|| false)
+}
+
+/// The same; no row is begun any more once `is_over`. A later run does those that are missing.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_until(
+    sweep: &Sweep,
+    path: &Path,
+    options: &RunOptions,
+    watch: &(dyn Fn(Event) + Sync),
+    is_over: &(dyn Fn() -> bool + Sync),
+) -> Result<Done, RowsError> {
     let header = sweep.header(options.shard);
     let Opened { file, rows, mended, unchecked } = RowsFile::open(path, &header, options.restart)?;
     let there: HashSet<usize> = rows.iter().map(|r| r.row).collect();
     let open =
         options.shard.rows(sweep.rows()).filter(|row| !there.contains(row)).collect::<Vec<_>>();
     watch(Event::Begin { rows: there.len() + open.len(), there: there.len(), mended, unchecked });
-    let (more, computed) = answers(sweep, &file, open, options.threads, watch)?;
+    let (more, computed) = answers(sweep, &file, open, options.threads, watch, is_over)?;
     let mut rows = rows;
     rows.extend(more);
     rows.sort_by_key(|r| r.row);
@@ -106,7 +120,7 @@ pub fn run_in(
         return Ok(0);
     }
     let file = RowsFile::fresh(&folder.rows_folder(), name, &sweep.header(options.shard))?;
-    Ok(answers(sweep, &file, open, options.threads, watch)?.0.len())
+    Ok(answers(sweep, &file, open, options.threads, watch, &|| false)?.0.len())
 }
 
 /// Rows, spread evenly over those of `open`, one after the other until there are `most` or
@@ -142,12 +156,16 @@ fn answers(
     mut open: Vec<usize>,
     threads: Option<usize>,
     watch: &(dyn Fn(Event) + Sync),
+    is_over: &(dyn Fn() -> bool + Sync),
 ) -> Result<(Vec<Row>, [usize; 2]), RowsError> {
     open.sort_by_cached_key(|row| (sweep.keys(&sweep.parameters(*row)), *row));
     let threads = threads.unwrap_or(0);
     let reuse = Reuse::default();
     let rows = Mutex::new(Vec::new());
     parallel::for_each(threads, &open, |&number| {
+        if is_over() {
+            return Ok(());
+        }
         let row = answer(sweep, &reuse, number);
         file.append(&row)?;
         watch(Event::Row(row.answer.status));

@@ -240,3 +240,79 @@ fn pulses_are_read_or_refused() {
     }
     assert_eq!(Motion::default().end(), 0.0);
 }
+
+mod command {
+    //! `kinematic` and `simulate` on ground that moves.
+
+    use serde_json::Value;
+    use std::process::Command;
+
+    fn voussoir(arguments: &str) -> (i32, String, String) {
+        let output = Command::new(env!("CARGO_BIN_EXE_voussoir"))
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args(arguments.split(' '))
+            .output()
+            .expect("it runs");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("text");
+        (output.status.code().expect("a code"), text(output.stdout), text(output.stderr))
+    }
+
+    fn json(arguments: &str) -> (i32, Value) {
+        let (code, out, error) = voussoir(arguments);
+        (code, serde_json::from_str(&out).unwrap_or_else(|e| panic!("{arguments}: {e}\n{error}")))
+    }
+
+    const BLOCK: &str = "structures/slender-block.json";
+
+    #[test]
+    fn a_mechanism_in_time() {
+        let (code, answer) =
+            json(&format!("kinematic {BLOCK} --pulse jump:1 --scale 0.74 --scan 0.1,2 --json"));
+        assert_eq!((code, &answer["fate"]), (1, &"overturns".into()));
+        let flip = answer["flips"][0]["overturns_at"].as_f64().expect("a scale");
+        assert!((flip - 0.734_025_135_1).abs() < 1e-8);
+        assert_eq!(answer["exact"], true);
+        // The other way the same.
+        let toward = format!("kinematic {BLOCK} --pulse jump:0.73 --toward -1,0 --json");
+        assert_eq!(json(&toward).0, 0);
+        // Free rocking.
+        let (code, answer) = json(&format!("kinematic {BLOCK} --from -0.5 --json"));
+        let first = answer["impacts"][0]["time"].as_f64().expect("a time");
+        assert!(code == 0 && (first - 0.490_864_457_849_559).abs() < 1e-9);
+        let given = format!("kinematic {BLOCK} --from 0.5 --restitution 1 --seconds 3 --json");
+        let (code, answer) = json(&given);
+        assert_eq!((code, &answer["fate"]), (3, &"rocks".into()));
+    }
+
+    #[test]
+    fn all_blocks_in_time() {
+        let run = format!("simulate {BLOCK} --ground structures/records/ricker.csv --fast --json");
+        let (code, answer) = json(&run);
+        assert_eq!((code, &answer["fate"]), (1, &"overturns".into()), "{answer}");
+        let (code, answer) = json(&format!("{run} --scale 0.1"));
+        assert_eq!((code, &answer["fate"]), (0, &"rests".into()));
+        let far = answer["blocks"][0]["greatest_over_thickness"].as_f64().expect("a way");
+        assert!(far < 1e-2, "{far}");
+    }
+
+    #[test]
+    fn what_says_nothing_is_refused() {
+        for (arguments, word) in [
+            ("kinematic BLOCK --scale 2", "--scale goes with"),
+            ("kinematic BLOCK --restitution 0.9", "--restitution goes with"),
+            ("kinematic BLOCK --pulse jump:1 --fc 1.2", "--fc says nothing"),
+            ("kinematic BLOCK --pulse square:1,1", "is no pulse"),
+            ("kinematic BLOCK --pulse jump:1 --restitution 1.5", "not a restitution"),
+            ("kinematic BLOCK --ground structures/records/missing.csv", "missing.csv"),
+            ("kinematic BLOCK --ground structures/README.md", "README.md"),
+            ("kinematic BLOCK --pulse jump:1 --save x.json", "--save keeps proofs"),
+            ("kinematic structures/oblique-sliding.json --pulse jump:1", "slides"),
+            ("simulate BLOCK --scale 2", "--scale goes with"),
+            ("simulate BLOCK --pulse double-jump:1", "waits for a landing"),
+            ("simulate BLOCK --pulse jump:1 --toward 0,0,1", "along gravity"),
+        ] {
+            let (code, _, error) = voussoir(&arguments.replace("BLOCK", BLOCK));
+            assert!(code == 2 && error.contains(word), "{arguments}: {code} {error}");
+        }
+    }
+}

@@ -25,6 +25,7 @@ mod granular;
 mod ground;
 mod hostile;
 mod invariance;
+mod kinematic;
 mod large;
 mod layering;
 mod members;

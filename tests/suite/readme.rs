@@ -155,6 +155,22 @@ fn charts_are_those_of_the_commands(folder: &Path) {
     assert!(plans >= 3);
 }
 
+/// Pages of `docs/` whose console blocks are run where they stand.
+const PAGES: [&str; 1] = ["docs/kinematic.md"];
+
+#[test]
+fn pages_print_what_they_say() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for page in PAGES {
+        let examples = examples(&std::fs::read_to_string(root.join(page)).unwrap());
+        assert!(!examples.is_empty(), "{page} shows no command");
+        for (command, printed) in examples {
+            let (want, got) = (without_times(&printed), without_times(&run(&command, root)));
+            assert!(want == got, "{page}: {}", difference(&command, &want, &got));
+        }
+    }
+}
+
 #[test]
 fn the_first_screen_holds_the_two_commands() {
     let text = readme();

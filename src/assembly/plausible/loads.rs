@@ -4,7 +4,7 @@ use super::{Told, Weights, bounds, short};
 use crate::{
     assembly::{Assembly, Block},
     error::{InputError, JsonPath},
-    scene::{At, Load, Scene},
+    scene::{At, Load, PushingMass, Scene},
 };
 use nalgebra::Vector3;
 use std::collections::HashMap;
@@ -61,6 +61,27 @@ pub(in crate::assembly) fn place(
                 off.meant(block, assembly).map_or(String::new(), |meant| format!("{meant}; "));
             let hint = format!("{meant}where an arm carries it that far, say \"arm\": true");
             Err(InputError::at(path.key("at"), off.words("the force", block)).hint(hint))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The same for a mass that an earthquake pushes.
+///
+/// # Errors
+/// As [`place`].
+pub(in crate::assembly) fn mass_place(
+    mass: &PushingMass,
+    block: &Block,
+    assembly: &Assembly,
+    path: &JsonPath,
+) -> Result<(), InputError> {
+    match Off::at(mass.at.into(), false, block) {
+        Some(off) if off.distance > bounds::FAR_OFF * block.size => {
+            let at = InputError::at(path.key("at"), off.words("the mass", block));
+            Err(at.hint(off.meant(block, assembly).unwrap_or_else(|| {
+                "\"at\" is where the mass pushes the block: a point of the scene, in m".into()
+            })))
         }
         _ => Ok(()),
     }

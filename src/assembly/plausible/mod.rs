@@ -13,8 +13,9 @@ mod bounds;
 mod joints;
 mod loads;
 mod members;
+mod site;
 
-pub(super) use loads::place;
+pub(super) use loads::{mass_place, place};
 pub(super) use members::{members, point};
 
 use crate::{
@@ -26,6 +27,7 @@ use crate::{
 /// What looks like a mistake in a resolved scene.
 pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<Finding> {
     let units = blocks::mistakes(assembly).into_iter().chain(joints::mistakes(scene, assembly));
+    let units = units.chain(site::mistakes(scene));
     let units = units.map(|text| Finding::new(FindingCode::Units, text));
     units
         .chain(

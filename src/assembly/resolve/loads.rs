@@ -8,7 +8,7 @@ use super::{Names, check};
 use crate::{
     assembly::{AppliedForce, Assembly, Wrench, plausible},
     error::{InputError, JsonPath},
-    scene::{At, Load, Scene},
+    scene::{At, Load, PushingMass, Scene},
 };
 use nalgebra::Vector3;
 
@@ -40,8 +40,13 @@ pub(super) fn resolve(
         ("live", &scene.loads.live, &mut live, &mut live_forces),
     ] {
         for (i, load) in loads.iter().enumerate() {
-            forces.extend(add(load, assembly, names, sum, &path.key(key).index(i))?);
+            let path = path.key(key).index(i);
+            massless(load, key == "live", assembly, &path)?;
+            forces.extend(add(load, assembly, names, sum, &path)?);
         }
+    }
+    for (i, mass) in scene.loads.masses.iter().enumerate() {
+        pushing(mass, assembly, names, &path.key("masses").index(i))?;
     }
     let finite = |w: &Wrench| w.force.iter().chain(&w.moment).all(|x| x.is_finite());
     if let Some(i) = (0..dead.len()).find(|&i| !finite(&dead[i]) || !finite(&live[i])) {
@@ -52,6 +57,49 @@ pub(super) fn resolve(
         .hint("forces are in N, lengths in m, masses in kg"));
     }
     Ok(Resolved { dead, live, dead_forces, live_forces })
+}
+
+/// Refuses `massless` where it says nothing: an earthquake pushes no other loads anyway.
+fn massless(
+    load: &Load,
+    live: bool,
+    assembly: &Assembly,
+    path: &JsonPath,
+) -> Result<(), InputError> {
+    let down = assembly.gravity.normalize();
+    let pulls = [load.force, load.acceleration, load.weight]
+        .into_iter()
+        .flatten()
+        .any(|v| Vector3::from(v).dot(&down) > 0.0);
+    if load.massless && (live || !pulls) {
+        let what = if live { "a live load" } else { "a load that does not pull down" };
+        return Err(InputError::at(
+            path.key("massless"),
+            format!("{what} is taken for no weight anyway"),
+        )
+        .hint("remove \"massless\""));
+    }
+    Ok(())
+}
+
+/// Checks a mass that is pushed without resting.
+fn pushing(
+    mass: &PushingMass,
+    assembly: &Assembly,
+    names: &Names,
+    path: &JsonPath,
+) -> Result<(), InputError> {
+    let i = names.find(&mass.block, &path.key("block"))?;
+    if assembly.blocks[i].support {
+        return Err(InputError::at(
+            path.key("block"),
+            format!("{:?} is a support: a mass pushed against it changes nothing", mass.block),
+        )
+        .hint("remove the mass"));
+    }
+    check::vector(mass.at, &path.key("at"))?;
+    check::positive(mass.mass, &path.key("mass"), "kg")?;
+    plausible::mass_place(mass, &assembly.blocks[i], assembly, path)
 }
 
 /// Adds one load to `sum`; returns its force where that acts off the centre of mass.

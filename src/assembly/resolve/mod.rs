@@ -13,6 +13,7 @@ mod loads;
 mod members;
 mod prism;
 mod shape;
+mod site;
 
 #[cfg(test)]
 mod tests;
@@ -42,6 +43,7 @@ pub fn resolve_until(scene: &Scene, is_over: &dyn Fn() -> bool) -> Result<Assemb
     let root = JsonPath::root();
     gravity(scene, &root.key("gravity"))?;
     check::contact(&scene.contact, &root.key("contact"))?;
+    site::resolve(scene.site.as_ref(), &root.key("site"))?;
     let (list, findings) = blocks::resolve(scene, is_over)?;
     resolve_with(scene, Blocks { list, findings })
 }
@@ -70,6 +72,7 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     let root = JsonPath::root();
     let gravity = gravity(scene, &root.key("gravity"))?;
     check::contact(&scene.contact, &root.key("contact"))?;
+    site::resolve(scene.site.as_ref(), &root.key("site"))?;
 
     let Blocks { list: blocks, findings } = blocks;
     let names = Names::new(&blocks)?;

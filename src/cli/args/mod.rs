@@ -2,6 +2,7 @@
 
 mod files;
 mod ground;
+mod kinematic;
 mod parse;
 mod path;
 mod pictures;
@@ -12,6 +13,7 @@ mod sweep;
 
 pub use files::{Check, Completions, FileFormat, Generate, Import, Man, Schema};
 pub use ground::{Ground, Rocking};
+pub use kinematic::Kinematic;
 pub use path::{Curve, Push, Settle};
 pub use pictures::{Pictures, Tables};
 pub use repose::{Asked, Repose};
@@ -137,6 +139,16 @@ pub enum Verb {
     /// value. Joints that slide are said and not followed. Exit code 0 if the load factor vanishes
     /// on the way, 1 if it falls before, 3 if that stays open.
     Push(Push),
+    /// Under an earthquake: at what acceleration does it start to move, and what then?
+    ///
+    /// All weights push towards a direction: α0 is the share of them at which the worst mechanism starts,
+    /// proved on both sides, and with the mass that takes part it gives the acceleration a0 of the
+    /// kinematic analysis of NTC 2018 (Circolare 7/2019, C8.7.1.2.1). The motion is followed with finite
+    /// rotations, every point of the capacity curve with a proof, down to where it vanishes; the limit
+    /// states SLV and SLC lie at 0.4 and 0.6 of that. With a "site" in the scene, both are held
+    /// against its spectra. Exit code 0 if α0 is found, 1 if it is below --require, the scene does not
+    /// stand by itself or the site demands more, 3 if that stays open.
+    Kinematic(Kinematic),
     /// What happens in time, and does the verdict say the same?
     ///
     /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any

@@ -132,6 +132,10 @@ pub fn positive(text: &str) -> Result<f64, String> {
     finite(text).ok().filter(|v| *v > 0.0).ok_or_else(|| "not a number > 0".into())
 }
 
+pub fn at_least_one(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|v| *v >= 1.0).ok_or_else(|| "not a number >= 1".into())
+}
+
 pub fn not_negative(text: &str) -> Result<f64, String> {
     finite(text).ok().filter(|v| *v >= 0.0).ok_or_else(|| "not a number >= 0".into())
 }

@@ -14,7 +14,8 @@ use super::{
         rolling::Rolling,
         units::Units,
     },
-    Loads, ONSET, PATIENCE, REPORT, Stage, State, members, smooth, strengths,
+    Loads, ONSET, PATIENCE, Pulls, REPORT, Springs, Stage, State, smooth, strengths,
+    unknown_members,
 };
 use crate::{
     error::{Finding, InputError, JsonPath},
@@ -107,7 +108,7 @@ pub fn shake(
 ) -> Result<Shaken, InputError> {
     let Model { assembly, interfaces, .. } = model;
     let refuse = |text: String| InputError::at(JsonPath::root(), text);
-    if let Some(finding) = members(interfaces) {
+    if let Some(finding) = unknown_members(interfaces) {
         return Err(refuse(finding.text));
     }
     if motion.jumps.iter().any(|j| j.when == When::FirstLanding) {
@@ -120,7 +121,7 @@ pub fn shake(
     let bodies = bodies(model, &units, SKIN)?;
     let frictions = Frictions::new(model, &units);
     let scene =
-        Stage { assembly, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
+        Stage { model, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
     let mut shaken = scene.shake(motion, axes, watch)?;
     shaken.findings.extend(strengths(interfaces));
     Ok(shaken)
@@ -143,17 +144,20 @@ impl Stage<'_> {
             InputError::at(JsonPath::root(), text).hint("give the block a simpler shape")
         })?;
         let (mut rolling, mut couples) = (Rolling::default(), BTreeMap::new());
+        let mut springs = Springs::new(&self.model.interfaces, self.bodies, &self.units, dt);
         let before = (BEFORE / dt).ceil() as usize;
         for k in 1..=before {
             let time = k as f64 * dt;
-            self.load(&mut world, smooth(time / ONSET), true, &couples);
+            let part = smooth(time / ONSET);
+            let pulls = springs.pulls(&world, self.bodies, part);
+            self.load(&mut world, part, true, &couples, &pulls);
             world.step();
             if self.frictions.resist_rolling() {
                 couples = rolling.torques(self.bodies, self.frictions, &world, dt);
             }
         }
         let start: Vec<_> = (0..self.bodies.len()).map(|i| world.pose(i)).collect();
-        let down = self.assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
+        let down = self.model.assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
         let horizon = match self.settings.seconds {
             Some(s) => s / unit,
             None => motion.end() / unit + self.horizon(),
@@ -167,7 +171,7 @@ impl Stage<'_> {
             })
             .collect();
         let mut state = State {
-            farthest: (self.assembly.free().next().unwrap_or(0), 0.0),
+            farthest: (self.model.assembly.free().next().unwrap_or(0), 0.0),
             now: 0.0,
             energy: 0.0,
             fallen: false,
@@ -181,7 +185,8 @@ impl Stage<'_> {
             let (from, to) = (steps as f64 * dt, (steps + 1) as f64 * dt);
             let velocity = motion.velocity(from * unit, to * unit);
             let mean = (0..3).map(|k| axes[k] * velocity[k]).sum::<Vector3<f64>>() / (dt * unit);
-            self.load_shaken(&mut world, &mean, &couples);
+            let pulls = springs.pulls(&world, self.bodies, 1.0);
+            self.load_shaken(&mut world, &mean, &couples, &pulls);
             world.step();
             steps += 1;
             if self.frictions.resist_rolling() {
@@ -192,7 +197,7 @@ impl Stage<'_> {
             }
             self.look(&world, &mut state);
             let time = to * unit;
-            for i in self.assembly.free() {
+            for i in self.model.assembly.free() {
                 let (center, turn) = world.pose(i);
                 let way = center - start[i].0;
                 let block = &mut blocks[i];
@@ -265,18 +270,24 @@ impl Stage<'_> {
         world: &mut World,
         ground: &Vector3<f64>,
         couples: &BTreeMap<usize, Vector3<f64>>,
+        pulls: &Pulls,
     ) {
         let mut moments: BTreeMap<usize, Vector3<f64>> = BTreeMap::new();
         for &(block, force, arm) in &self.loads.turning {
             let turned = world.pose(block).1 * arm;
             *moments.entry(block).or_default() += (turned - arm).cross(&force);
         }
-        for i in self.assembly.free() {
+        for i in self.model.assembly.free() {
             let crate::assembly::Wrench { force, moment } = self.loads.total[i];
             let moment = moment + moments.get(&i).copied().unwrap_or_default();
             let couple = couples.get(&i).copied().unwrap_or_default();
-            let force = force - ground * self.assembly.blocks[i].mass;
-            world.load(i, force / self.units.force(), moment / self.units.moment() + couple);
+            let force = force - ground * self.model.assembly.blocks[i].mass;
+            let (pull, torque) = pulls.get(&i).copied().unwrap_or_default();
+            world.load(
+                i,
+                force / self.units.force() + pull,
+                moment / self.units.moment() + couple + torque,
+            );
         }
     }
 }

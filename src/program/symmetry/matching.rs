@@ -1,5 +1,6 @@
-//! Where an isometry takes blocks and contact points: itself, or nothing.
+//! Where an isometry takes blocks, contact points and members: itself, or nothing.
 
+use super::members;
 use crate::{
     assembly::{Block, Wrench},
     interface::{Interface, Model},
@@ -19,6 +20,8 @@ pub struct Images {
     /// Image of each contact point: interface, point, and whether the image of block `b` is block
     /// `a` there.
     points: Vec<(usize, usize, bool)>,
+    /// Image of each member; those that can take no force are their own.
+    pub members: Vec<usize>,
 }
 
 impl Images {
@@ -88,7 +91,8 @@ impl<'a> Matcher<'a> {
             let found = candidates.iter().find_map(|&f| self.face(face, ends, f, turn));
             points.extend(found?);
         }
-        Some(Images { blocks, first, points })
+        let members = members::images(self.model, &blocks, |x| self.moved(x, turn), turn)?;
+        Some(Images { blocks, first, points, members })
     }
 
     fn moved(&self, x: &Vector3<f64>, turn: &Matrix3<f64>) -> Vector3<f64> {

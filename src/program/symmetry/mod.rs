@@ -8,7 +8,9 @@
 //! and that of a symmetric program is symmetric. So one block stands for all its images, and
 //! likewise one contact point: its forces are the variables, what its images do to a block is the
 //! image of what it does to theirs. A block that is its own image balances by itself in the
-//! directions that the symmetry excludes; those rows are left out.
+//! directions that the symmetry excludes; those rows are left out. A member that acts by one amount
+//! stands for its images likewise; where members have a direction of their own to choose (dowels,
+//! fingers), no symmetry is looked for.
 //!
 //! *Multipliers.* With `m` images of a block, the multiplier of its rows in the reduced program is
 //! `m` times the rate of each of them; powers and norms summed over all blocks are then those of
@@ -19,9 +21,10 @@
 
 mod find;
 mod matching;
+mod members;
 mod orbits;
 
-pub use orbits::{BlockOrbit, Orbits, Part};
+pub use orbits::{BlockOrbit, MemberOrbit, Orbits, Part};
 
 use super::{Bearing, Plane};
 use crate::{assembly::Wrench, interface::Model};
@@ -35,5 +38,5 @@ pub(super) fn part(
 ) -> Option<Part> {
     let assembly = &model.assembly;
     let symmetry = find::find(model, loads, plane)?;
-    Part::new(&symmetry, assembly.free(), bearings, plane)
+    Part::new(&symmetry, assembly.free(), bearings, model.interfaces.members.len(), plane)
 }

@@ -1,4 +1,4 @@
-//! One block for all its images, one contact point for all its images.
+//! One block for all its images, one contact point and one member for all its images.
 
 use super::find::Symmetry;
 use crate::{
@@ -29,7 +29,12 @@ pub struct Part {
     pub blocks: HashMap<usize, BlockOrbit>,
     /// The bearings that are kept, their columns numbered anew.
     pub bearings: Vec<Bearing>,
+    /// Per member its images, itself among them, each once; empty where another stands for it.
+    pub members: Vec<MemberOrbit>,
 }
+
+/// The members that one stands for.
+pub type MemberOrbit = Vec<usize>;
 
 /// The symmetries of a scene, and the block that stands for each of its blocks.
 #[derive(Clone, Debug)]
@@ -43,12 +48,13 @@ pub struct Orbits {
 }
 
 impl Part {
-    /// The reduction of the free blocks and bearings of a scene; `None` where a bearing has no
-    /// image among the bearings.
+    /// The reduction of the free blocks, bearings and members of a scene; `None` where a bearing has
+    /// no image among the bearings.
     pub fn new(
         symmetry: &Symmetry,
         free: impl Iterator<Item = usize>,
         bearings: &[Bearing],
+        members: usize,
         plane: Option<Plane>,
     ) -> Option<Self> {
         let mut orbits = Orbits {
@@ -92,7 +98,15 @@ impl Part {
             list.push(Bearing { column, orbit: Some(orbit), ..bearing.clone() });
             column += bearing.basis.len();
         }
-        Some(Self { orbits, blocks, bearings: list })
+        let mut stood_for = vec![false; members];
+        let members = (0..members)
+            .map(|m| {
+                let mut all = symmetry.orbit(m, |images, m| images.members[m]);
+                all.retain(|&image| !std::mem::replace(&mut stood_for[image], true));
+                all
+            })
+            .collect();
+        Some(Self { orbits, blocks, bearings: list, members })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Answers that were found and proved, as the files that are saved of them.
 
 mod critical;
+mod kinematic;
 mod packing;
 mod path;
 #[cfg(feature = "dynamics")]
@@ -100,6 +101,7 @@ impl ResultFile {
             Answered::Critical(c) => Self::critical(scene, model, c),
             Answered::Thrust(t) => Self::thrust(scene, model, t),
             Answered::Path(p) => Self::path(scene, model, p),
+            Answered::Kinematic(k) => return Self::kinematic(scene, model, k),
             #[cfg(feature = "dynamics")]
             Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
             Answered::Repose(_) => return None,

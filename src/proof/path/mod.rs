@@ -2,7 +2,7 @@
 
 mod verify;
 
-pub(super) use verify::verify;
+pub(super) use verify::{curve, verify};
 
 use super::result::Certificate;
 use crate::{interface::Model, path::Carried, path::saved::SavedPose};

@@ -23,7 +23,22 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     let (Some(said), Some(path)) = (file.answer.path(), &file.path) else {
         return all.part("answer", failure("the answer is not one to its question"));
     };
-    let drive = match drive(model, path, file.question) {
+    curve(all, said, path, model, file.question);
+    let mut f = Findings::default();
+    require(&mut f, file.certificate.claim.is_none(), "nothing else is claimed");
+    all.part("answer", f);
+    all.claimed = said.value.is_some();
+}
+
+/// Adds the parts of a curve: its points, and what is said of them.
+pub fn curve(
+    all: &mut Verification,
+    said: &PathAnswer,
+    path: &PathResult,
+    model: &Model,
+    question: QuestionKind,
+) {
+    let drive = match drive(model, path, question) {
         Ok(drive) => drive,
         Err(text) => return all.part("answer", failure(text)),
     };
@@ -40,7 +55,6 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
     let mut f = Findings::default();
     let ordered = path.points.windows(2).all(|w| w[0].value <= w[1].value);
     require(&mut f, ordered, "the points are in order");
-    require(&mut f, file.certificate.claim.is_none(), "nothing else is claimed");
     require(
         &mut f,
         says(said, path, &drive, check::natural_factor(&model.assembly)),
@@ -56,8 +70,7 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
         );
     }
     f.holds.push("that the poses are on the way is computed, not proved: what is proved is what each point says of the scene there".into());
-    all.claimed = said.value.is_some();
-    all.part("answer", f);
+    all.part("curve", f);
 }
 
 fn drive(model: &Model, path: &PathResult, question: QuestionKind) -> Result<Drive, String> {
@@ -76,7 +89,10 @@ fn drive(model: &Model, path: &PathResult, question: QuestionKind) -> Result<Dri
             });
             Ok(Drive::Settle(Moves(moves.collect::<Result<_, String>>()?)))
         }
-        (DrivenBy::Control { block, point, toward }, QuestionKind::Push) => Ok(Drive::Push {
+        (
+            DrivenBy::Control { block, point, toward },
+            QuestionKind::Push | QuestionKind::Kinematic,
+        ) => Ok(Drive::Push {
             block: find(block, false)?,
             point: (*point).into(),
             toward: Vector3::from(*toward).normalize(),

@@ -22,7 +22,7 @@ use crate::{
 };
 
 /// The model at a load factor or tilt, as joints with strengths are there.
-pub(super) type At<'a> = &'a dyn Fn(f64) -> Result<Model, InputError>;
+pub(in crate::proof) type At<'a> = &'a dyn Fn(f64) -> Result<Model, InputError>;
 
 /// Of what stands: the loads produce such forces by themselves, or that was not asked, which is
 /// said.
@@ -43,7 +43,7 @@ pub(super) fn stands(f: &mut Findings, model: &Model, law: Option<Law>) {
 
 /// A load factor with dry friction: its evidence where it claims something, and what its states do;
 /// `bound` is the associative answer.
-pub(super) fn dry_friction(
+pub(in crate::proof) fn dry_friction(
     at: At,
     bound: (&Answer, &Certificate),
     dry: &DryResult,

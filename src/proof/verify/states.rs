@@ -12,7 +12,8 @@ use crate::{
 
 #[cfg(feature = "solve")]
 use crate::analysis::{
-    AssessOptions, Control, LimitOptions, Question, TiltOptions, closing, coulomb, critical::probe,
+    AssessOptions, Control, KinematicOptions, LimitOptions, Question, TiltOptions, closing,
+    coulomb, critical::probe,
 };
 
 /// What the scene does under its dead load with dry friction.
@@ -54,6 +55,9 @@ pub fn closed(
         QuestionKind::Assess => Question::Assess(AssessOptions { law }),
         QuestionKind::Limit => Question::Limit(LimitOptions::default()),
         QuestionKind::Tilt => Question::Tilt(TiltOptions { toward, ..TiltOptions::default() }),
+        QuestionKind::Kinematic => {
+            Question::Kinematic(KinematicOptions { toward, ..KinematicOptions::default() })
+        }
         _ => return Some(None),
     };
     Some(closing::again(&question, scene, model, &Control::default()))

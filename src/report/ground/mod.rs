@@ -33,6 +33,8 @@ pub struct Shaking {
     pub scale: f64,
     /// The motion, multiplied.
     pub motion: Motion,
+    /// The motion as it was given.
+    pub given: Motion,
 }
 
 impl Shaking {

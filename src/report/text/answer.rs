@@ -112,6 +112,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         QuestionKind::Critical => super::critical::title(file),
         QuestionKind::Thrust => super::thrust::title(file),
         QuestionKind::Settle | QuestionKind::Push => super::path::title(file),
+        QuestionKind::Kinematic => super::kinematic::title(file),
     };
     let (text, role) = match without_live_load(file) {
         Some(words) => (format!("{text}; {words}"), Role::Bad),
@@ -135,11 +136,13 @@ fn without_live_load(file: &ResultFile) -> Option<String> {
     let place = match file.question {
         QuestionKind::Limit => "without its live load",
         QuestionKind::Tilt => "when level",
+        QuestionKind::Kinematic => "without an earthquake",
         _ => return None,
     };
     let says_so = matches!(dry_of(file), Dry::Never) || status(&file.answer) == Outcome::Impossible;
     let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);
-    if negative && file.question == QuestionKind::Limit && !says_so {
+    let said_elsewhere = file.question == QuestionKind::Tilt;
+    if negative && !said_elsewhere && !says_so {
         return Some(format!("{place} it falls"));
     }
     match file.answer.verdict().filter(|_| !says_so)? {
@@ -212,6 +215,11 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         QuestionKind::Critical => return super::critical::why(page, file),
         QuestionKind::Thrust => return super::thrust::why(page, file),
         QuestionKind::Settle | QuestionKind::Push => return super::path::why(page, file),
+        QuestionKind::Kinematic => {
+            super::kinematic::why(page, file);
+            dry(page, file);
+            return dead_load(page, file);
+        }
         QuestionKind::Limit | QuestionKind::Tilt => {}
     }
     let tilt = file.question == QuestionKind::Tilt;
@@ -331,7 +339,7 @@ fn dry(page: &mut Page, file: &ResultFile) {
         if file.question == QuestionKind::Tilt {
             format!("{:.4}°", v.atan().to_degrees())
         } else {
-            format!("λ = {v:.5}")
+            format!("{} = {v:.5}", if file.question == QuestionKind::Kinematic { "α" } else { "λ" })
         }
     };
     let text = match (dry.found, dry.value) {
@@ -415,8 +423,11 @@ fn dry_value(file: &ResultFile) -> Option<f64> {
 }
 
 fn dead_load(page: &mut Page, file: &ResultFile) {
-    let place =
-        if file.question == QuestionKind::Tilt { "When level" } else { "Without its live load" };
+    let place = match file.question {
+        QuestionKind::Tilt => "When level",
+        QuestionKind::Kinematic => "Without an earthquake",
+        _ => "Without its live load",
+    };
     let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);
     let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict()) {
         Some(Verdict::Stable) => format!("{place} it stands."),
@@ -434,6 +445,9 @@ fn dead_load(page: &mut Page, file: &ResultFile) {
 
 /// Every direction of a tilt.
 pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOptions) {
+    if file.question != QuestionKind::Tilt {
+        return;
+    }
     // Eight directions are what is asked for by default: they are shown in full.
     let options = TextOptions { verbose: options.verbose || file.directions.len() <= 8, ..options };
     let width = file

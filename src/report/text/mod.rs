@@ -4,6 +4,7 @@ mod answer;
 mod check;
 mod critical;
 mod heaps;
+mod kinematic;
 mod mechanism;
 mod packing;
 mod page;
@@ -70,6 +71,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     critical::rows(&mut page, file, options);
     thrust::rows(&mut page, file, options);
     path::rows(&mut page, file, options);
+    kinematic::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
@@ -182,6 +184,7 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         QuestionKind::Simulate => "simulate",
         QuestionKind::Settle => "settle",
         QuestionKind::Push => "push",
+        QuestionKind::Kinematic => "kinematic",
     };
     let again = if asked.options.is_empty() {
         format!("voussoir {verb} {scene}")

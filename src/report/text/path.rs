@@ -185,7 +185,7 @@ fn line(path: &PathResult, p: &PathPoint) -> String {
     }
 }
 
-fn event(path: &PathResult, e: &PathEvent) -> String {
+pub(super) fn event(path: &PathResult, e: &PathEvent) -> String {
     let names = |list: &[[String; 2]]| -> String {
         list.iter().map(|[a, b]| format!("{a} | {b}")).collect::<Vec<_>>().join(", ")
     };

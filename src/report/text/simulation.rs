@@ -40,7 +40,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         (_, Some(Fate::Falls)) => ("falls".into(), Role::Bad),
         (_, Some(Fate::Stands)) => ("stands".into(), Role::Good),
         (Some(s), _) if not_run(s).is_some() => {
-            ("undecided: not simulated, for it has members".into(), Role::Unsure)
+            ("undecided: not simulated, for it has dowels or grips".into(), Role::Unsure)
         }
         _ => ("undecided".into(), Role::Unsure),
     }

@@ -10,13 +10,13 @@
 // An allocator is unsafe by its trait, and the system's is asked directly where none is left.
 #![allow(unsafe_code)]
 
-use super::exit::Exit;
 use std::{
     alloc::{GlobalAlloc, Layout, System},
     fmt::Write as _,
     io::Write,
     sync::atomic::{AtomicBool, AtomicUsize, Ordering},
 };
+use voussoir::command::{Exit, Memory};
 
 /// What the program itself, its stacks and the gaps between allocations take at most, bytes.
 const OWN: usize = 24 << 20;
@@ -34,15 +34,18 @@ static FAILED: AtomicBool = AtomicBool::new(false);
 /// The system's allocator, counted once there is a limit.
 pub struct Counted;
 
+/// What the command does with a limit, here.
+pub const LIMITS: Memory = Memory { limit, heed_group };
+
 /// Begins to count; called before anything large is there.
-pub fn limit(bytes: u64) -> anyhow::Result<()> {
+fn limit(bytes: u64) -> Result<(), String> {
     let most = usize::try_from(bytes).unwrap_or(usize::MAX).saturating_sub(OWN);
     if most < OWN {
-        anyhow::bail!(
+        return Err(format!(
             "--max-memory {}: the program itself takes up to {}",
             voussoir::limits::size(bytes),
             voussoir::limits::size(2 * OWN as u64)
-        );
+        ));
     }
     // Freed memory goes back to the system at once where pieces are large, so that what is counted
     // is what is taken.
@@ -61,7 +64,7 @@ pub fn limit(bytes: u64) -> anyhow::Result<()> {
 
 /// Begins to count where a control group sets a limit that is lower than the one given: beyond it
 /// the system kills without a word.
-pub fn heed_group(given: Option<u64>) {
+fn heed_group(given: Option<u64>) {
     let Some(left) = voussoir::limits::group().filter(|left| given.is_none_or(|g| *left < g))
     else {
         return;

@@ -1,0 +1,787 @@
+"""Answers as typed objects. Numbers are those of the command, to the last bit."""
+
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._scene import Scene
+
+if TYPE_CHECKING:
+    import pandas
+
+Array: TypeAlias = npt.NDArray[np.float64]
+
+
+class Verdict(str, Enum):
+    """Does it stand?"""
+
+    STABLE = "stable"
+    """Forces inside the friction cones balance every block, and the loads produce them."""
+    CONDITIONAL = "conditional"
+    """Such forces exist, but they need a pre-stress that nobody applied. Not safe."""
+    UNSTABLE = "unstable"
+    """It falls: proved by a mechanism."""
+    UNDECIDED = "undecided"
+    """Neither proof closes; see ``answer.doubt``."""
+
+    def __str__(self) -> str:
+        return self.value
+
+    def __bool__(self) -> bool:
+        """Whether it stands: true for ``stable`` alone."""
+        return self is Verdict.STABLE
+
+
+@dataclass(frozen=True)
+class Bracket:
+    """A number between two ends."""
+
+    lower: float
+    """The lower end; minus infinity where there is none."""
+    upper: float
+    """The upper end; infinity where there is none."""
+
+
+@dataclass(frozen=True)
+class Bound:
+    """A load factor for joints that open as they slide: never below the one with dry friction."""
+
+    status: str
+    """``found``, ``unbounded``, ``impossible``, ``undecided``."""
+    value: float | None
+    lower: float | None
+    upper: float | None
+
+    @classmethod
+    def _of(cls, data: dict[str, Any]) -> Bound:
+        return cls(data["status"], data.get("value"), data.get("lower"), data.get("upper"))
+
+
+@dataclass(frozen=True)
+class LoadFactor:
+    """A load factor, or a tilt: its tangent or its angle in degrees."""
+
+    status: str
+    """``found``, ``unbounded``, ``impossible``, ``not_at_rest``, ``undecided``."""
+    law: str
+    """The law of sliding that ``value`` holds for: ``coulomb`` is dry friction."""
+    value: float | None
+    """The one to use; ``None`` where none was found."""
+    lower: float | None
+    """Lower end of its bracket."""
+    upper: float | None
+    """Upper end of its bracket."""
+    found: str | None
+    """How the value with dry friction was found."""
+    associative: Bound
+    """The bound."""
+
+    @classmethod
+    def _of(cls, data: dict[str, Any]) -> LoadFactor:
+        return cls(
+            data["status"],
+            data["law"],
+            data.get("value"),
+            data.get("lower"),
+            data.get("upper"),
+            data.get("found"),
+            Bound._of(data["associative"]),
+        )
+
+    def __float__(self) -> float:
+        """The value; infinite where there is no limit, not a number where there is none."""
+        if self.value is not None:
+            return self.value
+        return float("inf") if self.status == "unbounded" else float("nan")
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something to be known although the work went on."""
+
+    code: str
+    """What kind of thing it is: ``units``, ``overlap``, ``near_miss``, …"""
+    text: str
+    """One sentence with its numbers."""
+    is_implausible: bool
+    """Whether another scene is likely meant."""
+    is_mistake: bool
+    """Whether it is likely a mistake in the scene."""
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Why an answer is undecided."""
+
+    cause: str
+    evidence: str
+    next: str
+    """The one thing to do."""
+
+
+@dataclass(frozen=True)
+class JointMotion:
+    """A joint of a mechanism."""
+
+    between: tuple[str, str]
+    motion: str
+    """``hinge``, ``slide``, ``hinge_and_slide``, ``part``, ``crush``."""
+    at: tuple[float, float, float]
+    """Where, m."""
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """How it fails, in words; ``Rates`` has it in numbers."""
+
+    moving: list[str]
+    """Moving blocks, the fastest first."""
+    joints: list[JointMotion]
+    members: list[dict[str, Any]]
+    """Members that yield, go slack or slide."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rates:
+    """The motion of a mechanism (any common scale); blocks at rest are left out."""
+
+    blocks: list[str]
+    """Ids, n of them."""
+    velocity: Array
+    """Of the centres of mass, shape (n, 3)."""
+    spin: Array
+    """Shape (n, 3)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Forces:
+    """The forces of a certificate. They act on the second block of each joint."""
+
+    between: list[tuple[str, str]]
+    """The two blocks of each joint, m of them."""
+    offsets: npt.NDArray[np.int64]
+    """Joint ``k`` has the points ``offsets[k]`` to ``offsets[k + 1]``; shape (m + 1,)."""
+    points: Array
+    """Contact points, m; shape (n, 3)."""
+    forces: Array
+    """Force at each point, N; shape (n, 3)."""
+    couples: Array
+    """Couple at each point, N·m; shape (n, 3), or (0, 3) where there are none."""
+
+    def __len__(self) -> int:
+        return len(self.between)
+
+    def __iter__(self) -> Iterator[tuple[tuple[str, str], Array, Array]]:
+        """Joint by joint: its blocks, its points, its forces (views, not copies)."""
+        for k, pair in enumerate(self.between):
+            own = slice(int(self.offsets[k]), int(self.offsets[k + 1]))
+            yield pair, self.points[own], self.forces[own]
+
+    def resultants(self) -> Array:
+        """The sum of the forces of each joint, N; shape (m, 3)."""
+        sums = np.concatenate([np.zeros((1, 3)), np.cumsum(self.forces, axis=0)])
+        total: Array = sums[self.offsets[1:]] - sums[self.offsets[:-1]]
+        return total
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """One row a contact point: ``a``, ``b``, ``joint``, ``x``, ``y``, ``z`` (m), ``fx``, ``fy``,
+        ``fz`` (N)."""
+        import pandas
+
+        joint = np.repeat(np.arange(len(self)), np.diff(self.offsets))
+        ids = np.asarray(self.between, dtype=object).reshape(-1, 2)[joint]
+        frame = {"a": ids[:, 0], "b": ids[:, 1], "joint": joint}
+        for k, axis in enumerate("xyz"):
+            frame[axis] = self.points[:, k]
+        for k, axis in enumerate("xyz"):
+            frame[f"f{axis}"] = self.forces[:, k]
+        return pandas.DataFrame(frame)
+
+
+@dataclass(frozen=True, eq=False)
+class Certificate:
+    """The evidence for an answer, checked on the scene by nothing that found it."""
+
+    claim: dict[str, Any] | None
+    """What is claimed; ``None`` where it is undecided."""
+    verified: list[str]
+    """What the check found, in words and numbers."""
+    forces: Forces
+    """The static side."""
+    rates: Rates
+    """The kinematic side."""
+
+    @property
+    def claims(self) -> str | None:
+        """What is claimed, in a word: ``stable``, ``load_factor``, …"""
+        return next(iter(self.claim), None) if isinstance(self.claim, dict) else self.claim
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """The blocks of a scene as it was resolved, n of them."""
+
+    ids: list[str]
+    supports: npt.NDArray[np.bool_]
+    """Whether each is held in place; shape (n,)."""
+    mass: Array
+    """kg; shape (n,)."""
+    centroid: Array
+    """Centres of mass, m; shape (n, 3)."""
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What the check of a saved answer found, from its scene alone."""
+
+    proved: bool
+    """Whether it claims something and every part holds."""
+    refuted: bool
+    """Whether any part fails."""
+    proof: Any
+    """How exactly: ``"exact"``, or ``{"to_rounding": number}``; ``None`` where nothing is proved."""
+    parts: list[dict[str, Any]]
+    """``title``, ``fails``, ``holds`` of every part."""
+    text: str
+    """All of it, in words."""
+
+    def __bool__(self) -> bool:
+        return self.proved
+
+    def __str__(self) -> str:
+        return self.text
+
+
+class Answer:
+    """What every answer has. ``str(answer)`` is what the command prints."""
+
+    question: ClassVar[str] = ""
+
+    def __init__(self, core: _core.Answer) -> None:
+        self._core = core
+
+    # ------------------------------------------------------------------- words
+
+    @cached_property
+    def _answer(self) -> dict[str, Any]:
+        answer: dict[str, Any] = self._core.part("answer")
+        return answer
+
+    @property
+    def title(self) -> str:
+        """The first line of the answer."""
+        return self._core.text(brief=True).strip()
+
+    def text(self, *, verbose: bool = False) -> str:
+        """The answer in words, as the command prints it."""
+        return self._core.text(verbose=verbose)
+
+    def __str__(self) -> str:
+        return self._core.text()
+
+    def __repr__(self) -> str:
+        return f"<voussoir.{type(self).__name__} {self.title}>"
+
+    # ----------------------------------------------------------------- numbers
+
+    @property
+    def verdict(self) -> Verdict | None:
+        """Does it stand? Of a load factor or a tilt: without the live load, where that was asked."""
+        word = self._answer.get("verdict")
+        return None if word is None else Verdict(word)
+
+    @property
+    def proof(self) -> Any:
+        """``"exact"``, or ``{"to_rounding": number}`` with the number that the proof rests on;
+        ``None`` where nothing is proved."""
+        return self._answer.get("proof")
+
+    @property
+    def warnings(self) -> list[Finding]:
+        """What is to be known about the scene and its answer."""
+        return [Finding(*each) for each in self._core.warnings()]
+
+    @property
+    def doubt(self) -> Doubt | None:
+        """Why it is undecided, where it is."""
+        doubt = self._core.part("doubt")
+        return None if doubt is None else Doubt(doubt["cause"], doubt["evidence"], doubt["next"])
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was asked about."""
+        return Scene._of(self._core.scene())
+
+    @cached_property
+    def blocks(self) -> Blocks:
+        """The blocks as they were resolved."""
+        ids, supports, mass, centroid = self._core.blocks()
+        return Blocks(ids, np.asarray(supports, dtype=np.bool_), mass, centroid)
+
+    def _certificate(self, which: str) -> Certificate | None:
+        told = self._core.claim(which)
+        forces, rates = self._core.forces(which), self._core.rates(which)
+        if told is None or forces is None or rates is None:
+            return None
+        return Certificate(told[0], told[1], Forces(*forces), Rates(*rates))
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """The evidence for the verdict, or for the bound on a load factor."""
+        certificate = self._certificate("answer")
+        assert certificate is not None
+        return certificate
+
+    @property
+    def forces(self) -> Array:
+        """The forces of the certificate at all contact points, N; shape (points, 3). They act on the
+        second block of their joint; joint ``k`` has the rows ``offsets[k]`` to ``offsets[k + 1]``."""
+        return self.certificate.forces.forces
+
+    @property
+    def points(self) -> Array:
+        """Where the forces act, m; shape (points, 3)."""
+        return self.certificate.forces.points
+
+    @property
+    def offsets(self) -> npt.NDArray[np.int64]:
+        """Where the points of each joint begin; shape (joints + 1,)."""
+        return self.certificate.forces.offsets
+
+    @property
+    def joints(self) -> list[tuple[str, str]]:
+        """The two blocks of each joint."""
+        return self.certificate.forces.between
+
+    @cached_property
+    def axes(self) -> Array:
+        """The axes of each joint, shape (joints, 3, 3): rows ``t1``, ``t2`` and the normal ``n`` from
+        its first block into its second, right-handed. Components of forces are
+        ``forces @ axes[k].T``."""
+        axes: Array = self._core.frames()[0].reshape(-1, 3, 3)
+        return axes
+
+    @cached_property
+    def areas(self) -> Array:
+        """The area of each joint that touches, m²; shape (joints,)."""
+        return self._core.frames()[1]
+
+    @property
+    def mechanism(self) -> Mechanism | None:
+        """How it fails, where that is part of the answer."""
+        words = self._core.part("mechanism")
+        if words is None:
+            return None
+        joints = [
+            JointMotion(tuple(j["between"]), j["motion"], tuple(j["at"])) for j in words["joints"]
+        ]
+        return Mechanism(list(words["moving"]), joints, list(words.get("members", ())))
+
+    @property
+    def members(self) -> list[dict[str, Any]]:
+        """The forces in ties, struts and the like, of the forces that prove the answer."""
+        members: list[dict[str, Any]] = self._core.part("members")
+        return members
+
+    # ------------------------------------------------------------------- files
+
+    def to_dict(self) -> dict[str, Any]:
+        """The result file as plain values."""
+        import json
+
+        data: dict[str, Any] = json.loads(self.to_json())
+        return data
+
+    def to_json(self) -> str:
+        """The result file, as ``--json`` prints it."""
+        return self._core.json()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the result with its scene and its proof, for :func:`check` and ``voussoir check``."""
+        _write(path, self._core.json())
+
+    def report(self, path: str | os.PathLike[str] | None = None) -> str:
+        """The answer as a page for a browser (HTML, without any connection to a network), written to
+        a file as well where one is named."""
+        page = self._core.page()
+        if path is not None:
+            _write(path, page)
+        return page
+
+    def svg(self, view: str | None = None) -> str:
+        """A drawing: from ``front``, ``back``, ``left``, ``right``, ``top``, ``corner``, or from a
+        direction such as ``"1,-2,0.5"``."""
+        return self._core.svg(view)
+
+    def vtk(self, path: str | os.PathLike[str]) -> None:
+        """Write a file for ParaView (``.vtp``)."""
+        _write(path, self._core.vtp())
+
+    def table(self, which: str = "joints") -> str:
+        """A table with commas: ``joints``, ``blocks``, ``members``."""
+        return self._core.csv(which)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The forces of the certificate, one row a contact point."""
+        return self.certificate.forces.to_pandas()
+
+    def check(self, scene: Scene | None = None) -> Verification:
+        """Prove the answer from its scene, or from another."""
+        return _verification(self._core.verify(None if scene is None else scene._core))
+
+    def _repr_svg_(self) -> str:
+        return self._core.svg()
+
+    def _repr_html_(self) -> str:
+        """The page, in a frame that may run its own scripts and reach nothing else."""
+        page = html.escape(self._core.page(), quote=True)
+        return (
+            f'<iframe sandbox="allow-scripts" srcdoc="{page}" title="{html.escape(self.title)}" '
+            'style="width: 100%; height: 640px; border: 0"></iframe>'
+        )
+
+
+def _verification(told: tuple[dict[str, Any], str]) -> Verification:
+    data, text = told
+    return Verification(data["proved"], data["refuted"], data.get("proof"), data["parts"], text)
+
+
+def _write(path: str | os.PathLike[str], text: str) -> None:
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+class Assessment(Answer):
+    """Does it stand under its dead load?"""
+
+    question = "assess"
+
+    @property
+    def verdict(self) -> Verdict:
+        """Does it stand?"""
+        return Verdict(self._answer["verdict"])
+
+    @property
+    def unbalance(self) -> Bracket:
+        """The least unbalance, in multiples of gravity: 0 where admissible forces exist."""
+        return _bracket(self._answer["unbalance"])
+
+    @property
+    def law(self) -> str | None:
+        """It stands: for which law of sliding."""
+        return self._answer.get("law")
+
+    @property
+    def simulation(self) -> dict[str, Any] | None:
+        """What happened in time, where that was asked as well."""
+        seen: dict[str, Any] | None = self._core.part("simulation")
+        return seen
+
+
+def _bracket(data: dict[str, Any]) -> Bracket:
+    lower, upper = data.get("lower"), data.get("upper")
+    return Bracket(-np.inf if lower is None else lower, np.inf if upper is None else upper)
+
+
+class Limit(Answer):
+    """How large may the live load grow?"""
+
+    question = "limit"
+
+    @property
+    def load_factor(self) -> LoadFactor:
+        """The load factor on the live load."""
+        return LoadFactor._of(self._answer["load_factor"])
+
+    @cached_property
+    def dry(self) -> Certificate | None:
+        """The evidence for the value with dry friction, where it is another than the bound's."""
+        return self._certificate("dry")
+
+    @cached_property
+    def dead_load(self) -> Certificate | None:
+        """The evidence for the verdict without the live load."""
+        return self._certificate("dead_load")
+
+
+class Tilt(Answer):
+    """At what tilt of the ground does it fall? The least of all directions is the answer."""
+
+    question = "tilt"
+
+    @property
+    def tilt_deg(self) -> LoadFactor:
+        """The tilt in degrees."""
+        return LoadFactor._of(self._answer["tilt_deg"])
+
+    @property
+    def tan_tilt(self) -> LoadFactor:
+        """Its tangent: the load factor on the weight sideways."""
+        return LoadFactor._of(self._answer["tan_tilt"])
+
+    @property
+    def toward(self) -> tuple[float, float, float]:
+        """The direction of the least tilt."""
+        x, y, z = self._answer["toward"]
+        return (x, y, z)
+
+    @property
+    def directions(self) -> list[tuple[tuple[float, float, float], LoadFactor]]:
+        """Every direction asked for, with its tilt in degrees."""
+        listed = self._core.part("directions") or [self._answer]
+        return [(tuple(d["toward"]), LoadFactor._of(d["tilt_deg"])) for d in listed]
+
+
+@dataclass(frozen=True)
+class CriticalValue:
+    """A value at which the verdict flips, between the nearest proved ones."""
+
+    value: float | None
+    lower: float | None
+    upper: float | None
+    below: Verdict
+    above: Verdict
+
+
+class Critical(Answer):
+    """At what value of a number in the scene does the verdict flip?"""
+
+    question = "critical"
+
+    @property
+    def values(self) -> list[CriticalValue]:
+        """The flips, in order."""
+        return [
+            CriticalValue(
+                c.get("value"),
+                c.get("lower"),
+                c.get("upper"),
+                Verdict(c["below"]),
+                Verdict(c["above"]),
+            )
+            for c in self._answer["critical"]
+        ]
+
+    @property
+    def value(self) -> float | None:
+        """The first flip; ``None`` where there is none."""
+        return self.values[0].value if self.values else None
+
+    @property
+    def scan(self) -> list[dict[str, Any]]:
+        """Every value that was scanned, with its verdict."""
+        scan: list[dict[str, Any]] = self._core.part("critical")["scan"]
+        return scan
+
+
+class Thrust(Answer):
+    """How hard does it push a support, or what is the force in a member, at least and at most?"""
+
+    question = "thrust"
+
+    @property
+    def _thrust(self) -> dict[str, Any] | None:
+        return self._answer.get("thrust")
+
+    @property
+    def stands(self) -> bool:
+        """Whether there is a range at all; where not, ``verdict`` says why."""
+        return self._thrust is not None
+
+    @property
+    def least(self) -> Bound | None:
+        """The least thrust, N."""
+        return None if self._thrust is None else Bound._of(self._thrust["least"])
+
+    @property
+    def greatest(self) -> Bound | None:
+        """The greatest thrust, N."""
+        return None if self._thrust is None else Bound._of(self._thrust["greatest"])
+
+    @property
+    def support(self) -> str | None:
+        """The support that is pushed."""
+        return None if self._thrust is None else self._thrust.get("support")
+
+    @property
+    def geometric_factor(self) -> Any:
+        """The geometric safety factor, where it was asked and found."""
+        return None if self._thrust is None else self._thrust.get("geometric_factor")
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """The evidence for the least thrust; of a scene that does not stand, for its verdict."""
+        certificate = self._certificate("least") or self._certificate("answer")
+        assert certificate is not None
+        return certificate
+
+    @cached_property
+    def greatest_certificate(self) -> Certificate | None:
+        """The evidence for the greatest thrust."""
+        return self._certificate("greatest")
+
+
+class Path(Answer):
+    """A movement followed: of supports (``settle``), or of the structure under its live load
+    (``push``)."""
+
+    @property
+    def _path(self) -> dict[str, Any]:
+        path: dict[str, Any] = self._answer["path"]
+        return path
+
+    @property
+    def question(self) -> str:  # type: ignore[override]
+        """``settle`` or ``push``."""
+        return str(self._core.question())
+
+    @property
+    def status(self) -> str:
+        """``reached``, ``falls``, ``vanishes``, ``slides``, ``open``."""
+        return str(self._path["status"])
+
+    @property
+    def value(self) -> float | None:
+        """The last value of the parameter that is proved: a share of the movement, or a way in m."""
+        return self._path.get("value")
+
+    @property
+    def falls_at(self) -> float | None:
+        """The value at which it is proved to fall."""
+        return self._path.get("falls_at")
+
+    @property
+    def least_reaction(self) -> dict[str, float] | None:
+        """What the supports are pushed with as they begin to move."""
+        return self._path.get("least_reaction")
+
+    @property
+    def why(self) -> str | None:
+        """Why it was not followed any further."""
+        return self._path.get("why")
+
+    @cached_property
+    def _result(self) -> dict[str, Any]:
+        result: dict[str, Any] = self._core.part("path")
+        return result
+
+    @property
+    def events(self) -> list[dict[str, Any]]:
+        """What happened on the way: hinges that open and close, jumps, the fall."""
+        events: list[dict[str, Any]] = self._result["events"]
+        return events
+
+    @property
+    def parameter(self) -> Array:
+        """The parameter at every point of the curve; shape (n,)."""
+        return np.array([p["value"] for p in self._result["points"]], dtype=np.float64)
+
+    @property
+    def load_factor(self) -> Array:
+        """The load factor at every point of the curve (NaN for ``settle``); shape (n,)."""
+        points = self._result["points"]
+        return np.array([p.get("load_factor", np.nan) for p in points], dtype=np.float64)
+
+    def certificate_at(self, point: int) -> Certificate:
+        """The evidence for a point of the curve."""
+        certificate = self._certificate(f"path/{range(len(self._result['points']))[point]}")
+        assert certificate is not None
+        return certificate
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The curve, one row a point, as ``--csv`` writes it."""
+        import io
+
+        import pandas
+
+        return pandas.read_csv(io.StringIO(self._core.csv("path")))
+
+
+class Simulation(Answer):
+    """What happens in time? A second opinion, not a proof."""
+
+    question = "simulate"
+
+    @property
+    def fate(self) -> str:
+        """``stands``, ``falls``, ``undecided``: observed, not proved."""
+        return str(self._answer["fate"])
+
+    @cached_property
+    def simulation(self) -> dict[str, Any]:
+        """All of what was seen: ``collapse`` (s), ``runs``, ``agreement``, ``first_motion``, …"""
+        seen: dict[str, Any] = self._core.part("simulation")
+        return seen
+
+    @property
+    def collapse(self) -> float | None:
+        """When the first block had fallen, s."""
+        return self.simulation.get("collapse")
+
+    @cached_property
+    def film(self) -> tuple[Array, Array]:
+        """Times, s, shape (frames,), and poses, shape (frames, blocks, 7): centre of mass (m), then
+        the rotation from the start as a quaternion w, x, y, z."""
+        times, poses = self._core.film()
+        return times, poses.reshape(len(times), -1, 7)
+
+    @cached_property
+    def frames(self) -> tuple[Array, Array]:
+        """The same at the times of ``frames=``."""
+        seen = self.simulation.get("frames", [])
+        times = np.array([f["time"] for f in seen], dtype=np.float64)
+        poses = np.array([f["blocks"] for f in seen], dtype=np.float64)
+        return times, poses.reshape(len(times), -1, 7)
+
+
+class Packing(Answer):
+    """How steep may a packing of grains be?"""
+
+    question = "repose"
+
+    @cached_property
+    def packing(self) -> dict[str, Any]:
+        """The answer as ``--json`` prints it."""
+        packing: dict[str, Any] = self._core.part("packing")
+        return packing
+
+    @property
+    def angle(self) -> LoadFactor:
+        """The angle of maximum stability in the least direction, degrees."""
+        return LoadFactor._of(self._answer["tilt_deg"])
+
+    @property
+    def directions(self) -> list[dict[str, Any]]:
+        """Every direction asked for."""
+        directions: list[dict[str, Any]] = self.packing["directions"]
+        return directions
+
+
+_KINDS: dict[str, type[Answer]] = {
+    "assess": Assessment,
+    "limit": Limit,
+    "tilt": Tilt,
+    "critical": Critical,
+    "thrust": Thrust,
+    "settle": Path,
+    "push": Path,
+    "simulate": Simulation,
+}
+
+
+def of_core(core: _core.Answer) -> Answer:
+    """The typed object of an answer."""
+    return _KINDS[core.question()](core)

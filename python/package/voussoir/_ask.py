@@ -1,0 +1,385 @@
+"""The verbs: every question goes through the library's one door, as the command's do."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from . import _core
+from ._answers import (
+    Assessment,
+    Critical,
+    Limit,
+    Packing,
+    Path,
+    Simulation,
+    Thrust,
+    Tilt,
+    of_core,
+)
+from ._errors import SceneWarning
+from ._progress import shown
+from ._scene import SceneLike, Vector, _three, core
+
+Law: TypeAlias = Literal["coulomb", "associative"]
+"""How joints slide: ``coulomb`` is dry friction; ``associative`` asks for the bound alone."""
+
+Progress: TypeAlias = Callable[[float, float, str], object] | bool
+"""Called with how much is done, of how much, and words; ``True`` shows a bar of tqdm."""
+
+Worst: TypeAlias = Mapping[str, tuple[float, float]]
+"""Ranges by name: ``friction``, ``density``, ``density:MATERIAL``, ``load``, or a JSON pointer."""
+
+
+def _ranges(worst: Worst | None) -> list[str]:
+    return [f"{name}={low!r}..{high!r}" for name, (low, high) in (worst or {}).items()]
+
+
+def _ask(
+    scene: SceneLike,
+    question: dict[str, Any],
+    *,
+    progress: Progress = False,
+    **manner: Any,
+) -> _core.Answer:
+    with shown(progress) as tell:
+        answer = _core.ask(core(scene), question, progress=tell, **manner)
+    for _, text, is_implausible, _ in answer.warnings():
+        if is_implausible:
+            warnings.warn(text, SceneWarning, stacklevel=3)
+    words = answer.left_out_words()
+    if words is not None:
+        warnings.warn(words, SceneWarning, stacklevel=3)
+    return answer
+
+
+def assess(
+    scene: SceneLike,
+    *,
+    law: Law = "coulomb",
+    worst: Worst | None = None,
+    simulate: bool | Literal["in doubt"] = False,
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    threads: int = 1,
+    progress: Progress = False,
+) -> Assessment:
+    """Does it stand under its dead load?
+
+    Parameters
+    ----------
+    law : "coulomb" or "associative"
+        Whether the loads must produce the forces that hold it, or such forces need only exist.
+    worst : mapping of names to ranges, optional
+        Ask about the worst case: ``{"friction": (0.5, 0.7), "density": (2000, 2400)}``.
+    simulate : bool or "in doubt"
+        Run it in time as well, always or where the verdict is conditional or undecided.
+    keep_all : bool
+        Leave nothing out that symmetry or missing friction make needless.
+    time_limit : float, optional
+        Stop trying after so many seconds, with the best bracket so far.
+    threads : int
+        Of the simulation; 0 for as many as there are processors.
+    """
+    beside = {False: "never", True: "always"}.get(simulate, "in doubt") if isinstance(
+        simulate, bool
+    ) else "in doubt"
+    answer = _ask(
+        scene,
+        {"assess": {"law": law}},
+        worst=_ranges(worst),
+        simulate=beside,
+        film=beside != "never",
+        keep_all=keep_all,
+        time_limit=time_limit,
+        threads=threads,
+        progress=progress,
+    )
+    return Assessment(answer)
+
+
+def limit(
+    scene: SceneLike,
+    *,
+    law: Law = "coulomb",
+    worst: Worst | None = None,
+    skip_dead: bool = False,
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Limit:
+    """How large may the live load grow?
+
+    ``skip_dead`` leaves out whether it stands without its live load; other parameters are those of
+    :func:`assess`.
+    """
+    options: dict[str, Any] = {"law": law, "skip_dead": skip_dead}
+    answer = _ask(
+        scene,
+        {"limit": options},
+        worst=_ranges(worst),
+        keep_all=keep_all,
+        time_limit=time_limit,
+        progress=progress,
+    )
+    return Limit(answer)
+
+
+def _directions(toward: Sequence[Vector] | Vector | None, all: int | None) -> dict[str, Any]:
+    if toward is None:
+        return {"all": 8 if all is None else all}
+    # One direction is a list of one.
+    listed = np.atleast_2d(np.asarray(toward, dtype=np.float64)).tolist()
+    directions = [[*direction, 0.0][:3] for direction in listed]
+    return {"toward": directions} if all is None else {"toward": directions, "all": all}
+
+
+def tilt(
+    scene: SceneLike,
+    *,
+    toward: Sequence[Vector] | Vector | None = None,
+    all: int | None = None,
+    law: Law = "coulomb",
+    skip_dead: bool = False,
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Tilt:
+    """At what tilt of the ground does it fall?
+
+    Parameters
+    ----------
+    toward : one direction or several, optional
+        ``(x, y)`` or ``(x, y, z)``.
+    all : int, optional
+        So many directions evenly spread, the first along x; 8 where nothing is said.
+    """
+    options = {"law": law, "skip_dead": skip_dead, **_directions(toward, all)}
+    answer = _ask(
+        scene, {"tilt": options}, keep_all=keep_all, time_limit=time_limit, progress=progress
+    )
+    return Tilt(answer)
+
+
+def critical(
+    scene: SceneLike,
+    vary: str,
+    between: tuple[float, float],
+    *,
+    scan: int | None = None,
+    law: Law = "coulomb",
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Critical:
+    """At what value of a number in the scene does the verdict flip?
+
+    Parameters
+    ----------
+    vary : str
+        JSON pointer of the number: ``/templates/0/arch/thickness``.
+    between : two numbers
+        The range.
+    scan : int, optional
+        Values that are scanned, both ends among them; 33 where nothing is said.
+    """
+    options: dict[str, Any] = {"law": law, "vary": vary, "between": list(between)}
+    if scan is not None:
+        options["scan"] = scan
+    answer = _ask(
+        scene, {"critical": options}, keep_all=keep_all, time_limit=time_limit, progress=progress
+    )
+    return Critical(answer)
+
+
+def thrust(
+    scene: SceneLike,
+    *,
+    support: str | None = None,
+    direction: Vector | None = None,
+    member: str | None = None,
+    law: Law = "coulomb",
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Thrust:
+    """How hard does it push a support, at least and at most?
+
+    Parameters
+    ----------
+    support : str, optional
+        The first one that carries a free block where none is named.
+    direction : (x, y) or (x, y, z), optional
+        Outwards from the blocks' centre of mass where none is given.
+    member : str, optional
+        The force in this member of the scene in place of a thrust.
+    """
+    options: dict[str, Any] = {"law": law, "range": True}
+    if support is not None:
+        options["support"] = support
+    if direction is not None:
+        options["direction"] = [*_three(direction), 0.0][:3]
+    if member is not None:
+        options["member"] = member
+    answer = _ask(
+        scene, {"thrust": options}, keep_all=keep_all, time_limit=time_limit, progress=progress
+    )
+    return Thrust(answer)
+
+
+def settle(
+    scene: SceneLike,
+    moves: Mapping[str, Vector],
+    *,
+    turns_deg: Mapping[str, Vector] | None = None,
+    at: Sequence[float] = (),
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Path:
+    """How far may supports move until it falls?
+
+    Parameters
+    ----------
+    moves : ids of supports to three numbers
+        The way of each while the parameter goes from 0 to 1, m.
+    turns_deg : ids of supports to three numbers, optional
+        Axis × angle in degrees, about the centre of mass.
+    at : numbers from 0 to 1
+        Values of the parameter that become points of the curve.
+    """
+    turns = dict(turns_deg or {})
+    listed = []
+    for support in [*moves, *(s for s in turns if s not in moves)]:
+        move: dict[str, Any] = {"support": support, "way": _three(moves.get(support, (0, 0, 0)))}
+        if support in turns:
+            move["turn_deg"] = _three(turns[support])
+        listed.append(move)
+    question = {"settle": {"moves": listed, "at": [float(v) for v in at]}}
+    return Path(
+        _ask(scene, question, keep_all=keep_all, time_limit=time_limit, progress=progress)
+    )
+
+
+def push(
+    scene: SceneLike,
+    control: tuple[str, Vector],
+    toward: Vector,
+    *,
+    at: Sequence[float] = (),
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Path:
+    """How does the load factor fall as it moves?
+
+    Parameters
+    ----------
+    control : (id of a block, three numbers)
+        The point whose way is the parameter, m.
+    toward : three numbers
+        The direction in which its way is measured.
+    at : numbers
+        Ways that become points of the curve, m.
+    """
+    block, point = control
+    options = {
+        "control": {"block": block, "point": _three(point)},
+        "toward": _three(toward),
+        "at": [float(v) for v in at],
+    }
+    return Path(
+        _ask(scene, {"push": options}, keep_all=keep_all, time_limit=time_limit, progress=progress)
+    )
+
+
+def simulate(
+    scene: SceneLike,
+    *,
+    fast: bool = False,
+    fine: bool = False,
+    seconds: float | None = None,
+    to_the_end: bool = False,
+    load_factor: float = 0.0,
+    frames: int = 0,
+    film: bool = True,
+    skip_verdict: bool = False,
+    law: Law = "coulomb",
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    threads: int = 1,
+    progress: Progress = False,
+) -> Simulation:
+    """What happens in time, and does the verdict say the same?
+
+    Parameters
+    ----------
+    fast, fine : bool
+        Fast steps only, or fine ones from the start.
+    seconds : float, optional
+        Time to simulate at most, s.
+    to_the_end : bool
+        Until then although the outcome is clear.
+    load_factor : float
+        So many times the live loads are added.
+    frames : int
+        So many frames, evenly spread over the time allowed, are kept in the result.
+    film : bool
+        Keep a film of what happened, for ``answer.film`` and the page.
+    skip_verdict : bool
+        Do not ask for the verdict as well.
+    """
+    options: dict[str, Any] = {
+        "fast": fast,
+        "fine": fine,
+        "to_the_end": to_the_end,
+        "load_factor": load_factor,
+    }
+    if seconds is not None:
+        options["seconds"] = seconds
+    answer = _ask(
+        scene,
+        {"simulate": options},
+        verdict=None if skip_verdict else law,
+        frames=frames,
+        film=film,
+        keep_all=keep_all,
+        time_limit=time_limit,
+        threads=threads,
+        progress=progress,
+    )
+    return Simulation(answer)
+
+
+def repose(
+    scene: SceneLike,
+    *,
+    toward: Sequence[Vector] | Vector | None = None,
+    all: int | None = None,
+    moving_mass: float = 0.0,
+    law: Law = "coulomb",
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Packing:
+    """How steep may a packing of grains be: the greatest tilt of gravity that it bears as it lies.
+
+    ``moving_mass`` is the share of the grains' mass that has to move, ``toward`` and ``all`` are
+    those of :func:`tilt`.
+    """
+    options = {"law": law, "moving_mass": moving_mass, **_directions(toward, all)}
+    answer = _ask(
+        scene, {"repose": options}, keep_all=keep_all, time_limit=time_limit, progress=progress
+    )
+    return Packing(answer)
+
+
+def load_answer(path: str | os.PathLike[str]) -> Any:
+    """Read a result that :meth:`Answer.save` or ``--save`` wrote. Nothing is proved by reading it:
+    :func:`check` does that."""
+    with open(path, encoding="utf-8") as file:
+        return of_core(_core.Answer.read(os.fspath(path), file.read()))

@@ -1,0 +1,369 @@
+//! Answers: the result file with its model, and everything that is made of them.
+
+use crate::{arrays, error::Trouble, scene::told};
+use numpy::{PyArray1, PyArray2};
+use pyo3::{exceptions::PyKeyError, prelude::*};
+use pythonize::pythonize;
+use std::sync::{Arc, OnceLock};
+use voussoir::{
+    dynamics::Frame,
+    interface::{Model, prepare},
+    proof::{PackingFile, ResultFile, VerificationFile, read, result::Certificate, verify},
+    report::{
+        drawing::{self, Aspect},
+        json, page, path, table,
+        text::{self, Asked, Layout, TextOptions},
+        view::View,
+        vtk,
+    },
+    verdict::evidence::ContactForces,
+};
+
+/// A page holds all that can be said.
+const EVERYTHING: TextOptions = TextOptions { verbose: true, brief: false };
+
+/// An answer.
+#[pyclass(module = "voussoir._core", frozen)]
+pub struct Answer {
+    kept: Arc<Kept>,
+}
+
+struct Kept {
+    file: ResultFile,
+    /// The scene that the answer is about; of an answer that was read, made when it is needed.
+    model: OnceLock<Arc<Model>>,
+    film: Vec<Frame>,
+    packed: Option<Packed>,
+}
+
+/// The answer about a packing, of which the file is the proof.
+pub struct Packed {
+    pub file: PackingFile,
+    pub scene: Arc<voussoir::scene::Scene>,
+}
+
+/// Joints, offsets, contact points, forces, couples.
+type Flat<'py> = (
+    Vec<(String, String)>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+);
+
+impl Answer {
+    pub fn new(
+        file: ResultFile,
+        model: Arc<Model>,
+        film: Vec<Frame>,
+        packed: Option<Packed>,
+    ) -> Self {
+        Self { kept: Arc::new(Kept { file, model: model.into(), film, packed }) }
+    }
+
+    fn certificate(&self, which: &str) -> Option<&Certificate> {
+        let file = &self.kept.file;
+        Some(match which {
+            "answer" => &file.certificate,
+            "dry" => &file.dry.as_ref()?.certificate,
+            "dead_load" => &file.dead_load.as_ref()?.certificate,
+            "least" => &file.thrust.as_ref()?.least,
+            "greatest" => &file.thrust.as_ref()?.greatest,
+            _ => {
+                let (list, k) = which.split_once('/')?;
+                let k: usize = k.parse().ok()?;
+                match list {
+                    "directions" => &file.directions.get(k)?.certificate,
+                    "path" => &file.path.as_ref()?.points.get(k)?.certificate,
+                    "ends" => &file.path.as_ref()?.ends.get(k)?.certificate,
+                    _ => return None,
+                }
+            }
+        })
+    }
+
+    fn options(&self) -> Asked<'static> {
+        Asked { scene: "SCENE", options: "" }
+    }
+}
+
+impl Kept {
+    fn model(&self) -> Result<Arc<Model>, Trouble> {
+        if let Some(model) = self.model.get() {
+            return Ok(model.clone());
+        }
+        let model = Arc::new(prepare(&self.file.scene.input)?);
+        Ok(self.model.get_or_init(|| model).clone())
+    }
+
+    fn view(&self) -> Result<View, Trouble> {
+        View::new(&*self.model()?, &self.file, self.film.clone()).map_err(Trouble::other)
+    }
+}
+
+/// What is made of an answer while the interpreter is free.
+fn made<T: Send>(
+    py: Python,
+    kept: &Kept,
+    make: impl FnOnce(&Kept) -> Result<T, Trouble> + Send,
+) -> PyResult<T> {
+    py.detach(|| make(kept)).map_err(|e| e.raise(py))
+}
+
+#[pymethods]
+impl Answer {
+    /// Reads a saved result.
+    #[staticmethod]
+    fn read(py: Python, name: String, text: String) -> PyResult<Self> {
+        let file = read::read_str(name, text).map_err(|e| Trouble::from(e).raise(py))?;
+        let kept = Kept { file, model: OnceLock::new(), film: Vec::new(), packed: None };
+        Ok(Self { kept: Arc::new(kept) })
+    }
+
+    /// What was asked.
+    fn question<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(pythonize(py, &self.kept.file.question)?)
+    }
+
+    /// A part of the result as plain values; `None` where it has none.
+    fn part<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let f = &self.kept.file;
+        Ok(match name {
+            "answer" => pythonize(py, &f.answer)?,
+            "mechanism" => pythonize(py, &f.mechanism)?,
+            "members" => pythonize(py, &f.members)?,
+            "directions" => {
+                pythonize(py, &f.directions.iter().map(|d| &d.answer).collect::<Vec<_>>())?
+            }
+            "doubt" => pythonize(py, &f.doubt)?,
+            "left_out_contacts" => pythonize(py, &f.left_out_contacts)?,
+            "left_out" => pythonize(py, &f.left_out)?,
+            "simulation" => pythonize(py, &f.simulation)?,
+            "path" => pythonize(py, &f.path)?,
+            "thrust" => pythonize(py, &f.thrust)?,
+            "critical" => pythonize(py, &f.critical)?,
+            "coulomb_state" => pythonize(py, &f.coulomb_state)?,
+            "dry" => pythonize(py, &f.dry)?,
+            "timings" => pythonize(py, &f.timings)?,
+            "work" => pythonize(py, &f.work)?,
+            "scene" => pythonize(py, &f.scene)?,
+            "packing" => pythonize(py, &self.kept.packed.as_ref().map(|p| &p.file))?,
+            _ => return Err(PyKeyError::new_err(name.to_string())),
+        })
+    }
+
+    /// The scene of the answer.
+    fn scene(&self) -> crate::scene::Scene {
+        let packed = self.kept.packed.as_ref().map(|p| (*p.scene).clone());
+        crate::scene::Scene::of_scene(packed.unwrap_or_else(|| self.kept.file.scene.input.clone()))
+    }
+
+    /// The name of the scene.
+    fn name(&self) -> &str {
+        &self.kept.file.scene.name
+    }
+
+    /// What the user should know.
+    fn warnings(&self) -> Vec<(String, String, bool, bool)> {
+        self.kept.file.warnings.iter().map(told).collect()
+    }
+
+    /// A certificate: its claim as plain values, what its check found; `None` where there is none.
+    fn claim<'py>(
+        &self,
+        py: Python<'py>,
+        which: &str,
+    ) -> PyResult<Option<(Bound<'py, PyAny>, Vec<String>)>> {
+        let Some(certificate) = self.certificate(which) else { return Ok(None) };
+        Ok(Some((pythonize(py, &certificate.claim)?, certificate.verified.clone())))
+    }
+
+    /// The forces of a certificate in flat arrays; `None` where there is none.
+    fn forces<'py>(&self, py: Python<'py>, which: &str) -> Option<Flat<'py>> {
+        Some(flat(py, &self.certificate(which)?.forces))
+    }
+
+    /// The rates of a certificate: blocks, velocities, spins; `None` where there is none.
+    #[allow(clippy::type_complexity)]
+    fn rates<'py>(
+        &self,
+        py: Python<'py>,
+        which: &str,
+    ) -> Option<(Vec<String>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let rates = &self.certificate(which)?.rates;
+        Some((
+            rates.iter().map(|r| r.block.clone()).collect(),
+            arrays::rows(py, rates.iter().map(|r| r.velocity).collect()),
+            arrays::rows(py, rates.iter().map(|r| r.spin).collect()),
+        ))
+    }
+
+    /// The blocks: ids, whether they are supports, masses, centres of mass.
+    #[allow(clippy::type_complexity)]
+    fn blocks<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Vec<String>, Vec<bool>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)>
+    {
+        let model = made(py, &self.kept, Kept::model)?;
+        let blocks = &model.assembly.blocks;
+        Ok((
+            blocks.iter().map(|b| b.id.clone()).collect(),
+            blocks.iter().map(|b| b.support).collect(),
+            PyArray1::from_vec(py, blocks.iter().map(|b| b.mass).collect()),
+            arrays::rows(py, blocks.iter().map(|b| b.centroid.into()).collect()),
+        ))
+    }
+
+    /// The frames of the joints, rows `t1`, `t2`, `n` of each, and their areas, m²; in the order of
+    /// the forces.
+    #[allow(clippy::type_complexity)]
+    fn frames<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>)> {
+        let model = made(py, &self.kept, Kept::model)?;
+        let list = &model.interfaces.list;
+        let frame = |f: &voussoir::interface::ContactFrame| [f.t1, f.t2, f.n].map(Into::into);
+        Ok((
+            arrays::rows(py, list.iter().flat_map(|f| frame(&f.frame)).collect()),
+            PyArray1::from_vec(py, list.iter().map(|f| f.area).collect()),
+        ))
+    }
+
+    /// The result as the command saves it.
+    fn json(&self, py: Python) -> PyResult<String> {
+        made(py, &self.kept, |kept| json::pretty(&kept.file).map_err(Trouble::other))
+    }
+
+    /// The answer about a packing as the command prints it with `--json`.
+    fn packing_json(&self, py: Python) -> PyResult<Option<String>> {
+        made(py, &self.kept, |kept| {
+            let file = kept.packed.as_ref().map(|p| json::pretty(&p.file));
+            file.transpose().map_err(Trouble::other)
+        })
+    }
+
+    /// The answer in words.
+    #[pyo3(signature = (brief=false, verbose=false))]
+    fn text(&self, brief: bool, verbose: bool) -> String {
+        let (options, layout) = (TextOptions { verbose, brief }, Layout::default());
+        match &self.kept.packed {
+            Some(packed) => text::packing(&packed.file, options, layout).to_string(),
+            None => text::render(&self.kept.file, self.options(), options, layout).to_string(),
+        }
+    }
+
+    /// What contacts that were left out change, in words, where they are worth a warning.
+    fn left_out_words(&self) -> Option<String> {
+        text::left_out(&self.kept.file)
+    }
+
+    /// The answer as a page for a browser.
+    fn page(&self, py: Python) -> PyResult<String> {
+        let asked = self.options();
+        made(py, &self.kept, |kept| {
+            let layout = Layout { width: usize::MAX, ..Layout::default() };
+            let words = match &kept.packed {
+                Some(packed) => text::packing(&packed.file, EVERYTHING, layout),
+                None => text::render(&kept.file, asked, EVERYTHING, layout),
+            };
+            let charts = page::attempts(&kept.file);
+            page::page(&words, &kept.view()?, charts.as_slice()).map_err(Trouble::other)
+        })
+    }
+
+    /// A drawing.
+    #[pyo3(signature = (aspect=None))]
+    fn svg(&self, py: Python, aspect: Option<&str>) -> PyResult<String> {
+        let aspect = aspect.map(str::parse::<Aspect>).transpose();
+        let aspect = aspect.map_err(|e| Trouble::other(e).raise(py))?.unwrap_or_default();
+        made(py, &self.kept, |kept| {
+            let mut view = kept.view()?;
+            view.film.clear();
+            Ok(drawing::svg(&view, aspect))
+        })
+    }
+
+    /// A file for ParaView.
+    fn vtp(&self, py: Python) -> PyResult<String> {
+        made(py, &self.kept, |kept| Ok(vtk::vtp(&kept.view()?)))
+    }
+
+    /// A table with commas: `joints`, `blocks`, `members` or `path`.
+    fn csv(&self, py: Python, which: &str) -> PyResult<String> {
+        let which = which.to_string();
+        made(py, &self.kept, move |kept| match which.as_str() {
+            "joints" => table::joints(&kept.view()?).map_err(Trouble::other),
+            "blocks" => table::blocks(&kept.view()?).map_err(Trouble::other),
+            "members" => table::members(&kept.view()?).map_err(Trouble::other),
+            "path" => path::csv(&kept.file).map_err(Trouble::other),
+            other => Err(Trouble::Other(format!("there is no table {other}"))),
+        })
+    }
+
+    /// Frames of the film: times (s), poses `frames × blocks × 7`.
+    #[allow(clippy::type_complexity)]
+    fn film<'py>(&self, py: Python<'py>) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+        let film = &self.kept.film;
+        let row = |p: &voussoir::dynamics::Pose| {
+            let (c, q) = (p.center, p.turn);
+            [c.x, c.y, c.z, q.w, q.i, q.j, q.k]
+        };
+        let poses = film.iter().flat_map(|f| f.blocks.iter().flat_map(row)).collect();
+        (
+            PyArray1::from_vec(py, film.iter().map(|f| f.time).collect()),
+            PyArray1::from_vec(py, poses),
+        )
+    }
+
+    /// Proves the result from its scene, or from another: the verification as plain values.
+    #[pyo3(signature = (scene=None))]
+    fn verify<'py>(
+        &self,
+        py: Python<'py>,
+        scene: Option<&crate::scene::Scene>,
+    ) -> PyResult<(Bound<'py, PyAny>, String)> {
+        let other = scene.map(|s| s.ready());
+        let kept = self.kept.clone();
+        let verification = crate::wait::run(py, None, move |_| {
+            let scene = other.as_ref().map_or(&kept.file.scene.input, |r| &*r.scene);
+            verify(&kept.file, scene).map_err(|e| match &other {
+                Some(ready) => ready.located(e),
+                None => e.into(),
+            })
+        })?;
+        let file = &self.kept.file;
+        let words = text::verification(file, &verification, Layout::default()).to_string();
+        let plain = pythonize(py, &VerificationFile::new(&file.scene.name, &verification))?;
+        Ok((plain, words))
+    }
+}
+
+fn flat<'py>(py: Python<'py>, forces: &[ContactForces]) -> Flat<'py> {
+    let points = forces.iter().map(|c| c.points.len()).sum();
+    let mut offsets = Vec::with_capacity(forces.len() + 1);
+    let (mut at, mut force) = (Vec::with_capacity(points), Vec::with_capacity(points));
+    let mut couples = Vec::new();
+    offsets.push(0);
+    for contact in forces {
+        at.extend_from_slice(&contact.points);
+        force.extend_from_slice(&contact.forces);
+        if !contact.couples.is_empty() {
+            couples.resize(force.len() - contact.forces.len(), [0.0; 3]);
+            couples.extend_from_slice(&contact.couples);
+        }
+        offsets.push(at.len() as i64);
+    }
+    if !couples.is_empty() {
+        couples.resize(force.len(), [0.0; 3]);
+    }
+    let between = forces.iter().map(|c| (c.between[0].clone(), c.between[1].clone())).collect();
+    (
+        between,
+        arrays::counts(py, &offsets),
+        arrays::rows(py, at),
+        arrays::rows(py, force),
+        arrays::rows(py, couples),
+    )
+}

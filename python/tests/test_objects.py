@@ -1,0 +1,237 @@
+"""Scenes built in code, answers as objects, files, errors."""
+
+from __future__ import annotations
+
+import copy
+import html
+import json
+import pickle
+import xml.etree.ElementTree
+from pathlib import Path
+
+import numpy as np
+import pytest
+import voussoir
+
+
+def table(friction: float = 0.6) -> voussoir.Scene:
+    """A slender block on a table: it tips at tan θ = 0.4 / 1, or slides at tan θ = friction."""
+    scene = voussoir.Scene("Table", friction=friction, density=2400)
+    scene.box("table", (2, 2, 0.2), (0, 0, -0.1), support=True)
+    return scene.box("block", (0.4, 0.4, 1), (0, 0, 0.5))
+
+
+def cube(size: float) -> tuple[np.ndarray, list[list[int]]]:  # type: ignore[type-arg]
+    half = size / 2
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float) * half
+    faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    return corners, faces
+
+
+def test_closed_forms() -> None:
+    tips = voussoir.tilt(table(), toward=(1, 0))
+    assert tips.tan_tilt.value == pytest.approx(0.4, rel=1e-7)
+    slides = voussoir.tilt(table(0.3), toward=(1, 0))
+    assert slides.tan_tilt.value == pytest.approx(0.3, rel=1e-6)
+    pushed = voussoir.limit(table().load("live", weight=(1, 0, 0)))
+    assert float(pushed.load_factor) == pytest.approx(0.4, rel=1e-7)
+    assert pushed.load_factor.lower <= pushed.load_factor.value <= pushed.load_factor.upper
+    assert pushed.verdict is voussoir.Verdict.STABLE
+    assert pushed.mechanism is not None and pushed.mechanism.moving == ["block"]
+
+
+def test_corners_of_numpy_are_those_of_a_box() -> None:
+    corners, faces = cube(1.0)
+    scene = voussoir.Scene(friction=0.5, density=1000)
+    scene.box("ground", (4, 4, 1), (0, 0, -0.5), support=True)
+    scene.polyhedron("cube", corners, faces, at=(0, 0, 0.5))
+    boxes = voussoir.Scene(friction=0.5, density=1000)
+    boxes.box("ground", (4, 4, 1), (0, 0, -0.5), support=True).box("cube", (1, 1, 1), (0, 0, 0.5))
+    one, other = voussoir.assess(scene), voussoir.assess(boxes)
+    np.testing.assert_allclose(one.blocks.mass, other.blocks.mass, rtol=1e-12)
+    assert one.verdict and other.verdict
+    shape = scene.to_dict()["blocks"][1]["shape"]["polyhedron"]
+    assert shape["vertices"] == corners.tolist() and shape["faces"] == faces
+
+
+def test_a_mapping_with_arrays_is_the_file(structures: Path) -> None:
+    path = structures / "block-in-groove.json"
+    data = json.loads(path.read_text())
+    for block in data["blocks"]:
+        for key, value in block.items():
+            if isinstance(value, list):
+                block[key] = np.array(value)
+    one, other = voussoir.limit(data, keep_all=True), voussoir.limit(path, keep_all=True)
+    assert one.load_factor == other.load_factor
+    assert np.array_equal(one.forces, other.forces)
+
+
+def test_forces_hold_every_block(structures: Path) -> None:
+    answer = voussoir.assess(structures / "oppenheim-arch.json")
+    evidence = answer.certificate.forces
+    index = {id: k for k, id in enumerate(answer.blocks.ids)}
+    held = np.zeros((len(index), 3))
+    for (a, b), resultant in zip(evidence.between, evidence.resultants()):
+        held[index[a]] -= resultant
+        held[index[b]] += resultant
+    free = ~answer.blocks.supports
+    weight = answer.blocks.mass[free] * 9.81
+    np.testing.assert_allclose(held[free, 2], weight, rtol=1e-9)
+    np.testing.assert_allclose(held[free, :2], 0, atol=1e-9 * weight.max())
+    # Pressing along the normals, inside the cones of friction 0.7 and more.
+    for k, (_, points, forces) in enumerate(evidence):
+        along = forces @ answer.axes[k].T
+        assert (along[:, 2] >= 0).all() and len(points) == len(forces)
+    assert answer.offsets[0] == 0 and answer.offsets[-1] == len(answer.forces)
+    assert not evidence.couples.size
+
+
+def test_arrays_are_made_once_and_are_views_after() -> None:
+    answer = voussoir.assess(table())
+    forces = answer.certificate.forces
+    assert answer.forces is forces.forces
+    (_, points, first), *_ = forces
+    assert first.base is not None and np.shares_memory(first, forces.forces)
+    assert np.shares_memory(points, forces.points)
+    assert forces.forces.dtype == np.float64 and forces.forces.flags.c_contiguous
+
+
+def test_saved_answers_are_proved_and_forged_ones_refused(tmp_path: Path) -> None:
+    answer = voussoir.assess(table())
+    file = tmp_path / "result.json"
+    answer.save(file)
+    proved = voussoir.check(file)
+    assert isinstance(proved, voussoir.Verification)
+    assert proved and proved.proved and not proved.refuted and "holds" in str(proved)
+    again = voussoir.load_answer(file)
+    assert isinstance(again, voussoir.Assessment) and again.verdict is answer.verdict
+    assert np.array_equal(again.forces, answer.forces)
+    data = json.loads(file.read_text())
+    data["certificate"]["forces"][0]["forces"][0][2] *= 1.5
+    file.write_text(json.dumps(data))
+    refused = voussoir.check(file)
+    assert isinstance(refused, voussoir.Verification) and refused.refuted and not refused
+    other = voussoir.check(answer, table().box("more", (0.4, 0.4, 1), (0, 0, 1.5)))
+    assert isinstance(other, voussoir.Verification) and not other.proved
+
+
+def test_mistakes_are_findings(structures: Path) -> None:
+    found = voussoir.check(structures / "gapped-column.json")
+    assert isinstance(found, voussoir.Inspection) and not found
+    assert [f.code for f in found.mistakes] == ["floating"]
+    assert voussoir.check(table())
+    heavy = table().load("dead", acceleration=(0, 0, -9810))
+    with pytest.warns(voussoir.SceneWarning):
+        voussoir.assess(voussoir.load(structures.parent / "tests/mistakes/gravity-upwards.json"))
+    assert heavy.to_dict()["loads"]["dead"][0]["acceleration"] == [0, 0, -9810]
+
+
+@pytest.mark.parametrize(
+    ("change", "path", "words", "remedy"),
+    [
+        ({"densty": 1}, "blocks[1].densty", "unknown key", "density"),
+        ({"density": -2400}, "blocks[1].density", "must be > 0, got -2400", "kg/m³"),
+        ({"density": float("nan")}, "blocks[1].density", "must be a finite number", None),
+        ({"at": [0, 0, float("inf")]}, "blocks[1].at", "finite", None),
+        ({"material": "ston"}, "blocks[1].material", "ston", None),
+    ],
+)
+def test_errors_name_place_and_remedy(
+    change: dict[str, object], path: str, words: str, remedy: str | None
+) -> None:
+    data = table().to_dict()
+    data["blocks"][1].update(change)
+    with pytest.raises(voussoir.InputError) as caught:
+        voussoir.assess(data)
+    error = caught.value
+    assert error.path.startswith(path) and words in error.message, error
+    assert remedy is None or (error.remedy is not None and remedy in error.remedy)
+    assert isinstance(error, ValueError) and path in str(error)
+
+
+def test_errors_of_files_have_lines(tmp_path: Path) -> None:
+    file = tmp_path / "scene.json"
+    file.write_text(table().to_json().replace('"table"', '"block"', 1))
+    with pytest.raises(voussoir.InputError) as caught:
+        voussoir.assess(file)
+    assert caught.value.line is not None and str(file) in caught.value.place
+    with pytest.raises(voussoir.InputError):
+        voussoir.load(tmp_path / "absent.json")
+    with pytest.raises(voussoir.InputError) as caught:
+        voussoir.assess(table(), law="dry")  # type: ignore[arg-type]
+    assert "dry" in caught.value.message
+    with pytest.raises(voussoir.InputError):
+        voussoir.limit(table())
+    with pytest.raises(voussoir.InputError) as caught:
+        voussoir.Scene().box("a", (1, 1, 1)).polyhedron("b", np.zeros((4, 2)), [[0, 1, 2]])
+    assert caught.value.path == "blocks[1].shape.polyhedron.vertices"
+
+
+def test_scenes_are_values(tmp_path: Path) -> None:
+    scene = table()
+    other = scene.copy()
+    other.box("more", (1, 1, 1), (5, 0, 0.5), support=True)
+    assert len(scene.to_dict()["blocks"]) == 2 and len(other.to_dict()["blocks"]) == 3
+    assert copy.deepcopy(scene).to_dict() == scene.to_dict()
+    assert pickle.loads(pickle.dumps(scene)).to_dict() == scene.to_dict()
+    scene.save(tmp_path / "scene.json")
+    assert voussoir.load(tmp_path / "scene.json").to_dict() == scene.to_dict()
+    assert repr(scene) == "<voussoir.Scene 'Table': 2 blocks>"
+    # A scene that changes after a question is asked anew.
+    before = voussoir.tilt(scene, toward=(1, 0)).tan_tilt.value
+    scene.joint(friction=0.1)
+    after = voussoir.tilt(scene, toward=(1, 0)).tan_tilt.value
+    assert before == pytest.approx(0.4) and after == pytest.approx(0.1)
+
+
+def test_pages_and_drawings(tmp_path: Path) -> None:
+    answer = voussoir.assess(table())
+    page = answer.report(tmp_path / "page.html")
+    assert (tmp_path / "page.html").read_text(encoding="utf-8") == page
+    framed = answer._repr_html_()
+    assert framed.startswith('<iframe sandbox="allow-scripts"') and "http://" not in framed[:200]
+    assert "allow-same-origin" not in framed[: framed.index("srcdoc")]
+    srcdoc = framed.split('srcdoc="', 1)[1].split('"', 1)[0]
+    assert html.unescape(srcdoc) == page
+    assert xml.etree.ElementTree.fromstring(answer._repr_svg_()).tag.endswith("svg")
+    assert answer.svg("top") != answer.svg("front")
+    answer.vtk(tmp_path / "answer.vtp")
+    assert "PolyData" in (tmp_path / "answer.vtp").read_text()
+    assert answer.table("blocks").splitlines()[0].startswith("id") or "block" in answer.table("blocks")
+    assert answer.title.startswith("Table") and "stands" in str(answer)
+
+
+def test_pandas_has_every_point() -> None:
+    pandas = pytest.importorskip("pandas")
+    answer = voussoir.assess(table())
+    frame = answer.to_pandas()
+    assert isinstance(frame, pandas.DataFrame) and len(frame) == len(answer.forces)
+    assert frame["fz"].sum() == pytest.approx(0.4 * 0.4 * 1 * 2400 * 9.81)
+
+
+def test_templates_are_those_of_files(structures: Path) -> None:
+    path = structures / "semicircular-arch-thick.json"
+    data = json.loads(path.read_text())
+    (template,) = data["templates"]
+    built = voussoir.Scene(data["name"])
+    for kind, values in template.items():
+        built.template(kind, **values)
+    built.joint(**data["joints"]["default"])
+    for name, material in data["materials"].items():
+        built.material(name, material["density"])
+    same = voussoir.load(path).to_dict()
+    del same["source"]
+    assert built.to_dict() == same
+    assert voussoir.assess(built).unbalance == voussoir.assess(path).unbalance
+    with pytest.raises(voussoir.InputError) as caught:
+        built.template("arsch", voussoirs=3)
+    assert caught.value.path.startswith("templates[1]")
+
+
+def test_film() -> None:
+    falls = voussoir.simulate(table(0.6).joint(friction=0.0).load("dead", "block", force=(2000, 0, 0)))
+    times, poses = falls.film
+    assert falls.fate == "falls" and poses.shape == (len(times), 2, 7)
+    assert (np.diff(times) > 0).all() and poses[-1, 1, 0] > poses[0, 1, 0]
+    asked = voussoir.simulate(table(), frames=5, film=False, fast=True)
+    assert asked.fate == "stands" and asked.verdict and asked.frames[1].shape[1:] == (2, 7)

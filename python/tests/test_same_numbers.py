@@ -1,0 +1,138 @@
+"""The objects hold what the command prints, to the last bit, over the scenes of the repository."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+import voussoir
+from conftest import STRUCTURES
+
+# Those that take more than a few seconds are the business of the library's own tests.
+SLOW = {"column-1000", "leaning-tower-1000", "dome", "dome-with-oculus", "pile-of-discs"}
+SCENES = sorted(
+    path
+    for path in STRUCTURES.glob("*.json")
+    if path.stem not in SLOW and '"voussoir-scene/1"' in path.read_text()
+)
+
+
+def said(*arguments: str | Path) -> dict[str, Any]:
+    """What the command prints as JSON."""
+    line = [sys.executable, "-m", "voussoir", *map(str, arguments), "--json"]
+    done = subprocess.run(line, capture_output=True, text=True)
+    assert done.returncode in (0, 1, 3), done.stderr
+    answer: dict[str, Any] = json.loads(done.stdout)
+    return answer
+
+
+def without_time(result: Any) -> Any:
+    """A result without what no two runs share: the seconds, and the memory that they found."""
+    if isinstance(result, dict):
+        return {
+            k: without_time(v)
+            for k, v in result.items()
+            if k not in ("timings", "seconds", "work", "check_seconds")
+        }
+    if isinstance(result, list):
+        return [without_time(v) for v in result]
+    return result
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda p: p.stem)
+@pytest.mark.filterwarnings("ignore::voussoir.SceneWarning")
+def test_assess(path: Path) -> None:
+    expected = said("assess", path)
+    answer = voussoir.assess(path)
+    assert without_time(answer.to_dict()) == without_time(expected)
+    assert answer.verdict == expected["answer"]["verdict"]
+    assert answer.unbalance.upper == expected["answer"]["unbalance"]["upper"]
+    listed = [f for c in expected["certificate"]["forces"] for f in c["forces"]]
+    assert answer.forces.tolist() == listed
+
+
+LIMITS = [p for p in SCENES if json.loads(p.read_text()).get("loads", {}).get("live")]
+
+
+@pytest.mark.parametrize("path", LIMITS, ids=lambda p: p.stem)
+@pytest.mark.filterwarnings("ignore::voussoir.SceneWarning")
+def test_limit(path: Path) -> None:
+    expected = said("limit", path)
+    answer = voussoir.limit(path)
+    assert without_time(answer.to_dict()) == without_time(expected)
+    factor = expected["answer"]["load_factor"]
+    for key in ("status", "value", "lower", "upper", "found"):
+        assert getattr(answer.load_factor, key) == factor.get(key)
+    assert answer.load_factor.associative.upper == factor["associative"].get("upper")
+
+
+def test_the_other_verbs(structures: Path) -> None:
+    table = structures / "block-on-tilting-table.json"
+    tilt = voussoir.tilt(table)
+    assert without_time(tilt.to_dict()) == without_time(said("tilt", table))
+    assert len(tilt.directions) == 8
+    toward = voussoir.tilt(table, toward=(1, 0))
+    assert without_time(toward.to_dict()) == without_time(said("tilt", table, "--toward", "1,0"))
+
+    arch = structures / "oppenheim-arch.json"
+    thrust = voussoir.thrust(arch)
+    assert without_time(thrust.to_dict()) == without_time(said("thrust", arch))
+    assert thrust.least is not None and thrust.least.value is not None
+    assert thrust.greatest is not None and thrust.greatest.value is not None
+    assert thrust.least.value < thrust.greatest.value
+
+    thick = structures / "semicircular-arch-thick.json"
+    pointer, law = "/templates/0/arch/thickness", "associative"
+    critical = voussoir.critical(thick, pointer, (0.05, 0.3), scan=5, law="associative")
+    options = ["--vary", pointer, "--between", "0.05", "0.3", "--scan", "5", "--law", law]
+    assert without_time(critical.to_dict()) == without_time(said("critical", thick, *options))
+    assert critical.value is not None and abs(critical.value - 0.106720903551) < 1e-10
+
+    thin = structures / "semicircular-arch-thin.json"
+    fast = voussoir.simulate(thin, fast=True, film=False)
+    assert without_time(fast.to_dict()) == without_time(said("simulate", thin, "--fast"))
+    assert fast.fate == "falls" and fast.collapse is not None
+
+    column = structures / "column.json"
+    worst = voussoir.assess(column, worst={"friction": (0.5, 0.7), "density": (2000, 2400)})
+    asked = said("assess", column, "--worst", "friction=0.5..0.7,density=2000..2400")
+    assert without_time(worst.to_dict()) == without_time(asked)
+
+
+def test_movements(structures: Path) -> None:
+    arch = structures / "semicircular-arch-thick.json"
+    scene = voussoir.load(arch)
+    support = scene.inspect()["blocks"][-1]["id"]
+    moves = {support: (0.02, 0.0, 0.0)}
+    path = voussoir.settle(arch, moves)
+    expected = said("settle", arch, "--move", f"{support}=0.02,0,0")
+    assert without_time(path.to_dict()) == without_time(expected)
+    assert path.status == expected["answer"]["path"]["status"]
+    assert len(path.parameter) == len(expected["path"]["points"])
+    assert len(path.to_pandas()) == len(path.parameter)
+    claimed = path.certificate_at(0)
+    assert claimed.claims == "stable" and len(claimed.forces.forces)
+
+
+def test_packings_and_sweeps(structures: Path, tmp_path: Path) -> None:
+    pile = structures / "tetrahedral-pile.json"
+    packing = voussoir.repose(pile, all=4)
+    assert without_time(packing.packing) == without_time(said("repose", pile, "--all", "4"))
+
+    plan = structures / "sweeps" / "buttress-width.json"
+    rows = tmp_path / "rows.jsonl"
+    expected = said("sweep", plan, "--output", rows)
+    sweep = voussoir.sweep(plan, threads=2)
+    assert without_time(json.loads(sweep.to_json())) == without_time(expected)
+    listed = [json.loads(line) for line in rows.read_text().splitlines()[1:]]
+    listed.sort(key=lambda row: int(row["row"]))
+    assert sweep.values.tolist() == [row["value"] for row in listed]
+    # The same plan in code, with a scene that was built in code.
+    data = json.loads(plan.read_text())
+    del data["scene"]
+    again = voussoir.sweep(data, structures / "buttressed-arch.json")
+    assert again.values.tolist() == sweep.values.tolist()

@@ -1,0 +1,90 @@
+//! `voussoir kinematic`
+
+use super::{
+    args::Kinematic as Arguments,
+    exit::Exit,
+    ground,
+    output::Sink,
+    question::{Session, requirement, unless_weaker},
+    terminal::Terminal,
+};
+use anyhow::bail;
+use voussoir::{
+    analysis::{ControlPoint, KinematicOptions, Question},
+    report::kinematic,
+};
+
+pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let session = Session::open(&args.common)?;
+    let open = |path: &Option<std::path::PathBuf>| {
+        path.as_deref().map(|p| Sink::open(Some(p))).transpose()
+    };
+    let (csv, svg) = (open(&args.csv)?, open(&args.svg)?);
+    if args.rocking.asked() {
+        return in_time(args, &session, terminal, csv, svg);
+    }
+    if let Some(option) = args.rocking.idle() {
+        bail!("{option} goes with --ground or --pulse");
+    }
+    let question = Question::Kinematic(KinematicOptions {
+        law: session.law(),
+        require: args.require,
+        toward: args.toward.clone(),
+        all: args.toward.is_empty().then_some(args.all),
+        control: args.control.clone().map(|(block, point)| ControlPoint { block, point }),
+        fc: args.fc,
+        at: args.at.clone(),
+        linear: args.linear,
+        skip_dead: args.skip_dead,
+    });
+    let answer = session.ask(&question)?;
+    let file = session.answer(terminal, &args.options(), session.result(&question, &answer)?)?;
+    if let Some(csv) = csv {
+        csv.write(&kinematic::csv(&file)?)?;
+    }
+    if let Some(svg) = svg {
+        svg.write(&kinematic::chart(&file)?)?;
+    }
+    let exit = requirement(&file, question.require(), |alpha| alpha);
+    // A site asks whether it is enough.
+    let ratio = file.answer.kinematic().and_then(|a| Some(a.numbers.demand.as_ref()?.ratio));
+    let exit = match ratio {
+        Some(ratio) if ratio < 1.0 && exit == Exit::Yes => Exit::No,
+        _ => exit,
+    };
+    Ok(unless_weaker(&file, exit))
+}
+
+/// The mechanism of one direction, in time.
+fn in_time(
+    args: &Arguments,
+    session: &Session,
+    terminal: &Terminal,
+    csv: Option<Sink>,
+    svg: Option<Sink>,
+) -> anyhow::Result<Exit> {
+    let without = [
+        (args.fc.is_some(), "--fc"),
+        (!args.at.is_empty(), "--at"),
+        (args.linear, "--linear"),
+        (args.require.is_some(), "--require"),
+        (args.skip_dead, "--skip-dead"),
+        (args.toward.len() > 1, "a second --toward"),
+    ];
+    if let Some((_, option)) = without.into_iter().find(|w| w.0) {
+        bail!(
+            "{option} says nothing about a mechanism in time: leave it out, or --ground, --pulse and --from"
+        );
+    }
+    if let Some(option) = args.rocking.idle() {
+        bail!("{option} goes with --ground or --pulse");
+    }
+    let ask = ground::Rock {
+        args: &args.rocking,
+        toward: args.toward.first().copied(),
+        control: args.control.clone(),
+        csv,
+        svg,
+    };
+    ground::rock(session, &args.common, terminal, ask)
+}

@@ -1,0 +1,86 @@
+//! The command, for whoever carries it: parse, dispatch, exit code.
+
+use super::{
+    args::{Cli, Verb},
+    exit::{Exit, TimeIsUp},
+    terminal::{self, Terminal},
+};
+use clap::Parser;
+use std::{ffi::OsString, path::PathBuf, sync::OnceLock};
+
+/// How the program that carries the command keeps to `--max-memory` and to the limit of its control
+/// group: both are called before anything large is there.
+#[derive(Clone, Copy, Debug)]
+pub struct Memory {
+    /// Never takes more than so many bytes from now on.
+    ///
+    /// # Errors
+    /// Why it cannot, in words.
+    pub limit: fn(u64) -> Result<(), String>,
+    /// Heeds the limit of the control group, where that is lower than the one given.
+    pub heed_group: fn(Option<u64>),
+}
+
+/// How the command is called again, where that is not by the path of this process.
+static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+
+/// Runs `voussoir` with these arguments, the first of them the program's own name, and says how it
+/// ended. It writes to standard output and standard error, and may end the process (`--time-limit`,
+/// memory). Interrupts are left to the system.
+pub fn run(arguments: impl IntoIterator<Item = OsString>, memory: Memory) -> Exit {
+    let arguments = match Cli::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(answer) => return terminal::usage(&answer),
+    };
+    let terminal = Terminal::new(arguments.color);
+    if let Err(error) = arguments.max_memory.map_or(Ok(()), memory.limit) {
+        terminal::error(&anyhow::Error::msg(error));
+        return Exit::Usage;
+    }
+    (memory.heed_group)(arguments.max_memory);
+    match dispatch(&arguments.verb, &terminal) {
+        Ok(exit) => exit,
+        Err(error) => {
+            terminal::error(&error);
+            if error.is::<TimeIsUp>() { Exit::Undecided } else { Exit::Usage }
+        }
+    }
+}
+
+/// As [`run`], of a program that is called by another path than that of its process: a script.
+pub fn run_as(
+    program: PathBuf,
+    arguments: impl IntoIterator<Item = OsString>,
+    memory: Memory,
+) -> Exit {
+    let _ = PROGRAM.set(program);
+    run(arguments, memory)
+}
+
+/// The path by which this command is called.
+pub(super) fn program() -> std::io::Result<PathBuf> {
+    PROGRAM.get().cloned().map_or_else(std::env::current_exe, Ok)
+}
+
+fn dispatch(verb: &Verb, terminal: &Terminal) -> anyhow::Result<Exit> {
+    match verb {
+        Verb::Assess(a) => super::assess::run(a, terminal),
+        Verb::Limit(a) => super::limit::run(a, terminal),
+        Verb::Tilt(a) => super::tilt::run(a, terminal),
+        Verb::Critical(a) => super::critical::run(a, terminal),
+        Verb::Thrust(a) => super::thrust::run(a, terminal),
+        Verb::Settle(a) => super::path::settle(a, terminal),
+        Verb::Push(a) => super::path::push(a, terminal),
+        Verb::Kinematic(a) => super::kinematic::run(a, terminal),
+        Verb::Study(a) => super::study::run(a, terminal),
+        Verb::Simulate(a) => super::simulate::run(a, terminal),
+        Verb::Repose(a) => super::repose::run(a, terminal),
+        Verb::Generate(a) => super::generate::run(a),
+        Verb::Import(a) => super::import::run(a),
+        Verb::Check(a) => super::check::run(a, terminal),
+        Verb::Sweep(a) => super::sweep::run(a, terminal),
+        Verb::Schema(a) => super::schema::run(a),
+        Verb::Completions(a) => super::completions::run(a),
+        Verb::Man(a) => super::man::run(a),
+    }
+}

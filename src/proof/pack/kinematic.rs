@@ -1,0 +1,115 @@
+//! Mechanisms under earthquakes, with their curve.
+
+use super::{bound, certificate, dry_result};
+use crate::{
+    analysis::{Claims, Kinematic, kinematic::Quaked},
+    error::{Finding, FindingCode},
+    interface::Model,
+    kinematic::oblique,
+    proof::{
+        answer::{Answer, LoadFactorAnswer},
+        kinematic::{Control, Given, KinematicAnswer, Numbers},
+        member::lines,
+        path::{PathAnswer, PathResult},
+        result::{Direction, MechanismWords, QuestionKind, ResultFile},
+    },
+    scene::Scene,
+    terms::Outcome,
+    verdict::Verdict,
+};
+
+impl ResultFile {
+    /// The result of `kinematic`, the worst direction first; it is the answer.
+    pub fn kinematic(scene: &Scene, model: &Model, asked: &Kinematic) -> Option<Self> {
+        let level = asked.dead.as_ref().map(|a| a.verdict);
+        let mut followed = asked.curve.as_ref().map(|c| Self::path(scene, &asked.curve_model, c));
+        let path = followed.as_mut().and_then(|f| f.path.take());
+        let curve = followed.as_ref().and_then(|f| f.answer.path());
+        let list: Vec<Direction> = asked
+            .directions
+            .iter()
+            .enumerate()
+            .map(|(k, d)| {
+                let curve = (k == 0).then_some(curve.zip(path.as_ref())).flatten();
+                direction(scene, asked, d, (k == 0, level), curve)
+            })
+            .collect();
+        let (worst, first) = (asked.directions.first()?, list.first()?.clone());
+        let under = &worst.quake.model;
+        let mut file =
+            Self::new(QuestionKind::Kinematic, scene, under, first.answer, first.certificate);
+        file.dry = first.dry;
+        file.path = path;
+        file.mechanism = worst.bound.mechanism.as_ref().map(|m| MechanismWords::new(under, m));
+        file.members = lines(under, worst.bound.evidence().forces);
+        file.left_out.clone_from(&worst.bound.left_out);
+        file.trace =
+            asked.directions.iter().flat_map(|d| d.bound.attempts.iter().cloned()).collect();
+        for d in &asked.directions {
+            file.warn(&d.bound);
+            d.dry.iter().for_each(|dry| file.warn(dry));
+        }
+        let refused = followed.into_iter().flat_map(|f| f.warnings);
+        let known = file.warnings.clone();
+        file.warnings.extend(refused.filter(|w| !known.contains(w)));
+        if !scene.loads.live.is_empty() {
+            file.left_out
+                .push("live loads of the scene: the earthquake stands in their place".into());
+        }
+        file.warnings.extend(oblique(scene, model).into_iter().map(|k| {
+            let text = format!("loads.dead[{k}] pulls down and sideways: it is taken for no weight. Where one is in it, make two loads of it, the weight straight down, or say \"massless\": true");
+            Finding::new(FindingCode::Loads, text)
+        }));
+        if list.len() > 1 {
+            file.directions = list;
+        }
+        Some(match &asked.dead {
+            Some(dead) => file.with_dead_load(model, dead),
+            None => file,
+        })
+    }
+}
+
+fn direction(
+    scene: &Scene,
+    asked: &Kinematic,
+    d: &Quaked,
+    (worst, level): (bool, Option<Verdict>),
+    curve: Option<(&PathAnswer, &PathResult)>,
+) -> Direction {
+    let model = &d.quake.model;
+    let dry = d.dry.as_ref().map(|dry| dry_result(model, dry));
+    let alpha0 = LoadFactorAnswer::new(bound(&d.bound), dry.as_ref());
+    let control = asked.control.filter(|_| worst).map(|(i, point)| Control {
+        block: model.assembly.blocks[i].id.clone(),
+        point: point.into(),
+    });
+    let numbers: Numbers = Given {
+        scene,
+        quake: &d.quake,
+        rates: (d.bound.outcome == Outcome::Found).then(|| d.rates()),
+        alpha0: alpha0.value,
+        fc: asked.confidence,
+        control: control.as_ref(),
+        curve,
+    }
+    .numbers();
+    let answer = KinematicAnswer {
+        toward: d.quake.toward.into(),
+        alpha0,
+        verdict: level,
+        part: d.bound.part.clone(),
+        proof: d.bound.grade(),
+        fc: asked.confidence,
+        control,
+        curve: curve.map(|c| c.0.clone()),
+        without_members: worst && asked.without_members,
+        no_curve: asked.why.clone().filter(|_| worst),
+        numbers,
+    };
+    Direction {
+        answer: Answer::Kinematic(Box::new(answer)),
+        certificate: certificate(model, &d.bound),
+        dry,
+    }
+}
