@@ -79,8 +79,8 @@ pub fn rock(
         control: ask.control.map(|(block, point)| (block, Some(point.into()))),
         restitution: ask.args.restitution,
     };
-    let built =
-        machine(&session.model, &options, &session.control()).map_err(|e| session.refuse(e))?;
+    let built = machine(&session.scene, &session.model, &options, &session.control())
+        .map_err(|e| session.refuse(e))?;
     let from = ask.args.from.unwrap_or(0.0);
     let keep = ask.csv.is_some() || ask.svg.is_some();
     let settings = RunSettings { from, until: ask.args.seconds, keep, ..RunSettings::default() };

@@ -35,7 +35,7 @@ fn options() -> MachineOptions {
 }
 
 fn built(scene: &Scene, options: &MachineOptions) -> Built {
-    machine(&model(scene), options, &Control::default()).expect("a machine")
+    machine(scene, &model(scene), options, &Control::default()).expect("a machine")
 }
 
 /// The block of Housner's examples: b = 0.2 m, h = 1 m.
@@ -279,4 +279,116 @@ mod engine {
         let left = (energy(second) / energy(first)).sqrt();
         close("what is left of the speed", left, 0.942_307_692_3, 5e-3);
     }
+}
+
+/// A wall with a floor on it: the masses that loads stand for rock with it.
+#[test]
+fn masses_of_dead_loads_take_part() {
+    let open = |name: &str| {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("structures").join(name);
+        crate::ask::open(&path)
+    };
+    // Circolare 2019, C8.7.1.2.1: (68.4 × 0.3 + 40 × 0.4) / (68.4 × 3 + 40 × 6).
+    let floor = open("overturning-wall-with-floor.json");
+    let built = built(&floor, &options());
+    close(
+        "load factor",
+        built.proofs[0].1.value,
+        (68.4 * 0.3 + 40.0 * 0.4) / (68.4 * 3.0 + 40.0 * 6.0),
+        1e-6,
+    );
+    // m about the toe: 68.4 (0.6² + 6²) / 3 g + 40 (0.4² + 6²) / g.
+    let inertia = (68.4e3 * (0.36 + 36.0) / 3.0 + 40e3 * (0.16 + 36.0)) / 9.81;
+    let sense = built.machine.senses[0].as_ref().expect("it rocks");
+    let at = sense.law.at(0.1);
+    let g = floor_gravity(&floor);
+    close("inertia", at.inertia, inertia * 9.81 / g, 1e-9);
+}
+
+fn floor_gravity(scene: &Scene) -> f64 {
+    model(scene).assembly.gravity.norm()
+}
+
+/// Neither units, nor place, nor orientation, nor what stands beside it changes a history.
+#[test]
+fn histories_do_not_depend_on_units_place_and_strangers() {
+    let want = housner();
+    let motion = Pulse::Sine { acceleration: 4.0, duration: 0.9 }.motion();
+    let free =
+        |built: &Built, motion: &Motion| run(&built.machine, motion, &RunSettings::default());
+    let first = free(&want, &motion);
+    assert!(first.impacts.len() > 3);
+    let same = |what: &str, other: &voussoir::rocking::History, time: f64| {
+        assert_eq!(first.impacts.len().min(20), other.impacts.len().min(20), "{what}");
+        for (a, b) in first.impacts.iter().zip(&other.impacts).take(4) {
+            close(what, b.time / time, a.time, 1e-7);
+        }
+        close(what, other.greatest.q, first.greatest.q, 1e-7);
+    };
+    // A thousandth of the size at a thousandth of the gravity takes as long.
+    let small = scene(
+        NO_SLIDING,
+        json!([
+            ground(20e-3),
+            prism("stone", &[[-2e-4, 0.0], [2e-4, 0.0], [2e-4, 2e-3], [-2e-4, 2e-3]])
+        ]),
+        json!({ "gravity": [0, 0, -9.81e-3] }),
+    );
+    same("units", &free(&built(&small, &options()), &motion.scaled(1e-3)), 1.0);
+    // Far away, and beside a heavier, squatter block.
+    let (x, y) = (500e3, 200.0);
+    let far = scene(
+        NO_SLIDING,
+        json!([
+            fixed(prism(
+                "ground",
+                &[[x - 20.0, y - 1.0], [x + 20.0, y - 1.0], [x + 20.0, y], [x - 20.0, y]]
+            )),
+            prism("heavy", &[[x + 5.0, y], [x + 8.0, y], [x + 8.0, y + 2.0], [x + 5.0, y + 2.0]]),
+            prism("stone", &[[x - 0.2, y], [x + 0.2, y], [x + 0.2, y + 2.0], [x - 0.2, y + 2.0]])
+        ]),
+        json!({ "gravity": [0, 0, -9.81] }),
+    );
+    same("place and strangers", &free(&built(&far, &options()), &motion), 1.0);
+    // Gravity along −x, the ground along z.
+    let lying = scene(
+        NO_SLIDING,
+        json!([
+            fixed(prism("ground", &[[-1.0, -20.0], [0.0, -20.0], [0.0, 20.0], [-1.0, 20.0]])),
+            prism("stone", &[[0.0, -0.2], [2.0, -0.2], [2.0, 0.2], [0.0, 0.2]])
+        ]),
+        json!({ "gravity": [-9.81, 0, 0] }),
+    );
+    let toward = MachineOptions { toward: Vector3::z(), ..options() };
+    same("orientation", &free(&built(&lying, &toward), &motion), 1.0);
+}
+
+/// Linkages with several hinges are idealisations, and their tables are smooth.
+#[test]
+fn an_arch_is_an_idealisation() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/oppenheim-arch.json");
+    let built = built(&crate::ask::open(path.as_ref()), &options());
+    assert!(matches!(built.exactness, Exactness::Idealised(_)));
+    close("load factor", built.proofs[0].1.value, 0.373_611_692, 1e-6);
+    let sense = built.machine.senses[0].as_ref().expect("it rocks");
+    close(
+        "release",
+        sense.release() / model(&crate::ask::open(path.as_ref())).assembly.gravity.norm(),
+        0.373_611_692,
+        1e-6,
+    );
+    // The slope of the inertia and of the resistance by differences.
+    let h = 1e-5;
+    for q in [0.01, 0.03, 0.06] {
+        let [a, b, v] = [q - h, q + h, q].map(|q| sense.law.at(q));
+        close("slope of the inertia", (b.inertia - a.inertia) / (2.0 * h), v.growth, 1e-5);
+        close("stiffness", (b.resistance - a.resistance) / (2.0 * h), v.stiffness, 1e-5);
+    }
+    // Without loss, energy stays.
+    let settings = RunSettings { from: 0.5, until: Some(3.0), ..RunSettings::default() };
+    let mut machine = built.machine.clone();
+    machine.restitution = [1.0; 2];
+    let history = run(&machine, &Motion::default(), &settings);
+    let unstable = sense.unstable.expect("unstable");
+    assert!((history.greatest.q.abs() / unstable - 0.5).abs() < 1e-9, "{:?}", history.greatest);
 }

@@ -18,7 +18,7 @@ use super::{
     unknown_members,
 };
 use crate::{
-    error::{Finding, InputError, JsonPath},
+    error::{Finding, FindingCode, InputError, JsonPath},
     ground::{Motion, When},
     interface::Model,
     tolerance::{REST_ENERGY, REST_TIME, SKIN},
@@ -124,7 +124,22 @@ pub fn shake(
         Stage { model, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
     let mut shaken = scene.shake(motion, axes, watch)?;
     shaken.findings.extend(strengths(interfaces));
+    shaken.findings.extend(massless(model));
     Ok(shaken)
+}
+
+/// Loads beside the weight of the blocks: forces here, whose masses the ground does not push.
+fn massless(model: &Model) -> Option<Finding> {
+    let assembly = &model.assembly;
+    let loaded = |&i: &usize| {
+        let own = assembly.self_weight(i).force;
+        (assembly.dead[i].force - own).norm() > 1e-9 * own.norm()
+    };
+    let count = assembly.free().filter(loaded).count();
+    let text = format!(
+        "{count} blocks carry dead loads: they act as forces, and the ground does not push their masses here (`voussoir kinematic` does)"
+    );
+    (count > 0).then(|| Finding::new(FindingCode::LeftOut, text))
 }
 
 impl Stage<'_> {

@@ -12,10 +12,12 @@ mod table;
 use super::answer::followable;
 use crate::{
     analysis::{Control, LoadFactor, Proved, limit},
-    assembly::{Assembly, Wrench},
+    assembly::Assembly,
     error::{InputError, JsonPath},
     interface::{self, Model},
+    kinematic::{Mass, MassKind, quake},
     rocking::Machine,
+    scene::Scene,
     terms::{Law, Outcome},
 };
 use nalgebra::Vector3;
@@ -72,6 +74,7 @@ pub struct Built {
 /// It does not stand, has no load factor, slides, or moves in more than one way; joints or blocks
 /// that are not followed.
 pub fn machine(
+    scene: &Scene,
     model: &Model,
     options: &MachineOptions,
     control: &Control,
@@ -85,20 +88,21 @@ pub fn machine(
     let (toward, up) = directions(&model.assembly, options.toward)?;
     let axes = [toward, up.cross(&toward), up];
     let statics = Control { law: Law::Associative, ..*control };
-    let first = pushed(model, toward);
-    let proof = limit(&first, &statics);
+    let quakes = [quake(scene, model, toward)?, quake(scene, model, -toward)?];
+    let first = &quakes[0].model;
+    let proof = limit(first, &statics);
     found(&proof, "towards the direction")?;
     // What does not move with it is another scene.
-    let own = own_part(&first, &proof);
+    let own = own_part(first, &proof);
     let gone: Vec<usize> = model.assembly.free().filter(|i| !own.contains(i)).collect();
     let kept: Vec<usize> = (0..model.assembly.blocks.len()).filter(|i| !gone.contains(i)).collect();
-    let part = model.without(&gone);
-    let models = [pushed(&part, toward), pushed(&part, -toward)];
+    let masses = beside(&quakes[0].masses, &kept, model.assembly.gravity.norm());
+    let models = quakes.map(|q| q.model.without(&gone));
     let proofs = models.map(|m| {
         let proof = limit(&m, &statics);
         (m, proof)
     });
-    let sides = [0, 1].map(|k| Side::new(&proofs[k].0, &proofs[k].1, k));
+    let sides = [0, 1].map(|k| Side::new(&proofs[k].0, &masses, &proofs[k].1, k));
     let [one, other] = sides;
     let (one, other) = (one?, other?);
     let Some(one) = one else {
@@ -112,7 +116,7 @@ pub fn machine(
         .iter()
         .map(|side| side.as_ref().map(|s| s.law(&axes, chosen.local, &mut notes)).transpose())
         .collect::<Result<_, _>>()?;
-    let conserving = side::restitution(&part, &sides);
+    let conserving = side::restitution(&sides);
     let restitution = options.restitution.map_or(conserving, |e| [e; 2]);
     if sides[1].is_none() {
         notes.push(format!(
@@ -123,7 +127,7 @@ pub fn machine(
             )
         ));
     }
-    let exactness = side::exactness(&part, &sides, &built);
+    let exactness = side::exactness(&sides, &built);
     let thickness = side::thickness(&model.assembly.blocks[chosen.block]);
     let senses: [Option<crate::rocking::Sense>; 2] =
         std::array::from_fn(|k| built.get(k).and_then(|b| b.as_ref().map(|b| b.sense.clone())));
@@ -200,16 +204,24 @@ fn directions(
     Ok((across.normalize(), up))
 }
 
-/// The scene whose live load is the weight of its blocks, sideways.
-fn pushed(model: &Model, toward: Vector3<f64>) -> Model {
-    let mut assembly = model.assembly.clone();
-    let g = assembly.gravity.norm();
-    for i in model.assembly.free() {
-        let force = toward * (assembly.blocks[i].mass * g);
-        assembly.live[i] = Wrench { force, moment: Vector3::zeros() };
-    }
-    assembly.live_forces = Vec::new();
-    Model { assembly, ..model.clone() }
+/// A mass that goes with a block beside the block's own.
+struct Beside {
+    block: usize,
+    /// From the block's centre of mass at the start, m.
+    arm: Vector3<f64>,
+    /// kg.
+    mass: f64,
+}
+
+/// Masses beside those of the blocks that are kept.
+fn beside(masses: &[Mass], kept: &[usize], gravity: f64) -> Vec<Beside> {
+    let others = masses.iter().filter(|m| m.kind != MassKind::Block);
+    others
+        .filter_map(|m| {
+            let block = kept.iter().position(|&i| i == m.block)?;
+            Some(Beside { block, arm: m.arm, mass: m.weight / gravity })
+        })
+        .collect()
 }
 
 /// Whether there is a load factor above zero.

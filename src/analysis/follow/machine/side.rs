@@ -1,6 +1,6 @@
 //! The mechanism of one sense.
 
-use super::{Exactness, refuse, table};
+use super::{Beside, Exactness, refuse, table};
 use crate::{
     analysis::{
         LoadFactor, Proved,
@@ -22,6 +22,7 @@ use nalgebra::Vector3;
 /// The mechanism that limit analysis proves for a model under its live load.
 pub(super) struct Side<'a> {
     model: &'a Model,
+    masses: &'a [Beside],
     carried: Carried<'a>,
     closed: Vec<Vec<usize>>,
     /// Rates at the start, per radian of the turn of `lead`.
@@ -49,6 +50,7 @@ impl<'a> Side<'a> {
     /// The mechanism; none where nothing moves in this sense.
     pub fn new(
         model: &'a Model,
+        masses: &'a [Beside],
         proof: &Proved<LoadFactor>,
         which: usize,
     ) -> Result<Option<Self>, InputError> {
@@ -112,7 +114,7 @@ impl<'a> Side<'a> {
         }
         let axis = rates[lead].spin;
         let closed = next.closed;
-        Ok(Some(Self { model, carried, closed, rates, lead, axis, which }))
+        Ok(Some(Self { model, masses, carried, closed, rates, lead, axis, which }))
     }
 
     /// The block whose centre moves fastest.
@@ -187,6 +189,12 @@ impl<'a> Side<'a> {
             n[1] -= dead[i].force.dot(&r.velocity) + dead[i].moment.dot(&r.spin);
             (0..3).for_each(|k| n[2 + k] += b.mass * axes[k].dot(&r.velocity));
         }
+        for m in self.masses {
+            let r = &rates[m.block];
+            let velocity = r.velocity + r.spin.cross(&(poses[m.block].turn * m.arm));
+            n[0] += m.mass * velocity.norm_squared();
+            (0..3).for_each(|k| n[2 + k] += m.mass * axes[k].dot(&velocity));
+        }
         let (block, point) = control;
         n[5] = axes[0].dot(&poses[block].way(&assembly.blocks[block].centroid, &point));
         n
@@ -199,16 +207,20 @@ fn drive() -> Drive {
 }
 
 /// What is left of the speed when one sense ends and the other begins.
-pub(super) fn restitution(model: &Model, sides: &[Option<Side>; 2]) -> [f64; 2] {
+pub(super) fn restitution(sides: &[Option<Side>; 2]) -> [f64; 2] {
     let [Some(a), Some(b)] = sides else { return [0.0; 2] };
     let product = |one: &[Rate], other: &[Rate]| -> f64 {
-        let blocks = model.assembly.blocks.iter().filter(|b| !b.support);
-        let free = model.assembly.free().zip(blocks);
-        free.map(|(i, b)| {
+        let assembly = &a.model.assembly;
+        let blocks = assembly.free().map(|i| {
+            let b = &assembly.blocks[i];
             b.mass * one[i].velocity.dot(&other[i].velocity)
                 + one[i].spin.dot(&(b.inertia * other[i].spin))
-        })
-        .sum()
+        });
+        let beside = a.masses.iter().map(|m| {
+            let [v, w] = [one, other].map(|r| r[m.block].velocity + r[m.block].spin.cross(&m.arm));
+            m.mass * v.dot(&w)
+        });
+        blocks.chain(beside).sum()
     };
     // The motion that ends goes back: its rates are those of its sense, the other way.
     let cross = -product(&a.rates, &b.rates);
@@ -216,12 +228,8 @@ pub(super) fn restitution(model: &Model, sides: &[Option<Side>; 2]) -> [f64; 2] 
 }
 
 /// How far the machine is the scene.
-pub(super) fn exactness(
-    model: &Model,
-    sides: &[Option<Side>; 2],
-    built: &[Option<Lawful>],
-) -> Exactness {
-    let free = model.assembly.free().count();
+pub(super) fn exactness(sides: &[Option<Side>; 2], built: &[Option<Lawful>]) -> Exactness {
+    let free = sides[0].as_ref().map_or(0, |s| s.model.assembly.free().count());
     let ideal = |text: &str| Exactness::Idealised(text.into());
     for lawful in built.iter().flatten() {
         if lawful.bodies.iter().any(|&n| n > 1) {
