@@ -387,7 +387,7 @@ impl Run<'_> {
         // The lowest point of a step that turns outwards within it.
         let mut end = (h, next);
         if y[1] < 0.0 && next[1] > 0.0 && next[0] > 0.0 {
-            let low = under.crossing(t, y, h, |_, s| -s[1]);
+            let low = under.crossing(t, y, h, |h, s| [-s[1], -under.rates(t + h, s)[1]]);
             let state = under.step(t, y, low).0;
             if state[0] <= 0.0 {
                 end = (low, state);
@@ -395,9 +395,9 @@ impl Run<'_> {
         }
         if end.1[0] <= 0.0 {
             let at = if y[0] > 0.0 {
-                under.crossing(t, y, end.0, |_, s| s[0])
+                under.crossing(t, y, end.0, |_, s| s)
             } else if y[1] > 0.0 {
-                under.crossing(t, y, end.0, |h, s| if h > 0.0 { s[0] / h } else { y[1] })
+                under.crossing(t, y, end.0, |h, s| [s[0] / h, (s[1] - s[0] / h) / h])
             } else {
                 // It has not moved off.
                 self.time = if whole { piece.end } else { self.time + end.0 };
@@ -420,7 +420,7 @@ impl Run<'_> {
         if y[1] > 0.0 && y[0] + y[1] * h > self.peak {
             let next = under.step(t, y, h).0;
             if next[1] < 0.0 {
-                let at = under.crossing(t, y, h, |_, s| s[1]);
+                let at = under.crossing(t, y, h, |h, s| [s[1], under.rates(t + h, s)[1]]);
                 let q = under.step(t, y, at).0[0];
                 let time = self.time + at;
                 self.farthest(Sample { time, q: sign * q, rate: 0.0 });

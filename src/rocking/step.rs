@@ -55,37 +55,27 @@ impl Under<'_> {
     }
 
     /// The part of a step of length `h` after which `of` the state and its time is zero: from above
-    /// at the start to below at the end. Steps are taken anew from the start, so that what is found
-    /// is as exact as a step.
-    pub fn crossing(&self, t: f64, y: State, h: f64, of: impl Fn(f64, State) -> f64) -> f64 {
+    /// at the start to below at the end (Newton's method with the slope that `of` gives as well,
+    /// kept inside its bracket). Steps are taken anew from the start, so that what is found is as
+    /// exact as a step.
+    pub fn crossing(&self, t: f64, y: State, h: f64, of: impl Fn(f64, State) -> [f64; 2]) -> f64 {
         let (mut low, mut high) = (0.0, h);
-        let (mut fl, mut fh) = (of(0.0, y), of(h, self.step(t, y, h).0));
-        let mut last = 0;
-        for round in 0..200 {
-            let secant = low + (high - low) * fl / (fl - fh);
-            let middle = 0.5 * (low + high);
-            let x = if round % 4 == 3 || !secant.is_finite() { middle } else { secant };
-            if high - low <= 2.0 * f64::EPSILON * high || !(low < x && x < high) {
+        let mut x = h;
+        let [mut f, mut slope] = of(h, self.step(t, y, h).0);
+        for _ in 0..100 {
+            let newton = x - f / slope;
+            let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
+            if f == 0.0
+                || (next - x).abs() <= 2.0 * f64::EPSILON * high
+                || next <= low
+                || next >= high
+            {
                 break;
             }
-            let f = of(x, self.step(t, y, x).0);
-            if f > 0.0 {
-                (low, fl) = (x, f);
-                if last == 1 {
-                    fh *= 0.5;
-                }
-                last = 1;
-            } else {
-                (high, fh) = (x, f);
-                if last == -1 {
-                    fl *= 0.5;
-                }
-                last = -1;
-            }
-            if f == 0.0 {
-                break;
-            }
+            x = next;
+            [f, slope] = of(x, self.step(t, y, x).0);
+            if f > 0.0 { low = x } else { high = x }
         }
-        high
+        x
     }
 }

@@ -313,7 +313,7 @@ fn floor_gravity(scene: &Scene) -> f64 {
 #[test]
 fn histories_do_not_depend_on_units_place_and_strangers() {
     let want = housner();
-    let motion = Pulse::Sine { acceleration: 4.0, duration: 0.9 }.motion();
+    let motion = Pulse::Sine { acceleration: 3.0, duration: 0.4 }.motion();
     let free =
         |built: &Built, motion: &Motion| run(&built.machine, motion, &RunSettings::default());
     let first = free(&want, &motion);

@@ -28,6 +28,8 @@ use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
 /// Before the ground moves its dead load is put on and comes to rest, √(L/g).
 const BEFORE: f64 = 4.0;
+/// After the ground has come to rest the scene is watched this many times as long as a fall takes.
+const AFTER: f64 = 4.0;
 /// A block that has turned by more than this has overturned, rad. Larger: blocks that lean on others
 /// after their fall pass for rocking. Smaller: squat blocks rock as far.
 const OVERTURNED: f64 = std::f64::consts::FRAC_PI_4;
@@ -175,7 +177,7 @@ impl Stage<'_> {
         let down = self.model.assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
         let horizon = match self.settings.seconds {
             Some(s) => s / unit,
-            None => motion.end() / unit + self.horizon(),
+            None => motion.end() / unit + AFTER * self.horizon(),
         };
         let total = (horizon / dt).ceil().max(1.0) as usize;
         let every = total.checked_div(self.settings.frames).map_or(usize::MAX, |n| n.max(1));

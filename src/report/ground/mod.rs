@@ -58,6 +58,9 @@ impl Shaking {
         if peak > 0.0 {
             text += &format!("; peak {} m/s² ({} g)", short(peak), short(peak / STANDARD_GRAVITY));
         }
+        if self.motion.pieces.is_empty() {
+            return text;
+        }
         format!("{text}; {} s", short(self.motion.end()))
     }
 

@@ -46,7 +46,8 @@ impl Rocked<'_> {
 
     /// Way of the control point, m.
     fn way(&self, s: &Sample) -> f64 {
-        self.sense(s.q).map_or(0.0, |sense| sense.law.at(s.q.abs()).way)
+        let moved = self.sense(s.q).filter(|_| s.q != 0.0);
+        moved.map_or(0.0, |sense| sense.law.at(s.q.abs()).way)
     }
 
     /// The coordinate over the unstable equilibrium.
