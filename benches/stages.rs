@@ -10,12 +10,17 @@ use criterion::{
 };
 use std::{hint::black_box, ops::ControlFlow, process::Command, time::Duration};
 use voussoir::{
-    analysis::{self, Control, Law, Limited},
+    analysis::{
+        self, Control, Law, Limited,
+        follow::machine::{MachineOptions, machine},
+    },
     assembly,
     dynamics::{Fidelity, SimulationSettings, simulate},
+    ground::Record,
     import, interface,
     program::{self, Statics, StaticsOptions, Unknowns},
     proof::ResultFile,
+    rocking::{self, RunSettings},
     scene::{Friction, Load, Scene, read_file, read_str},
     sweep,
     verdict::{Evidence, check},
@@ -264,5 +269,27 @@ fn walls(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, stages, figures, walls, large, steps);
+/// A record of 40 s, 8,001 samples, through the mechanism of one block that rocks and does not
+/// overturn.
+fn rocks(c: &mut Criterion) {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/slender-block.json");
+    let (scene, _) = read_file(path.as_ref()).expect("the bench scene reads");
+    let model = interface::prepare(&scene).expect("the bench scene resolves");
+    let options =
+        MachineOptions { toward: nalgebra::Vector3::x(), control: None, restitution: None };
+    let built = machine(&scene, &model, &options, &Control::default()).expect("it rocks");
+    let mut record = String::from("t (s),a (m/s2)\n");
+    for k in 0..=8000 {
+        let t = 0.005 * f64::from(k);
+        let a = 2.4 * (5.0 * t).sin() * (1.0 + 0.3 * (1.7 * t).sin());
+        record += &format!("{t:.3},{a:.6}\n");
+    }
+    let record = Record::parse("bench.csv", record.as_bytes(), None).expect("a record");
+    let motion = record.motion();
+    c.bench_function("rocking, one block, a record of 40 s", |b| {
+        b.iter(|| rocking::run(&built.machine, &motion, &RunSettings::default()))
+    });
+}
+
+criterion_group!(benches, stages, figures, walls, large, steps, rocks);
 criterion_main!(benches);

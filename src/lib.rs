@@ -105,6 +105,10 @@ pub mod files;
 
 pub mod limits;
 
+pub mod ground;
+
+pub mod rocking;
+
 #[cfg(feature = "solve")]
 pub mod parallel;
 

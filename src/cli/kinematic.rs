@@ -3,10 +3,12 @@
 use super::{
     args::Kinematic as Arguments,
     exit::Exit,
+    ground,
     output::Sink,
     question::{Session, requirement, unless_weaker},
     terminal::Terminal,
 };
+use anyhow::bail;
 use voussoir::{
     analysis::{ControlPoint, KinematicOptions, Question},
     report::kinematic,
@@ -18,6 +20,12 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         path.as_deref().map(|p| Sink::open(Some(p))).transpose()
     };
     let (csv, svg) = (open(&args.csv)?, open(&args.svg)?);
+    if args.rocking.asked() {
+        return in_time(args, &session, terminal, csv, svg);
+    }
+    if let Some(option) = args.rocking.idle() {
+        bail!("{option} goes with --ground or --pulse");
+    }
     let question = Question::Kinematic(KinematicOptions {
         law: session.law(),
         require: args.require,
@@ -45,4 +53,38 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         _ => exit,
     };
     Ok(unless_weaker(&file, exit))
+}
+
+/// The mechanism of one direction, in time.
+fn in_time(
+    args: &Arguments,
+    session: &Session,
+    terminal: &Terminal,
+    csv: Option<Sink>,
+    svg: Option<Sink>,
+) -> anyhow::Result<Exit> {
+    let without = [
+        (args.fc.is_some(), "--fc"),
+        (!args.at.is_empty(), "--at"),
+        (args.linear, "--linear"),
+        (args.require.is_some(), "--require"),
+        (args.skip_dead, "--skip-dead"),
+        (args.toward.len() > 1, "a second --toward"),
+    ];
+    if let Some((_, option)) = without.into_iter().find(|w| w.0) {
+        bail!(
+            "{option} says nothing about a mechanism in time: leave it out, or --ground, --pulse and --from"
+        );
+    }
+    if let Some(option) = args.rocking.idle() {
+        bail!("{option} goes with --ground or --pulse");
+    }
+    let ask = ground::Rock {
+        args: &args.rocking,
+        toward: args.toward.first().copied(),
+        control: args.control.clone(),
+        csv,
+        svg,
+    };
+    ground::rock(session, &args.common, terminal, ask)
 }

@@ -12,6 +12,7 @@ pub mod critical;
 pub mod deadline;
 pub mod exit;
 pub mod generate;
+mod ground;
 mod heap;
 pub mod import;
 mod input;

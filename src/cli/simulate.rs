@@ -4,6 +4,7 @@ use super::{
     args::Simulate,
     claim,
     exit::Exit,
+    ground,
     progress::Bar,
     question::{Seen, Session},
     report,
@@ -31,6 +32,18 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         scene
     })?
     .filmed(&args.pictures)?;
+    if args.ground.moves() {
+        return ground::simulate(args, &session, terminal);
+    }
+    for (given, option) in [
+        (args.ground.scale.is_some(), "--scale"),
+        (args.toward.is_some(), "--toward"),
+        (args.chart.is_some(), "--chart"),
+    ] {
+        if given {
+            bail!("{option} goes with --ground or --pulse");
+        }
+    }
     // Created before the work, and filled as it goes.
     let mut csv = match &args.csv {
         Some(path) => {
@@ -91,6 +104,14 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     })
 }
 
+/// Threads of the engine, 0 for as many as there are processors.
+pub fn threads(threads: u16) -> usize {
+    match threads {
+        0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
+        n => n.into(),
+    }
+}
+
 /// Who watches a simulation: under a bar, until the time limit, with a film where there is to be
 /// one.
 pub struct Camera {
@@ -102,10 +123,7 @@ pub struct Camera {
 
 impl Camera {
     pub fn new(session: &Session, threads: u16, is_filmed: bool) -> Self {
-        let threads = match threads {
-            0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
-            n => n.into(),
-        };
+        let threads = self::threads(threads);
         let film = is_filmed.then(|| Film::fitting(session.model.assembly.blocks.len()));
         Self { threads, frames: 0, keep_frames: true, film }
     }

@@ -1,5 +1,9 @@
 //! Running the engine until the outcome is clear.
 
+mod shaken;
+
+pub use shaken::{BlockMotion, Shaken, ShakenFate, shake};
+
 use super::{
     FIRST_MOTION, Fate, Fidelity, FirstMotion, Frame, MeanContact, Pose, Progress, Run,
     SimulationOutcome, SimulationSettings, Stop,

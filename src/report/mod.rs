@@ -3,6 +3,7 @@
 mod cells;
 pub mod contacts;
 pub mod drawing;
+pub mod ground;
 pub mod heaps;
 pub mod imported;
 pub mod inspection;

@@ -219,6 +219,7 @@ fn dynamics_never_sees_program_solver_or_verdict() {
                 "error",
                 "tolerance",
                 "plane",
+                "ground",
                 "scene",
                 "assembly",
                 "interface",

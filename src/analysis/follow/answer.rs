@@ -146,7 +146,7 @@ pub fn push(
 }
 
 /// What cannot be followed.
-fn followable(model: &Model) -> Result<(), InputError> {
+pub(super) fn followable(model: &Model) -> Result<(), InputError> {
     let refuse = |text: String, hint: &str| {
         Err(InputError::at(JsonPath::root(), text).hint(hint.to_string()))
     };

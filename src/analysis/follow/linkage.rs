@@ -19,6 +19,10 @@ pub struct OpenBy {
     pub gap: f64,
 }
 
+mod turned;
+
+pub use turned::Turned;
+
 struct Body {
     /// A block of it, a support where it has one.
     lead: usize,

@@ -1,7 +1,7 @@
 //! Arguments of `kinematic`.
 
 use super::{
-    Common, DIRECTIONS,
+    Common, DIRECTIONS, Rocking,
     parse::{Written, at_least_one, control, direction, finite, output},
 };
 use clap::Args;
@@ -38,10 +38,14 @@ pub struct Kinematic {
     /// Do not ask as well whether it stands without an earthquake.
     #[arg(long)]
     pub skip_dead: bool,
-    /// Write directions, curve and limit states to this file, comma-separated.
+    #[command(flatten)]
+    pub rocking: Rocking,
+    /// Write directions, curve and limit states to this file, comma-separated; of a mechanism in
+    /// time its history.
     #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
     pub csv: Option<PathBuf>,
-    /// Draw the capacity curve to this file: exact and straight, SLV and SLC.
+    /// Draw the capacity curve to this file: exact and straight, SLV and SLC; of a mechanism in time
+    /// its way over the thickness, and the ground below.
     #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
     pub svg: Option<PathBuf>,
 }

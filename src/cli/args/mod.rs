@@ -1,6 +1,7 @@
 //! Every argument of every verb, and nothing else.
 
 mod files;
+mod ground;
 mod kinematic;
 mod parse;
 mod path;
@@ -11,6 +12,7 @@ mod study;
 mod sweep;
 
 pub use files::{Check, Completions, FileFormat, Generate, Import, Man, Schema};
+pub use ground::{Ground, Rocking};
 pub use kinematic::Kinematic;
 pub use path::{Curve, Push, Settle};
 pub use pictures::{Pictures, Tables};

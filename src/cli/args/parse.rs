@@ -5,7 +5,7 @@ use std::{
     ffi::OsString,
     path::{Path, PathBuf},
 };
-use voussoir::{analysis::SupportMove, import::Up, scene::Friction};
+use voussoir::{analysis::SupportMove, ground::Pulse, import::Up, scene::Friction};
 
 /// What an output option writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,6 +150,23 @@ pub fn friction(text: &str) -> Result<Friction, String> {
         _ => not_negative(text)
             .map(Friction::Coefficient)
             .map_err(|_| "not a coefficient >= 0 or `infinite`".into()),
+    }
+}
+
+pub fn restitution(text: &str) -> Result<f64, String> {
+    share(text).map_err(|_| "not a restitution from 0 to 1".into())
+}
+
+pub fn pulse(text: &str) -> Result<(String, Pulse), String> {
+    Ok((text.to_string(), text.parse()?))
+}
+
+pub fn scales(text: &str) -> Result<(f64, f64), String> {
+    let wrong = || "not two scales > 0, the smaller one first, such as 0.5,3".to_string();
+    let (from, to) = text.split_once(',').ok_or_else(wrong)?;
+    match (positive(from), positive(to)) {
+        (Ok(from), Ok(to)) if from < to => Ok((from, to)),
+        _ => Err(wrong()),
     }
 }
 

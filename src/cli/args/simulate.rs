@@ -1,8 +1,8 @@
 //! Arguments of simulations.
 
 use super::{
-    Common, Pictures,
-    parse::{Written, finite, output, positive},
+    Common, Ground, Pictures,
+    parse::{Written, direction, finite, output, positive},
 };
 use clap::Args;
 use std::path::PathBuf;
@@ -33,7 +33,17 @@ pub struct Simulate {
     /// on them.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     pub threads: u16,
-    /// Write where every block is, time by time, to this file as it happens.
+    #[command(flatten)]
+    pub ground: Ground,
+    /// The direction in which the ground moves (its part across gravity) [default: 1,0].
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
+    pub toward: Option<[f64; 3]>,
+    /// On ground that moves: draw the ways of the blocks that go farthest, over their thickness,
+    /// and the ground below them to this file.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
+    pub chart: Option<PathBuf>,
+    /// Write where every block is, time by time, to this file as it happens; on ground that moves
+    /// the way of every block over its thickness.
     #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
     pub csv: Option<PathBuf>,
     /// So many times are kept in --csv, and in the result of --json and --save if given.

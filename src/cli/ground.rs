@@ -1,0 +1,218 @@
+//! Scenes on ground that moves: what `kinematic` and `simulate` have in common.
+
+use super::{
+    args,
+    args::Simulate,
+    claim,
+    exit::Exit,
+    output::Sink,
+    progress::Bar,
+    question::Session,
+    report,
+    terminal::{self, Terminal},
+};
+use anyhow::bail;
+use nalgebra::Vector3;
+use std::{ops::ControlFlow, path::Path};
+use voussoir::{
+    analysis::follow::machine::{MachineOptions, machine},
+    dynamics::{Fidelity, Progress, ShakenFate, SimulationSettings, shake},
+    ground::{Motion, Record},
+    report::{
+        ground::{Rocked, ShakenReport, Shaking},
+        json, page,
+        text::{Layout, Page, TextOptions},
+        view::{Film, View},
+    },
+    rocking::{Fate, RunSettings, Search, run as run_machine, scan},
+};
+
+/// Scales of a scan, and how near flips are narrowed.
+const SCALES: usize = 200;
+const WIDTH: f64 = 1e-9;
+/// So many times are kept for tables and charts where nothing is said.
+const FRAMES: usize = 2000;
+
+/// The motion that was asked for.
+fn shaking(args: &args::Ground) -> anyhow::Result<Shaking> {
+    let (source, record, motion) = given(args)?;
+    let scale = args.scale.unwrap_or(1.0);
+    Ok(Shaking { source, record, scale, motion: motion.scaled(scale), given: motion })
+}
+
+/// The motion as it is in its file or formula, with its name.
+fn given(args: &args::Ground) -> anyhow::Result<(String, Option<Record>, Motion)> {
+    Ok(match &args.pulse {
+        Some((text, pulse)) => (text.clone(), None, pulse.motion()),
+        None if args.ground.is_empty() => (String::new(), None, Motion::default()),
+        None => {
+            args.ground.iter().try_for_each(|p| claim::read(p))?;
+            let paths: Vec<&Path> = args.ground.iter().map(|p| p.as_path()).collect();
+            let record = Record::read(&paths, args.units)?;
+            terminal::warnings(record.findings.iter());
+            let motion = record.motion();
+            (record.name.clone(), Some(record), motion)
+        }
+    })
+}
+
+/// What the mechanism of a scene does in time.
+pub struct Rock<'a> {
+    pub args: &'a args::Rocking,
+    pub toward: Option<[f64; 3]>,
+    pub control: Option<(String, [f64; 3])>,
+    pub csv: Option<Sink>,
+    pub svg: Option<Sink>,
+}
+
+/// Runs the mechanism of a scene in time.
+pub fn rock(
+    session: &Session,
+    common: &args::Common,
+    terminal: &Terminal,
+    ask: Rock,
+) -> anyhow::Result<Exit> {
+    refuse_save(session)?;
+    let shaking = shaking(&ask.args.ground)?;
+    let options = MachineOptions {
+        toward: ask.toward.unwrap_or([1.0, 0.0, 0.0]).into(),
+        control: ask.control.map(|(block, point)| (block, Some(point.into()))),
+        restitution: ask.args.restitution,
+    };
+    let built = machine(&session.scene, &session.model, &options, &session.control())
+        .map_err(|e| session.refuse(e))?;
+    let from = ask.args.from.unwrap_or(0.0);
+    let keep = ask.csv.is_some() || ask.svg.is_some();
+    let settings = RunSettings { from, until: ask.args.seconds, keep, ..RunSettings::default() };
+    let history = run_machine(&built.machine, &shaking.motion, &settings);
+    let found = ask.args.scan.map(|(from, to)| {
+        let search = Search { from, to, steps: SCALES, width: WIDTH };
+        scan(&built.machine, &shaking.given, &settings, &search)
+    });
+    let blocks = &session.model.assembly.blocks;
+    let ids: Vec<String> = blocks.iter().map(|b| b.id.clone()).collect();
+    let rocked = Rocked {
+        name: &session.scene.name,
+        ids: &ids,
+        built: &built,
+        shaking: &shaking,
+        from,
+        given_restitution: ask.args.restitution.is_some(),
+        history: &history,
+        scan: found.as_ref(),
+    };
+    if let Some(csv) = &ask.csv {
+        csv.write(&rocked.csv()?)?;
+    }
+    if let Some(svg) = &ask.svg {
+        svg.write(&rocked.chart()?)?;
+    }
+    let text = |layout: Layout<'_>, options| rocked.text(layout, options);
+    show(session, common, terminal, &text, &rocked.json(), Vec::new())?;
+    Ok(match history.fate {
+        Fate::Overturns { .. } => Exit::No,
+        Fate::Rests => Exit::Yes,
+        Fate::Rocks => Exit::Undecided,
+    })
+}
+
+/// Runs all blocks of a scene in time.
+pub fn simulate(args: &Simulate, session: &Session, terminal: &Terminal) -> anyhow::Result<Exit> {
+    refuse_save(session)?;
+    if args.skip_verdict {
+        bail!("--skip-verdict: on ground that moves no verdict is asked for");
+    }
+    let open = |path: &Option<std::path::PathBuf>| {
+        path.as_deref().map(|p| Sink::open(Some(p))).transpose()
+    };
+    let (csv, chart) = (open(&args.csv)?, open(&args.chart)?);
+    let shaking = shaking(&args.ground)?;
+    let assembly = &session.model.assembly;
+    let up = -assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
+    let toward = Vector3::from(args.toward.unwrap_or([1.0, 0.0, 0.0]));
+    let across = toward - up * up.dot(&toward);
+    if across.norm() <= 1e-9 * toward.norm() {
+        bail!("--toward is along gravity; hint: give a direction across it, such as 1,0");
+    }
+    let axes = [across.normalize(), up.cross(&across.normalize()), up];
+    let kept = csv.is_some() || chart.is_some();
+    let mut film = session.is_filmed().then(|| Film::fitting(assembly.blocks.len()));
+    let settings = SimulationSettings {
+        fidelity: Some(if args.fast { Fidelity::Fast } else { Fidelity::Fine }),
+        seconds: args.seconds,
+        threads: super::simulate::threads(args.threads),
+        frames: args.frames.map_or(if kept { FRAMES } else { 0 }, |n| n as usize),
+        keep_frames: true,
+        to_the_end: args.to_the_end,
+        every_step: film.is_some(),
+    };
+    let bar = Bar::new(session.shows_progress());
+    let deadline = session.control().deadline;
+    let mut watch = |progress: &Progress| {
+        bar.show(progress);
+        report::see(&mut film, progress.moment);
+        if deadline.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let shaken = shake(&session.model, &shaking.motion, &axes, &settings, &mut watch)
+        .map_err(|e| session.refuse(e))?;
+    let told = ShakenReport {
+        name: &session.scene.name,
+        model: &session.model,
+        shaking: &shaking,
+        shaken: &shaken,
+    };
+    if let Some(csv) = &csv {
+        csv.write(&told.csv()?)?;
+    }
+    if let Some(chart) = &chart {
+        chart.write(&told.chart()?)?;
+    }
+    let frames = film.map(Film::frames).unwrap_or_default();
+    let text = |layout: Layout<'_>, options| told.text(layout, options);
+    show(session, &args.common, terminal, &text, &told.json(), frames)?;
+    Ok(match shaken.fate {
+        ShakenFate::Overturned { .. } => Exit::No,
+        ShakenFate::Rests => Exit::Yes,
+        ShakenFate::Moves => Exit::Undecided,
+    })
+}
+
+/// A history is computed: there is no proof to save.
+fn refuse_save(session: &Session) -> anyhow::Result<()> {
+    if session.save().is_some() {
+        bail!(
+            "--save keeps proofs, and a history on moving ground has none; hint: --json prints it"
+        );
+    }
+    Ok(())
+}
+
+type Text<'a> = dyn Fn(Layout<'_>, TextOptions) -> Page + 'a;
+
+fn show(
+    session: &Session,
+    common: &args::Common,
+    terminal: &Terminal,
+    text: &Text,
+    answer: &serde_json::Value,
+    film: Vec<voussoir::dynamics::Frame>,
+) -> anyhow::Result<()> {
+    let layout = terminal.layout(&common.scene);
+    if session.is_filmed() {
+        let mut view = View::bare(&session.model);
+        view.name.clone_from(&session.scene.name);
+        view.film = film;
+        if let Some(sink) = session.report() {
+            let page = text(report::layout(layout), report::EVERYTHING);
+            sink.write(&page::page(&page, &view, &[])?)?;
+        }
+        session.pictures().write(&view)?;
+    }
+    if common.json {
+        terminal::print(&json::pretty(answer)?)?;
+    } else if !session.is_printed() {
+        let options = TextOptions { verbose: common.verbose, brief: common.quiet };
+        terminal.page(&text(layout, options))?;
+    }
+    Ok(())
+}

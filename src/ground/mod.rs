@@ -1,0 +1,9 @@
+//! How the ground moves: records of earthquakes, and pulses with a formula.
+
+mod motion;
+mod pulse;
+mod record;
+
+pub use motion::{Jump, Motion, Piece, Shape, When};
+pub use pulse::{PULSES, Pulse};
+pub use record::{Format, Record, STANDARD_GRAVITY, STRONGEST, UNITS, Unit, WEAKEST};
