@@ -143,9 +143,17 @@ fn hinges_of_flatter_arches_jump() {
         (16, 120.0, 0.2, 0.1668102716, [["v00", "v01"], ["v14", "v15"]]),
     ] {
         let file = spread(&arch(n, t, embrace, json!({})), &[]);
-        let event = &path(&file).events[0];
+        let [event, fall] = &path(&file).events[..] else { panic!("{:?}", path(&file).events) };
         close(event.value, way, 1e-7);
         assert_eq!(event.opens, opens.map(|pair| pair.map(String::from)));
+        // The hinge jumps, the joint before closes; where that leads to nothing rests.
+        assert_eq!((event.kind, fall.kind), (PathEventKind::Jumps, PathEventKind::Falls));
+        assert!(event.closes.len() == 2 && event.jump.is_some_and(|way| way > 0.01));
+        assert_eq!(event.value, fall.value);
+        assert_ne!(event.opens, fall.opens);
+        let said = file.answer.path().unwrap();
+        assert_eq!(said.status, PathStatus::Falls);
+        close(said.falls_at.unwrap(), way, 1e-7);
     }
 }
 

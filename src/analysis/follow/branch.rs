@@ -1,7 +1,7 @@
 //! One linkage after the other, from event to event.
 
 use super::{
-    drop::{self, Landing},
+    drop::{self, Landing, Turn},
     linkage::Linkage,
     program::{self, Margin},
     root::narrow,
@@ -411,7 +411,15 @@ impl Tracker<'_> {
                 path.events.push(event(EventKind::Jumps, opens, closes, jump));
                 Ok(State { value: beyond.0, poses, closed })
             }
-            Landing::Nowhere => {
+            Landing::Nowhere(turn) => {
+                let opens = match turn {
+                    // The hinge jumps first; where it has come to there is nothing that rests.
+                    Some(Turn { closes, opens: next, jump }) => {
+                        path.events.push(event(EventKind::Jumps, opens, closes, jump));
+                        next
+                    }
+                    None => opens,
+                };
                 path.events.push(event(EventKind::Falls, opens, Vec::new(), 0.0));
                 let end = self.falls(old, &low, closed);
                 Err(end.unwrap_or_else(|| stuck("it falls, but no proof of it was found")))

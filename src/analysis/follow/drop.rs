@@ -25,10 +25,20 @@ pub(super) enum Landing {
         /// The longest way of a block, m.
         jump: f64,
     },
-    /// Nowhere.
-    Nowhere,
+    /// Nowhere; where joints closed on the way down, what came first.
+    Nowhere(Option<Turn>),
     /// It could not be followed, and why.
     Lost(String),
+}
+
+/// Joints that close on a way down that ends nowhere, and those that open there.
+pub(super) struct Turn {
+    /// Joints that close.
+    pub closes: Vec<usize>,
+    /// Joints that open next.
+    pub opens: Vec<usize>,
+    /// The longest way of a block up to there, m.
+    pub jump: f64,
 }
 
 /// First and longest step of the opening, and the widest, over the size of the scene.
@@ -44,7 +54,27 @@ pub(super) fn drop(
     from: &Place,
     value: f64,
 ) -> Landing {
-    step_down(t, closed, lost, from, value, MOST)
+    let together = step_down(t, closed, lost, from, value, MOST);
+    if !matches!(together, Landing::Nowhere(_)) {
+        return together;
+    }
+    // A scene that is its own image need not fall as one: the first joint alone may carry it to
+    // where it rests.
+    let mut joints: Vec<usize> = lost.iter().map(|l| l.0).collect();
+    joints.dedup();
+    for joint in joints.iter().filter(|_| joints.len() > 1) {
+        let mut one = closed.to_vec();
+        for &(k, p) in lost.iter().filter(|l| l.0 != *joint) {
+            one[k].push(p);
+            one[k].sort_unstable();
+        }
+        let first: Vec<_> = lost.iter().copied().filter(|l| l.0 == *joint).collect();
+        let alone = step_down(t, &one, &first, from, value, MOST);
+        if matches!(alone, Landing::Elsewhere { .. }) {
+            return alone;
+        }
+    }
+    together
 }
 
 /// So many joints may close on the way down. More: what falls down is called a jump.
@@ -90,13 +120,13 @@ fn step_down(
     let mut step = FIRST;
     loop {
         if here.0 >= WIDEST {
-            return Landing::Nowhere;
+            return Landing::Nowhere(None);
         }
         let gap = here.0 + step;
         let Some(there) = close(lost, &here.1, gap * t.size) else {
             step *= 0.25;
             if step < 1e-3 * FIRST {
-                return Landing::Nowhere;
+                return Landing::Nowhere(None);
             }
             continue;
         };
@@ -132,7 +162,7 @@ fn step_down(
                     closed: closed.to_vec(),
                     closes: Vec::new(),
                 },
-                _ => Landing::Nowhere,
+                _ => Landing::Nowhere(None),
             };
         }
         here = (gap, there);
@@ -152,7 +182,7 @@ fn landed(
     let (now, closes) = match t.with_closed(&place.poses, closed) {
         Ok(found) => found,
         Err(End::Stuck(text)) => return Landing::Lost(text),
-        Err(_) => return Landing::Nowhere,
+        Err(_) => return Landing::Nowhere(None),
     };
     match t.margin(&place.poses, &now) {
         Some(m) if m.room >= -1e-9 => Landing::Elsewhere {
@@ -167,7 +197,7 @@ fn landed(
             let mut open = now;
             lost.iter().for_each(|&(k, p)| open[k].retain(|&q| q != p));
             if lost.is_empty() {
-                return Landing::Nowhere;
+                return Landing::Nowhere(None);
             }
             match step_down(t, &open, &lost, place, value, more - 1) {
                 Landing::Steady(closed) => Landing::Elsewhere {
@@ -182,12 +212,17 @@ fn landed(
                     closes: [closes, later].concat(),
                     jump: jump + way(from, place),
                 },
-                other => other,
+                Landing::Nowhere(_) => {
+                    let mut opens: Vec<usize> = lost.iter().map(|l| l.0).collect();
+                    opens.dedup();
+                    Landing::Nowhere(Some(Turn { closes, opens, jump: way(from, place) }))
+                }
+                lost @ Landing::Lost(_) => lost,
             }
         }
-        Some(_) => Landing::Nowhere,
+        Some(_) => Landing::Nowhere(None),
         // Nothing balances it there, whatever the room: it goes on.
-        None if t.falls_there(&place.poses, &now) => Landing::Nowhere,
+        None if t.falls_there(&place.poses, &now) => Landing::Nowhere(None),
         None => Landing::Lost("no forces were found after a jump".into()),
     }
 }
