@@ -8,6 +8,7 @@
 //! goes on beyond the corner of the other, and half-way between the two faces where both end there.
 
 pub mod drive;
+pub mod member;
 pub mod reaction;
 pub mod saved;
 mod side;
@@ -134,7 +135,10 @@ impl<'a> Carried<'a> {
             list.push(self.contact(poses, k, points));
             from.push(k);
         }
-        let interfaces = Interfaces { list, ..Interfaces::default() };
+        let own = &self.start.interfaces.members;
+        let members =
+            own.iter().map(|m| member::displaced(&self.start.assembly, poses, m)).collect();
+        let interfaces = Interfaces { list, members, ..Interfaces::default() };
         let model = Model::new(self.start.assembly.at(poses), interfaces);
         Displaced { model, from, deepest: None }
     }

@@ -33,6 +33,7 @@ mod mistakes;
 mod page;
 mod parts;
 mod path;
+mod path_members;
 mod pictures;
 mod published;
 mod readme;

@@ -368,19 +368,6 @@ fn moved_poses_and_changed_numbers_are_refused() {
     refuse("the poses of the end swapped", &|f| f.path.as_mut().unwrap().ends.reverse());
 }
 
-/// What would follow another scene than the one that was given is refused.
-#[test]
-fn scenes_with_members_are_not_followed() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/tied-arch.json");
-    let (scene, _) = voussoir::scene::read_file(path.as_ref()).expect("a scene");
-    let model = voussoir::interface::prepare(&scene).expect("a model");
-    let support = model.assembly.blocks.iter().find(|b| b.support).expect("a support").id.clone();
-    let moves = vec![to(&support, [0.01, 0.0, 0.0])];
-    let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
-    let error = ask(&question, &scene, &model, &Default::default()).expect_err("refused");
-    assert!(error.to_string().contains("without members only"), "{error}");
-}
-
 /// A block at rest beside the arch, whatever it weighs, however large it is and wherever it lies, is
 /// no part of what moves.
 #[test]

@@ -11,11 +11,11 @@ use crate::{
         Claims, Control, Proved, limit,
         question::{PushOptions, SettleOptions},
     },
-    assembly::{Pose, Solid, Wrench},
+    assembly::{Member, Pose, Solid, Wrench},
     error::{InputError, JsonPath},
     interface::Model,
     path::{
-        Carried, Drive, Move, Moves, reaction,
+        Carried, Drive, Move, Moves, member, reaction,
         saved::{read_poses, write_poses},
     },
     terms::Law,
@@ -91,11 +91,15 @@ pub fn settle(
         .iter()
         .map(|m| m.way.norm() + m.turn.norm() * blocks[m.support].size)
         .fold(0.0, f64::max);
-    let touches = model.interfaces.list.iter().any(|f| {
-        moves.iter().any(|m| {
-            (f.a == m.support || f.b == m.support) && (m.way, m.turn) != Default::default()
-        })
-    });
+    let goes =
+        |i: usize| moves.iter().any(|m| i == m.support && (m.way, m.turn) != Default::default());
+    let held = |m: &Member| {
+        let ends = m.action.ends();
+        ends.iter().flatten().any(|&i| goes(i))
+            && ends.iter().flatten().any(|&i| !blocks[i].support)
+    };
+    let touches = model.interfaces.list.iter().any(|f| goes(f.a) || goes(f.b))
+        || model.interfaces.members.iter().any(held);
     if !touches {
         return Err(error("no support that moves touches a free block".into()));
     }
@@ -160,9 +164,14 @@ fn followable(model: &Model) -> Result<(), InputError> {
             "ask `assess` or `limit` about the first instant",
         );
     }
-    if let Some(m) = model.interfaces.members.iter().find(|m| !m.is_idle()) {
+    let members = &model.interfaces.members;
+    if let Some(m) = members.iter().find(|m| !m.is_idle() && !member::is_followed(m)) {
         return refuse(
-            format!("member {:?}: motions are followed without members only", m.id),
+            format!(
+                "member {:?}: motions are followed with ties, struts, bars, tendons, soil and toothed corners, not with a {}",
+                m.id,
+                m.kind.word()
+            ),
             "ask `assess` or `limit` about the first instant",
         );
     }
@@ -224,7 +233,14 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
     // Corners that touch again without having to are among the contacts, and carry nothing.
     let touching = carried.touching(&poses, &point.closed);
     let mut forces = crate::verdict::no_forces(&model.interfaces);
-    for (c, given) in point.forces.iter().enumerate() {
+    let joints = touching.model.interfaces.list.len();
+    for (own, given) in forces[model.interfaces.list.len()..]
+        .iter_mut()
+        .zip(&point.forces[joints.min(point.forces.len())..])
+    {
+        own.clone_from(given);
+    }
+    for (c, given) in point.forces.iter().take(joints).enumerate() {
         let (k, from) = (touching.from[c], &touching.model.interfaces.list[c]);
         let Some(to) = found.from.iter().position(|&f| f == k) else { continue };
         for (p, w) in from.points.iter().zip(given) {

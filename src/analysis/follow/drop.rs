@@ -4,6 +4,7 @@
 use super::{
     branch::End,
     linkage::{Linkage, OpenBy, Place},
+    program::Hold,
     root::narrow,
     tracker::Tracker,
 };
@@ -50,11 +51,12 @@ const WIDEST: f64 = 0.1;
 pub(super) fn drop(
     t: &Tracker,
     closed: &[Vec<usize>],
+    holds: &[Hold],
     lost: &[(usize, usize)],
     from: &Place,
     value: f64,
 ) -> Landing {
-    let together = step_down(t, closed, lost, from, value, MOST);
+    let together = step_down(t, closed, holds, lost, from, value, MOST);
     if !matches!(together, Landing::Nowhere(_)) {
         return together;
     }
@@ -69,7 +71,7 @@ pub(super) fn drop(
             one[k].sort_unstable();
         }
         let first: Vec<_> = lost.iter().copied().filter(|l| l.0 == *joint).collect();
-        let alone = step_down(t, &one, &first, from, value, MOST);
+        let alone = step_down(t, &one, holds, &first, from, value, MOST);
         if matches!(alone, Landing::Elsewhere { .. }) {
             return alone;
         }
@@ -83,12 +85,13 @@ const MOST: usize = 8;
 fn step_down(
     t: &Tracker,
     closed: &[Vec<usize>],
+    holds: &[Hold],
     lost: &[(usize, usize)],
     from: &Place,
     value: f64,
     more: usize,
 ) -> Landing {
-    let linkage = t.linkage(closed);
+    let linkage = t.linkage(closed, holds);
     let from = linkage.place(&from.poses);
     let demand = t.drive.demand(value);
     let free = linkage.free(&from, demand.as_ref()).ncols();
@@ -147,7 +150,7 @@ fn step_down(
             let Some([low, _]) = ends else {
                 return Landing::Lost("the place where a joint closes was not found".into());
             };
-            return landed(t, closed, &from, &low.2, value, more);
+            return landed(t, closed, holds, &from, &low.2, value, more);
         }
         let gain = power(&here.1, &there);
         if gain < 0.0 {
@@ -155,7 +158,7 @@ fn step_down(
             let Some(at) = t.at(&linkage, &there, value) else {
                 return Landing::Lost("the equilibrium after a jump was not found".into());
             };
-            return match t.margin(&at.place.poses, closed) {
+            return match t.margin(&at.place.poses, closed, holds) {
                 Some(m) if m.room >= -1e-9 => Landing::Elsewhere {
                     jump: way(&from, &at.place),
                     poses: at.place.poses,
@@ -174,6 +177,7 @@ fn step_down(
 fn landed(
     t: &Tracker,
     closed: &[Vec<usize>],
+    holds: &[Hold],
     from: &Place,
     place: &Place,
     value: f64,
@@ -184,7 +188,7 @@ fn landed(
         Err(End::Stuck(text)) => return Landing::Lost(text),
         Err(_) => return Landing::Nowhere(None),
     };
-    match t.margin(&place.poses, &now) {
+    match t.margin(&place.poses, &now, holds) {
         Some(m) if m.room >= -1e-9 => Landing::Elsewhere {
             jump: way(from, place),
             poses: place.poses.clone(),
@@ -199,7 +203,7 @@ fn landed(
             if lost.is_empty() {
                 return Landing::Nowhere(None);
             }
-            match step_down(t, &open, &lost, place, value, more - 1) {
+            match step_down(t, &open, holds, &lost, place, value, more - 1) {
                 Landing::Steady(closed) => Landing::Elsewhere {
                     jump: way(from, place),
                     poses: place.poses.clone(),
@@ -234,7 +238,7 @@ fn way(a: &Place, b: &Place) -> f64 {
 /// Power of the loads on the way from one place to the next; with a free load factor at what holds
 /// the linkage whose new joint keeps still.
 fn power(t: &Tracker, linkage: &Linkage, a: &Place, b: &Place, lost: &[(usize, usize)]) -> f64 {
-    let [dead, live] = t.loads(&a.poses);
+    let [dead, live] = t.loads(linkage, &a.poses);
     let by = linkage.between(a, b);
     let motions = nalgebra::DMatrix::from_columns(&[by]);
     let of = |loads: &[_], m: &nalgebra::DMatrix<f64>| linkage.power(a, loads, m)[0];

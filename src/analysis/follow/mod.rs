@@ -4,6 +4,7 @@ pub mod answer;
 mod branch;
 mod drop;
 mod linkage;
+mod member;
 mod moved;
 mod program;
 mod root;

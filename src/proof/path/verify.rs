@@ -13,7 +13,7 @@ use crate::{
     verdict::{
         Evidence, Forces, Rate,
         check::{self, Claim, Findings},
-        evidence::{read_forces, read_rates},
+        evidence::{read_forces, read_members, read_rates},
     },
 };
 use nalgebra::Vector3;
@@ -107,7 +107,9 @@ fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings 
     let model = &displaced.model;
     let evidence = &point.certificate;
     let read = || -> Result<(Forces, Vec<Rate>), String> {
-        Ok((read_forces(model, &evidence.forces)?, read_rates(&model.assembly, &evidence.rates)?))
+        let mut forces = read_forces(model, &evidence.forces)?;
+        read_members(model, &evidence.members, &mut forces)?;
+        Ok((forces, read_rates(&model.assembly, &evidence.rates)?))
     };
     let (forces, rates) = match read() {
         Ok(read) => read,
@@ -221,7 +223,9 @@ fn least_reaction(
     evidence: &Certificate,
 ) {
     let read = || -> Result<(Forces, Vec<Rate>), String> {
-        Ok((read_forces(model, &evidence.forces)?, read_rates(&model.assembly, &evidence.rates)?))
+        let mut forces = read_forces(model, &evidence.forces)?;
+        read_members(model, &evidence.members, &mut forces)?;
+        Ok((forces, read_rates(&model.assembly, &evidence.rates)?))
     };
     let (forces, mut rates) = match read() {
         Ok(read) => read,

@@ -205,6 +205,9 @@ fn event(path: &PathResult, e: &PathEvent) -> String {
             )
         }
         PathEventKind::Falls => format!("it falls as {} opens", names(&e.opens)),
+        PathEventKind::Yields => {
+            format!("{} carries all that it can and gives way", e.yields.join(", "))
+        }
     };
     format!("{}: {what}", at(path, e.value, 6))
 }
