@@ -282,9 +282,11 @@ impl<'a> Session<'a> {
             };
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
-                report.write(&page::page(&text, &view, page::attempts(&file).as_slice())?)?;
+                let charts: Vec<_> =
+                    [page::curve(&file), page::attempts(&file)].into_iter().flatten().collect();
+                report.write(&page::page(&text, &view, &charts)?)?;
             }
-            if file.question != Kind::Simulate {
+            if !matches!(file.question, Kind::Simulate | Kind::Settle | Kind::Push) {
                 // A verdict is drawn with its mechanism, whatever else was seen.
                 view.film.clear();
             }

@@ -110,17 +110,18 @@ impl<'a> Carried<'a> {
             .collect()
     }
 
+    /// The corners that are closed at these poses, joint by joint.
+    pub fn closed(&self, poses: &[Pose]) -> Vec<Vec<usize>> {
+        let closed = |c: &&Corner| c.apart <= tolerance::JOINT_CLOSED;
+        let corners = self.corners(poses).into_iter();
+        corners.map(|list| list.iter().filter(closed).map(|c| c.point).collect()).collect()
+    }
+
     /// The scene at these poses, one a block.
     pub fn displaced(&self, poses: &[Pose]) -> Displaced {
-        let corners = self.corners(poses);
-        let closed: Vec<Vec<usize>> = corners
-            .iter()
-            .map(|c| {
-                c.iter().filter(|c| c.apart <= tolerance::JOINT_CLOSED).map(|c| c.point).collect()
-            })
-            .collect();
-        let mut displaced = self.touching(poses, &closed);
-        displaced.deepest = corners
+        let mut displaced = self.touching(poses, &self.closed(poses));
+        displaced.deepest = self
+            .corners(poses)
             .into_iter()
             .flatten()
             .filter(|c| c.apart > tolerance::JOINT_CLOSED)

@@ -46,7 +46,10 @@ fn to(support: &str, way: [f64; 3]) -> SupportMove {
 /// Both supports of an arch move outwards by the parameter, m.
 fn spread(scene: &Scene, at: &[f64]) -> ResultFile {
     let moves = vec![to("springer_left", [-1.0, 0.0, 0.0]), to("springer_right", [1.0, 0.0, 0.0])];
-    followed(scene, &Question::Settle(SettleOptions { moves, at: at.to_vec() }))
+    followed(
+        scene,
+        &Question::Settle(SettleOptions { moves, at: at.to_vec(), ..Default::default() }),
+    )
 }
 
 /// Horizontal thrust on the right springer over the weight of the arch.
@@ -180,7 +183,7 @@ fn a_barrel_in_running_bond_goes_as_its_section() {
         json!({ "radius": 1, "thickness": 0.15, "depth": 2, "voussoirs": 16, "courses": 3 });
     let scene = template(0.6, json!({ "barrel": barrel }), json!({}));
     let moves = vec![to("springer_right", [0.1, 0.0, 0.0])];
-    let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
+    let question = Question::Settle(SettleOptions { moves, at: Vec::new(), ..Default::default() });
     let file = followed(&scene, &question);
     assert_eq!(file.answer.path().unwrap().status, PathStatus::Reached);
     let last = path(&file).points.last().unwrap();
@@ -195,8 +198,12 @@ fn capacity(at: &[f64]) -> (Scene, ResultFile) {
     let angle = (157.5 / 2.0 - 3.0 * 157.5 / 7.0_f64).to_radians();
     let point = [-1.075 * angle.sin(), 0.0, 1.075 * angle.cos()];
     let control = ControlPoint { block: "v02".into(), point };
-    let question =
-        Question::Push(PushOptions { control, toward: [1.0, 0.0, 0.0], at: at.to_vec() });
+    let question = Question::Push(PushOptions {
+        control,
+        toward: [1.0, 0.0, 0.0],
+        at: at.to_vec(),
+        from: Vec::new(),
+    });
     let file = followed(&scene, &question);
     (scene, file)
 }
@@ -279,7 +286,7 @@ fn a_settling_base_carries_the_least_it_can() {
 /// The answer, which may stay open.
 fn followed_open(scene: &Scene, moves: Vec<SupportMove>) -> ResultFile {
     let model = model(scene);
-    let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
+    let question = Question::Settle(SettleOptions { moves, at: Vec::new(), ..Default::default() });
     let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
     let file = ResultFile::of(scene, &model, &answer).expect("a result");
     let found = proof::verify(&file, scene).expect("a scene");
@@ -311,7 +318,8 @@ fn units_and_places_change_no_share_of_the_movement() {
         let scene = template(NO_SLIDING, json!({ "arch": arch }), more);
         let moves =
             vec![to("springer_left", [-scale, 0.0, 0.0]), to("springer_right", [scale, 0.0, 0.0])];
-        let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
+        let question =
+            Question::Settle(SettleOptions { moves, at: Vec::new(), ..Default::default() });
         let said = followed(&scene, &question).answer.path().unwrap().clone();
         close(said.value.unwrap(), expected, 1e-7);
     }
@@ -393,6 +401,7 @@ fn a_stranger_changes_nothing_about_a_path() {
             control: ControlPoint { block, point: point.into() },
             toward: [1.0, 0.0, 0.0],
             at: Vec::new(),
+            from: Vec::new(),
         });
         let said = followed(scene, &question).answer.path().cloned().unwrap();
         (said.status, said.value, said.falls_at)
@@ -419,4 +428,50 @@ fn an_arch_that_spreads_into_a_stranger_is_not_followed_through_it() {
     let said = file.answer.path().unwrap();
     assert_eq!(said.status, PathStatus::Open, "{said:?}");
     assert!(said.why.as_ref().is_some_and(|why| why.contains("come to touch")), "{said:?}");
+}
+
+/// A path that begins at a saved pose goes on as it would have gone from the start.
+#[test]
+fn a_path_goes_on_from_a_saved_pose() {
+    let scene = arch(12, 0.12, 180.0, json!({}));
+    let moves = vec![to("springer_left", [-1.0, 0.0, 0.0]), to("springer_right", [1.0, 0.0, 0.0])];
+    let whole = spread(&scene, &[0.01]);
+    let pose = path(&whole).points.iter().find(|p| p.value == 0.01).unwrap().poses.clone();
+    let question = |moves: &[SupportMove], from: &[voussoir::path::saved::SavedPose]| {
+        let (moves, from) = (moves.to_vec(), from.to_vec());
+        Question::Settle(SettleOptions { moves, from, at: Vec::new() })
+    };
+    let rest = followed(&scene, &question(&moves, &pose));
+    assert!((path(&rest).points[0].value - 0.01).abs() < 1e-15);
+    assert_eq!(rest.answer.path().unwrap().status, PathStatus::Falls);
+    assert_eq!(rest.answer.path().unwrap().least_reaction, None);
+    let value = |f: &ResultFile| f.answer.path().unwrap().value.unwrap();
+    close(value(&rest), value(&whole), 1e-9);
+    // Elsewhere than the motion leads, or overlapping, it is no pose to begin at.
+    let model = model(&scene);
+    let refused = |moves: &[SupportMove], from: &[voussoir::path::saved::SavedPose]| {
+        let error = ask(&question(moves, from), &scene, &model, &Control::default());
+        error.expect_err("refused").to_string()
+    };
+    let other = vec![to("springer_left", [-1.0, 0.0, 0.0]), to("springer_right", [1.0, 0.0, 0.1])];
+    assert!(refused(&other, &pose).contains("does not put them"));
+    let mut sunk = pose.clone();
+    sunk.iter_mut().find(|p| p.block == "v05").unwrap().shift[2] -= 0.01;
+    assert!(refused(&moves, &sunk).contains("overlap"));
+}
+
+/// Points so far apart that something would have to be passed through are no path.
+#[test]
+fn between_neighbouring_points_nothing_closes() {
+    let scene = arch(12, 0.12, 180.0, json!({}));
+    let mut file = spread(&scene, &[]);
+    let found = proof::verify(&file, &scene).unwrap();
+    let parts = found.parts.iter().filter(|(name, _)| name.starts_with("between points")).count();
+    assert_eq!(parts, path(&file).points.len() - 1);
+    // The mirror image of the hinged pose is none that the other leads to.
+    let points = &mut file.path.as_mut().unwrap().points;
+    let last = points.len() - 1;
+    let turn = points[last].poses.iter_mut().find(|p| p.block == "v03").unwrap();
+    turn.turn[1] = -turn.turn[1];
+    assert!(!proof::verify(&file, &scene).unwrap().proved());
 }

@@ -98,6 +98,7 @@ fn a_wall_overturns_against_a_tie_that_yields() {
             },
             toward: [1.0, 0.0, 0.0],
             at: expected.map(|e| e.1 * scale).to_vec(),
+            from: Vec::new(),
         });
         let file = followed(&scene, &question);
         close(path(&file).points[0].load_factor.unwrap(), overturning(0.0, share).0, 1e-8);
@@ -147,7 +148,8 @@ fn a_block_held_by_a_tie_tilts_as_its_base_moves_and_falls() {
     let falls = base(0.5_f64.atan());
     let ways: Vec<f64> = turns.iter().map(|&t| base(t)).collect();
     let moves = vec![to("base", [1.0, 0.0, 0.0])];
-    let question = Question::Settle(SettleOptions { moves, at: ways.clone() });
+    let question =
+        Question::Settle(SettleOptions { moves, at: ways.clone(), ..Default::default() });
     let file = followed(&scene, &question);
     for (theta, way) in turns.into_iter().zip(ways) {
         close(carried(at(&file, way)), tension(theta), 1e-7);
@@ -187,8 +189,11 @@ fn a_tie_that_yields_takes_its_share_of_the_thrust_of_a_spreading_arch() {
     let weight: f64 = m.assembly.free().map(|i| m.assembly.weight(i)).sum();
     let strength = 0.02 * weight;
     let moves = vec![to("springer_left", [-1.0, 0.0, 0.0]), to("springer_right", [1.0, 0.0, 0.0])];
-    let question =
-        Question::Settle(SettleOptions { moves: moves.clone(), at: vec![0.01, 0.02, 0.03] });
+    let question = Question::Settle(SettleOptions {
+        moves: moves.clone(),
+        at: vec![0.01, 0.02, 0.03],
+        ..Default::default()
+    });
     let scene = of(json!(strength));
     let file = followed(&scene, &question);
     for (way, thrust) in
@@ -212,6 +217,7 @@ fn members_that_are_not_followed_are_said() {
     let question = Question::Settle(SettleOptions {
         moves: vec![to("ground", [0.01, 0.0, 0.0])],
         at: Vec::new(),
+        ..Default::default()
     });
     let error = ask(&question, &scene, &model, &Default::default()).expect_err("refused");
     assert!(error.to_string().contains("not with a grip"), "{error}");

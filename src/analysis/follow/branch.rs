@@ -29,6 +29,8 @@ pub struct Follow {
     pub at: Vec<f64>,
     /// The longest step.
     pub step: f64,
+    /// The parameter and the poses to begin at, where that is not the start.
+    pub from: Option<(f64, Vec<Pose>)>,
 }
 
 /// A point of a path.
@@ -137,13 +139,15 @@ pub(super) fn follow(
     let blocks = &start.assembly.blocks;
     let tracker =
         Tracker { carried: &carried, drive: &how.drive, size: size(start), deadline, meets };
-    let poses = vec![Pose::start(); blocks.len()];
-    let closed: Vec<Vec<usize>> =
-        start.interfaces.list.iter().map(|f| (0..f.points.len()).collect()).collect();
+    let all = || start.interfaces.list.iter().map(|f| (0..f.points.len()).collect()).collect();
+    let (value, poses, closed): (f64, Vec<Pose>, Vec<Vec<usize>>) = match &how.from {
+        None => (0.0, vec![Pose::start(); blocks.len()], all()),
+        Some((value, poses)) => (*value, poses.clone(), carried.closed(poses)),
+    };
     let mut path = Path { points: Vec::new(), events: Vec::new(), end: End::Reached, first: None };
     // The first mechanism says what members do.
     let holds = vec![Hold::Idle; start.interfaces.members.len()];
-    let mut state = State { value: 0.0, poses, closed, holds };
+    let mut state = State { value, poses, closed, holds };
     // So many mechanisms: more is no path but a fall.
     for round in 0..200 {
         match tracker.leg(how, state, &mut path, round == 0) {

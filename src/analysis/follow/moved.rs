@@ -150,6 +150,11 @@ impl<'a> Moved<'a> {
         Point { poses, closed, forces, rates, ..own }
     }
 
+    /// Poses of the part.
+    pub fn own_poses(&self, whole: &[Pose]) -> Vec<Pose> {
+        self.blocks.iter().map(|&i| whole[i]).collect()
+    }
+
     /// Poses of all blocks.
     pub fn poses(&self, own: &[Pose]) -> Vec<Pose> {
         let mut poses = vec![Pose::start(); self.whole.assembly.blocks.len()];

@@ -1,7 +1,7 @@
 //! Arguments of `settle` and `push`.
 
 use super::{
-    Common,
+    Common, Pictures,
     parse::{Written, control, direction, finite, output, support_move},
 };
 use clap::Args;
@@ -49,4 +49,10 @@ pub struct Curve {
     /// Draw the curve to this file (SVG).
     #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
     pub chart: Option<PathBuf>,
+    /// Begin at the last pose of this result, which was saved for the same scene and motion: how much
+    /// further it goes.
+    #[arg(long, value_name = "RESULT")]
+    pub from: Option<PathBuf>,
+    #[command(flatten)]
+    pub pictures: Pictures,
 }
