@@ -2,6 +2,7 @@
 
 use super::{
     args::{Curve, Push, Settle},
+    cracks,
     exit::Exit,
     output::Sink,
     question::{Seen, Session},
@@ -16,6 +17,10 @@ use voussoir::{
 };
 
 pub fn settle(args: &Settle, terminal: &Terminal) -> anyhow::Result<Exit> {
+    if let Some(file) = &args.cracks {
+        let session = Session::open(&args.common)?;
+        return cracks::run(&session, file, args.common.json, args.common.quiet);
+    }
     let question = Question::Settle(SettleOptions {
         moves: args.moves.clone(),
         at: args.at.clone(),

@@ -12,6 +12,7 @@ mod browser;
 mod certificates;
 mod cli;
 mod coulomb;
+mod cracks;
 mod critical;
 mod determinism;
 mod dry;

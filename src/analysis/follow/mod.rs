@@ -2,6 +2,7 @@
 
 pub mod answer;
 mod branch;
+pub mod crack;
 mod drop;
 mod linkage;
 mod member;
