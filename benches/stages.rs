@@ -128,7 +128,7 @@ fn figures(c: &mut Criterion) {
     };
     let question = analysis::Question::Settle(analysis::SettleOptions {
         moves: vec![to("springer_left", -1.0), to("springer_right", 1.0)],
-        at: Vec::new(),
+        ..Default::default()
     });
     group.bench_function("supports of an arch of 16 voussoirs spread until it falls", |b| {
         b.iter(|| analysis::ask(&question, &scene, &model, &Control::default()))

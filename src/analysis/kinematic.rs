@@ -196,6 +196,7 @@ fn curve(
             },
             toward: worst.quake.toward.into(),
             at: at.to_vec(),
+            from: Vec::new(),
         };
         let control = Control { law: Law::Associative, ..*control };
         push(&bare, &options, &control).map_err(|e| e.message)

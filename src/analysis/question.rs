@@ -2,7 +2,10 @@
 //! made ([`Question::check`]).
 
 use super::{Control, Law};
-use crate::error::{InputError, JsonPath};
+use crate::{
+    error::{InputError, JsonPath},
+    path::saved::SavedPose,
+};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -168,6 +171,10 @@ pub struct SettleOptions {
     /// Values of the parameter that become points of the curve, beside others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub at: Vec<f64>,
+    /// Poses to begin at, as a result of the same scene has them: how much further it goes from
+    /// there. The value of the parameter there is where they put the supports; empty: the start.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub from: Vec<SavedPose>,
 }
 
 /// How far a support moves while the parameter goes from 0 to 1.
@@ -198,6 +205,9 @@ pub struct PushOptions {
     /// Values of the parameter that become points of the curve, beside others, m.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub at: Vec<f64>,
+    /// Poses to begin at, as a result of the same scene has them; empty: the start.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub from: Vec<SavedPose>,
 }
 
 /// Options of `kinematic`.

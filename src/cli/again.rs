@@ -1,7 +1,8 @@
 //! The options that would have to be given again for the same answer, as typed.
 
 use super::args::{
-    Assess, Common, Critical, DIRECTIONS, Kinematic, Law, Push, Settle, Simulate, Thrust, Tilt,
+    Assess, Common, Critical, Curve, DIRECTIONS, Kinematic, Law, Push, Settle, Simulate, Thrust,
+    Tilt,
 };
 use voussoir::sweep::Between;
 
@@ -63,6 +64,13 @@ fn at(values: &[f64]) -> Option<String> {
     (!values.is_empty()).then(|| format!("--at {}", list(values)))
 }
 
+impl Curve {
+    fn begun(&self) -> Option<String> {
+        let from = self.from.as_ref()?.to_string_lossy();
+        Some(format!("--from {}", super::question::quoted(&from)))
+    }
+}
+
 impl Settle {
     /// The options that change the answer, as typed.
     pub fn options(&self) -> Vec<String> {
@@ -72,7 +80,7 @@ impl Settle {
             let word = format!("{}={}", m.support, list(&numbers));
             format!("--move {}", super::question::quoted(&word))
         });
-        moves.chain(at(&self.at)).collect()
+        moves.chain(at(&self.at)).chain(self.curve.begun()).collect()
     }
 }
 
@@ -82,7 +90,7 @@ impl Push {
         let word = format!("{}={}", self.control.0, list(&self.control.1));
         let control = format!("--control {}", super::question::quoted(&word));
         let toward = format!("--toward {}", list(&self.toward));
-        [control, toward].into_iter().chain(at(&self.at)).collect()
+        [control, toward].into_iter().chain(at(&self.at)).chain(self.curve.begun()).collect()
     }
 }
 

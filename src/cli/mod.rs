@@ -8,6 +8,7 @@ pub mod assess;
 pub mod check;
 mod claim;
 pub mod completions;
+pub mod cracks;
 pub mod critical;
 pub mod deadline;
 pub mod exit;

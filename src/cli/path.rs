@@ -2,21 +2,31 @@
 
 use super::{
     args::{Curve, Push, Settle},
+    cracks,
     exit::Exit,
     output::Sink,
-    question::Session,
+    question::{Seen, Session},
     terminal::Terminal,
 };
+use anyhow::Context;
 use voussoir::{
     analysis::{ControlPoint, PushOptions, Question, SettleOptions},
-    proof::path::PathStatus,
-    report::path,
+    path::saved::SavedPose,
+    proof::{self, path::PathStatus},
+    report::{path, view::frames},
 };
 
 pub fn settle(args: &Settle, terminal: &Terminal) -> anyhow::Result<Exit> {
-    let question =
-        Question::Settle(SettleOptions { moves: args.moves.clone(), at: args.at.clone() });
-    let session = Session::open(&args.common)?;
+    if let Some(file) = &args.cracks {
+        let session = Session::open(&args.common)?;
+        return cracks::run(&session, file, args.common.json, args.common.quiet);
+    }
+    let question = Question::Settle(SettleOptions {
+        moves: args.moves.clone(),
+        at: args.at.clone(),
+        from: begin(&args.curve)?,
+    });
+    let session = Session::open(&args.common)?.filmed(&args.curve.pictures)?;
     run(&session, &question, &args.curve, &args.options(), terminal)
 }
 
@@ -26,9 +36,26 @@ pub fn push(args: &Push, terminal: &Terminal) -> anyhow::Result<Exit> {
         control: ControlPoint { block, point },
         toward: args.toward,
         at: args.at.clone(),
+        from: begin(&args.curve)?,
     });
-    let session = Session::open(&args.common)?;
+    let session = Session::open(&args.common)?.filmed(&args.curve.pictures)?;
     run(&session, &question, &args.curve, &args.options(), terminal)
+}
+
+/// The last pose of the result to begin at, where there is one.
+fn begin(curve: &Curve) -> anyhow::Result<Vec<SavedPose>> {
+    let Some(from) = &curve.from else { return Ok(Vec::new()) };
+    let text = std::fs::read_to_string(from)
+        .with_context(|| format!("{}: cannot be read", from.display()))?;
+    let file = proof::read::read_str(from.display().to_string(), text)?;
+    let last = file.path.as_ref().and_then(|path| {
+        let proved = |p: &&proof::path::PathPoint| p.certificate.claim.is_some();
+        path.points.iter().take_while(proved).last()
+    });
+    let last = last.filter(|p| !p.poses.is_empty());
+    let name = from.display();
+    last.map(|p| p.poses.clone())
+        .with_context(|| format!("{name} holds no pose of a structure that has moved"))
 }
 
 fn run(
@@ -43,7 +70,9 @@ fn run(
     };
     let (csv, chart) = (open(&curve.csv)?, open(&curve.chart)?);
     let answer = session.ask(question)?;
-    let file = session.answer(terminal, own, session.result(question, &answer)?)?;
+    let file = session.result(question, &answer)?;
+    let film = if session.is_filmed() { frames(&session.model, &file) } else { Vec::new() };
+    let file = session.answer_seen(terminal, own, Seen::Scene(film), file)?;
     if let Some(csv) = csv {
         csv.write(&path::csv(&file)?)?;
     }

@@ -283,10 +283,13 @@ impl<'a> Session<'a> {
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
                 let charts: Vec<_> =
-                    kinematic::page_chart(&file).into_iter().chain(page::attempts(&file)).collect();
+                    [kinematic::page_chart(&file), page::curve(&file), page::attempts(&file)]
+                        .into_iter()
+                        .flatten()
+                        .collect();
                 report.write(&page::page(&text, &view, &charts)?)?;
             }
-            if file.question != Kind::Simulate {
+            if !matches!(file.question, Kind::Simulate | Kind::Settle | Kind::Push) {
                 // A verdict is drawn with its mechanism, whatever else was seen.
                 view.film.clear();
             }

@@ -8,6 +8,7 @@
 //! goes on beyond the corner of the other, and half-way between the two faces where both end there.
 
 pub mod drive;
+pub mod member;
 pub mod reaction;
 pub mod saved;
 mod side;
@@ -109,17 +110,18 @@ impl<'a> Carried<'a> {
             .collect()
     }
 
+    /// The corners that are closed at these poses, joint by joint.
+    pub fn closed(&self, poses: &[Pose]) -> Vec<Vec<usize>> {
+        let closed = |c: &&Corner| c.apart <= tolerance::JOINT_CLOSED;
+        let corners = self.corners(poses).into_iter();
+        corners.map(|list| list.iter().filter(closed).map(|c| c.point).collect()).collect()
+    }
+
     /// The scene at these poses, one a block.
     pub fn displaced(&self, poses: &[Pose]) -> Displaced {
-        let corners = self.corners(poses);
-        let closed: Vec<Vec<usize>> = corners
-            .iter()
-            .map(|c| {
-                c.iter().filter(|c| c.apart <= tolerance::JOINT_CLOSED).map(|c| c.point).collect()
-            })
-            .collect();
-        let mut displaced = self.touching(poses, &closed);
-        displaced.deepest = corners
+        let mut displaced = self.touching(poses, &self.closed(poses));
+        displaced.deepest = self
+            .corners(poses)
             .into_iter()
             .flatten()
             .filter(|c| c.apart > tolerance::JOINT_CLOSED)
@@ -134,7 +136,10 @@ impl<'a> Carried<'a> {
             list.push(self.contact(poses, k, points));
             from.push(k);
         }
-        let interfaces = Interfaces { list, ..Interfaces::default() };
+        let own = &self.start.interfaces.members;
+        let members =
+            own.iter().map(|m| member::displaced(&self.start.assembly, poses, m)).collect();
+        let interfaces = Interfaces { list, members, ..Interfaces::default() };
         let model = Model::new(self.start.assembly.at(poses), interfaces);
         Displaced { model, from, deepest: None }
     }

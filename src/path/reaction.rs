@@ -41,6 +41,11 @@ pub fn on_support(model: &Model, forces: &Forces, support: usize) -> Wrench {
             sum += Wrench { force: w.force, moment } * sign;
         }
     }
+    for (own, forces) in interfaces.members.iter().zip(forces.iter().skip(interfaces.list.len())) {
+        let amount = crate::verdict::member::amounts(forces).x;
+        let on = super::member::wrenches(own, amount, |i| assembly.blocks[i].centroid);
+        on.into_iter().filter(|(i, _)| *i == support).for_each(|(_, w)| sum += w);
+    }
     sum
 }
 

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     interface::{Interfaces, Model},
-    verdict::{Rate, certificate},
+    verdict::{Rate, certificate, member},
 };
 use nalgebra::Vector3;
 
@@ -66,6 +66,17 @@ pub fn reaction_columns(statics: &Statics, model: &Model, rates: &[Rate]) -> Vec
                 let power = basis.force.dot(&velocity) + basis.moment.dot(&rates[block].spin);
                 columns[bearing.column + k] += sign * bearing.unit * power;
             }
+        }
+    }
+    let supports: Vec<Rate> = rates
+        .iter()
+        .zip(&assembly.blocks)
+        .map(|(rate, block)| if block.support { *rate } else { Rate::zero() })
+        .collect();
+    for own in &statics.members {
+        let power = member::power(assembly, &interfaces.members[own.member], &supports);
+        for (k, (axis, sign)) in own.amounts.iter().enumerate() {
+            columns[own.column + k] = own.unit * sign * power[*axis];
         }
     }
     columns

@@ -5,7 +5,7 @@ use crate::{
     number::short,
     proof::{
         ResultFile,
-        path::{DrivenBy, PathPoint, PathResult},
+        path::{DrivenBy, PathEvent, PathEventKind, PathPoint, PathResult},
     },
     verdict::check::Claim,
 };
@@ -102,6 +102,60 @@ pub fn csv(file: &ResultFile) -> Result<String, PathError> {
     table.end().map_err(refused)
 }
 
+/// What holds the structure, in words with its unit.
+pub fn held_by(path: &PathResult) -> &'static str {
+    if path.points.iter().any(|p| p.load_factor.is_some()) {
+        "load factor"
+    } else {
+        "force on the support along its way, N"
+    }
+}
+
+/// That against the parameter, a name and its points each.
+pub fn curves(path: &PathResult) -> Vec<(String, Vec<(f64, f64)>)> {
+    let mut lines: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+    for p in &path.points {
+        let values = match p.load_factor {
+            Some(l) => vec![("load factor".to_string(), l)],
+            None => along(path, p),
+        };
+        for (name, y) in values {
+            match lines.iter_mut().find(|l| l.0 == name) {
+                Some(line) => line.1.push((p.value, y)),
+                None => lines.push((name, vec![(p.value, y)])),
+            }
+        }
+    }
+    lines
+}
+
+/// An event in words.
+pub fn happens(e: &PathEvent) -> String {
+    let names = |list: &[[String; 2]]| -> String {
+        list.iter().map(|[a, b]| format!("{a} | {b}")).collect::<Vec<_>>().join(", ")
+    };
+    match e.kind {
+        PathEventKind::Opens => format!("{} opens as well", names(&e.opens)),
+        PathEventKind::Closes => format!("{} closes", names(&e.closes)),
+        PathEventKind::Jumps => {
+            let closes = if e.closes.is_empty() {
+                String::new()
+            } else {
+                format!(" and {} closes", names(&e.closes))
+            };
+            format!(
+                "{} opens{closes} by a jump of {} m: the motion turns back, and goes on elsewhere",
+                names(&e.opens),
+                short(e.jump.unwrap_or(0.0))
+            )
+        }
+        PathEventKind::Falls => format!("it falls as {} opens", names(&e.opens)),
+        PathEventKind::Yields => {
+            format!("{} carries all that it can and gives way", e.yields.join(", "))
+        }
+    }
+}
+
 const SIZE: (u32, u32) = (680, 420);
 /// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008).
 const COLOURS: [RGBColor; 6] = [
@@ -120,30 +174,14 @@ const COLOURS: [RGBColor; 6] = [
 /// The result holds no curve, or none of two points.
 pub fn chart(file: &ResultFile) -> Result<String, PathError> {
     let path = file.path.as_ref().ok_or_else(|| PathError("this is no result of one".into()))?;
-    let mut lines: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
-    for p in &path.points {
-        let values = match p.load_factor {
-            Some(l) => vec![("load factor".to_string(), l)],
-            None => along(path, p),
-        };
-        for (name, y) in values {
-            match lines.iter_mut().find(|l| l.0 == name) {
-                Some(line) => line.1.push((p.value, y)),
-                None => lines.push((name, vec![(p.value, y)])),
-            }
-        }
-    }
+    let lines = curves(path);
     let all = || lines.iter().flat_map(|l| &l.1);
     let end = all().map(|p| p.0).fold(0.0, f64::max);
     let (low, high) = all().fold((0.0_f64, 0.0_f64), |(l, h), p| (l.min(p.1), h.max(p.1)));
     if end <= 0.0 || high <= low {
         return Err(PathError("there are not two points to draw a line through".into()));
     }
-    let y = if path.points.iter().any(|p| p.load_factor.is_some()) {
-        "load factor"
-    } else {
-        "force on the support along its way, N"
-    };
+    let y = held_by(path);
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();

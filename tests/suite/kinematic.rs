@@ -188,8 +188,12 @@ fn the_curve_is_that_of_push() {
     close(said(&file).alpha0.value.expect("a value"), 0.3736116923, 1e-7);
     let kinematic = file.path.expect("a curve");
     let at: Vec<f64> = kinematic.points.iter().map(|p| p.value).collect();
-    let question =
-        Question::Push(PushOptions { control, toward: [1.0, 0.0, 0.0], at: at[1..].to_vec() });
+    let question = Question::Push(PushOptions {
+        control,
+        toward: [1.0, 0.0, 0.0],
+        at: at[1..].to_vec(),
+        from: Vec::new(),
+    });
     let answer = ask(&question, &scene, &model, &Control::default()).expect("an answer");
     let pushed = ResultFile::of(&scene, &model, &answer).expect("a result").path.expect("a curve");
     assert!(pushed.events.len() == kinematic.events.len() && !pushed.events.is_empty());

@@ -46,7 +46,10 @@ fn to(support: &str, way: [f64; 3]) -> SupportMove {
 /// Both supports of an arch move outwards by the parameter, m.
 fn spread(scene: &Scene, at: &[f64]) -> ResultFile {
     let moves = vec![to("springer_left", [-1.0, 0.0, 0.0]), to("springer_right", [1.0, 0.0, 0.0])];
-    followed(scene, &Question::Settle(SettleOptions { moves, at: at.to_vec() }))
+    followed(
+        scene,
+        &Question::Settle(SettleOptions { moves, at: at.to_vec(), ..Default::default() }),
+    )
 }
 
 /// Horizontal thrust on the right springer over the weight of the arch.
@@ -143,9 +146,17 @@ fn hinges_of_flatter_arches_jump() {
         (16, 120.0, 0.2, 0.1668102716, [["v00", "v01"], ["v14", "v15"]]),
     ] {
         let file = spread(&arch(n, t, embrace, json!({})), &[]);
-        let event = &path(&file).events[0];
+        let [event, fall] = &path(&file).events[..] else { panic!("{:?}", path(&file).events) };
         close(event.value, way, 1e-7);
         assert_eq!(event.opens, opens.map(|pair| pair.map(String::from)));
+        // The hinge jumps, the joint before closes; where that leads to nothing rests.
+        assert_eq!((event.kind, fall.kind), (PathEventKind::Jumps, PathEventKind::Falls));
+        assert!(event.closes.len() == 2 && event.jump.is_some_and(|way| way > 0.01));
+        assert_eq!(event.value, fall.value);
+        assert_ne!(event.opens, fall.opens);
+        let said = file.answer.path().unwrap();
+        assert_eq!(said.status, PathStatus::Falls);
+        close(said.falls_at.unwrap(), way, 1e-7);
     }
 }
 
@@ -155,8 +166,10 @@ fn hinges_of_flatter_arches_jump() {
 fn a_hinge_that_jumps_is_no_collapse() {
     let file = spread(&arch(30, 0.15, 120.0, json!({})), &[]);
     let p = path(&file);
-    let [jump, fall] = &p.events[..] else { panic!("{:?}", p.events) };
-    assert_eq!((jump.kind, fall.kind), (PathEventKind::Jumps, PathEventKind::Falls));
+    // The second jump leads nowhere: it falls.
+    let [jump, last, fall] = &p.events[..] else { panic!("{:?}", p.events) };
+    assert_eq!((jump.kind, last.kind), (PathEventKind::Jumps, PathEventKind::Jumps));
+    assert_eq!((fall.kind, fall.value), (PathEventKind::Falls, last.value));
     close(jump.value, 0.10353114576057415, 1e-8);
     close(fall.value, 0.11384580641253933, 1e-8);
     assert_eq!(jump.opens, [["v01", "v02"], ["v27", "v28"]].map(|pair| pair.map(String::from)));
@@ -172,7 +185,7 @@ fn a_barrel_in_running_bond_goes_as_its_section() {
         json!({ "radius": 1, "thickness": 0.15, "depth": 2, "voussoirs": 16, "courses": 3 });
     let scene = template(0.6, json!({ "barrel": barrel }), json!({}));
     let moves = vec![to("springer_right", [0.1, 0.0, 0.0])];
-    let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
+    let question = Question::Settle(SettleOptions { moves, at: Vec::new(), ..Default::default() });
     let file = followed(&scene, &question);
     assert_eq!(file.answer.path().unwrap().status, PathStatus::Reached);
     let last = path(&file).points.last().unwrap();
@@ -187,8 +200,12 @@ fn capacity(at: &[f64]) -> (Scene, ResultFile) {
     let angle = (157.5 / 2.0 - 3.0 * 157.5 / 7.0_f64).to_radians();
     let point = [-1.075 * angle.sin(), 0.0, 1.075 * angle.cos()];
     let control = ControlPoint { block: "v02".into(), point };
-    let question =
-        Question::Push(PushOptions { control, toward: [1.0, 0.0, 0.0], at: at.to_vec() });
+    let question = Question::Push(PushOptions {
+        control,
+        toward: [1.0, 0.0, 0.0],
+        at: at.to_vec(),
+        from: Vec::new(),
+    });
     let file = followed(&scene, &question);
     (scene, file)
 }
@@ -271,7 +288,7 @@ fn a_settling_base_carries_the_least_it_can() {
 /// The answer, which may stay open.
 fn followed_open(scene: &Scene, moves: Vec<SupportMove>) -> ResultFile {
     let model = model(scene);
-    let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
+    let question = Question::Settle(SettleOptions { moves, at: Vec::new(), ..Default::default() });
     let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
     let file = ResultFile::of(scene, &model, &answer).expect("a result");
     let found = proof::verify(&file, scene).expect("a scene");
@@ -303,7 +320,8 @@ fn units_and_places_change_no_share_of_the_movement() {
         let scene = template(NO_SLIDING, json!({ "arch": arch }), more);
         let moves =
             vec![to("springer_left", [-scale, 0.0, 0.0]), to("springer_right", [scale, 0.0, 0.0])];
-        let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
+        let question =
+            Question::Settle(SettleOptions { moves, at: Vec::new(), ..Default::default() });
         let said = followed(&scene, &question).answer.path().unwrap().clone();
         close(said.value.unwrap(), expected, 1e-7);
     }
@@ -360,19 +378,6 @@ fn moved_poses_and_changed_numbers_are_refused() {
     refuse("the poses of the end swapped", &|f| f.path.as_mut().unwrap().ends.reverse());
 }
 
-/// What would follow another scene than the one that was given is refused.
-#[test]
-fn scenes_with_members_are_not_followed() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/tied-arch.json");
-    let (scene, _) = voussoir::scene::read_file(path.as_ref()).expect("a scene");
-    let model = voussoir::interface::prepare(&scene).expect("a model");
-    let support = model.assembly.blocks.iter().find(|b| b.support).expect("a support").id.clone();
-    let moves = vec![to(&support, [0.01, 0.0, 0.0])];
-    let question = Question::Settle(SettleOptions { moves, at: Vec::new() });
-    let error = ask(&question, &scene, &model, &Default::default()).expect_err("refused");
-    assert!(error.to_string().contains("without members only"), "{error}");
-}
-
 /// A block at rest beside the arch, whatever it weighs, however large it is and wherever it lies, is
 /// no part of what moves.
 #[test]
@@ -398,6 +403,7 @@ fn a_stranger_changes_nothing_about_a_path() {
             control: ControlPoint { block, point: point.into() },
             toward: [1.0, 0.0, 0.0],
             at: Vec::new(),
+            from: Vec::new(),
         });
         let said = followed(scene, &question).answer.path().cloned().unwrap();
         (said.status, said.value, said.falls_at)
@@ -424,4 +430,50 @@ fn an_arch_that_spreads_into_a_stranger_is_not_followed_through_it() {
     let said = file.answer.path().unwrap();
     assert_eq!(said.status, PathStatus::Open, "{said:?}");
     assert!(said.why.as_ref().is_some_and(|why| why.contains("come to touch")), "{said:?}");
+}
+
+/// A path that begins at a saved pose goes on as it would have gone from the start.
+#[test]
+fn a_path_goes_on_from_a_saved_pose() {
+    let scene = arch(12, 0.12, 180.0, json!({}));
+    let moves = vec![to("springer_left", [-1.0, 0.0, 0.0]), to("springer_right", [1.0, 0.0, 0.0])];
+    let whole = spread(&scene, &[0.01]);
+    let pose = path(&whole).points.iter().find(|p| p.value == 0.01).unwrap().poses.clone();
+    let question = |moves: &[SupportMove], from: &[voussoir::path::saved::SavedPose]| {
+        let (moves, from) = (moves.to_vec(), from.to_vec());
+        Question::Settle(SettleOptions { moves, from, at: Vec::new() })
+    };
+    let rest = followed(&scene, &question(&moves, &pose));
+    assert!((path(&rest).points[0].value - 0.01).abs() < 1e-15);
+    assert_eq!(rest.answer.path().unwrap().status, PathStatus::Falls);
+    assert_eq!(rest.answer.path().unwrap().least_reaction, None);
+    let value = |f: &ResultFile| f.answer.path().unwrap().value.unwrap();
+    close(value(&rest), value(&whole), 1e-9);
+    // Elsewhere than the motion leads, or overlapping, it is no pose to begin at.
+    let model = model(&scene);
+    let refused = |moves: &[SupportMove], from: &[voussoir::path::saved::SavedPose]| {
+        let error = ask(&question(moves, from), &scene, &model, &Control::default());
+        error.expect_err("refused").to_string()
+    };
+    let other = vec![to("springer_left", [-1.0, 0.0, 0.0]), to("springer_right", [1.0, 0.0, 0.1])];
+    assert!(refused(&other, &pose).contains("does not put them"));
+    let mut sunk = pose.clone();
+    sunk.iter_mut().find(|p| p.block == "v05").unwrap().shift[2] -= 0.01;
+    assert!(refused(&moves, &sunk).contains("overlap"));
+}
+
+/// Points so far apart that something would have to be passed through are no path.
+#[test]
+fn between_neighbouring_points_nothing_closes() {
+    let scene = arch(12, 0.12, 180.0, json!({}));
+    let mut file = spread(&scene, &[]);
+    let found = proof::verify(&file, &scene).unwrap();
+    let parts = found.parts.iter().filter(|(name, _)| name.starts_with("between points")).count();
+    assert_eq!(parts, path(&file).points.len() - 1);
+    // The mirror image of the hinged pose is none that the other leads to.
+    let points = &mut file.path.as_mut().unwrap().points;
+    let last = points.len() - 1;
+    let turn = points[last].poses.iter_mut().find(|p| p.block == "v03").unwrap();
+    turn.turn[1] = -turn.turn[1];
+    assert!(!proof::verify(&file, &scene).unwrap().proved());
 }

@@ -11,14 +11,15 @@ use crate::{
         Claims, Control, Proved, limit,
         question::{PushOptions, SettleOptions},
     },
-    assembly::{Pose, Solid, Wrench},
+    assembly::{Member, Pose, Solid, Wrench},
     error::{InputError, JsonPath},
     interface::Model,
     path::{
-        Carried, Drive, Move, Moves, reaction,
-        saved::{read_poses, write_poses},
+        Carried, Drive, Move, Moves, member, reaction,
+        saved::{SavedPose, read_poses, write_poses},
     },
     terms::Law,
+    tolerance,
     verdict::{
         Evidence, Forces, Rate,
         check::{Claim, Findings},
@@ -91,19 +92,26 @@ pub fn settle(
         .iter()
         .map(|m| m.way.norm() + m.turn.norm() * blocks[m.support].size)
         .fold(0.0, f64::max);
-    let touches = model.interfaces.list.iter().any(|f| {
-        moves.iter().any(|m| {
-            (f.a == m.support || f.b == m.support) && (m.way, m.turn) != Default::default()
-        })
-    });
+    let goes =
+        |i: usize| moves.iter().any(|m| i == m.support && (m.way, m.turn) != Default::default());
+    let held = |m: &Member| {
+        let ends = m.action.ends();
+        ends.iter().flatten().any(|&i| goes(i))
+            && ends.iter().flatten().any(|&i| !blocks[i].support)
+    };
+    let touches = model.interfaces.list.iter().any(|f| goes(f.a) || goes(f.b))
+        || model.interfaces.members.iter().any(held);
     if !touches {
         return Err(error("no support that moves touches a free block".into()));
     }
+    let drive = Drive::Settle(Moves(moves));
+    let from = begin(model, &drive, &options.from)?;
     let how = |size: f64| Follow {
-        drive: Drive::Settle(Moves(moves.clone())),
+        drive: drive.clone(),
         until: 1.0,
         at: options.at.clone(),
         step: STEP * size / speed,
+        from: from.clone(),
     };
     Ok(answer(model, &how, control))
 }
@@ -136,13 +144,66 @@ pub fn push(
             .hint(format!("its centre of mass is at {}", crate::number::point(c))));
     }
     let toward = Vector3::from(options.toward).normalize();
+    let drive = Drive::Push { block, point, toward };
+    let from = begin(model, &drive, &options.from)?;
     let how = |size: f64| Follow {
-        drive: Drive::Push { block, point, toward },
-        until: size,
+        drive: drive.clone(),
+        until: size + from.as_ref().map_or(0.0, |f| f.0),
         at: options.at.clone(),
         step: STEP * size,
+        from: from.clone(),
     };
     Ok(answer(model, &how, control))
+}
+
+/// The parameter at saved poses, and they; nothing where there are none.
+fn begin(
+    model: &Model,
+    drive: &Drive,
+    saved: &[SavedPose],
+) -> Result<Option<(f64, Vec<Pose>)>, InputError> {
+    if saved.is_empty() {
+        return Ok(None);
+    }
+    let error = |text: &str| {
+        let hint = "give a result of `settle` or `push` about this scene and this motion";
+        InputError::at(JsonPath::root(), format!("the poses to begin at {text}")).hint(hint)
+    };
+    let assembly = &model.assembly;
+    let poses = read_poses(assembly, saved).map_err(|e| error(&format!("are not its: {e}")))?;
+    let blocks = &assembly.blocks;
+    let value = match drive {
+        Drive::Push { block, point, toward } => {
+            poses[*block].way(&blocks[*block].centroid, point).dot(toward)
+        }
+        Drive::Settle(Moves(moves)) => {
+            // By the support that goes farthest, beside its size.
+            let far = |m: &Move| m.way.norm() / blocks[m.support].size + m.turn.norm();
+            let most = moves.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
+            most.map_or(0.0, |m| {
+                let (pose, length) = (&poses[m.support], blocks[m.support].size);
+                let turn = pose.turn.scaled_axis();
+                (m.way.dot(&pose.shift) / length.powi(2) + m.turn.dot(&turn))
+                    / (m.way.norm_squared() / length.powi(2) + m.turn.norm_squared())
+            })
+        }
+    };
+    let off = (0..blocks.len())
+        .filter(|&i| blocks[i].support)
+        .map(|i| {
+            let there = drive.pose(i, value);
+            (poses[i].shift - there.shift).norm() / blocks[i].size
+                + poses[i].turn.angle_to(&there.turn)
+        })
+        .fold(0.0, f64::max);
+    if !(off <= tolerance::ON_THE_WAY && value >= 0.0) {
+        return Err(error("have supports where this motion does not put them"));
+    }
+    let deepest = Carried::new(model).displaced(&poses).deepest;
+    if deepest.is_some_and(|c| c.gap < -tolerance::JOINT_CLOSED) {
+        return Err(error("have blocks that overlap"));
+    }
+    Ok(Some((value, poses)))
 }
 
 /// What cannot be followed.
@@ -160,9 +221,14 @@ pub(super) fn followable(model: &Model) -> Result<(), InputError> {
             "ask `assess` or `limit` about the first instant",
         );
     }
-    if let Some(m) = model.interfaces.members.iter().find(|m| !m.is_idle()) {
+    let members = &model.interfaces.members;
+    if let Some(m) = members.iter().find(|m| !m.is_idle() && !member::is_followed(m)) {
         return refuse(
-            format!("member {:?}: motions are followed without members only", m.id),
+            format!(
+                "member {:?}: motions are followed with ties, struts, bars, tendons, soil and toothed corners, not with a {}",
+                m.id,
+                m.kind.word()
+            ),
             "ask `assess` or `limit` about the first instant",
         );
     }
@@ -186,7 +252,8 @@ fn answer(model: &Model, how: &dyn Fn(f64) -> Follow, control: &Control) -> Foll
     let path = match &moved {
         None => follow(model, how, control.deadline, &|poses| meets(model, poses)),
         Some(moved) => {
-            let own = Follow { drive: moved.drive(&how.drive), ..how.clone() };
+            let from = how.from.as_ref().map(|(value, poses)| (*value, moved.own_poses(poses)));
+            let own = Follow { drive: moved.drive(&how.drive), from, ..how.clone() };
             // What moves may still run into what rests.
             let meets = |poses: &[Pose]| meets(model, &moved.poses(poses));
             moved.path(follow(&moved.own, &own, control.deadline, &meets))
@@ -199,7 +266,9 @@ fn answer(model: &Model, how: &dyn Fn(f64) -> Follow, control: &Control) -> Foll
         End::Falls(ends) => ends.iter().map(prove).collect(),
         _ => Vec::new(),
     };
-    let least = path.first.as_ref().filter(|_| !how.drive.is_push()).map(|(forces, rates)| {
+    // What supports carry as they begin to move is said of the start.
+    let asked = !how.drive.is_push() && how.from.is_none();
+    let least = path.first.as_ref().filter(|_| asked).map(|(forces, rates)| {
         (reaction::least(model, forces, rates), forces.clone(), rates.clone())
     });
     Followed { drive: how.drive.clone(), path, proofs, ends, least }
@@ -224,7 +293,14 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
     // Corners that touch again without having to are among the contacts, and carry nothing.
     let touching = carried.touching(&poses, &point.closed);
     let mut forces = crate::verdict::no_forces(&model.interfaces);
-    for (c, given) in point.forces.iter().enumerate() {
+    let joints = touching.model.interfaces.list.len();
+    for (own, given) in forces[model.interfaces.list.len()..]
+        .iter_mut()
+        .zip(&point.forces[joints.min(point.forces.len())..])
+    {
+        own.clone_from(given);
+    }
+    for (c, given) in point.forces.iter().take(joints).enumerate() {
         let (k, from) = (touching.from[c], &touching.model.interfaces.list[c]);
         let Some(to) = found.from.iter().position(|&f| f == k) else { continue };
         for (p, w) in from.points.iter().zip(given) {

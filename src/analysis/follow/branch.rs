@@ -1,9 +1,9 @@
 //! One linkage after the other, from event to event.
 
 use super::{
-    drop::{self, Landing},
+    drop::{self, Landing, Turn},
     linkage::Linkage,
-    program::{self, Margin},
+    program::{self, Hold, Margin},
     root::narrow,
     tracker::{At, Tracker, size},
 };
@@ -29,6 +29,8 @@ pub struct Follow {
     pub at: Vec<f64>,
     /// The longest step.
     pub step: f64,
+    /// The parameter and the poses to begin at, where that is not the start.
+    pub from: Option<(f64, Vec<Pose>)>,
 }
 
 /// A point of a path.
@@ -61,6 +63,8 @@ pub enum EventKind {
     Jumps,
     /// It falls as these joints open.
     Falls,
+    /// A member yields from here on, or goes slack.
+    Yields,
 }
 
 /// Something that happens on the way.
@@ -78,6 +82,8 @@ pub struct Event {
     pub closes: Vec<usize>,
     /// How far a block moves by the jump at most, m.
     pub jump: f64,
+    /// Members that yield.
+    pub yields: Vec<usize>,
 }
 
 /// How a path ends.
@@ -115,10 +121,10 @@ pub struct Path {
 const OVERLAP: f64 = -1e-10;
 /// Values of the parameter are known to this × what they are. Larger: the two sides of a fall are far
 /// apart. Smaller: the last digits of a double.
-const WIDTH: f64 = 1e-13;
+pub(super) const WIDTH: f64 = 1e-13;
 /// Rooms above this, in mean loads of a contact point, are none that is missing. Nearer to zero: the
 /// noise of the engine ends a leg. Farther: forces that pull are taken for none.
-const ROOM: f64 = -1e-9;
+pub(super) const ROOM: f64 = -1e-9;
 
 /// Follows the motion of a scene from where it is.
 ///
@@ -133,11 +139,15 @@ pub(super) fn follow(
     let blocks = &start.assembly.blocks;
     let tracker =
         Tracker { carried: &carried, drive: &how.drive, size: size(start), deadline, meets };
-    let poses = vec![Pose::start(); blocks.len()];
-    let closed: Vec<Vec<usize>> =
-        start.interfaces.list.iter().map(|f| (0..f.points.len()).collect()).collect();
+    let all = || start.interfaces.list.iter().map(|f| (0..f.points.len()).collect()).collect();
+    let (value, poses, closed): (f64, Vec<Pose>, Vec<Vec<usize>>) = match &how.from {
+        None => (0.0, vec![Pose::start(); blocks.len()], all()),
+        Some((value, poses)) => (*value, poses.clone(), carried.closed(poses)),
+    };
     let mut path = Path { points: Vec::new(), events: Vec::new(), end: End::Reached, first: None };
-    let mut state = State { value: 0.0, poses, closed };
+    // The first mechanism says what members do.
+    let holds = vec![Hold::Idle; start.interfaces.members.len()];
+    let mut state = State { value, poses, closed, holds };
     // So many mechanisms: more is no path but a fall.
     for round in 0..200 {
         match tracker.leg(how, state, &mut path, round == 0) {
@@ -157,12 +167,13 @@ pub(super) struct State {
     pub value: f64,
     pub poses: Vec<Pose>,
     pub closed: Vec<Vec<usize>>,
+    pub holds: Vec<Hold>,
 }
 
 #[derive(Clone)]
-struct Trial {
-    at: At,
-    margin: Option<Margin>,
+pub(super) struct Trial {
+    pub at: At,
+    pub margin: Option<Margin>,
 }
 
 impl Tracker<'_> {
@@ -201,7 +212,7 @@ impl Tracker<'_> {
             }
             return Err(End::Slides(k));
         }
-        self.run(how, State { closed: next.closed, ..state }, path)
+        self.run(how, State { closed: next.closed, holds: next.holds, ..state }, path)
     }
 
     /// Whether the control point moves where it is to go.
@@ -216,15 +227,16 @@ impl Tracker<'_> {
     }
 
     /// Follows one linkage until it no longer holds.
-    fn run(&self, how: &Follow, state: State, path: &mut Path) -> Result<State, End> {
+    pub(super) fn run(&self, how: &Follow, state: State, path: &mut Path) -> Result<State, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
-        let State { value, poses, closed } = state;
-        let linkage = self.linkage(&closed);
+        let State { value, poses, closed, holds } = state;
+        let linkage = self.linkage(&closed, &holds);
         let place = linkage.place(&poses);
         let at =
             self.at(&linkage, &place, value).ok_or_else(|| stuck("the linkage does not close"))?;
-        let margin =
-            self.margin(&at.place.poses, &closed).ok_or_else(|| stuck("no forces were found"))?;
+        let margin = self
+            .margin(&at.place.poses, &closed, &linkage.holds)
+            .ok_or_else(|| stuck("no forces were found"))?;
         if path.points.is_empty()
             || path.points.last().is_some_and(|p| p.value < value || p.closed != closed)
         {
@@ -255,10 +267,20 @@ impl Tracker<'_> {
                 }
                 continue;
             };
-            let trial = Trial { margin: self.margin(&at.place.poses, &closed), at };
+            let trial = Trial { margin: self.margin(&at.place.poses, &closed, &linkage.holds), at };
             let overlaps = self.deepest(&trial.at.place.poses, &closed).filter(|c| c.gap < OVERLAP);
+            if let Some(text) = self.turns(&holds, &here.1.at.place.poses, &trial.at.place.poses) {
+                return Err(End::Stuck(text));
+            }
             let room = trial.margin.as_ref().map(|m| m.room);
             let lacks = room.is_some_and(|r| r < ROOM);
+            if (room.is_none() || lacks)
+                && overlaps.is_none()
+                && let Some(excess) = self.excess(&linkage, &trial.at.place.poses, &closed)
+                && excess.by > 0.0
+            {
+                return self.yields(how, &linkage, here, (value, trial, excess), &closed, path);
+            }
             if room.is_none() {
                 step *= 0.25;
                 if step < 1e-6 * how.step {
@@ -299,7 +321,7 @@ impl Tracker<'_> {
             |v, near| self.at(linkage, &near.place, v).map(|at| (at.load_factor, at)),
         );
         if let Some([low, _]) = ends
-            && let Some(margin) = self.margin(&low.2.place.poses, closed)
+            && let Some(margin) = self.margin(&low.2.place.poses, closed, &linkage.holds)
         {
             path.points.push(self.point(low.0, &low.2, closed, &margin));
             return End::Vanishes;
@@ -331,7 +353,7 @@ impl Tracker<'_> {
                 |v, near| self.at(linkage, &near.place, v).map(|at| (gap(&at), at)),
             )
             .ok_or_else(|| stuck("the place where a joint closes was not found"))?;
-            let margin = self.margin(&low.2.place.poses, closed);
+            let margin = self.margin(&low.2.place.poses, closed, &linkage.holds);
             high = (low.0, Trial { at: low.2.clone(), margin });
             closing = Some((low, beyond));
         }
@@ -343,7 +365,7 @@ impl Tracker<'_> {
                 width,
                 |v, near| {
                     let at = self.at(linkage, &near.at.place, v)?;
-                    let margin = Some(self.margin(&at.place.poses, closed)?);
+                    let margin = Some(self.margin(&at.place.poses, closed, &linkage.holds)?);
                     Some((room(&margin), Trial { at, margin }))
                 },
             )
@@ -359,11 +381,13 @@ impl Tracker<'_> {
             opens: Vec::new(),
             closes,
             jump: 0.0,
+            yields: Vec::new(),
         });
-        if let Some(m) = self.margin(&low.2.place.poses, closed) {
+        if let Some(m) = self.margin(&low.2.place.poses, closed, &linkage.holds) {
             path.points.push(self.point(low.0, &low.2, closed, &m));
         }
-        Ok(State { value: low.0, poses: low.2.place.poses, closed: now })
+        let holds = linkage.holds.clone();
+        Ok(State { value: low.0, poses: low.2.place.poses, closed: now, holds })
     }
 
     /// Forces cease: another joint opens, steadily or by a jump, or it falls.
@@ -399,19 +423,30 @@ impl Tracker<'_> {
             opens,
             closes,
             jump,
+            yields: Vec::new(),
         };
-        match drop::drop(self, &now, &lost, &beyond.1.at.place, beyond.0) {
+        let holds = old.holds.clone();
+        match drop::drop(self, &now, &holds, &lost, &beyond.1.at.place, beyond.0) {
             Landing::Steady(closed) => {
                 path.events.push(event(EventKind::Opens, opens, Vec::new(), 0.0));
                 // Straight on: a program at this very pose would not tell this branch from others.
-                let state = State { value: beyond.0, poses: beyond.1.at.place.poses, closed };
+                let state =
+                    State { value: beyond.0, poses: beyond.1.at.place.poses, closed, holds };
                 self.run(how, state, path)
             }
             Landing::Elsewhere { poses, closed, closes, jump } => {
                 path.events.push(event(EventKind::Jumps, opens, closes, jump));
-                Ok(State { value: beyond.0, poses, closed })
+                Ok(State { value: beyond.0, poses, closed, holds })
             }
-            Landing::Nowhere => {
+            Landing::Nowhere(turn) => {
+                let opens = match turn {
+                    // The hinge jumps first; where it has come to there is nothing that rests.
+                    Some(Turn { closes, opens: next, jump }) => {
+                        path.events.push(event(EventKind::Jumps, opens, closes, jump));
+                        next
+                    }
+                    None => opens,
+                };
                 path.events.push(event(EventKind::Falls, opens, Vec::new(), 0.0));
                 let end = self.falls(old, &low, closed);
                 Err(end.unwrap_or_else(|| stuck("it falls, but no proof of it was found")))
@@ -436,7 +471,12 @@ impl Tracker<'_> {
     }
 
     /// Proof that it stands just before and falls just after.
-    fn falls(&self, linkage: &Linkage, low: &(f64, Trial), closed: &[Vec<usize>]) -> Option<End> {
+    pub(super) fn falls(
+        &self,
+        linkage: &Linkage,
+        low: &(f64, Trial),
+        closed: &[Vec<usize>],
+    ) -> Option<End> {
         let control = Control { law: Law::Associative, ..Control::default() };
         let side = |sign: f64, wanted: Verdict| {
             // Away from the limit until a proof is found.

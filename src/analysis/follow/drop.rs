@@ -4,6 +4,7 @@
 use super::{
     branch::End,
     linkage::{Linkage, OpenBy, Place},
+    program::Hold,
     root::narrow,
     tracker::Tracker,
 };
@@ -25,10 +26,20 @@ pub(super) enum Landing {
         /// The longest way of a block, m.
         jump: f64,
     },
-    /// Nowhere.
-    Nowhere,
+    /// Nowhere; where joints closed on the way down, what came first.
+    Nowhere(Option<Turn>),
     /// It could not be followed, and why.
     Lost(String),
+}
+
+/// Joints that close on a way down that ends nowhere, and those that open there.
+pub(super) struct Turn {
+    /// Joints that close.
+    pub closes: Vec<usize>,
+    /// Joints that open next.
+    pub opens: Vec<usize>,
+    /// The longest way of a block up to there, m.
+    pub jump: f64,
 }
 
 /// First and longest step of the opening, and the widest, over the size of the scene.
@@ -40,11 +51,32 @@ const WIDEST: f64 = 0.1;
 pub(super) fn drop(
     t: &Tracker,
     closed: &[Vec<usize>],
+    holds: &[Hold],
     lost: &[(usize, usize)],
     from: &Place,
     value: f64,
 ) -> Landing {
-    step_down(t, closed, lost, from, value, MOST)
+    let together = step_down(t, closed, holds, lost, from, value, MOST);
+    if !matches!(together, Landing::Nowhere(_)) {
+        return together;
+    }
+    // A scene that is its own image need not fall as one: the first joint alone may carry it to
+    // where it rests.
+    let mut joints: Vec<usize> = lost.iter().map(|l| l.0).collect();
+    joints.dedup();
+    for joint in joints.iter().filter(|_| joints.len() > 1) {
+        let mut one = closed.to_vec();
+        for &(k, p) in lost.iter().filter(|l| l.0 != *joint) {
+            one[k].push(p);
+            one[k].sort_unstable();
+        }
+        let first: Vec<_> = lost.iter().copied().filter(|l| l.0 == *joint).collect();
+        let alone = step_down(t, &one, holds, &first, from, value, MOST);
+        if matches!(alone, Landing::Elsewhere { .. }) {
+            return alone;
+        }
+    }
+    together
 }
 
 /// So many joints may close on the way down. More: what falls down is called a jump.
@@ -53,12 +85,13 @@ const MOST: usize = 8;
 fn step_down(
     t: &Tracker,
     closed: &[Vec<usize>],
+    holds: &[Hold],
     lost: &[(usize, usize)],
     from: &Place,
     value: f64,
     more: usize,
 ) -> Landing {
-    let linkage = t.linkage(closed);
+    let linkage = t.linkage(closed, holds);
     let from = linkage.place(&from.poses);
     let demand = t.drive.demand(value);
     let free = linkage.free(&from, demand.as_ref()).ncols();
@@ -90,13 +123,13 @@ fn step_down(
     let mut step = FIRST;
     loop {
         if here.0 >= WIDEST {
-            return Landing::Nowhere;
+            return Landing::Nowhere(None);
         }
         let gap = here.0 + step;
         let Some(there) = close(lost, &here.1, gap * t.size) else {
             step *= 0.25;
             if step < 1e-3 * FIRST {
-                return Landing::Nowhere;
+                return Landing::Nowhere(None);
             }
             continue;
         };
@@ -117,7 +150,7 @@ fn step_down(
             let Some([low, _]) = ends else {
                 return Landing::Lost("the place where a joint closes was not found".into());
             };
-            return landed(t, closed, &from, &low.2, value, more);
+            return landed(t, closed, holds, &from, &low.2, value, more);
         }
         let gain = power(&here.1, &there);
         if gain < 0.0 {
@@ -125,14 +158,14 @@ fn step_down(
             let Some(at) = t.at(&linkage, &there, value) else {
                 return Landing::Lost("the equilibrium after a jump was not found".into());
             };
-            return match t.margin(&at.place.poses, closed) {
+            return match t.margin(&at.place.poses, closed, holds) {
                 Some(m) if m.room >= -1e-9 => Landing::Elsewhere {
                     jump: way(&from, &at.place),
                     poses: at.place.poses,
                     closed: closed.to_vec(),
                     closes: Vec::new(),
                 },
-                _ => Landing::Nowhere,
+                _ => Landing::Nowhere(None),
             };
         }
         here = (gap, there);
@@ -144,6 +177,7 @@ fn step_down(
 fn landed(
     t: &Tracker,
     closed: &[Vec<usize>],
+    holds: &[Hold],
     from: &Place,
     place: &Place,
     value: f64,
@@ -152,9 +186,9 @@ fn landed(
     let (now, closes) = match t.with_closed(&place.poses, closed) {
         Ok(found) => found,
         Err(End::Stuck(text)) => return Landing::Lost(text),
-        Err(_) => return Landing::Nowhere,
+        Err(_) => return Landing::Nowhere(None),
     };
-    match t.margin(&place.poses, &now) {
+    match t.margin(&place.poses, &now, holds) {
         Some(m) if m.room >= -1e-9 => Landing::Elsewhere {
             jump: way(from, place),
             poses: place.poses.clone(),
@@ -167,9 +201,9 @@ fn landed(
             let mut open = now;
             lost.iter().for_each(|&(k, p)| open[k].retain(|&q| q != p));
             if lost.is_empty() {
-                return Landing::Nowhere;
+                return Landing::Nowhere(None);
             }
-            match step_down(t, &open, &lost, place, value, more - 1) {
+            match step_down(t, &open, holds, &lost, place, value, more - 1) {
                 Landing::Steady(closed) => Landing::Elsewhere {
                     jump: way(from, place),
                     poses: place.poses.clone(),
@@ -182,12 +216,17 @@ fn landed(
                     closes: [closes, later].concat(),
                     jump: jump + way(from, place),
                 },
-                other => other,
+                Landing::Nowhere(_) => {
+                    let mut opens: Vec<usize> = lost.iter().map(|l| l.0).collect();
+                    opens.dedup();
+                    Landing::Nowhere(Some(Turn { closes, opens, jump: way(from, place) }))
+                }
+                lost @ Landing::Lost(_) => lost,
             }
         }
-        Some(_) => Landing::Nowhere,
+        Some(_) => Landing::Nowhere(None),
         // Nothing balances it there, whatever the room: it goes on.
-        None if t.falls_there(&place.poses, &now) => Landing::Nowhere,
+        None if t.falls_there(&place.poses, &now) => Landing::Nowhere(None),
         None => Landing::Lost("no forces were found after a jump".into()),
     }
 }
@@ -199,7 +238,7 @@ fn way(a: &Place, b: &Place) -> f64 {
 /// Power of the loads on the way from one place to the next; with a free load factor at what holds
 /// the linkage whose new joint keeps still.
 fn power(t: &Tracker, linkage: &Linkage, a: &Place, b: &Place, lost: &[(usize, usize)]) -> f64 {
-    let [dead, live] = t.loads(&a.poses);
+    let [dead, live] = t.loads(linkage, &a.poses);
     let by = linkage.between(a, b);
     let motions = nalgebra::DMatrix::from_columns(&[by]);
     let of = |loads: &[_], m: &nalgebra::DMatrix<f64>| linkage.power(a, loads, m)[0];

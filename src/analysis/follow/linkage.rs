@@ -1,10 +1,12 @@
 //! Blocks that move as one, and the corners that keep them together: finite rotations, gaps closed
 //! to rounding.
 
-use crate::path::{Carried, Demand, Drive};
+use super::program::Hold;
+use crate::path::{self, Carried, Demand, Drive};
 use crate::{
     assembly::{Pose, Wrench},
     interface::Model,
+    verdict::member::legs,
 };
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 
@@ -45,6 +47,10 @@ pub struct Linkage<'a> {
     body_of: Vec<usize>,
     bodies: Vec<Body>,
     hinges: Vec<Hinge>,
+    /// What members do.
+    pub holds: Vec<Hold>,
+    /// Members that keep their extent, m.
+    kept: Vec<(usize, f64)>,
     /// What rotations are measured by, m.
     length: f64,
     unknowns: usize,
@@ -68,8 +74,13 @@ const CLOSED: f64 = 1e-12;
 const FREE: f64 = 1e-9;
 
 impl<'a> Linkage<'a> {
-    /// The linkage of these closed corners.
-    pub fn new(carried: &'a Carried<'a>, closed: &[Vec<usize>], supports: &Drive) -> Self {
+    /// The linkage of these closed corners and of members that keep their extent.
+    pub fn new(
+        carried: &'a Carried<'a>,
+        closed: &[Vec<usize>],
+        holds: &[Hold],
+        supports: &Drive,
+    ) -> Self {
         let start = carried.start;
         let blocks = &start.assembly.blocks;
         let list = &start.interfaces.list;
@@ -127,8 +138,24 @@ impl<'a> Linkage<'a> {
                 }));
             }
         }
+        let moves = |m: usize| {
+            let ends = start.interfaces.members[m].action.ends().into_iter().flatten();
+            let mut ends = ends.map(|i| body_of[i]).collect::<Vec<_>>();
+            ends.dedup();
+            // Ends on one body, and on supports alone, are where they are.
+            ends.iter().any(|&b| bodies[b].column.is_some())
+        };
+        let kept = holds
+            .iter()
+            .enumerate()
+            .filter_map(|(m, hold)| match hold {
+                Hold::Keeps(extent) if moves(m) => Some((m, *extent)),
+                _ => None,
+            })
+            .collect();
         let length = blocks.iter().filter(|b| !b.support).map(|b| b.size).fold(0.0, f64::max);
-        Self { start, carried, body_of, bodies, hinges, length, unknowns }
+        let holds = holds.to_vec();
+        Self { start, carried, body_of, bodies, hinges, holds, kept, length, unknowns }
     }
 
     /// The bodies where their leading blocks are.
@@ -207,7 +234,8 @@ impl<'a> Linkage<'a> {
         demand: Option<&Demand>,
         open: &[OpenBy],
     ) -> (DMatrix<f64>, DVector<f64>) {
-        let rows = 3 * self.hinges.len() + usize::from(demand.is_some()) + open.len();
+        let corners = 3 * self.hinges.len();
+        let rows = corners + self.kept.len() + usize::from(demand.is_some()) + open.len();
         // Never fewer rows than unknowns: all right singular vectors are wanted.
         let mut j = DMatrix::zeros(rows.max(self.unknowns), self.unknowns);
         let mut r = DVector::zeros(rows.max(self.unknowns));
@@ -222,7 +250,21 @@ impl<'a> Linkage<'a> {
                 self.row(place, &mut j, row, h.bodies[0], &(h.point + a), &-e);
             }
         }
-        let mut row = 3 * self.hinges.len();
+        let mut row = corners;
+        for &(m, extent) in &self.kept {
+            let (assembly, own) = (&self.start.assembly, &self.start.interfaces.members[m]);
+            let by = path::member::scale(assembly, own);
+            r[row] = (path::member::extent(assembly, &place.poses, own) - extent) / by;
+            for leg in legs(&path::member::displaced(assembly, &place.poses, own)) {
+                // A positive amount shortens: it pulls its ends together.
+                let along = leg.direction / -by;
+                for (block, sign) in [(leg.a, -1.0), (leg.b, 1.0)] {
+                    let Some(i) = block else { continue };
+                    self.row(place, &mut j, row, self.body_of[i], &leg.at, &(along * sign));
+                }
+            }
+            row += 1;
+        }
         if let Some(d) = demand {
             let b = self.body_of[d.block];
             let (w, e) = (way(b, &d.point), d.toward / self.length);

@@ -2,9 +2,11 @@
 
 pub mod answer;
 mod branch;
+pub mod crack;
 mod drop;
 mod linkage;
 pub mod machine;
+mod member;
 mod moved;
 mod program;
 mod root;

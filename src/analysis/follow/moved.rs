@@ -20,7 +20,10 @@ pub(super) struct Moved<'a> {
     blocks: Vec<usize>,
     /// Its contacts in the scene.
     faces: Vec<usize>,
-    /// Forces that hold the rest, contact by contact of the scene; none in its own.
+    /// Its members in the scene.
+    members: Vec<usize>,
+    /// Forces that hold the rest, contact by contact and member by member of the scene; none in its
+    /// own.
     still: Forces,
 }
 
@@ -29,11 +32,18 @@ impl<'a> Moved<'a> {
     /// itself or under less live load, so that it decides.
     pub fn of(whole: &'a Model, drive: &Drive, control: &Control) -> Option<Self> {
         let (blocks, list) = (&whole.assembly.blocks, &whole.interfaces.list);
+        let joined = &whole.interfaces.members;
         let moves = |part: &interface::Members| match drive {
-            Drive::Settle(Moves(moves)) => part.contacts.iter().any(|&k| {
-                let touches = |m: &Move| [list[k].a, list[k].b].contains(&m.support);
-                moves.iter().any(|m| (m.way, m.turn) != Default::default() && touches(m))
-            }),
+            Drive::Settle(Moves(moves)) => {
+                let goes = |i: usize| {
+                    moves.iter().any(|m| (m.way, m.turn) != Default::default() && i == m.support)
+                };
+                part.contacts.iter().any(|&k| goes(list[k].a) || goes(list[k].b))
+                    || part
+                        .members
+                        .iter()
+                        .any(|&m| joined[m].action.ends().into_iter().flatten().any(goes))
+            }
             Drive::Push { block, .. } => part.free.contains(block),
         };
         let (moving, resting): (Vec<_>, Vec<_>) =
@@ -55,10 +65,19 @@ impl<'a> Moved<'a> {
         resting.iter().for_each(|&i| is_own[i] = false);
         let (faces, others): (Vec<usize>, Vec<usize>) =
             (0..list.len()).partition(|&k| is_own[list[k].a] && is_own[list[k].b]);
-        let mut still = vec![Vec::new(); list.len()];
-        others.into_iter().zip(&held.forces).for_each(|(k, f)| still[k].clone_from(f));
+        // As `without` has them: a member goes with any of its blocks.
+        let untouched = |gone: &[usize]| -> Vec<usize> {
+            let stays = |m: &usize| {
+                !joined[*m].action.ends().into_iter().flatten().any(|i| gone.contains(&i))
+            };
+            (0..joined.len()).filter(stays).collect()
+        };
+        let (members, strangers) = (untouched(&resting), untouched(&moving));
+        let mut still = vec![Vec::new(); list.len() + joined.len()];
+        let places = others.into_iter().chain(strangers.into_iter().map(|m| list.len() + m));
+        places.zip(&held.forces).for_each(|(k, f)| still[k].clone_from(f));
         let blocks = (0..blocks.len()).filter(|&i| is_own[i]).collect();
-        Some(Self { whole, own, blocks, faces, still })
+        Some(Self { whole, own, blocks, faces, members, still })
     }
 
     /// The drive by the numbers of the part.
@@ -87,11 +106,14 @@ impl<'a> Moved<'a> {
         let event = |e: Event| Event {
             opens: e.opens.iter().map(|&k| self.faces[k]).collect(),
             closes: e.closes.iter().map(|&k| self.faces[k]).collect(),
+            yields: e.yields.iter().map(|&m| self.members[m]).collect(),
             ..e
         };
         let first = own.first.map(|(forces, rates)| {
             let mut all = self.still.clone();
-            self.faces.iter().zip(forces).for_each(|(&k, f)| all[k] = f);
+            let first = self.whole.interfaces.list.len();
+            let places = self.faces.iter().copied().chain(self.members.iter().map(|m| first + m));
+            places.zip(forces).for_each(|(k, f)| all[k] = f);
             (all, self.rates(&rates))
         });
         Path {
@@ -113,14 +135,24 @@ impl<'a> Moved<'a> {
         let mut given = own.forces.into_iter();
         let mut is_own = vec![false; list.len()];
         self.faces.iter().for_each(|&k| is_own[k] = true);
-        let forces =
-            (0..list.len())
-                .filter(|&k| !closed[k].is_empty())
-                .map(|k| {
-                    if is_own[k] { given.next().unwrap_or_default() } else { self.still[k].clone() }
-                })
-                .collect();
+        let mut own_member = vec![false; self.whole.interfaces.members.len()];
+        self.members.iter().for_each(|&m| own_member[m] = true);
+        let places = (0..list.len()).filter(|&k| !closed[k].is_empty()).map(|k| (k, is_own[k]));
+        let members = own_member.into_iter().enumerate().map(|(m, own)| (list.len() + m, own));
+        let forces = places
+            .chain(members)
+            .map(
+                |(k, own)| {
+                    if own { given.next().unwrap_or_default() } else { self.still[k].clone() }
+                },
+            )
+            .collect();
         Point { poses, closed, forces, rates, ..own }
+    }
+
+    /// Poses of the part.
+    pub fn own_poses(&self, whole: &[Pose]) -> Vec<Pose> {
+        self.blocks.iter().map(|&i| whole[i]).collect()
     }
 
     /// Poses of all blocks.

@@ -1,13 +1,13 @@
 //! What programs say at one pose: how much room its forces have, and where it goes next.
 
-use crate::path::{Carried, Drive};
+use crate::path::{self, Carried, Drive};
 use crate::{
     assembly::Pose,
     interface::Model,
     program::{self, ConicProgram, Statics, StaticsOptions, Unknowns},
     scene::Friction,
     solve::{self, EngineSettings, Settings, Solution},
-    verdict::{Forces, Rate, check},
+    verdict::{self, Forces, Rate, check},
 };
 
 /// The room that the forces of a pose have.
@@ -48,12 +48,53 @@ pub fn margin(model: &Model, live: bool) -> Option<Margin> {
 pub struct Next {
     /// Corners that stay closed, joint by joint.
     pub closed: Vec<Vec<usize>>,
+    /// What members do, one by one.
+    pub holds: Vec<Hold>,
     /// A joint that slides.
     pub slides: Option<usize>,
     /// Forces.
     pub forces: Forces,
     /// Rates of all blocks, supports among them.
     pub rates: Vec<Rate>,
+}
+
+/// What a member does while a linkage moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Hold {
+    /// It carries nothing and cannot.
+    Idle,
+    /// It keeps its extent, m.
+    Keeps(f64),
+    /// It yields at this amount, N.
+    Yields(f64),
+}
+
+/// What the members of a displaced scene do at these rates.
+fn holds(
+    carried: &Carried,
+    poses: &[Pose],
+    model: &Model,
+    rates: &[Rate],
+    fastest: f64,
+) -> Vec<Hold> {
+    let start = carried.start;
+    let own = start.interfaces.members.iter().zip(&model.interfaces.members);
+    own.map(|(at_start, member)| {
+        if member.is_idle() {
+            return Hold::Idle;
+        }
+        let power = verdict::member::power(&model.assembly, member, rates).x;
+        let keeps = Hold::Keeps(path::member::extent(&start.assembly, poses, at_start));
+        let at = |amount: f64| if amount.is_finite() { Hold::Yields(amount) } else { keeps };
+        if power.abs() <= REST * fastest {
+            keeps
+        } else if power < 0.0 {
+            at(member.greatest)
+        } else {
+            at(member.least)
+        }
+    })
+    .collect()
 }
 
 /// Speeds below this × the fastest are none.
@@ -115,7 +156,8 @@ pub fn next(
                 .collect()
         })
         .collect();
-    Some(Next { closed: kept, slides, forces, rates })
+    let holds = holds(carried, poses, model, &rates, fastest);
+    Some(Next { closed: kept, holds, slides, forces, rates })
 }
 
 /// Forces of least power on supports that move at these rates, and the rates of all blocks.

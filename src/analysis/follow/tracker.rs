@@ -4,14 +4,14 @@
 use super::{
     branch::{End, Point},
     linkage::{Linkage, Place},
-    program::{self, Margin},
+    program::{self, Hold, Margin},
 };
 use crate::{
     analysis::{Control, assess},
     assembly::{Assembly, Pose, Wrench},
     deadline::Deadline,
     interface::{Interface, Model, detect},
-    path::{Carried, Corner, Drive},
+    path::{Carried, Corner, Drive, member},
     terms::Law,
     verdict::Verdict,
 };
@@ -41,13 +41,22 @@ impl<'a> Tracker<'a> {
         &self.carried.start.assembly
     }
 
-    pub fn linkage(&self, closed: &[Vec<usize>]) -> Linkage<'a> {
-        Linkage::new(self.carried, closed, self.drive)
+    pub fn linkage(&self, closed: &[Vec<usize>], holds: &[Hold]) -> Linkage<'a> {
+        Linkage::new(self.carried, closed, holds, self.drive)
     }
 
-    /// Dead and live loads at poses.
-    pub fn loads(&self, poses: &[Pose]) -> [Vec<Wrench>; 2] {
-        self.start().loads_at(poses)
+    /// Dead and live loads at poses; members that yield are among the dead ones.
+    pub fn loads(&self, linkage: &Linkage, poses: &[Pose]) -> [Vec<Wrench>; 2] {
+        let [mut dead, live] = self.start().loads_at(poses);
+        let start = self.start();
+        for (own, hold) in self.carried.start.interfaces.members.iter().zip(&linkage.holds) {
+            if let Hold::Yields(amount) = hold {
+                let own = member::displaced(start, poses, own);
+                let center = |i: usize| start.blocks[i].centroid + poses[i].shift;
+                member::wrenches(&own, *amount, center).into_iter().for_each(|(i, w)| dead[i] += w);
+            }
+        }
+        [dead, live]
     }
 
     /// Where a linkage is at a value; equilibrium picks what its corners leave free.
@@ -105,7 +114,7 @@ impl<'a> Tracker<'a> {
         let free = linkage.free(place, None);
         let free = if self.drive.is_push() { free } else { place.free.clone() };
         let aligned = &free * free.tr_mul(basis);
-        let [dead, live] = self.loads(&place.poses);
+        let [dead, live] = self.loads(linkage, &place.poses);
         let a = linkage.power(place, &dead, &aligned);
         let scale = dead.iter().map(|w| w.force.norm()).sum::<f64>() * self.size;
         if !self.drive.is_push() {
@@ -121,14 +130,21 @@ impl<'a> Tracker<'a> {
         if !self.drive.is_push() {
             return 0.0;
         }
-        let [dead, live] = self.loads(&place.poses);
+        let [dead, live] = self.loads(linkage, &place.poses);
         let (a, b) = (linkage.power(place, &dead, free), linkage.power(place, &live, free));
         -a.dot(&b) / b.dot(&b)
     }
 
-    /// The room of the forces there.
-    pub fn margin(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Option<Margin> {
-        program::margin(&self.carried.touching(poses, closed).model, self.drive.is_push())
+    /// The room of the forces there; members that yield carry what they yield at.
+    pub fn margin(&self, poses: &[Pose], closed: &[Vec<usize>], holds: &[Hold]) -> Option<Margin> {
+        let mut model = self.carried.touching(poses, closed).model;
+        let given = pin(&mut model, holds);
+        let mut margin = program::margin(&model, self.drive.is_push())?;
+        for (k, w) in given {
+            margin.forces[k] = vec![w];
+            margin.bare[k] = vec![w];
+        }
+        Some(margin)
     }
 
     /// The corner that is open and has sunk deepest.
@@ -213,6 +229,26 @@ impl<'a> Tracker<'a> {
         let control = Control { law: Law::Associative, ..Control::default() };
         assess(&self.carried.touching(poses, closed).model, &control).verdict == Verdict::Unstable
     }
+}
+
+/// Makes loads of what members carry that yield; where these forces stand, and they.
+pub(super) fn pin(model: &mut Model, holds: &[Hold]) -> Vec<(usize, Wrench)> {
+    let first = model.interfaces.list.len();
+    let mut given = Vec::new();
+    for (m, hold) in holds.iter().enumerate() {
+        if let Hold::Yields(amount) = *hold
+            && amount != 0.0
+        {
+            let own = &mut model.interfaces.members[m];
+            let Assembly { blocks, dead, .. } = &mut model.assembly;
+            let on = member::wrenches(own, amount, |i| blocks[i].centroid);
+            on.into_iter().for_each(|(i, w)| dead[i] += w);
+            (own.least, own.greatest) = (0.0, 0.0);
+            let force = Vector3::new(amount, 0.0, 0.0);
+            given.push((first + m, Wrench { force, moment: Vector3::zeros() }));
+        }
+    }
+    given
 }
 
 /// Bounding box diagonal of the contacts, m.

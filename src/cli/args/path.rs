@@ -1,7 +1,7 @@
 //! Arguments of `settle` and `push`.
 
 use super::{
-    Common,
+    Common, Pictures,
     parse::{Written, control, direction, finite, output, support_move},
 };
 use clap::Args;
@@ -14,8 +14,13 @@ pub struct Settle {
     pub common: Common,
     /// How a support moves while the parameter goes from 0 to 1: its way in m and its turn about
     /// its centre of mass in degrees (axis × angle). Once for every support that moves.
-    #[arg(long = "move", value_name = "SUPPORT=DX,DY,DZ[,RX,RY,RZ]", required = true, allow_hyphen_values = true, value_parser = support_move)]
+    #[arg(long = "move", value_name = "SUPPORT=DX,DY,DZ[,RX,RY,RZ]", required_unless_present = "cracks", allow_hyphen_values = true, value_parser = support_move)]
     pub moves: Vec<SupportMove>,
+    /// The other way round: which movement of which support explains these cracks, in a file like
+    /// { "cracks": [ { "between": ["v03", "v04"], "side": "intrados", "width": 0.004 } ] }. Sides are
+    /// "intrados", "extrados" or a point near them; widths, m, may be left out.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["moves", "at", "csv", "chart", "from", "svg", "vtk", "save", "report"])]
+    pub cracks: Option<PathBuf>,
     /// Shares of the movement that become points of the curve, beside others.
     #[arg(long, value_name = "S1,S2,…", value_delimiter = ',', value_parser = finite)]
     pub at: Vec<f64>,
@@ -49,4 +54,10 @@ pub struct Curve {
     /// Draw the curve to this file (SVG).
     #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
     pub chart: Option<PathBuf>,
+    /// Begin at the last pose of this result, which was saved for the same scene and motion: how much
+    /// further it goes.
+    #[arg(long, value_name = "RESULT")]
+    pub from: Option<PathBuf>,
+    #[command(flatten)]
+    pub pictures: Pictures,
 }

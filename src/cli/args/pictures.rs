@@ -17,8 +17,8 @@ pub struct Pictures {
     #[arg(long, value_name = "FROM", requires = "svg", allow_hyphen_values = true)]
     pub view: Option<Aspect>,
     /// Write blocks, joints, forces, lines of thrust and mechanisms to this file (.vtp) for
-    /// ParaView; of `simulate` the blocks, time by time (.pvd, with a folder of the same name
-    /// beside it).
+    /// ParaView; of `simulate` the blocks, time by time, of `settle` and `push` point by point (.pvd,
+    /// with a folder of the same name beside it).
     #[arg(long, value_name = "FILE")]
     pub vtk: Option<PathBuf>,
 }

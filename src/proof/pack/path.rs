@@ -20,7 +20,7 @@ use crate::{
     verdict::{
         Rate,
         check::Claim,
-        evidence::{write_forces, write_rates},
+        evidence::{write_forces, write_members, write_rates},
     },
 };
 
@@ -68,10 +68,12 @@ impl ResultFile {
                 EventKind::Closes => PathEventKind::Closes,
                 EventKind::Jumps => PathEventKind::Jumps,
                 EventKind::Falls => PathEventKind::Falls,
+                EventKind::Yields => PathEventKind::Yields,
             },
             opens: joints(&e.opens),
             closes: joints(&e.closes),
             jump: (e.jump > 0.0).then_some(e.jump),
+            yields: e.yields.iter().map(|&m| model.interfaces.members[m].id.clone()).collect(),
         });
         let events = events.collect();
         let least = followed.least.as_ref().map(|(_, forces, rates)| {
@@ -82,6 +84,7 @@ impl ResultFile {
                 .collect();
             Certificate {
                 forces: write_forces(model, forces),
+                members: write_members(model, forces),
                 rates: write_rates(&model.assembly, &free),
                 ..Certificate::none()
             }
@@ -120,7 +123,7 @@ fn point(carried: &Carried, followed: &Followed, p: &Point, proof: &PointProof) 
         certificate: Certificate {
             claim: proof.claim,
             forces: write_forces(&proof.model, &proof.forces),
-            members: Vec::new(),
+            members: write_members(&proof.model, &proof.forces),
             base: None,
             base_members: Vec::new(),
             rates: write_rates(&proof.model.assembly, &proof.rates),

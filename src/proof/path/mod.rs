@@ -168,6 +168,9 @@ pub struct PathEvent {
     /// Joints that close.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub closes: Vec<[String; 2]>,
+    /// Members that yield or go slack.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub yields: Vec<String>,
     /// The longest way of a block in a jump, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub jump: Option<f64>,
@@ -185,6 +188,8 @@ pub enum PathEventKind {
     Jumps,
     /// It falls as these joints open.
     Falls,
+    /// A member reaches what it can carry: from here on it yields, or goes slack.
+    Yields,
 }
 
 /// Joints that have opened and still touch, from the poses.

@@ -13,7 +13,7 @@ use crate::{
     verdict::{
         Evidence, Forces, Rate,
         check::{self, Claim, Findings},
-        evidence::{read_forces, read_rates},
+        evidence::{read_forces, read_members, read_rates},
     },
 };
 use nalgebra::Vector3;
@@ -51,6 +51,11 @@ pub fn curve(
     }
     for (end, point) in ["last that stands", "first that falls"].iter().zip(&path.ends) {
         all.part(format!("{end}, at {}", point.value), check_point(&carried, &drive, point));
+    }
+    for (k, pair) in path.points.windows(2).enumerate() {
+        let mut f = Findings::default();
+        between(&mut f, &carried, [&pair[0], &pair[1]]);
+        all.part(format!("between points {} and {}", k + 1, k + 2), f);
     }
     let mut f = Findings::default();
     let ordered = path.points.windows(2).all(|w| w[0].value <= w[1].value);
@@ -123,7 +128,9 @@ fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings 
     let model = &displaced.model;
     let evidence = &point.certificate;
     let read = || -> Result<(Forces, Vec<Rate>), String> {
-        Ok((read_forces(model, &evidence.forces)?, read_rates(&model.assembly, &evidence.rates)?))
+        let mut forces = read_forces(model, &evidence.forces)?;
+        read_members(model, &evidence.members, &mut forces)?;
+        Ok((forces, read_rates(&model.assembly, &evidence.rates)?))
     };
     let (forces, rates) = match read() {
         Ok(read) => read,
@@ -176,6 +183,55 @@ fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings 
         });
     require(&mut f, same, format!("its hinges are those of its poses, {} of them", here.len()));
     f
+}
+
+/// Part of the way between two points at which it is looked whether anything overlaps.
+const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// No joint closes on the way between two neighbouring points beyond what straight ways between
+/// their poses, which are curved ones in truth, may be off by: a block's way × its turn, eight times
+/// what a turn about a fixed point is, for blocks do not turn in proportion to each other.
+fn between(f: &mut Findings, carried: &Carried, ends: [&PathPoint; 2]) {
+    if ends[0].value == ends[1].value {
+        return f.holds.push("a jump, which is not followed".into());
+    }
+    let assembly = &carried.start.assembly;
+    let (Ok(from), Ok(to)) =
+        (read_poses(assembly, &ends[0].poses), read_poses(assembly, &ends[1].poses))
+    else {
+        return f.fails.push("their poses are none of the scene".into());
+    };
+    let off: Vec<f64> = from
+        .iter()
+        .zip(&to)
+        .zip(&assembly.blocks)
+        .map(|((a, b), block)| {
+            let turn = a.turn.angle_to(&b.turn);
+            turn * ((b.shift - a.shift).norm() + turn * block.size)
+        })
+        .collect();
+    let list = &carried.start.interfaces.list;
+    let mut deepest = 0.0_f64;
+    for share in BETWEEN {
+        let poses: Vec<Pose> = from
+            .iter()
+            .zip(&to)
+            .map(|(a, b)| Pose {
+                shift: a.shift.lerp(&b.shift, share),
+                turn: a.turn.slerp(&b.turn, share),
+            })
+            .collect();
+        for c in carried.corners(&poses).into_iter().flatten() {
+            let face = &list[c.interface];
+            let allowed = (off[face.a] + off[face.b]) / carried.size(c.interface);
+            deepest = deepest.max(-c.gap - allowed);
+        }
+    }
+    require(
+        f,
+        deepest <= tolerance::JOINT_CLOSED,
+        format!("no joint closes on the way: by {:.1e} of its block at most", deepest.max(0.0)),
+    );
 }
 
 /// Supports and control point are where the parameter puts them.
@@ -237,7 +293,9 @@ fn least_reaction(
     evidence: &Certificate,
 ) {
     let read = || -> Result<(Forces, Vec<Rate>), String> {
-        Ok((read_forces(model, &evidence.forces)?, read_rates(&model.assembly, &evidence.rates)?))
+        let mut forces = read_forces(model, &evidence.forces)?;
+        read_members(model, &evidence.members, &mut forces)?;
+        Ok((forces, read_rates(&model.assembly, &evidence.rates)?))
     };
     let (forces, mut rates) = match read() {
         Ok(read) => read,

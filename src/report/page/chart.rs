@@ -4,7 +4,10 @@ use crate::{
     analysis::Attempt,
     number::{seconds, short},
     proof::ResultFile,
-    report::heaps::ReposeFile,
+    report::{
+        heaps::ReposeFile,
+        path::{curves, happens, held_by, parameter},
+    },
 };
 use serde::Serialize;
 
@@ -22,6 +25,9 @@ pub struct Chart {
     /// A sentence below it.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub note: String,
+    /// Its x is what the film of the page goes along: a cursor shows where that is.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub film: bool,
     /// Values shown by colour, for charts of cells: a name for them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cells: Option<String>,
@@ -67,6 +73,34 @@ pub struct Series {
     /// Of cells their value.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<f64>,
+}
+
+/// The curve of a path, with a cursor that goes with the film: the load factor, or the force on each
+/// support along its way, against the parameter.
+pub fn curve(file: &ResultFile) -> Option<Chart> {
+    let path = file.path.as_ref()?;
+    let lines = curves(path);
+    let series = lines.iter().map(|(name, points)| Series {
+        name: name.clone(),
+        line: true,
+        hints: points
+            .iter()
+            .map(|(x, y)| format!("{name}: {} at {}", short(*y), short(*x)))
+            .collect(),
+        points: points.iter().map(|&(x, y)| [Some(x), Some(y)]).collect(),
+        ..Series::default()
+    });
+    let note: Vec<String> =
+        path.events.iter().map(|e| format!("{}: {}", short(e.value), happens(e))).collect();
+    (lines.iter().any(|l| l.1.len() > 1)).then(|| Chart {
+        title: "What holds it on the way".into(),
+        x: Axis::new(parameter(path), false),
+        y: Axis::new(held_by(path), false),
+        series: series.collect(),
+        note: note.join("; "),
+        film: true,
+        ..Chart::default()
+    })
 }
 
 /// Width of the bracket against the time spent, from the attempts at each program.
@@ -133,6 +167,7 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
         series,
         note: "Each point is an attempt; its bracket is recomputed from the scene, not the solver's word.".into(),
         cells: None,
+        film: false,
     })
 }
 

@@ -13,7 +13,7 @@ mod pack;
 mod study;
 mod sweep;
 
-pub use chart::{Axis, Chart, Series, attempts, heaps};
+pub use chart::{Axis, Chart, Series, attempts, curve, heaps};
 pub use study::{extreme, omissions, study};
 pub use sweep::sweep;
 

@@ -6,7 +6,7 @@
 
 use crate::{
     interface::ContactKind,
-    report::view::{View, ViewMotion, ViewShape, ViewState},
+    report::view::{Course, View, ViewMotion, ViewShape, ViewState},
     verdict::mechanism::JointMotion as Kind,
 };
 use data_encoding::BASE64;
@@ -259,7 +259,15 @@ fn film(view: &View, units: &Units) -> Value {
     json!({
         "times": view.film.iter().map(|f| f.time).collect::<Vec<_>>(),
         "energy": view.film.iter().map(|f| f.energy).collect::<Vec<_>>(),
-        "run": view.film.last().map(|f| format!("{:?}", f.fidelity).to_lowercase()),
+        "name": match view.film.last() {
+            Some(f) if view.course == Course::default() => {
+                format!("{}, {} steps", view.course.name, format!("{:?}", f.fidelity).to_lowercase())
+            }
+            _ => view.course.name.clone(),
+        },
+        "quantity": view.course.quantity,
+        "unit": view.course.unit,
+        "way": view.course.way,
         "far": far,
         "wide": wide,
         "shift": shares(flat(&shift).map(|v| v / far)),

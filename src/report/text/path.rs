@@ -7,10 +7,10 @@ use super::{
 use crate::{
     number::{bracketed, count, fixed, point, short},
     proof::{
-        path::{DrivenBy, PathEvent, PathEventKind, PathPoint, PathResult, PathStatus},
+        path::{DrivenBy, PathEvent, PathPoint, PathResult, PathStatus},
         result::{QuestionKind, ResultFile},
     },
-    report::path::along,
+    report::path::{along, happens},
     verdict::check::Claim,
 };
 
@@ -186,25 +186,5 @@ fn line(path: &PathResult, p: &PathPoint) -> String {
 }
 
 pub(super) fn event(path: &PathResult, e: &PathEvent) -> String {
-    let names = |list: &[[String; 2]]| -> String {
-        list.iter().map(|[a, b]| format!("{a} | {b}")).collect::<Vec<_>>().join(", ")
-    };
-    let what = match e.kind {
-        PathEventKind::Opens => format!("{} opens as well", names(&e.opens)),
-        PathEventKind::Closes => format!("{} closes", names(&e.closes)),
-        PathEventKind::Jumps => {
-            let closes = if e.closes.is_empty() {
-                String::new()
-            } else {
-                format!(" and {} closes", names(&e.closes))
-            };
-            format!(
-                "{} opens{closes} by a jump of {} m: the motion turns back, and goes on elsewhere",
-                names(&e.opens),
-                short(e.jump.unwrap_or(0.0))
-            )
-        }
-        PathEventKind::Falls => format!("it falls as {} opens", names(&e.opens)),
-    };
-    format!("{}: {what}", at(path, e.value, 6))
+    format!("{}: {}", at(path, e.value, 6), happens(e))
 }

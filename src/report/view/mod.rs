@@ -5,12 +5,14 @@
 //! Lengths in m, forces in N on the second block of a joint, in the coordinates of the scene.
 //! Forces and rates are those of the certificates in the result, fitted to the scene again.
 
+mod course;
 mod film;
 mod member;
 mod motion;
 mod state;
 mod surface;
 
+pub use course::{Course, frames};
 pub use film::Film;
 pub use member::ViewMember;
 pub use motion::{Mark, ViewMotion, ViewPose};
@@ -63,8 +65,10 @@ pub struct View {
     pub states: Vec<ViewState>,
     /// Mechanisms; the first one goes with the answer.
     pub motions: Vec<ViewMotion>,
-    /// What happened in time, evenly spread.
+    /// What happened in time, evenly spread, or on a path point by point.
     pub film: Vec<Frame>,
+    /// What the film goes along.
+    pub course: Course,
 }
 
 /// A block.
@@ -142,6 +146,9 @@ impl View {
         view.states = state::of(model, file).map_err(ViewError)?;
         view.motions = motion::of(model, file, &view.bodies).map_err(ViewError)?;
         view.film = film;
+        if let Some(path) = &file.path {
+            view.course = Course::of(path);
+        }
         view.film.retain(|f| f.blocks.len() == view.bodies.len());
         Ok(view)
     }
@@ -187,6 +194,7 @@ impl View {
             states: Vec::new(),
             motions: Vec::new(),
             film: Vec::new(),
+            course: Course::default(),
             bodies,
         }
     }

@@ -121,6 +121,34 @@ fn a_simulation_is_a_collection_of_moments() {
     assert!(fs::read_to_string(&svg).unwrap().contains("after "));
 }
 
+/// A path as a collection of its points, as a page with a film and the curve, and its rest from where
+/// it was saved.
+#[test]
+fn a_path_is_a_collection_of_poses_and_a_film_beside_its_curve() {
+    let desk = Desk::new();
+    let arch = desk.at("arch.json");
+    let [pvd, page, csv, saved] =
+        ["way.pvd", "way.html", "way.csv", "way.result.json"].map(|n| desk.at(n));
+    let asked = ["settle", &arch, "--move", "springer_right=0.004,0,0", "-q"];
+    let files = ["--vtk", &pvd, "--report", &page, "--csv", &csv, "--save", &saved];
+    expect(YES, voussoir(&[&asked[..], &files].concat()));
+    let text = fs::read_to_string(&pvd).unwrap();
+    let named: Vec<&str> =
+        text.split("file=\"").skip(1).filter_map(|t| t.split('"').next()).collect();
+    assert!(named.len() > 1 && named.iter().all(|n| desk.path(n).is_file()), "{text}");
+    assert_eq!(fs::read_to_string(&csv).unwrap().lines().count(), named.len() + 1);
+    let page = fs::read_to_string(&page).unwrap();
+    assert!(page.contains("\"film\":true") && page.contains("Share of the movement"));
+    assert!(page.contains("path, point by point") && !page.contains("simulation, fine"));
+    // All of this movement is done; of a longer one that begins so, the rest is left.
+    let longer = ["settle", &arch, "--move", "springer_right=0.008,0,0", "--from", &saved, "-q"];
+    let again = desk.at("again.csv");
+    expect(YES, voussoir(&[&longer[..], &["--csv", &again]].concat()));
+    let first = fs::read_to_string(&again).unwrap();
+    assert!(first.lines().nth(1).unwrap().starts_with("0.5"), "{first}");
+    expect(USAGE, voussoir(&[&asked[..4], &["--from", &arch]].concat()));
+}
+
 #[test]
 fn pictures_that_cannot_be_made_are_refused_before_the_work() {
     let desk = Desk::new();

@@ -75,7 +75,7 @@ impl<'a> Side<'a> {
             ))
             .hint("`voussoir simulate --ground` runs it in time with friction"));
         }
-        let linkage = Linkage::new(&carried, &next.closed, &drive);
+        let linkage = Linkage::new(&carried, &next.closed, &[], &drive);
         let place = linkage.place(&poses);
         let free = linkage.free(&place, None);
         if free.ncols() != 1 {
@@ -131,7 +131,7 @@ impl<'a> Side<'a> {
         notes: &mut Vec<String>,
     ) -> Result<Lawful, InputError> {
         let drive = drive();
-        let linkage = Linkage::new(&self.carried, &self.closed, &drive);
+        let linkage = Linkage::new(&self.carried, &self.closed, &[], &drive);
         let start = linkage.place(&vec![Pose::start(); self.rates.len()]);
         let at = |near: &Place, angle: f64| -> Option<(Place, [f64; 6])> {
             let place = linkage.turn(near, &Turned { block: self.lead, axis: self.axis, angle })?;

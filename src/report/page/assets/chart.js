@@ -33,6 +33,9 @@ function range(values, log) {
   return [low - pad, high + pad];
 }
 
+// What moves the cursors of charts of a film.
+const cursors = [];
+
 function drawChart(chart) {
   const W = 560, H = 340, left = 66, right = chart.cells ? 62 : 14, top = 10, bottom = 46;
   const cells = Boolean(chart.cells), xs = [], ys = [];
@@ -86,6 +89,17 @@ function drawChart(chart) {
     });
   });
   svg.append(make("path", { class: "axis", fill: "none", d: `M${left} ${top}V${H - bottom}H${W - right}` }));
+  if (chart.film) {
+    const cursor = make("line", { class: "axis", "stroke-width": 1.6, y1: top, y2: H - bottom, x1: px(x0), x2: px(x0) });
+    svg.append(cursor);
+    cursors.push((x) => { for (const end of ["x1", "x2"]) cursor.setAttribute(end, px(Math.min(Math.max(x, x0), x1)).toFixed(1)); });
+    const seek = (e) => {
+      const box = svg.getBoundingClientRect(), x = ((e.clientX - box.left) * W) / box.width;
+      filmTo(x0 + ((x - left) / (W - left - right)) * (x1 - x0));
+    };
+    svg.addEventListener("pointerdown", seek);
+    svg.addEventListener("pointermove", (e) => e.buttons && seek(e));
+  }
   const ring = make("circle", { r: 6, fill: "none", stroke: "currentColor", "stroke-width": 1.6, visibility: "hidden" });
   svg.append(ring);
   const idle = chart.note || "", hint = make("p", { class: "hint", "aria-live": "polite" }, idle);

@@ -1,6 +1,6 @@
 // The scene in units of its size, and where its blocks are at the moment.
 const view = data.view;
-const unpack = (part) => { for (const key in part) if (typeof part[key] === "string" && /^(f32|u16|u32|i16):/.test(part[key]) && !["name", "run"].includes(key)) part[key] = decode(part[key]); return part; };
+const unpack = (part) => { for (const key in part) if (typeof part[key] === "string" && /^(f32|u16|u32|i16):/.test(part[key]) && !["name", "quantity", "unit", "way"].includes(key)) part[key] = decode(part[key]); return part; };
 const bodies = unpack(view.bodies), joints = unpack(view.joints), loads = unpack(view.loads);
 view.states.forEach(unpack);
 view.motions.forEach(unpack);

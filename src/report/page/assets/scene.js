@@ -73,18 +73,33 @@ function motionNow(value) {
   state.motion = value;
   const film = value === FILM, motion = view.motions[value];
   el("play").hidden = !film && !motion;
-  el("wayLabel").textContent = film ? "Time" : "Motion";
+  el("wayLabel").textContent = film ? view.film.quantity : "Motion";
   el("magnifyBox").hidden = !film;
   setWay(state.way);
+}
+// Between the frames of a film: where it is, and when it is there.
+function timeAt(way) {
+  const { times } = view.film, last = times.length - 1, t = way * last, k = Math.min(Math.floor(t), last - 1);
+  return times[k] + (t - k) * (times[k + 1] - times[k]);
+}
+function filmTo(time) {
+  const { times } = view.film, last = times.length - 1;
+  let k = 0;
+  while (k < last - 1 && times[k + 1] < time) k++;
+  const step = times[k + 1] - times[k];
+  play(false);
+  if (state.motion !== FILM) { el("motion").value = FILM; motionNow(FILM); }
+  setWay(Math.min(Math.max((k + (step > 0 ? (time - times[k]) / step : 0)) / last, 0), 1));
 }
 function setWay(way) {
   state.way = way;
   el("way").value = Math.round(1000 * way);
   const film = state.motion === FILM;
-  const text = state.motion === -1 ? "" : film ? `${short(view.film.times[Math.round(way * (view.film.times.length - 1))], 3)} s` : way ? `${meters(way * amplitude(view.motions[state.motion]))} at the fastest corner` : "at rest";
+  const text = state.motion === -1 ? "" : film ? `${short(view.film.times[Math.round(way * (view.film.times.length - 1))], 3)} ${view.film.unit}`.trim() : way ? `${meters(way * amplitude(view.motions[state.motion]))} at the fastest corner` : "at rest";
   el("wayText").textContent = text;
   el("way").setAttribute("aria-valuetext", text);
   if (film && state.picked) numbers();
+  if (film) cursors.forEach((move) => move(timeAt(way)));
   redraw(true);
 }
 let playing = 0;
@@ -110,10 +125,10 @@ function choices() {
   el("state").replaceChildren(...options(view.states.map((s, k) => [k, s.name])));
   el("stateBox").hidden = !view.states.length;
   const motions = view.motions.map((m, k) => [k, m.name]);
-  if (view.film) motions.unshift([FILM, `simulation, ${view.film.run} steps`]);
+  if (view.film) motions.unshift([FILM, view.film.name]);
   el("motion").replaceChildren(...options(motions));
   el("motionBox").hidden = !motions.length;
-  const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "joint share used"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", "speed in the mechanism"], view.film && ["moved", "way in the simulation"]].filter(Boolean);
+  const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "joint share used"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", "speed in the mechanism"], view.film && ["moved", view.film.way]].filter(Boolean);
   el("colour").replaceChildren(...options(kinds));
   if (view.film) {
     // The greatest round number that keeps the motion within a tenth of the picture.

@@ -1,0 +1,59 @@
+//! `voussoir settle --cracks`
+
+use super::{exit::Exit, question::Session, terminal};
+use anyhow::Context;
+use std::path::Path;
+use voussoir::{
+    analysis::follow::crack::{Cracks, Explanation, explain},
+    number::short,
+    report::json,
+};
+
+/// So many explanations are shown.
+const SHOWN: usize = 6;
+
+pub fn run(session: &Session, file: &Path, as_json: bool, quiet: bool) -> anyhow::Result<Exit> {
+    let name = file.display();
+    let text = std::fs::read_to_string(file).with_context(|| format!("{name}: cannot be read"))?;
+    let cracks: Cracks = serde_json::from_str(&text).with_context(|| {
+        format!("{name}: hint: {{ \"cracks\": [ {{ \"between\": [\"v03\", \"v04\"], \"side\": \"intrados\", \"width\": 0.004 }} ] }}")
+    })?;
+    let list = explain(&session.model, &cracks).map_err(|e| session.refuse(e))?;
+    let count = cracks.cracks.len();
+    let whole = |e: &&Explanation| e.explained == count && e.unseen == 0;
+    let explains = list.iter().filter(whole).count();
+    if as_json {
+        terminal::print(&json::pretty(&list)?)?;
+    } else {
+        let mut lines = vec![match explains {
+            0 => "No movement of one support explains the cracks; the nearest:".to_string(),
+            1 => "One movement of one support explains the cracks:".to_string(),
+            n => format!("{n} movements of one support explain the cracks alike:"),
+        }];
+        let shown = if quiet { 0 } else { SHOWN.max(explains) };
+        lines.extend(list.iter().take(shown).map(|e| line(e, count)));
+        lines.push(
+            "Computed to first order from the mechanism of each unit movement, not proved.".into(),
+        );
+        terminal::print(&(lines.join("\n") + "\n"))?;
+    }
+    Ok(if explains > 0 { Exit::Yes } else { Exit::Undecided })
+}
+
+fn line(e: &Explanation, count: usize) -> String {
+    let words = |v: &[f64; 3]| v.map(short).join(", ");
+    let turns = e.way == [0.0; 3];
+    let what = if turns {
+        format!("turns about ({})", words(&e.axis))
+    } else {
+        format!("moves along ({})", words(&e.way))
+    };
+    let size = e.size.zip(e.left).map_or(String::new(), |(size, left)| {
+        let unit = if turns { "rad" } else { "m" };
+        format!("; by {} {unit}, {:.1} % of the widths left", short(size), 100.0 * left)
+    });
+    format!(
+        "  {} {what}: {} of {count} cracks, {} joints open that are not seen to{size}",
+        e.support, e.explained, e.unseen
+    )
+}

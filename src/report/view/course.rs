@@ -1,0 +1,72 @@
+//! Paths of `settle` and `push` as films: one frame a point of the curve.
+
+use crate::{
+    dynamics::{Fidelity, Frame, Pose},
+    interface::Model,
+    path::saved::read_poses,
+    proof::{
+        path::{DrivenBy, PathResult},
+        result::ResultFile,
+    },
+};
+use nalgebra::Vector3;
+
+/// What a film goes along.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Course {
+    /// What it shows.
+    pub name: String,
+    /// What the frames are numbered by.
+    pub quantity: &'static str,
+    /// The unit of that; may be empty.
+    pub unit: &'static str,
+    /// How far blocks have come in it, in words.
+    pub way: &'static str,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self {
+            name: "simulation".into(),
+            quantity: "Time",
+            unit: "s",
+            way: "way in the simulation",
+        }
+    }
+}
+
+impl Course {
+    /// That of a path.
+    pub fn of(path: &PathResult) -> Self {
+        let (quantity, unit) = match path.driven_by {
+            DrivenBy::Supports(_) => ("Share of the movement", ""),
+            DrivenBy::Control { .. } => ("Way of the point", "m"),
+        };
+        Self { name: "path, point by point".into(), quantity, unit, way: "way on the path" }
+    }
+}
+
+/// The points of a path as frames, the one where it falls at the end; none where there is no path,
+/// or its poses are not those of the scene.
+pub fn frames(model: &Model, file: &ResultFile) -> Vec<Frame> {
+    let Some(path) = &file.path else { return Vec::new() };
+    let blocks = &model.assembly.blocks;
+    let frame = |p: &crate::proof::path::PathPoint| {
+        let poses = read_poses(&model.assembly, &p.poses).ok()?;
+        let pose = |(pose, b): (&crate::assembly::Pose, &crate::assembly::Block)| Pose {
+            center: b.centroid + pose.shift,
+            turn: pose.turn,
+            velocity: Vector3::zeros(),
+            spin: Vector3::zeros(),
+        };
+        Some(Frame {
+            time: p.value,
+            fidelity: Fidelity::Fine,
+            relative: 0.0,
+            energy: 0.0,
+            blocks: poses.iter().zip(blocks).map(pose).collect(),
+        })
+    };
+    let points = path.points.iter().chain(path.ends.last());
+    points.map(frame).collect::<Option<_>>().unwrap_or_default()
+}
