@@ -110,7 +110,8 @@ pub(super) fn kinematic(
     let toward = directions(model.assembly.gravity, &options.toward, options.all);
     let quakes: Vec<Quake> =
         toward.into_iter().map(|d| quake(scene, model, d)).collect::<Result<_, _>>()?;
-    // All bounds before the first answer with dry friction: where time is short they are worth most.
+    // All bounds before the first answer with dry friction: where time is short they are worth
+    // most.
     let bounds: Vec<_> = quakes.iter().map(|q| limit(&q.model, control)).collect();
     let dead = (!options.skip_dead).then(|| assess(model, control));
     let level = dead.as_ref().map(|d| d.verdict);
@@ -211,8 +212,8 @@ fn curve(
     Ok((ask(&at)?, bare, has_members))
 }
 
-/// Requires that the mechanism is the same without members: only then is the curve without them one of
-/// it.
+/// Requires that the mechanism is the same without members: only then is the curve without them one
+/// of it.
 fn same_without(worst: &Quaked, bare: &Model, control: &Control) -> Result<(), String> {
     let l = limit(bare, &Control { law: Law::Associative, ..*control });
     let quake = Quake { model: bare.clone(), ..worst.quake.clone() };

@@ -1,8 +1,8 @@
 //! The capacity curve of a mechanism and its limit states (Circolare 7/2019, C8.7.1.2.1).
 //!
-//! The exact curve is followed with finite rotations, each point of it a load factor with a proof. The
-//! straight line of practice runs from a0 at rest to d0, where the exact curve vanishes: a convention,
-//! not a proof.
+//! The exact curve is followed with finite rotations, each point of it a load factor with a proof.
+//! The straight line of practice runs from a0 at rest to d0, where the exact curve vanishes: a
+//! convention, not a proof.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -58,8 +58,8 @@ fn state(d: f64, a: f64, factor: f64) -> LimitState {
     LimitState { d, a, period: factor * PI * (d / a).sqrt() }
 }
 
-/// What a curve that vanishes gives; points are ways of the control point, m, with accelerations, m/s².
-/// Nothing where there are no two of them, or nothing is left to begin with.
+/// What a curve that vanishes gives; points are ways of the control point, m, with accelerations,
+/// m/s². Nothing where there are no two of them, or nothing is left to begin with.
 pub fn capacity(points: &[(f64, f64)], d_over_control: f64) -> Option<Capacity> {
     let (first, last) = (points.first()?, points.last()?);
     let (a0, control_d0) = (first.1, last.0);
@@ -83,6 +83,7 @@ pub fn capacity(points: &[(f64, f64)], d_over_control: f64) -> Option<Capacity> 
     Some(Capacity { d_over_control, a0, control_d0, d0, exact, straight })
 }
 
-/// Limit states are read off points of the curve this × d0 away at most. Larger: the acceleration is that of
-/// another displacement. Smaller: the search for d0, which knows it to 1e-9, hides its own points.
+/// Limit states are read off points of the curve this × d0 away at most. Larger: the acceleration
+/// is that of another displacement. Smaller: the search for d0, which knows it to 1e-9, hides its
+/// own points.
 const ON_THE_POINT: f64 = 1e-8;

@@ -1,7 +1,8 @@
 //! What the earthquakes of a site demand of a mechanism (Circolare 7/2019, C8.7.1.2.1).
 //!
-//! Ratios are accelerations that are met over those demanded. With the periods of the ground's spectrum held,
-//! all of it is proportional to a_g, so that the ratio is also the share of the demanded a_g that is met.
+//! Ratios are accelerations that are met over those demanded. With the periods of the ground's
+//! spectrum held, all of it is proportional to a_g, so that the ratio is also the share of the
+//! demanded a_g that is met.
 
 use super::{
     capacity::{LimitState, States},
@@ -54,8 +55,8 @@ fn check(what: String, capacity: f64, demand: f64) -> Check {
     Check { what, capacity, demand, ratio: capacity / demand }
 }
 
-/// The checks of a mechanism that starts at `a0`, m/s², with the limit states of its curves where there
-/// are any: (their name, both states).
+/// The checks of a mechanism that starts at `a0`, m/s², with the limit states of its curves where
+/// there are any: (their name, both states).
 pub fn demand(site: &Site, a0: f64, curves: &[(&str, States)], gravity: f64) -> Demand {
     let q = site.q.unwrap_or(2.0);
     let xi = site.damping_percent.unwrap_or(DAMPING);

@@ -36,8 +36,8 @@ pub struct Mass {
     pub weight: f64,
 }
 
-/// A scene under an earthquake towards one direction: the pushes of all masses, each as large as its
-/// weight, are the live load, so that the load factor is α; all other loads are dead.
+/// A scene under an earthquake towards one direction: the pushes of all masses, each as large as
+/// its weight, are the live load, so that the load factor is α; all other loads are dead.
 #[derive(Clone, Debug)]
 pub struct Quake {
     /// The scene with that live load; live loads of its own are left out.
@@ -141,8 +141,8 @@ fn rests(load: &Load, model: &Model, down: &Vector3<f64>) -> Vec<Mass> {
     }
 }
 
-/// Dead loads that pull down and sideways, as places in the list: no weight, and yet there may be one
-/// in them.
+/// Dead loads that pull down and sideways, as places in the list: no weight, and yet there may be
+/// one in them.
 pub fn oblique(scene: &Scene, model: &Model) -> Vec<usize> {
     let down = model.assembly.gravity.normalize();
     let pulls = |load: &Load| {

@@ -1,11 +1,12 @@
-//! Mechanisms under earthquakes, as Italian practice takes them (NTC 2018; Circolare 21 January 2019
-//! n. 7, C8.7.1.2.1): from the mechanism that limit analysis proves worst to the mass that takes part,
-//! the acceleration at which it starts, its capacity curve and what a site demands of it.
+//! Mechanisms under earthquakes, as Italian practice takes them (NTC 2018; Circolare 21 January
+//! 2019 n. 7, C8.7.1.2.1): from the mechanism that limit analysis proves worst to the mass that
+//! takes part, the acceleration at which it starts, its capacity curve and what a site demands of
+//! it.
 //!
-//! All of it is arithmetic on what is proved elsewhere: the load factor α0 with its mechanism, and the
-//! points of the curve. Names are those of the Circolare: weights `P` rest on the blocks and are pushed
-//! by an earthquake, `Q` are pushed only, `δ` is the horizontal virtual displacement of the point where
-//! a weight acts (of a block its centre of mass), `FC` the factor of confidence.
+//! All of it is arithmetic on what is proved elsewhere: the load factor α0 with its mechanism, and
+//! the points of the curve. Names are those of the Circolare: weights `P` rest on the blocks and
+//! are pushed by an earthquake, `Q` are pushed only, `δ` is the horizontal virtual displacement of
+//! the point where a weight acts (of a block its centre of mass), `FC` the factor of confidence.
 //!
 //! | | |
 //! |---|---|

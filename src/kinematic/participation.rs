@@ -1,5 +1,5 @@
-//! What of the mass takes part in a mechanism: e*, M*, and the equivalent displacement (Circolare 7/2019,
-//! C8.7.1.2.1).
+//! What of the mass takes part in a mechanism: e*, M*, and the equivalent displacement (Circolare
+//! 7/2019, C8.7.1.2.1).
 
 use super::{
     mass::{Mass, MassKind, Quake},
@@ -47,8 +47,8 @@ pub struct Participation {
     /// Σ(P+Q)δ² / Σ(P+Q)δ: what the way of a point is multiplied by, over its own δ, to give the
     /// equivalent displacement.
     pub delta_star: f64,
-    /// e* with blocks that move as one body counted as one, at their common centre of mass: never less than
-    /// e*, so that its acceleration is never more.
+    /// e* with blocks that move as one body counted as one, at their common centre of mass: never
+    /// less than e*, so that its acceleration is never more.
     pub e_star_of_bodies: f64,
     /// The masses.
     pub masses: Vec<Share>,

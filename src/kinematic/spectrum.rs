@@ -4,7 +4,8 @@
 use crate::scene::site::{Building, Spectrum};
 use std::f64::consts::TAU;
 
-/// Damping of the ground's spectrum, and of buildings and mechanisms where nothing is said, percent.
+/// Damping of the ground's spectrum, and of buildings and mechanisms where nothing is said,
+/// percent.
 pub const DAMPING: f64 = 5.0;
 
 /// By how much damping, in percent, lowers a spectrum: `η = √(10 / (5 + ξ)) ≥ 0.55`.
@@ -139,7 +140,8 @@ mod tests {
         assert!((e.t_d - (4.0 * 3.0 / 9.81 + 1.6)).abs() < 1e-12);
     }
 
-    /// Circolare 7/2019, eqs. C7.2.5 to C7.2.10, by hand: three storeys, two thirds up, S_e(T1) = 0.72 g.
+    /// Circolare 7/2019, eqs. C7.2.5 to C7.2.10, by hand: three storeys, two thirds up, S_e(T1) =
+    /// 0.72 g.
     #[test]
     fn accelerations_of_floors() {
         let g = 9.81;

@@ -151,7 +151,8 @@ impl Bodies<'_> {
                         self.rows.push(row);
                     }
                 } else {
-                    // It slides along one direction, and opens with it as associative friction does.
+                    // It slides along one direction, and opens with it as associative friction
+                    // does.
                     let way = along.normalize();
                     let across = f.frame.n.cross(&way);
                     let lift = f.frame.n - way * (vn / along.norm());

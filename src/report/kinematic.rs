@@ -27,7 +27,8 @@ fn said(file: &ResultFile) -> Result<&KinematicAnswer, PathError> {
     file.answer.kinematic().ok_or_else(|| PathError::new("this is no result of `kinematic`"))
 }
 
-/// A point of the curve: way of the control point, m, acceleration, m/s², load factor with its ends.
+/// A point of the curve: way of the control point, m, acceleration, m/s², load factor with its
+/// ends.
 struct Point {
     way: f64,
     acceleration: f64,
@@ -48,9 +49,9 @@ fn points(file: &ResultFile, a: &KinematicAnswer) -> Vec<Point> {
     path.points.iter().filter_map(point).collect()
 }
 
-/// Directions and points of the curve, a row each: what it is, the direction, α0 or the load factor of
-/// the point with its ends, a0 or a (m/s²), e*, M* (kg), the way of the control point and the equivalent
-/// displacement (m), the secant period of limit states (s).
+/// Directions and points of the curve, a row each: what it is, the direction, α0 or the load factor
+/// of the point with its ends, a0 or a (m/s²), e*, M* (kg), the way of the control point and the
+/// equivalent displacement (m), the secant period of limit states (s).
 ///
 /// # Errors
 /// The result is of another question.

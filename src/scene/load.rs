@@ -53,8 +53,8 @@ pub struct Load {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub arm: bool,
     /// Of a dead load along gravity: no mass stands behind it (the thrust of a vault, the pull of a
-    /// cable), so that an earthquake does not push it. `kinematic` takes other loads along gravity for
-    /// weights.
+    /// cable), so that an earthquake does not push it. `kinematic` takes other loads along gravity
+    /// for weights.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub massless: bool,
     /// Body force: mass × this acceleration, m/s².

@@ -69,9 +69,9 @@ pub struct Building {
     /// Damping of the building, in percent of the critical one; 5 where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping_percent: Option<f64>,
-    /// By how much a floor amplifies at its own period, before the damping of the mechanism counts: what the Circolare
-    /// writes as 1.1 ξ^−0.5. It is not computed, for the unit of ξ in it is not beyond doubt; without it
-    /// the floor spectrum is known at period 0 alone.
+    /// By how much a floor amplifies at its own period, before the damping of the mechanism counts:
+    /// what the Circolare writes as 1.1 ξ^−0.5. It is not computed, for the unit of ξ in it is not
+    /// beyond doubt; without it the floor spectrum is known at period 0 alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplification: Option<f64>,
 }

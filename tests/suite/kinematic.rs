@@ -1,5 +1,5 @@
-//! Mechanisms under earthquakes (Circolare 21 January 2019 n. 7, C8.7.1.2.1): closed forms of walls that
-//! turn about an edge, with floors and ties; what changes nothing; results that were edited.
+//! Mechanisms under earthquakes (Circolare 21 January 2019 n. 7, C8.7.1.2.1): closed forms of walls
+//! that turn about an edge, with floors and ties; what changes nothing; results that were edited.
 
 use crate::ask::{cuboid, fixed, ground, model, prove, scene, template};
 use serde_json::{Value, json};
@@ -211,8 +211,8 @@ fn the_curve_is_that_of_push() {
     close(pushed.points.last().unwrap().value, kinematic.points.last().unwrap().value, 1e-9);
 }
 
-/// Two storeys, a mass that rests, one that only pushes, and a thrust that no earthquake pushes: virtual
-/// work by hand about the toe.
+/// Two storeys, a mass that rests, one that only pushes, and a thrust that no earthquake pushes:
+/// virtual work by hand about the toe.
 #[test]
 fn masses_of_all_kinds() {
     let storey = |id: &str, z: f64| json!({ "id": id, "material": "masonry", "shape": { "box": { "size": [0.5, 1, 3] } }, "at": [-0.25, 0, z] });
@@ -262,8 +262,8 @@ fn site() -> Value {
     })
 }
 
-/// Floors: γ1 and a_Z with ξ of the building in percent. Beyond period 0 nothing is said unless the scene
-/// says how floors amplify.
+/// Floors: γ1 and a_Z with ξ of the building in percent. Beyond period 0 nothing is said unless the
+/// scene says how floors amplify.
 #[test]
 fn accelerations_of_floors() {
     let mut value = wall(6.0, 0.6, json!({ "site": site() }));
@@ -275,7 +275,8 @@ fn accelerations_of_floors() {
     assert!(d.checks.iter().all(|c| !c.what.contains("S_eZ")));
     let linear = d.checks.iter().find(|c| c.what.contains("a_Z / q")).expect("a check");
     close(linear.ratio, 0.7266666667 / (0.6202209 * G / 2.0), 1e-6);
-    // SLV of the exact curve on the ground: T beyond T_C, η(8 %) = √(10/13), T_D = 4 × 0.3 + 1.6 = 2.8.
+    // SLV of the exact curve on the ground: T beyond T_C, η(8 %) = √(10/13), T_D = 4 × 0.3 + 1.6 =
+    // 2.8.
     let (t, tau) = (2.7733149_f64, std::f64::consts::TAU);
     let top = 0.3 * G * (10.0_f64 / 13.0).sqrt() * 2.4;
     let demand = top * 0.45 / t * (t / tau).powi(2);
@@ -327,8 +328,8 @@ fn walls_that_slide() {
     assert!(said.to_string().contains("no line is drawn in its place"), "{said}");
 }
 
-/// Turned about the vertical, at survey coordinates, in other units of length and weight, beside a heavy
-/// stranger: the same.
+/// Turned about the vertical, at survey coordinates, in other units of length and weight, beside a
+/// heavy stranger: the same.
 #[test]
 fn what_changes_nothing() {
     let scene = read(&wall(6.0, 0.6, json!({ "loads": floor() })));
@@ -671,8 +672,8 @@ fn mechanisms_that_are_not_the_only_ones_say_so() {
     assert_eq!(said(&file).numbers.unique, Some(Unique::Only));
 }
 
-/// Bent between its foot and a floor that holds it without friction, a wall of two blocks opens three
-/// hinges: virtual work by hand. Forces of one's own, and no curve where it is not followed.
+/// Bent between its foot and a floor that holds it without friction, a wall of two blocks opens
+/// three hinges: virtual work by hand. Forces of one's own, and no curve where it is not followed.
 #[test]
 fn a_wall_that_bends_between_floors() {
     let mut value = wall(5.0, 0.5, json!({}));

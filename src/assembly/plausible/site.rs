@@ -3,8 +3,8 @@
 use super::short;
 use crate::scene::{Scene, site::Spectrum};
 
-/// Peak accelerations of rare earthquakes on rock, m/s²: from Sardinia (0.5) to Calabria (2.8 at 475
-/// years, 4.2 at 975), with room. Below, multiples of g are meant; above, cm/s².
+/// Peak accelerations of rare earthquakes on rock, m/s²: from Sardinia (0.5) to Calabria (2.8 at
+/// 475 years, 4.2 at 975), with room. Below, multiples of g are meant; above, cm/s².
 const PEAK: std::ops::Range<f64> = 0.45..8.0;
 /// F0 of NTC 2018 is at least 2.2, and nowhere as much as 4.
 const AMPLIFICATION: std::ops::Range<f64> = 1.5..4.5;

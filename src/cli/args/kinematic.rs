@@ -18,8 +18,8 @@ pub struct Kinematic {
     /// answer.
     #[arg(long, value_name = "N", default_value_t = DIRECTIONS, conflicts_with = "toward", value_parser = clap::value_parser!(u16).range(1..=3600))]
     pub all: u16,
-    /// The point of a free block, m, whose way measures the motion; by default the centre of mass of
-    /// the block next to the centre of all masses that move.
+    /// The point of a free block, m, whose way measures the motion; by default the centre of mass
+    /// of the block next to the centre of all masses that move.
     #[arg(long, value_name = "BLOCK=X,Y,Z", allow_hyphen_values = true, value_parser = control)]
     pub control: Option<(String, [f64; 3])>,
     /// Factor of confidence, by which accelerations are divided [default: 1.35].

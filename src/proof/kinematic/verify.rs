@@ -1,5 +1,5 @@
-//! Verifying results of `kinematic`: α0 as a load factor, the points of the curve as scenes of their
-//! own, and every other number by doing the arithmetic again.
+//! Verifying results of `kinematic`: α0 as a load factor, the points of the curve as scenes of
+//! their own, and every other number by doing the arithmetic again.
 
 use super::{Given, KinematicAnswer, Numbers};
 use crate::{

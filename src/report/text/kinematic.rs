@@ -1,4 +1,5 @@
-//! Mechanisms under earthquakes for people: a page that can be handed in, each number with its clause.
+//! Mechanisms under earthquakes for people: a page that can be handed in, each number with its
+//! clause.
 
 use super::{
     TextOptions, cut,
