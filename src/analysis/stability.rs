@@ -13,7 +13,7 @@ use crate::{
     error::InputError,
     generate,
     interface::{Model, floating},
-    scene::Scene,
+    scene::{Load, Scene, Template},
 };
 use nalgebra::Vector3;
 use std::collections::HashSet;
@@ -162,6 +162,12 @@ impl Bounds {
     }
 }
 
+/// A load as it comes to a template, where it lies on its road; itself elsewhere.
+fn spread(template: &Template, load: Load) -> Vec<Load> {
+    let there = load.road.zip(load.force).and_then(|(on, f)| generate::on_road(template, on, f));
+    there.map_or_else(|| vec![load], |spread| spread.loads)
+}
+
 /// The scene without some blocks and all that names them; templates become blocks. Nothing changes
 /// where there are none.
 ///
@@ -176,6 +182,10 @@ pub fn without(scene: &Scene, ids: &[String]) -> Result<Scene, InputError> {
     for template in std::mem::take(&mut rest.templates) {
         rest.blocks.extend(generate::expand(&template)?);
         rest.members.extend(generate::members(&template));
+        rest.loads.dead.extend(generate::loads(&template));
+        for loads in [&mut rest.loads.dead, &mut rest.loads.live] {
+            *loads = std::mem::take(loads).into_iter().flat_map(|l| spread(&template, l)).collect();
+        }
     }
     let stays = |id: &String| !gone.contains(id.as_str());
     rest.blocks.retain(|b| stays(&b.id));

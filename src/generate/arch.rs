@@ -116,6 +116,18 @@ pub fn radial_section(
     radial(place, &midline, fields.thickness, voussoirs)
 }
 
+/// The same cut into rings of equal thickness, from inside out.
+pub fn radial_rings(
+    place: &Place,
+    fields: &Fields,
+    voussoirs: usize,
+    rings: usize,
+) -> Result<Vec<Section>, InputError> {
+    let midline = check(place, fields, voussoirs)?;
+    let at = |r: usize| fields.thickness * (r as f64 / rings as f64 - 0.5);
+    (0..rings).map(|r| ring(place, &midline, [at(r), at(r + 1)], voussoirs)).collect()
+}
+
 /// What holds for every direction of the joints.
 fn check(place: &Place, fields: &Fields, voussoirs: usize) -> Result<Midline, InputError> {
     let thickness = fields.thickness;
@@ -165,7 +177,18 @@ fn radial(
     thickness: f64,
     n: usize,
 ) -> Result<Section, InputError> {
-    let joints: Vec<Joint> = (0..=n).map(|j| midline.radial_joint(j, n, thickness)).collect();
+    ring(place, midline, [-thickness / 2.0, thickness / 2.0], n)
+}
+
+/// The same between two distances from the mid-line, outwards.
+fn ring(
+    place: &Place,
+    midline: &Midline,
+    between: [f64; 2],
+    n: usize,
+) -> Result<Section, InputError> {
+    let thickness = between[1] - between[0];
+    let joints: Vec<Joint> = (0..=n).map(|j| midline.joint_between(j, n, between)).collect();
     for pair in joints.windows(2) {
         let [[a, d], [b, c]] = [pair[0], pair[1]];
         // Where the thickness reaches past the centre of curvature, the intrados runs backwards.
@@ -183,7 +206,7 @@ fn radial(
         Midline::Circular { half_deg, .. } => {
             // One more voussoir, or half of what is left of the circle.
             let angle = half_deg + (2.0 * half_deg / n as f64).min((180.0 - half_deg) / 2.0);
-            continued(*midline, angle, thickness, springing)
+            continued(*midline, angle, between, springing)
         }
         _ => {
             let [[a, d], [b, c]] = [joints[n - 1], springing];
@@ -275,19 +298,19 @@ fn ring_cut_vertically(
     let angle = half_deg + (2.0 * half_deg / n as f64).min((180.0 - half_deg) / 2.0);
     Ok(Section {
         voussoirs,
-        springers: both(continued(*midline, angle, thickness, springing)),
+        springers: both(continued(*midline, angle, [-thickness / 2.0, thickness / 2.0], springing)),
         springing,
     })
 }
 
 /// The right springer of a circular arch: a voussoir from the springing to `angle` degrees from the
 /// crown.
-fn continued(midline: Midline, angle: f64, thickness: f64, [b, c]: Joint) -> Vec<Point> {
+fn continued(midline: Midline, angle: f64, between: [f64; 2], [b, c]: Joint) -> Vec<Point> {
     let circle = match midline {
         Midline::Circular { radius, .. } => Midline::Circular { radius, half_deg: angle },
         other => other,
     };
-    let [inner, outer] = circle.radial_joint(1, 1, thickness);
+    let [inner, outer] = circle.joint_between(1, 1, between);
     vec![b, inner, outer, c]
 }
 

@@ -1,5 +1,6 @@
 //! The members of a template, placed like its blocks.
 
+use super::bridge;
 use crate::scene::{
     Member, Template,
     member::{End, Face},
@@ -8,7 +9,11 @@ use crate::scene::{
 /// The members of a template as a scene has them: names with the prefix, points in its coordinates.
 pub fn members(template: &Template) -> Vec<Member> {
     let (prefix, at) = template.place();
-    template.members().iter().map(|m| m.placed(prefix, at)).collect()
+    let made = match template {
+        Template::Bridge(t) => bridge::soil(t),
+        _ => Vec::new(),
+    };
+    template.members().iter().chain(&made).map(|m| m.placed(prefix, at)).collect()
 }
 
 impl Member {

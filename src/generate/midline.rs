@@ -272,7 +272,12 @@ impl Midline {
     /// The joint normal to the mid-line at u = (2j − n) / n, with half the thickness on either
     /// side.
     pub fn radial_joint(&self, j: usize, n: usize, thickness: f64) -> Joint {
-        mirrored(j, n, |u| [self.offset(u, -thickness / 2.0), self.offset(u, thickness / 2.0)])
+        self.joint_between(j, n, [-thickness / 2.0, thickness / 2.0])
+    }
+
+    /// The same between two distances from the mid-line, outwards.
+    pub fn joint_between(&self, j: usize, n: usize, between: [f64; 2]) -> Joint {
+        mirrored(j, n, |u| between.map(|out| self.offset(u, out)))
     }
 
     /// The point of the mid-line at (2j − n) / n of the half span.

@@ -7,6 +7,7 @@
 mod angle;
 mod arch;
 mod barrel;
+mod bridge;
 mod check;
 mod column;
 mod deposit;
@@ -15,12 +16,15 @@ mod flat_arch;
 mod grain;
 mod hull;
 mod lattice;
+mod load;
 mod member;
 mod midline;
 mod stack;
 mod wall;
 
+pub use bridge::Spread;
 pub use deposit::{Deposit, deposit};
+pub use load::{loads, on_road};
 pub use member::members;
 
 use crate::{
@@ -41,6 +45,7 @@ pub fn expand(template: &Template) -> Result<Vec<BlockSpec>, InputError> {
     let (mut blocks, prefix, at, material) = match template {
         Template::Arch(t) => (arch::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Barrel(t) => (barrel::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Bridge(t) => (bridge::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Column(t) => (column::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Dome(t) => (dome::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::FlatArch(t) => (flat_arch::blocks(t)?, &t.prefix, t.at, &t.material),
@@ -115,6 +120,25 @@ pub fn examples() -> Vec<Template> {
             depth: 6.0,
             voussoirs: 15,
             courses: 6,
+            ..Default::default()
+        }),
+        Template::Bridge(template::Bridge {
+            spans: vec![template::BridgeSpan {
+                clear_span: 6.0,
+                rise: 1.5,
+                thickness: 0.4,
+                rings: 1,
+                voussoirs: 27,
+                ..Default::default()
+            }],
+            width: 4.0,
+            fill: Some(template::Fill {
+                cover: 0.3,
+                unit_weight: 18e3,
+                friction_deg: Some(30.0),
+                dispersal: 0.5,
+                ..Default::default()
+            }),
             ..Default::default()
         }),
         Template::Column(template::Column {

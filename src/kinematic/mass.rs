@@ -3,6 +3,7 @@
 use crate::{
     assembly::{AppliedForce, Wrench},
     error::{InputError, JsonPath},
+    generate,
     interface::Model,
     scene::{At, Load, Scene},
     tolerance,
@@ -89,8 +90,14 @@ fn masses(scene: &Scene, model: &Model, down: &Vector3<f64>) -> Vec<Mass> {
         weight: assembly.weight(block),
     });
     let mut all: Vec<Mass> = own.collect();
-    let dead = scene.loads.dead.iter().filter(|l| !l.massless);
+    let dead = scene.loads.dead.iter().filter(|l| !l.massless && l.road.is_none());
     all.extend(dead.flat_map(|load| rests(load, model, down)));
+    for template in &scene.templates {
+        let on_road = scene.loads.dead.iter().filter(|l| !l.massless);
+        let spread = on_road.filter_map(|l| generate::on_road(template, l.road?, l.force?));
+        let loads = generate::loads(template).into_iter().chain(spread.flat_map(|s| s.loads));
+        all.extend(loads.flat_map(|load| rests(&load, model, down)));
+    }
     all.extend(scene.loads.masses.iter().filter_map(|m| {
         let block = assembly.find(&m.block)?;
         Some(Mass {

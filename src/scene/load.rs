@@ -48,6 +48,10 @@ pub struct Load {
     /// Where the force acts: a point of the scene, m, or `"centroid"` (the default).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<At>,
+    /// Where on the road of a `bridge` template the force presses, in place of `block` and `at`: the
+    /// fill spreads it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub road: Option<OnRoad>,
     /// An arm of no weight carries the force from the block to `at`, however far off that lies.
     /// Without it such a force is taken for a mistake.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -63,6 +67,26 @@ pub struct Load {
     /// Body force as multiples of the block's own weight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<[f64; 3]>,
+}
+
+/// A stretch of the road of a bridge.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OnRoad {
+    /// Where its middle lies, x in the scene, m.
+    pub x: f64,
+    /// Its length, m; 0.3 where absent.
+    #[serde(default = "patch")]
+    pub patch: f64,
+    /// Its width across the bridge, m. The width that carries it is this with the spread to either
+    /// side, at most that of the bridge; all of the bridge where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub across: Option<f64>,
+}
+
+/// The usual length of the patch of an axle, m.
+fn patch() -> f64 {
+    0.3
 }
 
 /// Where a force acts.

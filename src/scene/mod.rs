@@ -28,7 +28,7 @@ pub use block::{Ball, BlockSpec, Rotation, Shape};
 pub use contact::ContactSpec;
 pub use interface::InterfaceSpec;
 pub use joint::{Friction, JointOverride, JointSpec, Joints, Material};
-pub use load::{At, Load, Loads, PushingMass};
+pub use load::{At, Load, Loads, OnRoad, PushingMass};
 pub use member::Member;
 pub use protocol::{GrainKind, Protocol, ProtocolKind};
 pub(crate) use read::{Kind, read_as, text};

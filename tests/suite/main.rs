@@ -8,6 +8,7 @@ mod ask;
 mod agreement;
 mod analytic;
 mod bad_input;
+mod bridge;
 mod browser;
 mod certificates;
 mod cli;

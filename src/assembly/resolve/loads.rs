@@ -7,8 +7,9 @@
 use super::{Names, check};
 use crate::{
     assembly::{AppliedForce, Assembly, Wrench, plausible},
-    error::{InputError, JsonPath},
-    scene::{At, Load, PushingMass, Scene},
+    error::{Finding, FindingCode, InputError, JsonPath},
+    generate::{self, Spread},
+    scene::{At, Load, OnRoad, PushingMass, Scene},
 };
 use nalgebra::Vector3;
 
@@ -22,7 +23,13 @@ pub(super) struct Resolved {
     pub dead_forces: Vec<AppliedForce>,
     /// Live forces off the centre of mass, contained in `live`.
     pub live_forces: Vec<AppliedForce>,
+    /// What of them has no effect.
+    pub findings: Vec<Finding>,
 }
+
+/// A share of a load on a road beside the spans that is no rounding. Larger: a part is lost in silence.
+/// Smaller: loads whose spread ends at a springing are told.
+const BESIDE: f64 = 1e-9;
 
 /// Resolves dead and live loads.
 pub(super) fn resolve(
@@ -35,6 +42,7 @@ pub(super) fn resolve(
         (0..assembly.blocks.len()).map(|i| assembly.self_weight(i)).collect();
     let mut live = vec![Wrench::zero(); assembly.blocks.len()];
     let (mut dead_forces, mut live_forces) = (Vec::new(), Vec::new());
+    let mut findings = Vec::new();
     for (key, loads, sum, forces) in [
         ("dead", &scene.loads.dead, &mut dead, &mut dead_forces),
         ("live", &scene.loads.live, &mut live, &mut live_forces),
@@ -42,7 +50,29 @@ pub(super) fn resolve(
         for (i, load) in loads.iter().enumerate() {
             let path = path.key(key).index(i);
             massless(load, key == "live", assembly, &path)?;
+            if let Some(on) = load.road {
+                let spread = on_road(load, on, scene, assembly, &path)?;
+                if spread.beside > BESIDE {
+                    findings.push(Finding::new(
+                        FindingCode::WithoutEffect,
+                        format!(
+                            "{path}: {:.1} % of it presses beside the spans and is left out",
+                            100.0 * spread.beside
+                        ),
+                    ));
+                }
+                for part in spread.loads {
+                    forces.extend(add(&part, assembly, names, sum, &path)?);
+                }
+                continue;
+            }
             forces.extend(add(load, assembly, names, sum, &path)?);
+        }
+    }
+    for (k, template) in scene.templates.iter().enumerate() {
+        let path = JsonPath::root().key("templates").index(k);
+        for load in generate::loads(template) {
+            dead_forces.extend(add(&load, assembly, names, &mut dead, &path)?);
         }
     }
     for (i, mass) in scene.loads.masses.iter().enumerate() {
@@ -56,7 +86,7 @@ pub(super) fn resolve(
         )
         .hint("forces are in N, lengths in m, masses in kg"));
     }
-    Ok(Resolved { dead, live, dead_forces, live_forces })
+    Ok(Resolved { dead, live, dead_forces, live_forces, findings })
 }
 
 /// Refuses `massless` where it says nothing: an earthquake pushes no other loads anyway.
@@ -100,6 +130,55 @@ fn pushing(
     check::vector(mass.at, &path.key("at"))?;
     check::positive(mass.mass, &path.key("mass"), "kg")?;
     plausible::mass_place(mass, &assembly.blocks[i], assembly, path)
+}
+
+/// The parts of a load on the road of a bridge.
+fn on_road(
+    load: &Load,
+    on: OnRoad,
+    scene: &Scene,
+    assembly: &Assembly,
+    path: &JsonPath,
+) -> Result<Spread, InputError> {
+    let here = path.key("road");
+    if load.block.is_some() || load.at.is_some() || load.arm {
+        return Err(InputError::at(
+            here,
+            "says where the load presses, and so do block, at or arm",
+        )
+        .hint("remove \"block\", \"at\" and \"arm\""));
+    }
+    if load.moment.is_some() || load.acceleration.is_some() || load.weight.is_some() {
+        return Err(InputError::at(here, "only a force presses on a road").hint("give \"force\""));
+    }
+    let Some(force) = load.force else {
+        return Err(InputError::at(path.clone(), "the load on the road has no force")
+            .hint("add \"force\": [0, 0, -10000], in N"));
+    };
+    let force = check::vector(force, &path.key("force"))?;
+    let down = assembly.gravity.normalize();
+    if !(force.dot(&down) > 0.0 && (force - down * force.dot(&down)).norm() <= 1e-9 * force.norm())
+    {
+        return Err(InputError::at(path.key("force"), "a load on a road presses down")
+            .hint("give what pushes along as a load on a block"));
+    }
+    if !on.x.is_finite() {
+        return Err(InputError::at(here.key("x"), "must be a finite number").hint("in m"));
+    }
+    check::positive(on.patch, &here.key("patch"), "m")?;
+    if let Some(across) = on.across {
+        check::positive(across, &here.key("across"), "m")?;
+    }
+    let found = scene.templates.iter().find_map(|t| generate::on_road(t, on, force.into()));
+    found.ok_or_else(|| {
+        let bridges = scene.templates.iter().any(|t| t.name() == "bridge");
+        let text = format!("no bridge has its road at x = {}", on.x);
+        InputError::at(here.key("x"), text).hint(if bridges {
+            "give a place between the springings"
+        } else {
+            "a load on a road needs a template \"bridge\"; give others a \"block\" and \"at\""
+        })
+    })
 }
 
 /// Adds one load to `sum`; returns its force where that acts off the centre of mass.

@@ -116,6 +116,7 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     (assembly.dead, assembly.live) = (loads.dead, loads.live);
     (assembly.dead_forces, assembly.live_forces) = (loads.dead_forces, loads.live_forces);
     assembly.findings.extend(told);
+    assembly.findings.extend(loads.findings);
     let (members, told) = members::resolve(scene, &assembly, &names)?;
     assembly.members = members;
     assembly.findings.extend(told);

@@ -7,6 +7,7 @@
 
 mod arch;
 mod barrel;
+mod bridge;
 mod column;
 mod dome;
 mod flat_arch;
@@ -16,6 +17,7 @@ mod wall;
 
 pub use arch::{Arch, Buttresses, JointDirection, Profile, ThicknessAlong};
 pub use barrel::Barrel;
+pub use bridge::{Bridge, BridgePier, BridgeSpan, Fill};
 pub use column::Column;
 pub use dome::Dome;
 pub use flat_arch::FlatArch;
@@ -34,6 +36,8 @@ pub enum Template {
     Arch(Arch),
     /// A barrel vault: an arch drawn out along y, laid in running bond.
     Barrel(Barrel),
+    /// A masonry arch bridge in its plane, with piers and fill.
+    Bridge(Bridge),
     /// Blocks on top of each other.
     Column(Column),
     /// A spherical dome of rings.
@@ -55,6 +59,7 @@ impl Template {
         match self {
             Template::Arch(t) => &t.members,
             Template::Barrel(t) => &t.members,
+            Template::Bridge(t) => &t.members,
             Template::Column(t) => &t.members,
             Template::Dome(t) => &t.members,
             Template::FlatArch(t) => &t.members,
@@ -69,6 +74,7 @@ impl Template {
         match self {
             Template::Arch(t) => (&t.prefix, t.at),
             Template::Barrel(t) => (&t.prefix, t.at),
+            Template::Bridge(t) => (&t.prefix, t.at),
             Template::Column(t) => (&t.prefix, t.at),
             Template::Dome(t) => (&t.prefix, t.at),
             Template::FlatArch(t) => (&t.prefix, t.at),
@@ -83,6 +89,7 @@ impl Template {
         match self {
             Template::Arch(_) => "arch",
             Template::Barrel(_) => "barrel",
+            Template::Bridge(_) => "bridge",
             Template::Column(_) => "column",
             Template::Dome(_) => "dome",
             Template::FlatArch(_) => "flat_arch",

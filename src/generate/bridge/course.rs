@@ -1,0 +1,99 @@
+//! Piers, and the course of the upper surface of a bridge: the chords of the extrados and the tops of
+//! the piers, from left to right.
+
+use super::{PierPlan, Plan, SpanPlan, voussoir};
+use crate::{
+    error::InputError,
+    generate::{check::Place, midline::Point},
+    scene::template::{Bridge, BridgePier},
+};
+
+/// A straight piece of the upper surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chord {
+    /// The block below it.
+    pub block: String,
+    /// Its left end (x, z), m.
+    pub from: Point,
+    /// Its right end, m.
+    pub to: Point,
+    /// Which way the fill pushes that resists it: towards the span, +1 or −1 along x; 0 on piers
+    /// and where it is level.
+    pub towards: f64,
+}
+
+impl Chord {
+    /// Length along x, m.
+    pub fn length(&self) -> f64 {
+        self.to[0] - self.from[0]
+    }
+
+    /// Height over a place along x between its ends, m.
+    pub fn height(&self, x: f64) -> f64 {
+        let share = (x - self.from[0]) / self.length();
+        self.from[1] + share * (self.to[1] - self.from[1])
+    }
+}
+
+/// The upper surface of a bridge.
+pub(super) fn chords(bridge: &Bridge, plan: &Plan) -> Vec<Chord> {
+    let mut list = Vec::new();
+    for (s, span) in plan.spans.iter().enumerate() {
+        let last = span.rings.len() - 1;
+        let n = span.rings[last].voussoirs.len();
+        for (v, polygon) in span.rings[last].voussoirs.iter().enumerate() {
+            let placed = span.placed(polygon);
+            let [.., to, from] = placed[..] else { continue };
+            let rise = to[1] - from[1];
+            let towards = if 2 * v + 1 == n { 0.0 } else { rise.signum() };
+            list.push(Chord { block: voussoir(bridge, s, last, v, n), from, to, towards });
+        }
+        let Some(pier) = plan.piers.get(s) else { continue };
+        let [.., right, left, _] = pier.body[..] else { continue };
+        if right[0] > left[0] {
+            let block = format!("pier_{}", s + 1);
+            list.push(Chord { block, from: left, to: right, towards: 0.0 });
+        }
+    }
+    list
+}
+
+/// A pier with its left springing at `edge`; its last points are the right and the left end of its top
+/// and the left springing.
+pub(super) fn pier(
+    place: &Place,
+    pier: &BridgePier,
+    spans: [&SpanPlan; 2],
+    edge: f64,
+) -> Result<PierPlan, InputError> {
+    place.length("width", pier.width)?;
+    place.length("height", pier.height)?;
+    let foot = pier.foot.unwrap_or(pier.width);
+    place.length("foot", foot)?;
+    let joint = spans.map(SpanPlan::springing);
+    let reach = joint.map(|[inner, outer]| [outer[0] - inner[0], outer[1] - inner[1]]);
+    if reach[0][0] + reach[1][0] > pier.width {
+        return Err(place.error(
+            "width",
+            format!(
+                "the rings beside it reach {} m and {} m over it, more than its {} m",
+                reach[0][0], reach[1][0], pier.width
+            ),
+            "make it wider, or the rings thinner",
+        ));
+    }
+    if reach[0][1] != reach[1][1] && reach[0][0] + reach[1][0] == pier.width {
+        return Err(place.error("width", "its top would be a step", "make it wider"));
+    }
+    let (middle, right) = (edge + 0.5 * pier.width, edge + pier.width);
+    let (low, below) = (-pier.height, -pier.height - 0.5 * pier.width);
+    let [at_left, at_right] = [middle - 0.5 * foot, middle + 0.5 * foot];
+    let mut body = vec![[at_left, low], [at_right, low], [right, 0.0]];
+    body.push([right - reach[1][0], reach[1][1]]);
+    body.push([edge + reach[0][0], reach[0][1]]);
+    body.push([edge, 0.0]);
+    let [outer_left, outer_right] = [at_left - 0.5 * pier.width, at_right + 0.5 * pier.width];
+    let footing =
+        vec![[outer_left, below], [outer_right, below], [outer_right, low], [outer_left, low]];
+    Ok(PierPlan { body, footing })
+}

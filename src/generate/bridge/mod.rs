@@ -1,0 +1,162 @@
+//! The bridge: rings between springers and piers, and what the fill does to every chord of their
+//! extrados.
+
+mod course;
+mod fill;
+
+pub use fill::{Spread, loads, soil, spread};
+
+use super::{
+    arch::{Section, radial_rings},
+    check::Place,
+    midline::{Fields, Point},
+    numbered, support,
+};
+use crate::{
+    error::InputError,
+    scene::{
+        BlockSpec, Shape,
+        template::{Bridge, BridgeSpan},
+    },
+};
+
+/// A bridge in its plane, about the origin of the template.
+struct Plan {
+    spans: Vec<SpanPlan>,
+    piers: Vec<PierPlan>,
+}
+
+struct SpanPlan {
+    /// From inside out.
+    rings: Vec<Section>,
+    /// Where x = 0 of the sections lies.
+    center: f64,
+    /// How far the sections are moved up.
+    up: f64,
+}
+
+struct PierPlan {
+    body: Vec<Point>,
+    footing: Vec<Point>,
+}
+
+pub fn blocks(bridge: &Bridge) -> Result<Vec<BlockSpec>, InputError> {
+    let plan = Plan::of(bridge)?;
+    fill::check(bridge, &plan)?;
+    let prism = |polygon| Shape::Prism { polygon, depth: bridge.width };
+    let mut blocks = Vec::new();
+    for (s, span) in plan.spans.iter().enumerate() {
+        for (r, ring) in span.rings.iter().enumerate() {
+            let n = ring.voussoirs.len();
+            let placed = ring.voussoirs.iter().enumerate();
+            blocks.extend(placed.map(|(v, polygon)| {
+                BlockSpec::new(voussoir(bridge, s, r, v, n), prism(span.placed(polygon)))
+            }));
+        }
+    }
+    for (k, pier) in plan.piers.iter().enumerate() {
+        blocks.push(BlockSpec::new(format!("pier_{}", k + 1), prism(pier.body.clone())));
+        blocks.push(support(format!("footing_{}", k + 1), prism(pier.footing.clone())));
+    }
+    let ends = [("left", plan.spans.first(), 0), ("right", plan.spans.last(), 1)];
+    for (word, span, side) in ends {
+        let Some(span) = span else { continue };
+        let several = span.rings.len() > 1;
+        for (r, ring) in span.rings.iter().enumerate() {
+            let id = if several {
+                format!("springer_{word}_{}", r + 1)
+            } else {
+                format!("springer_{word}")
+            };
+            blocks.push(support(id, prism(span.placed(&ring.springers[side]))));
+        }
+    }
+    Ok(blocks)
+}
+
+/// The name of a voussoir.
+fn voussoir(bridge: &Bridge, span: usize, ring: usize, index: usize, count: usize) -> String {
+    let own = numbered("v", index, count);
+    let ring = if bridge.spans[span].rings > 1 { format!("r{}_", ring + 1) } else { String::new() };
+    let span = if bridge.spans.len() > 1 { format!("s{}_", span + 1) } else { String::new() };
+    format!("{span}{ring}{own}")
+}
+
+impl SpanPlan {
+    fn of(place: &Place, span: &BridgeSpan) -> Result<Self, InputError> {
+        place.length("thickness", span.thickness)?;
+        place.count("rings", span.rings, 1)?;
+        place.length("clear_span", span.clear_span)?;
+        place.length("rise", span.rise)?;
+        let fields = Fields {
+            profile: span.profile,
+            radius: None,
+            embrace_deg: None,
+            eccentricity: None,
+            span: None,
+            rise: None,
+            intrados_span: Some(span.clear_span),
+            intrados_rise: Some(span.rise),
+            thickness: span.thickness,
+            sheared: false,
+        };
+        let rings = radial_rings(place, &fields, span.voussoirs, span.rings)?;
+        let up = -rings[0].springing[0][1];
+        Ok(Self { rings, center: 0.0, up })
+    }
+
+    fn placed(&self, polygon: &[Point]) -> Vec<Point> {
+        polygon.iter().map(|p| [p[0] + self.center, p[1] + self.up]).collect()
+    }
+
+    /// The right springing joint: where the intrados of the innermost and the extrados of the
+    /// outermost ring end, from the centre of the span.
+    fn springing(&self) -> [Point; 2] {
+        let [first, last] = [&self.rings[0], &self.rings[self.rings.len() - 1]];
+        let up = |p: Point| [p[0], p[1] + self.up];
+        [up(first.springing[0]), up(last.springing[1])]
+    }
+}
+
+impl Plan {
+    fn of(bridge: &Bridge) -> Result<Self, InputError> {
+        let place = Place::template("bridge");
+        place.length("width", bridge.width)?;
+        place.count("spans", bridge.spans.len(), 1)?;
+        if bridge.piers.len() + 1 != bridge.spans.len() {
+            return Err(place.error(
+                "piers",
+                format!(
+                    "{} spans have {} piers between them, got {}",
+                    bridge.spans.len(),
+                    bridge.spans.len() - 1,
+                    bridge.piers.len()
+                ),
+                "one pier between each two spans",
+            ));
+        }
+        let counts: Option<usize> = bridge
+            .spans
+            .iter()
+            .try_fold(0_usize, |n, s| n.checked_add(s.rings.checked_mul(s.voussoirs)?));
+        place.total("spans", &[counts.unwrap_or(usize::MAX)])?;
+        let mut spans = Vec::new();
+        for (k, span) in bridge.spans.iter().enumerate() {
+            spans.push(SpanPlan::of(&Place(place.0.key("spans").index(k)), span)?);
+        }
+        let clear: f64 = bridge.spans.iter().map(|s| s.clear_span).sum();
+        let total = clear + bridge.piers.iter().map(|p| p.width).sum::<f64>();
+        let mut edge = -0.5 * total;
+        let mut piers = Vec::new();
+        for k in 0..spans.len() {
+            let half = 0.5 * bridge.spans[k].clear_span;
+            spans[k].center = edge + half;
+            edge += 2.0 * half;
+            let Some(pier) = bridge.piers.get(k) else { break };
+            let place = Place(place.0.key("piers").index(k));
+            piers.push(course::pier(&place, pier, [&spans[k], &spans[k + 1]], edge)?);
+            edge += pier.width;
+        }
+        Ok(Self { spans, piers })
+    }
+}

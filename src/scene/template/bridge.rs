@@ -1,0 +1,120 @@
+//! The masonry arch bridge.
+
+use super::Profile;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A masonry arch bridge in its plane, spans along x, road above, symmetric in y.
+///
+/// Dimensions are those of the intrados, as bridge records give them. All springings lie at z = 0;
+/// the middle of the bridge, from the first springing of the intrados to the last, is x = 0. Voussoirs
+/// are `v00`, `v01`, … from left to right (with several spans `s1_v00`, with several rings `r1_v00`
+/// from inside out, with both `s1_r1_v00`), on supports `springer_left` and `springer_right` and
+/// piers `pier_1`, … that stand on supports `footing_1`, ….
+///
+/// The fill is no block: its weight is a dead load on every chord of the extrados, its resistance to
+/// being pushed a member `soil` on every one. Skew is left out.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Bridge {
+    /// Put before the ids of the blocks.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub prefix: String,
+    /// Where the origin of the template lies, m.
+    #[serde(default, skip_serializing_if = "super::is_origin")]
+    pub at: [f64; 3],
+    /// Name of the material of all blocks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Members that join its blocks, named without the prefix, with points about its origin.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<crate::scene::Member>,
+    /// The spans from left to right.
+    pub spans: Vec<BridgeSpan>,
+    /// The piers between them, one fewer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub piers: Vec<BridgePier>,
+    /// Width of the bridge along y, m.
+    pub width: f64,
+    /// What lies on the arches.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fill: Option<Fill>,
+}
+
+/// A span of a bridge.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BridgeSpan {
+    /// Shape of the intrados.
+    #[serde(default, skip_serializing_if = "super::is_default")]
+    pub profile: Profile,
+    /// Clear span: distance between the ends of the intrados, m.
+    pub clear_span: f64,
+    /// Clear rise: height of the crown of the intrados above the springings, m.
+    pub rise: f64,
+    /// Thickness of all rings together, m.
+    pub thickness: f64,
+    /// Number of rings, with friction between them; 1 where absent.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub rings: usize,
+    /// Number of voussoirs of a ring.
+    pub voussoirs: usize,
+}
+
+/// A pier: a free block between two spans, its top cut along their springing joints.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BridgePier {
+    /// Distance between the two springings of the intrados, m.
+    pub width: f64,
+    /// Height from the foot to the springings, m.
+    pub height: f64,
+    /// Width at the foot, m; that at the springings where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foot: Option<f64>,
+}
+
+/// What lies on the arches of a bridge.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fill {
+    /// Thickness over the crown of the highest extrados, to the surface of the road at that crown, m.
+    pub cover: f64,
+    /// Weight per volume, N/m³.
+    pub unit_weight: f64,
+    /// Rise of the road per metre towards +x.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
+    pub gradient: f64,
+    /// Passive pressure: at a depth z an arch that moves into the fill meets up to `passive` ×
+    /// unit weight × z. None where neither this nor `friction_deg` is given. Active pressure is
+    /// left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub passive: Option<f64>,
+    /// Angle of friction of the fill, degrees, in place of `passive`: half of tan²(45° + φ/2), for
+    /// the whole of it needs more movement than arches make.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_deg: Option<f64>,
+    /// How far a load spreads on either side per metre of depth, m; 0.5 where absent.
+    #[serde(default = "half", skip_serializing_if = "is_half")]
+    pub dispersal: f64,
+    /// Weight of both parapets per metre of the bridge, N/m.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
+    pub parapets: f64,
+}
+
+fn one() -> usize {
+    1
+}
+
+fn is_one(n: &usize) -> bool {
+    *n == 1
+}
+
+/// The usual spread, 1 horizontally to 2 vertically.
+fn half() -> f64 {
+    0.5
+}
+
+fn is_half(x: &f64) -> bool {
+    *x == half()
+}

@@ -1,0 +1,227 @@
+//! Arch bridges: rings under fill, loads that spread, soil that resists; values from an independent
+//! linear program (`frontier_cases.json` of the reference collection, BR01 to BR09; test loads of
+//! the bridges from reports RR110, RR159 and RR201 of the Transport and Road Research Laboratory).
+
+use crate::ask::{close, load_factor, model};
+use serde_json::{Value, json};
+use voussoir::{
+    assembly::MemberKind,
+    scene::{Scene, read_str},
+};
+
+/// Clear span, rise, ring, width, cover, m.
+type Bridge = [f64; 5];
+
+const PRESTWOOD: Bridge = [6.55, 1.428, 0.22, 3.8, 0.165];
+const SHINAFOOT: Bridge = [6.16, 1.185, 0.542, 7.03, 0.215];
+const STRATHMASHIE: Bridge = [9.42, 2.99, 0.6, 5.81, 0.411];
+
+fn read(value: &Value) -> Scene {
+    let mut value = value.clone();
+    value["format"] = json!("voussoir-scene/1");
+    value["name"] = json!("test");
+    read_str("test", value.to_string()).unwrap_or_else(|e| panic!("{e}\n{value}")).0
+}
+
+/// A bridge of 40 voussoirs with a load of 1 kN, `x` m from its left springing.
+fn scene([span, rise, ring, width, cover]: Bridge, k: Option<f64>, x: f64) -> Value {
+    let mut fill = json!({ "cover": cover, "unit_weight": 18e3 });
+    if let Some(k) = k {
+        fill["passive"] = json!(k);
+    }
+    json!({
+        "materials": { "ring": { "density": 20e3 / 9.81 } },
+        "joints": { "default": { "friction": 0.6 } },
+        "templates": [{ "bridge": {
+            "spans": [{ "clear_span": span, "rise": rise, "thickness": ring, "voussoirs": 40 }],
+            "width": width, "material": "ring", "fill": fill } }],
+        "loads": { "live": [{ "road": { "x": x - 0.5 * span }, "force": [0, 0, -1000] }] }
+    })
+}
+
+#[test]
+fn bridges_of_the_reports() {
+    for (name, bridge, wanted) in [
+        ("Prestwood", PRESTWOOD, [116.677, 168.877, 202.78]),
+        ("Shinafoot", SHINAFOOT, [5686.103, 6467.842, 7249.581]),
+        ("Strathmashie", STRATHMASHIE, [1167.013, 2108.981, 2889.884]),
+    ] {
+        for (k, wanted) in [None, Some(1.5), Some(3.0)].into_iter().zip(wanted) {
+            let s = read(&scene(bridge, k, 0.25 * bridge[0]));
+            close(&format!("{name} {k:?}"), load_factor(&s), wanted, 1e-5);
+        }
+    }
+}
+
+/// The worst position lies outside the quarter point.
+#[test]
+fn the_worst_position_of_an_axle() {
+    let wanted = [
+        (0.8, 184.983),
+        (1.0, 166.387),
+        (1.2, 160.535),
+        (1.4, 160.292),
+        (1.6, 167.109),
+        (1.8, 178.264),
+        (2.0, 193.739),
+        (2.4, 234.55),
+        (2.8, 294.755),
+        (3.2, 405.661),
+    ];
+    for (x, wanted) in wanted {
+        let s = read(&scene(PRESTWOOD, Some(1.5), x));
+        close(&format!("{x}"), load_factor(&s), wanted, 1e-4);
+    }
+}
+
+/// A bridge of two spans of two rings each on a pier.
+fn two_spans(more: Value) -> Value {
+    let span = |clear: f64| {
+        json!({ "clear_span": clear, "rise": 0.3 * clear, "thickness": 0.5, "rings": 2,
+            "voussoirs": 21 })
+    };
+    let mut bridge = json!({ "spans": [span(5.0), span(6.0)],
+        "piers": [{ "width": 1.2, "height": 3.0, "foot": 1.6 }], "width": 4.0,
+        "material": "ring",
+        "fill": { "cover": 0.4, "unit_weight": 18e3, "gradient": 0.02, "friction_deg": 30,
+            "parapets": 3e3 } });
+    if let (Some(bridge), Some(more)) = (bridge.as_object_mut(), more.as_object()) {
+        bridge.extend(more.clone());
+    }
+    json!({
+        "materials": { "ring": { "density": 2200 } },
+        "joints": { "default": { "friction": 0.6 } },
+        "templates": [{ "bridge": bridge }],
+        "loads": { "live": [{ "road": { "x": -4.0 }, "force": [0, 0, -1e5] }] }
+    })
+}
+
+#[test]
+fn rings_and_piers_fit_each_other() {
+    let m = model(&read(&two_spans(json!({}))));
+    assert!(m.interfaces.left_out.is_none(), "{:?}", m.interfaces.left_out);
+    // Voussoirs of one ring and the next but one of the other meet at an edge, and at nothing else.
+    let told: Vec<&str> = m.findings().map(|f| f.text.as_str()).collect();
+    assert!(told.iter().all(|t| t.contains("touch only along an edge")), "{told:?}");
+    let touch = |a: &str, b: &str| {
+        let find = |id: &str| m.assembly.find(id).unwrap_or_else(|| panic!("{id}"));
+        let (a, b) = (find(a), find(b));
+        m.interfaces.list.iter().any(|f| (f.a, f.b) == (a, b) || (f.b, f.a) == (a, b))
+    };
+    for (a, b) in [
+        ("s1_r1_v00", "s1_r2_v00"),
+        ("s1_r2_v20", "pier_1"),
+        ("s1_r1_v20", "pier_1"),
+        ("s2_r1_v00", "pier_1"),
+        ("s2_r2_v20", "springer_right_2"),
+        ("pier_1", "footing_1"),
+    ] {
+        assert!(touch(a, b), "{a} {b}");
+    }
+    let soil = m.interfaces.members.iter().filter(|m| m.kind == MemberKind::Soil).count();
+    // All but the two crowns.
+    assert_eq!(soil, 40);
+    assert!(load_factor(&read(&two_spans(json!({})))) > 1.0);
+}
+
+/// The weight of the fill is that between the road and the extrados, its moment that of its area.
+#[test]
+fn the_fill_weighs_what_it_is() {
+    let [span, rise, ring, width, cover] = PRESTWOOD;
+    let at = |cover: f64| {
+        let m = model(&read(&scene([span, rise, ring, width, cover], None, 1.0)));
+        let force = m.assembly.dead_forces.iter();
+        force.map(|f| -f.force.z).sum::<f64>()
+    };
+    let radius = (0.25 * span * span + rise * rise) / (2.0 * rise);
+    let reach = 0.5 * span / radius * (radius + ring);
+    // A metre more of it lies on the whole of the extrados.
+    close("a metre more", at(cover + 1.0) - at(cover), 18e3 * width * 2.0 * reach, 1e-10);
+    // Without any cover: a rectangle less the polygon of the extrados.
+    let half = (0.5 * span / radius).asin();
+    let chord = 0.5 * 40.0 * (radius + ring).powi(2) * (half / 20.0).sin();
+    let low = (radius + ring) * half.cos();
+    let area = 2.0 * reach * (radius + ring - low) - (chord - reach * low);
+    close("no cover", at(0.0), 18e3 * width * area, 1e-10);
+}
+
+/// A load on the road presses with all of itself, about its own middle where it lies in the open;
+/// what presses beside the spans is said.
+#[test]
+fn loads_spread_and_lose_nothing() {
+    let sums = |x: f64, gradient: f64| {
+        let mut value = two_spans(json!({}));
+        value["templates"][0]["bridge"]["fill"]["gradient"] = json!(gradient);
+        value["loads"]["live"][0]["road"]["x"] = json!(x);
+        let m = model(&read(&value));
+        let force: f64 = m.assembly.live.iter().map(|w| -w.force.z).sum();
+        let moment: f64 = m
+            .assembly
+            .live
+            .iter()
+            .zip(&m.assembly.blocks)
+            .map(|(w, b)| -w.force.z * b.centroid.x + w.moment.y)
+            .sum();
+        let said = m.findings().filter(|f| f.text.contains("beside the spans")).count();
+        (force, moment / force, said)
+    };
+    for x in [-5.1, -3.0, -0.4, 0.0, 2.3, 5.5] {
+        let (force, middle, said) = sums(x, 0.0);
+        close("force", force, 1e5, 1e-12);
+        assert!((middle - x).abs() < 1e-9, "{middle} {x}");
+        assert_eq!(said, 0);
+    }
+    let (force, _, said) = sums(-6.0, 0.0);
+    assert!(force < 1e5 && said == 1, "{force}");
+}
+
+#[test]
+fn where_it_lies_and_how_it_is_called_changes_nothing() {
+    let mut value = scene(PRESTWOOD, Some(1.5), 1.6);
+    let want = load_factor(&read(&value));
+    let bridge = &mut value["templates"][0]["bridge"];
+    bridge["prefix"] = json!("north_");
+    bridge["at"] = json!([1000.0, -20.0, 37.0]);
+    let x = value["loads"]["live"][0]["road"]["x"].as_f64().unwrap();
+    value["loads"]["live"][0]["road"]["x"] = json!(1000.0 + x);
+    close("elsewhere", load_factor(&read(&value)), want, 1e-7);
+    value["loads"]["live"][0]["road"]["x"] = json!(1000.0 - x);
+    close("mirrored", load_factor(&read(&value)), want, 1e-7);
+    // Half of the width carries half of the load.
+    value["loads"]["live"][0]["road"]["across"] = json!(1e-9);
+    let narrow = load_factor(&read(&value));
+    assert!(narrow < 0.5 * want, "{narrow} {want}");
+}
+
+#[test]
+fn mistakes_are_named() {
+    let told = |change: &dyn Fn(&mut Value)| {
+        let mut value = two_spans(json!({}));
+        change(&mut value);
+        let scene = read(&value);
+        match voussoir::interface::prepare(&scene) {
+            Ok(_) => panic!("{value}"),
+            Err(e) => format!("{}: {}", e.path, e.message),
+        }
+    };
+    let bridge = |change: &dyn Fn(&mut Value)| {
+        told(&|v: &mut Value| change(&mut v["templates"][0]["bridge"]))
+    };
+    for (text, wanted) in [
+        (bridge(&|b| b["piers"] = json!([])), "templates[0].bridge.piers: 2 spans have 1 piers"),
+        (bridge(&|b| b["piers"][0]["width"] = json!(0.4)), "piers[0].width: the rings beside it"),
+        (bridge(&|b| b["fill"]["gradient"] = json!(0.5)), "fill.cover: the road is"),
+        (bridge(&|b| b["fill"]["passive"] = json!(1.5)), "fill.friction_deg: excludes passive"),
+        (told(&|v| v["loads"]["live"][0]["road"]["x"] = json!(40)), "no bridge has its road"),
+        (
+            told(&|v| v["loads"]["live"][0]["force"] = json!([1, 0, -1])),
+            "loads.live[0].force: a load on a road presses down",
+        ),
+        (
+            told(&|v| v["loads"]["live"][0]["block"] = json!("pier_1")),
+            "loads.live[0].road: says where",
+        ),
+    ] {
+        assert!(text.contains(wanted), "{text}: {wanted}");
+    }
+}
