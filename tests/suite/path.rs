@@ -4,11 +4,13 @@
 use crate::ask::{cuboid, fixed, model, prove, push, scene, template};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
+use std::ops::ControlFlow;
 use voussoir::{
     analysis::{
         Answer, Control, ControlPoint, PushOptions, Question, SettleOptions, SupportMove, ask,
     },
-    path::saved::read_poses,
+    dynamics::{Fate, Fidelity, SimulationSettings, simulate},
+    path::{Carried, saved::read_poses},
     proof::{
         self, ResultFile,
         path::{PathEventKind, PathPoint, PathResult, PathStatus},
@@ -476,4 +478,33 @@ fn between_neighbouring_points_nothing_closes() {
     let turn = points[last].poses.iter_mut().find(|p| p.block == "v03").unwrap();
     turn.turn[1] = -turn.turn[1];
     assert!(!proof::verify(&file, &scene).unwrap().proved());
+}
+
+/// The same poses in time, by the engine with its own contacts: 3 % before the arch falls they stay
+/// where they are, at the pose where it is proved to fall they go.
+#[test]
+fn poses_on_the_way_stand_in_time_and_the_last_one_falls() {
+    for (n, thickness, embrace, falls) in [
+        (12, 0.12, 180.0, 0.025258679449),
+        (12, 0.15, 180.0, 0.070524908919),
+        (16, 0.15, 180.0, 0.058861058481),
+        (16, 0.15, 160.0, 0.107189188),
+    ] {
+        let scene = arch(n, thickness, embrace, json!({}));
+        let before = 0.97 * falls;
+        let file = spread(&scene, &[before]);
+        let start = model(&scene);
+        let fate = |point: &PathPoint| {
+            let poses = read_poses(&start.assembly, &point.poses).expect("poses");
+            let displaced = Carried::new(&start).displaced(&poses).model;
+            let settings =
+                SimulationSettings { fidelity: Some(Fidelity::Fine), ..Default::default() };
+            simulate(&displaced, &settings, &mut |_| ControlFlow::Continue(()))
+                .expect("a simulation")
+                .fate
+        };
+        let near = path(&file).points.iter().find(|p| p.value == before).expect("asked for");
+        let fates = (fate(near), fate(&path(&file).ends[1]));
+        assert_eq!(fates, (Fate::Stands, Fate::Falls), "{n} {thickness} {embrace}");
+    }
 }

@@ -125,14 +125,14 @@ fn a_block_held_by_a_tie_tilts_as_its_base_moves_and_falls() {
         fixed(cuboid("base", [4.0, 1.0, 1.0], [0.5, 0.0, -1.0])),
         cuboid("block", [1.0, 1.0, 2.0], [0.5, 0.0, 0.0])
     ]);
-    let (anchor, held) = ([-2.0, 0.5], [0.0, 1.0]);
+    let (anchor, held): ([f64; 2], [f64; 2]) = ([-2.0, 0.5], [0.0, 1.0]);
     let members = tie(
         json!({ "block": "block", "at": [held[0], 0.0, held[1]] }),
         json!({ "ground": [anchor[0], 0.0, anchor[1]] }),
         json!("infinite"),
     );
     let scene = scene(NO_SLIDING, blocks, json!({ "members": members }));
-    let length = (held[0] - anchor[0] as f64).hypot(held[1] - anchor[1]);
+    let length = (held[0] - anchor[0]).hypot(held[1] - anchor[1]);
     // The base has moved by s when the block has turned by θ: the tie keeps its length.
     let base = |theta: f64| {
         let [x, z] = [-theta.sin() * held[1], theta.cos() * held[1]];
@@ -207,7 +207,7 @@ fn a_tie_that_yields_takes_its_share_of_the_thrust_of_a_spreading_arch() {
     }
 }
 
-/// A tie that holds the feet together and does not yield leaves supports nothing to spread.
+/// What a member does after large displacements is known of some kinds alone.
 #[test]
 fn members_that_are_not_followed_are_said() {
     let blocks = json!([ground(), cuboid("block", [1.0, 1.0, 2.0], [0.5, 0.0, 0.0])]);

@@ -417,3 +417,33 @@ fn a_critical_value_in_every_row() {
     let rows = at([0.4, 0.5]);
     assert!(rows.iter().all(|r| r.answer.status == RowStatus::Stable && r.answer.value.is_none()));
 }
+
+/// Rows of `settle` and `push`, which go on where a file of them ends.
+#[test]
+fn paths_can_be_swept_and_resumed() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = arch();
+    scene["joints"]["default"]["friction"] = json!("infinite");
+    scene["templates"][0]["arch"]["voussoirs"] = json!(12);
+    let vary = json!([{ "pointer": "/templates/0/arch/thickness", "values": [0.12, 0.15] }]);
+    let moves = json!([
+        { "support": "springer_left", "way": [-1, 0, 0] }, { "support": "springer_right", "way": [1, 0, 0] }
+    ]);
+    let sweep = sweep(scene, json!({ "settle": { "moves": moves } }), vary, json!({ "grid": {} }));
+    let file = folder.path().join("rows.jsonl");
+    let all = done(&sweep, &file, 1);
+    // Ways at which arches of 12 voussoirs fall, in closed form.
+    for (row, way) in all.iter().zip([0.025258679449, 0.070524908919]) {
+        let value = row.answer.value.unwrap();
+        assert!((value / way - 1.0).abs() < 1e-6, "{value} {way}");
+        assert!(row.answer.lower.unwrap() < row.answer.upper.unwrap());
+    }
+    // The last row is lost, and done again.
+    let text = fs::read_to_string(&file).unwrap();
+    let kept: Vec<&str> = text.lines().take(text.lines().count() - 1).collect();
+    fs::write(&file, kept.join("\n") + "\n").unwrap();
+    let again = done(&sweep, &file, 1);
+    let values =
+        |rows: &[Row]| -> Vec<_> { rows.iter().map(|r| (r.row, r.answer.value)).collect() };
+    assert_eq!(values(&again), values(&all));
+}
