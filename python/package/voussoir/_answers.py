@@ -761,7 +761,9 @@ class Packing(Answer):
     @cached_property
     def packing(self) -> dict[str, Any]:
         """The same as plain values."""
-        packing: dict[str, Any] = self._core.part("packing")
+        import json
+
+        packing: dict[str, Any] = json.loads(self.to_json())
         return packing
 
     @property
