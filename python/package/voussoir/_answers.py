@@ -792,4 +792,4 @@ _KINDS: dict[str, type[Answer]] = {
 
 def of_core(core: _core.Answer) -> Answer:
     """The typed object of an answer."""
-    return _KINDS[core.question()](core)
+    return _KINDS.get(core.question(), Answer)(core)
