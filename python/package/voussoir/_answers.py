@@ -761,7 +761,9 @@ class Packing(Answer):
     @cached_property
     def packing(self) -> dict[str, Any]:
         """The same as plain values."""
-        packing: dict[str, Any] = self._core.part("packing")
+        import json
+
+        packing: dict[str, Any] = json.loads(self.to_json())
         return packing
 
     @property
@@ -790,4 +792,4 @@ _KINDS: dict[str, type[Answer]] = {
 
 def of_core(core: _core.Answer) -> Answer:
     """The typed object of an answer."""
-    return _KINDS[core.question()](core)
+    return _KINDS.get(core.question(), Answer)(core)
