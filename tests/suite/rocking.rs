@@ -80,7 +80,7 @@ fn quarter_periods_of_a_free_block() {
     ] {
         let settings = RunSettings { from, ..RunSettings::default() };
         let history = run(&built.machine, &Motion::default(), &settings);
-        close("first impact", history.impacts[0].time, quarter, 1e-11);
+        close("first impact", history.impacts[0].time, quarter, 1e-9);
     }
 }
 
