@@ -121,6 +121,20 @@ def test_movements(structures: Path) -> None:
     assert claimed.claims == "stable" and len(claimed.forces.forces)
 
 
+def test_earthquakes(structures: Path) -> None:
+    wall = structures / "overturning-wall.json"
+    answer = voussoir.kinematic(wall, toward=(1, 0))
+    expected = said("kinematic", wall, "--toward", "1,0")
+    assert without_time(answer.to_dict()) == without_time(expected)
+    assert isinstance(answer, voussoir.Kinematic) and answer.no_curve is None
+    assert answer.alpha0.value is not None and answer.a0 is not None
+    assert answer.participation is not None and answer.capacity is not None
+    # One block: everything takes part.
+    assert abs(answer.participation["e_star"] - 1.0) < 1e-9
+    assert abs(answer.a0 - answer.alpha0.value * 9.81 / answer.confidence) < 1e-9
+    assert len(answer.to_pandas()) == len(answer.participation["masses"])
+
+
 def test_packings_and_sweeps(structures: Path, tmp_path: Path) -> None:
     pile = structures / "tetrahedral-pile.json"
     packing = voussoir.repose(pile, all=4)

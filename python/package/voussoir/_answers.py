@@ -710,6 +710,69 @@ class Path(Answer):
         return pandas.read_csv(io.StringIO(self._core.csv("path")))
 
 
+class Kinematic(Answer):
+    """Under an earthquake: at what acceleration does it start to move, and what then?"""
+
+    question = "kinematic"
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        own: dict[str, Any] = self._answer["kinematic"]
+        return own
+
+    @property
+    def _numbers(self) -> dict[str, Any]:
+        numbers: dict[str, Any] = self._own["numbers"]
+        return numbers
+
+    @property
+    def toward(self) -> tuple[float, float, float]:
+        """The worst direction asked for."""
+        x, y, z = self._own["toward"]
+        return (x, y, z)
+
+    @property
+    def alpha0(self) -> LoadFactor:
+        """The share of all weights that, pushing that way, sets it moving."""
+        return LoadFactor._of(self._own["alpha0"])
+
+    @property
+    def confidence(self) -> float:
+        """The factor of confidence FC."""
+        return float(self._own["fc"])
+
+    @property
+    def a0(self) -> float | None:
+        """α0 g / (e* FC), m/s²; ``None`` where α0 was not found."""
+        return self._numbers.get("a0")
+
+    @property
+    def participation(self) -> dict[str, Any] | None:
+        """What of the mass takes part: ``e_star``, ``mass`` (M*, kg), δ of every mass."""
+        return self._numbers.get("participation")
+
+    @property
+    def capacity(self) -> dict[str, Any] | None:
+        """What the capacity curve gives where it vanishes: ``d0`` (m), limit states."""
+        return self._numbers.get("capacity")
+
+    @property
+    def demand(self) -> dict[str, Any] | None:
+        """What the site demands, where the scene has one: ``ratio`` and the checks."""
+        return self._numbers.get("demand")
+
+    @property
+    def no_curve(self) -> str | None:
+        """Why there is no capacity curve."""
+        return self._own.get("no_curve")
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The masses that move, one row a mass."""
+        import pandas
+
+        return pandas.DataFrame((self.participation or {}).get("masses", []))
+
+
 class Simulation(Answer):
     """What happens in time? A second opinion, not a proof."""
 
@@ -786,6 +849,7 @@ _KINDS: dict[str, type[Answer]] = {
     "thrust": Thrust,
     "settle": Path,
     "push": Path,
+    "kinematic": Kinematic,
     "simulate": Simulation,
 }
 

@@ -13,6 +13,7 @@ from . import _core
 from ._answers import (
     Assessment,
     Critical,
+    Kinematic,
     Limit,
     Packing,
     Path,
@@ -292,6 +293,55 @@ def push(
     }
     return Path(
         _ask(scene, {"push": options}, keep_all=keep_all, time_limit=time_limit, progress=progress)
+    )
+
+
+def kinematic(
+    scene: SceneLike,
+    *,
+    toward: Vector | Sequence[Vector] | None = None,
+    all: int | None = None,
+    control: tuple[str, Vector] | None = None,
+    fc: float | None = None,
+    at: Sequence[float] = (),
+    linear: bool = False,
+    law: Law = "coulomb",
+    skip_dead: bool = False,
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Kinematic:
+    """Under an earthquake: at what acceleration does it start to move, and what then?
+
+    Parameters
+    ----------
+    toward : two or three numbers, or several of them, optional
+        Directions of the earthquake.
+    all : int, optional
+        This many directions instead, evenly spread; 8 where nothing is said.
+    control : (id of a block, three numbers), optional
+        The point whose way measures the motion.
+    fc : float, optional
+        Factor of confidence; 1.35 where nothing is said.
+    at : numbers
+        Ways of the control point that become points of the curve, m.
+    linear : bool
+        The linear analysis alone, without a curve.
+    """
+    options: dict[str, Any] = {
+        "law": law,
+        **_directions(toward, all),
+        "at": [float(v) for v in at],
+        "linear": linear,
+        "skip_dead": skip_dead,
+    }
+    if control is not None:
+        options["control"] = {"block": control[0], "point": _three(control[1])}
+    if fc is not None:
+        options["fc"] = float(fc)
+    question = {"kinematic": options}
+    return Kinematic(
+        _ask(scene, question, keep_all=keep_all, time_limit=time_limit, progress=progress)
     )
 
 
