@@ -296,7 +296,7 @@ fn members_stand_for_their_images() {
     for wanted in [Verdict::Stable, Verdict::Unstable] {
         assert!(verdicts.iter().any(|v| v.1 == wanted), "{verdicts:?}");
     }
-    assert!(verdicts.iter().any(|v| *v == ("strong soil", Verdict::Stable)), "{verdicts:?}");
+    assert!(verdicts.contains(&("strong soil", Verdict::Stable)), "{verdicts:?}");
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn counts_of(line: usize, text: &str) -> Result<(usize, f64), InputError> {
         let rest = rest.trim_start_matches([' ', '=', ':']);
         rest.split(|c: char| c.is_whitespace() || c == ',').next()?.parse().ok()
     };
-    let found = after("NPTS").zip(after("DT")).or_else(|| match numbers.as_slice() {
+    let found = after("NPTS").zip(after("DT")).or(match numbers.as_slice() {
         [count, step, ..] => Some((*count, *step)),
         _ => None,
     });
