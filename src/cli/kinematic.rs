@@ -11,6 +11,7 @@ use super::{
 use anyhow::bail;
 use voussoir::{
     analysis::{ControlPoint, KinematicOptions, Question},
+    proof::kinematic::Numbers,
     report::kinematic,
 };
 
@@ -47,9 +48,12 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let exit = requirement(&file, question.require(), |alpha| alpha);
     // A site asks whether it is enough.
-    let ratio = file.answer.kinematic().and_then(|a| Some(a.numbers.demand.as_ref()?.ratio));
-    let exit = match ratio {
-        Some(ratio) if ratio < 1.0 && exit == Exit::Yes => Exit::No,
+    let numbers = file.answer.kinematic().map(|a| &a.numbers);
+    let ratio = numbers.and_then(|n| Some(n.demand.as_ref()?.ratio));
+    let exit = match (ratio, numbers.and_then(Numbers::least_ratio)) {
+        (Some(ratio), _) if ratio < 1.0 && exit == Exit::Yes => Exit::No,
+        // Met only because a body is drawn as several blocks.
+        (_, Some(least)) if least < 1.0 && exit == Exit::Yes => Exit::Undecided,
         _ => exit,
     };
     Ok(unless_weaker(&file, exit))

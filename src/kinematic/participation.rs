@@ -120,6 +120,17 @@ impl Participation {
             })
     }
 
+    /// What an acceleration of the mechanism is with blocks that move as one counted as one, over
+    /// that block by block: less than 1 where a body is drawn as several blocks. Equivalent
+    /// displacements go along, so that periods stay, and ratios of a site fall by as much, but for
+    /// what finite rotations make of another control point.
+    pub fn share_of_bodies(&self) -> Option<f64> {
+        /// Rounding of rates makes no other body.
+        const SAME: f64 = 1e-6;
+        let share = self.e_star / self.e_star_of_bodies;
+        (share < 1.0 - SAME).then_some(share)
+    }
+
     /// The acceleration of a load factor, m/s².
     pub fn acceleration(&self, alpha: f64, gravity: f64, confidence: f64) -> f64 {
         alpha * gravity / (self.e_star * confidence)

@@ -24,14 +24,18 @@ const DISTINCT: usize = 40;
 /// Indices of values grouped by like values, in rising order: one group a distinct value, or else
 /// groups of nearly equal size.
 pub fn groups(values: &[f64]) -> Vec<Vec<usize>> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&i, &j| values[i].total_cmp(&values[j]).then(i.cmp(&j)));
-    let same: Vec<Vec<usize>> =
-        order.chunk_by(|&i, &j| values[i] == values[j]).map(<[usize]>::to_vec).collect();
+    let same = same(values);
     if same.len() <= DISTINCT {
         return same;
     }
-    alike(&order, GROUPS)
+    alike(&same.concat(), GROUPS)
+}
+
+/// Indices of equal values, in rising order.
+pub fn same(values: &[f64]) -> Vec<Vec<usize>> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&i, &j| values[i].total_cmp(&values[j]).then(i.cmp(&j)));
+    order.chunk_by(|&i, &j| values[i] == values[j]).map(<[usize]>::to_vec).collect()
 }
 
 /// An order cut into groups of nearly equal size.

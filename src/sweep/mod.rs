@@ -40,7 +40,7 @@ mod worst;
 pub use file::{Opened, RowsFile, parse_rows, read_rows};
 pub use folder::{Folder, Gathered, Tally};
 pub use fragility::{Fragility, Proportion, wilson};
-pub use influence::{Influence, groups, influence};
+pub use influence::{Influence, groups, influence, same};
 pub use merge::{Merged, merge};
 pub use open::{MOST_ROWS, Sweep, open, open_bytes, read_plan};
 pub use plan::{Lognormal, Normal, Parameter, Plan, Sampling, Vary, schema};

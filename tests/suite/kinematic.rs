@@ -243,6 +243,7 @@ fn masses_of_all_kinds() {
     // Storeys that move as one are one wall: its centre at half its height.
     let joined = first * first / (sum(&|p, _| p) * (2.0 * w * 9.0 + 10e3 * 36.0 + q * 25.0));
     close(p.e_star_of_bodies, joined, 1e-9);
+    close(a.numbers.a0_of_bodies.expect("less"), holds / first * G / (joined * 1.35), 1e-8);
     // Without the key the thrust counts as a weight, and it starts earlier: the safe reading.
     value["loads"]["dead"][1].as_object_mut().unwrap().remove("massless");
     let all = file_of(&read(&value), options([1.0, 0.0, 0.0]));
@@ -531,6 +532,38 @@ fn run(args: &[&str]) -> Output {
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// One wall drawn as six courses: what it meets only block by block is no yes, and the first number
+/// is that of the wall.
+#[test]
+fn a_wall_in_courses_is_not_stronger_than_the_wall() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = format!("{}/structures/overturning-wall.json", env!("CARGO_MANIFEST_DIR"));
+    let mut value: Value =
+        serde_json::from_str(&std::fs::read_to_string(&whole).expect("a scene")).expect("JSON");
+    let wall = value["blocks"][1].clone();
+    let course = |k: u32| {
+        let (mut block, [low, high]) = (wall.clone(), [k, k + 1].map(f64::from));
+        block["id"] = json!(format!("course_{k}"));
+        block["shape"]["prism"]["polygon"] =
+            json!([[-0.6, low], [0, low], [0, high], [-0.6, high]]);
+        block
+    };
+    value["blocks"] =
+        std::iter::once(value["blocks"][0].clone()).chain((0..6).map(course)).collect();
+    let path = folder.path().join("courses.json").display().to_string();
+    std::fs::write(&path, value.to_string()).expect("written");
+    let asked = run(&["kinematic", &path, "--toward", "1,0", "-q"]);
+    assert_eq!(asked.status.code(), Some(3), "{}", text(&asked.stdout));
+    let said = text(&asked.stdout);
+    let of =
+        |line: &str| line.split("a0 = ").nth(1).map(|t| t.split(' ').next().unwrap().to_string());
+    let one = text(&run(&["kinematic", &whole, "--toward", "1,0", "-q"]).stdout);
+    assert_eq!(of(&said), of(&one), "{said}");
+    let met = |line: &str| line.split("it meets ").nth(1).map(|t| t[..6].to_string());
+    assert_eq!(met(&said), met(&one), "{said}");
+    assert!(said.contains("block by block"), "{said}");
 }
 
 #[test]

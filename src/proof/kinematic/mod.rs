@@ -73,6 +73,9 @@ pub struct Numbers {
     /// a0 = α0 g / (e* FC), m/s²; absent where α0 was not found.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub a0: Option<f64>,
+    /// The same with blocks that move as one counted as one, where that is less.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub a0_of_bodies: Option<f64>,
     /// What of the mass takes part: e*, M* and δ of every mass that moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub participation: Option<Participation>,
@@ -88,6 +91,15 @@ pub struct Numbers {
     /// What the site demands.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<Demand>,
+}
+
+impl Numbers {
+    /// The least ratio of what the site demands that is met, with blocks that move as one counted as
+    /// one.
+    pub fn least_ratio(&self) -> Option<f64> {
+        let share = self.participation.as_ref().and_then(Participation::share_of_bodies);
+        Some(self.demand.as_ref()?.ratio * share.unwrap_or(1.0))
+    }
 }
 
 /// What numbers are made of.
@@ -112,6 +124,7 @@ impl Given<'_> {
         let gravity = model.assembly.gravity.norm();
         numbers.unique = Some(is_unique(model, rates));
         numbers.a0 = self.alpha0.map(|alpha| p.acceleration(alpha, gravity, self.fc));
+        numbers.a0_of_bodies = numbers.a0.and_then(|a0| Some(a0 * p.share_of_bodies()?));
         numbers.control_delta = self.control.and_then(|c| {
             way_of(self.quake, rates, model.assembly.find(&c.block)?, &Vector3::from(c.point))
         });

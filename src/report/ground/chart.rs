@@ -62,6 +62,8 @@ fn panel(
     if let Some(title) = title {
         builder.caption(crate::plain::cell(title), ("sans-serif", 18));
     }
+    // What is left of stepping to zero is zero.
+    let tick = |v: f64| if v.abs() < 1e-9 * (high - low) { "0".into() } else { short(v) };
     let mut chart =
         builder.build_cartesian_2d(0.0..end, low - room..high + room).map_err(refused)?;
     chart
@@ -70,7 +72,7 @@ fn panel(
         .x_desc("time, s")
         .y_desc(panel.y)
         .x_label_formatter(&|v| short(*v))
-        .y_label_formatter(&|v| short(*v))
+        .y_label_formatter(&|v| tick(*v))
         .light_line_style(WHITE.mix(0.0))
         .draw()
         .map_err(refused)?;
@@ -84,4 +86,18 @@ fn panel(
         chart.draw_series([PathElement::new(points, style)]).map_err(refused)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zero_is_no_rounding() {
+        let line: Vec<(f64, f64)> =
+            (0..100).map(|k| (f64::from(k), 0.33 * (0.3 * f64::from(k)).sin() - 0.02)).collect();
+        let panel = || Panel { y: "way", lines: std::slice::from_ref(&line) };
+        let Ok(svg) = chart("t", panel(), panel()) else { panic!("no chart") };
+        assert!(!svg.contains("e-1"), "{svg}");
+    }
 }

@@ -37,7 +37,11 @@ fn class(role: Role) -> Option<&'static str> {
     }
 }
 
+/// A sentence begins with a capital; a symbol (α0, λ) is another one with it.
 fn capital(text: &str) -> String {
+    if !text.chars().take(2).all(char::is_alphabetic) {
+        return text.into();
+    }
     let mut chars = text.chars();
     chars.next().map(|c| c.to_uppercase().chain(chars).collect()).unwrap_or_default()
 }
@@ -115,5 +119,22 @@ fn short(line: &str) -> String {
         (true, Some(end)) => cut[..end].to_string(),
         (true, None) => String::new(),
         (false, _) => cut,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_begin_with_a_capital_and_symbols_stay() {
+        for (text, wanted) in [
+            ("stands", "Stands"),
+            ("λ = 0.3", "λ = 0.3"),
+            ("α0 = 0.1, a0 = 0.7 m/s²", "α0 = 0.1, a0 = 0.7 m/s²"),
+            ("", ""),
+        ] {
+            assert_eq!(capital(text), wanted);
+        }
     }
 }

@@ -124,7 +124,7 @@ fn hint(header: &Header, row: &Row, value: f64) -> String {
 fn along(all: &All, k: usize) -> Chart {
     let header = all.header;
     let xs = all.column(k);
-    let groups = bands(&xs, all.shown);
+    let groups = bands(&xs, all.shown, &header.plan.sampling);
     let hints =
         |g: &Group| format!("{} {}: {}", label(header, k), all.place(k, g.at[0]), all.says(g));
     // A gap in the line is a point without a value.

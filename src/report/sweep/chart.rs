@@ -120,7 +120,8 @@ pub fn chart(
             }
             (Kind::Heat, _) => Err(ChartError("a heat map needs two numbers that vary".into())),
             (Kind::Line, [a, ..]) => {
-                line(&area, name, axis(*a), what, &bands(&column(*a), &shown), &legend)
+                let bands = bands(&column(*a), &shown, &header.plan.sampling);
+                line(&area, name, axis(*a), what, &bands, &legend)
             }
             (Kind::Line, []) => Err(ChartError("nothing varies".into())),
         }?;

@@ -3,7 +3,7 @@
 
 use crate::{
     analysis::Question,
-    sweep::{Shown, groups},
+    sweep::{Sampling, Shown, groups, same},
 };
 
 /// The rows whose number is alike, or whose two numbers are.
@@ -41,9 +41,12 @@ impl Group {
     }
 }
 
-/// Groups of rows with like values of one number.
-pub(in crate::report) fn bands(xs: &[f64], shown: &[Shown]) -> Vec<Group> {
-    groups(xs)
+/// Groups of rows with like values of one number; in a grid, whose values were chosen one by one,
+/// with equal ones.
+pub(in crate::report) fn bands(xs: &[f64], shown: &[Shown], sampling: &Sampling) -> Vec<Group> {
+    let is_grid = matches!(sampling, Sampling::Grid {});
+    let groups = if is_grid { same(xs) } else { groups(xs) };
+    groups
         .iter()
         .map(|group| {
             let mean = group.iter().map(|&i| xs[i]).sum::<f64>() / group.len() as f64;

@@ -66,18 +66,35 @@ fn start(l: &LoadFactorAnswer) -> (String, Role) {
 pub(super) fn title(file: &ResultFile) -> (String, Role) {
     let Some(a) = file.answer.kinematic() else { return ("undecided".into(), Role::Unsure) };
     let (mut text, mut role) = start(&a.alpha0);
-    if let Some(a0) = a.numbers.a0 {
-        text += &format!(", a0 = {} m/s²", seven(a0));
+    match (a.numbers.a0, a.numbers.a0_of_bodies) {
+        (Some(a0), Some(least)) => {
+            text += &format!(
+                ", a0 = {} m/s² with blocks that move as one counted as one, {} block by block,",
+                seven(least),
+                seven(a0)
+            );
+        }
+        (Some(a0), None) => text += &format!(", a0 = {} m/s²", seven(a0)),
+        (None, _) => {}
     }
     text += &format!(" towards {}", point(a.toward));
     if let Some(d) = &a.numbers.demand {
-        let displacement =
-            d.displacement.map_or(String::new(), |r| format!(", by displacements {}", short(r)));
-        text += &format!(
-            "; of the demand it meets {} by the linear check{displacement}",
-            short(d.linear)
-        );
-        role = if d.ratio < 1.0 || role == Role::Bad { Role::Bad } else { Role::Good };
+        let meets = |share: f64| {
+            let by = |r| format!(", by displacements {}", short(r * share));
+            let displacement = d.displacement.map_or(String::new(), by);
+            format!("{} by the linear check{displacement}", short(d.linear * share))
+        };
+        let share = a.numbers.participation.as_ref().and_then(|p| p.share_of_bodies());
+        text += &format!("; of the demand it meets {}", meets(share.unwrap_or(1.0)));
+        if share.is_some() {
+            text += &format!("; block by block {}", meets(1.0));
+        }
+        let least = a.numbers.least_ratio().unwrap_or(d.ratio);
+        role = match () {
+            () if d.ratio < 1.0 || role == Role::Bad => Role::Bad,
+            () if least < 1.0 => Role::Unsure,
+            () => Role::Good,
+        };
     }
     (text, role)
 }
@@ -251,13 +268,11 @@ fn linear(page: &mut Page, a: &KinematicAnswer) {
         let [low, high] = ends(a0, low, high);
         lines.push(format!("a0 lies between {low} and {high} m/s², as α0 does in its bracket"));
     }
-    if p.e_star_of_bodies > p.e_star * (1.0 + 1e-6)
-        && let Some(a0) = a.numbers.a0
-    {
+    if let Some(least) = a.numbers.a0_of_bodies {
         lines.push(format!(
-            "with blocks that move as one counted as one: e* = {}, a0 = {} m/s²",
+            "with blocks that move as one counted as one: e* = {}, a0 = {} m/s²; displacements and ratios of the site are less by about as much",
             seven(p.e_star_of_bodies),
-            seven(a0 * p.e_star / p.e_star_of_bodies)
+            seven(least)
         ));
     }
     page.row("linear", lines);
