@@ -100,7 +100,7 @@ fn run(
         };
         let options =
             RunOptions { threads: (threads > 0).then_some(threads), restart, ..Default::default() };
-        let done = sweep::run_until(&sweep, &output, &options, &see, &|| watch.is_cancelled());
+        let done = sweep::run_until(&sweep, &output, &options, &see, watch.deadline(None));
         let done = done.map_err(Trouble::other)?;
         let summary = sweep::summarize(&done.header, &done.rows);
         Ok(Rows { header: done.header, rows: done.rows, summary })

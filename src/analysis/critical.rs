@@ -14,7 +14,7 @@ use super::{
 pub use crate::terms::Method;
 use crate::{
     error::{InputError, JsonPath},
-    interface::prepare,
+    interface::prepare_until,
     scene::Scene,
     tolerance,
     verdict::Verdict,
@@ -199,7 +199,8 @@ pub fn probe(
     value: f64,
     control: &Control,
 ) -> Result<Probe, InputError> {
-    let model = prepare(&scene.with_field(pointer, value)?)?;
+    let is_over = || control.deadline.is_over();
+    let model = prepare_until(&scene.with_field(pointer, value)?, &is_over)?;
     let assessment = assess::unproved(&model, control);
     Ok(Probe { value, model, assessment })
 }

@@ -40,14 +40,21 @@ pub struct Reuse {
 }
 
 impl Reuse {
-    /// The model of a scene, from what is known of scenes with the same keys.
+    /// The model of a scene, from what is known of scenes with the same keys; given up as soon as
+    /// `is_over`.
     ///
     /// # Errors
-    /// As [`prepare`](crate::interface::prepare).
-    pub fn prepare(&self, scene: &Scene, keys: &Keys) -> Result<Model, InputError> {
+    /// As [`prepare_until`](crate::interface::prepare_until).
+    pub fn prepare(
+        &self,
+        scene: &Scene,
+        keys: &Keys,
+        is_over: &dyn Fn() -> bool,
+    ) -> Result<Model, InputError> {
         let blocks = self.blocks.get(keys, || assembly::resolve_blocks(scene))?;
         let assembly = assembly::resolve_with(scene, (*blocks).clone())?;
-        let contacts = self.contacts.get(&keys.shapes, || interface::detect(&assembly))?;
+        let find = || interface::detect_until(&assembly, is_over);
+        let contacts = self.contacts.get(&keys.shapes, find)?;
         let interfaces = contacts.with_joints_of(&assembly)?;
         Ok(Model::detected(assembly, interfaces))
     }

@@ -3,6 +3,7 @@
 use super::{Folder, Header, Opened, Row, RowAnswer, RowStatus, RowsFile, Shard, Sweep};
 use crate::{
     analysis::{Control, ask, reuse::Reuse},
+    deadline::Deadline,
     error::RowsError,
     parallel,
 };
@@ -68,10 +69,11 @@ pub fn run(
     options: &RunOptions,
     watch: &(dyn Fn(Event) + Sync),
 ) -> Result<Done, RowsError> {
-    run_until(sweep, path, options, watch, &|| false)
+    run_until(sweep, path, options, watch, Deadline::NEVER)
 }
 
-/// The same; no row is begun any more once `is_over`. A later run does those that are missing.
+/// The same; no row is begun any more once the deadline is over, and rows that it cuts short are
+/// dropped. A later run does those that are missing.
 ///
 /// # Errors
 /// As [`run`].
@@ -80,7 +82,7 @@ pub fn run_until(
     path: &Path,
     options: &RunOptions,
     watch: &(dyn Fn(Event) + Sync),
-    is_over: &(dyn Fn() -> bool + Sync),
+    deadline: Deadline,
 ) -> Result<Done, RowsError> {
     let header = sweep.header(options.shard);
     let Opened { file, rows, mended, unchecked } = RowsFile::open(path, &header, options.restart)?;
@@ -88,7 +90,7 @@ pub fn run_until(
     let open =
         options.shard.rows(sweep.rows()).filter(|row| !there.contains(row)).collect::<Vec<_>>();
     watch(Event::Begin { rows: there.len() + open.len(), there: there.len(), mended, unchecked });
-    let (more, computed) = answers(sweep, &file, open, options.threads, watch, is_over)?;
+    let (more, computed) = answers(sweep, &file, open, options.threads, watch, deadline)?;
     let mut rows = rows;
     rows.extend(more);
     rows.sort_by_key(|r| r.row);
@@ -120,7 +122,7 @@ pub fn run_in(
         return Ok(0);
     }
     let file = RowsFile::fresh(&folder.rows_folder(), name, &sweep.header(options.shard))?;
-    Ok(answers(sweep, &file, open, options.threads, watch, &|| false)?.0.len())
+    Ok(answers(sweep, &file, open, options.threads, watch, Deadline::NEVER)?.0.len())
 }
 
 /// Rows, spread evenly over those of `open`, one after the other until there are `most` or
@@ -138,7 +140,7 @@ pub fn measure(
     let start = Instant::now();
     let (reuse, mut done, mut sum) = (Reuse::default(), 0_usize, 0.0);
     for &number in open.iter().step_by(open.len().div_ceil(most.max(1)).max(1)) {
-        let row = answer(sweep, &reuse, number);
+        let row = answer(sweep, &reuse, number, Deadline::NEVER);
         (done, sum) = (done + 1, sum + row.seconds);
         file.map_or(Ok(()), |file| file.append(&row))?;
         if start.elapsed().as_secs_f64() > seconds {
@@ -156,17 +158,21 @@ fn answers(
     mut open: Vec<usize>,
     threads: Option<usize>,
     watch: &(dyn Fn(Event) + Sync),
-    is_over: &(dyn Fn() -> bool + Sync),
+    deadline: Deadline,
 ) -> Result<(Vec<Row>, [usize; 2]), RowsError> {
     open.sort_by_cached_key(|row| (sweep.keys(&sweep.parameters(*row)), *row));
     let threads = threads.unwrap_or(0);
     let reuse = Reuse::default();
     let rows = Mutex::new(Vec::new());
     parallel::for_each(threads, &open, |&number| {
-        if is_over() {
+        if deadline.is_over() {
             return Ok(());
         }
-        let row = answer(sweep, &reuse, number);
+        let row = answer(sweep, &reuse, number, deadline);
+        // What was cut short is not the answer that the row has with all its time.
+        if deadline.is_over() {
+            return Ok(());
+        }
         file.append(&row)?;
         watch(Event::Row(row.answer.status));
         rows.lock().unwrap_or_else(PoisonError::into_inner).push(row);
@@ -177,14 +183,14 @@ fn answers(
 }
 
 /// One row.
-pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize) -> Row {
+pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize, deadline: Deadline) -> Row {
     let start = Instant::now();
     let parameters = sweep.parameters(number);
     let asked = || -> Result<RowAnswer, crate::error::InputError> {
         let scene = sweep.scene_with(&parameters)?;
-        let model = reuse.prepare(&scene, &sweep.keys(&parameters))?;
-        let answer =
-            ask(&sweep.plan.question.for_one_number(), &scene, &model, &Control::default())?;
+        let model = reuse.prepare(&scene, &sweep.keys(&parameters), &|| deadline.is_over())?;
+        let control = Control { deadline, ..Control::default() };
+        let answer = ask(&sweep.plan.question.for_one_number(), &scene, &model, &control)?;
         Ok(RowAnswer::of_answer(&answer))
     };
     // A mistake in the program costs one row, not the sweep.

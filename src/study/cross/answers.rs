@@ -2,18 +2,19 @@
 
 use crate::{
     analysis::{
-        Control, Law, Outcome, assess,
-        coulomb::{self, DryLoadFactor, Found},
-        limit,
+        Answer, AssessOptions, Control, Law, LimitOptions, Limited, Outcome, Question, ask,
+        coulomb::{DryLoadFactor, Found},
     },
     deadline::Deadline,
+    error::{InputError, JsonPath},
     interface::Model,
+    scene::Scene,
     verdict::Verdict,
 };
 
-/// A question may take so many seconds; more counts as undecided. More: two scenes in a hundred
-/// take most of the time.
-const SECONDS: f64 = 2.0;
+/// A question may take so many seconds, bound, verdict and dry friction together; more counts as
+/// undecided. More: two scenes in a hundred take most of the time.
+const SECONDS: f64 = 4.0;
 
 /// How all questions are asked.
 pub fn control() -> Control {
@@ -35,20 +36,26 @@ pub struct Answers {
     pub is_unlimited: bool,
 }
 
-/// The verdict of an assembly.
-pub fn verdict(model: &Model) -> Verdict {
-    assess(model, &control()).verdict
+/// The verdict of a scene; undecided where the question is refused.
+pub fn verdict(scene: &Scene, model: &Model) -> Verdict {
+    let question = Question::Assess(AssessOptions { law: Law::Coulomb });
+    match ask(&question, scene, model, &control()) {
+        Ok(Answer::Assess(answer)) => answer.verdict,
+        _ => Verdict::Undecided,
+    }
 }
 
 impl Answers {
-    /// Asks a model.
-    pub fn of(model: &Model) -> Self {
-        let verdict = verdict(model);
-        let bound = limit(model, &control());
-        let outcome = bound.outcome;
-        let has_limit = matches!(outcome, Outcome::Found | Outcome::Unbounded);
-        let dry =
-            has_limit.then(|| coulomb::load_factor_from(model, &bound, Some(verdict), &control()));
+    /// Asks a scene, prepared as `model`.
+    ///
+    /// # Errors
+    /// The scene has no live load to ask about.
+    pub fn of(scene: &Scene, model: &Model) -> Result<Self, InputError> {
+        let question = Question::Limit(LimitOptions { law: Law::Coulomb, ..Default::default() });
+        let Answer::Limit(answer) = ask(&question, scene, model, &control())? else {
+            return Err(InputError::at(JsonPath::root(), "no load factor was answered"));
+        };
+        let Limited { bound, dry, dead } = *answer;
         // A value that is proved and up to which the state was seen to rest, or one that was seen
         // only.
         let is_known = |d: &DryLoadFactor| match d.found {
@@ -56,13 +63,13 @@ impl Answers {
             Found::Rests => true,
             Found::Unlimited | Found::NotAtRest | Found::Undecided => false,
         };
-        Self {
-            verdict,
-            outcome,
-            bound: (outcome == Outcome::Found).then_some([bound.value, bound.bracket.upper]),
+        Ok(Self {
+            verdict: dead.map_or_else(|| verdict(scene, model), |d| d.verdict),
+            outcome: bound.outcome,
+            bound: (bound.outcome == Outcome::Found).then_some([bound.value, bound.bracket.upper]),
             dry: dry.as_ref().filter(|d| is_known(d)).map(|d| d.value),
             is_unlimited: dry.is_some_and(|d| d.found == Found::Unlimited),
-        }
+        })
     }
 
     /// Whether two answers are the same to the last bit.

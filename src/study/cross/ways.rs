@@ -104,7 +104,7 @@ fn masses(model: &Model) -> Vec<f64> {
 /// Asks a scene in all ways.
 pub(super) fn ask(scene: &Scene, index: usize, crossed: &mut Crossed) -> Result<(), InputError> {
     let model = prepare(scene)?;
-    let own = Answers::of(&model);
+    let own = Answers::of(scene, &model)?;
     crossed.blocks = model.assembly.blocks.len();
     (crossed.verdict, crossed.outcome) = (own.verdict, own.outcome);
     (crossed.bound, crossed.dry) = (own.bound.map(|b| b[0]), own.dry);
@@ -112,7 +112,7 @@ pub(super) fn ask(scene: &Scene, index: usize, crossed: &mut Crossed) -> Result<
     asked.alone(&model);
     asked.unions(scene, &model, index)?;
     asked.surveyed(scene, index)?;
-    asked.loaded(&model);
+    asked.loaded(scene, &model);
     if index.is_multiple_of(EVERY_SIMULATED) {
         asked.simulated(&model);
     }
@@ -169,8 +169,8 @@ impl Asked<'_> {
             (STRANGERS[(turn + 1 + turn / 8 % 3) % 4], turn % 8 >= 4),
         ] {
             let way = Variation::Beside { stranger, before };
-            let union = prepare(&beside(scene, &masses, stranger, before))?;
-            let said = Answers::of(&union);
+            let union = beside(scene, &masses, stranger, before);
+            let said = Answers::of(&union, &prepare(&union)?)?;
             let same = said.is_same(&self.own);
             self.crossed.unions[0] += 1;
             self.crossed.unions[1] += usize::from(same);
@@ -187,14 +187,15 @@ impl Asked<'_> {
         }
         let nothing_slides = (index / super::FAMILIES.len()).is_multiple_of(2);
         let way = Variation::Surveyed { rough: nothing_slides };
-        let there = prepare(&way.scene(scene))?;
+        let moved = way.scene(scene);
+        let there = prepare(&moved)?;
         if nothing_slides {
-            let here = prepare(&rough(scene))?;
-            let (here, there) = (verdict(&here), verdict(&there));
+            let rough = rough(scene);
+            let (here, there) = (verdict(&rough, &prepare(&rough)?), verdict(&moved, &there));
             self.crossed.ways += 1;
             self.verdicts(way, here, there);
         } else {
-            self.compare(way, Answers::of(&there), MOVED_BOUND);
+            self.compare(way, Answers::of(&moved, &there)?, MOVED_BOUND);
         }
         Ok(())
     }
@@ -239,7 +240,7 @@ impl Asked<'_> {
     }
 
     /// On the way to the load factor with dry friction, and at the bound.
-    fn loaded(&mut self, model: &Model) {
+    fn loaded(&mut self, scene: &Scene, model: &Model) {
         let mut factors: Vec<f64> = Vec::new();
         let none = NONE * check::natural_factor(&model.assembly);
         // What falls without its live load is held by it, and may be from some load on only.
@@ -254,7 +255,7 @@ impl Asked<'_> {
         let mut fell: Option<f64> = None;
         for factor in factors {
             let way = Variation::Loaded { factor };
-            let said = verdict(&model.at_load_factor(factor));
+            let said = verdict(scene, &model.at_load_factor(factor));
             self.crossed.ways += 1;
             if dry.is_some_and(|dry| factor < dry * (1.0 - 1e-6)) {
                 self.verdicts(way, Verdict::Stable, said);
