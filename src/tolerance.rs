@@ -231,6 +231,12 @@ pub const AT_REST: f64 = 1e-6;
 /// that near to their limit neither rest nor move.
 pub const REST_BELOW: f64 = 1e-3;
 
+/// Where a state neither rests nor moves on the way to the proved bound, the load factor with dry
+/// friction is the one up to which it was seen at rest, if that is no more than this share below
+/// the bound. Larger: values that are far too low. Smaller: scenes without a value, though what is
+/// open is little.
+pub const REST_WITHIN: f64 = 0.1;
+
 /// A state without pre-stress moves when some block is left with at least this much of its load.
 /// Larger: slow slides at the edge of friction are refused (a rock wedge 1e-3 beyond its factor of
 /// safety is left with 5e-4). Smaller: what the regularisation leaves at rest on tall, soft

@@ -62,7 +62,7 @@ impl Quaked {
             Some(dry) if !dry.is_reached() => None,
             Some(dry) => match dry.found {
                 Found::NothingSlides => bound,
-                Found::FixedPoint | Found::Rests => Some(dry.value),
+                Found::FixedPoint | Found::Rests | Found::RestsBelow => Some(dry.value),
                 Found::Unlimited | Found::NotAtRest | Found::Undecided => None,
             },
         }

@@ -359,9 +359,13 @@ pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f6
         (FactorStatus::Found, Some(r)) if upper.is_some_and(|u| u < r) => Exit::No,
         // Of a value with dry friction that slides, the ends are what was seen beside it.
         (FactorStatus::Found, Some(r))
-            if matches!(said.found, Some(Found::FixedPoint | Found::Rests)) =>
+            if matches!(said.found, Some(Found::FixedPoint | Found::Rests | Found::RestsBelow)) =>
         {
-            if value.is_some_and(|v| v < r) { Exit::No } else { Exit::Yes }
+            if value.is_some_and(|v| v < r) {
+                Exit::No
+            } else {
+                Exit::Yes
+            }
         }
         (FactorStatus::Found | FactorStatus::Undecided, _) => Exit::Undecided,
     }

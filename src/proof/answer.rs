@@ -156,7 +156,7 @@ impl LoadFactorAnswer {
             Found::Unlimited => same,
             Found::NotAtRest => none(FactorStatus::NotAtRest),
             // A value is one only up to which the state was seen at rest.
-            Found::FixedPoint | Found::Rests if dry.is_reached() => {
+            Found::FixedPoint | Found::Rests | Found::RestsBelow if dry.is_reached() => {
                 let upper = dry.moves_at.filter(|_| dry.found == Found::Rests).or(upper);
                 Self {
                     status: FactorStatus::Found,

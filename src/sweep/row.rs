@@ -266,7 +266,7 @@ impl RowAnswer {
             Found::FixedPoint => {
                 Self { status: RowStatus::Found, value, lower: None, dry: Some(found), ..answer }
             }
-            Found::Rests => Self {
+            Found::Rests | Found::RestsBelow => Self {
                 status: RowStatus::Found,
                 value,
                 lower: Some(scale(dry.rests_at)),

@@ -17,6 +17,10 @@ pub enum Found {
     /// The state under dry friction rests up to the value, and no longer somewhat above it.
     /// Computed, not proved.
     Rests,
+    /// The state under dry friction rests up to the value; what it does from there to the bound,
+    /// little more ([`REST_WITHIN`](crate::tolerance::REST_WITHIN)), did not come out. Computed, not
+    /// proved.
+    RestsBelow,
     /// Already under the dead load the state does not rest: it needs a pre-stress, or falls. There
     /// is no value.
     NotAtRest,

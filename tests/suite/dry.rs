@@ -6,10 +6,11 @@ use serde_json::{Value, json};
 use std::process::Command;
 use voussoir::{
     analysis::{
-        Control, Law, Outcome, Proved,
+        Answer, Control, Law, LimitOptions, Outcome, Proved, Question,
         coulomb::{self, Found},
         limit, stability, tilt,
     },
+    proof,
     scene::{Scene, read_str},
     verdict::Verdict,
 };
@@ -258,4 +259,33 @@ fn requirements_are_met_by_what_rests_alone() {
     assert_eq!(code("groove-and-slender", Some("0.74")), Some(1));
     assert_eq!(code("parabolic-arch", Some("0.001")), Some(1));
     assert_eq!(code("parabolic-arch", None), Some(1));
+}
+
+/// Where crushing and friction meet, the states between 0.999 and 1 times the bound neither rest
+/// nor move. The value is the end up to which it rests, and a raised one is refused.
+#[test]
+fn what_rests_little_below_the_bound_has_the_safe_end_for_a_value() {
+    let scene = scene(&file("stack-with-bonds"));
+    let model = ask::model(&scene);
+    let Answer::Limit(limited) = voussoir::analysis::ask(
+        &Question::Limit(LimitOptions::default()),
+        &scene,
+        &model,
+        &Control::default(),
+    )
+    .unwrap() else {
+        panic!("not a load factor")
+    };
+    let (bound, dry) = (limited.bound.value, limited.dry.as_ref().unwrap());
+    assert!(dry.found == Found::RestsBelow && dry.value == dry.rests_at, "{dry:?}");
+    assert!(dry.value <= limited.bound.bracket.lower && dry.value >= 0.99 * bound, "{dry:?}");
+    let honest = proof::ResultFile::load_factor(&scene, &model, &limited);
+    ask::prove(&scene, &honest);
+    for factor in [0.5, 1.1] {
+        let mut forged = honest.clone();
+        let dry = forged.dry.as_mut().unwrap();
+        (dry.value, dry.rests_at) = (Some(factor * bound), Some(factor * bound));
+        let found = proof::verify(&forged, &scene).unwrap();
+        assert!(!found.proved(), "{factor}");
+    }
 }

@@ -1,9 +1,37 @@
-//! The README is tested: every `console` block is run and its output compared.
+//! The README and the guide are tested: every `console` block is run and its output compared, every
+//! link leads somewhere.
 
-use std::{path::Path, process::Command};
+use std::{
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
 
 fn readme() -> String {
-    std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap()
+    std::fs::read_to_string(root().join("README.md")).unwrap()
+}
+
+/// The README and the pages of the guide, whose commands are run in a folder of their own.
+fn guide() -> Vec<(PathBuf, String)> {
+    let mut pages: Vec<PathBuf> = std::fs::read_dir(root().join("docs/guide"))
+        .unwrap()
+        .map(|e| e.unwrap().path())
+        .filter(|p| p.extension().is_some_and(|e| e == "md"))
+        .collect();
+    pages.sort();
+    pages.insert(0, root().join("README.md"));
+    pages.into_iter().map(|page| (page.clone(), std::fs::read_to_string(page).unwrap())).collect()
+}
+
+/// Whether some page of the guide shows this picture of the checkout.
+fn is_shown(name: &Path) -> bool {
+    let shown = format!("{})", name.display());
+    guide().iter().any(|(_, text)| {
+        text.contains(&format!("]({shown}")) || text.contains(&format!("](../../{shown}"))
+    })
 }
 
 /// Commands of the console blocks with the output printed under each.
@@ -75,7 +103,7 @@ fn difference(command: &str, want: &[String], got: &[String]) -> String {
         lines.push("the same lines in another order or number".into());
     }
     format!(
-        "README.md does not hold what `{command}` prints:\n{}\nIf the lines with + are right, run the command with NO_COLOR=1 and paste its output into the README.",
+        "the page does not hold what `{command}` prints:\n{}\nIf the lines with + are right, run the command with NO_COLOR=1 and paste its output there.",
         lines.join("\n")
     )
 }
@@ -83,7 +111,7 @@ fn difference(command: &str, want: &[String], got: &[String]) -> String {
 #[test]
 fn every_console_block_prints_what_it_says() {
     let folder = tempfile::tempdir().unwrap();
-    for part in ["structures", "structures/sweeps"] {
+    for part in ["structures", "structures/sweeps", "structures/meshes"] {
         std::fs::create_dir(folder.path().join(part)).unwrap();
         for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(part)).unwrap() {
             let path = entry.unwrap().path();
@@ -95,11 +123,13 @@ fn every_console_block_prints_what_it_says() {
         }
     }
     std::fs::create_dir(folder.path().join("structures/drawings")).unwrap();
-    let examples = examples(&readme());
-    assert!(examples.len() >= 7, "only {} commands found", examples.len());
-    for (command, printed) in examples {
-        let (want, got) = (without_times(&printed), without_times(&run(&command, folder.path())));
-        assert!(want == got, "{}", difference(&command, &want, &got));
+    assert!(examples(&readme()).len() >= 6, "the README shows too little");
+    for (page, text) in guide() {
+        for (command, printed) in examples(&text) {
+            let (want, got) =
+                (without_times(&printed), without_times(&run(&command, folder.path())));
+            assert!(want == got, "{}: {}", page.display(), difference(&command, &want, &got));
+        }
     }
     charts_are_those_of_the_commands(folder.path());
     drawings_are_those_of_the_commands(folder.path());
@@ -114,12 +144,8 @@ fn drawings_are_those_of_the_commands(folder: &Path) {
         let name = Path::new("structures/drawings").join(path.file_name().unwrap());
         let [kept, made] = [&path, &folder.join(&name)]
             .map(|p| std::fs::read(p).unwrap_or_else(|e| panic!("{}: {e}", p.display())));
-        assert!(kept == made, "{} is not what the command in the README draws", name.display());
-        assert!(
-            readme().contains(&format!("]({})", name.display())),
-            "the README does not show {}",
-            name.display()
-        );
+        assert!(kept == made, "{} is not what the command in the guide draws", name.display());
+        assert!(is_shown(&name), "no page of the guide shows {}", name.display());
         assert!(kept.len() < 30_000, "{} is large", name.display());
         drawings += 1;
     }
@@ -142,14 +168,10 @@ fn charts_are_those_of_the_commands(folder: &Path) {
             };
             assert!(
                 read(&chart) == read(&folder.join(&name)),
-                "{} is not what the command in the README draws",
+                "{} is not what the command in the guide draws",
                 name.display()
             );
-            assert!(
-                readme().contains(&format!("]({})", name.display())),
-                "the README does not show {}",
-                name.display()
-            );
+            assert!(is_shown(&name), "no page of the guide shows {}", name.display());
         }
     }
     assert!(plans >= 3);
@@ -174,6 +196,7 @@ fn pages_print_what_they_say() {
 #[test]
 fn the_first_screen_holds_the_two_commands() {
     let text = readme();
+    assert!(text.lines().count() < 150, "the README is a first page");
     let first: Vec<&str> = text.lines().take(60).collect();
     assert!(first.iter().any(|l| l.starts_with("$ cargo run --release -- assess structures/")));
     assert!(first.contains(&"cargo test"), "`.ci/run` takes its test command from here");
@@ -181,7 +204,7 @@ fn the_first_screen_holds_the_two_commands() {
 
 #[test]
 fn the_scene_and_the_library_example_work() {
-    let text = readme();
+    let text: String = guide().into_iter().map(|(_, text)| text).collect();
     let block = |kind: &str| {
         text.split(&format!("```{kind}\n"))
             .nth(1)
@@ -189,11 +212,62 @@ fn the_scene_and_the_library_example_work() {
             .unwrap()
             .to_string()
     };
-    let (scene, _) = voussoir::scene::read_str("README.md", block("json")).unwrap();
+    let (scene, _) = voussoir::scene::read_str("docs/guide/scenes.md", block("json")).unwrap();
     let model = voussoir::interface::prepare(&scene).unwrap();
     assert_eq!(model.assembly.blocks.len(), 30);
     let tour = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/lib.rs")).unwrap();
     for line in block("rust").lines() {
         assert!(tour.contains(line), "the crate tour in src/lib.rs does not hold: {line}");
     }
+}
+
+/// Markdown files of the checkout.
+fn pages(folder: &Path, list: &mut Vec<PathBuf>) {
+    const BUILT: [&str; 4] = ["target", "node_modules", ".git", ".venv"];
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.is_dir() && !BUILT.contains(&name.as_str()) {
+            pages(&path, list);
+        } else if name.ends_with(".md") {
+            list.push(path);
+        }
+    }
+}
+
+/// Targets of the links of a page, code left out.
+fn targets(text: &str) -> Vec<String> {
+    let mut inside = false;
+    let prose = text.lines().filter(|line| {
+        let fence = line.trim_start().starts_with("```");
+        inside ^= fence;
+        !inside && !fence
+    });
+    prose
+        .flat_map(|line| line.split('`').step_by(2).map(str::to_string).collect::<Vec<_>>())
+        .flat_map(|words| {
+            let links = words.split("](").skip(1);
+            links.filter_map(|l| l.split(')').next().map(str::to_string)).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+#[test]
+fn links_inside_the_repository_lead_somewhere() {
+    let mut list = Vec::new();
+    pages(root(), &mut list);
+    let mut links = 0;
+    for page in list {
+        let text = std::fs::read_to_string(&page).unwrap();
+        for target in targets(&text) {
+            if target.contains("://") || target.starts_with("mailto:") || target.starts_with('#') {
+                continue;
+            }
+            let file = target.split('#').next().unwrap();
+            let there = page.parent().unwrap().join(file);
+            assert!(there.exists(), "{}: the link to {target} leads nowhere", page.display());
+            links += 1;
+        }
+    }
+    assert!(links > 100, "only {links} links found");
 }

@@ -180,7 +180,7 @@ pub(in crate::analysis) fn up_to_rest(
     {
         return answer;
     }
-    if is_forest(&at(0.0)) {
+    if answer.value.is_finite() && is_forest(&at(0.0)) {
         answer.rests_at = answer.value;
         return answer;
     }
@@ -263,7 +263,18 @@ fn climb(
         }
     }
     answer.rests_at = probe.rests_at();
-    let Some((moves_at, moving)) = probe.moves() else { return };
+    let Some((moves_at, moving)) = probe.moves() else {
+        // What lies above is little, and the bound is proved: the safe end is a value.
+        let is_near = associative.outcome == Outcome::Found
+            && answer.rests_at >= (1.0 - tolerance::REST_WITHIN) * associative.value;
+        let is_value = answer.found != Found::Undecided && answer.is_reached();
+        if let Some((rests_at, state)) = probe.rests().filter(|_| is_near && !is_value) {
+            (answer.found, answer.value) = (Found::RestsBelow, *rests_at);
+            answer.forces.clone_from(&state.forces);
+            (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
+        }
+        return;
+    };
     answer.moves_at = *moves_at;
     if !narrow {
         (answer.found, answer.value) = (Found::Undecided, f64::NAN);

@@ -14,6 +14,7 @@ use crate::{
         result::{Certificate, DryResult},
     },
     terms::{Found, Law, Outcome, StateMotion, resolution},
+    tolerance,
     verdict::{
         Evidence,
         check::{self, Claim, Findings},
@@ -55,7 +56,10 @@ pub(in crate::proof) fn dry_friction(
         {
             Findings::default()
         }
-        (None, Some(_)) if dry.found == Found::Rests && dry.rests_at == dry.value => {
+        (None, Some(_))
+            if matches!(dry.found, Found::Rests | Found::RestsBelow)
+                && dry.rests_at == dry.value =>
+        {
             Findings::default()
         }
         (Some(claim @ Claim::DryLoadFactor { value }), Some(said))
@@ -83,6 +87,11 @@ pub(in crate::proof) fn dry_friction(
         }
     };
     let status = bound.0.bound().map(|b| b.status);
+    if dry.found == Found::RestsBelow {
+        let near = |b: f64| dry.value.is_some_and(|v| v >= (1.0 - tolerance::REST_WITHIN) * b);
+        let is_near = bound.0.bound().and_then(|b| b.value).is_some_and(near);
+        require(&mut f, is_near, "the value is little below the bound");
+    }
     require(
         &mut f,
         dry.found != Found::Unlimited || status == Some(Outcome::Unbounded),

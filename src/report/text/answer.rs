@@ -350,6 +350,10 @@ fn dry(page: &mut Page, file: &ResultFile) {
             let moves = dry.moves_at.map(|m| format!(", and no longer at {}", words(m))).unwrap_or_default();
             format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves}: the forces that the bound needs are not such as the loads produce. Computed, not proved.", words(v))
         }
+        (Found::RestsBelow, Some(v)) => format!(
+            "With dry friction (joints slide without opening) the blocks come to rest up to {}; what they do between there and the bound did not come out. Computed, not proved.",
+            words(v)
+        ),
         (Found::NotAtRest, _) => "With dry friction there is no load factor: already without the load the blocks do not come to rest, for the forces that hold them would need a pre-stress that nobody applied. Computed, not proved.".to_string(),
         (Found::FixedPoint, Some(v)) => {
             let others = if status(&file.answer) == Outcome::Found { ", none above the associative one" } else { "" };
@@ -408,7 +412,9 @@ fn dry_of(file: &ResultFile) -> Dry {
             (Found::NotAtRest, _) => Dry::Never,
             (Found::Unlimited, _) => Dry::Same,
             (Found::NothingSlides, Some(_)) if d.is_reached() => Dry::Same,
-            (Found::FixedPoint | Found::Rests, Some(v)) if d.is_reached() => Dry::Other(v),
+            (Found::FixedPoint | Found::Rests | Found::RestsBelow, Some(v)) if d.is_reached() => {
+                Dry::Other(v)
+            }
             _ => d.rests_at.filter(|&r| r > 0.0).map_or(Dry::Undecided, Dry::UpTo),
         },
     }
@@ -418,7 +424,10 @@ fn dry_of(file: &ResultFile) -> Dry {
 fn dry_value(file: &ResultFile) -> Option<f64> {
     file.dry
         .as_ref()
-        .filter(|d| d.is_reached() && matches!(d.found, Found::FixedPoint | Found::Rests))?
+        .filter(|d| {
+            d.is_reached()
+                && matches!(d.found, Found::FixedPoint | Found::Rests | Found::RestsBelow)
+        })?
         .value
 }
 
@@ -465,7 +474,7 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOption
             let dry =
                 d.dry.as_ref().map(|dry| (dry.found, dry.value.map(|v| v.atan().to_degrees())));
             let dry = match dry {
-                Some((Found::FixedPoint | Found::Rests, Some(angle))) => {
+                Some((Found::FixedPoint | Found::Rests | Found::RestsBelow, Some(angle))) => {
                     format!(", with dry friction {angle:.4}°")
                 }
                 Some((Found::NotAtRest, _)) => ", with dry friction not even level".into(),

@@ -60,7 +60,7 @@ impl Answers {
         // only.
         let is_known = |d: &DryLoadFactor| match d.found {
             Found::NothingSlides | Found::FixedPoint => d.is_reached(),
-            Found::Rests => true,
+            Found::Rests | Found::RestsBelow => true,
             Found::Unlimited | Found::NotAtRest | Found::Undecided => false,
         };
         Ok(Self {
