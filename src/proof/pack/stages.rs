@@ -12,10 +12,13 @@ use crate::{
     proof::{
         answer::Answer,
         result::{Certificate, QuestionKind, ResultFile},
-        stages::{HeldForce, StageProof, StageResult, StagesAnswer, StagesResult, reactions_of},
+        stages::{
+            HeldForce, StageProof, StageResult, StagesAnswer, StagesResult, reactions_of,
+            weight_along,
+        },
     },
     scene::Scene,
-    terms::Bound,
+    terms::{Attempt, Bound},
     verdict::{Verdict, thrust::Sought},
 };
 
@@ -49,7 +52,8 @@ impl ResultFile {
             let text = "contacts between blocks that overlap or nearly touch are left out at every stage: no stage is asked again with them closed, `assess` does that for the whole scene";
             file.warnings.push(Finding::new(FindingCode::ContactIgnored, text.to_string()));
         }
-        for (stage, seconds, said) in told {
+        for (stage, seconds, said, trace) in told {
+            file.trace.extend(trace);
             file.timings.check += seconds;
             let said = said.into_iter();
             file.warnings
@@ -60,16 +64,15 @@ impl ResultFile {
     }
 }
 
-fn stage(
-    scene: &Scene,
-    whole: &Model,
-    s: &Staged,
-    told: &mut Vec<(String, f64, Vec<Finding>)>,
-) -> StageResult {
+/// Of an answer about a stage: the stage, the seconds of its check, what was said, what was tried.
+type Told = (String, f64, Vec<Finding>, Vec<Attempt>);
+
+fn stage(scene: &Scene, whole: &Model, s: &Staged, told: &mut Vec<Told>) -> StageResult {
     let model = &s.model;
     let mut proof = |mut file: ResultFile| {
         let said = std::mem::take(&mut file.warnings);
-        told.push((s.stage.name.clone(), file.timings.check, said));
+        let trace = std::mem::take(&mut file.trace);
+        told.push((s.stage.name.clone(), file.timings.check, said, trace));
         StageProof::from(file)
     };
     let verdict = proof(ResultFile::assessment(scene, model, &s.verdict));
@@ -82,10 +85,14 @@ fn stage(
     let least_forces = s.held.iter().filter_map(|end| {
         let Sought::Thrust(at) = end.at else { return None };
         let ThrustEnd { outcome, value, bracket, .. } = **end;
+        let least = Bound::new(outcome, value, bracket);
+        let weight = weight_along(model, at.support, at.direction);
         Some(HeldForce {
             block: model.assembly.blocks[at.support].id.clone(),
             direction: at.direction,
-            least: Bound::new(outcome, value, bracket),
+            needed: HeldForce::needed(&least, weight),
+            least,
+            weight,
             certificate: certificate(model, end),
         })
     });

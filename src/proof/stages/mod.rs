@@ -4,9 +4,9 @@
 
 mod verify;
 
-#[cfg(feature = "solve")]
-pub(super) use verify::reactions_of;
 pub(super) use verify::verify;
+#[cfg(feature = "solve")]
+pub(super) use verify::{reactions_of, weight_along};
 
 use super::{
     answer::{Answer, FactorStatus, LoadFactorAnswer, TiltAnswer},
@@ -16,7 +16,7 @@ use super::{
     },
 };
 use crate::{
-    terms::{Bound, Doubt},
+    terms::{Bound, Doubt, Outcome},
     verdict::{Verdict, exact::Grade},
 };
 use schemars::JsonSchema;
@@ -124,8 +124,15 @@ pub struct HeldForce {
     pub block: String,
     /// Unit direction: down, or outwards.
     pub direction: [f64; 3],
-    /// The least force of the other blocks on it along that, N; its own weight is not in it.
+    /// The least force of the other blocks on it along that, N; its own weight is not in it. Below
+    /// zero: they can push it the other way.
     pub least: Bound,
+    /// Its own weight along that, N.
+    pub weight: f64,
+    /// The least force that holds it against that, N: 0 where the others can do without. Nothing
+    /// where the least force did not come out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub needed: Option<f64>,
     /// The evidence.
     pub certificate: Certificate,
 }
@@ -155,6 +162,17 @@ pub struct StageProof {
     /// The forces in the members, of the forces that prove the answer.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberLine>,
+}
+
+impl HeldForce {
+    /// What holds a block against the others and its own weight, as far as it must.
+    pub fn needed(least: &Bound, weight: f64) -> Option<f64> {
+        match (least.status, least.value) {
+            (Outcome::Found, Some(value)) => Some((weight + value).max(0.0)),
+            (Outcome::Unbounded, _) => Some(0.0),
+            _ => None,
+        }
+    }
 }
 
 impl From<ResultFile> for StageProof {

@@ -159,6 +159,13 @@ fn file(proof: &StageProof, scene: &Scene, model: &Model) -> ResultFile {
     }
 }
 
+/// The weight of a block along a direction, N; what is rounding is nothing.
+pub(in crate::proof) fn weight_along(model: &Model, block: usize, direction: [f64; 3]) -> f64 {
+    let gravity = model.assembly.gravity;
+    let share = gravity.normalize().dot(&Vector3::from(direction));
+    if share.abs() <= tolerance::ALONG { 0.0 } else { model.assembly.weight(block) * share }
+}
+
 /// The reactions that the forces of a proof make on everything that does not move.
 pub(in crate::proof) fn reactions_of(model: &Model, evidence: &Certificate) -> Vec<Reaction> {
     let Ok((forces, _)) = evidence.read(model) else { return Vec::new() };
@@ -216,6 +223,11 @@ fn least(held: &HeldForce, model: &Model, fits: bool) -> Findings {
     };
     let Bound { status, value, lower, upper } = held.least;
     let own = ThrustAt { support, direction: held.direction };
+    let weight = weight_along(model, support, held.direction);
+    let near = |a: f64, b: f64| (a - b).abs() <= tolerance::SAVED * model.assembly.weight(support);
+    let follows =
+        near(weight, held.weight) && held.needed == HeldForce::needed(&held.least, held.weight);
+    require(&mut f, follows, "what holds it follows from that and its weight");
     let along = (Vector3::from(held.direction).norm() - 1.0).abs() <= tolerance::ALONG;
     require(&mut f, along, "its direction is a unit one");
     let said = match (status, evidence.claim) {

@@ -9,9 +9,8 @@ use crate::{
     proof::{
         answer::{FactorStatus, LoadFactorAnswer},
         result::ResultFile,
-        stages::{HeldForce, LeastMargin, StageResult, StagesAnswer, StagesResult},
+        stages::{LeastMargin, StageResult, StagesAnswer, StagesResult},
     },
-    terms::Outcome,
     verdict::Verdict,
 };
 
@@ -93,13 +92,17 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     if result.list.iter().any(|s| s.margin.is_some()) {
         page.paragraph("Margins are load factors of the live load where a stage has one, else the least tilt at which it falls.");
     }
+    if result.list.iter().any(|s| !s.least_forces.is_empty()) {
+        page.paragraph("What is held is held at least with the forces named, each for itself: with less, no forces between the blocks balance it and all that leans on it.");
+    }
 }
 
 /// The stages, what is held, and the worst in full.
 pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let Some((a, result)) = said(file) else { return };
     if let Some(worst) = result.list.iter().find(|s| s.name == a.worst) {
-        if !result.remove_each {
+        let known = a.verdict != Verdict::Stable || worst.margin.is_some();
+        if !result.remove_each && known {
             page.row("worst", [line(worst)]);
         }
         if let Some(m) = worst.verdict.mechanism.as_ref().filter(|_| !result.remove_each) {
@@ -121,14 +124,20 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             ("pre-stress", Verdict::Conditional),
             ("undecided", Verdict::Undecided),
         ] {
-            page.row(label, cut(&of(verdict), 2 * STAGES, options));
+            let list = of(verdict);
+            if !list.is_empty() {
+                page.row(label, [list.join(", ")]);
+            }
         }
     } else {
         let lines: Vec<String> = result.list.iter().map(line).collect();
         page.row("stages", cut(&lines, STAGES, options));
-        let held = result.list.iter().flat_map(|s| s.least_forces.iter().map(move |h| (s, h)));
-        let held: Vec<String> = held.map(|(s, h)| holds(s, h)).collect();
-        page.row("held", cut(&held, STAGES, options));
+        let held = result.list.iter().flat_map(|s| {
+            let touching = |id: &&String| s.least_forces.iter().any(|h| h.block == **id);
+            s.held.iter().filter(touching).map(move |id| (s, id))
+        });
+        let held: Vec<String> = held.map(|(s, id)| holds(s, id)).collect();
+        page.row("hold at least", cut(&held, NAMES, options));
     }
     let proved = result.list.iter().filter(|s| s.verdict.certificate.claim.is_some()).count();
     let grade = a.proof.map_or(String::new(), |g| format!("; the weakest: {g}"));
@@ -170,16 +179,22 @@ fn margin(l: &LoadFactorAnswer, what: &str, unit: &str) -> String {
         (FactorStatus::Unbounded, ..) => "no limit to its margin".into(),
         (FactorStatus::NotAtRest, ..) => "not at rest with dry friction".into(),
         (FactorStatus::Impossible, ..) => "falls whatever the load".into(),
+        (_, _, Some(low), _) if low > 0.0 => {
+            format!("margin undecided, at rest up to {}{unit}", fixed(low, 5))
+        }
         _ => "margin undecided".into(),
     }
 }
 
-/// The least force on what is held, in words.
-fn holds(s: &StageResult, h: &HeldForce) -> String {
-    let force = match (h.least.status, h.least.value) {
-        (Outcome::Found, Some(v)) => format!("at least {} N", short(v)),
-        (Outcome::Unbounded, _) => "a force without a least".into(),
-        _ => "undecided".into(),
-    };
-    format!("{}, {} along {}: {force} from the others", s.name, h.block, point(h.direction))
+/// What holds a block at least, in words.
+fn holds(s: &StageResult, id: &str) -> String {
+    let forces = s.least_forces.iter().filter(|h| h.block == id).map(|h| {
+        let against =
+            if h.weight > 0.0 { "up".into() } else { format!("against {}", point(h.direction)) };
+        match h.needed {
+            Some(v) => format!("{against} with {} N", short(v)),
+            None => format!("{against} undecided"),
+        }
+    });
+    format!("{}: {id} {}", s.name, forces.collect::<Vec<_>>().join(", "))
 }

@@ -59,7 +59,7 @@ impl View {
         let first = |i: usize| list.iter().position(|s| s.present[i]);
         let last = (list.len() - 1).max(1) as f64;
         let of = (0..self.bodies.len()).map(|i| first(i).map(|k| k as f64 / last)).collect();
-        let ends = [&list[0], &list[list.len() - 1]].map(|s| s.name.clone());
+        let ends = [1, list.len()].map(|k| format!("stage {k}"));
         self.values = Some(ViewValues { name: "Stage at which it comes".into(), ends, of });
     }
 
