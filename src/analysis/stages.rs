@@ -20,6 +20,7 @@ use crate::{
     verdict::{
         Verdict,
         thrust::{Extreme, ThrustAt},
+        tilted::no_tilt,
     },
 };
 
@@ -44,6 +45,8 @@ pub struct Staged {
     /// Where it stands and that was asked: [`Answer::Limit`] of its live load where it has one,
     /// else [`Answer::Tilt`].
     pub margin: Option<Answer>,
+    /// Why there is none although it was asked for.
+    pub no_margin: Option<String>,
     /// Where it stands and that was asked: the least forces on blocks that it holds and that touch
     /// free ones.
     pub held: Vec<Proved<ThrustEnd>>,
@@ -81,7 +84,9 @@ fn staged(
     let model = at_stage(scene, whole, stage)?;
     let verdict = assess(&model, control);
     let stands = verdict.verdict == Verdict::Stable;
-    let margin = (stands && !options.skip_margin && !options.remove_each)
+    let asked = stands && !options.skip_margin && !options.remove_each;
+    let no_margin = if asked { no_tilt(&model) } else { None };
+    let margin = (asked && no_margin.is_none())
         .then(|| margin(options, scene, &model, control))
         .transpose()?;
     let held = match stands && !options.skip_held {
@@ -90,7 +95,7 @@ fn staged(
     };
     let doubt = doubt(&Answer::Assess(verdict.clone()), &model, control)
         .or_else(|| margin.as_ref().and_then(|m| doubt(m, &model, control)));
-    Ok(Staged { stage: stage.clone(), model, verdict, margin, held, doubt })
+    Ok(Staged { stage: stage.clone(), model, verdict, margin, no_margin, held, doubt })
 }
 
 /// The load factor of the live load, or else the least tilt.

@@ -102,6 +102,7 @@ fn stage(scene: &Scene, whole: &Model, s: &Staged, told: &mut Vec<Told>) -> Stag
         held: whole.ids(&s.stage.holds().collect::<Vec<_>>()),
         verdict,
         margin,
+        no_margin: s.no_margin.clone(),
         reactions,
         least_forces: least_forces.collect(),
         doubt: s.doubt.clone(),

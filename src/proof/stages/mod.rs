@@ -92,6 +92,9 @@ pub struct StageResult {
     /// tilt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub margin: Option<StageProof>,
+    /// Why it has no margin although that was asked: loads that no tilt can turn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_margin: Option<String>,
     /// Where it stands: the forces of its proof on supports and on what it holds. They are one
     /// state of equilibrium among others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

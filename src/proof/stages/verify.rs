@@ -18,6 +18,7 @@ use crate::{
         check::{self, Claim, Findings},
         evidence::read_rates,
         thrust::{Extreme, ThrustAt},
+        tilted::no_tilt,
     },
 };
 use nalgebra::Vector3;
@@ -47,7 +48,7 @@ pub(in crate::proof) fn verify(
         "what is said of all follows from what is said of each",
     );
     let standing = || result.list.iter().filter(|s| s.stands() == Verdict::Stable);
-    let with = standing().filter(|s| s.margin.is_some()).count();
+    let with = standing().filter(|s| s.margin.is_some() || s.no_margin.is_some()).count();
     require(
         &mut f,
         with == 0 || with == standing().count(),
@@ -78,6 +79,9 @@ fn one(all: &mut Verification, said: &StageResult, at: (&Scene, &Model), asked: 
             let kind = if live { QuestionKind::Limit } else { QuestionKind::Tilt };
             m.question == kind && said.stands() == Verdict::Stable
         });
+    let without =
+        said.no_margin.is_none() || (said.margin.is_none() && said.no_margin == no_tilt(model));
+    require(&mut f, without, "it has a margin unless no tilt can turn its loads");
     require(&mut f, form, format!("{} blocks stand", model.assembly.blocks.len()));
     let held: Vec<&str> =
         said.held.iter().map(String::as_str).filter(|id| touches(model, id)).collect();

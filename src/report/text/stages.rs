@@ -164,7 +164,8 @@ fn line(s: &StageResult) -> String {
         n if n > NAMES => format!(", {n} blocks held"),
         _ => format!(", {} held", s.held.join(", ")),
     };
-    let margin = margin.map_or(String::new(), |m| format!(", {m}"));
+    let why = || s.no_margin.as_ref().map(|why| format!("no margin: {why}"));
+    let margin = margin.or_else(why).map_or(String::new(), |m| format!(", {m}"));
     format!("{}: {verdict}{margin} ({}{held})", s.name, count(s.blocks, "block"))
 }
 
