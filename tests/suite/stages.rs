@@ -245,7 +245,7 @@ fn what_can_be_taken_out_is_what_single_verdicts_say() {
 
 #[test]
 fn forged_results_are_refused() {
-    let early = arch(8, 0.2, 0.7, 180.0, 1.0);
+    let early = arch(12, 0.2, 0.7, 180.0, 1.0);
     let good = result(&early, options());
     // The first that falls.
     let k = good.answer.stages().unwrap().stand_first;
@@ -268,7 +268,7 @@ fn forged_results_are_refused() {
     // All is said to stand.
     refuted(&|v| v["answer"]["stages"]["verdict"] = "stable".into());
     refuted(&|v| v["answer"]["stages"]["stand_first"] = 8.into());
-    refuted(&|v| v["answer"]["stages"]["worst"] = "add v0".into());
+    refuted(&|v| v["answer"]["stages"]["worst"] = "add v00".into());
     // A stage is left out, renamed, or another's proof put in its place.
     refuted(&|v| drop(v["stages"]["list"].as_array_mut().unwrap().remove(k)));
     refuted(&|v| v["stages"]["list"][k]["name"] = "painted".into());
