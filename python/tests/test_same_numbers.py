@@ -135,6 +135,21 @@ def test_earthquakes(structures: Path) -> None:
     assert len(answer.to_pandas()) == len(answer.participation["masses"])
 
 
+def test_stages(structures: Path) -> None:
+    arch = structures / "arch-without-centring.json"
+    answer = voussoir.stages(arch, toward=(1, 0))
+    expected = said("stages", arch, "--toward", "1,0")
+    assert without_time(answer.to_dict()) == without_time(expected)
+    assert isinstance(answer, voussoir.Stages)
+    assert (answer.stand_first, answer.count, answer.worst) == (4, 20, "add v04")
+    assert answer.worst_verdict is voussoir.Verdict.UNSTABLE and answer.removable is None
+    table = answer.to_pandas()
+    assert list(table["verdict"][:5]) == ["stable"] * 4 + ["unstable"]
+    assert table["tilt_deg"][:4].notna().all()
+    frame = structures / "a-frame-stands.json"
+    assert voussoir.stages(frame, remove_each=True).removable == []
+
+
 def test_packings_and_sweeps(structures: Path, tmp_path: Path) -> None:
     pile = structures / "tetrahedral-pile.json"
     packing = voussoir.repose(pile, all=4)

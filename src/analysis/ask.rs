@@ -17,6 +17,7 @@ use super::{
     },
     stability,
     stability::Packing,
+    stages::{self, Stages},
     thrust,
     thrust::Thrust,
     tilt,
@@ -49,6 +50,8 @@ pub enum Answer {
     Path(Box<Followed>),
     /// Under an earthquake: at what acceleration does it start to move?
     Kinematic(Box<Kinematic>),
+    /// Does every stage of its construction stand?
+    Stages(Box<Stages>),
     /// What happens in time?
     #[cfg(feature = "dynamics")]
     Simulate(Box<SimulationOutcome>),
@@ -145,6 +148,9 @@ fn answer(
         }
         Question::Kinematic(options) => {
             Answer::Kinematic(Box::new(kinematic::kinematic(options, scene, model, control)?))
+        }
+        Question::Stages(options) => {
+            Answer::Stages(Box::new(stages::stages(options, scene, model, control)?))
         }
         Question::Simulate(options) => simulate(options)?,
     })

@@ -67,6 +67,7 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
                 about.bound(&d.bound).or_else(|| d.dry.as_ref().and_then(dry))
             })
             .or_else(|| k.dead.as_ref().and_then(|dead| about.verdict(dead))),
+        Answer::Stages(s) => s.stages.iter().find_map(|s| s.doubt.clone()),
         // A path says itself where it ended, and why.
         Answer::Path(_) => None,
         #[cfg(feature = "dynamics")]

@@ -23,6 +23,7 @@ pub mod question;
 pub mod repose;
 pub mod reuse;
 pub mod stability;
+pub mod stages;
 pub mod thrust;
 pub mod tilt;
 
@@ -44,10 +45,11 @@ pub use limit::{LoadFactor, limit};
 pub use proved::{Claims, Proved};
 pub use question::{
     AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, PushOptions,
-    Question, ReposeOptions, SettleOptions, SimulateOptions, SupportMove, ThrustOptions,
-    TiltOptions,
+    Question, ReposeOptions, SettleOptions, SimulateOptions, StagesOptions, SupportMove,
+    ThrustOptions, TiltOptions,
 };
 pub use stability::{Packing, Stability, stability};
+pub use stages::{Stages, stages};
 pub use tilt::{Tilt, tilt};
 #[cfg(feature = "dynamics")]
 pub use {ask::ask_watched, in_time::Watch};

@@ -32,6 +32,8 @@ pub enum Question {
     Settle(SettleOptions),
     /// How does the load factor fall as it moves?
     Push(PushOptions),
+    /// Does every stage of its construction stand, and how safely?
+    Stages(StagesOptions),
     /// At what acceleration does a mechanism start under an earthquake, and how does its resistance
     /// fall as it moves? In several directions the least.
     Kinematic(KinematicOptions),
@@ -246,6 +248,30 @@ pub struct KinematicOptions {
     pub skip_dead: bool,
 }
 
+/// Options of `stages`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct StagesOptions {
+    /// How joints slide.
+    pub law: Law,
+    /// In place of the stages of the scene: the scene without each of its free blocks.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub remove_each: bool,
+    /// Tilts towards these directions, where a stage has no live load.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub toward: Vec<[f64; 3]>,
+    /// Tilts towards this many directions, evenly spread, the first along x; 8 where nothing is
+    /// said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub all: Option<u16>,
+    /// No load factors and no tilts. Rows of a sweep ask for none: a plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub skip_margin: bool,
+    /// No least forces on what is held. Rows of a sweep ask for none: a plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub skip_held: bool,
+}
+
 /// A point of a block.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -303,6 +329,10 @@ impl Question {
                 refuse("at", "must be ways from 0 on".into())
             }
             Self::Push(_) => Ok(()),
+            Self::Stages(o) if o.remove_each && (o.all.is_some() || !o.toward.is_empty()) => {
+                refuse("remove_each", "no tilts are asked for where blocks are taken out".into())
+            }
+            Self::Stages(o) => check_directions(&path, &o.toward, o.all),
             Self::Kinematic(o) if o.fc.is_some_and(|f| !(f >= 1.0 && f.is_finite())) => refuse(
                 "fc",
                 format!("a factor of confidence is at least 1, got {}", o.fc.unwrap_or(f64::NAN)),
@@ -339,6 +369,15 @@ impl Question {
                 "skip_dead",
                 "remove it: rows ask for the verdict without an earthquake where dry friction needs it, and nowhere else",
             ),
+            Self::Stages(StagesOptions { skip_margin: true, .. }) => {
+                ("skip_margin", "remove it: rows ask for no margins")
+            }
+            Self::Stages(StagesOptions { skip_held: true, .. }) => {
+                ("skip_held", "remove it: rows ask for no forces on what is held")
+            }
+            Self::Stages(o) if o.all.is_some() || !o.toward.is_empty() => {
+                (if o.all.is_some() { "all" } else { "toward" }, "remove it: rows ask for no tilts")
+            }
             Self::Kinematic(KinematicOptions { linear: true, .. }) => {
                 ("linear", "remove it: rows show α0, and ask for no curve")
             }
@@ -362,6 +401,7 @@ impl Question {
             Self::Settle(_) => "settle",
             Self::Push(_) => "push",
             Self::Kinematic(_) => "kinematic",
+            Self::Stages(_) => "stages",
         }
     }
 
@@ -375,6 +415,7 @@ impl Question {
             Self::Thrust(o) => o.law,
             Self::Repose(o) => o.law,
             Self::Kinematic(o) => o.law,
+            Self::Stages(o) => o.law,
             // What slides in time does not open.
             Self::Simulate(_) => Law::Coulomb,
             // Hinges alone are followed, which are the same for both.
@@ -390,7 +431,8 @@ impl Question {
             | Self::Thrust(_)
             | Self::Simulate(_)
             | Self::Settle(_)
-            | Self::Push(_) => None,
+            | Self::Push(_)
+            | Self::Stages(_) => None,
             Self::Limit(o) => o.require,
             Self::Tilt(o) => o.require,
             Self::Repose(o) => o.require,
@@ -414,6 +456,8 @@ impl Question {
             Self::Repose(_) => Some("angle of maximum stability in degrees"),
             Self::Settle(_) => Some("share of the movement up to which it stands"),
             Self::Kinematic(_) => Some("α0"),
+            Self::Stages(o) if o.remove_each => Some("blocks that may be taken out"),
+            Self::Stages(_) => Some("stages that stand before the first that does not"),
             Self::Push(_) => Some("way of the control point up to which it resists in m"),
         }
     }
@@ -432,6 +476,9 @@ impl Question {
                 linear: true,
                 ..o
             }),
+            Self::Stages(o) => {
+                Self::Stages(StagesOptions { skip_margin: true, skip_held: true, ..o })
+            }
             other => other,
         }
     }

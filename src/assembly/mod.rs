@@ -11,13 +11,17 @@ mod plausible;
 mod polyhedron;
 mod pose;
 mod resolve;
+mod stage;
 
 pub use gyration::Gyration;
 pub use joint::{JointLaw, JointRules};
 pub use member::{Action, Anchor, BlockFace, DowelPlan, Member, MemberKind, MemberPlan, StripPlan};
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
 pub use pose::Pose;
-pub use resolve::{Blocks, resolve, resolve_blocks, resolve_until, resolve_with};
+pub use resolve::{
+    Blocks, asked_stages, resolve, resolve_blocks, resolve_until, resolve_with, stages, with_loads,
+};
+pub use stage::Stage;
 
 use crate::{
     error::{Finding, JsonPath},

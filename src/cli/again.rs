@@ -1,8 +1,8 @@
 //! The options that would have to be given again for the same answer, as typed.
 
 use super::args::{
-    Assess, Common, Critical, Curve, DIRECTIONS, Kinematic, Law, Push, Settle, Simulate, Thrust,
-    Tilt,
+    Assess, Common, Critical, Curve, DIRECTIONS, Kinematic, Law, Push, Settle, Simulate, Stages,
+    Thrust, Tilt,
 };
 use voussoir::sweep::Between;
 
@@ -109,6 +109,23 @@ impl Kinematic {
         let linear = self.linear.then(|| "--linear".to_string());
         let more = [all, control, fc, at(&self.at), linear].into_iter().flatten();
         toward.chain(more).chain(skip_dead(self.skip_dead)).collect()
+    }
+}
+
+impl Stages {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let toward = self.toward.iter().map(|[x, y, z]| {
+            if *z == 0.0 { format!("--toward {x},{y}") } else { format!("--toward {x},{y},{z}") }
+        });
+        let all = self.all.map(|n| format!("--all {n}"));
+        let given = [
+            (self.remove_each, "--remove-each"),
+            (self.skip_margin, "--skip-margin"),
+            (self.skip_held, "--skip-held"),
+        ];
+        let words = given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string());
+        toward.chain(all).chain(words).collect()
     }
 }
 

@@ -31,6 +31,7 @@ pub mod run;
 pub mod schema;
 pub mod simulate;
 mod slurm;
+pub mod stages;
 pub mod study;
 pub mod sweep;
 pub mod terminal;

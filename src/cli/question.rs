@@ -23,7 +23,7 @@ use voussoir::{
     limits,
     proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, work::Work},
     report::{
-        json, kinematic, page,
+        json, kinematic, page, stages,
         text::{self, Asked, TextOptions},
         view::View,
     },
@@ -38,6 +38,8 @@ pub enum Seen {
     Scene(Vec<Frame>),
     /// Something else.
     Other(Box<View>),
+    /// The scene with the evidence of the answer on a page, and this in pictures.
+    Drawn(Box<View>),
 }
 
 /// A scene that is ready for a question.
@@ -276,24 +278,29 @@ impl<'a> Session<'a> {
             save.write(&json::pretty(&file)?)?;
         }
         if self.is_filmed() {
-            let mut view = match seen {
-                Seen::Scene(film) => View::new(&self.model, &file, film)?,
-                Seen::Other(view) => *view,
+            let (mut view, drawn) = match seen {
+                Seen::Scene(film) => (View::new(&self.model, &file, film)?, None),
+                Seen::Other(view) => (*view, None),
+                Seen::Drawn(view) => (View::new(&self.model, &file, Vec::new())?, Some(*view)),
             };
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
-                let charts: Vec<_> =
-                    [kinematic::page_chart(&file), page::curve(&file), page::attempts(&file)]
-                        .into_iter()
-                        .flatten()
-                        .collect();
+                let charts: Vec<_> = [
+                    kinematic::page_chart(&file),
+                    stages::page_chart(&file),
+                    page::curve(&file),
+                    page::attempts(&file),
+                ]
+                .into_iter()
+                .flatten()
+                .collect();
                 report.write(&page::page(&text, &view, &charts)?)?;
             }
             if !matches!(file.question, Kind::Simulate | Kind::Settle | Kind::Push) {
                 // A verdict is drawn with its mechanism, whatever else was seen.
                 view.film.clear();
             }
-            self.pictures.write(&view)?;
+            self.pictures.write(drawn.as_ref().unwrap_or(&view))?;
         }
         if self.common.json {
             terminal::print(&json::pretty(&file)?)?;

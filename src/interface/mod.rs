@@ -20,6 +20,7 @@ mod plane;
 mod reach;
 mod shrink;
 mod spheres;
+mod stage;
 mod tally;
 #[cfg(test)]
 mod tests;
@@ -31,6 +32,7 @@ pub use model::{Model, Timings, closed, prepare, prepare_until};
 pub use parts::{Members, Part, Units, members, parts};
 pub(crate) use plane::Plane;
 pub use reach::{floating, is_forest};
+pub use stage::at_stage;
 
 use crate::{
     assembly::{JointLaw, Member},

@@ -3,7 +3,7 @@
 
 use super::{
     critical::CriticalValue, kinematic::KinematicAnswer, path::PathAnswer, result::DryResult,
-    thrust::ThrustAnswer,
+    stages::StagesAnswer, thrust::ThrustAnswer,
 };
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
@@ -30,6 +30,8 @@ pub enum Answer {
     Path(Box<PathAnswer>),
     /// Under an earthquake: at what acceleration it starts to move, and what then.
     Kinematic(Box<KinematicAnswer>),
+    /// Does every stage of its construction stand, and how safely?
+    Stages(Box<StagesAnswer>),
     /// What became of it in time, beside the verdict where that was asked.
     Simulation(Fate, Option<VerdictAnswer>),
 }
@@ -196,6 +198,7 @@ impl Answer {
             Self::Limit(a) => a.verdict,
             Self::Tilt(a) => a.verdict,
             Self::Kinematic(a) => a.verdict,
+            Self::Stages(a) => Some(a.verdict),
             Self::Critical(_) | Self::Thrust(_) | Self::Path(_) | Self::Simulation(_, None) => None,
         }
     }
@@ -252,6 +255,14 @@ impl Answer {
     pub fn path(&self) -> Option<&PathAnswer> {
         match self {
             Self::Path(a) => Some(a),
+            _ => None,
+        }
+    }
+
+    /// What its stages do.
+    pub fn stages(&self) -> Option<&StagesAnswer> {
+        match self {
+            Self::Stages(a) => Some(a),
             _ => None,
         }
     }
@@ -334,6 +345,9 @@ pub(super) struct Flat {
     /// What an earthquake does.
     #[serde(skip_serializing_if = "Option::is_none")]
     kinematic: Option<Box<KinematicAnswer>>,
+    /// What its stages do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stages: Option<Box<StagesAnswer>>,
 }
 
 impl JsonSchema for Answer {
@@ -377,6 +391,7 @@ impl From<Answer> for Flat {
             Answer::Thrust(thrust) => Self { thrust: Some(thrust), ..Self::default() },
             Answer::Path(path) => Self { path: Some(path), ..Self::default() },
             Answer::Kinematic(a) => Self { kinematic: Some(a), ..Self::default() },
+            Answer::Stages(a) => Self { stages: Some(a), ..Self::default() },
         }
     }
 }
@@ -402,6 +417,7 @@ impl TryFrom<Flat> for Answer {
             thrust,
             path,
             kinematic,
+            stages,
         } = flat;
         let alone_in_all = verdict.is_none()
             && law.is_none()
@@ -415,10 +431,11 @@ impl TryFrom<Flat> for Answer {
             && tilt_deg.is_none()
             && critical.is_none()
             && thrust.is_none();
-        match (path, kinematic) {
-            (None, None) => {}
-            (Some(path), None) if alone_in_all => return Ok(Self::Path(path)),
-            (None, Some(a)) if alone_in_all => return Ok(Self::Kinematic(a)),
+        match (path, kinematic, stages) {
+            (None, None, None) => {}
+            (Some(path), None, None) if alone_in_all => return Ok(Self::Path(path)),
+            (None, Some(a), None) if alone_in_all => return Ok(Self::Kinematic(a)),
+            (None, None, Some(a)) if alone_in_all => return Ok(Self::Stages(a)),
             _ => return Err(MIXED),
         }
         let alone = verdict.is_none() && part.is_none() && proof.is_none();

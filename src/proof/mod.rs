@@ -13,6 +13,7 @@ pub mod path;
 pub mod read;
 pub mod result;
 pub mod simulation;
+pub mod stages;
 pub mod thrust;
 pub mod verification;
 pub mod verify;

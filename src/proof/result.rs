@@ -8,6 +8,7 @@ use super::{
     member::{MemberLine, MemberWords},
     path::PathResult,
     simulation::Simulation,
+    stages::StagesResult,
     thrust::ThrustResult,
     work::Work,
 };
@@ -74,6 +75,9 @@ pub struct ResultFile {
     /// Settle, push and kinematic: the curve, every point with its evidence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<PathResult>,
+    /// Stages: every one with its evidence.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stages: Option<StagesResult>,
     /// What happened in time, where it was simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub simulation: Option<Simulation>,
@@ -127,6 +131,8 @@ pub enum QuestionKind {
     Push,
     /// Under an earthquake: at what acceleration does it start to move, and what then?
     Kinematic,
+    /// Does every stage of its construction stand?
+    Stages,
 }
 
 /// The scene a result is about.

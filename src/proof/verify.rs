@@ -10,7 +10,7 @@ use super::{
     answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
     critical, kinematic, member, part, path,
     result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
-    thrust,
+    stages, thrust,
 };
 use crate::{
     error::{Finding, FindingCode, InputError},
@@ -113,10 +113,12 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         QuestionKind::Thrust => thrust::verify(&mut all, file, model),
         QuestionKind::Settle | QuestionKind::Push => path::verify(&mut all, file, model),
         QuestionKind::Kinematic => kinematic::verify(&mut all, file, scene, model),
+        QuestionKind::Stages => stages::verify(&mut all, file, scene, model),
     }
     let strangers = [
         file.question != QuestionKind::Critical && file.critical.is_some(),
         file.question != QuestionKind::Thrust && file.thrust.is_some(),
+        file.question != QuestionKind::Stages && file.stages.is_some(),
         !matches!(
             file.question,
             QuestionKind::Settle | QuestionKind::Push | QuestionKind::Kinematic
@@ -151,6 +153,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             | QuestionKind::Critical
             | QuestionKind::Thrust
             | QuestionKind::Settle
+            | QuestionKind::Stages
             | QuestionKind::Push => failure("the file holds a load factor that was not asked for"),
             _ => again::dry_friction(
                 &|_| Ok(model.clone()),

@@ -11,6 +11,7 @@ pub mod json;
 pub mod kinematic;
 pub mod page;
 pub mod path;
+pub mod stages;
 pub mod study;
 pub mod sweep;
 pub mod table;

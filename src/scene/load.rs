@@ -36,6 +36,9 @@ pub struct PushingMass {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
+    /// A name by which stages add and remove it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub id: Option<String>,
     /// The loaded block; every free block where absent (`acceleration` and `weight` only).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub block: Option<String>,

@@ -18,6 +18,7 @@ mod read;
 mod schema;
 pub mod site;
 mod source;
+mod stage;
 mod suggest;
 pub mod template;
 
@@ -36,6 +37,7 @@ pub use read::{read_bytes, read_file, read_str};
 pub use schema::schema;
 pub use site::Site;
 pub use source::Source;
+pub use stage::StageSpec;
 pub(crate) use suggest::suggest;
 pub use template::Template;
 
@@ -99,6 +101,10 @@ pub struct Scene {
     /// The earthquakes of the place where it stands. `kinematic` alone asks for them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub site: Option<Site>,
+    /// Stages of construction, in order; the scene itself is all that ever stands. `stages` alone
+    /// asks for them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<StageSpec>,
 }
 
 /// 9.81 m/s² downward.
@@ -122,6 +128,7 @@ impl Default for Scene {
             members: Vec::new(),
             contact: ContactSpec::default(),
             site: None,
+            stages: Vec::new(),
         }
     }
 }

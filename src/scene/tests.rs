@@ -326,6 +326,7 @@ fn load() -> impl Strategy<Value = Load> {
         some(vector()),
     )
         .prop_map(|(block, force, moment, at, [arm, massless], acceleration, weight)| Load {
+            id: None,
             road: None,
             block,
             force,

@@ -3,7 +3,7 @@
 use super::{Parameter, Plan, Shard, Sweep};
 use crate::{
     analysis::{
-        Answer, Assessment, Critical, LoadFactor, Outcome, Proved, Tilt,
+        Answer, Assessment, Critical, LoadFactor, Outcome, Proved, Stages, Tilt,
         coulomb::{DryLoadFactor, Found},
         critical::{Method, Scanned},
         follow::{
@@ -198,12 +198,30 @@ impl RowAnswer {
                 toward: Some(d.quake.toward.into()),
                 ..Self::of_load_factor(&d.bound, d.dry.as_ref(), |lambda| lambda)
             })),
+            Answer::Stages(s) => Self::of_stages(s),
             Answer::Simulate(outcome) => Self::of(match outcome.fate {
                 Fate::Stands => RowStatus::Stable,
                 Fate::Falls => RowStatus::Unstable,
                 Fate::Undecided => RowStatus::Undecided,
             }),
         }
+    }
+
+    /// How many stages stand, from the first on, with the verdict of the worst; of blocks taken out
+    /// how many may be.
+    fn of_stages(s: &Stages) -> Self {
+        let verdicts = || s.stages.iter().map(|s| s.verdict.verdict);
+        let first = verdicts().take_while(|v| *v == Verdict::Stable).count();
+        let all = verdicts().filter(|v| *v == Verdict::Stable).count();
+        let open = verdicts().any(|v| v == Verdict::Undecided);
+        let status = match verdicts().nth(first) {
+            _ if s.remove_each && open => RowStatus::Undecided,
+            _ if s.remove_each => RowStatus::Found,
+            Some(Verdict::Undecided) => RowStatus::Undecided,
+            _ => RowStatus::Found,
+        };
+        let value = if s.remove_each { all } else { first } as f64;
+        Self { value: (status == RowStatus::Found).then_some(value), ..Self::of(status) }
     }
 
     /// How far it goes: between where it is proved to stand and where to fall. Without an end there

@@ -83,3 +83,17 @@ pub(crate) fn stressed(interfaces: &Interfaces, load_factor: f64) -> Interfaces 
     let by = 1f64.hypot(if load_factor.is_finite() { load_factor } else { 0.0 });
     if are_dry(interfaces) { interfaces.clone() } else { with_stresses(interfaces, by) }
 }
+
+/// Why a scene without a live load has no tilt at which it falls; nothing where it has one, or has
+/// a live load.
+pub fn no_tilt(model: &Model) -> Option<String> {
+    let assembly = &model.assembly;
+    if assembly.live.iter().any(|w| *w != Wrench::zero()) {
+        return None;
+    }
+    let down = assembly.gravity.normalize();
+    let across = [Vector3::x(), Vector3::y()].map(|axis| axis - down * down.dot(&axis));
+    let [x, y] = across;
+    let toward = if x.norm() > y.norm() { x } else { y };
+    tilted(model, toward.normalize(), 0.0).err().map(|e| e.message)
+}

@@ -47,6 +47,7 @@ mod rocking;
 mod same;
 mod scenes;
 mod schema;
+mod stages;
 mod strength;
 mod sweep;
 mod symmetry;

@@ -773,6 +773,64 @@ class Kinematic(Answer):
         return pandas.DataFrame((self.participation or {}).get("masses", []))
 
 
+class Stages(Answer):
+    """Does every stage of its construction stand, and how safely?"""
+
+    question = "stages"
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        own: dict[str, Any] = self._answer["stages"]
+        return own
+
+    @property
+    def worst(self) -> str:
+        """The worst stage."""
+        return str(self._own["worst"])
+
+    @property
+    def worst_verdict(self) -> Verdict:
+        """Its verdict."""
+        return Verdict(self._own["verdict"])
+
+    @property
+    def count(self) -> int:
+        """How many stages there are."""
+        return int(self._own["stages"])
+
+    @property
+    def stand_first(self) -> int:
+        """How many stand, from the first on."""
+        return int(self._own["stand_first"])
+
+    @property
+    def removable(self) -> list[str] | None:
+        """Of blocks taken out one at a time, those without which the rest stands."""
+        return self._own.get("removable")
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The stages, one row a stage: name, verdict, blocks, load factor, tilt in degrees."""
+        import pandas
+
+        def margin(stage: dict[str, Any], key: str) -> float | None:
+            answer = stage.get("margin", {}).get("answer", {})
+            value: float | None = answer.get(key, {}).get("value")
+            return value
+
+        rows = [
+            {
+                "name": stage["name"],
+                "verdict": stage["verdict"]["answer"]["verdict"],
+                "blocks": stage["blocks"],
+                "held": stage.get("held", []),
+                "load_factor": margin(stage, "load_factor"),
+                "tilt_deg": margin(stage, "tilt_deg"),
+            }
+            for stage in self.to_dict()["stages"]["list"]
+        ]
+        return pandas.DataFrame(rows)
+
+
 class Simulation(Answer):
     """What happens in time? A second opinion, not a proof."""
 
@@ -850,6 +908,7 @@ _KINDS: dict[str, type[Answer]] = {
     "settle": Path,
     "push": Path,
     "kinematic": Kinematic,
+    "stages": Stages,
     "simulate": Simulation,
 }
 

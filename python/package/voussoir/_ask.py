@@ -18,6 +18,7 @@ from ._answers import (
     Packing,
     Path,
     Simulation,
+    Stages,
     Thrust,
     Tilt,
     of_core,
@@ -341,6 +342,47 @@ def kinematic(
         options["fc"] = float(fc)
     question = {"kinematic": options}
     return Kinematic(
+        _ask(scene, question, keep_all=keep_all, time_limit=time_limit, progress=progress)
+    )
+
+
+def stages(
+    scene: SceneLike,
+    *,
+    remove_each: bool = False,
+    toward: Vector | Sequence[Vector] | None = None,
+    all: int | None = None,
+    skip_margin: bool = False,
+    skip_held: bool = False,
+    law: Law = "coulomb",
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Stages:
+    """Does every stage of its construction stand, and how safely?
+
+    Parameters
+    ----------
+    remove_each : bool
+        In place of the stages of the scene: the scene without each of its free blocks.
+    toward : two or three numbers, or several of them, optional
+        Directions of tilts, where a stage has no live load.
+    all : int, optional
+        This many directions instead, evenly spread; 8 where nothing is said.
+    skip_margin : bool
+        No load factors and no tilts.
+    skip_held : bool
+        No least forces on what stages hold.
+    """
+    options: dict[str, Any] = {
+        "law": law,
+        "remove_each": remove_each,
+        **_directions(toward, all),
+        "skip_margin": skip_margin,
+        "skip_held": skip_held,
+    }
+    question = {"stages": options}
+    return Stages(
         _ask(scene, question, keep_all=keep_all, time_limit=time_limit, progress=progress)
     )
 

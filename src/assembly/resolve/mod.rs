@@ -14,6 +14,7 @@ mod members;
 mod prism;
 mod shape;
 mod site;
+mod stages;
 
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,8 @@ use crate::{
 };
 use nalgebra::Vector3;
 use std::collections::HashMap;
+
+pub use stages::{asked_stages, stages, with_loads};
 
 /// Resolves a scene.
 ///
@@ -120,6 +123,7 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     let (members, told) = members::resolve(scene, &assembly, &names)?;
     assembly.members = members;
     assembly.findings.extend(told);
+    stages(scene, &assembly)?;
     let mistakes = plausible::mistakes(scene, &assembly);
     assembly.findings.extend(mistakes);
     Ok(assembly)

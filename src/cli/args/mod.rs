@@ -8,6 +8,7 @@ mod path;
 mod pictures;
 mod repose;
 mod simulate;
+mod stages;
 mod study;
 mod sweep;
 
@@ -18,6 +19,7 @@ pub use path::{Curve, Push, Settle};
 pub use pictures::{Pictures, Tables};
 pub use repose::{Asked, Repose};
 pub use simulate::Simulate;
+pub use stages::Stages;
 pub use study::Study;
 pub use sweep::{Merge, Slurm, Summary, Sweep, SweepStatus, SweepVerb, Task};
 
@@ -149,6 +151,15 @@ pub enum Verb {
     /// against its spectra. Exit code 0 if α0 is found, 1 if it is below --require, the scene does not
     /// stand by itself or the site demands more, 3 if that stays open.
     Kinematic(Kinematic),
+    /// Does every stage of its construction stand, and how safely?
+    ///
+    /// The scene is all that ever stands; its "stages" add, remove, hold and release blocks, members
+    /// and loads, centring among them. Every stage is answered with its proof; where it stands, with
+    /// the load factor of its live load, or else the least tilt, and with the least forces on what it
+    /// holds. With --remove-each: which blocks can be taken out, one at a time. Exit code 0 if every
+    /// stage stands (or some block can be taken out), 1 if one does not (or none can be), 3 if that
+    /// stays open.
+    Stages(Stages),
     /// What happens in time, and does the verdict say the same?
     ///
     /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any

@@ -6,6 +6,7 @@ mod packing;
 mod path;
 #[cfg(feature = "dynamics")]
 mod simulation;
+mod stages;
 mod thrust;
 
 use super::{
@@ -74,6 +75,7 @@ impl ResultFile {
             critical: None,
             thrust: None,
             path: None,
+            stages: None,
             simulation: None,
             mechanism: None,
             members: Vec::new(),
@@ -102,6 +104,7 @@ impl ResultFile {
             Answered::Thrust(t) => Self::thrust(scene, model, t),
             Answered::Path(p) => Self::path(scene, model, p),
             Answered::Kinematic(k) => return Self::kinematic(scene, model, k),
+            Answered::Stages(s) => Self::stages(scene, model, s),
             #[cfg(feature = "dynamics")]
             Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
             Answered::Repose(_) => return None,

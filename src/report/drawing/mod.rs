@@ -69,7 +69,9 @@ pub fn svg(view: &View, aspect: Aspect) -> String {
         markup(&view.name),
         markup(&panels.iter().map(|p| p.caption.as_str()).collect::<Vec<_>>().join("; ")),
         sheet::STYLE,
-        thin(view, &paper) + if view.members.is_empty() { "" } else { members::STYLE }
+        thin(view, &paper)
+            + if view.members.is_empty() { "" } else { members::STYLE }
+            + if view.values.is_some() { sheet::VALUES } else { "" }
     );
     out.push_str(&text);
     out.push_str("</svg>\n");
@@ -110,7 +112,13 @@ fn statics(
 ) -> Panel {
     let mut sheet = Sheet::default();
     let order = order::back_to_front(view, still, paper);
-    blocks::draw(&mut sheet, view, paper, still, &order, &|_| "block");
+    blocks::draw(&mut sheet, view, paper, still, &order, &|i| view.class(i).0);
+    for i in 0..view.bodies.len() {
+        let (class, words) = view.class(i);
+        if !words.is_empty() && !view.bodies[i].support {
+            legend.add(Glyph::Swatch(class), words);
+        }
+    }
     marks::joints(&mut sheet, view, paper);
     for (class, state) in ["one", "two"].into_iter().zip(&choice.states) {
         forces::line(&mut sheet, paper, state, class);

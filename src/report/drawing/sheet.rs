@@ -28,6 +28,14 @@ text{font:14px Helvetica,Arial,sans-serif;fill:#222222}.caption{font-size:15px;t
 .joint{stroke:#cfc8ba}.ghost{stroke:#b0aca3}.one{stroke:#6cb8ff}.two{stroke:#ff9a5c}.pin{fill:#16181c}.act{stroke:#ff7d5c}\
 .load{stroke:#7ad092;fill:#7ad092}.down,.scale{stroke:#e6e6e6}.down{fill:#e6e6e6}text{fill:#e6e6e6}}";
 
+/// The same of blocks that can be taken out, and of those of which that is not known.
+pub const VALUES: &str = "\
+.goes .f0{fill:#d9f0dc}.goes .f1{fill:#c8e6cd}.goes .f2{fill:#b3d6ba}.goes .f3{fill:#9bc4a5}.goes .edge,.goes circle{stroke:#2f6b3d}\
+.open .f0{fill:#fbf0c9}.open .f1{fill:#f6e7b2}.open .f2{fill:#eadb9c}.open .f3{fill:#dbca84}.open .edge,.open circle{stroke:#7a6414}\
+@media (prefers-color-scheme:dark){\
+.goes .f0{fill:#2f5c3a}.goes .f1{fill:#285132}.goes .f2{fill:#21452a}.goes .f3{fill:#1b3922}.goes .edge,.goes circle{stroke:#8fd6a0}\
+.open .f0{fill:#6b5c22}.open .f1{fill:#5e511d}.open .f2{fill:#504518}.open .f3{fill:#423914}.open .edge,.open circle{stroke:#e6d27a}}";
+
 /// Text that grows.
 #[derive(Default)]
 pub struct Sheet {

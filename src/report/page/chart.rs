@@ -105,6 +105,10 @@ pub fn curve(file: &ResultFile) -> Option<Chart> {
 
 /// Width of the bracket against the time spent, from the attempts at each program.
 pub fn attempts(file: &ResultFile) -> Option<Chart> {
+    // Those of many scenes beside each other say nothing.
+    if file.stages.is_some() {
+        return None;
+    }
     let mut series: Vec<Series> = Vec::new();
     let mut spent = 0.0;
     // Attempts that follow each other at the same question share a line.

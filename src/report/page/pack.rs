@@ -102,6 +102,11 @@ pub(super) fn view(view: &View) -> Value {
         "states": view.states.iter().map(|s| state(s, view.joints.len(), &units)).collect::<Vec<_>>(),
         "motions": view.motions.iter().map(|m| motion(m, &units)).collect::<Vec<_>>(),
         "film": film(view, &units),
+        "values": view.values.as_ref().map(|v| json!({
+            "name": v.name,
+            "ends": v.ends,
+            "of": singles(v.of.iter().map(|v| v.unwrap_or(f64::NAN))),
+        })),
     })
 }
 
@@ -268,6 +273,8 @@ fn film(view: &View, units: &Units) -> Value {
         "quantity": view.course.quantity,
         "unit": view.course.unit,
         "way": view.course.way,
+        "words": view.course.words,
+        "hidden": wholes(view.course.hidden.iter().flatten().map(|h| usize::from(*h))),
         "far": far,
         "wide": wide,
         "shift": shares(flat(&shift).map(|v| v / far)),

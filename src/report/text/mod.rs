@@ -10,6 +10,7 @@ mod packing;
 mod page;
 mod path;
 mod simulation;
+mod stages;
 mod template;
 mod thrust;
 
@@ -72,6 +73,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     thrust::rows(&mut page, file, options);
     path::rows(&mut page, file, options);
     kinematic::rows(&mut page, file, options);
+    stages::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
@@ -185,6 +187,7 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         QuestionKind::Settle => "settle",
         QuestionKind::Push => "push",
         QuestionKind::Kinematic => "kinematic",
+        QuestionKind::Stages => "stages",
     };
     let again = if asked.options.is_empty() {
         format!("voussoir {verb} {scene}")
@@ -194,6 +197,7 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
     let look = (format!("voussoir check {scene}"), "mistakes in the scene, near misses, overlaps");
     let elsewhere = file.critical.is_some()
         || file.thrust.is_some()
+        || file.stages.is_some()
         || file.answer.path().is_some_and(|a| a.value.is_some());
     if file.question == QuestionKind::Simulate {
         return page.commands("next", &simulation::next(file, scene, &again));

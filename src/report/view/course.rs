@@ -22,6 +22,10 @@ pub struct Course {
     pub unit: &'static str,
     /// How far blocks have come in it, in words.
     pub way: &'static str,
+    /// Of stages: what each frame is; else empty.
+    pub words: Vec<String>,
+    /// Of stages: blocks that are not there, frame by frame; else empty.
+    pub hidden: Vec<Vec<bool>>,
 }
 
 impl Default for Course {
@@ -31,6 +35,8 @@ impl Default for Course {
             quantity: "Time",
             unit: "s",
             way: "way in the simulation",
+            words: Vec::new(),
+            hidden: Vec::new(),
         }
     }
 }
@@ -42,7 +48,13 @@ impl Course {
             DrivenBy::Supports(_) => ("Share of the movement", ""),
             DrivenBy::Control { .. } => ("Way of the point", "m"),
         };
-        Self { name: "path, point by point".into(), quantity, unit, way: "way on the path" }
+        Self {
+            name: "path, point by point".into(),
+            quantity,
+            unit,
+            way: "way on the path",
+            ..Self::default()
+        }
     }
 }
 

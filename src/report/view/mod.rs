@@ -9,6 +9,7 @@ mod course;
 mod film;
 mod member;
 mod motion;
+mod stages;
 mod state;
 mod surface;
 
@@ -16,6 +17,7 @@ pub use course::{Course, frames};
 pub use film::Film;
 pub use member::ViewMember;
 pub use motion::{Mark, ViewMotion, ViewPose};
+pub use stages::ViewValues;
 pub use state::{Resultant, Segment, ViewPart, ViewState};
 pub use surface::{Surface, ViewShape};
 
@@ -69,6 +71,8 @@ pub struct View {
     pub film: Vec<Frame>,
     /// What the film goes along.
     pub course: Course,
+    /// Numbers of blocks that are shown by colour.
+    pub values: Option<ViewValues>,
 }
 
 /// A block.
@@ -149,6 +153,7 @@ impl View {
         if let Some(path) = &file.path {
             view.course = Course::of(path);
         }
+        view.stage(model, file);
         view.film.retain(|f| f.blocks.len() == view.bodies.len());
         Ok(view)
     }
@@ -195,6 +200,7 @@ impl View {
             motions: Vec::new(),
             film: Vec::new(),
             course: Course::default(),
+            values: None,
             bodies,
         }
     }

@@ -5,6 +5,7 @@ const bodies = unpack(view.bodies), joints = unpack(view.joints), loads = unpack
 view.states.forEach(unpack);
 view.motions.forEach(unpack);
 if (view.film) unpack(view.film);
+if (view.values) unpack(view.values);
 const COUNT = bodies.ids.length, JOINTS = joints.a.length;
 // Resultants of each system of forces, and what the line of thrust carries.
 for (const s of view.states) {
@@ -41,6 +42,8 @@ const FAR = 0.16, NEAR = 0.05;
 // Where it can be, no block turns by more than this then, radians; those that do not may grow by 1 / cos of it, 5 %.
 const WIDEST = 0.3;
 const FILM = -2;
+// Over the size of the scene.
+const AWAY = 1e6;
 
 // Rotation and shift of each block: 8 numbers, the last one unused.
 const poses = new Float32Array(8 * COUNT);
@@ -58,6 +61,8 @@ function posed(i) {
 
 function filmed(i) {
   const film = view.film, last = film.times.length - 1, t = state.way * last, k = Math.min(Math.floor(t), last - 1), f = t - k;
+  // What is not there stands where nobody looks.
+  if (film.hidden.length && film.hidden[Math.round(t) * COUNT + i]) return [[0, 0, 0, 1], [0, 0, AWAY]];
   const mix = (list, scale) => {
     const a = at3(list, k * COUNT + i), b = at3(list, (k + 1) * COUNT + i);
     return mul(add(mul(a, 1 - f), mul(b, f)), (scale / 32767) * state.magnify);
@@ -121,6 +126,7 @@ function shade(i) {
       if (!motion) return null;
       return speeds(motion)[i];
     }
+    case "value": return view.values.of[i];
     case "moved": return farthest > 0 ? displaced(i) / farthest : 0;
     default: return null;
   }

@@ -74,7 +74,7 @@ function motionNow(value) {
   const film = value === FILM, motion = view.motions[value];
   el("play").hidden = !film && !motion;
   el("wayLabel").textContent = film ? view.film.quantity : "Motion";
-  el("magnifyBox").hidden = !film;
+  el("magnifyBox").hidden = !film || view.film.words.length > 0;
   setWay(state.way);
 }
 // Between the frames of a film: where it is, and when it is there.
@@ -95,7 +95,7 @@ function setWay(way) {
   state.way = way;
   el("way").value = Math.round(1000 * way);
   const film = state.motion === FILM;
-  const text = state.motion === -1 ? "" : film ? `${short(view.film.times[Math.round(way * (view.film.times.length - 1))], 3)} ${view.film.unit}`.trim() : way ? `${meters(way * amplitude(view.motions[state.motion]))} at the fastest corner` : "at rest";
+  const text = state.motion === -1 ? "" : film && view.film.words.length ? view.film.words[Math.round(way * (view.film.words.length - 1))] : film ? `${short(view.film.times[Math.round(way * (view.film.times.length - 1))], 3)} ${view.film.unit}`.trim() : way ? `${meters(way * amplitude(view.motions[state.motion]))} at the fastest corner` : "at rest";
   el("wayText").textContent = text;
   el("way").setAttribute("aria-valuetext", text);
   if (film && state.picked) numbers();
@@ -128,7 +128,7 @@ function choices() {
   if (view.film) motions.unshift([FILM, view.film.name]);
   el("motion").replaceChildren(...options(motions));
   el("motionBox").hidden = !motions.length;
-  const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "joint share used"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", "speed in the mechanism"], view.film && ["moved", view.film.way]].filter(Boolean);
+  const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "joint share used"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", "speed in the mechanism"], view.film && view.film.way && ["moved", view.film.way], view.values && ["value", view.values.name.toLowerCase()]].filter(Boolean);
   el("colour").replaceChildren(...options(kinds));
   if (view.film) {
     // The greatest round number that keeps the motion within a tenth of the picture.
@@ -181,7 +181,7 @@ function telling() {
 choices();
 const falls = Boolean(document.querySelector("h1.bad"));
 layer("edges");
-if (view.film) { state.way = 1; colour("moved"); motionNow(FILM); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!forcesNow() || forcesNow().lineBody.length <= CROWD) layer("line"); colour(telling()); layer("marks"); if (loads.body.length <= 24) layer("loads"); motionNow(view.motions.length ? 0 : -1); }
+if (view.film) { state.way = 1; colour("moved"); if (view.values) colour("value"); motionNow(FILM); } else if (view.values) { colour("value"); motionNow(-1); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!forcesNow() || forcesNow().lineBody.length <= CROWD) layer("line"); colour(telling()); layer("marks"); if (loads.body.length <= 24) layer("loads"); motionNow(view.motions.length ? 0 : -1); }
 el("motion").value = state.motion;
 fillList();
 numbers();

@@ -1,0 +1,75 @@
+//! `voussoir stages`
+
+use super::{
+    args::Stages as Arguments,
+    exit::Exit,
+    output::Sink,
+    question::{Seen, Session, verdict},
+    terminal::Terminal,
+};
+use voussoir::{
+    analysis::{Answer, Question, StagesOptions},
+    proof::{ResultFile, stages::StagesAnswer},
+    report::{stages, view::View},
+    verdict::Verdict,
+};
+
+pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
+    let open = |path: &Option<std::path::PathBuf>| {
+        path.as_deref().map(|p| Sink::open(Some(p))).transpose()
+    };
+    let (csv, chart) = (open(&args.csv)?, open(&args.chart)?);
+    let question = Question::Stages(StagesOptions {
+        law: session.law(),
+        remove_each: args.remove_each,
+        toward: args.toward.clone(),
+        all: args.all,
+        skip_margin: args.skip_margin,
+        skip_held: args.skip_held,
+    });
+    let answer = session.ask(&question)?;
+    let file = session.result(&question, &answer)?;
+    let seen = match worst(&session, &answer, &file) {
+        Some((model, file)) if session.pictures().wanted() => {
+            Seen::Drawn(Box::new(View::new(model, &file, Vec::new())?))
+        }
+        _ => Seen::Scene(Vec::new()),
+    };
+    let file = session.answer_seen(terminal, &args.options(), seen, file)?;
+    if let Some(csv) = csv {
+        csv.write(&stages::csv(&file)?)?;
+    }
+    if let Some(chart) = chart {
+        chart.write(&stages::chart(&file)?)?;
+    }
+    Ok(file.answer.stages().map_or(Exit::Undecided, exit))
+}
+
+/// The worst stage as a result of its own, for pictures; of blocks that are taken out nothing, for
+/// the whole scene is drawn.
+fn worst<'a>(
+    session: &Session,
+    answer: &'a Answer,
+    file: &ResultFile,
+) -> Option<(&'a voussoir::interface::Model, ResultFile)> {
+    let Answer::Stages(asked) = answer else { return None };
+    let said = file.answer.stages().filter(|_| !asked.remove_each)?;
+    let stage = asked.stages.iter().find(|s| s.stage.name == said.worst)?;
+    let mut own = ResultFile::assessment(&session.scene, &stage.model, &stage.verdict);
+    own.scene.name = format!("{}: {}", file.scene.name, said.worst);
+    Some((&stage.model, own))
+}
+
+/// Whether all stand, or some block can be taken out.
+fn exit(said: &StagesAnswer) -> Exit {
+    match &said.removable {
+        Some(list) if !list.is_empty() => Exit::Yes,
+        // Nothing can be taken out, as far as is known.
+        Some(_) if said.proof.is_none() => Exit::Undecided,
+        Some(_) => Exit::No,
+        // A margin that is negative or was not found is no yes.
+        None if said.verdict == Verdict::Stable && !said.is_safe() => Exit::Undecided,
+        None => verdict(Some(said.verdict)),
+    }
+}

@@ -1,0 +1,207 @@
+//! Stages of construction as tables and charts.
+
+use super::{
+    cells::{Cell, Table},
+    page::{Axis, Chart, Series},
+    path::PathError,
+};
+use crate::{
+    number::short,
+    proof::{
+        ResultFile,
+        answer::LoadFactorAnswer,
+        stages::{StageResult, StagesResult},
+    },
+    verdict::Verdict,
+};
+use plotters::{
+    prelude::{
+        ChartBuilder, Circle, IntoDrawingArea, PathElement, RGBColor, SVGBackend, TriangleMarker,
+        WHITE,
+    },
+    style::Color,
+};
+
+fn refused(e: impl std::fmt::Display) -> PathError {
+    PathError::new(e)
+}
+
+fn said(file: &ResultFile) -> Result<&StagesResult, PathError> {
+    file.stages.as_ref().ok_or_else(|| PathError::new("this is no result of `stages`"))
+}
+
+/// A verdict as files have it.
+fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Stable => "stable",
+        Verdict::Conditional => "conditional",
+        Verdict::Unstable => "unstable",
+        Verdict::Undecided => "undecided",
+    }
+}
+
+/// The stages, a row each: name, verdict, least unbalance (lower and upper end, g), blocks, held
+/// blocks, load factor and tilt (degrees), each with its ends, and the least force (N) down on all
+/// that is held, one by one.
+///
+/// # Errors
+/// The result is of another question.
+pub fn csv(file: &ResultFile) -> Result<String, PathError> {
+    let mut table = Table::new();
+    let head = [
+        "stage",
+        "name",
+        "verdict",
+        "unbalance_lower",
+        "unbalance_upper",
+        "blocks",
+        "held",
+        "load_factor",
+        "load_factor_lower",
+        "load_factor_upper",
+        "tilt_deg",
+        "tilt_lower",
+        "tilt_upper",
+        "least_forces",
+    ];
+    table.write_record(head).map_err(refused)?;
+    let ends = |l: Option<&LoadFactorAnswer>| -> [Cell; 3] {
+        let l = l.map_or([None; 3], |l| [l.value, l.lower, l.upper]);
+        l.map(Cell::from)
+    };
+    for (k, s) in said(file)?.list.iter().enumerate() {
+        let unbalance = s.verdict.answer.as_verdict().map(|v| v.unbalance);
+        let mut row: Vec<Cell> =
+            vec![(k + 1).into(), s.name.clone().into(), word(s.stands()).into()];
+        row.extend([unbalance.map(|u| u.lower).into(), unbalance.map(|u| u.upper).into()]);
+        row.extend([s.blocks.into(), s.held.join("; ").into()]);
+        row.extend(ends(s.load_factor()));
+        row.extend(ends(s.tilt_deg()));
+        let forces = s.least_forces.iter().map(|h| {
+            let value = h.least.value.map_or("open".to_string(), |v| v.to_string());
+            format!("{} along {:?}: {value}", h.block, h.direction)
+        });
+        row.push(forces.collect::<Vec<_>>().join("; ").into());
+        table.write_record(row).map_err(refused)?;
+    }
+    table.end().map_err(refused)
+}
+
+/// What the chart shows of stages, with its name.
+fn quantity(result: &StagesResult) -> Option<(&'static str, fn(&StageResult) -> Option<f64>)> {
+    let factor = |s: &StageResult| s.load_factor().and_then(|l| l.value);
+    let tilt = |s: &StageResult| s.tilt_deg().and_then(|l| l.value);
+    if result.list.iter().any(|s| tilt(s).is_some()) {
+        return Some(("tilt at which it falls, degrees", tilt));
+    }
+    result.list.iter().any(|s| factor(s).is_some()).then_some(("load factor", factor))
+}
+
+/// The margins stage by stage, zero where it does not stand; for the page, with its film.
+pub fn page_chart(file: &ResultFile) -> Option<Chart> {
+    let result = file.stages.as_ref()?;
+    let (name, value) = quantity(result)?;
+    let numbered = || result.list.iter().enumerate();
+    let hint = |(k, s): (usize, &StageResult)| {
+        let margin = value(s).map_or(String::new(), |v| format!(", {}", short(v)));
+        format!("{}. {}: {}{margin}", k + 1, s.name, word(s.stands()))
+    };
+    let stands = Series {
+        name: name.into(),
+        line: true,
+        points: numbered().map(|(k, s)| [Some((k + 1) as f64), value(s)]).collect(),
+        hints: numbered().map(hint).collect(),
+        ..Series::default()
+    };
+    let fallen = || numbered().filter(|(_, s)| s.stands() != Verdict::Stable);
+    let falls = Series {
+        name: "does not stand".into(),
+        points: fallen().map(|(k, _)| [Some((k + 1) as f64), Some(0.0)]).collect(),
+        hints: fallen().map(hint).collect(),
+        ..Series::default()
+    };
+    let series = [stands, falls].into_iter().filter(|s| !s.points.is_empty());
+    Some(Chart {
+        title: "Margin at every stage".into(),
+        x: Axis::new("stage", false),
+        y: Axis::new(name, false),
+        series: series.collect(),
+        film: true,
+        ..Chart::default()
+    })
+}
+
+const SIZE: (u32, u32) = (680, 420);
+
+/// The margins stage by stage as SVG; triangles at zero where a stage does not stand.
+///
+/// # Errors
+/// The result is of another question, or no stage has a margin.
+pub fn chart(file: &ResultFile) -> Result<String, PathError> {
+    let result = said(file)?;
+    let (name, value) =
+        quantity(result).ok_or_else(|| PathError::new("no stage has a margin to draw"))?;
+    let numbered = || result.list.iter().enumerate().map(|(k, s)| ((k + 1) as f64, s));
+    let points: Vec<(f64, f64)> = numbered().filter_map(|(k, s)| Some((k, value(s)?))).collect();
+    let high = points.iter().map(|p| p.1).fold(0.0, f64::max);
+    let low = points.iter().map(|p| p.1).fold(0.0, f64::min);
+    let margin = 0.06 * (high - low).max(f64::MIN_POSITIVE);
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        area.fill(&WHITE).map_err(refused)?;
+        let end = result.list.len() as f64 + 0.5;
+        let mut chart = ChartBuilder::on(&area)
+            .margin(12)
+            .caption(crate::plain::cell(&file.scene.name), ("sans-serif", 18))
+            .x_label_area_size(42)
+            .y_label_area_size(80)
+            .build_cartesian_2d(0.5..end, low - margin..high + margin)
+            .map_err(refused)?;
+        chart
+            .configure_mesh()
+            .label_style(("sans-serif", 14))
+            .x_desc("stage")
+            .y_desc(name)
+            .x_label_formatter(&|v| short(*v))
+            .y_label_formatter(&|v| short(*v))
+            .light_line_style(WHITE.mix(0.0))
+            .draw()
+            .map_err(refused)?;
+        let (blue, red) = (RGBColor(0, 114, 178), RGBColor(213, 94, 0));
+        // A line has a gap where a stage has no margin.
+        let mut run: Vec<(f64, f64)> = Vec::new();
+        for (k, s) in numbered() {
+            match value(s) {
+                Some(v) => run.push((k, v)),
+                None => draw(&mut chart, std::mem::take(&mut run), blue)?,
+            }
+        }
+        draw(&mut chart, run, blue)?;
+        chart
+            .draw_series(points.into_iter().map(|p| Circle::new(p, 3, blue.filled())))
+            .map_err(refused)?;
+        let falls = numbered().filter(|(_, s)| s.stands() != Verdict::Stable);
+        chart
+            .draw_series(falls.map(|(k, _)| TriangleMarker::new((k, 0.0), 6, red.filled())))
+            .map_err(refused)?;
+        area.present().map_err(refused)?;
+    }
+    Ok(text)
+}
+
+type Drawn<'a, 'b> = plotters::prelude::ChartContext<
+    'a,
+    SVGBackend<'b>,
+    plotters::prelude::Cartesian2d<
+        plotters::coord::types::RangedCoordf64,
+        plotters::coord::types::RangedCoordf64,
+    >,
+>;
+
+fn draw(chart: &mut Drawn, run: Vec<(f64, f64)>, colour: RGBColor) -> Result<(), PathError> {
+    if run.len() > 1 {
+        chart.draw_series([PathElement::new(run, colour.stroke_width(2))]).map_err(refused)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,201 @@
+//! Stages of construction for people: the worst first.
+
+use super::{
+    TextOptions, cut,
+    page::{Page, Role},
+};
+use crate::{
+    number::{bracketed, count, fixed, point, short},
+    proof::{
+        answer::{FactorStatus, LoadFactorAnswer},
+        result::ResultFile,
+        stages::{LeastMargin, StageResult, StagesAnswer, StagesResult},
+    },
+    verdict::Verdict,
+};
+
+/// So many stages are listed, and so many names.
+const STAGES: usize = 24;
+const NAMES: usize = 12;
+
+fn said(file: &ResultFile) -> Option<(&StagesAnswer, &StagesResult)> {
+    file.answer.stages().zip(file.stages.as_ref())
+}
+
+/// The first line.
+pub(super) fn title(file: &ResultFile) -> (String, Role) {
+    let Some((a, _)) = said(file) else { return ("undecided".into(), Role::Unsure) };
+    if let Some(removable) = &a.removable {
+        return removals(a, removable);
+    }
+    let before = match a.stand_first {
+        0 => "none before it stands".to_string(),
+        n => format!("the first {n} of {} stand", a.stages),
+    };
+    match a.verdict {
+        Verdict::Unstable => (format!("falls at {}; {before}", a.worst), Role::Bad),
+        Verdict::Conditional => {
+            (format!("stands only with a pre-stress at {}; {before}", a.worst), Role::Bad)
+        }
+        Verdict::Undecided => (format!("undecided at {}; {before}", a.worst), Role::Unsure),
+        Verdict::Stable => {
+            let least = [
+                a.least_load_factor.as_ref().map(|l| least(l, "the least load factor λ =", "")),
+                a.least_tilt_deg.as_ref().map(|l| least(l, "the least tilt", "°")),
+            ];
+            let least: Vec<String> = least.into_iter().flatten().collect();
+            let all = match a.stages {
+                1 => "stands at its only stage".to_string(),
+                n => format!("stands at all {n} stages"),
+            };
+            (std::iter::once(all).chain(least).collect::<Vec<_>>().join("; "), Role::Good)
+        }
+    }
+}
+
+/// The first line about blocks that are taken out.
+fn removals(a: &StagesAnswer, removable: &[String]) -> (String, Role) {
+    let open = a.proof.is_none();
+    let names = match removable.len() {
+        n if n > NAMES => format!("{}, …", removable[..NAMES].join(", ")),
+        _ => removable.join(", "),
+    };
+    match (removable.len(), open) {
+        (0, false) => (format!("none of {} can be taken out", count(a.stages, "block")), Role::Bad),
+        (0, true) => ("no block is proved to be one that can be taken out".into(), Role::Unsure),
+        (n, _) => {
+            let text = format!(
+                "{n} of {} can be taken out one at a time: {names}",
+                count(a.stages, "block")
+            );
+            (text, if open { Role::Unsure } else { Role::Value })
+        }
+    }
+}
+
+/// A least margin in words.
+fn least(l: &LeastMargin, what: &str, unit: &str) -> String {
+    match (l.status, l.value) {
+        (FactorStatus::Found, Some(v)) => format!("{what} {}{unit} at {}", fixed(v, 6), l.stage),
+        (FactorStatus::Unbounded, _) => format!("{what}: no limit"),
+        _ => format!("{what} undecided at {}", l.stage),
+    }
+}
+
+/// The sentences below it.
+pub(super) fn why(page: &mut Page, file: &ResultFile) {
+    let Some((_, result)) = said(file) else { return };
+    page.paragraph(match result.remove_each {
+        true => "Each block is taken out by itself and the rest asked whether it stands, with a proof. Two blocks that can each be taken out cannot always be taken out together.",
+        false => "Every stage is a scene of its own, with a proof: what stands at it, under the loads that are there, with what is held. Blocks are rigid, and stand where the scene puts them: how a stage before has settled is not in it.",
+    });
+    if result.list.iter().any(|s| s.margin.is_some()) {
+        page.paragraph("Margins are load factors of the live load where a stage has one, else the least tilt at which it falls.");
+    }
+    if result.list.iter().any(|s| !s.least_forces.is_empty()) {
+        page.paragraph("What is held is held at least with the forces named, each for itself: with less, no forces between the blocks balance it and all that leans on it.");
+    }
+}
+
+/// The stages, what is held, and the worst in full.
+pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
+    let Some((a, result)) = said(file) else { return };
+    if let Some(worst) = result.list.iter().find(|s| s.name == a.worst) {
+        let known = a.verdict != Verdict::Stable || worst.margin.is_some();
+        if !result.remove_each && known {
+            page.row("worst", [line(worst)]);
+        }
+        if let Some(m) = worst.verdict.mechanism.as_ref().filter(|_| !result.remove_each) {
+            let moving = match m.moving.len() {
+                n if n > NAMES => format!("{}, … ({n} in all)", m.moving[..NAMES].join(", ")),
+                _ => m.moving.join(", "),
+            };
+            page.row("moves", [moving]);
+        }
+    }
+    if result.remove_each {
+        let of = |v: Verdict| -> Vec<String> {
+            let list = result.list.iter().filter(|s| s.stands() == v);
+            list.map(|s| s.name.trim_start_matches("without ").to_string()).collect()
+        };
+        for (label, verdict) in [
+            ("taken out", Verdict::Stable),
+            ("falls", Verdict::Unstable),
+            ("pre-stress", Verdict::Conditional),
+            ("undecided", Verdict::Undecided),
+        ] {
+            let list = of(verdict);
+            if !list.is_empty() {
+                page.row(label, [list.join(", ")]);
+            }
+        }
+    } else {
+        let lines: Vec<String> = result.list.iter().map(line).collect();
+        page.row("stages", cut(&lines, STAGES, options));
+        let held = result.list.iter().flat_map(|s| {
+            let touching = |id: &&String| s.least_forces.iter().any(|h| h.block == **id);
+            s.held.iter().filter(touching).map(move |id| (s, id))
+        });
+        let held: Vec<String> = held.map(|(s, id)| holds(s, id)).collect();
+        page.row("hold at least", cut(&held, NAMES, options));
+    }
+    let proved = result.list.iter().filter(|s| s.verdict.certificate.claim.is_some()).count();
+    let grade = a.proof.map_or(String::new(), |g| format!("; the weakest: {g}"));
+    let text = format!(
+        "{proved} of {} proved, each from its own blocks{grade}",
+        count(a.stages, "verdict")
+    );
+    page.row("proof", [text]);
+}
+
+/// A stage in one line.
+fn line(s: &StageResult) -> String {
+    let verdict = match s.stands() {
+        Verdict::Stable => "stands",
+        Verdict::Conditional => "stands only with a pre-stress",
+        Verdict::Unstable => "falls",
+        Verdict::Undecided => "undecided",
+    };
+    let margin = s.load_factor().map(|l| margin(l, "λ =", ""));
+    let margin =
+        margin.or_else(|| s.tilt_deg().map(|l| self::margin(l, "falls at a tilt of", "°")));
+    let held = match s.held.len() {
+        0 => String::new(),
+        n if n > NAMES => format!(", {n} blocks held"),
+        _ => format!(", {} held", s.held.join(", ")),
+    };
+    let why = || s.no_margin.as_ref().map(|why| format!("no margin: {why}"));
+    let margin = margin.or_else(why).map_or(String::new(), |m| format!(", {m}"));
+    format!("{}: {verdict}{margin} ({}{held})", s.name, count(s.blocks, "block"))
+}
+
+fn margin(l: &LoadFactorAnswer, what: &str, unit: &str) -> String {
+    match (l.status, l.value, l.lower, l.upper) {
+        (FactorStatus::Found, Some(v), Some(low), Some(high))
+            if low <= v && v <= high && high - low < 1e-5 * v.abs() =>
+        {
+            format!("{what} {}{unit}", bracketed(v, low, high))
+        }
+        (FactorStatus::Found, Some(v), ..) => format!("{what} {}{unit}", fixed(v, 5)),
+        (FactorStatus::Unbounded, ..) => "no limit to its margin".into(),
+        (FactorStatus::NotAtRest, ..) => "not at rest with dry friction".into(),
+        (FactorStatus::Impossible, ..) => "falls whatever the load".into(),
+        (_, _, Some(low), _) if low > 0.0 => {
+            format!("margin undecided, at rest up to {}{unit}", fixed(low, 5))
+        }
+        _ => "margin undecided".into(),
+    }
+}
+
+/// What holds a block at least, in words.
+fn holds(s: &StageResult, id: &str) -> String {
+    let forces = s.least_forces.iter().filter(|h| h.block == id).map(|h| {
+        let against =
+            if h.weight > 0.0 { "up".into() } else { format!("against {}", point(h.direction)) };
+        match h.needed {
+            Some(v) => format!("{against} with {} N", short(v)),
+            None => format!("{against} undecided"),
+        }
+    });
+    format!("{}: {id} {}", s.name, forces.collect::<Vec<_>>().join(", "))
+}
