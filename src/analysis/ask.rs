@@ -15,6 +15,7 @@ use super::{
         CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
         directions,
     },
+    rocking::{self, Rocking},
     stability,
     stability::Packing,
     thrust,
@@ -49,6 +50,8 @@ pub enum Answer {
     Path(Box<Followed>),
     /// Under an earthquake: at what acceleration does it start to move?
     Kinematic(Box<Kinematic>),
+    /// On ground that moves: what does its mechanism do?
+    Rock(Box<Rocking>),
     /// What happens in time?
     #[cfg(feature = "dynamics")]
     Simulate(Box<SimulationOutcome>),
@@ -145,6 +148,9 @@ fn answer(
         }
         Question::Kinematic(options) => {
             Answer::Kinematic(Box::new(kinematic::kinematic(options, scene, model, control)?))
+        }
+        Question::Rock(options) => {
+            Answer::Rock(Box::new(rocking::rock(options, scene, model, control)?))
         }
         Question::Simulate(options) => simulate(options)?,
     })

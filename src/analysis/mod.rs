@@ -22,10 +22,12 @@ pub mod question;
 #[cfg(feature = "dynamics")]
 pub mod repose;
 pub mod reuse;
+pub mod rocking;
 pub mod stability;
 pub mod thrust;
 pub mod tilt;
 
+pub use crate::rocking::{RockOptions, RockPoint};
 pub use crate::terms::{Closed, Difference, Doubt, DoubtCause, LeftOutContacts};
 pub use crate::{
     terms::{Agreement, Attempt, Bracket, Deciding, ForceAgreement, Law, Outcome},
@@ -47,6 +49,7 @@ pub use question::{
     Question, ReposeOptions, SettleOptions, SimulateOptions, SupportMove, ThrustOptions,
     TiltOptions,
 };
+pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};
 pub use tilt::{Tilt, tilt};
 #[cfg(feature = "dynamics")]

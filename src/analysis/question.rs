@@ -5,6 +5,7 @@ use super::{Control, Law};
 use crate::{
     error::{InputError, JsonPath},
     path::saved::SavedPose,
+    rocking::RockOptions,
 };
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -35,6 +36,9 @@ pub enum Question {
     /// At what acceleration does a mechanism start under an earthquake, and how does its resistance
     /// fall as it moves? In several directions the least.
     Kinematic(KinematicOptions),
+    /// What does its mechanism do on ground that moves? Computed from where it starts, which is
+    /// proved.
+    Rock(RockOptions),
 }
 
 /// Options of `assess`.
@@ -314,6 +318,7 @@ impl Question {
                 refuse("at", "the linear analysis has no curve".into())
             }
             Self::Kinematic(o) => check_directions(&path, &o.toward, o.all),
+            Self::Rock(o) => o.check().map_err(|e| e.under(&path)),
         }
     }
 
@@ -343,6 +348,9 @@ impl Question {
                 ("linear", "remove it: rows show α0, and ask for no curve")
             }
             Self::Kinematic(o) if !o.at.is_empty() => ("at", "remove it: rows ask for no curve"),
+            Self::Rock(RockOptions { fate_only: true, .. }) => {
+                ("fate_only", "remove it: rows end by themselves once their fate is known")
+            }
             _ => return Ok(()),
         };
         let path = JsonPath::root().key(self.word()).key(key);
@@ -362,6 +370,7 @@ impl Question {
             Self::Settle(_) => "settle",
             Self::Push(_) => "push",
             Self::Kinematic(_) => "kinematic",
+            Self::Rock(_) => "rock",
         }
     }
 
@@ -378,7 +387,7 @@ impl Question {
             // What slides in time does not open.
             Self::Simulate(_) => Law::Coulomb,
             // Hinges alone are followed, which are the same for both.
-            Self::Settle(_) | Self::Push(_) => Law::Associative,
+            Self::Settle(_) | Self::Push(_) | Self::Rock(_) => Law::Associative,
         }
     }
 
@@ -390,7 +399,8 @@ impl Question {
             | Self::Thrust(_)
             | Self::Simulate(_)
             | Self::Settle(_)
-            | Self::Push(_) => None,
+            | Self::Push(_)
+            | Self::Rock(_) => None,
             Self::Limit(o) => o.require,
             Self::Tilt(o) => o.require,
             Self::Repose(o) => o.require,
@@ -401,7 +411,10 @@ impl Question {
     /// What the value of an answer is, with its unit; nothing where the answer is a verdict.
     pub fn quantity(&self) -> Option<&'static str> {
         match self {
-            Self::Assess(_) | Self::Simulate(_) => None,
+            Self::Rock(RockOptions { scan: Some(_), .. }) => {
+                Some("least scale at which it overturns")
+            }
+            Self::Assess(_) | Self::Simulate(_) | Self::Rock(_) => None,
             Self::Thrust(ThrustOptions { member: Some(_), greatest, .. }) => {
                 Some(if *greatest { "greatest force in N" } else { "least force in N" })
             }
@@ -432,6 +445,7 @@ impl Question {
                 linear: true,
                 ..o
             }),
+            Self::Rock(o) => Self::Rock(RockOptions { fate_only: true, ..o }),
             other => other,
         }
     }

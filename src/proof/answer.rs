@@ -3,7 +3,7 @@
 
 use super::{
     critical::CriticalValue, kinematic::KinematicAnswer, path::PathAnswer, result::DryResult,
-    thrust::ThrustAnswer,
+    rocking::RockingAnswer, thrust::ThrustAnswer,
 };
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
@@ -30,6 +30,8 @@ pub enum Answer {
     Path(Box<PathAnswer>),
     /// Under an earthquake: at what acceleration it starts to move, and what then.
     Kinematic(Box<KinematicAnswer>),
+    /// On ground that moves: what its mechanism does.
+    Rocking(Box<RockingAnswer>),
     /// What became of it in time, beside the verdict where that was asked.
     Simulation(Fate, Option<VerdictAnswer>),
 }
@@ -196,7 +198,11 @@ impl Answer {
             Self::Limit(a) => a.verdict,
             Self::Tilt(a) => a.verdict,
             Self::Kinematic(a) => a.verdict,
-            Self::Critical(_) | Self::Thrust(_) | Self::Path(_) | Self::Simulation(_, None) => None,
+            Self::Critical(_)
+            | Self::Thrust(_)
+            | Self::Path(_)
+            | Self::Rocking(_)
+            | Self::Simulation(_, None) => None,
         }
     }
 
@@ -282,6 +288,7 @@ impl Answer {
             Self::Limit(a) => a.proof,
             Self::Tilt(a) => a.proof,
             Self::Kinematic(a) => a.proof,
+            Self::Rocking(a) => a.proof,
             _ => None,
         }
     }
@@ -334,6 +341,9 @@ pub(super) struct Flat {
     /// What an earthquake does.
     #[serde(skip_serializing_if = "Option::is_none")]
     kinematic: Option<Box<KinematicAnswer>>,
+    /// What a mechanism does on ground that moves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rocking: Option<Box<RockingAnswer>>,
 }
 
 impl JsonSchema for Answer {
@@ -377,6 +387,7 @@ impl From<Answer> for Flat {
             Answer::Thrust(thrust) => Self { thrust: Some(thrust), ..Self::default() },
             Answer::Path(path) => Self { path: Some(path), ..Self::default() },
             Answer::Kinematic(a) => Self { kinematic: Some(a), ..Self::default() },
+            Answer::Rocking(a) => Self { rocking: Some(a), ..Self::default() },
         }
     }
 }
@@ -402,6 +413,7 @@ impl TryFrom<Flat> for Answer {
             thrust,
             path,
             kinematic,
+            rocking,
         } = flat;
         let alone_in_all = verdict.is_none()
             && law.is_none()
@@ -415,10 +427,11 @@ impl TryFrom<Flat> for Answer {
             && tilt_deg.is_none()
             && critical.is_none()
             && thrust.is_none();
-        match (path, kinematic) {
-            (None, None) => {}
-            (Some(path), None) if alone_in_all => return Ok(Self::Path(path)),
-            (None, Some(a)) if alone_in_all => return Ok(Self::Kinematic(a)),
+        match (path, kinematic, rocking) {
+            (None, None, None) => {}
+            (Some(path), None, None) if alone_in_all => return Ok(Self::Path(path)),
+            (None, Some(a), None) if alone_in_all => return Ok(Self::Kinematic(a)),
+            (None, None, Some(a)) if alone_in_all => return Ok(Self::Rocking(a)),
             _ => return Err(MIXED),
         }
         let alone = verdict.is_none() && part.is_none() && proof.is_none();

@@ -7,6 +7,7 @@ use super::{
     critical::CriticalResult,
     member::{MemberLine, MemberWords},
     path::PathResult,
+    rocking::RockingResult,
     simulation::Simulation,
     thrust::ThrustResult,
     work::Work,
@@ -74,6 +75,9 @@ pub struct ResultFile {
     /// Settle, push and kinematic: the curve, every point with its evidence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<PathResult>,
+    /// Rock: the evidence against the direction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rocking: Option<RockingResult>,
     /// What happened in time, where it was simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub simulation: Option<Simulation>,
@@ -127,6 +131,8 @@ pub enum QuestionKind {
     Push,
     /// Under an earthquake: at what acceleration does it start to move, and what then?
     Kinematic,
+    /// What does its mechanism do on ground that moves?
+    Rock,
 }
 
 /// The scene a result is about.

@@ -10,7 +10,7 @@ use super::{
     answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
     critical, kinematic, member, part, path,
     result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
-    thrust,
+    rocking, thrust,
 };
 use crate::{
     error::{Finding, FindingCode, InputError},
@@ -113,10 +113,12 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         QuestionKind::Thrust => thrust::verify(&mut all, file, model),
         QuestionKind::Settle | QuestionKind::Push => path::verify(&mut all, file, model),
         QuestionKind::Kinematic => kinematic::verify(&mut all, file, scene, model),
+        QuestionKind::Rock => rocking::verify(&mut all, file, scene, model),
     }
     let strangers = [
         file.question != QuestionKind::Critical && file.critical.is_some(),
         file.question != QuestionKind::Thrust && file.thrust.is_some(),
+        file.question != QuestionKind::Rock && file.rocking.is_some(),
         !matches!(
             file.question,
             QuestionKind::Settle | QuestionKind::Push | QuestionKind::Kinematic
@@ -151,6 +153,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             | QuestionKind::Critical
             | QuestionKind::Thrust
             | QuestionKind::Settle
+            | QuestionKind::Rock
             | QuestionKind::Push => failure("the file holds a load factor that was not asked for"),
             _ => again::dry_friction(
                 &|_| Ok(model.clone()),
@@ -344,7 +347,7 @@ pub(super) fn answer(
 }
 
 /// Whether a grade that was said is no better than the one recomputed.
-fn is_no_better(said: Grade, here: Grade) -> bool {
+pub(super) fn is_no_better(said: Grade, here: Grade) -> bool {
     match (said, here) {
         (_, Grade::Exact) => true,
         (Grade::Exact, Grade::ToRounding(_)) => false,
@@ -354,7 +357,7 @@ fn is_no_better(said: Grade, here: Grade) -> bool {
 }
 
 /// Whether the bound on a load factor is what is claimed.
-fn bound_says(bound: &Bound, claim: Option<&Claim>) -> bool {
+pub(super) fn bound_says(bound: &Bound, claim: Option<&Claim>) -> bool {
     let Bound { status, value: said, lower: low, upper: high } = *bound;
     match (status, claim) {
         (Outcome::Undecided, None) => true,

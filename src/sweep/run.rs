@@ -183,8 +183,8 @@ pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize) -> Row {
     let asked = || -> Result<RowAnswer, crate::error::InputError> {
         let scene = sweep.scene_with(&parameters)?;
         let model = reuse.prepare(&scene, &sweep.keys(&parameters))?;
-        let answer =
-            ask(&sweep.plan.question.for_one_number(), &scene, &model, &Control::default())?;
+        let question = sweep.question_with(&parameters)?.for_one_number();
+        let answer = ask(&question, &scene, &model, &Control::default())?;
         Ok(RowAnswer::of_answer(&answer))
     };
     // A mistake in the program costs one row, not the sweep.

@@ -4,6 +4,7 @@ mod critical;
 mod kinematic;
 mod packing;
 mod path;
+mod rocking;
 #[cfg(feature = "dynamics")]
 mod simulation;
 mod thrust;
@@ -74,6 +75,7 @@ impl ResultFile {
             critical: None,
             thrust: None,
             path: None,
+            rocking: None,
             simulation: None,
             mechanism: None,
             members: Vec::new(),
@@ -104,6 +106,7 @@ impl ResultFile {
             Answered::Kinematic(k) => return Self::kinematic(scene, model, k),
             #[cfg(feature = "dynamics")]
             Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
+            Answered::Rock(r) => Self::rocking(scene, model, r),
             Answered::Repose(_) => return None,
         })
     }

@@ -113,6 +113,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         QuestionKind::Thrust => super::thrust::title(file),
         QuestionKind::Settle | QuestionKind::Push => super::path::title(file),
         QuestionKind::Kinematic => super::kinematic::title(file),
+        QuestionKind::Rock => super::rocking::title(file),
     };
     let (text, role) = match without_live_load(file) {
         Some(words) => (format!("{text}; {words}"), Role::Bad),
@@ -215,6 +216,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         QuestionKind::Critical => return super::critical::why(page, file),
         QuestionKind::Thrust => return super::thrust::why(page, file),
         QuestionKind::Settle | QuestionKind::Push => return super::path::why(page, file),
+        QuestionKind::Rock => return super::rocking::why(page, file),
         QuestionKind::Kinematic => {
             super::kinematic::why(page, file);
             dry(page, file);

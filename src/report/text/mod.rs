@@ -9,6 +9,7 @@ mod mechanism;
 mod packing;
 mod page;
 mod path;
+mod rocking;
 mod simulation;
 mod template;
 mod thrust;
@@ -184,7 +185,7 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         QuestionKind::Simulate => "simulate",
         QuestionKind::Settle => "settle",
         QuestionKind::Push => "push",
-        QuestionKind::Kinematic => "kinematic",
+        QuestionKind::Kinematic | QuestionKind::Rock => "kinematic",
     };
     let again = if asked.options.is_empty() {
         format!("voussoir {verb} {scene}")
