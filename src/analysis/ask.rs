@@ -15,6 +15,7 @@ use super::{
         CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
         directions,
     },
+    rocking::{self, Rocking},
     stability,
     stability::Packing,
     stages::{self, Stages},
@@ -52,6 +53,8 @@ pub enum Answer {
     Kinematic(Box<Kinematic>),
     /// Does every stage of its construction stand?
     Stages(Box<Stages>),
+    /// On ground that moves: what does its mechanism do?
+    Rock(Box<Rocking>),
     /// What happens in time?
     #[cfg(feature = "dynamics")]
     Simulate(Box<SimulationOutcome>),
@@ -151,6 +154,9 @@ fn answer(
         }
         Question::Stages(options) => {
             Answer::Stages(Box::new(stages::stages(options, scene, model, control)?))
+        }
+        Question::Rock(options) => {
+            Answer::Rock(Box::new(rocking::rock(options, scene, model, control)?))
         }
         Question::Simulate(options) => simulate(options)?,
     })

@@ -69,7 +69,7 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
             .or_else(|| k.dead.as_ref().and_then(|dead| about.verdict(dead))),
         Answer::Stages(s) => s.stages.iter().find_map(|s| s.doubt.clone()),
         // A path says itself where it ended, and why.
-        Answer::Path(_) => None,
+        Answer::Path(_) | Answer::Rock(_) => None,
         #[cfg(feature = "dynamics")]
         Answer::Simulate(outcome) => in_time(outcome),
     }

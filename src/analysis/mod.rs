@@ -22,11 +22,13 @@ pub mod question;
 #[cfg(feature = "dynamics")]
 pub mod repose;
 pub mod reuse;
+pub mod rocking;
 pub mod stability;
 pub mod stages;
 pub mod thrust;
 pub mod tilt;
 
+pub use crate::rocking::{RockOptions, RockPoint};
 pub use crate::terms::{Closed, Difference, Doubt, DoubtCause, LeftOutContacts};
 pub use crate::{
     terms::{Agreement, Attempt, Bracket, Deciding, ForceAgreement, Law, Outcome},
@@ -48,6 +50,7 @@ pub use question::{
     Question, ReposeOptions, SettleOptions, SimulateOptions, StagesOptions, SupportMove,
     ThrustOptions, TiltOptions,
 };
+pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};
 pub use stages::{Stages, stages};
 pub use tilt::{Tilt, tilt};

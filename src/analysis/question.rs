@@ -5,6 +5,7 @@ use super::{Control, Law};
 use crate::{
     error::{InputError, JsonPath},
     path::saved::SavedPose,
+    rocking::RockOptions,
 };
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -37,6 +38,9 @@ pub enum Question {
     /// At what acceleration does a mechanism start under an earthquake, and how does its resistance
     /// fall as it moves? In several directions the least.
     Kinematic(KinematicOptions),
+    /// What does its mechanism do on ground that moves? Computed from where it starts, which is
+    /// proved.
+    Rock(RockOptions),
 }
 
 /// Options of `assess`.
@@ -344,6 +348,7 @@ impl Question {
                 refuse("at", "the linear analysis has no curve".into())
             }
             Self::Kinematic(o) => check_directions(&path, &o.toward, o.all),
+            Self::Rock(o) => o.check().map_err(|e| e.under(&path)),
         }
     }
 
@@ -382,6 +387,9 @@ impl Question {
                 ("linear", "remove it: rows show α0, and ask for no curve")
             }
             Self::Kinematic(o) if !o.at.is_empty() => ("at", "remove it: rows ask for no curve"),
+            Self::Rock(RockOptions { fate_only: true, .. }) => {
+                ("fate_only", "remove it: rows end by themselves once their fate is known")
+            }
             _ => return Ok(()),
         };
         let path = JsonPath::root().key(self.word()).key(key);
@@ -402,6 +410,7 @@ impl Question {
             Self::Push(_) => "push",
             Self::Kinematic(_) => "kinematic",
             Self::Stages(_) => "stages",
+            Self::Rock(_) => "rock",
         }
     }
 
@@ -419,7 +428,7 @@ impl Question {
             // What slides in time does not open.
             Self::Simulate(_) => Law::Coulomb,
             // Hinges alone are followed, which are the same for both.
-            Self::Settle(_) | Self::Push(_) => Law::Associative,
+            Self::Settle(_) | Self::Push(_) | Self::Rock(_) => Law::Associative,
         }
     }
 
@@ -432,7 +441,8 @@ impl Question {
             | Self::Simulate(_)
             | Self::Settle(_)
             | Self::Push(_)
-            | Self::Stages(_) => None,
+            | Self::Stages(_)
+            | Self::Rock(_) => None,
             Self::Limit(o) => o.require,
             Self::Tilt(o) => o.require,
             Self::Repose(o) => o.require,
@@ -443,7 +453,10 @@ impl Question {
     /// What the value of an answer is, with its unit; nothing where the answer is a verdict.
     pub fn quantity(&self) -> Option<&'static str> {
         match self {
-            Self::Assess(_) | Self::Simulate(_) => None,
+            Self::Rock(RockOptions { scan: Some(_), .. }) => {
+                Some("least scale at which it overturns")
+            }
+            Self::Assess(_) | Self::Simulate(_) | Self::Rock(_) => None,
             Self::Thrust(ThrustOptions { member: Some(_), greatest, .. }) => {
                 Some(if *greatest { "greatest force in N" } else { "least force in N" })
             }
@@ -479,6 +492,7 @@ impl Question {
             Self::Stages(o) => {
                 Self::Stages(StagesOptions { skip_margin: true, skip_held: true, ..o })
             }
+            Self::Rock(o) => Self::Rock(RockOptions { fate_only: true, ..o }),
             other => other,
         }
     }

@@ -15,21 +15,18 @@ use anyhow::bail;
 use nalgebra::Vector3;
 use std::{ops::ControlFlow, path::Path};
 use voussoir::{
-    analysis::follow::machine::{MachineOptions, machine},
+    analysis::{Answer, Question, RockOptions, RockPoint, Rocking},
     dynamics::{Fidelity, Progress, ShakenFate, SimulationSettings, shake},
-    ground::{Motion, Record},
+    ground::{Formula, Given, Motion, Record, Recorded, Series},
     report::{
         ground::{Rocked, ShakenReport, Shaking},
         json, page,
         text::{Layout, Page, TextOptions},
         view::{Film, View},
     },
-    rocking::{Fate, RunSettings, Search, run as run_machine, scan},
+    rocking::Fate,
 };
 
-/// Scales of a scan, and how near flips are narrowed.
-const SCALES: usize = 200;
-const WIDTH: f64 = 1e-9;
 /// So many times are kept for tables and charts where nothing is said.
 const FRAMES: usize = 2000;
 
@@ -72,33 +69,38 @@ pub fn rock(
     terminal: &Terminal,
     ask: Rock,
 ) -> anyhow::Result<Exit> {
-    refuse_save(session)?;
     let shaking = shaking(&ask.args.ground)?;
-    let options = MachineOptions {
-        toward: ask.toward.unwrap_or([1.0, 0.0, 0.0]).into(),
-        control: ask.control.map(|(block, point)| (block, Some(point.into()))),
-        restitution: ask.args.restitution,
-    };
-    let built = machine(&session.scene, &session.model, &options, &session.control())
-        .map_err(|e| session.refuse(e))?;
     let from = ask.args.from.unwrap_or(0.0);
-    let keep = ask.csv.is_some() || ask.svg.is_some();
-    let settings = RunSettings { from, until: ask.args.seconds, keep, ..RunSettings::default() };
-    let history = run_machine(&built.machine, &shaking.motion, &settings);
-    let found = ask.args.scan.map(|(from, to)| {
-        let search = Search { from, to, steps: SCALES, width: WIDTH };
-        scan(&built.machine, &shaking.given, &settings, &search)
+    let question = Question::Rock(RockOptions {
+        toward: ask.toward.unwrap_or([1.0, 0.0, 0.0]),
+        ground: Given {
+            pulse: ask.args.ground.pulse.as_ref().map(|(_, pulse)| Formula::from(*pulse)),
+            record: shaking.record.as_ref().map(|r| Recorded::Read(Series::of(r))),
+            scale: shaking.scale,
+        },
+        control: ask.control.map(|(block, point)| RockPoint { block, point: Some(point) }),
+        restitution: ask.args.restitution,
+        from,
+        seconds: ask.args.seconds,
+        scan: ask.args.scan.map(|(from, to)| [from, to]),
+        fate_only: false,
     });
+    let answer = session.ask(&question)?;
+    let Answer::Rock(rocking) = &answer else { bail!("the answer is not one to its question") };
+    let Rocking { built, history, scan: found, .. } = &**rocking;
+    if let Some(save) = session.save() {
+        save.write(&json::pretty(&session.result(&question, &answer)?)?)?;
+    }
     let blocks = &session.model.assembly.blocks;
     let ids: Vec<String> = blocks.iter().map(|b| b.id.clone()).collect();
     let rocked = Rocked {
         name: &session.scene.name,
         ids: &ids,
-        built: &built,
+        built,
         shaking: &shaking,
         from,
         given_restitution: ask.args.restitution.is_some(),
-        history: &history,
+        history,
         scan: found.as_ref(),
     };
     if let Some(csv) = &ask.csv {
@@ -177,11 +179,11 @@ pub fn simulate(args: &Simulate, session: &Session, terminal: &Terminal) -> anyh
     })
 }
 
-/// A history is computed: there is no proof to save.
+/// A history of all blocks is computed: there is no proof to save.
 fn refuse_save(session: &Session) -> anyhow::Result<()> {
     if session.save().is_some() {
         bail!(
-            "--save keeps proofs, and a history on moving ground has none; hint: --json prints it"
+            "--save keeps proofs, and a history of all blocks has none; hint: --json prints it, and `kinematic --ground` has one where it starts"
         );
     }
     Ok(())

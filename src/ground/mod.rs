@@ -1,9 +1,11 @@
 //! How the ground moves: records of earthquakes, and pulses with a formula.
 
+mod given;
 mod motion;
 mod pulse;
 mod record;
 
+pub use given::{Formula, Given, Recorded, Series, Wave};
 pub use motion::{Jump, Motion, Piece, Shape, When};
 pub use pulse::{PULSES, Pulse};
 pub use record::{Format, Record, STANDARD_GRAVITY, STRONGEST, UNITS, Unit, WEAKEST};

@@ -64,6 +64,20 @@ pub struct Motion {
     pub jumps: Vec<Jump>,
 }
 
+/// Samples at even times, linear between them.
+pub(super) fn lines(step: f64, samples: &[Vector3<f64>]) -> Motion {
+    let pieces = samples
+        .windows(2)
+        .enumerate()
+        .map(|(k, pair)| Piece {
+            start: step * k as f64,
+            end: step * (k + 1) as f64,
+            shape: Shape::Line { from: pair[0], slope: (pair[1] - pair[0]) / step },
+        })
+        .collect();
+    Motion { pieces, jumps: Vec::new() }
+}
+
 impl Piece {
     /// The acceleration at a time from its start, m/s².
     pub fn at(&self, t: f64) -> Vector3<f64> {

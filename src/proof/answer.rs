@@ -3,7 +3,7 @@
 
 use super::{
     critical::CriticalValue, kinematic::KinematicAnswer, path::PathAnswer, result::DryResult,
-    stages::StagesAnswer, thrust::ThrustAnswer,
+    rocking::RockingAnswer, stages::StagesAnswer, thrust::ThrustAnswer,
 };
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
@@ -32,6 +32,8 @@ pub enum Answer {
     Kinematic(Box<KinematicAnswer>),
     /// Does every stage of its construction stand, and how safely?
     Stages(Box<StagesAnswer>),
+    /// On ground that moves: what its mechanism does.
+    Rocking(Box<RockingAnswer>),
     /// What became of it in time, beside the verdict where that was asked.
     Simulation(Fate, Option<VerdictAnswer>),
 }
@@ -199,7 +201,11 @@ impl Answer {
             Self::Tilt(a) => a.verdict,
             Self::Kinematic(a) => a.verdict,
             Self::Stages(a) => Some(a.verdict),
-            Self::Critical(_) | Self::Thrust(_) | Self::Path(_) | Self::Simulation(_, None) => None,
+            Self::Critical(_)
+            | Self::Thrust(_)
+            | Self::Path(_)
+            | Self::Rocking(_)
+            | Self::Simulation(_, None) => None,
         }
     }
 
@@ -293,6 +299,7 @@ impl Answer {
             Self::Limit(a) => a.proof,
             Self::Tilt(a) => a.proof,
             Self::Kinematic(a) => a.proof,
+            Self::Rocking(a) => a.proof,
             _ => None,
         }
     }
@@ -348,6 +355,9 @@ pub(super) struct Flat {
     /// What its stages do.
     #[serde(skip_serializing_if = "Option::is_none")]
     stages: Option<Box<StagesAnswer>>,
+    /// What a mechanism does on ground that moves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rocking: Option<Box<RockingAnswer>>,
 }
 
 impl JsonSchema for Answer {
@@ -392,6 +402,7 @@ impl From<Answer> for Flat {
             Answer::Path(path) => Self { path: Some(path), ..Self::default() },
             Answer::Kinematic(a) => Self { kinematic: Some(a), ..Self::default() },
             Answer::Stages(a) => Self { stages: Some(a), ..Self::default() },
+            Answer::Rocking(a) => Self { rocking: Some(a), ..Self::default() },
         }
     }
 }
@@ -418,6 +429,7 @@ impl TryFrom<Flat> for Answer {
             path,
             kinematic,
             stages,
+            rocking,
         } = flat;
         let alone_in_all = verdict.is_none()
             && law.is_none()
@@ -431,11 +443,12 @@ impl TryFrom<Flat> for Answer {
             && tilt_deg.is_none()
             && critical.is_none()
             && thrust.is_none();
-        match (path, kinematic, stages) {
-            (None, None, None) => {}
-            (Some(path), None, None) if alone_in_all => return Ok(Self::Path(path)),
-            (None, Some(a), None) if alone_in_all => return Ok(Self::Kinematic(a)),
-            (None, None, Some(a)) if alone_in_all => return Ok(Self::Stages(a)),
+        match (path, kinematic, stages, rocking) {
+            (None, None, None, None) => {}
+            (Some(path), None, None, None) if alone_in_all => return Ok(Self::Path(path)),
+            (None, Some(a), None, None) if alone_in_all => return Ok(Self::Kinematic(a)),
+            (None, None, Some(a), None) if alone_in_all => return Ok(Self::Stages(a)),
+            (None, None, None, Some(a)) if alone_in_all => return Ok(Self::Rocking(a)),
             _ => return Err(MIXED),
         }
         let alone = verdict.is_none() && part.is_none() && proof.is_none();

@@ -12,6 +12,7 @@ mod part;
 pub mod path;
 pub mod read;
 pub mod result;
+pub mod rocking;
 pub mod simulation;
 pub mod stages;
 pub mod thrust;

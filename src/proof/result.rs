@@ -7,6 +7,7 @@ use super::{
     critical::CriticalResult,
     member::{MemberLine, MemberWords},
     path::PathResult,
+    rocking::RockingResult,
     simulation::Simulation,
     stages::StagesResult,
     thrust::ThrustResult,
@@ -78,6 +79,9 @@ pub struct ResultFile {
     /// Stages: every one with its evidence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stages: Option<StagesResult>,
+    /// Rock: the evidence against the direction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rocking: Option<RockingResult>,
     /// What happened in time, where it was simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub simulation: Option<Simulation>,
@@ -133,6 +137,8 @@ pub enum QuestionKind {
     Kinematic,
     /// Does every stage of its construction stand?
     Stages,
+    /// What does its mechanism do on ground that moves?
+    Rock,
 }
 
 /// The scene a result is about.

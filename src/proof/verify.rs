@@ -10,7 +10,7 @@ use super::{
     answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
     critical, kinematic, member, part, path,
     result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
-    stages, thrust,
+    rocking, stages, thrust,
 };
 use crate::{
     error::{Finding, FindingCode, InputError},
@@ -114,11 +114,13 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         QuestionKind::Settle | QuestionKind::Push => path::verify(&mut all, file, model),
         QuestionKind::Kinematic => kinematic::verify(&mut all, file, scene, model),
         QuestionKind::Stages => stages::verify(&mut all, file, scene, model),
+        QuestionKind::Rock => rocking::verify(&mut all, file, scene, model),
     }
     let strangers = [
         file.question != QuestionKind::Critical && file.critical.is_some(),
         file.question != QuestionKind::Thrust && file.thrust.is_some(),
         file.question != QuestionKind::Stages && file.stages.is_some(),
+        file.question != QuestionKind::Rock && file.rocking.is_some(),
         !matches!(
             file.question,
             QuestionKind::Settle | QuestionKind::Push | QuestionKind::Kinematic
@@ -154,6 +156,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             | QuestionKind::Thrust
             | QuestionKind::Settle
             | QuestionKind::Stages
+            | QuestionKind::Rock
             | QuestionKind::Push => failure("the file holds a load factor that was not asked for"),
             _ => again::dry_friction(
                 &|_| Ok(model.clone()),
@@ -347,7 +350,7 @@ pub(super) fn answer(
 }
 
 /// Whether a grade that was said is no better than the one recomputed.
-fn is_no_better(said: Grade, here: Grade) -> bool {
+pub(super) fn is_no_better(said: Grade, here: Grade) -> bool {
     match (said, here) {
         (_, Grade::Exact) => true,
         (Grade::Exact, Grade::ToRounding(_)) => false,
@@ -357,7 +360,7 @@ fn is_no_better(said: Grade, here: Grade) -> bool {
 }
 
 /// Whether the bound on a load factor is what is claimed.
-fn bound_says(bound: &Bound, claim: Option<&Claim>) -> bool {
+pub(super) fn bound_says(bound: &Bound, claim: Option<&Claim>) -> bool {
     let Bound { status, value: said, lower: low, upper: high } = *bound;
     match (status, claim) {
         (Outcome::Undecided, None) => true,

@@ -10,11 +10,13 @@
 //! are found as roots: nothing depends on a step.
 
 pub mod law;
+mod options;
 mod run;
 mod search;
 mod step;
 
 pub use law::{Circular, Law, NODES, Table, Values};
+pub use options::{RockOptions, RockPoint};
 pub use run::{Fate, History, Impact, RunSettings, Sample, run};
 pub use search::{Bracket, Scan, Search, scan};
 

@@ -109,6 +109,8 @@ pub struct History {
     pub samples: Vec<Sample>,
     /// Steps taken.
     pub steps: usize,
+    /// It was seen that it cannot overturn any more, although it still rocks.
+    pub returns: bool,
 }
 
 impl History {
@@ -157,6 +159,7 @@ pub fn run(machine: &Machine, motion: &Motion, settings: &RunSettings) -> Histor
         last: Sample::default(),
         samples: Vec::new(),
         steps: 0,
+        returns: false,
     };
     let mut run = Run {
         machine,
@@ -333,8 +336,11 @@ impl Run<'_> {
             if self.is_over(peak) || self.history.impacts.len() > MOST_IMPACTS {
                 return Break(());
             }
-            if self.settings.fate_only && still && peak == 0.0 && self.cannot_overturn() {
-                return Break(());
+            if still && peak == 0.0 && self.cannot_overturn() {
+                self.history.returns = true;
+                if self.settings.fate_only {
+                    return Break(());
+                }
             }
         }
         Continue(())

@@ -1,7 +1,11 @@
 //! The probability of failure against a demand or a parameter, with the uncertainty of a finite
 //! sample.
 
-use super::{Header, Row, RowAnswer, RowStatus, Sampling, influence::groups};
+use super::{
+    Header, LognormalFit, Plan, Row, RowAnswer, RowStatus, Sampling,
+    influence::{groups, same},
+    records::RECORD,
+};
 use crate::analysis::Question;
 use serde::Serialize;
 
@@ -49,6 +53,27 @@ pub struct Fragility {
     pub vary: Option<super::Vary>,
     /// Its points: where, and how many failed there.
     pub points: Vec<(f64, Proportion)>,
+    /// Under ground that moves: the lognormal curve of most likelihood.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lognormal: Option<LognormalFit>,
+    /// Why there is no such curve, where one was looked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_lognormal: Option<String>,
+}
+
+/// Whether rows are a sample of something: those of a grid are none, unless records of ground motion
+/// vary in it, which are a sample of earthquakes.
+pub fn is_sample(plan: &Plan) -> bool {
+    !matches!(plan.sampling, Sampling::Grid {}) || plan.vary.iter().any(|v| v.pointer == RECORD)
+}
+
+/// The number that says how strong the ground moves, where one varies.
+fn intensity(plan: &Plan) -> Option<usize> {
+    const ENDS: [&str; 3] = ["/scale", "/acceleration", "/velocity"];
+    plan.vary.iter().position(|v| {
+        let ground = v.pointer.starts_with("/question/rock/ground/");
+        ground && ENDS.iter().any(|end| v.pointer.ends_with(end))
+    })
 }
 
 /// Points of a curve against a demand.
@@ -75,14 +100,22 @@ pub(super) fn failed(question: &Question, answer: &RowAnswer) -> Option<bool> {
 /// where its value is below it), else against the number with index `parameter`.
 pub(super) fn fragility(header: &Header, rows: &[Row], parameter: usize) -> Option<Fragility> {
     // A thrust is no resistance: nothing fails below a demand.
-    if matches!(header.plan.sampling, Sampling::Grid {})
-        || matches!(header.plan.question, Question::Thrust(_))
-    {
+    if !is_sample(&header.plan) || matches!(header.plan.question, Question::Thrust(_)) {
         return None;
     }
     match (header.plan.question.quantity(), header.plan.question.require()) {
-        (Some(quantity), None) => against_demand(quantity, rows),
+        (Some(quantity), None) => {
+            let rocks = matches!(header.plan.question, Question::Rock(_));
+            against_demand(quantity, rows, rocks)
+        }
         _ => {
+            let rocks = matches!(header.plan.question, Question::Rock(_));
+            let grid = matches!(header.plan.sampling, Sampling::Grid {});
+            let shakes = intensity(&header.plan).filter(|_| rocks);
+            if grid && shakes.is_none() {
+                return None;
+            }
+            let parameter = shakes.unwrap_or(parameter);
             let known: Vec<(f64, bool)> = rows
                 .iter()
                 .filter_map(|r| {
@@ -92,7 +125,9 @@ pub(super) fn fragility(header: &Header, rows: &[Row], parameter: usize) -> Opti
                 .collect();
             let vary = header.plan.vary.get(parameter)?.clone();
             let along = vary.label().to_string();
-            let points = groups(&known.iter().map(|k| k.0).collect::<Vec<_>>())
+            let places: Vec<f64> = known.iter().map(|k| k.0).collect();
+            // Values of a grid were chosen one by one.
+            let points = if grid { same(&places) } else { groups(&places) }
                 .into_iter()
                 .map(|group| {
                     let middle =
@@ -100,12 +135,24 @@ pub(super) fn fragility(header: &Header, rows: &[Row], parameter: usize) -> Opti
                     (middle, wilson(group.iter().filter(|&&i| known[i].1).count(), group.len()))
                 })
                 .collect::<Vec<_>>();
-            (points.len() >= 2).then_some(Fragility { along, vary: Some(vary), points })
+            let fit = shakes.map(|_| LognormalFit::of_fates(&known));
+            (points.len() >= 2).then(|| with_fit(along, Some(vary), points, fit))
         }
     }
 }
 
-fn against_demand(quantity: &str, rows: &[Row]) -> Option<Fragility> {
+fn with_fit(
+    along: String,
+    vary: Option<super::Vary>,
+    points: Vec<(f64, Proportion)>,
+    fit: Option<Result<LognormalFit, String>>,
+) -> Fragility {
+    let no_lognormal = fit.as_ref().and_then(|f| f.as_ref().err().cloned());
+    let lognormal = fit.and_then(Result::ok);
+    Fragility { along, vary, points, lognormal, no_lognormal }
+}
+
+fn against_demand(quantity: &str, rows: &[Row], fits: bool) -> Option<Fragility> {
     let strengths: Vec<f64> = rows
         .iter()
         .filter_map(|r| match r.answer.status {
@@ -128,9 +175,13 @@ fn against_demand(quantity: &str, rows: &[Row]) -> Option<Fragility> {
     let point = |demand: f64| {
         (demand, wilson(strengths.iter().filter(|s| **s < demand).count(), strengths.len()))
     };
-    Some(Fragility {
-        along: format!("demanded {quantity}"),
-        vary: None,
-        points: (0..POINTS).map(|k| point(at(k))).collect(),
-    })
+    let fit = fits.then(|| match strengths.iter().all(|s| s.is_finite()) {
+        true => LognormalFit::of_capacities(&strengths),
+        false => {
+            Err("some rows have no scale at which they overturn: their capacity is not known"
+                .into())
+        }
+    });
+    let points = (0..POINTS).map(|k| point(at(k))).collect();
+    Some(with_fit(format!("demanded {quantity}"), None, points, fit))
 }

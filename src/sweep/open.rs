@@ -5,6 +5,7 @@ use super::{
     Header, Parameter, Plan, Sampling, Shard,
     distribution::Axis,
     pointer::{Pointer, Touches},
+    records,
     sampling::{SOBOL, Sampler},
 };
 use crate::{
@@ -35,6 +36,8 @@ pub struct Sweep {
     /// What was said when the meshes of the scene were read.
     pub findings: Vec<Finding>,
     pointers: Vec<Pointer>,
+    /// Those that lead into the question.
+    asks: Vec<bool>,
     touches: Vec<Touches>,
     sampler: Sampler,
 }
@@ -72,8 +75,9 @@ pub fn open_bytes(
     folder: &Path,
     reach: Reach,
 ) -> Result<Sweep, InputError> {
-    let (plan, source) = read_plan(name, bytes)?;
+    let (mut plan, source) = read_plan(name, bytes)?;
     let refuse = |e: InputError| e.located(&source);
+    records::read(&mut plan, folder).map_err(refuse)?;
     let key = JsonPath::root().key("scene");
     let path = folder.join(&plan.scene);
     let bytes = limits::read_file(&path, limits::PER_BYTE).map_err(|e| {
@@ -117,23 +121,31 @@ impl Sweep {
             .check()
             .and_then(|()| plan.question.check_for_one_number())
             .map_err(|e| e.under(&root.key("question")))?;
-        let (mut pointers, mut axes) = (Vec::new(), Vec::new());
+        let question = serde_json::to_value(&plan.question)
+            .map_err(|e| InputError::at(root.key("question"), e.to_string()))?;
+        let (mut pointers, mut axes, mut asks) = (Vec::new(), Vec::new(), Vec::new());
         for (k, vary) in plan.vary.iter().enumerate() {
             let path = root.key("vary").index(k);
             let axis = Axis::new(vary, grid).map_err(|e| e.under(&path))?;
             let at_values = path.key("values");
             let path = path.key("pointer");
+            let own = vary.pointer.strip_prefix("/question").filter(|rest| rest.starts_with('/'));
+            let (place, text) = match own {
+                Some(rest) => (Place::Question(&plan, &question), rest),
+                None => (Place::Scene(&scene), vary.pointer.as_str()),
+            };
             let pointer = match vary.words() {
-                None => Pointer::find(&vary.pointer, &scene),
-                Some(_) => Pointer::find_word(&vary.pointer, &scene),
+                None => Pointer::find(text, place.value()),
+                Some(_) => Pointer::find_word(text, place.value()),
             }
             .map_err(|e| e.under(&path))?;
             match vary.words() {
-                None => fits(&pointer, &axis, &scene).map_err(|e| e.under(&path))?,
+                None => fits(&pointer, &axis, place).map_err(|e| e.under(&path))?,
                 Some(words) => {
-                    words_fit(&pointer, words, &scene).map_err(|e| e.under(&at_values))?
+                    words_fit(&pointer, words, place).map_err(|e| e.under(&at_values))?
                 }
             }
+            asks.push(own.is_some());
             if pointers.contains(&pointer) {
                 return Err(InputError::at(path, format!("{:?} varies twice", vary.pointer))
                     .hint("keep one of them"));
@@ -142,11 +154,16 @@ impl Sweep {
             axes.push(axis);
         }
         let rows = rows(&plan, &axes)?;
-        let touches = pointers.iter().map(|p| p.touches(&scene)).collect();
+        let touches = pointers.iter().zip(&asks).map(|(p, &asks)| match asks {
+            true => Touches::Loads,
+            false => p.touches(&scene),
+        });
+        let touches = touches.collect();
         let sampler = Sampler::new(axes, &plan.sampling, plan.seed, rows);
-        let sweep = Self { plan, scene, findings: Vec::new(), pointers, touches, sampler };
+        let sweep = Self { plan, scene, findings: Vec::new(), pointers, asks, touches, sampler };
         sweep.words_mean_something()?;
         sweep.asks_about_something()?;
+        sweep.question_with(&sweep.parameters(0)).map_err(|e| e.under(&root.key("question")))?;
         Ok(sweep)
     }
 
@@ -172,10 +189,29 @@ impl Sweep {
     /// The scene does not take one of them.
     pub fn scene_with(&self, parameters: &[Parameter]) -> Result<Scene, InputError> {
         let mut value = self.scene.clone();
-        for (pointer, parameter) in self.pointers.iter().zip(parameters) {
-            pointer.set(&mut value, parameter);
+        for (k, parameter) in parameters.iter().enumerate().filter(|(k, _)| !self.asks[*k]) {
+            self.pointers[k].set(&mut value, parameter);
         }
         read(value)
+    }
+
+    /// The question with these numbers and words, and with the record it names.
+    ///
+    /// # Errors
+    /// The question does not take one of them; paths are relative to the question.
+    pub fn question_with(&self, parameters: &[Parameter]) -> Result<Question, InputError> {
+        let question = match self.asks.contains(&true) {
+            false => self.plan.question.clone(),
+            true => {
+                let refuse = |e: serde_json::Error| InputError::at(JsonPath::root(), e.to_string());
+                let mut value = serde_json::to_value(&self.plan.question).map_err(refuse)?;
+                for (k, parameter) in parameters.iter().enumerate().filter(|(k, _)| self.asks[*k]) {
+                    self.pointers[k].set(&mut value, parameter);
+                }
+                question_of(value)?
+            }
+        };
+        records::with_record(&self.plan, question)
     }
 
     /// What scenes with these numbers have in common with others.
@@ -202,6 +238,9 @@ impl Sweep {
         };
         for (k, vary) in self.plan.vary.iter().enumerate() {
             let Some(words) = vary.words().filter(|_| !shapes(k)) else { continue };
+            if self.asks[k] {
+                continue;
+            }
             if resolves(&self.scene).is_err() {
                 return Ok(());
             }
@@ -243,13 +282,58 @@ fn read(value: Value) -> Result<Scene, InputError> {
     })
 }
 
-/// A scene must be able to take numbers there; of what kind is tried out.
-fn fits(pointer: &Pointer, axis: &Axis, scene: &Value) -> Result<(), InputError> {
-    let with = |number: f64| {
-        let mut value = scene.clone();
-        pointer.set(&mut value, &number.into());
-        read(value)
-    };
+/// A question by its JSON.
+fn question_of(value: Value) -> Result<Question, InputError> {
+    let question: Question = serde_path_to_error::deserialize(value).map_err(|e| {
+        let path = e.path().to_string();
+        InputError::at(JsonPath::root(), format!("{path}: {}", e.inner()))
+    })?;
+    question.check().map(|()| question)
+}
+
+/// What numbers and words are put into.
+#[derive(Clone, Copy)]
+enum Place<'a> {
+    Scene(&'a Value),
+    Question(&'a Plan, &'a Value),
+}
+
+impl Place<'_> {
+    fn value(&self) -> &Value {
+        match self {
+            Self::Scene(value) | Self::Question(_, value) => value,
+        }
+    }
+
+    fn word(&self) -> &'static str {
+        match self {
+            Self::Scene(_) => "scene",
+            Self::Question(..) => "question",
+        }
+    }
+
+    /// Whether it takes this there.
+    fn takes(&self, pointer: &Pointer, parameter: &Parameter) -> Result<(), InputError> {
+        let mut value = self.value().clone();
+        pointer.set(&mut value, parameter);
+        match self {
+            Self::Scene(_) => read(value).map(|_| ()),
+            Self::Question(plan, _) => records::with_record(plan, question_of(value)?)?.check(),
+        }
+    }
+}
+
+/// A scene or question must be able to take numbers there; of what kind is tried out.
+fn fits(pointer: &Pointer, axis: &Axis, place: Place) -> Result<(), InputError> {
+    let scene = place.value();
+    let with = |number: f64| place.takes(pointer, &number.into());
+    if let Place::Question(..) = place {
+        // A question checks its numbers: only those that come are tried.
+        return with(axis.quantile(0.5)).map_err(|e| {
+            let text = format!("the question has no such number: {}", where_and_what(&e));
+            InputError { hint: e.hint, ..InputError::at(JsonPath::root(), text) }
+        });
+    }
     let old = pointer.get(scene).and_then(Value::as_f64);
     let first = old.unwrap_or_else(|| axis.quantile(0.5));
     if let Err(e) = with(first).and(with(first.floor() + 1.0)) {
@@ -275,16 +359,15 @@ fn where_and_what(e: &InputError) -> String {
 }
 
 /// As [`fits`], of words. Paths are relative to their list.
-fn words_fit(pointer: &Pointer, words: &[Parameter], scene: &Value) -> Result<(), InputError> {
+fn words_fit(pointer: &Pointer, words: &[Parameter], place: Place) -> Result<(), InputError> {
     for (k, word) in words.iter().enumerate() {
-        let mut value = scene.clone();
-        pointer.set(&mut value, word);
-        read(value).map_err(|e| {
+        place.takes(pointer, word).map_err(|e| {
+            let what = place.word();
             InputError::at(
                 JsonPath::root().index(k),
-                format!("the scene takes no {word} at {}: {}", pointer.path, e.message),
+                format!("the {what} takes no {word} at {}: {}", pointer.path, e.message),
             )
-            .hint("spell it as the scene format does")
+            .hint(format!("spell it as the {what} format does"))
         })?;
     }
     Ok(())

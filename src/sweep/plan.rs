@@ -1,7 +1,7 @@
 //! What a plan file says, and nothing more (`"format": "voussoir-sweep/1"`).
 //! [`open`](super::open()) checks it.
 
-use crate::{analysis::Question, number::short};
+use crate::{analysis::Question, ground::Series, number::short};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Number, Value};
@@ -37,6 +37,10 @@ pub struct Plan {
     /// Start of the random numbers of samples; a grid has none.
     #[serde(default)]
     pub seed: u64,
+    /// Records of ground motion that the question names, and rows put there. Files that a plan names
+    /// are read into here when it is opened, so that rows need no file.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub records: Vec<Series>,
 }
 
 /// What a row puts into a place of the scene: a number, or a word such as the id of a block.
@@ -97,7 +101,8 @@ impl Parameter {
 pub struct Vary {
     /// JSON pointer (RFC 6901) to a number of the scene file: `/templates/0/arch/thickness`, or,
     /// with words among the `values`, to a word: `/loads/live/0/block`. A key that the file leaves
-    /// out may be named too.
+    /// out may be named too. Beginning with `/question` it leads into the question of the plan:
+    /// `/question/rock/ground/scale`.
     pub pointer: String,
     /// What tables and charts call it; the pointer where nothing is said.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -112,6 +117,10 @@ pub struct Vary {
     /// names of materials.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub values: Option<Vec<Parameter>>,
+    /// Of a record of ground motion: every record in this folder, relative to that of the plan, in
+    /// the order of their names. They become the `values`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub folder: Option<String>,
     /// Normal distribution; on a grid the quantiles (k + 1/2) / count.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub normal: Option<Normal>,

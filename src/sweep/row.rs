@@ -3,7 +3,7 @@
 use super::{Parameter, Plan, Shard, Sweep};
 use crate::{
     analysis::{
-        Answer, Assessment, Critical, LoadFactor, Outcome, Proved, Stages, Tilt,
+        Answer, Assessment, Critical, LoadFactor, Outcome, Proved, Rocking, Stages, Tilt,
         coulomb::{DryLoadFactor, Found},
         critical::{Method, Scanned},
         follow::{
@@ -14,6 +14,7 @@ use crate::{
     },
     dynamics::Fate,
     proof::critical::FlipResult,
+    rocking,
     verdict::Verdict,
 };
 use serde::{Deserialize, Serialize};
@@ -83,6 +84,7 @@ impl Header {
             (vary(a) != vary(b), "what varies differs"),
             (a.sampling != b.sampling, "the sampling differs"),
             (a.seed != b.seed, "the seed differs"),
+            (a.records != b.records, "the records differ"),
             (self.scene != other.scene, "the scene differs"),
         ]
         .into_iter()
@@ -199,6 +201,7 @@ impl RowAnswer {
                 ..Self::of_load_factor(&d.bound, d.dry.as_ref(), |lambda| lambda)
             })),
             Answer::Stages(s) => Self::of_stages(s),
+            Answer::Rock(r) => Self::of_rocking(r),
             Answer::Simulate(outcome) => Self::of(match outcome.fate {
                 Fate::Stands => RowStatus::Stable,
                 Fate::Falls => RowStatus::Unstable,
@@ -244,6 +247,33 @@ impl RowAnswer {
             End::Reached if whole => Self { lower: last, ..Self::of(RowStatus::Unbounded) },
             _ => Self { lower: last, ..Self::of(RowStatus::Undecided) },
         }
+    }
+
+    /// Whether it overturns; where scales were scanned the least at which it does, between the last
+    /// one at which it stands and itself. Without any there is no limit.
+    fn of_rocking(r: &Rocking) -> Self {
+        if let Some(scan) = &r.scan {
+            let first = scan.seen.first();
+            return match (first, scan.flips.first()) {
+                (Some(&(from, Some(_))), _) => {
+                    Self { value: Some(from), upper: Some(from), ..Self::of(RowStatus::Found) }
+                }
+                (_, Some(flip)) => Self {
+                    value: Some(flip.overturns_at()),
+                    lower: Some(flip.stands_at()),
+                    upper: Some(flip.overturns_at()),
+                    ..Self::of(RowStatus::Found)
+                },
+                _ => Self::of(RowStatus::Unbounded),
+            };
+        }
+        // At the end of a time that was given it may still go either way.
+        Self::of(match r.history.fate {
+            rocking::Fate::Overturns { .. } => RowStatus::Unstable,
+            rocking::Fate::Rests => RowStatus::Stable,
+            rocking::Fate::Rocks if r.history.returns => RowStatus::Stable,
+            rocking::Fate::Rocks => RowStatus::Undecided,
+        })
     }
 
     fn of_assessment(a: &Assessment) -> Self {

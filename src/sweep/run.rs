@@ -190,7 +190,8 @@ pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize, deadline: Dead
         let scene = sweep.scene_with(&parameters)?;
         let model = reuse.prepare(&scene, &sweep.keys(&parameters), &|| deadline.is_over())?;
         let control = Control { deadline, ..Control::default() };
-        let answer = ask(&sweep.plan.question.for_one_number(), &scene, &model, &control)?;
+        let question = sweep.question_with(&parameters)?.for_one_number();
+        let answer = ask(&question, &scene, &model, &control)?;
         Ok(RowAnswer::of_answer(&answer))
     };
     // A mistake in the program costs one row, not the sweep.

@@ -9,7 +9,7 @@ mod esm;
 mod raw;
 mod unit;
 
-use super::{Motion, Piece, Shape};
+use super::{Motion, motion::lines};
 use crate::{
     error::{Finding, FindingCode, InputError, JsonPath},
     limits,
@@ -227,17 +227,7 @@ impl Record {
 
     /// The motion of the ground, linear between samples.
     pub fn motion(&self) -> Motion {
-        let pieces = self
-            .samples
-            .windows(2)
-            .enumerate()
-            .map(|(k, pair)| Piece {
-                start: self.step * k as f64,
-                end: self.step * (k + 1) as f64,
-                shape: Shape::Line { from: pair[0], slope: (pair[1] - pair[0]) / self.step },
-            })
-            .collect();
-        Motion { pieces, jumps: Vec::new() }
+        lines(self.step, &self.samples)
     }
 }
 

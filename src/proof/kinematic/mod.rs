@@ -3,7 +3,7 @@
 
 mod verify;
 
-pub(super) use verify::verify;
+pub(super) use verify::{differs, verify};
 
 use super::{
     answer::LoadFactorAnswer,

@@ -161,7 +161,7 @@ fn arithmetic(f: &mut Findings, said: &Numbers, here: &Numbers) {
 }
 
 /// Where two values differ by more than what is saved of numbers.
-fn differs(a: &Value, b: &Value, at: String) -> Option<String> {
+pub(in crate::proof) fn differs(a: &Value, b: &Value, at: String) -> Option<String> {
     /// Beside numbers of the size of one, such as δ, smaller ones are rounding.
     const FLOOR: f64 = 1e-6;
     match (a, b) {

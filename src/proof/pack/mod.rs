@@ -4,6 +4,7 @@ mod critical;
 mod kinematic;
 mod packing;
 mod path;
+mod rocking;
 #[cfg(feature = "dynamics")]
 mod simulation;
 mod stages;
@@ -76,6 +77,7 @@ impl ResultFile {
             thrust: None,
             path: None,
             stages: None,
+            rocking: None,
             simulation: None,
             mechanism: None,
             members: Vec::new(),
@@ -107,6 +109,7 @@ impl ResultFile {
             Answered::Stages(s) => Self::stages(scene, model, s),
             #[cfg(feature = "dynamics")]
             Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
+            Answered::Rock(r) => Self::rocking(scene, model, r),
             Answered::Repose(_) => return None,
         })
     }

@@ -148,6 +148,7 @@ fn file(proof: &StageProof, scene: &Scene, model: &Model) -> ResultFile {
         critical: None,
         thrust: None,
         path: None,
+        rocking: None,
         stages: None,
         simulation: None,
         mechanism,

@@ -4,7 +4,8 @@
 use crate::{
     error::InputError,
     interface::Model,
-    proof::result::QuestionKind,
+    proof::{result::QuestionKind, rocking::RockingAnswer},
+    rocking::RockOptions,
     scene::Scene,
     terms::{ClosedAnswer, Law, StateMotion},
     verdict::Verdict,
@@ -12,8 +13,8 @@ use crate::{
 
 #[cfg(feature = "solve")]
 use crate::analysis::{
-    AssessOptions, Control, KinematicOptions, LimitOptions, Question, TiltOptions, closing,
-    coulomb, critical::probe,
+    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, Question, TiltOptions, ask,
+    closing, coulomb, critical::probe,
 };
 
 /// What the scene does under its dead load with dry friction.
@@ -63,6 +64,21 @@ pub fn closed(
     Some(closing::again(&question, scene, model, &Control::default()))
 }
 
+/// What a mechanism on ground that moves does, run again.
+#[cfg(feature = "solve")]
+pub fn rocking(
+    options: &RockOptions,
+    scene: &Scene,
+    model: &Model,
+) -> Option<Result<RockingAnswer, InputError>> {
+    let answer = ask(&Question::Rock(options.clone()), scene, model, &Control::default());
+    match answer {
+        Ok(Answer::Rock(r)) => Some(Ok(RockingAnswer::new(model, &r))),
+        Ok(_) => None,
+        Err(e) => Some(Err(e)),
+    }
+}
+
 #[cfg(not(feature = "solve"))]
 mod none {
     use super::*;
@@ -84,6 +100,14 @@ mod none {
         None
     }
 
+    pub fn rocking(
+        _: &RockOptions,
+        _: &Scene,
+        _: &Model,
+    ) -> Option<Result<RockingAnswer, InputError>> {
+        None
+    }
+
     pub fn with_value(
         _: &Scene,
         _: &str,
@@ -95,4 +119,4 @@ mod none {
 }
 
 #[cfg(not(feature = "solve"))]
-pub use none::{closed, motion, rests_alone, with_value};
+pub use none::{closed, motion, rests_alone, rocking, with_value};

@@ -225,6 +225,18 @@ fn fragility(f: &Fragility) -> Chart {
         band: f.points.iter().map(|(_, p)| [p.lower, p.upper]).collect(),
         ..Series::default()
     };
+    let fitted = f.lognormal.as_ref().map(|fit| Series {
+        name: "lognormal, by maximum likelihood, with its 95 % band".into(),
+        line: true,
+        points: fit.curve.iter().map(|(at, p)| [Some(*at), Some(p[1])]).collect(),
+        hints: fit
+            .curve
+            .iter()
+            .map(|(at, p)| format!("{} {}: {} %", f.along, short(*at), percent(p[1])))
+            .collect(),
+        band: fit.curve.iter().map(|(_, p)| [p[0], p[2]]).collect(),
+        ..Series::default()
+    });
     Chart {
         title: "Share that fails".into(),
         x: Axis {
@@ -237,7 +249,7 @@ fn fragility(f: &Fragility) -> Chart {
             ..Axis::new(&f.along, false)
         },
         y: Axis::new("share that fails", false),
-        series: vec![series],
+        series: std::iter::once(series).chain(fitted).collect(),
         note: "95 % interval after Wilson (1927).".into(),
         ..Chart::default()
     }

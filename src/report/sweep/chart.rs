@@ -4,13 +4,13 @@ use super::group::{Group, bands, cells, mark, marks};
 use crate::{
     number::{count, short},
     plain::document,
-    sweep::{Fragility, Header, Plan, Row, Sampling, Shown, Summary, Vary},
+    sweep::{Fragility, Header, Plan, Row, Shown, Summary, Vary, is_sample},
 };
 use plotters::{
-    coord::Shift,
+    coord::{Shift, cartesian::Cartesian2d, types::RangedCoordf64},
     prelude::{
-        ChartBuilder, Circle, DrawingArea, IntoDrawingArea, PathElement, Polygon, RGBColor,
-        Rectangle, SVGBackend, Text, WHITE,
+        ChartBuilder, ChartContext, Circle, DrawingArea, IntoDrawingArea, PathElement, Polygon,
+        RGBColor, Rectangle, SVGBackend, Text, WHITE,
     },
     style::{Color, IntoFont},
 };
@@ -31,7 +31,7 @@ pub enum Kind {
 impl Kind {
     /// What suits a sweep: a grid shows its values, a sample its fragility.
     pub fn suited(header: &Header, summary: &Summary) -> Self {
-        let grid = matches!(header.plan.sampling, Sampling::Grid {});
+        let grid = !is_sample(&header.plan);
         match (grid, header.plan.vary.len()) {
             (true, 1) => Self::Line,
             (true, _) => Self::Heat,
@@ -49,7 +49,7 @@ impl Kind {
             Self::Heat if plan.vary.len() < 2 => {
                 Err(ChartError("a heat map needs two numbers that vary".into()))
             }
-            Self::Fragility if matches!(plan.sampling, Sampling::Grid {}) => {
+            Self::Fragility if !is_sample(plan) => {
                 Err(ChartError("a fragility curve needs a sample, and the plan is a grid".into()))
             }
             _ => Ok(()),
@@ -73,6 +73,7 @@ const SCALE: [(u8, u8, u8); 5] =
     [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)];
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Plane<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// The chart.
 ///
@@ -217,7 +218,30 @@ fn curve(
             (above, Some(below))
         }
     };
-    let mut chart = ChartBuilder::on(&above)
+    let mut chart = axes(&above, title, [x, y], along, range)?;
+    let few = runs.iter().map(Vec::len).sum::<usize>() <= 40;
+    for run in runs {
+        band(&mut chart, run)?;
+        let middle = run.iter().map(|p| (p.0, p.1[1]));
+        if few || run.len() == 1 {
+            let dots = middle.map(|p| Circle::new(p, 2, INK.filled()));
+            chart.draw_series(dots).map_err(refused)?;
+        }
+    }
+    let foot = at_foot.iter().map(|(x, c)| Circle::new((*x, range.0), 5, c.filled()));
+    chart.draw_series(foot).map_err(refused)?;
+    below.map_or(Ok(()), |below| words(&below, legend))
+}
+
+/// Axes of a chart of a curve.
+fn axes<'a, 'b>(
+    area: &'b Area<'a>,
+    title: &str,
+    [x, y]: [Along; 2],
+    along: (f64, f64),
+    range: (f64, f64),
+) -> Result<Plane<'b, 'a>, ChartError> {
+    let mut chart = ChartBuilder::on(area)
         .margin(12)
         .caption(title, TITLE)
         .x_label_area_size(42)
@@ -237,23 +261,22 @@ fn curve(
         .light_line_style(WHITE.mix(0.0))
         .draw()
         .map_err(refused)?;
-    let few = runs.iter().map(Vec::len).sum::<usize>() <= 40;
-    for run in runs {
-        let there = run.iter().map(|p| (p.0, p.1[0]));
-        let back = run.iter().rev().map(|p| (p.0, p.1[2]));
-        let band = Polygon::new(there.chain(back).collect::<Vec<_>>(), INK.mix(0.18).filled());
-        chart.draw_series([band]).map_err(refused)?;
-        let middle: Vec<(f64, f64)> = run.iter().map(|p| (p.0, p.1[1])).collect();
-        let path = PathElement::new(middle.clone(), INK.stroke_width(2));
-        chart.draw_series([path]).map_err(refused)?;
-        if few || run.len() == 1 {
-            let dots = middle.into_iter().map(|p| Circle::new(p, 2, INK.filled()));
-            chart.draw_series(dots).map_err(refused)?;
-        }
-    }
-    let foot = at_foot.iter().map(|(x, c)| Circle::new((*x, range.0), 5, c.filled()));
-    chart.draw_series(foot).map_err(refused)?;
-    let Some(below) = below else { return Ok(()) };
+    Ok(chart)
+}
+
+/// A band with the curve in it.
+fn band(chart: &mut Plane, run: &[BandPoint]) -> Result<(), ChartError> {
+    let there = run.iter().map(|p| (p.0, p.1[0]));
+    let back = run.iter().rev().map(|p| (p.0, p.1[2]));
+    let band = Polygon::new(there.chain(back).collect::<Vec<_>>(), INK.mix(0.18).filled());
+    chart.draw_series([band]).map_err(refused)?;
+    let middle: Vec<(f64, f64)> = run.iter().map(|p| (p.0, p.1[1])).collect();
+    chart.draw_series([PathElement::new(middle, INK.stroke_width(2))]).map_err(refused)?;
+    Ok(())
+}
+
+/// A line that says what marks mean.
+fn words(below: &Area, legend: &[(String, Option<RGBColor>)]) -> Result<(), ChartError> {
     let mut left = 76;
     for (words, colour) in legend {
         if let Some(colour) = colour {
@@ -268,6 +291,32 @@ fn curve(
     Ok(())
 }
 
+/// Shares as they were counted, beside a curve that was fitted.
+const RAW: RGBColor = RGBColor(200, 90, 20);
+
+/// A curve in a band with counted shares beside it.
+fn beside(
+    area: &Area,
+    title: &str,
+    [x, y]: [Along; 2],
+    fitted: &[BandPoint],
+    counted: &[BandPoint],
+    legend: &[(String, Option<RGBColor>)],
+) -> Result<(), ChartError> {
+    let (above, below) = area.split_vertically(SIZE.1 - LEGEND);
+    let along = ends(fitted.iter().chain(counted).map(|p| p.0))
+        .ok_or_else(|| ChartError("there are no rows".into()))?;
+    let mut chart = axes(&above, title, [x, y], along, (0.0, 1.0))?;
+    band(&mut chart, fitted)?;
+    let bars = counted.iter().map(|(x, [low, _, high])| {
+        PathElement::new(vec![(*x, *low), (*x, *high)], RAW.mix(0.6).stroke_width(1))
+    });
+    chart.draw_series(bars).map_err(refused)?;
+    let dots = counted.iter().map(|(x, p)| Circle::new((*x, p[1]), 3, RAW.filled()));
+    chart.draw_series(dots).map_err(refused)?;
+    words(&below, legend)
+}
+
 fn fragility(area: &Area, title: &str, f: &Fragility, legend: &[Mark]) -> Result<(), ChartError> {
     let points = f.points.iter().map(|(at, p)| (*at, [p.lower, p.share, p.upper])).collect();
     let axes = [
@@ -280,7 +329,16 @@ fn fragility(area: &Area, title: &str, f: &Fragility, legend: &[Mark]) -> Result
         .filter(|m| matches!(m.kind, Shown::Error | Shown::Undecided))
         .map(|m| (format!("left out, {}", m.text()), None))
         .collect();
-    curve(area, title, axes, (0.0, 1.0), &[points], &[], &left_out)
+    let Some(fit) = &f.lognormal else {
+        return curve(area, title, axes, (0.0, 1.0), &[points], &[], &left_out);
+    };
+    let words = vec![
+        ("lognormal, with its 95 % band".to_string(), Some(INK)),
+        ("shares, 95 % interval".to_string(), Some(RAW)),
+    ];
+    let words: Vec<_> = words.into_iter().chain(left_out).collect();
+    let shares: Vec<BandPoint> = points;
+    beside(area, title, axes, &fit.curve, &shares, &words)
 }
 
 fn line(

@@ -3,7 +3,7 @@
 use crate::{
     number::{count, seconds, short},
     report::text::{Layout, Page, Role},
-    sweep::{Header, Proportion, Summary},
+    sweep::{Header, LognormalFit, Proportion, Summary},
 };
 
 /// So many numbers are listed by their influence.
@@ -97,6 +97,8 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
             .step_by(every)
             .map(|(at, p)| format!("{} {}: {}", f.along, short(*at), share(*p)));
         page.row("fragility", points);
+        page.row("lognormal", f.lognormal.iter().map(fit));
+        page.row("lognormal", f.no_lognormal.iter().map(|why| format!("none: {why}")));
     }
     if let Some((row, error)) = &summary.first_error {
         let first = format!("the first in row {row}: {error}");
@@ -104,6 +106,16 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
     }
     page.row("time", [format!("{} of computing", seconds(summary.seconds))]);
     page
+}
+
+fn fit(fit: &LognormalFit) -> String {
+    format!(
+        "half fail at {} (95 % interval {} to {}), dispersion {}: by maximum likelihood, every row for itself",
+        short(fit.median),
+        short(fit.median_95[0]),
+        short(fit.median_95[1]),
+        short(fit.dispersion)
+    )
 }
 
 fn share(p: Proportion) -> String {

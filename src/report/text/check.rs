@@ -27,6 +27,9 @@ pub fn verification(file: &ResultFile, verification: &Verification, layout: Layo
         Some(Law::Associative) if !verification.refuted() => {
             format!("{text}; whether a pre-stress is needed was not asked")
         }
+        _ if verification.computed() && file.answer.rocking().is_some() => {
+            format!("where it starts is {text}; its history is computed, not proved")
+        }
         _ if verification.computed() => {
             format!("{text}; that states under dry friction rest or move is computed, not proved")
         }

@@ -9,6 +9,7 @@ mod mechanism;
 mod packing;
 mod page;
 mod path;
+mod rocking;
 mod simulation;
 mod stages;
 mod template;
@@ -186,7 +187,7 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         QuestionKind::Simulate => "simulate",
         QuestionKind::Settle => "settle",
         QuestionKind::Push => "push",
-        QuestionKind::Kinematic => "kinematic",
+        QuestionKind::Kinematic | QuestionKind::Rock => "kinematic",
         QuestionKind::Stages => "stages",
     };
     let again = if asked.options.is_empty() {
