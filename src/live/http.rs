@@ -107,6 +107,21 @@ pub fn answer(stream: &mut TcpStream, status: Refusal, kind: &str, body: &str) -
     stream.write_all(body.as_bytes())
 }
 
+/// Whether whoever listens has gone: nothing more is to come from there but the end.
+///
+/// # Errors
+/// The connection is broken.
+pub fn is_gone(stream: &mut TcpStream) -> io::Result<bool> {
+    stream.set_nonblocking(true)?;
+    let read = stream.read(&mut [0_u8; 64]);
+    stream.set_nonblocking(false)?;
+    match read {
+        Ok(n) => Ok(n == 0),
+        Err(e) if e.kind() == io::ErrorKind::WouldBlock => Ok(false),
+        Err(e) => Err(e),
+    }
+}
+
 /// A refusal. Of what was still to come a little is taken, so that the word arrives before the end
 /// of the connection does; no more than that.
 pub fn refuse(stream: &mut TcpStream, refusal: Refusal) {

@@ -17,13 +17,15 @@ use std::{
         Arc,
         atomic::{AtomicUsize, Ordering},
     },
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 /// Connections at a time. Fewer: a few open windows shut each other out. More: threads for nothing.
 const MOST: usize = 64;
 /// A window that is gone is noticed after this time at the latest.
-const HEARTBEAT: Duration = Duration::from_secs(2);
+const HEARTBEAT: Duration = Duration::from_millis(200);
+/// A connection beyond that many waits for its turn, this long at most.
+const TURN: Duration = Duration::from_secs(1);
 /// Names that are tried for a scene that is saved.
 const NAMES: usize = 1000;
 
@@ -84,10 +86,14 @@ impl Server {
                 continue;
             };
             let inside = self.inside.clone();
-            if inside.open.fetch_add(1, Ordering::Relaxed) >= MOST {
-                inside.open.fetch_sub(1, Ordering::Relaxed);
+            let arrived = Instant::now();
+            while inside.open.load(Ordering::Relaxed) >= MOST && arrived.elapsed() < TURN {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            if inside.open.load(Ordering::Relaxed) >= MOST {
                 continue;
             }
+            inside.open.fetch_add(1, Ordering::Relaxed);
             let work = inside.clone();
             let begun = thread("page", move || {
                 work.connection(stream);
@@ -148,8 +154,8 @@ impl Inside {
         let mut seen = 0;
         loop {
             let news = self.desk.news(seen, HEARTBEAT);
-            if news.is_empty() {
-                stream.write_all(b": here\n\n")?;
+            if news.is_empty() && http::is_gone(stream)? {
+                return Ok(());
             }
             for (number, kind, text) in news {
                 let event = format!("event: {}\ndata: {text}\n\n", kind.word());
