@@ -161,6 +161,9 @@ pub mod study;
 pub mod report;
 
 #[cfg(feature = "cli")]
+pub mod live;
+
+#[cfg(feature = "cli")]
 mod cli;
 
 /// The command `voussoir`, for programs that carry it: its binary, the wheel for Python.

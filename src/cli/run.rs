@@ -80,6 +80,7 @@ fn dispatch(verb: &Verb, terminal: &Terminal) -> anyhow::Result<Exit> {
         Verb::Import(a) => super::import::run(a),
         Verb::Check(a) => super::check::run(a, terminal),
         Verb::Sweep(a) => super::sweep::run(a, terminal),
+        Verb::Open(a) => super::open::run(a),
         Verb::Schema(a) => super::schema::run(a),
         Verb::Completions(a) => super::completions::run(a),
         Verb::Man(a) => super::man::run(a),

@@ -30,6 +30,7 @@ mod invariance;
 mod kinematic;
 mod large;
 mod layering;
+mod live;
 mod members;
 mod mesh_files;
 mod meshes;

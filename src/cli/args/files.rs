@@ -9,6 +9,17 @@ use std::path::PathBuf;
 use voussoir::{import::Up, scene::Friction};
 
 #[derive(Debug, Args)]
+pub struct Open {
+    /// The scene (JSON).
+    pub scene: PathBuf,
+    /// Answer on this port; any that is free by default.
+    #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
+    pub port: u16,
+    #[command(flatten)]
+    pub outside: Outside,
+}
+
+#[derive(Debug, Args)]
 pub struct Schema {
     /// Of what: `scene`, `plan`, `result` (what --json and --save give) or `model` (what `check
     /// SCENE --json` gives).

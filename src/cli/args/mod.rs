@@ -12,7 +12,7 @@ mod stages;
 mod study;
 mod sweep;
 
-pub use files::{Check, Completions, FileFormat, Generate, Import, Man, Schema};
+pub use files::{Check, Completions, FileFormat, Generate, Import, Man, Open, Schema};
 pub use ground::{Ground, Rocking};
 pub use kinematic::Kinematic;
 pub use path::{Curve, Push, Settle};
@@ -202,6 +202,13 @@ pub enum Verb {
     /// after a kill at any point. Rows are the same whatever the threads. Exit code 0 if
     /// every row has an answer, 3 if one is undecided, or its scene failed (it holds the error).
     Sweep(Sweep),
+    /// Show the answer in a browser while the scene is worked on.
+    ///
+    /// Prints the address of a page that only this machine reaches, with a token in it, and answers
+    /// there until it is interrupted (Ctrl-C). The page follows the file: on every save by any
+    /// program it asks again. Numbers of the scene have sliders, loads can be dragged, and questions
+    /// are tabs; what is changed there is written to a new file only when that is asked for.
+    Open(Open),
     /// Print the JSON Schema of scenes, or of sweep plans.
     Schema(Schema),
     /// Print what a shell needs to complete verbs and options.

@@ -9,11 +9,13 @@
 mod chart;
 mod facts;
 mod html;
+mod live;
 mod pack;
 mod study;
 mod sweep;
 
 pub use chart::{Axis, Chart, Series, attempts, curve, heaps};
+pub use live::{live, piece};
 pub use study::{extreme, omissions, study};
 pub use sweep::sweep;
 

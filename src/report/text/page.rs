@@ -86,6 +86,19 @@ impl Page {
         self.lines.push(line);
     }
 
+    /// Leaves out a labelled row, with the lines that go on from it.
+    pub fn drop_row(&mut self, label: &str) {
+        let mut inside = false;
+        self.lines.retain(|line| {
+            match line.first().filter(|s| s.role == Role::Label).map(|s| s.text.trim()) {
+                Some("") => {}
+                Some(other) => inside = other == label,
+                None => inside = false,
+            }
+            !inside
+        });
+    }
+
     pub(in crate::report) fn blank(&mut self) {
         self.lines.push(Vec::new());
     }

@@ -1,6 +1,8 @@
 // The eye: turned about a point, nearer or farther, with the pointer or the keys.
 const SLOPE = Math.tan((13 * Math.PI) / 180);
-const up = view.up, front = view.front, right = cross(up, front);
+let up, front, right;
+function aim() { [up, front, right] = [view.up, view.front, cross(view.up, view.front)]; }
+aim();
 const RIGHTS = { start: [0.42, 0.26], front: [0, 0], side: [Math.PI / 2, 0], top: [0, Math.PI / 2 - 1e-4] };
 // `preset` names where one looks from, until the camera is moved by hand.
 const eye = { angle: 0, height: 0, distance: 1, target: [0, 0, 0], preset: null };

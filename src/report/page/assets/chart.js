@@ -129,4 +129,8 @@ function drawChart(chart) {
   return make("figure", {}, make("figcaption", {}, chart.title), keys, svg, hint);
 }
 
-if (data.charts.length) (el("charts") || el("trace")).append(...data.charts.map(drawChart));
+function drawCharts(charts) {
+  cursors.length = 0;
+  (el("charts") || el("trace")).replaceChildren(...charts.map(drawChart));
+}
+drawCharts(data.charts);

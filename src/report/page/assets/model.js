@@ -1,14 +1,31 @@
 // The scene in units of its size, and where its blocks are at the moment.
-const view = data.view;
 const unpack = (part) => { for (const key in part) if (typeof part[key] === "string" && /^(f32|u16|u32|i16):/.test(part[key]) && !["name", "quantity", "unit", "way"].includes(key)) part[key] = decode(part[key]); return part; };
-const bodies = unpack(view.bodies), joints = unpack(view.joints), loads = unpack(view.loads);
-view.states.forEach(unpack);
-view.motions.forEach(unpack);
-if (view.film) unpack(view.film);
-if (view.values) unpack(view.values);
-const COUNT = bodies.ids.length, JOINTS = joints.a.length;
-// Resultants of each system of forces, and what the line of thrust carries.
-for (const s of view.states) {
+let view, bodies, joints, loads, COUNT, JOINTS, reach, jointsOf, poses;
+
+// Takes a view in the place of the one there was.
+function take(fresh) {
+  view = fresh;
+  [bodies, joints, loads] = [view.bodies, view.joints, view.loads].map(unpack);
+  view.states.forEach(unpack);
+  view.motions.forEach(unpack);
+  if (view.film) unpack(view.film);
+  if (view.values) unpack(view.values);
+  [COUNT, JOINTS] = [bodies.ids.length, joints.a.length];
+  view.states.forEach(resultants);
+  // The farthest corner of each block from its centre of mass.
+  reach = bodies.radius.map((r, i) => {
+    let far = r;
+    for (let k = bodies.cornerStart[i]; k < bodies.cornerStart[i + 1]; k++) far = Math.max(far, norm(sub(at3(bodies.corners, k), at3(bodies.center, i))));
+    return far;
+  });
+  jointsOf = Array.from({ length: COUNT }, () => []);
+  for (let k = 0; k < JOINTS; k++) { jointsOf[joints.a[k]].push(k); jointsOf[joints.b[k]].push(k); }
+  // Rotation and shift of each block: 8 numbers, the last one unused.
+  poses = new Float32Array(8 * COUNT);
+}
+
+// Resultants of a system of forces, and what the line of thrust carries.
+function resultants(s) {
   for (const [key, size] of [["force", 3], ["normal", 1], ["shear", 1], ["eccentricity", 1]]) s[key] = new Float32Array(size * JOINTS);
   for (let k = 0; k < JOINTS; k++) {
     let f = [0, 0, 0];
@@ -21,19 +38,9 @@ for (const s of view.states) {
   }
   s.lineForce = Float32Array.from(s.lineJoint, (k, m) => { const f = norm(at3(s.force, k)), o = s.lineOther[m]; return o < JOINTS ? 0.5 * (f + norm(at3(s.force, o))) : f; });
 }
+take(data.view);
 const meters = (v) => withUnit(v * view.length, "m");
 const newtons = (v) => withUnit(v * view.force, "N");
-
-// The farthest corner of each block from its centre of mass.
-const reach = bodies.radius.map((r, i) => {
-  let far = r;
-  for (let k = bodies.cornerStart[i]; k < bodies.cornerStart[i + 1]; k++) far = Math.max(far, norm(sub(at3(bodies.corners, k), at3(bodies.center, i))));
-  return far;
-});
-
-// The joints of each block.
-const jointsOf = Array.from({ length: COUNT }, () => []);
-for (let k = 0; k < JOINTS; k++) { jointsOf[joints.a[k]].push(k); jointsOf[joints.b[k]].push(k); }
 
 // What is chosen. `way` runs from 0 to 1.
 const state = { motion: -1, way: 0, magnify: 1, force: 0, colour: "stone", layers: new Set(), picked: null };
@@ -44,9 +51,6 @@ const WIDEST = 0.3;
 const FILM = -2;
 // Over the size of the scene.
 const AWAY = 1e6;
-
-// Rotation and shift of each block: 8 numbers, the last one unused.
-const poses = new Float32Array(8 * COUNT);
 
 function posed(i) {
   if (state.motion === FILM) return filmed(i);

@@ -9,7 +9,6 @@ if (!draw) {
   shown = flatCanvas;
   draw = plain(flatCanvas) || (() => {});
 }
-shown.setAttribute("aria-label", `${view.name || "The scene"}: ${COUNT} blocks, ${JOINTS} joints`);
 
 let waiting = false, stale = true;
 function redraw(changed) {
@@ -138,6 +137,7 @@ function choices() {
     if (far < 1e-9) state.magnify = 1;
     el("magnify").value = state.magnify;
   }
+  el("layers").replaceChildren(el("layers").firstElementChild);
   for (const [name, title, , there] of LAYERS) if (there()) el("layers").append(make("label", {}, make("input", { type: "checkbox", value: name, id: `layer-${name}`, onchange: (e) => { e.target.checked ? state.layers.add(name) : state.layers.delete(name); redraw(true); } }), title));
 }
 const layer = (name) => { const box = el(`layer-${name}`); if (box) { box.checked = true; state.layers.add(name); } };
@@ -178,11 +178,17 @@ function telling() {
 }
 
 // What is shown at first: how it fails where it falls, else how it carries.
-choices();
-const falls = Boolean(document.querySelector("h1.bad"));
-layer("edges");
-if (view.film) { state.way = 1; colour("moved"); if (view.values) colour("value"); motionNow(FILM); } else if (view.values) { colour("value"); motionNow(-1); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!forcesNow() || forcesNow().lineBody.length <= CROWD) layer("line"); colour(telling()); layer("marks"); if (loads.body.length <= 24) layer("loads"); motionNow(view.motions.length ? 0 : -1); }
-el("motion").value = state.motion;
-fillList();
-numbers();
+function begin() {
+  shown.setAttribute("aria-label", `${view.name || "The scene"}: ${COUNT} blocks, ${JOINTS} joints`);
+  state.layers.clear();
+  Object.assign(state, { motion: -1, way: 0, force: 0, colour: "stone" });
+  choices();
+  const falls = Boolean(document.querySelector("h1.bad"));
+  layer("edges");
+  if (view.film) { state.way = 1; colour("moved"); if (view.values) colour("value"); motionNow(FILM); } else if (view.values) { colour("value"); motionNow(-1); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!forcesNow() || forcesNow().lineBody.length <= CROWD) layer("line"); colour(telling()); layer("marks"); if (loads.body.length <= 24) layer("loads"); motionNow(view.motions.length ? 0 : -1); }
+  el("motion").value = state.motion;
+  fillList();
+  numbers();
+}
+begin();
 look("start");

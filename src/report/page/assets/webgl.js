@@ -17,44 +17,56 @@ function webgl(canvas) {
     const place = (key) => gl.getUniformLocation(program, key);
     programs[name] = { program, at: Object.fromEntries(["matrix", "blocks", "upward", "sun", "eye", "ball", "tint", "shrink"].map((k) => [k, place(k)])) };
   }
-  const upload = (list, use = gl.STATIC_DRAW) => { const b = gl.createBuffer(); gl.bindBuffer(gl.ARRAY_BUFFER, b); gl.bufferData(gl.ARRAY_BUFFER, list, use); return b; };
+  const send = (list) => { const b = gl.createBuffer(); gl.bindBuffer(gl.ARRAY_BUFFER, b); gl.bufferData(gl.ARRAY_BUFFER, list, gl.STATIC_DRAW); return b; };
   const attribute = (at, size, buffer, stride = 0, offset = 0, each = 0) => { gl.bindBuffer(gl.ARRAY_BUFFER, buffer); gl.enableVertexAttribArray(at); gl.vertexAttribPointer(at, size, gl.FLOAT, false, stride, offset); gl.vertexAttribDivisor(at, each); };
   const whole = (at, buffer, each = 0) => { gl.bindBuffer(gl.ARRAY_BUFFER, buffer); gl.enableVertexAttribArray(at); gl.vertexAttribIPointer(at, 1, gl.UNSIGNED_INT, 0, 0); gl.vertexAttribDivisor(at, each); };
-  const array = (fill) => { const v = gl.createVertexArray(); gl.bindVertexArray(v); fill(); gl.bindVertexArray(null); return v; };
+  const vertices = (fill) => { const v = gl.createVertexArray(); gl.bindVertexArray(v); fill(); gl.bindVertexArray(null); return v; };
 
-  // Plane pieces as fans, edges as lines; corners about the centre of mass.
-  const p = [], n = [], of = [], ep = [], eof = [];
-  for (let i = 0; i < COUNT; i++) {
-    const c = at3(bodies.center, i), corner = (k) => sub(at3(bodies.corners, bodies.cornerStart[i] + k), c);
-    for (let k = bodies.pieceStart[i]; k < bodies.pieceStart[i + 1]; k += bodies.pieces[k] + 1) {
-      const loop = Array.from(bodies.pieces.subarray(k + 1, k + 1 + bodies.pieces[k]), corner);
-      let normal = [0, 0, 0];
-      for (let m = 1; m + 1 < loop.length; m++) normal = add(normal, cross(sub(loop[m], loop[0]), sub(loop[m + 1], loop[0])));
-      normal = unit(normal);
-      for (let m = 1; m + 1 < loop.length; m++) for (const v of [loop[0], loop[m], loop[m + 1]]) { p.push(...v); n.push(...normal); of.push(i); }
-    }
-    for (let k = bodies.edgeStart[i]; k < bodies.edgeStart[i + 1]; k++) { ep.push(...corner(bodies.edges[k])); eof.push(i); }
-  }
-  const solids = array(() => { attribute(0, 3, upload(new Float32Array(p))); attribute(1, 3, upload(new Float32Array(n))); whole(2, upload(new Uint32Array(of))); });
-  const edges = array(() => { attribute(0, 3, upload(new Float32Array(ep))); whole(2, upload(new Uint32Array(eof))); });
-  const spheres = Array.from(bodies.radius.keys()).filter((i) => bodies.radius[i] > 0), globe = ball(spheres.length > 3000 ? 1 : spheres.length > 300 ? 2 : 3);
-  const balls = array(() => { const b = upload(new Float32Array(globe)); attribute(0, 3, b); attribute(1, 3, b); whole(2, upload(new Uint32Array(spheres)), 1); });
   const stream = gl.createBuffer();
   const profiles = { rods: profile([[0, 0, 0], [0, 0, 1], [1, 0, 1], [1, 0, 0]]), arrows: profile([[0, 0, 0], [0, 0, 1], [1, -6, 1], [1, -6, 2.7], [1, 0, 0]]), dots: profile(Array.from({ length: 9 }, (_, k) => [0, -Math.cos((Math.PI * k) / 8), Math.sin((Math.PI * k) / 8)])) };
-  for (const kind of Object.values(profiles)) kind.array = array(() => {
-    const b = upload(new Float32Array(kind.list));
+  for (const kind of Object.values(profiles)) kind.array = vertices(() => {
+    const b = send(new Float32Array(kind.list));
     attribute(0, 3, b, 28, 0); attribute(1, 2, b, 28, 12); attribute(2, 2, b, 28, 20);
     attribute(3, 3, stream, 40, 0, 1); attribute(4, 3, stream, 40, 12, 1); attribute(5, 1, stream, 40, 24, 1); attribute(6, 3, stream, 40, 28, 1);
   });
-  const faceStream = gl.createBuffer(), faces = array(() => { attribute(0, 3, faceStream, 28, 0); attribute(1, 4, faceStream, 28, 12); });
+  const faceStream = gl.createBuffer(), faces = vertices(() => { attribute(0, 3, faceStream, 28, 0); attribute(1, 4, faceStream, 28, 12); });
 
-  const wide = Math.min(COUNT, 512), high = Math.max(1, Math.ceil(COUNT / Math.max(1, wide))), texels = new Float32Array(Math.max(1, 3 * wide) * high * 4);
-  const texture = gl.createTexture();
-  gl.bindTexture(gl.TEXTURE_2D, texture);
-  for (const key of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, key, gl.NEAREST);
+  // What is drawn of the scene that there is; what was made for the one before is given back.
+  let made = [], scene = null;
+  const own = (thing, kind) => { made.push([thing, kind]); return thing; };
+  function build() {
+    for (const [thing, kind] of made) gl[`delete${kind}`](thing);
+    made = [];
+    const upload = (list) => own(send(list), "Buffer"), array = (fill) => own(vertices(fill), "VertexArray");
+    // Plane pieces as fans, edges as lines; corners about the centre of mass.
+    const p = [], n = [], of = [], ep = [], eof = [];
+    for (let i = 0; i < COUNT; i++) {
+      const c = at3(bodies.center, i), corner = (k) => sub(at3(bodies.corners, bodies.cornerStart[i] + k), c);
+      for (let k = bodies.pieceStart[i]; k < bodies.pieceStart[i + 1]; k += bodies.pieces[k] + 1) {
+        const loop = Array.from(bodies.pieces.subarray(k + 1, k + 1 + bodies.pieces[k]), corner);
+        let normal = [0, 0, 0];
+        for (let m = 1; m + 1 < loop.length; m++) normal = add(normal, cross(sub(loop[m], loop[0]), sub(loop[m + 1], loop[0])));
+        normal = unit(normal);
+        for (let m = 1; m + 1 < loop.length; m++) for (const v of [loop[0], loop[m], loop[m + 1]]) { p.push(...v); n.push(...normal); of.push(i); }
+      }
+      for (let k = bodies.edgeStart[i]; k < bodies.edgeStart[i + 1]; k++) { ep.push(...corner(bodies.edges[k])); eof.push(i); }
+    }
+    const solids = array(() => { attribute(0, 3, upload(new Float32Array(p))); attribute(1, 3, upload(new Float32Array(n))); whole(2, upload(new Uint32Array(of))); });
+    const edges = array(() => { attribute(0, 3, upload(new Float32Array(ep))); whole(2, upload(new Uint32Array(eof))); });
+    const spheres = Array.from(bodies.radius.keys()).filter((i) => bodies.radius[i] > 0), globe = ball(spheres.length > 3000 ? 1 : spheres.length > 300 ? 2 : 3);
+    const balls = array(() => { const b = upload(new Float32Array(globe)); attribute(0, 3, b); attribute(1, 3, b); whole(2, upload(new Uint32Array(spheres)), 1); });
+    const wide = Math.min(COUNT, 512), high = Math.max(1, Math.ceil(COUNT / Math.max(1, wide))), texels = new Float32Array(Math.max(1, 3 * wide) * high * 4);
+    const texture = own(gl.createTexture(), "Texture");
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    for (const key of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, key, gl.NEAREST);
+    return { solids, edges, balls, spheres, globe, texture, texels, wide, high, corners: of.length, ends: eof.length };
+  }
 
   return function draw(width, height, changed) {
     if (gl.isContextLost()) return;
+    if (!scene || scene.of !== view) scene = Object.assign(build(), { of: view });
+    const { solids, edges, balls, spheres, globe, texture, texels, wide, high } = scene;
+    gl.bindTexture(gl.TEXTURE_2D, texture);
     if (changed) {
       const tints = colours();
       for (let i = 0; i < COUNT; i++) {
@@ -85,7 +97,7 @@ function webgl(canvas) {
     let at = use("solid");
     gl.uniform1f(at.ball, 0);
     gl.bindVertexArray(solids);
-    gl.drawArrays(gl.TRIANGLES, 0, of.length);
+    gl.drawArrays(gl.TRIANGLES, 0, scene.corners);
     if (spheres.length) {
       gl.uniform1f(at.ball, 1);
       gl.bindVertexArray(balls);
@@ -100,7 +112,7 @@ function webgl(canvas) {
       const alpha = COUNT > 1500 ? 0.35 : 0.6, ink = rgb("--edge");
       gl.uniform4f(at.tint, ink[0] * alpha, ink[1] * alpha, ink[2] * alpha, alpha);
       gl.bindVertexArray(edges);
-      gl.drawArrays(gl.LINES, 0, eof.length);
+      gl.drawArrays(gl.LINES, 0, scene.ends);
     }
     gl.clear(gl.DEPTH_BUFFER_BIT);
     const triangles = [];

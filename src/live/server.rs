@@ -1,0 +1,206 @@
+//! Connections: one thread each, and no more than a browser needs.
+
+use super::{
+    desk::{Desk, Edits},
+    gate::{Gate, Refusal, Route},
+    http, knobs, thread,
+};
+use crate::{analysis::Question, report::page};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::{
+    fs::OpenOptions,
+    io::{self, Write},
+    net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream},
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicUsize, Ordering},
+    },
+    time::{Duration, Instant},
+};
+
+/// Connections at a time. Fewer: a few open windows shut each other out. More: threads for nothing.
+const MOST: usize = 64;
+/// A window that is gone is noticed after this time at the latest.
+const HEARTBEAT: Duration = Duration::from_millis(200);
+/// A connection beyond that many waits for its turn, this long at most.
+const TURN: Duration = Duration::from_secs(1);
+/// Names that are tried for a scene that is saved.
+const NAMES: usize = 1000;
+
+/// What a page sends.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Wish {
+    question: Question,
+    /// The file that the edits are about.
+    epoch: u64,
+    edits: Edits,
+}
+
+/// The server of one page.
+pub struct Server {
+    listener: TcpListener,
+    inside: Arc<Inside>,
+}
+
+struct Inside {
+    gate: Gate,
+    desk: Arc<Desk>,
+    scene: PathBuf,
+    open: AtomicUsize,
+}
+
+impl Server {
+    /// Listens on the loopback.
+    ///
+    /// # Errors
+    /// The port is taken, or there are no random numbers.
+    pub fn bind(port: u16, scene: &Path, desk: Arc<Desk>) -> io::Result<Self> {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
+        let gate = Gate::new(listener.local_addr()?)?;
+        let (scene, open) = (scene.to_path_buf(), AtomicUsize::new(0));
+        Ok(Self { listener, inside: Arc::new(Inside { gate, desk, scene, open }) })
+    }
+
+    /// Where it listens.
+    ///
+    /// # Errors
+    /// The system does not say.
+    pub fn address(&self) -> io::Result<SocketAddr> {
+        self.listener.local_addr()
+    }
+
+    /// The token of its gate.
+    pub fn token(&self) -> &str {
+        self.inside.gate.token()
+    }
+
+    /// Answers for good.
+    pub fn run(&self) {
+        loop {
+            // Out of descriptors, or gone already: the next one may do.
+            let Ok((stream, _)) = self.listener.accept() else {
+                std::thread::sleep(Duration::from_millis(20));
+                continue;
+            };
+            let inside = self.inside.clone();
+            let arrived = Instant::now();
+            while inside.open.load(Ordering::Relaxed) >= MOST && arrived.elapsed() < TURN {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            if inside.open.load(Ordering::Relaxed) >= MOST {
+                continue;
+            }
+            inside.open.fetch_add(1, Ordering::Relaxed);
+            let work = inside.clone();
+            let begun = thread("page", move || {
+                work.connection(stream);
+                work.open.fetch_sub(1, Ordering::Relaxed);
+            });
+            if begun.is_err() {
+                inside.open.fetch_sub(1, Ordering::Relaxed);
+            }
+        }
+    }
+}
+
+impl Inside {
+    /// One request. What cannot be sent is nobody's any more.
+    fn connection(&self, mut stream: TcpStream) {
+        let _ = stream.set_nodelay(true);
+        if let Err(refusal) = self.request(&mut stream) {
+            http::refuse(&mut stream, refusal);
+        }
+    }
+
+    fn request(&self, stream: &mut TcpStream) -> Result<(), Refusal> {
+        let (head, begun) = http::head(stream)?;
+        let (route, length) = self.gate.check(&head)?;
+        let body = http::body(stream, begun, length)?;
+        let gone = |_: io::Error| ();
+        let json = "application/json";
+        let _ = match route {
+            Route::Page => {
+                let name = self.scene.display().to_string();
+                let page = page::live(&name).map_err(|_| (500, "Internal Server Error"))?;
+                http::answer(stream, (200, "OK"), "text/html; charset=utf-8", &page).map_err(gone)
+            }
+            Route::Events => self.events(stream).map_err(gone),
+            Route::Ask => {
+                let wish: Wish = serde_json::from_slice(&body).map_err(|_| (400, "Bad Request"))?;
+                if !is_offered(&wish.question) {
+                    return Err((400, "Bad Request"));
+                }
+                let revision = self.desk.ask(wish.question, wish.epoch, wish.edits);
+                let said = json!({ "revision": revision }).to_string();
+                http::answer(stream, (200, "OK"), json, &said).map_err(gone)
+            }
+            Route::Save => {
+                let said = match self.save() {
+                    Ok(path) => json!({ "file": path.display().to_string() }),
+                    Err(why) => json!({ "error": why }),
+                };
+                http::answer(stream, (200, "OK"), json, &said.to_string()).map_err(gone)
+            }
+        };
+        Ok(())
+    }
+
+    /// Everything that is said, as it is said.
+    fn events(&self, stream: &mut TcpStream) -> io::Result<()> {
+        http::begin(stream, "text/event-stream")?;
+        let mut seen = 0;
+        loop {
+            let news = self.desk.news(seen, HEARTBEAT);
+            if news.is_empty() && http::is_gone(stream)? {
+                return Ok(());
+            }
+            for (number, kind, text) in news {
+                let event = format!("event: {}\ndata: {text}\n\n", kind.word());
+                stream.write_all(event.as_bytes())?;
+                seen = number;
+            }
+        }
+    }
+
+    /// Writes the scene as it is changed beside its file, under a name that nothing has.
+    fn save(&self) -> Result<PathBuf, String> {
+        let job = self.desk.wanted();
+        let bytes = job.file.as_ref().as_ref().map_err(ToString::to_string)?;
+        let mut scene: Value = serde_json::from_slice(bytes).map_err(|e| e.to_string())?;
+        knobs::change(&mut scene, &job.edits).map_err(|e| e.to_string())?;
+        let text = serde_json::to_string_pretty(&scene).map_err(|e| e.to_string())? + "\n";
+        let stem = self.scene.file_stem().map_or("scene".into(), |s| s.to_string_lossy());
+        for k in 1..=NAMES {
+            let path = self.scene.with_file_name(format!("{stem}-{k}.json"));
+            match OpenOptions::new().write(true).create_new(true).open(&path) {
+                Ok(mut file) => {
+                    let done = file.write_all(text.as_bytes()).and_then(|()| file.sync_all());
+                    return done.map(|()| path.clone()).map_err(|e| {
+                        // Half a scene is none.
+                        let _ = std::fs::remove_file(&path);
+                        format!("{}: {e}", path.display())
+                    });
+                }
+                Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(e) => return Err(format!("{}: {e}", path.display())),
+            }
+        }
+        Err(format!("{stem}-1.json to {stem}-{NAMES}.json are all there already"))
+    }
+}
+
+/// The questions of the tabs.
+fn is_offered(question: &Question) -> bool {
+    matches!(
+        question,
+        Question::Assess(_)
+            | Question::Limit(_)
+            | Question::Tilt(_)
+            | Question::Thrust(_)
+            | Question::Settle(_)
+            | Question::Kinematic(_)
+    )
+}
