@@ -105,6 +105,24 @@ pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Positions)
     )
 }
 
+/// Program T beside a live load: `min c·x − κ λ` subject to `A x + w + s λ ℓ = 0`, with `s` the
+/// `live_scale`. Its dual moves the blocks so that the live load has the power `κ / s`.
+pub fn driven(
+    statics: &Statics,
+    objective: &[f64],
+    live_scale: f64,
+    kappa: f64,
+) -> (ConicProgram, Positions) {
+    let (mut p, layout) = thrust(statics, objective);
+    let lambda = p.objective.len();
+    p.objective.push(-kappa);
+    p.matrix.columns += 1;
+    for (row, l) in statics.live.iter().enumerate() {
+        p.matrix.push(row, lambda, live_scale * l);
+    }
+    (p, layout)
+}
+
 /// Can the thrust grow without end? Forces that balance by themselves with `objective · x = −1`, or
 /// what they leave: `min t`, `‖(A x)_i‖ ≤ t` per block.
 pub fn endless_thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Positions) {

@@ -15,7 +15,7 @@ use crate::{
     error::{InputError, JsonPath},
     interface::Model,
     path::{
-        Carried, Drive, Move, Moves, member, reaction,
+        Carried, Displaced, Drive, Move, Moves, member, reaction,
         saved::{SavedPose, read_poses, write_poses},
     },
     terms::Law,
@@ -282,13 +282,12 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
     let poses = read_poses(assembly, &saved).unwrap_or_else(|_| point.poses.clone());
     let found = carried.displaced(&poses);
     let model = &found.model;
-    let rest = || vec![Rate::zero(); model.assembly.blocks.len()];
-    let proved = |claim: Claim, forces: Forces, rates: Vec<Rate>| {
-        PointProof::of(model, &Proved::new(model, Side { claim: Some(claim), forces, rates }))
-    };
     if how.drive.is_push() {
         let l = limit(model, &Control { law: Law::Associative, ..*control });
         return PointProof::of(model, &l);
+    }
+    if let Some(touch) = &point.touch {
+        return slid_proof(carried, &found, point, touch);
     }
     // Corners that touch again without having to are among the contacts, and carry nothing.
     let touching = carried.touching(&poses, &point.closed);
@@ -310,6 +309,15 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
             }
         }
     }
+    stands_or_falls(model, forces, &point.rates)
+}
+
+/// Proves that a displaced scene stands with these forces, or falls by these rates.
+fn stands_or_falls(model: &Model, forces: Forces, rates: &[Rate]) -> PointProof {
+    let rest = || vec![Rate::zero(); model.assembly.blocks.len()];
+    let proved = |claim: Claim, forces: Forces, rates: Vec<Rate>| {
+        PointProof::of(model, &Proved::new(model, Side { claim: Some(claim), forces, rates }))
+    };
     let stands = |forces: Forces| {
         let stands = proved(Claim::Stable, forces.clone(), rest());
         // What a program leaves is more than what counts as balance in large scenes.
@@ -318,11 +326,34 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
             None => stands,
         }
     };
-    if point.rates.iter().all(|r| *r == Rate::zero()) {
+    if rates.iter().all(|r| *r == Rate::zero()) {
         return stands(forces);
     }
-    let falls = proved(Claim::Unstable, forces.clone(), point.rates.clone());
+    let falls = proved(Claim::Unstable, forces.clone(), rates.to_vec());
     if falls.claim.is_some() { falls } else { stands(forces) }
+}
+
+/// Proves a point after sliding: the forces of dry friction, at the contacts that its poses have.
+fn slid_proof(
+    carried: &Carried,
+    found: &Displaced,
+    point: &Point,
+    touch: &[(usize, Vec<Vector3<f64>>)],
+) -> PointProof {
+    let list = &found.model.interfaces.list;
+    let mut forces = crate::verdict::no_forces(&found.model.interfaces);
+    for ((k, places), given) in touch.iter().zip(&point.forces) {
+        for (at, w) in places.iter().zip(given) {
+            let near = (0..list.len())
+                .filter(|&c| found.from[c] == *k)
+                .flat_map(|c| (0..list[c].points.len()).map(move |p| (c, p)))
+                .find(|&(c, p)| (list[c].points[p] - at).norm() <= 1e-6 * carried.size(*k));
+            if let Some((c, p)) = near {
+                forces[c][p] += *w;
+            }
+        }
+    }
+    stands_or_falls(&found.model, forces, &point.rates)
 }
 
 impl PointProof {

@@ -10,6 +10,7 @@ use crate::{
     terms::{Law, Outcome},
     verdict::{Forces, Rate, Verdict},
 };
+use nalgebra::Vector3;
 
 /// The part that moves, and what the rest does meanwhile.
 pub(super) struct Moved<'a> {
@@ -107,6 +108,7 @@ impl<'a> Moved<'a> {
             opens: e.opens.iter().map(|&k| self.faces[k]).collect(),
             closes: e.closes.iter().map(|&k| self.faces[k]).collect(),
             yields: e.yields.iter().map(|&m| self.members[m]).collect(),
+            slides: e.slides.iter().map(|&k| self.faces[k]).collect(),
             ..e
         };
         let first = own.first.map(|(forces, rates)| {
@@ -129,8 +131,11 @@ impl<'a> Moved<'a> {
         let poses = self.poses(&own.poses);
         let mut closed: Vec<Vec<usize>> =
             list.iter().map(|f| (0..f.points.len()).collect()).collect();
-        self.faces.iter().zip(own.closed).for_each(|(&k, c)| closed[k] = c);
-        let rates = if own.rates.is_empty() { own.rates } else { self.rates(&own.rates) };
+        self.faces.iter().zip(own.closed.clone()).for_each(|(&k, c)| closed[k] = c);
+        let rates = if own.rates.is_empty() { Vec::new() } else { self.rates(&own.rates) };
+        if let Some(touch) = own.touch {
+            return self.slid(poses, closed, rates, Point { touch: None, ..own }, touch);
+        }
         // Forces stand at what touches: at joints without a closed corner there are none.
         let mut given = own.forces.into_iter();
         let mut is_own = vec![false; list.len()];
@@ -148,6 +153,36 @@ impl<'a> Moved<'a> {
             )
             .collect();
         Point { poses, closed, forces, rates, ..own }
+    }
+
+    /// A point of the part after sliding: its contacts among those of the scene.
+    fn slid(
+        &self,
+        poses: Vec<Pose>,
+        closed: Vec<Vec<usize>>,
+        rates: Vec<Rate>,
+        own: Point,
+        touch: Vec<(usize, Vec<Vector3<f64>>)>,
+    ) -> Point {
+        let list = &self.whole.interfaces.list;
+        let (mut all, mut forces) = (Vec::new(), Vec::new());
+        for (k, face) in list.iter().enumerate() {
+            match self.faces.iter().position(|&f| f == k) {
+                None => {
+                    all.push((k, face.points.clone()));
+                    forces.push(self.still[k].clone());
+                }
+                Some(part) => {
+                    let here = touch.iter().zip(&own.forces).filter(|((j, _), _)| *j == part);
+                    for ((_, at), w) in here {
+                        all.push((k, at.clone()));
+                        forces.push(w.clone());
+                    }
+                }
+            }
+        }
+        forces.extend(self.still.iter().skip(list.len()).cloned());
+        Point { poses, closed, rates, forces, touch: Some(all), ..own }
     }
 
     /// Poses of the part.

@@ -168,6 +168,7 @@ impl<'a> Tracker<'a> {
             forces: margin.forces.clone(),
             room: margin.room,
             rates: Vec::new(),
+            touch: None,
         }
     }
 
