@@ -10,6 +10,7 @@
 
 pub mod drive;
 pub mod member;
+mod near;
 pub mod reaction;
 pub mod saved;
 mod side;
@@ -32,6 +33,9 @@ pub struct Carried<'a> {
     pub start: &'a Model,
     /// Whose face goes on beyond each corner.
     sides: Vec<Vec<Side>>,
+    /// The joints at the start, and behind them those of faces that may come to touch, without
+    /// points.
+    pub joints: Vec<Interface>,
     /// The faces that meet in each joint.
     faces: Vec<slid::Faces>,
 }
@@ -65,13 +69,19 @@ impl<'a> Carried<'a> {
     pub fn new(start: &'a Model) -> Self {
         let list = || start.interfaces.list.iter();
         let sides = list().map(|f| side::sides(&start.assembly, f)).collect();
-        let faces = list().map(|f| slid::Faces::of(&start.assembly, f)).collect();
-        Self { start, sides, faces }
+        let mut faces: Vec<slid::Faces> =
+            list().map(|f| slid::Faces::of(&start.assembly, f)).collect();
+        let mut joints = start.interfaces.list.clone();
+        for (joint, own) in near::joints(&start.assembly, &start.interfaces.list) {
+            joints.push(joint);
+            faces.push(own);
+        }
+        Self { start, sides, joints, faces }
     }
 
     /// The size of the smaller block of a joint, m.
     pub fn size(&self, interface: usize) -> f64 {
-        let face = &self.start.interfaces.list[interface];
+        let face = &self.joints[interface];
         let blocks = &self.start.assembly.blocks;
         blocks[face.a].size.min(blocks[face.b].size)
     }
@@ -127,8 +137,9 @@ impl<'a> Carried<'a> {
     /// The scene at these poses, one a block.
     pub fn displaced(&self, poses: &[Pose]) -> Displaced {
         let slid: Vec<Option<Vec<Spot>>> =
-            (0..self.start.interfaces.list.len()).map(|k| self.slid(poses, k)).collect();
-        let closed = self.closed(poses);
+            (0..self.joints.len()).map(|k| self.slid(poses, k)).collect();
+        let mut closed = self.closed(poses);
+        closed.resize(self.joints.len(), Vec::new());
         let mut displaced = self.assembled(poses, |k| match &slid[k] {
             None if closed[k].is_empty() => Vec::new(),
             None => vec![self.contact(poses, k, &closed[k])],
@@ -153,7 +164,7 @@ impl<'a> Carried<'a> {
     /// The scene at these poses with these corners of each joint closed.
     pub fn touching(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Displaced {
         self.assembled(poses, |k| {
-            let points = &closed[k];
+            let points = closed.get(k).map_or(&[][..], |c| &c[..]);
             if points.is_empty() { Vec::new() } else { vec![self.contact(poses, k, points)] }
         })
     }
@@ -165,7 +176,7 @@ impl<'a> Carried<'a> {
         contacts: impl Fn(usize) -> Vec<Interface>,
     ) -> Displaced {
         let (mut list, mut from) = (Vec::new(), Vec::new());
-        for k in 0..self.start.interfaces.list.len() {
+        for k in 0..self.joints.len() {
             let own = contacts(k);
             from.extend(std::iter::repeat_n(k, own.len()));
             list.extend(own);

@@ -8,18 +8,20 @@
 
 use super::{Carried, Side};
 use crate::{
-    assembly::{Assembly, Facet, Pose, Solid},
+    assembly::{Assembly, Facet, Polyhedron, Pose, Solid},
     interface::{ContactFrame, ContactKind, Interface},
     plane::{clip, polygon, polygon::P2},
     tolerance,
 };
 use nalgebra::Vector3;
 
-/// The faces that meet in a joint, as convex pieces in the coordinates `(t1, t2)` of its frame about
-/// `middle`, counter-clockwise around its normal, m: those of block `a`, those of block `b`.
+/// The faces that meet in a joint, of block `a` and of block `b`: a point in the plane of each, a
+/// frame with the normal of `a` (for both), and convex pieces in its coordinates `(t1, t2)` about
+/// that point, counter-clockwise around it, m.
 #[derive(Clone, Debug)]
 pub(super) struct Faces {
-    middle: Vector3<f64>,
+    middle: [Vector3<f64>; 2],
+    frames: [ContactFrame; 2],
     pieces: [Vec<Vec<P2>>; 2],
 }
 
@@ -40,10 +42,28 @@ pub struct Spot {
 /// by more than this, are others.
 const IN_PLANE: f64 = 1e-3;
 
+/// A piece of a facet in the coordinates of a frame about a point, counter-clockwise around it.
+pub(super) fn flat(
+    shape: &Polyhedron,
+    piece: &[u32],
+    frame: &ContactFrame,
+    middle: &Vector3<f64>,
+) -> Vec<P2> {
+    let seen = |p: Vector3<f64>| {
+        P2::new(frame.t1.dot(&(p - middle)), frame.t2.dot(&(p - middle)))
+    };
+    let mut flat: Vec<P2> = shape.points(piece).map(seen).collect();
+    if polygon::area(&flat) < 0.0 {
+        flat.reverse();
+    }
+    flat
+}
+
 impl Faces {
+    /// Those of a joint that touches at the start: they lie in its plane.
     pub(super) fn of(assembly: &Assembly, face: &Interface) -> Self {
         let middle = face.points.iter().sum::<Vector3<f64>>() / face.points.len().max(1) as f64;
-        let ContactFrame { t1, t2, n } = face.frame;
+        let n = face.frame.n;
         let pieces = [(face.a, n), (face.b, -n)].map(|(i, outward)| {
             let block = &assembly.blocks[i];
             let Solid::Polyhedron(shape) = &block.solid else { return Vec::new() };
@@ -52,19 +72,25 @@ impl Faces {
                     && f.normal.dot(&outward) > 0.0
                     && (f.normal.dot(&middle) - f.offset).abs() <= IN_PLANE * block.size
             };
-            let flat = |p: Vector3<f64>| P2::new(t1.dot(&(p - middle)), t2.dot(&(p - middle)));
             let pieces = shape.facets.iter().filter(in_plane).flat_map(|f| &f.pieces);
-            pieces
-                .map(|piece| {
-                    let mut flat: Vec<P2> = shape.points(piece).map(flat).collect();
-                    if polygon::area(&flat) < 0.0 {
-                        flat.reverse();
-                    }
-                    flat
-                })
-                .collect()
+            pieces.map(|piece| flat(shape, piece, &face.frame, &middle)).collect()
         });
-        Self { middle, pieces }
+        Self { middle: [middle; 2], frames: [face.frame; 2], pieces }
+    }
+
+    /// Those of two facets that may come to touch.
+    pub(super) fn between(shapes: [&Polyhedron; 2], facets: [&Facet; 2]) -> Self {
+        let middle = [0, 1].map(|k| {
+            let corners = facets[k].pieces.iter().flat_map(|p| shapes[k].points(p));
+            let (sum, count) = corners.fold((Vector3::zeros(), 0.0), |(s, n), p| (s + p, n + 1.0));
+            sum / f64::max(count, 1.0)
+        });
+        let frames = [facets[0].normal, -facets[1].normal].map(ContactFrame::around);
+        let pieces = [0, 1].map(|k| {
+            let pieces = facets[k].pieces.iter();
+            pieces.map(|p| flat(shapes[k], p, &frames[k], &middle[k])).collect()
+        });
+        Self { middle, frames, pieces }
     }
 
     /// Whether both blocks have a face there: a joint of edges and corners has none.
@@ -81,15 +107,17 @@ impl Carried<'_> {
 
     /// Where a joint touches, or may; none where its faces are not above each other any more.
     pub fn spots(&self, poses: &[Pose], interface: usize) -> Vec<Spot> {
-        let (face, faces) =
-            (&self.start.interfaces.list[interface], &self.faces[interface]);
-        let [a, b] = [face.a, face.b].map(|i| &poses[i]);
-        let ways = [face.a, face.b]
-            .map(|i| poses[i].way(&self.start.assembly.blocks[i].centroid, &faces.middle));
-        let parted = ways[1] - ways[0];
-        let ContactFrame { t1, t2, n } = face.frame;
-        let [u, v, up] = [t1, t2, n].map(|e| a.turn * e);
-        let [ub, vb, across] = [t1, t2, n].map(|e| b.turn * e);
+        let (face, faces) = (&self.joints[interface], &self.faces[interface]);
+        let places = [0, 1].map(|k| {
+            let (i, middle) = ([face.a, face.b][k], &faces.middle[k]);
+            poses[i].way(&self.start.assembly.blocks[i].centroid, middle)
+        });
+        let parted = (faces.middle[1] - faces.middle[0]) + (places[1] - places[0]);
+        let turned = |k: usize, i: usize| {
+            let ContactFrame { t1, t2, n } = faces.frames[k];
+            [t1, t2, n].map(|e| poses[i].turn * e)
+        };
+        let ([u, v, up], [ub, vb, across]) = (turned(0, face.a), turned(1, face.b));
         let slope = across.dot(&up);
         if slope <= STEEP {
             return Vec::new();
@@ -115,7 +143,7 @@ impl Carried<'_> {
         let is_corner = |of: &[Vec<P2>], p: &P2| {
             of.iter().flatten().any(|q| (p - q).norm() <= 4.0 * tol)
         };
-        let origin = faces.middle + ways[0];
+        let origin = faces.middle[0] + places[0];
         corners
             .into_iter()
             .map(|p| {
@@ -142,7 +170,7 @@ impl Carried<'_> {
         if !self.may_slide(interface) {
             return None;
         }
-        let points = 0..self.start.interfaces.list[interface].points.len();
+        let points = 0..self.joints[interface].points.len();
         let mut beside = false;
         let mut together = false;
         for c in points.map(|p| self.corner(poses, interface, p)) {
@@ -165,7 +193,7 @@ impl Carried<'_> {
             let spots = self.spots(poses, interface);
             return spots.iter().map(|s| s.gap / size).min_by(f64::total_cmp);
         }
-        let points = 0..self.start.interfaces.list[interface].points.len();
+        let points = 0..self.joints[interface].points.len();
         let gaps = points.map(|p| self.corner(poses, interface, p));
         gaps.filter(|c| c.apart > tolerance::JOINT_CLOSED)
             .map(|c| c.gap)
@@ -175,7 +203,7 @@ impl Carried<'_> {
     /// How far the two blocks of a joint have slid at a place where they touch, m: the way between
     /// the points of them that were there at the start.
     pub fn slip(&self, poses: &[Pose], interface: usize, at: &Vector3<f64>) -> f64 {
-        let face = &self.start.interfaces.list[interface];
+        let face = &self.joints[interface];
         let [a, b] = [face.a, face.b].map(|i| self.before(poses, i, at));
         (b - a).norm()
     }
@@ -195,7 +223,7 @@ impl Carried<'_> {
         interface: usize,
         spots: &[Spot],
     ) -> Vec<(Interface, Vec<Spot>)> {
-        let face = &self.start.interfaces.list[interface];
+        let face = &self.joints[interface];
         [Side::A, Side::B, Side::Neither]
             .into_iter()
             .filter_map(|side| {

@@ -14,6 +14,7 @@
 
 use super::{program, tracker::Tracker};
 use crate::{
+    analysis::{Control, assess, mend},
     assembly::Pose,
     interface::Model,
     path::Spot,
@@ -21,8 +22,9 @@ use crate::{
     program::{Statics, StaticsOptions},
     scene::Friction,
     solve::coulomb::Anderson,
+    terms::Law,
     tolerance,
-    verdict::{Forces, Rate, certificate, check},
+    verdict::{Forces, Rate, Verdict, certificate, check, exact::existence},
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -153,8 +155,7 @@ impl Tracker<'_> {
 
     /// All places where joints touch or may.
     fn stage(&self, poses: &[Pose]) -> Stage {
-        let list = &self.carried.start.interfaces.list;
-        let all: Vec<_> = (0..list.len())
+        let all: Vec<_> = (0..self.carried.joints.len())
             .map(|k| self.carried.contacts(poses, k, &self.carried.spots(poses, k)))
             .collect();
         let displaced =
@@ -387,6 +388,7 @@ impl Tracker<'_> {
                 }
             }
         }
+        let forces = self.balanced(&found.model, forces, solved.load_factor)?;
         let joints = self.joints(&poses, |k| {
             let own = stage.spots.iter().enumerate().filter(|(_, (own, _))| *own == k);
             own.flat_map(|(c, _)| {
@@ -421,13 +423,31 @@ impl Tracker<'_> {
         Some(Rested { value, poses, touch, forces, load_factor, joints, rates })
     }
 
+    /// These forces, balanced to what counts as balance; others that are, where that is no small
+    /// change. Without live loads nothing where there are none, for then it does not stand.
+    fn balanced(&self, model: &Model, mut forces: Forces, lambda: f64) -> Option<Forces> {
+        mend::cut(&model.interfaces, &mut forces);
+        if self.drive.is_push()
+            || certificate::statics(model, &forces, lambda).unbalance <= tolerance::UNBALANCE
+        {
+            return Some(forces);
+        }
+        if let Some(better) = existence::improved(model, &forces, lambda) {
+            return Some(better);
+        }
+        let control =
+            Control { law: Law::Associative, deadline: self.deadline, ..Control::default() };
+        let any = assess(model, &control);
+        (any.verdict == Verdict::Stable).then(|| any.forces.clone())
+    }
+
     /// How every joint touches.
     pub(super) fn joints(
         &self,
         poses: &[Pose],
         slides: impl Fn(usize) -> bool,
     ) -> Vec<(Joint, bool)> {
-        (0..self.carried.start.interfaces.list.len())
+        (0..self.carried.joints.len())
             .map(|k| {
                 let spots = self.carried.spots(poses, k);
                 let small = tolerance::JOINT_CLOSED * self.carried.size(k);

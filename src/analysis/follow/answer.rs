@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     analysis::{
-        Claims, Control, Proved, limit,
+        Claims, Control, Proved, limit, mend,
         question::{PushOptions, SettleOptions},
     },
     assembly::{Member, Pose, Solid, Wrench},
@@ -27,6 +27,7 @@ use crate::{
     },
 };
 use nalgebra::Vector3;
+use std::collections::HashSet;
 
 /// A path with its proofs.
 #[derive(Clone, Debug)]
@@ -249,13 +250,24 @@ pub(super) fn followable(model: &Model) -> Result<(), InputError> {
 fn answer(model: &Model, how: &dyn Fn(f64) -> Follow, control: &Control) -> Followed {
     let moved = Moved::of(model, &how(1.0).drive, control);
     let how = &how(size(moved.as_ref().map_or(model, |m| &m.own)));
+    let none = HashSet::new();
     let path = match &moved {
-        None => follow(model, how, control.deadline, &|poses| meets(model, poses)),
+        None => {
+            let joints = Carried::new(model).joints;
+            let joined = joints.iter().map(|f| (f.a.min(f.b), f.a.max(f.b))).collect();
+            let meets = |poses: &[Pose], known: bool| {
+                meets(model, if known { &joined } else { &none }, poses)
+            };
+            follow(model, how, control.deadline, &meets)
+        }
         Some(moved) => {
             let from = how.from.as_ref().map(|(value, poses)| (*value, moved.own_poses(poses)));
             let own = Follow { drive: moved.drive(&how.drive), from, ..how.clone() };
             // What moves may still run into what rests.
-            let meets = |poses: &[Pose]| meets(model, &moved.poses(poses));
+            let joined = moved.joined();
+            let meets = |poses: &[Pose], known: bool| {
+                meets(model, if known { &joined } else { &none }, &moved.poses(poses))
+            };
             moved.path(follow(&moved.own, &own, control.deadline, &meets))
         }
     };
@@ -353,6 +365,7 @@ fn slid_proof(
             }
         }
     }
+    mend::cut(&found.model.interfaces, &mut forces);
     stands_or_falls(&found.model, forces, &point.rates)
 }
 

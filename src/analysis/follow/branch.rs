@@ -137,12 +137,13 @@ pub(super) const ROOM: f64 = -1e-9;
 
 /// Follows the motion of a scene from where it is.
 ///
-/// `meets` says which blocks touch at some poses and did not at the start.
+/// `meets` says which blocks touch at some poses and did not at the start; with `true` but for those
+/// whose faces are known to be near ([`Carried::joints`]).
 pub(super) fn follow(
     start: &Model,
     how: &Follow,
     deadline: Deadline,
-    meets: &dyn Fn(&[Pose]) -> Option<String>,
+    meets: &dyn Fn(&[Pose], bool) -> Option<String>,
 ) -> Path {
     let carried = Carried::new(start);
     let blocks = &start.assembly.blocks;
@@ -305,7 +306,7 @@ impl Tracker<'_> {
                 if how.drive.is_push() && trial.at.load_factor <= 0.0 {
                     return Err(self.vanishes(&linkage, here, (value, trial), &closed, path));
                 }
-                if let Some(text) = (self.meets)(&trial.at.place.poses) {
+                if let Some(text) = (self.meets)(&trial.at.place.poses, false) {
                     return Err(End::Stuck(text));
                 }
                 if let Some(m) = trial.margin.as_ref().filter(|_| value == aim) {

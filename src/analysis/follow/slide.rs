@@ -33,8 +33,7 @@ impl Tracker<'_> {
             let text = "a joint slides, which is not followed where there are members";
             return Some(End::Stuck(text.into()));
         }
-        let joints = 0..start.interfaces.list.len();
-        joints.into_iter().find(|&k| !self.carried.may_slide(k)).map(End::Slides)
+        (0..start.interfaces.list.len()).find(|&k| !self.carried.may_slide(k)).map(End::Slides)
     }
 
     /// Follows under dry friction from a pose at which something begins to slide.
@@ -107,7 +106,7 @@ impl Tracker<'_> {
             if changed {
                 self.tell(&here, &next, path);
             }
-            if let Some(text) = (self.meets)(&next.poses) {
+            if let Some(text) = (self.meets)(&next.poses, true) {
                 return Ok(End::Stuck(text));
             }
             if changed || next.value == aim {

@@ -58,7 +58,7 @@ impl ResultFile {
             _ => Vec::new(),
         };
         let joints = |list: &[usize]| -> Vec<[String; 2]> {
-            let faces = list.iter().map(|&k| &model.interfaces.list[k]);
+            let faces = list.iter().map(|&k| &carried.joints[k]);
             faces.map(|f| [id(f.a), id(f.b)]).collect()
         };
         let events = path.events.iter().map(|e| PathEvent {

@@ -5,7 +5,7 @@ mod verify;
 pub(super) use verify::{curve, verify};
 
 use super::result::Certificate;
-use crate::{interface::Model, path::Carried, path::saved::SavedPose, tolerance};
+use crate::{path::Carried, path::saved::SavedPose, tolerance};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -216,11 +216,12 @@ pub enum PathEventKind {
 
 /// Joints that have opened and still touch, from the poses.
 pub(super) fn hinges(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<Hinge> {
-    let start: &Model = carried.start;
     let middle = |points: &[Vector3<f64>]| -> [f64; 3] {
         (points.iter().sum::<Vector3<f64>>() / points.len() as f64).into()
     };
-    let corners = carried.corners(poses).into_iter().enumerate();
+    let mut corners = carried.corners(poses);
+    corners.resize(carried.joints.len(), Vec::new());
+    let corners = corners.into_iter().enumerate();
     corners
         .filter_map(|(k, corners)| {
             let (closed, widest): (Vec<Vector3<f64>>, f64) =
@@ -238,7 +239,7 @@ pub(super) fn hinges(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<
                     (closed.iter().map(at).collect(), widest * carried.size(k))
                 };
             (!closed.is_empty() && widest > 0.0).then(|| Hinge {
-                between: between(start, k),
+                between: between(carried, k),
                 at: middle(&closed),
                 width: widest,
             })
@@ -246,15 +247,14 @@ pub(super) fn hinges(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<
         .collect()
 }
 
-fn between(start: &Model, k: usize) -> [String; 2] {
-    let face = &start.interfaces.list[k];
-    [face.a, face.b].map(|i| start.assembly.blocks[i].id.clone())
+fn between(carried: &Carried, k: usize) -> [String; 2] {
+    let face = &carried.joints[k];
+    [face.a, face.b].map(|i| carried.start.assembly.blocks[i].id.clone())
 }
 
 /// Joints that have slid and still touch, from the poses.
 pub(super) fn slips(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<Slip> {
-    let start: &Model = carried.start;
-    (0..start.interfaces.list.len())
+    (0..carried.joints.len())
         .filter_map(|k| {
             let small = tolerance::JOINT_CLOSED * carried.size(k);
             let spots = carried.slid(poses, k)?;
@@ -262,7 +262,7 @@ pub(super) fn slips(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<S
                 spots.iter().filter(|s| s.gap.abs() <= small).map(|s| s.at).collect();
             let way = closed.iter().map(|at| carried.slip(poses, k, at)).fold(0.0, f64::max);
             let at = closed.iter().sum::<Vector3<f64>>() / closed.len().max(1) as f64;
-            Some(Slip { between: between(start, k), at: at.into(), way })
+            Some(Slip { between: between(carried, k), at: at.into(), way })
         })
         .collect()
 }

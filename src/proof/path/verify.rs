@@ -220,7 +220,7 @@ fn between(f: &mut Findings, carried: &Carried, ends: [&PathPoint; 2]) {
             turn * ((b.shift - a.shift).norm() + turn * block.size)
         })
         .collect();
-    let list = &carried.start.interfaces.list;
+    let list = &carried.joints;
     let mut deepest = 0.0_f64;
     // Where a joint has slid its faces are what may run into each other.
     let by_faces: Vec<bool> = (0..list.len())
