@@ -50,15 +50,18 @@ pub(super) fn joints(assembly: &Assembly, known: &[Interface]) -> Vec<(Interface
             if !law.is_dry() {
                 continue;
             }
-            let of_pair: Vec<&Interface> =
-                known.iter().filter(|f| (f.a, f.b) == (a.0, b.0) || (f.b, f.a) == (a.0, b.0)).collect();
+            let of_pair: Vec<&Interface> = known
+                .iter()
+                .filter(|f| (f.a, f.b) == (a.0, b.0) || (f.b, f.a) == (a.0, b.0))
+                .collect();
             for own in &a.2.facets {
                 for other in &b.2.facets {
                     let Some(faces) = facing([a.2, b.2], [own, other], reach) else { continue };
                     let is_known = |f: &&Interface| {
-                        let off = f.points.first().map_or(f64::INFINITY, |p| {
-                            (own.normal.dot(p) - own.offset).abs()
-                        });
+                        let off = f
+                            .points
+                            .first()
+                            .map_or(f64::INFINITY, |p| (own.normal.dot(p) - own.offset).abs());
                         f.frame.n.dot(&own.normal).abs() > -OPPOSITE && off <= reach
                     };
                     if of_pair.iter().any(is_known) {

@@ -49,9 +49,7 @@ pub(super) fn flat(
     frame: &ContactFrame,
     middle: &Vector3<f64>,
 ) -> Vec<P2> {
-    let seen = |p: Vector3<f64>| {
-        P2::new(frame.t1.dot(&(p - middle)), frame.t2.dot(&(p - middle)))
-    };
+    let seen = |p: Vector3<f64>| P2::new(frame.t1.dot(&(p - middle)), frame.t2.dot(&(p - middle)));
     let mut flat: Vec<P2> = shape.points(piece).map(seen).collect();
     if polygon::area(&flat) < 0.0 {
         flat.reverse();
@@ -140,9 +138,8 @@ impl Carried<'_> {
             [one] => one.clone(),
             many => polygon::hull(&many.concat(), tol),
         };
-        let is_corner = |of: &[Vec<P2>], p: &P2| {
-            of.iter().flatten().any(|q| (p - q).norm() <= 4.0 * tol)
-        };
+        let is_corner =
+            |of: &[Vec<P2>], p: &P2| of.iter().flatten().any(|q| (p - q).norm() <= 4.0 * tol);
         let origin = faces.middle[0] + places[0];
         corners
             .into_iter()
@@ -195,9 +192,7 @@ impl Carried<'_> {
         }
         let points = 0..self.joints[interface].points.len();
         let gaps = points.map(|p| self.corner(poses, interface, p));
-        gaps.filter(|c| c.apart > tolerance::JOINT_CLOSED)
-            .map(|c| c.gap)
-            .min_by(f64::total_cmp)
+        gaps.filter(|c| c.apart > tolerance::JOINT_CLOSED).map(|c| c.gap).min_by(f64::total_cmp)
     }
 
     /// How far the two blocks of a joint have slid at a place where they touch, m: the way between
@@ -241,8 +236,15 @@ impl Carried<'_> {
                 let flat: Vec<P2> =
                     points.iter().map(|p| P2::new(frame.t1.dot(p), frame.t2.dot(p))).collect();
                 let area = polygon::area(&flat).abs();
-                let contact =
-                    Interface { kind, frame, points, area, patches: 1, pieces: Vec::new(), ..face.clone() };
+                let contact = Interface {
+                    kind,
+                    frame,
+                    points,
+                    area,
+                    patches: 1,
+                    pieces: Vec::new(),
+                    ..face.clone()
+                };
                 Some((contact, own))
             })
             .collect()

@@ -55,22 +55,31 @@ pub(super) struct Rested {
     pub rates: Vec<Rate>,
 }
 
-/// Programs of one step at most: Newton's method needs three or four.
-const ROUNDS: usize = 12;
+/// Programs of one step at most: two or three where there is a motion, for what carries forces is
+/// closed after each. More: time lost where two motions take turns.
+const ROUNDS: usize = 7;
 /// Slips held anew at most for one program. More: time lost where friction does not settle.
-const SOLVES: usize = 40;
+const SOLVES: usize = 12;
 /// Slips have settled when they change by less than this × the way of the step; what they are off by
 /// is left open, and closed by the next program.
 const SETTLED: f64 = 1e-7;
+/// Slips that change by more do not settle. Less: motions that the next program makes good are
+/// given up. More: time lost.
+const UNSETTLED: f64 = 1e-2;
 /// Poses are at rest when gaps that carry forces are less than this × [`tolerance::JOINT_CLOSED`]
 /// beside the size of their joint. Larger: contacts with forces are lost when the pose is read back.
 const AT_REST: f64 = 0.2;
 /// Forces below this × the greatest are none.
 const NO_FORCE: f64 = 1e-7;
 /// Slips below this × the way of the step are none.
-const NO_SLIP: f64 = 1e-5;
+const NO_SLIP: f64 = 1e-4;
 /// A block that moves by more than this × the way of what drives it jumps.
 const JUMP: f64 = 100.0;
+
+/// Newton's steps at most that close what carries forces.
+const CLOSINGS: usize = 6;
+/// A contact is found again within this × the way of a step.
+const FOUND_AGAIN: f64 = 20.0;
 
 /// A contact point (or a mirrored pair) of the program of a step.
 struct Row {
@@ -91,6 +100,8 @@ struct Stage {
 
 /// What one program leaves.
 struct Solved {
+    /// Joints, places and whether they slide, of the contacts that carry a force.
+    active: Vec<(usize, Vector3<f64>, bool)>,
     forces: Forces,
     rates: Vec<Rate>,
     load_factor: f64,
@@ -123,7 +134,11 @@ impl Tracker<'_> {
             }
             let goals: Vec<Pose> = (0..blocks.len()).map(|i| goal(i, &poses)).collect();
             let guess = (round == 0).then(|| (&from.rates[..], value - from.value));
-            let solved = self.solve(&stage, from, &poses, &goals, guess, reach, value, &mut slope)?;
+            let solved =
+                self.solve(&stage, from, &poses, &goals, guess, reach, value, &mut slope)?;
+            if solved.change > UNSETTLED {
+                return None;
+            }
             for (i, pose) in poses.iter_mut().enumerate() {
                 if blocks[i].support {
                     *pose = goals[i];
@@ -136,6 +151,9 @@ impl Tracker<'_> {
                 if !(way <= JUMP * reach) {
                     return None;
                 }
+            }
+            if let Some(closed) = self.closed_up(from, &poses, &solved.active, reach) {
+                poses = closed;
             }
             last = Some((solved, stage));
         }
@@ -225,8 +243,8 @@ impl Tracker<'_> {
                     let spot = &stage.spots[b.interface].1[p];
                     let slid = way(goals, &from.poses, face.b, &spot.at)
                         - way(goals, &from.poses, face.a, &spot.at);
-                    let parts = way(goals, poses, face.b, &spot.at)
-                        - way(goals, poses, face.a, &spot.at);
+                    let parts =
+                        way(goals, poses, face.b, &spot.at) - way(goals, poses, face.a, &spot.at);
                     let gap = spot.gap + n.dot(&parts);
                     so_far += (slid + n * (gap - n.dot(&slid))) * 0.5;
                 }
@@ -330,10 +348,25 @@ impl Tracker<'_> {
             if !change.is_finite() {
                 break;
             }
+            let largest = forces.iter().flatten().map(|w| w.force.norm()).fold(0.0, f64::max);
+            let slid = slips(&ways(&rates, 1.0));
+            let active = rows
+                .iter()
+                .zip(&statics.bearings)
+                .zip(&slid)
+                .flat_map(|((r, b), slip)| {
+                    let slides = *slip > NO_SLIP * r.mu;
+                    b.points.map(|p| (r.interface, p, slides))
+                })
+                .filter(|(c, p, _)| forces[*c][*p].force.norm() > NO_FORCE * largest)
+                .map(|(c, p, slides)| {
+                    (stage.spots[c].0, model.interfaces.list[c].points[p], slides)
+                })
+                .collect();
             let better = best.as_ref().is_none_or(|b| change < 2.0 * b.change);
             let following = anderson.next(&held, &next);
             if better {
-                best = Some(Solved { forces, rates, load_factor, change });
+                best = Some(Solved { active, forces, rates, load_factor, change });
             }
             if change <= SETTLED {
                 break;
@@ -341,6 +374,79 @@ impl Tracker<'_> {
             held = following;
         }
         best
+    }
+
+    /// Poses near these at which the contacts that carry forces are closed to rounding and those that
+    /// do not slide are where they were: without it what is of second order in the step decides
+    /// between motions that all but have the same power.
+    fn closed_up(
+        &self,
+        from: &Rested,
+        near: &[Pose],
+        active: &[(usize, Vector3<f64>, bool)],
+        reach: f64,
+    ) -> Option<Vec<Pose>> {
+        if self.drive.is_push() {
+            return None;
+        }
+        let blocks = &self.start().blocks;
+        let mut poses = near.to_vec();
+        for _ in 0..CLOSINGS {
+            let stage = self.stage(&poses);
+            let model = &stage.model;
+            let statics = self.statics(model, false);
+            let by = statics.total_load() * reach;
+            let slid = |i: usize, at: &Vector3<f64>| {
+                let (start, c) = (self.carried.before(&poses, i, at), blocks[i].centroid);
+                poses[i].way(&c, &start) - from.poses[i].way(&c, &start)
+            };
+            let mut objective = vec![0.0; statics.matrix.columns];
+            let (mut is_active, mut slides) = (Vec::new(), Vec::new());
+            let mut worst = 0.0_f64;
+            for b in &statics.bearings {
+                let (face, (joint, spots)) =
+                    (&model.interfaces.list[b.interface], &stage.spots[b.interface]);
+                let n = face.frame.n;
+                let near = |at: &Vector3<f64>| {
+                    let own = active.iter().filter(|a| a.0 == *joint);
+                    own.map(|a| ((a.1 - at).norm(), a.2))
+                        .filter(|a| a.0 <= FOUND_AGAIN * reach)
+                        .min_by(|a, b| a.0.total_cmp(&b.0))
+                };
+                let found = near(&spots[b.points[0]].at);
+                let mut u = Vector3::zeros();
+                for p in b.points {
+                    let spot = &spots[p];
+                    let slid = slid(face.b, &spot.at) - slid(face.a, &spot.at);
+                    u += (slid + n * (spot.gap - n.dot(&slid))) * 0.5;
+                }
+                is_active.push(found.is_some());
+                slides.push(found.is_some_and(|f| f.1));
+                if let Some((_, slides)) = found {
+                    let off = if slides { n.dot(&u).abs() } else { u.norm() };
+                    worst = worst.max(off / self.carried.size(*joint));
+                }
+                for (k, basis) in b.basis.iter().enumerate() {
+                    objective[b.column + k] = b.unit * basis.force.dot(&u) / by;
+                }
+            }
+            if worst <= 1e-2 * tolerance::JOINT_CLOSED {
+                return Some(poses);
+            }
+            let (program, layout) = conic::closing(&statics, &objective, &is_active, &slides);
+            let solution = program::solved(&program)?;
+            let y = layout.rates(&solution.x, &solution.z);
+            let rates = program::rates(&statics, blocks.len(), y, by);
+            for (i, pose) in poses.iter_mut().enumerate().filter(|(i, _)| !blocks[*i].support) {
+                pose.shift += rates[i].velocity;
+                pose.turn = UnitQuaternion::from_scaled_axis(rates[i].spin) * pose.turn;
+                pose.turn.renormalize();
+                if !((pose.shift - near[i].shift).norm() <= reach) {
+                    return None;
+                }
+            }
+        }
+        Some(poses)
     }
 
     fn statics(&self, model: &Model, live: bool) -> Statics {
@@ -354,7 +460,10 @@ impl Tracker<'_> {
             })
         });
         if across {
-            Statics::new(model, StaticsOptions { keep_all: true, live, ..StaticsOptions::default() })
+            Statics::new(
+                model,
+                StaticsOptions { keep_all: true, live, ..StaticsOptions::default() },
+            )
         } else {
             plane
         }

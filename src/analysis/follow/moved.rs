@@ -199,7 +199,11 @@ impl<'a> Moved<'a> {
     /// Pairs of its blocks that touch or may come to.
     pub fn joined(&self) -> HashSet<(usize, usize)> {
         let joints = Carried::new(self.whole).joints;
-        self.faces.iter().filter_map(|&k| joints.get(k)).map(|f| (f.a.min(f.b), f.a.max(f.b))).collect()
+        self.faces
+            .iter()
+            .filter_map(|&k| joints.get(k))
+            .map(|f| (f.a.min(f.b), f.a.max(f.b)))
+            .collect()
     }
 
     /// Poses of the part.

@@ -19,10 +19,15 @@ use nalgebra::UnitQuaternion;
 const SHORTEST: f64 = 1e-7;
 /// Events are known to this × the longest step in scenes of no more than [`FEW`] blocks; in others
 /// they lie between two points.
-const EVENT: f64 = 1e-6;
+const EVENT: f64 = 1e-4;
 const FEW: usize = 64;
 /// Steps at most.
 const STEPS: usize = 4000;
+/// Steps in a row that do not come to rest: what comes is sudden. Fewer: where equilibrium ends is
+/// known less well. More: time.
+const FAILS: usize = 10;
+/// The same of all steps.
+const ALL_FAILS: usize = 24;
 
 impl Tracker<'_> {
     /// Why a motion that slides cannot be followed, where it cannot: a joint of edges or corners,
@@ -62,7 +67,7 @@ impl Tracker<'_> {
             rates: vec![Rate::zero(); blocks],
         };
         // The first step that there is tells that it slides and does not fall.
-        let first = (0..6).map(|k| 0.1_f64.powi(k) * how.step * 1e-2);
+        let first = [1e-2, 1e-4, 1e-6].map(|by| by * how.step);
         let Some(next) = first.into_iter().find_map(|by| self.advance(&here, value + by)) else {
             return Err(End::Stuck("no motion under dry friction was found".into()));
         };
@@ -71,6 +76,7 @@ impl Tracker<'_> {
         let mut before: Option<Rested> = None;
         let mut fails: Option<f64> = None;
         let mut step = how.step;
+        let (mut in_a_row, mut all) = (0, 0);
         for _ in 0..STEPS {
             if here.value >= how.until {
                 return Ok(End::Reached);
@@ -84,18 +90,27 @@ impl Tracker<'_> {
             let stop = how.at.iter().copied().filter(|&v| v > here.value).fold(how.until, f64::min);
             let grid = ((here.value / how.step + 1e-9).floor() + 1.0) * how.step;
             let aim = stop.min(grid);
-            let mut value = if here.value + 1.000_001 * step >= aim { aim } else { here.value + step };
+            let mut value =
+                if here.value + 1.000_001 * step >= aim { aim } else { here.value + step };
             if let Some(fails) = fails.filter(|f| *f <= value) {
                 value = 0.5 * (here.value + fails);
             }
             let Some(next) = self.advance(&here, value) else {
                 fails = Some(value);
                 step = 0.5 * (value - here.value);
-                if step <= SHORTEST * how.step {
+                in_a_row += 1;
+                all += 1;
+                if step <= SHORTEST * how.step || in_a_row >= FAILS || all >= ALL_FAILS {
                     return Ok(self.ceases(&here, before.as_ref(), value, path));
                 }
                 continue;
             };
+            in_a_row = 0;
+            let mut next = next;
+            if value - here.value <= EVENT * how.step {
+                // So near that slips are rounding.
+                next.joints.clone_from(&here.joints);
+            }
             let few = start.assembly.free().count() <= FEW;
             let next = if next.joints == here.joints || !few {
                 next
@@ -163,7 +178,8 @@ impl Tracker<'_> {
             event(EventKind::Opens, opens, none(), none()),
             event(EventKind::Closes, none(), closes, none()),
         ];
-        let is_one = |e: &Event| !(e.opens.is_empty() && e.closes.is_empty() && e.slides.is_empty());
+        let is_one =
+            |e: &Event| !(e.opens.is_empty() && e.closes.is_empty() && e.slides.is_empty());
         path.events.extend(list.into_iter().filter(is_one));
     }
 
@@ -186,14 +202,17 @@ impl Tracker<'_> {
         if path.points.last().is_none_or(|p| p.value < here.value) {
             path.points.push(self.slid_point(here));
         }
-        let why = "no equilibrium under dry friction was found beyond, near by: what comes is sudden";
+        let why =
+            "no equilibrium under dry friction was found beyond, near by: what comes is sudden";
         let stuck = End::Stuck(why.into());
         if self.drive.is_push() {
             return stuck;
         }
         // On as it went: so near by that the way is straight.
-        let rates = before.map_or(&here.rates, |b| if b.value < here.value { &here.rates } else { &b.rates });
-        let control = Control { law: Law::Associative, deadline: self.deadline, ..Control::default() };
+        let rates = before
+            .map_or(&here.rates, |b| if b.value < here.value { &here.rates } else { &b.rates });
+        let control =
+            Control { law: Law::Associative, deadline: self.deadline, ..Control::default() };
         let blocks = &self.start().blocks;
         let by = beyond - here.value;
         let falls = (0..12).find_map(|k| {
