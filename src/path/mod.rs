@@ -3,15 +3,18 @@
 //!
 //! Without sliding, a contact keeps the material points in which it touched at the start: each
 //! joint carries its outline twice, once with each of its blocks. Where the two copies of a corner
-//! coincide the joint is closed there; where they part it has opened. Found anew from the shapes, an
+//! coincide the joint is closed there; where they part it has opened. Joints that have slid touch
+//! where their faces have come to. Found anew from the shapes, an
 //! edge that has become a hinge would be lost: it has no area. The normal is that of the face that
 //! goes on beyond the corner of the other, and half-way between the two faces where both end there.
 
 pub mod drive;
 pub mod member;
+mod near;
 pub mod reaction;
 pub mod saved;
 mod side;
+mod slid;
 
 use crate::{
     assembly::Pose,
@@ -21,6 +24,7 @@ use crate::{
 pub use drive::{Demand, Drive, Move, Moves};
 use nalgebra::Vector3;
 pub use side::Side;
+pub use slid::Spot;
 
 /// The joints of a scene at its start, carried along with their blocks.
 #[derive(Clone, Debug)]
@@ -29,6 +33,11 @@ pub struct Carried<'a> {
     pub start: &'a Model,
     /// Whose face goes on beyond each corner.
     sides: Vec<Vec<Side>>,
+    /// The joints at the start, and behind them those of faces that may come to touch, without
+    /// points.
+    pub joints: Vec<Interface>,
+    /// The faces that meet in each joint.
+    faces: Vec<slid::Faces>,
 }
 
 /// A displaced scene.
@@ -38,7 +47,7 @@ pub struct Displaced {
     pub model: Model,
     /// The interface at the start that each contact comes from.
     pub from: Vec<usize>,
-    /// The corner that has sunk deepest into its neighbour.
+    /// The corner that has sunk deepest into its neighbour; of a joint that has slid any one.
     pub deepest: Option<Corner>,
 }
 
@@ -58,13 +67,21 @@ pub struct Corner {
 impl<'a> Carried<'a> {
     /// The joints of a scene.
     pub fn new(start: &'a Model) -> Self {
-        let sides = start.interfaces.list.iter().map(|f| side::sides(&start.assembly, f)).collect();
-        Self { start, sides }
+        let list = || start.interfaces.list.iter();
+        let sides = list().map(|f| side::sides(&start.assembly, f)).collect();
+        let mut faces: Vec<slid::Faces> =
+            list().map(|f| slid::Faces::of(&start.assembly, f)).collect();
+        let mut joints = start.interfaces.list.clone();
+        for (joint, own) in near::joints(&start.assembly, &start.interfaces.list) {
+            joints.push(joint);
+            faces.push(own);
+        }
+        Self { start, sides, joints, faces }
     }
 
     /// The size of the smaller block of a joint, m.
     pub fn size(&self, interface: usize) -> f64 {
-        let face = &self.start.interfaces.list[interface];
+        let face = &self.joints[interface];
         let blocks = &self.start.assembly.blocks;
         blocks[face.a].size.min(blocks[face.b].size)
     }
@@ -119,22 +136,50 @@ impl<'a> Carried<'a> {
 
     /// The scene at these poses, one a block.
     pub fn displaced(&self, poses: &[Pose]) -> Displaced {
-        let mut displaced = self.touching(poses, &self.closed(poses));
-        displaced.deepest = self
-            .corners(poses)
-            .into_iter()
-            .flatten()
-            .filter(|c| c.apart > tolerance::JOINT_CLOSED)
+        let slid: Vec<Option<Vec<Spot>>> =
+            (0..self.joints.len()).map(|k| self.slid(poses, k)).collect();
+        let mut closed = self.closed(poses);
+        closed.resize(self.joints.len(), Vec::new());
+        let mut displaced = self.assembled(poses, |k| match &slid[k] {
+            None if closed[k].is_empty() => Vec::new(),
+            None => vec![self.contact(poses, k, &closed[k])],
+            Some(spots) => {
+                let reach = tolerance::JOINT_CLOSED * self.size(k);
+                let touch: Vec<Spot> =
+                    spots.iter().filter(|s| s.gap.abs() <= reach).copied().collect();
+                self.contacts(poses, k, &touch).into_iter().map(|(contact, _)| contact).collect()
+            }
+        });
+        displaced.deepest = (0..slid.len())
+            .filter_map(|k| {
+                // Where no corner is where it was, copies of corners say nothing about faces.
+                let by_faces = self.may_slide(k) && (slid[k].is_some() || closed[k].is_empty());
+                let gap = self.depth(poses, k, by_faces)?;
+                Some(Corner { interface: k, point: 0, gap, apart: gap.abs() })
+            })
             .min_by(|a, b| a.gap.total_cmp(&b.gap));
         displaced
     }
 
     /// The scene at these poses with these corners of each joint closed.
     pub fn touching(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Displaced {
+        self.assembled(poses, |k| {
+            let points = closed.get(k).map_or(&[][..], |c| &c[..]);
+            if points.is_empty() { Vec::new() } else { vec![self.contact(poses, k, points)] }
+        })
+    }
+
+    /// The scene at these poses with these contacts of each joint.
+    pub fn assembled(
+        &self,
+        poses: &[Pose],
+        contacts: impl Fn(usize) -> Vec<Interface>,
+    ) -> Displaced {
         let (mut list, mut from) = (Vec::new(), Vec::new());
-        for (k, points) in closed.iter().enumerate().filter(|(_, points)| !points.is_empty()) {
-            list.push(self.contact(poses, k, points));
-            from.push(k);
+        for k in 0..self.joints.len() {
+            let own = contacts(k);
+            from.extend(std::iter::repeat_n(k, own.len()));
+            list.extend(own);
         }
         let own = &self.start.interfaces.members;
         let members =

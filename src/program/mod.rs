@@ -41,7 +41,9 @@ pub use opening::opening;
 pub use options::{Pyramid, StaticsOptions};
 pub use planar::Plane;
 pub use statics::{FreeBlock, Statics};
-pub use thrust::{endless_thrust, member_columns, reaction_columns, thrust, thrust_columns};
+pub use thrust::{
+    closing, driven, endless_thrust, member_columns, reaction_columns, thrust, thrust_columns,
+};
 pub use unbalance::{LiveLoad, unbalance};
 
 /// Which unknowns a program is written in; the others come out as multipliers.

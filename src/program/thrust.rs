@@ -6,7 +6,7 @@
 //! limiting states of an arch whose abutments give way (Heyman 1966).
 
 use super::{
-    Cone, ConicProgram, Positions, Statics, Unknowns,
+    BearingCone, Cone, ConicProgram, Positions, Statics, Unknowns,
     unbalance::{copy, force_cones},
 };
 use crate::{
@@ -103,6 +103,75 @@ pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Positions)
             rate_count: rows,
         },
     )
+}
+
+/// Program T beside a live load: `min c·x − κ λ` subject to `A x + w + s λ ℓ = 0`, with `s` the
+/// `live_scale`. Its dual moves the blocks so that the live load has the power `κ / s`.
+pub fn driven(
+    statics: &Statics,
+    objective: &[f64],
+    live_scale: f64,
+    kappa: f64,
+) -> (ConicProgram, Positions) {
+    let (mut p, layout) = thrust(statics, objective);
+    let lambda = p.objective.len();
+    p.objective.push(-kappa);
+    p.matrix.columns += 1;
+    for (row, l) in statics.live.iter().enumerate() {
+        p.matrix.push(row, lambda, live_scale * l);
+    }
+    (p, layout)
+}
+
+/// `min c·x + ½ δ x·x` subject to `A x + w = 0` with `x` free where contact points are `active`, no
+/// shear where they are `sliding`, and zero elsewhere: its multipliers close the gaps `c` of the
+/// active contacts as least squares do, whatever their signs.
+pub fn closing(
+    statics: &Statics,
+    objective: &[f64],
+    active: &[bool],
+    sliding: &[bool],
+) -> (ConicProgram, Positions) {
+    /// Larger: gaps stay open by this × the way of a step. Smaller: where contacts say the same twice
+    /// the engine finds no solution.
+    const DELTA: f64 = 1e-9;
+    let (rows, forces) = (statics.matrix.rows, statics.matrix.columns);
+    let mut p = ConicProgram::new(forces);
+    p.objective.copy_from_slice(objective);
+    p.quadratic = vec![DELTA; forces];
+    p.cone(Cone::Zero(rows));
+    copy(&mut p, statics, 0, 0);
+    for (row, w) in statics.dead.iter().enumerate() {
+        p.rhs[row] = -w;
+    }
+    for (bearing, (active, sliding)) in statics.bearings.iter().zip(active.iter().zip(sliding)) {
+        let columns = bearing.column..bearing.column + bearing.basis.len();
+        if !active {
+            let first = p.cone(Cone::Zero(columns.len()));
+            for (k, column) in columns.enumerate() {
+                p.objective[column] = 0.0;
+                p.matrix.push(first + k, column, 1.0);
+            }
+        } else if *sliding && bearing.cone == BearingCone::Rays && columns.len() == 2 {
+            // Both edges alike: a normal force.
+            let first = p.cone(Cone::Zero(1));
+            p.matrix.push(first, columns.start, 1.0);
+            p.matrix.push(first, columns.start + 1, -1.0);
+        } else if *sliding {
+            let first = p.cone(Cone::Zero(columns.len() - 1));
+            for (k, column) in columns.skip(1).enumerate() {
+                p.matrix.push(first + k, column, 1.0);
+            }
+        }
+    }
+    let layout = Positions {
+        unknowns: Unknowns::Forces,
+        forces: 0,
+        force_count: forces,
+        rates: 0,
+        rate_count: rows,
+    };
+    (p, layout)
 }
 
 /// Can the thrust grow without end? Forces that balance by themselves with `objective · x = −1`, or

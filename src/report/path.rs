@@ -149,7 +149,15 @@ pub fn happens(e: &PathEvent) -> String {
                 short(e.jump.unwrap_or(0.0))
             )
         }
+        PathEventKind::Falls if e.opens.is_empty() && e.slides.is_empty() => {
+            "no forces inside the friction cones balance it beyond: it falls".into()
+        }
+        PathEventKind::Falls if e.opens.is_empty() => {
+            format!("it falls as {} slides", names(&e.slides))
+        }
         PathEventKind::Falls => format!("it falls as {} opens", names(&e.opens)),
+        PathEventKind::Slides => format!("{} slides, by dry friction", names(&e.slides)),
+        PathEventKind::Sticks => format!("{} sticks again", names(&e.slides)),
         PathEventKind::Yields => {
             format!("{} carries all that it can and gives way", e.yields.join(", "))
         }

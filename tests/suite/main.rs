@@ -39,6 +39,7 @@ mod page;
 mod parts;
 mod path;
 mod path_members;
+mod path_slides;
 mod pictures;
 mod published;
 mod readme;

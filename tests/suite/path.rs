@@ -299,14 +299,17 @@ fn followed_open(scene: &Scene, moves: Vec<SupportMove>) -> ResultFile {
     file
 }
 
-/// With friction its joints slide on each other as it sinks: nobody follows the dilatant motion.
+/// With friction its joints slide on each other as it sinks. That is followed under dry friction as
+/// far as a motion is found, never with the dilatant one, and it is said where it ends.
 #[test]
-fn a_motion_that_slides_is_said_and_not_followed() {
+fn a_motion_that_slides_is_followed_as_far_as_dry_friction_leads() {
     let file = followed_open(&wall_on_two_bases(0.3), vec![to("right", [0.0, 0.0, -1.0])]);
     let said = file.answer.path().unwrap();
-    assert_eq!(said.status, PathStatus::Slides, "{said:?}");
-    assert!(said.why.as_ref().is_some_and(|why| why.contains("slide")), "{said:?}");
-    assert!(path(&file).points.iter().all(|p| p.value == 0.0));
+    assert_ne!(said.status, PathStatus::Falls, "{said:?}");
+    let ends = path(&file).points.iter().all(|p| p.certificate.claim.is_some());
+    assert!(ends && said.value.is_some());
+    let slides = path(&file).events.iter().any(|e| e.kind == PathEventKind::Slides);
+    assert!(slides || said.why.as_ref().is_some_and(|why| why.contains("slide")), "{said:?}");
 }
 
 #[test]

@@ -8,14 +8,14 @@ use super::{
 };
 use crate::{
     analysis::{
-        Claims, Control, Proved, limit,
+        Claims, Control, Proved, limit, mend,
         question::{PushOptions, SettleOptions},
     },
     assembly::{Member, Pose, Solid, Wrench},
     error::{InputError, JsonPath},
     interface::Model,
     path::{
-        Carried, Drive, Move, Moves, member, reaction,
+        Carried, Displaced, Drive, Move, Moves, member, reaction,
         saved::{SavedPose, read_poses, write_poses},
     },
     terms::Law,
@@ -27,6 +27,7 @@ use crate::{
     },
 };
 use nalgebra::Vector3;
+use std::collections::HashSet;
 
 /// A path with its proofs.
 #[derive(Clone, Debug)]
@@ -249,13 +250,24 @@ pub(super) fn followable(model: &Model) -> Result<(), InputError> {
 fn answer(model: &Model, how: &dyn Fn(f64) -> Follow, control: &Control) -> Followed {
     let moved = Moved::of(model, &how(1.0).drive, control);
     let how = &how(size(moved.as_ref().map_or(model, |m| &m.own)));
+    let none = HashSet::new();
     let path = match &moved {
-        None => follow(model, how, control.deadline, &|poses| meets(model, poses)),
+        None => {
+            let joints = Carried::new(model).joints;
+            let joined = joints.iter().map(|f| (f.a.min(f.b), f.a.max(f.b))).collect();
+            let meets = |poses: &[Pose], known: bool| {
+                meets(model, if known { &joined } else { &none }, poses)
+            };
+            follow(model, how, control.deadline, &meets)
+        }
         Some(moved) => {
             let from = how.from.as_ref().map(|(value, poses)| (*value, moved.own_poses(poses)));
             let own = Follow { drive: moved.drive(&how.drive), from, ..how.clone() };
             // What moves may still run into what rests.
-            let meets = |poses: &[Pose]| meets(model, &moved.poses(poses));
+            let joined = moved.joined();
+            let meets = |poses: &[Pose], known: bool| {
+                meets(model, if known { &joined } else { &none }, &moved.poses(poses))
+            };
             moved.path(follow(&moved.own, &own, control.deadline, &meets))
         }
     };
@@ -282,13 +294,12 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
     let poses = read_poses(assembly, &saved).unwrap_or_else(|_| point.poses.clone());
     let found = carried.displaced(&poses);
     let model = &found.model;
-    let rest = || vec![Rate::zero(); model.assembly.blocks.len()];
-    let proved = |claim: Claim, forces: Forces, rates: Vec<Rate>| {
-        PointProof::of(model, &Proved::new(model, Side { claim: Some(claim), forces, rates }))
-    };
     if how.drive.is_push() {
         let l = limit(model, &Control { law: Law::Associative, ..*control });
         return PointProof::of(model, &l);
+    }
+    if let Some(touch) = &point.touch {
+        return slid_proof(carried, &found, point, touch);
     }
     // Corners that touch again without having to are among the contacts, and carry nothing.
     let touching = carried.touching(&poses, &point.closed);
@@ -310,6 +321,15 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
             }
         }
     }
+    stands_or_falls(model, forces, &point.rates)
+}
+
+/// Proves that a displaced scene stands with these forces, or falls by these rates.
+fn stands_or_falls(model: &Model, forces: Forces, rates: &[Rate]) -> PointProof {
+    let rest = || vec![Rate::zero(); model.assembly.blocks.len()];
+    let proved = |claim: Claim, forces: Forces, rates: Vec<Rate>| {
+        PointProof::of(model, &Proved::new(model, Side { claim: Some(claim), forces, rates }))
+    };
     let stands = |forces: Forces| {
         let stands = proved(Claim::Stable, forces.clone(), rest());
         // What a program leaves is more than what counts as balance in large scenes.
@@ -318,11 +338,35 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
             None => stands,
         }
     };
-    if point.rates.iter().all(|r| *r == Rate::zero()) {
+    if rates.iter().all(|r| *r == Rate::zero()) {
         return stands(forces);
     }
-    let falls = proved(Claim::Unstable, forces.clone(), point.rates.clone());
+    let falls = proved(Claim::Unstable, forces.clone(), rates.to_vec());
     if falls.claim.is_some() { falls } else { stands(forces) }
+}
+
+/// Proves a point after sliding: the forces of dry friction, at the contacts that its poses have.
+fn slid_proof(
+    carried: &Carried,
+    found: &Displaced,
+    point: &Point,
+    touch: &[(usize, Vec<Vector3<f64>>)],
+) -> PointProof {
+    let list = &found.model.interfaces.list;
+    let mut forces = crate::verdict::no_forces(&found.model.interfaces);
+    for ((k, places), given) in touch.iter().zip(&point.forces) {
+        for (at, w) in places.iter().zip(given) {
+            let near = (0..list.len())
+                .filter(|&c| found.from[c] == *k)
+                .flat_map(|c| (0..list[c].points.len()).map(move |p| (c, p)))
+                .find(|&(c, p)| (list[c].points[p] - at).norm() <= 1e-6 * carried.size(*k));
+            if let Some((c, p)) = near {
+                forces[c][p] += *w;
+            }
+        }
+    }
+    mend::cut(&found.model.interfaces, &mut forces);
+    stands_or_falls(&found.model, forces, &point.rates)
 }
 
 impl PointProof {

@@ -50,6 +50,9 @@ pub struct Point {
     pub room: f64,
     /// The mechanism that lets it fall; none where it stands.
     pub rates: Vec<Rate>,
+    /// After sliding: the joint at the start of every contact, and where it touches; the forces are
+    /// those of these contacts ([`Carried::displaced`]).
+    pub touch: Option<Vec<(usize, Vec<Vector3<f64>>)>>,
 }
 
 /// What happens on the way.
@@ -65,6 +68,10 @@ pub enum EventKind {
     Falls,
     /// A member yields from here on, or goes slack.
     Yields,
+    /// Joints slide from here on.
+    Slides,
+    /// Joints that slid stick from here on.
+    Sticks,
 }
 
 /// Something that happens on the way.
@@ -84,6 +91,8 @@ pub struct Event {
     pub jump: f64,
     /// Members that yield.
     pub yields: Vec<usize>,
+    /// Joints that begin to slide, or stick again.
+    pub slides: Vec<usize>,
 }
 
 /// How a path ends.
@@ -128,12 +137,13 @@ pub(super) const ROOM: f64 = -1e-9;
 
 /// Follows the motion of a scene from where it is.
 ///
-/// `meets` says which blocks touch at some poses and did not at the start.
+/// `meets` says which blocks touch at some poses and did not at the start; with `true` but for those
+/// whose faces are known to be near ([`Carried::joints`]).
 pub(super) fn follow(
     start: &Model,
     how: &Follow,
     deadline: Deadline,
-    meets: &dyn Fn(&[Pose]) -> Option<String>,
+    meets: &dyn Fn(&[Pose], bool) -> Option<String>,
 ) -> Path {
     let carried = Carried::new(start);
     let blocks = &start.assembly.blocks;
@@ -208,9 +218,13 @@ impl Tracker<'_> {
                     forces: forces.clone(),
                     room: 0.0,
                     rates: Vec::new(),
+                    touch: None,
                 }));
             }
-            return Err(End::Slides(k));
+            return Err(match self.slide(how, state.value, &state.poses, path) {
+                Ok(end) => end,
+                Err(_) => End::Slides(k),
+            });
         }
         self.run(how, State { closed: next.closed, holds: next.holds, ..state }, path)
     }
@@ -292,7 +306,7 @@ impl Tracker<'_> {
                 if how.drive.is_push() && trial.at.load_factor <= 0.0 {
                     return Err(self.vanishes(&linkage, here, (value, trial), &closed, path));
                 }
-                if let Some(text) = (self.meets)(&trial.at.place.poses) {
+                if let Some(text) = (self.meets)(&trial.at.place.poses, false) {
                     return Err(End::Stuck(text));
                 }
                 if let Some(m) = trial.margin.as_ref().filter(|_| value == aim) {
@@ -382,6 +396,7 @@ impl Tracker<'_> {
             closes,
             jump: 0.0,
             yields: Vec::new(),
+            slides: Vec::new(),
         });
         if let Some(m) = self.margin(&low.2.place.poses, closed, &linkage.holds) {
             path.points.push(self.point(low.0, &low.2, closed, &m));
@@ -408,7 +423,10 @@ impl Tracker<'_> {
         let lost = beyond.1.margin.as_ref().map_or_else(Vec::new, |m| self.lost(poses, closed, m));
         if lost.is_empty() {
             // Nothing is about to open: the edge that was reached is that of friction.
-            return Err(self.slides(&beyond.1, closed));
+            return Err(match self.slide(how, low.0, &low.1.at.place.poses, path) {
+                Ok(end) => end,
+                Err(_) => self.slips_away(how, old, low, beyond, closed, path),
+            });
         }
         let mut now = closed.to_vec();
         let mut opens: Vec<usize> = lost.iter().map(|l| l.0).collect();
@@ -424,6 +442,7 @@ impl Tracker<'_> {
             closes,
             jump,
             yields: Vec::new(),
+            slides: Vec::new(),
         };
         let holds = old.holds.clone();
         match drop::drop(self, &now, &holds, &lost, &beyond.1.at.place, beyond.0) {
@@ -453,6 +472,34 @@ impl Tracker<'_> {
             }
             Landing::Lost(text) => Err(stuck(&text)),
         }
+    }
+
+    /// A joint slides, and there is no motion under dry friction that leads on: it falls, or is not
+    /// followed.
+    fn slips_away(
+        &self,
+        how: &Follow,
+        old: &Linkage,
+        low: (f64, Trial),
+        beyond: (f64, Trial),
+        closed: &[Vec<usize>],
+        path: &mut Path,
+    ) -> End {
+        let end = self.slides(&beyond.1, closed);
+        let End::Slides(joint) = end else { return end };
+        let fallen = if how.drive.is_push() { None } else { self.falls(old, &low, closed) };
+        let Some(falls) = fallen else { return end };
+        path.events.push(Event {
+            value: low.0,
+            beyond: beyond.0,
+            kind: EventKind::Falls,
+            opens: Vec::new(),
+            closes: Vec::new(),
+            jump: 0.0,
+            yields: Vec::new(),
+            slides: vec![joint],
+        });
+        falls
     }
 
     fn slides(&self, trial: &Trial, closed: &[Vec<usize>]) -> End {
@@ -493,6 +540,7 @@ impl Tracker<'_> {
                     forces: verdict.forces.clone(),
                     room: 0.0,
                     rates: verdict.rates.clone(),
+                    touch: None,
                 })
             })
         };

@@ -107,6 +107,7 @@ impl Tracker<'_> {
             closes: Vec::new(),
             jump: 0.0,
             yields: vec![member],
+            slides: Vec::new(),
         });
         let mut holds = linkage.holds.clone();
         holds[member] = Hold::Yields(bound);

@@ -1,5 +1,6 @@
 //! Following the motion: poses as functions of one parameter that only grows.
 
+mod advance;
 pub mod answer;
 mod branch;
 pub mod crack;
@@ -10,6 +11,7 @@ mod member;
 mod moved;
 mod program;
 mod root;
+mod slide;
 mod tracker;
 
 pub use branch::{End, Event, EventKind, Follow, Path, Point};

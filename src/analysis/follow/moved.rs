@@ -6,10 +6,12 @@ use crate::{
     analysis::{Control, assess, limit},
     assembly::Pose,
     interface::{self, Model},
-    path::{Drive, Move, Moves},
+    path::{Carried, Drive, Move, Moves},
     terms::{Law, Outcome},
     verdict::{Forces, Rate, Verdict},
 };
+use nalgebra::Vector3;
+use std::collections::HashSet;
 
 /// The part that moves, and what the rest does meanwhile.
 pub(super) struct Moved<'a> {
@@ -76,6 +78,12 @@ impl<'a> Moved<'a> {
         let mut still = vec![Vec::new(); list.len() + joined.len()];
         let places = others.into_iter().chain(strangers.into_iter().map(|m| list.len() + m));
         places.zip(&held.forces).for_each(|(k, f)| still[k].clone_from(f));
+        // Behind the joints that there are stand those that may come to be, in the same order.
+        let joints = Carried::new(whole).joints.into_iter().enumerate().skip(list.len());
+        let faces = faces
+            .into_iter()
+            .chain(joints.filter(|(_, f)| is_own[f.a] && is_own[f.b]).map(|(k, _)| k))
+            .collect();
         let blocks = (0..blocks.len()).filter(|&i| is_own[i]).collect();
         Some(Self { whole, own, blocks, faces, members, still })
     }
@@ -107,12 +115,14 @@ impl<'a> Moved<'a> {
             opens: e.opens.iter().map(|&k| self.faces[k]).collect(),
             closes: e.closes.iter().map(|&k| self.faces[k]).collect(),
             yields: e.yields.iter().map(|&m| self.members[m]).collect(),
+            slides: e.slides.iter().map(|&k| self.faces[k]).collect(),
             ..e
         };
         let first = own.first.map(|(forces, rates)| {
             let mut all = self.still.clone();
             let first = self.whole.interfaces.list.len();
-            let places = self.faces.iter().copied().chain(self.members.iter().map(|m| first + m));
+            let own = self.faces.iter().copied().filter(|k| *k < first);
+            let places = own.chain(self.members.iter().map(|m| first + m));
             places.zip(forces).for_each(|(k, f)| all[k] = f);
             (all, self.rates(&rates))
         });
@@ -129,12 +139,16 @@ impl<'a> Moved<'a> {
         let poses = self.poses(&own.poses);
         let mut closed: Vec<Vec<usize>> =
             list.iter().map(|f| (0..f.points.len()).collect()).collect();
-        self.faces.iter().zip(own.closed).for_each(|(&k, c)| closed[k] = c);
-        let rates = if own.rates.is_empty() { own.rates } else { self.rates(&own.rates) };
+        let own_faces = || self.faces.iter().filter(|k| **k < list.len());
+        own_faces().zip(own.closed.clone()).for_each(|(&k, c)| closed[k] = c);
+        let rates = if own.rates.is_empty() { Vec::new() } else { self.rates(&own.rates) };
+        if let Some(touch) = own.touch {
+            return self.slid(poses, closed, rates, Point { touch: None, ..own }, touch);
+        }
         // Forces stand at what touches: at joints without a closed corner there are none.
         let mut given = own.forces.into_iter();
         let mut is_own = vec![false; list.len()];
-        self.faces.iter().for_each(|&k| is_own[k] = true);
+        own_faces().for_each(|&k| is_own[k] = true);
         let mut own_member = vec![false; self.whole.interfaces.members.len()];
         self.members.iter().for_each(|&m| own_member[m] = true);
         let places = (0..list.len()).filter(|&k| !closed[k].is_empty()).map(|k| (k, is_own[k]));
@@ -148,6 +162,48 @@ impl<'a> Moved<'a> {
             )
             .collect();
         Point { poses, closed, forces, rates, ..own }
+    }
+
+    /// A point of the part after sliding: its contacts among those of the scene.
+    fn slid(
+        &self,
+        poses: Vec<Pose>,
+        closed: Vec<Vec<usize>>,
+        rates: Vec<Rate>,
+        own: Point,
+        touch: Vec<(usize, Vec<Vector3<f64>>)>,
+    ) -> Point {
+        let list = &self.whole.interfaces.list;
+        let (mut all, mut forces) = (Vec::new(), Vec::new());
+        let last = self.faces.iter().max().map_or(list.len(), |k| list.len().max(k + 1));
+        for k in 0..last {
+            match self.faces.iter().position(|&f| f == k) {
+                None => {
+                    let Some(face) = list.get(k) else { continue };
+                    all.push((k, face.points.clone()));
+                    forces.push(self.still[k].clone());
+                }
+                Some(part) => {
+                    let here = touch.iter().zip(&own.forces).filter(|((j, _), _)| *j == part);
+                    for ((_, at), w) in here {
+                        all.push((k, at.clone()));
+                        forces.push(w.clone());
+                    }
+                }
+            }
+        }
+        forces.extend(self.still.iter().skip(list.len()).cloned());
+        Point { poses, closed, rates, forces, touch: Some(all), ..own }
+    }
+
+    /// Pairs of its blocks that touch or may come to.
+    pub fn joined(&self) -> HashSet<(usize, usize)> {
+        let joints = Carried::new(self.whole).joints;
+        self.faces
+            .iter()
+            .filter_map(|&k| joints.get(k))
+            .map(|f| (f.a.min(f.b), f.a.max(f.b)))
+            .collect()
     }
 
     /// Poses of the part.

@@ -207,13 +207,13 @@ fn load_factor(model: &Model) -> Option<(Forces, Vec<Rate>)> {
     Some((statics.forces(&model.interfaces, x), rates))
 }
 
-fn rates(statics: &Statics, blocks: usize, y: &[f64], by: f64) -> Vec<Rate> {
+pub(super) fn rates(statics: &Statics, blocks: usize, y: &[f64], by: f64) -> Vec<Rate> {
     let list = statics.rates(blocks, y).into_iter();
     list.map(|(velocity, spin)| Rate { velocity: velocity * by, spin: spin * by }).collect()
 }
 
 /// The first solution whose two sides agree.
-fn solved(program: &ConicProgram) -> Option<Solution> {
+pub(super) fn solved(program: &ConicProgram) -> Option<Solution> {
     let mut best: Option<(f64, Solution)> = None;
     for (tolerance, regularization) in SETTINGS {
         let engine = EngineSettings::clarabel(regularization);

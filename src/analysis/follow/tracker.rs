@@ -25,8 +25,9 @@ pub(super) struct Tracker<'a> {
     pub size: f64,
     /// When it has to end.
     pub deadline: Deadline,
-    /// Blocks that touch at these poses and did not at the start, in words ([`meets`]).
-    pub meets: &'a dyn Fn(&[Pose]) -> Option<String>,
+    /// Blocks that touch at these poses and did not at the start, in words ([`meets`]); whether it
+    /// is known of those that may come to touch where they do.
+    pub meets: &'a dyn Fn(&[Pose], bool) -> Option<String>,
 }
 
 /// Where a linkage is at a value of the parameter.
@@ -168,6 +169,7 @@ impl<'a> Tracker<'a> {
             forces: margin.forces.clone(),
             room: margin.room,
             rates: Vec::new(),
+            touch: None,
         }
     }
 
@@ -260,15 +262,20 @@ pub(super) fn size(model: &Model) -> f64 {
     (all(f64::max, f64::NEG_INFINITY) - all(f64::min, f64::INFINITY)).norm()
 }
 
-/// Blocks of a scene that touch at these poses and did not at the start, in words.
-pub(super) fn meets(start: &Model, poses: &[Pose]) -> Option<String> {
+/// Blocks of a scene that touch at these poses and neither did at the start nor are among the
+/// `joined`, in words.
+pub(super) fn meets(
+    start: &Model,
+    joined: &HashSet<(usize, usize)>,
+    poses: &[Pose],
+) -> Option<String> {
     let found = match detect(&start.assembly.at(poses)) {
         Ok(found) => found,
         Err(e) => return Some(e.to_string()),
     };
     let pair = |f: &Interface| (f.a.min(f.b), f.a.max(f.b));
     let known: HashSet<_> = start.interfaces.list.iter().map(pair).collect();
-    found.list.iter().map(pair).find(|p| !known.contains(p)).map(|(a, b)| {
+    found.list.iter().map(pair).find(|p| !known.contains(p) && !joined.contains(p)).map(|(a, b)| {
         let id = |i: usize| &start.assembly.blocks[i].id;
         format!("{} and {}, which were apart at the start, come to touch", id(a), id(b))
     })

@@ -12,7 +12,7 @@ use crate::{
         answer::Answer,
         path::{
             Bracketed, DrivenBy, MovingSupport, PathAnswer, PathEvent, PathEventKind, PathPoint,
-            PathResult, PathStatus, Reaction, hinges,
+            PathResult, PathStatus, Reaction, hinges, slips,
         },
         result::{Certificate, QuestionKind, ResultFile},
     },
@@ -58,7 +58,7 @@ impl ResultFile {
             _ => Vec::new(),
         };
         let joints = |list: &[usize]| -> Vec<[String; 2]> {
-            let faces = list.iter().map(|&k| &model.interfaces.list[k]);
+            let faces = list.iter().map(|&k| &carried.joints[k]);
             faces.map(|f| [id(f.a), id(f.b)]).collect()
         };
         let events = path.events.iter().map(|e| PathEvent {
@@ -69,11 +69,14 @@ impl ResultFile {
                 EventKind::Jumps => PathEventKind::Jumps,
                 EventKind::Falls => PathEventKind::Falls,
                 EventKind::Yields => PathEventKind::Yields,
+                EventKind::Slides => PathEventKind::Slides,
+                EventKind::Sticks => PathEventKind::Sticks,
             },
             opens: joints(&e.opens),
             closes: joints(&e.closes),
             jump: (e.jump > 0.0).then_some(e.jump),
             yields: e.yields.iter().map(|&m| model.interfaces.members[m].id.clone()).collect(),
+            slides: joints(&e.slides),
         });
         let events = events.collect();
         let least = followed.least.as_ref().map(|(_, forces, rates)| {
@@ -119,6 +122,7 @@ fn point(carried: &Carried, followed: &Followed, p: &Point, proof: &PointProof) 
         load_factor,
         reactions: reactions.collect(),
         hinges: hinges(carried, &p.poses),
+        slips: slips(carried, &p.poses),
         poses: write_poses(&model.assembly, &p.poses),
         certificate: Certificate {
             claim: proof.claim,

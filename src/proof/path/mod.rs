@@ -5,7 +5,8 @@ mod verify;
 pub(super) use verify::{curve, verify};
 
 use super::result::Certificate;
-use crate::{interface::Model, path::Carried, path::saved::SavedPose};
+use crate::{path::Carried, path::saved::SavedPose, tolerance};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// How far it goes.
@@ -54,8 +55,7 @@ pub enum PathStatus {
     Falls,
     /// The load factor vanishes: beyond it would have to be pulled back.
     Vanishes,
-    /// A joint slides from here on, which is not followed: what slides would open as well in limit
-    /// analysis, and does not.
+    /// A joint slides from here on, and no motion under dry friction was found that leads on.
     Slides,
     /// It was not followed any further.
     Open,
@@ -124,6 +124,9 @@ pub struct PathPoint {
     pub reactions: Vec<Reaction>,
     /// Joints that have opened and still touch.
     pub hinges: Vec<Hinge>,
+    /// Joints that have slid and still touch.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub slips: Vec<Slip>,
     /// Where the blocks are. Computed, not proved: the proof is about the scene that they make.
     pub poses: Vec<SavedPose>,
     /// What is proved of that scene.
@@ -154,6 +157,18 @@ pub struct Hinge {
     pub width: f64,
 }
 
+/// A joint that has slid and still touches.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Slip {
+    /// The blocks.
+    pub between: [String; 2],
+    /// The middle of what touches, m.
+    pub at: [f64; 3],
+    /// How far the blocks have slid there since the start at most, m.
+    pub way: f64,
+}
+
 /// Something that happens on the way.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -171,6 +186,9 @@ pub struct PathEvent {
     /// Members that yield or go slack.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub yields: Vec<String>,
+    /// Joints that begin to slide, or that stick again.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub slides: Vec<[String; 2]>,
     /// The longest way of a block in a jump, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub jump: Option<f64>,
@@ -190,29 +208,61 @@ pub enum PathEventKind {
     Falls,
     /// A member reaches what it can carry: from here on it yields, or goes slack.
     Yields,
+    /// Joints slide from here on: followed under dry friction, without opening.
+    Slides,
+    /// Joints that slid stick from here on.
+    Sticks,
 }
 
 /// Joints that have opened and still touch, from the poses.
 pub(super) fn hinges(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<Hinge> {
-    let start: &Model = carried.start;
-    let id = |i: usize| start.assembly.blocks[i].id.clone();
-    let corners = carried.corners(poses).into_iter().enumerate();
+    let middle = |points: &[Vector3<f64>]| -> [f64; 3] {
+        (points.iter().sum::<Vector3<f64>>() / points.len() as f64).into()
+    };
+    let mut corners = carried.corners(poses);
+    corners.resize(carried.joints.len(), Vec::new());
+    let corners = corners.into_iter().enumerate();
     corners
         .filter_map(|(k, corners)| {
-            let (closed, open): (Vec<_>, Vec<_>) =
-                corners.into_iter().partition(|c| c.apart <= crate::tolerance::JOINT_CLOSED);
-            let widest = open.iter().map(|c| c.apart).fold(0.0, f64::max);
-            if closed.is_empty() || open.is_empty() {
-                return None;
-            }
-            let sum: nalgebra::Vector3<f64> =
-                closed.iter().map(|c| carried.copies(poses, k, c.point)[0]).sum();
-            let face = &start.interfaces.list[k];
-            Some(Hinge {
-                between: [id(face.a), id(face.b)],
-                at: (sum / closed.len() as f64).into(),
-                width: widest * carried.size(k),
+            let (closed, widest): (Vec<Vector3<f64>>, f64) =
+                if let Some(spots) = carried.slid(poses, k) {
+                    let small = tolerance::JOINT_CLOSED * carried.size(k);
+                    let (closed, open): (Vec<_>, Vec<_>) =
+                        spots.into_iter().partition(|s| s.gap.abs() <= small);
+                    let widest = open.iter().map(|s| s.gap).fold(0.0, f64::max);
+                    (closed.into_iter().map(|s| s.at).collect(), widest)
+                } else {
+                    let (closed, open): (Vec<_>, Vec<_>) =
+                        corners.into_iter().partition(|c| c.apart <= tolerance::JOINT_CLOSED);
+                    let widest = open.iter().map(|c| c.apart).fold(0.0, f64::max);
+                    let at = |c: &crate::path::Corner| carried.copies(poses, k, c.point)[0];
+                    (closed.iter().map(at).collect(), widest * carried.size(k))
+                };
+            (!closed.is_empty() && widest > 0.0).then(|| Hinge {
+                between: between(carried, k),
+                at: middle(&closed),
+                width: widest,
             })
+        })
+        .collect()
+}
+
+fn between(carried: &Carried, k: usize) -> [String; 2] {
+    let face = &carried.joints[k];
+    [face.a, face.b].map(|i| carried.start.assembly.blocks[i].id.clone())
+}
+
+/// Joints that have slid and still touch, from the poses.
+pub(super) fn slips(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<Slip> {
+    (0..carried.joints.len())
+        .filter_map(|k| {
+            let small = tolerance::JOINT_CLOSED * carried.size(k);
+            let spots = carried.slid(poses, k)?;
+            let closed: Vec<Vector3<f64>> =
+                spots.iter().filter(|s| s.gap.abs() <= small).map(|s| s.at).collect();
+            let way = closed.iter().map(|at| carried.slip(poses, k, at)).fold(0.0, f64::max);
+            let at = closed.iter().sum::<Vector3<f64>>() / closed.len().max(1) as f64;
+            Some(Slip { between: between(carried, k), at: at.into(), way })
         })
         .collect()
 }

@@ -1,6 +1,6 @@
 //! Verifying paths: every point from its poses alone, and the answer from the points.
 
-use super::{DrivenBy, Hinge, PathAnswer, PathPoint, PathResult, PathStatus, hinges};
+use super::{DrivenBy, Hinge, PathAnswer, PathPoint, PathResult, PathStatus, hinges, slips};
 use crate::{
     assembly::Pose,
     interface::Model,
@@ -182,6 +182,16 @@ fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings 
                 && (a.width - b.width).abs() <= tolerance::JOINT_CLOSED * size(a)
         });
     require(&mut f, same, format!("its hinges are those of its poses, {} of them", here.len()));
+    let slid = slips(carried, &poses);
+    let size = |id: &str| assembly.find(id).map_or(0.0, |i| assembly.blocks[i].size);
+    let same = slid.len() == point.slips.len()
+        && slid.iter().zip(&point.slips).all(|(a, b)| {
+            let small = tolerance::JOINT_CLOSED * size(&a.between[0]).max(a.way);
+            a.between == b.between
+                && (Vector3::from(a.at) - Vector3::from(b.at)).norm() <= small
+                && (a.way - b.way).abs() <= small
+        });
+    require(&mut f, same, format!("its slips are those of its poses, {} of them", slid.len()));
     f
 }
 
@@ -210,8 +220,12 @@ fn between(f: &mut Findings, carried: &Carried, ends: [&PathPoint; 2]) {
             turn * ((b.shift - a.shift).norm() + turn * block.size)
         })
         .collect();
-    let list = &carried.start.interfaces.list;
+    let list = &carried.joints;
     let mut deepest = 0.0_f64;
+    // Where a joint has slid its faces are what may run into each other.
+    let by_faces: Vec<bool> = (0..list.len())
+        .map(|k| [&from, &to].iter().any(|poses| carried.slid(poses, k).is_some()))
+        .collect();
     for share in BETWEEN {
         let poses: Vec<Pose> = from
             .iter()
@@ -221,10 +235,10 @@ fn between(f: &mut Findings, carried: &Carried, ends: [&PathPoint; 2]) {
                 turn: a.turn.slerp(&b.turn, share),
             })
             .collect();
-        for c in carried.corners(&poses).into_iter().flatten() {
-            let face = &list[c.interface];
-            let allowed = (off[face.a] + off[face.b]) / carried.size(c.interface);
-            deepest = deepest.max(-c.gap - allowed);
+        for (k, face) in list.iter().enumerate() {
+            let Some(gap) = carried.depth(&poses, k, by_faces[k]) else { continue };
+            let allowed = (off[face.a] + off[face.b]) / carried.size(k);
+            deepest = deepest.max(-gap - allowed);
         }
     }
     require(

@@ -12,6 +12,7 @@ mod fixed_point;
 mod law;
 mod newton;
 
+pub use anderson::Anderson;
 pub use exact::Exact;
 pub use fixed_point::{FixedPoint, Solvers, StoppingCriterion, iterate};
 pub use law::Law;

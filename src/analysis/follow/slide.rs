@@ -1,0 +1,269 @@
+//! Motions that slide: from step to step under dry friction.
+
+use super::{
+    advance::{Joint, Rested},
+    branch::{End, Event, EventKind, Follow, Path, Point},
+    tracker::Tracker,
+};
+use crate::{
+    analysis::{Control, assess},
+    assembly::Pose,
+    terms::Law,
+    verdict::{Rate, Verdict},
+};
+use nalgebra::UnitQuaternion;
+
+/// Where a step does not come to rest, it is halved until it is shorter than this × the longest one:
+/// that is where equilibrium ends. Longer: the two sides are far apart. Shorter: rounding of the
+/// poses passes for a fall.
+const SHORTEST: f64 = 1e-7;
+/// Events are known to this × the longest step in scenes of no more than [`FEW`] blocks; in others
+/// they lie between two points.
+const EVENT: f64 = 1e-4;
+const FEW: usize = 64;
+/// Steps at most.
+const STEPS: usize = 4000;
+/// Steps in a row that do not come to rest: what comes is sudden. Fewer: where equilibrium ends is
+/// known less well. More: time.
+const FAILS: usize = 10;
+/// The same of all steps.
+const ALL_FAILS: usize = 24;
+
+impl Tracker<'_> {
+    /// Why a motion that slides cannot be followed, where it cannot: a joint of edges or corners,
+    /// whose faces are not known, or members.
+    fn bars_sliding(&self) -> Option<End> {
+        let start = self.carried.start;
+        if start.interfaces.members.iter().any(|m| !m.is_idle()) {
+            let text = "a joint slides, which is not followed where there are members";
+            return Some(End::Stuck(text.into()));
+        }
+        (0..start.interfaces.list.len()).find(|&k| !self.carried.may_slide(k)).map(End::Slides)
+    }
+
+    /// Follows under dry friction from a pose at which something begins to slide.
+    ///
+    /// # Errors
+    /// No motion under dry friction leads on from there.
+    pub(super) fn slide(
+        &self,
+        how: &Follow,
+        value: f64,
+        poses: &[Pose],
+        path: &mut Path,
+    ) -> Result<End, End> {
+        if let Some(end) = self.bars_sliding() {
+            return Ok(end);
+        }
+        let start = self.carried.start;
+        let blocks = start.assembly.blocks.len();
+        let mut here = Rested {
+            value,
+            poses: poses.to_vec(),
+            touch: Vec::new(),
+            forces: Vec::new(),
+            load_factor: 0.0,
+            joints: self.joints(poses, |_| false),
+            rates: vec![Rate::zero(); blocks],
+        };
+        // The first step that there is tells that it slides and does not fall.
+        let first = [1e-2, 1e-4, 1e-6].map(|by| by * how.step);
+        let Some(next) = first.into_iter().find_map(|by| self.advance(&here, value + by)) else {
+            return Err(End::Stuck("no motion under dry friction was found".into()));
+        };
+        self.tell(&here, &next, path);
+        here = next;
+        let mut before: Option<Rested> = None;
+        let mut fails: Option<f64> = None;
+        let mut step = how.step;
+        let (mut in_a_row, mut all) = (0, 0);
+        for _ in 0..STEPS {
+            if here.value >= how.until {
+                return Ok(End::Reached);
+            }
+            if how.drive.is_push() && here.load_factor <= 0.0 {
+                return Ok(End::Vanishes);
+            }
+            if self.deadline.is_over() {
+                return Ok(End::Stuck("the time was over".into()));
+            }
+            let stop = how.at.iter().copied().filter(|&v| v > here.value).fold(how.until, f64::min);
+            let grid = ((here.value / how.step + 1e-9).floor() + 1.0) * how.step;
+            let aim = stop.min(grid);
+            let mut value =
+                if here.value + 1.000_001 * step >= aim { aim } else { here.value + step };
+            if let Some(fails) = fails.filter(|f| *f <= value) {
+                value = 0.5 * (here.value + fails);
+            }
+            let Some(next) = self.advance(&here, value) else {
+                fails = Some(value);
+                step = 0.5 * (value - here.value);
+                in_a_row += 1;
+                all += 1;
+                if step <= SHORTEST * how.step || in_a_row >= FAILS || all >= ALL_FAILS {
+                    return Ok(self.ceases(&here, before.as_ref(), value, path));
+                }
+                continue;
+            };
+            in_a_row = 0;
+            let mut next = next;
+            if value - here.value <= EVENT * how.step {
+                // So near that slips are rounding.
+                next.joints.clone_from(&here.joints);
+            }
+            let few = start.assembly.free().count() <= FEW;
+            let next = if next.joints == here.joints || !few {
+                next
+            } else {
+                self.locate(&here, next, EVENT * how.step, path)
+            };
+            let changed = next.joints != here.joints;
+            if changed {
+                self.tell(&here, &next, path);
+            }
+            if let Some(text) = (self.meets)(&next.poses, true) {
+                return Ok(End::Stuck(text));
+            }
+            if changed || next.value == aim {
+                path.points.push(self.slid_point(&next));
+            }
+            if fails.is_none() {
+                step = (2.0 * step).min(how.step);
+            }
+            fails = fails.filter(|f| *f > next.value);
+            before = Some(std::mem::replace(&mut here, next));
+        }
+        Ok(End::Stuck("it needs too many steps".into()))
+    }
+
+    /// Between two poses whose joints differ, the first that differs; the last that does not becomes
+    /// a point.
+    fn locate(&self, low: &Rested, high: Rested, width: f64, path: &mut Path) -> Rested {
+        let (mut low, mut high) = (low.clone(), high);
+        let joints = low.joints.clone();
+        while high.value - low.value > width {
+            let Some(middle) = self.advance(&low, 0.5 * (low.value + high.value)) else { break };
+            if middle.joints == joints { low = middle } else { high = middle }
+        }
+        if path.points.last().is_none_or(|p| p.value < low.value) && !low.touch.is_empty() {
+            path.points.push(self.slid_point(&low));
+        }
+        high
+    }
+
+    /// What changes between two poses.
+    fn tell(&self, low: &Rested, high: &Rested, path: &mut Path) {
+        let changed = |is: &dyn Fn(&(Joint, bool), &(Joint, bool)) -> bool| {
+            let pairs = low.joints.iter().zip(&high.joints).enumerate();
+            pairs.filter(|(_, (a, b))| is(a, b)).map(|(k, _)| k).collect::<Vec<usize>>()
+        };
+        let event = |kind, opens, closes, slides| Event {
+            value: low.value,
+            beyond: high.value,
+            kind,
+            opens,
+            closes,
+            jump: 0.0,
+            yields: Vec::new(),
+            slides,
+        };
+        let slides = changed(&|a, b| !a.1 && b.1);
+        let sticks = changed(&|a, b| a.1 && !b.1);
+        let opens = changed(&|a, b| a.0 > b.0);
+        let closes = changed(&|a, b| a.0 < b.0);
+        let none = Vec::new;
+        let list = [
+            event(EventKind::Slides, none(), none(), slides),
+            event(EventKind::Sticks, none(), none(), sticks),
+            event(EventKind::Opens, opens, none(), none()),
+            event(EventKind::Closes, none(), closes, none()),
+        ];
+        let is_one =
+            |e: &Event| !(e.opens.is_empty() && e.closes.is_empty() && e.slides.is_empty());
+        path.events.extend(list.into_iter().filter(is_one));
+    }
+
+    fn slid_point(&self, at: &Rested) -> Point {
+        let list = &self.carried.start.interfaces.list;
+        Point {
+            value: at.value,
+            poses: at.poses.clone(),
+            closed: vec![Vec::new(); list.len()],
+            load_factor: at.load_factor,
+            forces: at.forces.clone(),
+            room: 0.0,
+            rates: Vec::new(),
+            touch: Some(at.touch.clone()),
+        }
+    }
+
+    /// Equilibrium ends between a pose and a value: does it fall?
+    fn ceases(&self, here: &Rested, before: Option<&Rested>, beyond: f64, path: &mut Path) -> End {
+        if path.points.last().is_none_or(|p| p.value < here.value) {
+            path.points.push(self.slid_point(here));
+        }
+        let why =
+            "no equilibrium under dry friction was found beyond, near by: what comes is sudden";
+        let stuck = End::Stuck(why.into());
+        if self.drive.is_push() {
+            return stuck;
+        }
+        // On as it went: so near by that the way is straight.
+        let rates = before
+            .map_or(&here.rates, |b| if b.value < here.value { &here.rates } else { &b.rates });
+        let control =
+            Control { law: Law::Associative, deadline: self.deadline, ..Control::default() };
+        let blocks = &self.start().blocks;
+        let by = beyond - here.value;
+        let falls = (0..12).find_map(|k| {
+            let by = by * 2f64.powi(k);
+            let value = here.value + by;
+            let poses: Vec<Pose> = here
+                .poses
+                .iter()
+                .zip(rates)
+                .enumerate()
+                .map(|(i, (pose, rate))| {
+                    if blocks[i].support {
+                        return self.drive.pose(i, value);
+                    }
+                    let turn = UnitQuaternion::from_scaled_axis(rate.spin * by) * pose.turn;
+                    Pose { shift: pose.shift + rate.velocity * by, turn }
+                })
+                .collect();
+            let found = self.carried.displaced(&poses);
+            if found.deepest.is_some_and(|c| c.gap < -crate::tolerance::JOINT_CLOSED) {
+                return None;
+            }
+            let verdict = assess(&found.model, &control);
+            (verdict.verdict == Verdict::Unstable).then(|| Point {
+                value,
+                poses,
+                closed: vec![Vec::new(); self.carried.start.interfaces.list.len()],
+                load_factor: 0.0,
+                forces: verdict.forces.clone(),
+                room: 0.0,
+                rates: verdict.rates.clone(),
+                touch: Some(touch(&found)),
+            })
+        });
+        let Some(falls) = falls else { return stuck };
+        path.events.push(Event {
+            value: here.value,
+            beyond: falls.value,
+            kind: EventKind::Falls,
+            opens: Vec::new(),
+            closes: Vec::new(),
+            jump: 0.0,
+            yields: Vec::new(),
+            slides: Vec::new(),
+        });
+        End::Falls(Box::new([self.slid_point(here), falls]))
+    }
+}
+
+/// The joint at the start of every contact, and its places.
+fn touch(found: &crate::path::Displaced) -> Vec<(usize, Vec<nalgebra::Vector3<f64>>)> {
+    let list = found.model.interfaces.list.iter().map(|f| f.points.clone());
+    found.from.iter().copied().zip(list).collect()
+}
