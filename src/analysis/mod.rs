@@ -16,6 +16,7 @@ mod in_time;
 pub mod kinematic;
 pub mod limit;
 mod mend;
+pub mod moving;
 mod parts;
 mod proved;
 pub mod question;
@@ -41,9 +42,11 @@ pub use critical::{Critical, critical};
 pub use doubt::doubt;
 pub use kinematic::Kinematic;
 pub use limit::{LoadFactor, limit};
+pub use moving::Moving;
 pub use proved::{Claims, Proved};
 pub use question::{
-    AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, PushOptions,
+    AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
+    PushOptions,
     Question, ReposeOptions, SettleOptions, SimulateOptions, SupportMove, ThrustOptions,
     TiltOptions,
 };

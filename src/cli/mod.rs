@@ -19,6 +19,7 @@ pub mod import;
 mod input;
 pub mod kinematic;
 pub mod limit;
+pub mod moving;
 pub mod man;
 mod output;
 pub mod path;

@@ -23,7 +23,7 @@ use voussoir::{
     limits,
     proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, work::Work},
     report::{
-        json, kinematic, page,
+        json, kinematic, moving, page,
         text::{self, Asked, TextOptions},
         view::View,
     },
@@ -283,10 +283,15 @@ impl<'a> Session<'a> {
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
                 let charts: Vec<_> =
-                    [kinematic::page_chart(&file), page::curve(&file), page::attempts(&file)]
-                        .into_iter()
-                        .flatten()
-                        .collect();
+                    [
+                        kinematic::page_chart(&file),
+                        moving::page_chart(&file),
+                        page::curve(&file),
+                        page::attempts(&file),
+                    ]
+                    .into_iter()
+                    .flatten()
+                    .collect();
                 report.write(&page::page(&text, &view, &charts)?)?;
             }
             if !matches!(file.question, Kind::Simulate | Kind::Settle | Kind::Push) {

@@ -2,7 +2,7 @@
 //! question stand.
 
 use super::{
-    critical::CriticalValue, kinematic::KinematicAnswer, path::PathAnswer, result::DryResult,
+    critical::CriticalValue, kinematic::KinematicAnswer, moving::MovingAnswer, path::PathAnswer, result::DryResult,
     thrust::ThrustAnswer,
 };
 use crate::{
@@ -20,6 +20,8 @@ pub enum Answer {
     Verdict(VerdictAnswer),
     /// How large may the live load grow?
     Limit(LimitAnswer),
+    /// How heavy may a train be?
+    Moving(Box<MovingAnswer>),
     /// At what tilt does it fall?
     Tilt(TiltAnswer),
     /// The values at which the verdict flips.
@@ -195,6 +197,7 @@ impl Answer {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => Some(a.verdict),
             Self::Limit(a) => a.verdict,
             Self::Tilt(a) => a.verdict,
+            Self::Moving(a) => a.verdict,
             Self::Kinematic(a) => a.verdict,
             Self::Critical(_) | Self::Thrust(_) | Self::Path(_) | Self::Simulation(_, None) => None,
         }
@@ -213,6 +216,7 @@ impl Answer {
         match self {
             Self::Limit(a) => Some(&a.load_factor),
             Self::Tilt(a) => Some(&a.tan_tilt),
+            Self::Moving(a) => Some(&a.load_factor),
             Self::Kinematic(a) => Some(&a.alpha0),
             _ => None,
         }
@@ -270,6 +274,7 @@ impl Answer {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => a.part.as_ref(),
             Self::Limit(a) => a.part.as_ref(),
             Self::Tilt(a) => a.part.as_ref(),
+            Self::Moving(a) => a.part.as_ref(),
             Self::Kinematic(a) => a.part.as_ref(),
             _ => None,
         }
@@ -281,6 +286,7 @@ impl Answer {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => a.proof,
             Self::Limit(a) => a.proof,
             Self::Tilt(a) => a.proof,
+            Self::Moving(a) => a.proof,
             Self::Kinematic(a) => a.proof,
             _ => None,
         }
@@ -334,6 +340,9 @@ pub(super) struct Flat {
     /// What an earthquake does.
     #[serde(skip_serializing_if = "Option::is_none")]
     kinematic: Option<Box<KinematicAnswer>>,
+    /// One position of a train.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    moving: Option<Box<MovingAnswer>>,
 }
 
 impl JsonSchema for Answer {
@@ -377,6 +386,7 @@ impl From<Answer> for Flat {
             Answer::Thrust(thrust) => Self { thrust: Some(thrust), ..Self::default() },
             Answer::Path(path) => Self { path: Some(path), ..Self::default() },
             Answer::Kinematic(a) => Self { kinematic: Some(a), ..Self::default() },
+            Answer::Moving(a) => Self { moving: Some(a), ..Self::default() },
         }
     }
 }
@@ -402,6 +412,7 @@ impl TryFrom<Flat> for Answer {
             thrust,
             path,
             kinematic,
+            moving,
         } = flat;
         let alone_in_all = verdict.is_none()
             && law.is_none()
@@ -415,10 +426,11 @@ impl TryFrom<Flat> for Answer {
             && tilt_deg.is_none()
             && critical.is_none()
             && thrust.is_none();
-        match (path, kinematic) {
-            (None, None) => {}
-            (Some(path), None) if alone_in_all => return Ok(Self::Path(path)),
-            (None, Some(a)) if alone_in_all => return Ok(Self::Kinematic(a)),
+        match (path, kinematic, moving) {
+            (None, None, None) => {}
+            (Some(path), None, None) if alone_in_all => return Ok(Self::Path(path)),
+            (None, Some(a), None) if alone_in_all => return Ok(Self::Kinematic(a)),
+            (None, None, Some(a)) if alone_in_all => return Ok(Self::Moving(a)),
             _ => return Err(MIXED),
         }
         let alone = verdict.is_none() && part.is_none() && proof.is_none();

@@ -20,6 +20,7 @@ pub mod site;
 mod source;
 mod suggest;
 pub mod template;
+mod train;
 
 #[cfg(test)]
 mod tests;
@@ -38,6 +39,7 @@ pub use site::Site;
 pub use source::Source;
 pub(crate) use suggest::suggest;
 pub use template::Template;
+pub use train::{Axle, AxleForce, Train};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -99,6 +101,9 @@ pub struct Scene {
     /// The earthquakes of the place where it stands. `kinematic` alone asks for them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub site: Option<Site>,
+    /// Axles that drive over the road of a bridge. `limit --moving` alone asks for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub train: Option<Train>,
 }
 
 /// 9.81 m/s² downward.
@@ -122,6 +127,7 @@ impl Default for Scene {
             members: Vec::new(),
             contact: ContactSpec::default(),
             site: None,
+            train: None,
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::{
 
 #[cfg(feature = "solve")]
 use crate::analysis::{
-    AssessOptions, Control, KinematicOptions, LimitOptions, Question, TiltOptions, closing,
+    AssessOptions, Control, KinematicOptions, LimitOptions, MovingOptions, Question, TiltOptions, closing,
     coulomb, critical::probe,
 };
 
@@ -55,6 +55,7 @@ pub fn closed(
         QuestionKind::Assess => Question::Assess(AssessOptions { law }),
         QuestionKind::Limit => Question::Limit(LimitOptions::default()),
         QuestionKind::Tilt => Question::Tilt(TiltOptions { toward, ..TiltOptions::default() }),
+        QuestionKind::Moving => Question::Moving(MovingOptions::default()),
         QuestionKind::Kinematic => {
             Question::Kinematic(KinematicOptions { toward, ..KinematicOptions::default() })
         }

@@ -6,6 +6,7 @@ mod critical;
 mod heaps;
 mod kinematic;
 mod mechanism;
+mod moving;
 mod packing;
 mod page;
 mod path;
@@ -72,6 +73,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     thrust::rows(&mut page, file, options);
     path::rows(&mut page, file, options);
     kinematic::rows(&mut page, file, options);
+    moving::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
@@ -178,6 +180,7 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
     let verb = match file.question {
         QuestionKind::Assess => "assess",
         QuestionKind::Limit => "limit",
+        QuestionKind::Moving => "limit",
         QuestionKind::Tilt => "tilt",
         QuestionKind::Critical => "critical",
         QuestionKind::Thrust => "thrust",
