@@ -51,3 +51,4 @@ mod strength;
 mod sweep;
 mod symmetry;
 mod thrust;
+mod train;
