@@ -128,7 +128,9 @@ fn answer(
     let control = &question.control(control);
     Ok(match question {
         Question::Assess(_) => Answer::Assess(assess(model, control)),
-        Question::Limit(options) => Answer::Limit(Box::new(limited(options, scene, model, control)?)),
+        Question::Limit(options) => {
+            Answer::Limit(Box::new(limited(options, scene, model, control)?))
+        }
         Question::Moving(options) => {
             Answer::Moving(Box::new(moving::moving(options, scene, model, control)?))
         }

@@ -6,7 +6,8 @@
 //! answer; a verdict as it was asked in scenes of few contacts, else whether forces exist.
 
 use super::{
-    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, MovingOptions, Question, TiltOptions, ask,
+    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, MovingOptions, Question,
+    TiltOptions, ask,
 };
 use crate::{
     interface::{self, Model},

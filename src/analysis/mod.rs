@@ -46,9 +46,8 @@ pub use moving::Moving;
 pub use proved::{Claims, Proved};
 pub use question::{
     AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
-    PushOptions,
-    Question, ReposeOptions, SettleOptions, SimulateOptions, SupportMove, ThrustOptions,
-    TiltOptions,
+    PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions, SupportMove,
+    ThrustOptions, TiltOptions,
 };
 pub use stability::{Packing, Stability, stability};
 pub use tilt::{Tilt, tilt};

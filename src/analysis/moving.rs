@@ -141,7 +141,8 @@ fn dips(positions: &[Stood]) -> Vec<Dip> {
         let here = value(&positions[k]);
         let (before, after) = (k.checked_sub(1).and_then(|j| same(k, j)), same(k, k + 1));
         // Of two alike the first.
-        let is_low = before.is_none_or(|s| here < value(s)) && after.is_none_or(|s| here <= value(s));
+        let is_low =
+            before.is_none_or(|s| here < value(s)) && after.is_none_or(|s| here <= value(s));
         let x = positions[k].position.x;
         let end = |s: Option<&Stood>| s.map_or(x, |s| s.position.x);
         (here.is_finite() && is_low).then(|| Dip {
@@ -168,11 +169,7 @@ fn each_dip(dips: &[Dip], follow: &(impl Fn(&Dip) -> Vec<Stood> + Sync)) -> Vec<
 /// Golden section on the load factors of a dip (J. Kiefer, *Sequential minimax search for a
 /// maximum*, Proc. AMS 4, 1953): every position on the way, each with its own proof. A position
 /// without a value counts as high; it is kept, and governs.
-fn follow(
-    dip: Dip,
-    finest: f64,
-    asked: &impl Fn(&Position) -> Option<Stood>,
-) -> Vec<Stood> {
+fn follow(dip: Dip, finest: f64, asked: &impl Fn(&Position) -> Option<Stood>) -> Vec<Stood> {
     let share = 0.5 * (5f64.sqrt() - 1.0);
     let [mut low, mut high] = dip.between;
     let mut list = Vec::new();

@@ -16,7 +16,9 @@ use voussoir::{
 
 pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     if !args.worst.is_empty() {
-        bail!("--worst and --moving are two searches: sweep over the range with the question moving");
+        bail!(
+            "--worst and --moving are two searches: sweep over the range with the question moving"
+        );
     }
     let open = |path: &Option<std::path::PathBuf>| {
         path.as_deref().map(|p| Sink::open(Some(p))).transpose()

@@ -282,16 +282,15 @@ impl<'a> Session<'a> {
             };
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
-                let charts: Vec<_> =
-                    [
-                        kinematic::page_chart(&file),
-                        moving::page_chart(&file),
-                        page::curve(&file),
-                        page::attempts(&file),
-                    ]
-                    .into_iter()
-                    .flatten()
-                    .collect();
+                let charts: Vec<_> = [
+                    kinematic::page_chart(&file),
+                    moving::page_chart(&file),
+                    page::curve(&file),
+                    page::attempts(&file),
+                ]
+                .into_iter()
+                .flatten()
+                .collect();
                 report.write(&page::page(&text, &view, &charts)?)?;
             }
             if !matches!(file.question, Kind::Simulate | Kind::Settle | Kind::Push) {

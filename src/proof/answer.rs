@@ -2,8 +2,8 @@
 //! question stand.
 
 use super::{
-    critical::CriticalValue, kinematic::KinematicAnswer, moving::MovingAnswer, path::PathAnswer, result::DryResult,
-    thrust::ThrustAnswer,
+    critical::CriticalValue, kinematic::KinematicAnswer, moving::MovingAnswer, path::PathAnswer,
+    result::DryResult, thrust::ThrustAnswer,
 };
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     number::short,
     proof::{ResultFile, moving::MovingAnswer},
-    train::Travel,
+    train::{Travel, is_symmetric},
 };
 use plotters::{
     prelude::{
@@ -66,14 +66,19 @@ const HIGH: f64 = 6.0;
 /// A direction of travel in words, and its points.
 type Line = (&'static str, Vec<(f64, f64)>);
 
+/// What the line of a train is called that is the same from both ends.
+const BOTH: &str = "both directions of travel";
+
 /// The line of each direction of travel, where it is not above [`HIGH`] × the least.
-fn lines(list: &[&MovingAnswer]) -> Vec<Line> {
+fn lines(file: &ResultFile, list: &[&MovingAnswer]) -> Vec<Line> {
+    let symmetric = file.scene.input.train.as_ref().is_some_and(is_symmetric);
     let value = |a: &MovingAnswer| a.load_factor.value.filter(|v| v.is_finite());
     let least = list.iter().filter_map(|a| value(a)).fold(f64::INFINITY, f64::min);
     let line = |travel: Travel| {
         let of = list.iter().filter(|a| a.travel == travel);
         let points = of.filter_map(|a| Some((a.x, value(a)?)));
-        (travel.words(), points.filter(|p| p.1 <= HIGH * least.abs()).collect())
+        let name = if symmetric { BOTH } else { travel.words() };
+        (name, points.filter(|p| p.1 <= HIGH * least.abs()).collect())
     };
     [Travel::Forward, Travel::Backward]
         .into_iter()
@@ -103,7 +108,7 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
         ..Series::default()
     };
     let mut all: Vec<Series> =
-        lines(&list).iter().map(|(name, points)| series(name, true, points)).collect();
+        lines(file, &list).iter().map(|(name, points)| series(name, true, points)).collect();
     if all.iter().all(|s| s.points.len() < 2) {
         return None;
     }
@@ -130,7 +135,7 @@ const WORST: RGBColor = RGBColor(0, 0, 0);
 /// The result is of another question, or has no two load factors.
 pub fn chart(file: &ResultFile) -> Result<String, PathError> {
     let list = said(file)?;
-    let lines = lines(&list);
+    let lines = lines(file, &list);
     let all = || lines.iter().flat_map(|l| l.1.iter());
     let ends = |of: fn(&(f64, f64)) -> f64| {
         all().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)))
@@ -182,7 +187,7 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
         }
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperMiddle)
+            .position(SeriesLabelPosition::LowerMiddle)
             .background_style(WHITE.mix(0.8))
             .label_font(("sans-serif", 13).into_font())
             .draw()

@@ -11,6 +11,8 @@ pub struct Train {
     /// The axles; at least one.
     pub axles: Vec<Axle>,
     /// Where the train's own origin goes: x in the scene at the start and at the end of the way, m.
+    /// Both directions of travel take this way; for all axles of both to pass the whole bridge it
+    /// begins a train's length before it and ends one behind it.
     pub path: [f64; 2],
     /// Distance between two positions on the way, m; the last step may be shorter.
     pub step: f64,

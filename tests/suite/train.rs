@@ -141,10 +141,8 @@ fn place_units_and_two_ways_of_writing_change_nothing() {
     let mut fixed = bridge(12, Value::Null);
     fixed.as_object_mut().expect("an object").remove("train");
     let at = &said(&wanted).axles;
-    let loads: Vec<Value> = at
-        .iter()
-        .map(|s| json!({ "road": { "x": s.x }, "force": [0, 0, -s.force] }))
-        .collect();
+    let loads: Vec<Value> =
+        at.iter().map(|s| json!({ "road": { "x": s.x }, "force": [0, 0, -s.force] })).collect();
     fixed["loads"] = json!({ "live": loads });
     close("as a load", crate::ask::load_factor(&read(&fixed)), value(said(&wanted)), 1e-6);
 }
@@ -220,7 +218,8 @@ fn mistakes_are_named() {
         ),
         (
             told(&|v| {
-                v["templates"] = json!([{ "column": { "blocks": 2, "size": [1, 1, 1], "material": "ring" } }]);
+                v["templates"] =
+                    json!([{ "column": { "blocks": 2, "size": [1, 1, 1], "material": "ring" } }]);
             }),
             "train: no road carries the train",
         ),

@@ -50,17 +50,18 @@ pub(in crate::proof) fn verify(
         list.iter().all(|d| at(d).is_some_and(inside)),
         "every position lies on the way of the train",
     );
-    let is_there = |p: &Position| list.iter().any(|d| at(d).is_some_and(|q| near(q, *p, train.step)));
+    let is_there =
+        |p: &Position| list.iter().any(|d| at(d).is_some_and(|q| near(q, *p, train.step)));
     let steps = train::positions(train);
-    let missing: Vec<&Position> = steps
-        .iter()
-        .filter(|p| !is_there(p) && train::at(scene, model, **p).is_some())
-        .collect();
+    let missing: Vec<&Position> =
+        steps.iter().filter(|p| !is_there(p) && train::at(scene, model, **p).is_some()).collect();
     require(
         &mut f,
         missing.is_empty(),
         match missing.first() {
-            None => format!("no step of {} is missing at which an axle stands on a span", steps.len()),
+            None => {
+                format!("no step of {} is missing at which an axle stands on a span", steps.len())
+            }
             Some(p) => format!(
                 "{} steps are missing, the first at x = {} {}",
                 missing.len(),

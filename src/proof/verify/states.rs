@@ -12,8 +12,8 @@ use crate::{
 
 #[cfg(feature = "solve")]
 use crate::analysis::{
-    AssessOptions, Control, KinematicOptions, LimitOptions, MovingOptions, Question, TiltOptions, closing,
-    coulomb, critical::probe,
+    AssessOptions, Control, KinematicOptions, LimitOptions, MovingOptions, Question, TiltOptions,
+    closing, coulomb, critical::probe,
 };
 
 /// What the scene does under its dead load with dry friction.

@@ -69,22 +69,24 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     page.row("train", a.axles.iter().map(axle).chain(off));
     let said: Vec<&MovingAnswer> =
         file.directions.iter().filter_map(|d| d.answer.moving()).collect();
+    let both = file.scene.input.train.as_ref().is_some_and(train::is_symmetric);
     let line = |a: &&MovingAnswer| {
         let l = &a.load_factor;
         let value = match (l.status, l.value, l.associative.found()) {
             (FactorStatus::Found, Some(v), Some((bound, lower, upper))) if v == bound => {
-                bracketed(v, lower, upper)
+                format!("λ = {}", bracketed(v, lower, upper))
             }
-            (FactorStatus::Found, Some(v), _) => format!("{v:.5} with dry friction"),
+            (FactorStatus::Found, Some(v), _) => format!("λ = {v:.5} with dry friction"),
             (FactorStatus::Unbounded, ..) => "no limit".into(),
             (FactorStatus::Impossible, ..) => "falls, whatever the train".into(),
             (FactorStatus::NotAtRest, ..) => "not at rest without the train".into(),
             (_, _, Some((v, lower, upper))) => {
-                format!("at most {}, with dry friction undecided", bracketed(v, lower, upper))
+                format!("λ at most {}, with dry friction undecided", bracketed(v, lower, upper))
             }
             _ => "undecided".into(),
         };
-        format!("x = {} {}: λ = {value}", short(a.x), a.travel.words()).replace("λ = no", "no")
+        let way = if both { String::new() } else { format!(" {}", a.travel.words()) };
+        format!("x = {}{way}: {value}", short(a.x))
     };
     // All where there is room for them, else as many, evenly spread.
     let shown: Vec<&&MovingAnswer> = match options.verbose || said.len() <= POSITIONS {
