@@ -137,6 +137,8 @@ pub mod path;
 
 pub mod kinematic;
 
+pub mod train;
+
 #[cfg(feature = "solve")]
 pub mod program;
 

@@ -321,7 +321,7 @@ impl Scene {
     fn inspect<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let ready = self.ready();
         let model = crate::wait::run(py, None, move |w| ready.model(&|| w.is_cancelled()))?;
-        Ok(pythonize(py, &Inspection::new(&model))?)
+        Ok(pythonize(py, &Inspection::new(&model).with_train(&self.ready.scene))?)
     }
 
     /// What is to be known about it: code, text, whether the scene is likely another one than is

@@ -11,6 +11,7 @@ use super::{
     in_time,
     kinematic::{self, Kinematic},
     limit,
+    moving::{self, Moving},
     question::{
         CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
         directions,
@@ -39,6 +40,8 @@ pub enum Answer {
     Assess(Proved<Assessment>),
     /// How large may the live load grow?
     Limit(Box<Limited>),
+    /// How heavy may a train be?
+    Moving(Box<Moving>),
     /// At what tilt does it fall?
     Tilt(Tilted),
     /// Where does the verdict flip?
@@ -131,7 +134,12 @@ fn answer(
     let control = &question.control(control);
     Ok(match question {
         Question::Assess(_) => Answer::Assess(assess(model, control)),
-        Question::Limit(options) => Answer::Limit(Box::new(limited(options, model, control)?)),
+        Question::Limit(options) => {
+            Answer::Limit(Box::new(limited(options, scene, model, control)?))
+        }
+        Question::Moving(options) => {
+            Answer::Moving(Box::new(moving::moving(options, scene, model, control)?))
+        }
         Question::Tilt(options) => Answer::Tilt(tilted(options, model, control)?),
         Question::Critical(CriticalOptions { vary, between: [from, to], scan, .. }) => {
             let range =
@@ -169,12 +177,17 @@ fn bounds(outcome: Outcome) -> bool {
 
 fn limited(
     options: &LimitOptions,
+    scene: &Scene,
     model: &Model,
     control: &Control,
 ) -> Result<Limited, InputError> {
     if model.assembly.live.iter().all(|w| *w == Wrench::zero()) {
         let path = JsonPath::root().key("loads").key("live");
-        return Err(InputError::at(path, "there is no live load on a free block to ask about")
+        let error = InputError::at(path, "there is no live load on a free block to ask about");
+        if scene.train.is_some() {
+            return Err(error.hint("ask about the train of the scene: `limit` with --moving"));
+        }
+        return Err(error
             .hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene, or ask `tilt`"));
     }
     let bound = limit(model, control);

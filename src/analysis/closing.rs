@@ -6,7 +6,8 @@
 //! answer; a verdict as it was asked in scenes of few contacts, else whether forces exist.
 
 use super::{
-    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, Question, TiltOptions, ask,
+    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, MovingOptions, Question,
+    TiltOptions, ask,
 };
 use crate::{
     interface::{self, Model},
@@ -34,6 +35,11 @@ fn compared(answer: &Answer, law: Law) -> Option<ClosedAnswer> {
             .directions
             .iter()
             .map(|d| factor(d.load_factor.outcome, d.load_factor.value))
+            .min_by(|a, b| a.height().total_cmp(&b.height())),
+        Answer::Moving(m) => m
+            .positions
+            .iter()
+            .map(|s| factor(s.bound.outcome, s.bound.value))
             .min_by(|a, b| a.height().total_cmp(&b.height())),
         Answer::Kinematic(k) => k
             .directions
@@ -72,6 +78,9 @@ pub fn again(
         Question::Limit(_) => Question::Limit(LimitOptions { law, require: None, skip_dead: true }),
         Question::Tilt(o) => {
             Question::Tilt(TiltOptions { law, require: None, skip_dead: true, ..o.clone() })
+        }
+        Question::Moving(_) => {
+            Question::Moving(MovingOptions { law, require: None, skip_dead: true })
         }
         Question::Kinematic(o) => Question::Kinematic(KinematicOptions {
             law,

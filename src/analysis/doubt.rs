@@ -59,6 +59,14 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
             )
         }),
         Answer::Critical(c) => about.range(c),
+        Answer::Moving(m) => m
+            .positions
+            .iter()
+            .find_map(|s| {
+                let dry = |dry| about.dry(dry, "ask with `--law associative` for the bound alone");
+                about.bound(&s.bound).or_else(|| s.dry.as_ref().and_then(dry))
+            })
+            .or_else(|| m.dead.as_ref().and_then(|dead| about.verdict(dead))),
         Answer::Kinematic(k) => k
             .directions
             .iter()

@@ -57,15 +57,7 @@ impl Quaked {
     /// α0: the one to use, where it is found.
     pub fn alpha0(&self) -> Option<f64> {
         let bound = (self.bound.outcome == Outcome::Found).then_some(self.bound.value);
-        match &self.dry {
-            None => bound,
-            Some(dry) if !dry.is_reached() => None,
-            Some(dry) => match dry.found {
-                Found::NothingSlides => bound,
-                Found::FixedPoint | Found::Rests | Found::RestsBelow => Some(dry.value),
-                Found::Unlimited | Found::NotAtRest | Found::Undecided => None,
-            },
-        }
+        self.dry.as_ref().map_or(bound, |dry| dry.to_use(bound))
     }
 
     /// The mechanism that goes with it.

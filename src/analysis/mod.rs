@@ -16,6 +16,7 @@ mod in_time;
 pub mod kinematic;
 pub mod limit;
 mod mend;
+pub mod moving;
 mod parts;
 mod proved;
 pub mod question;
@@ -44,11 +45,12 @@ pub use critical::{Critical, critical};
 pub use doubt::doubt;
 pub use kinematic::Kinematic;
 pub use limit::{LoadFactor, limit};
+pub use moving::Moving;
 pub use proved::{Claims, Proved};
 pub use question::{
-    AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, PushOptions,
-    Question, ReposeOptions, SettleOptions, SimulateOptions, StagesOptions, SupportMove,
-    ThrustOptions, TiltOptions,
+    AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
+    PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions, StagesOptions,
+    SupportMove, ThrustOptions, TiltOptions,
 };
 pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};

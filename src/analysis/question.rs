@@ -19,6 +19,8 @@ pub enum Question {
     Assess(AssessOptions),
     /// How large may the live load grow?
     Limit(LimitOptions),
+    /// How heavy may the train of the scene be that drives over it? Of its positions the least.
+    Moving(MovingOptions),
     /// At what tilt does it fall? In several directions the least.
     Tilt(TiltOptions),
     /// At what value of a number in the scene does the verdict flip?
@@ -62,6 +64,21 @@ pub struct LimitOptions {
     pub require: Option<f64>,
     /// Whether it stands under its dead load alone is not asked as well. Rows of a sweep never ask
     /// it: a plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub skip_dead: bool,
+}
+
+/// Options of `moving`: `limit` with a train, position by position.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct MovingOptions {
+    /// How joints slide.
+    pub law: Law,
+    /// A load factor below this counts as failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub require: Option<f64>,
+    /// Whether it stands under its dead load alone is not asked as well. Rows of a sweep ask it with
+    /// dry friction only: a plan has no such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub skip_dead: bool,
 }
@@ -305,7 +322,7 @@ impl Question {
             {
                 refuse("member", "a member and a support are both given".into())
             }
-            Self::Assess(_) | Self::Limit(_) | Self::Thrust(_) => Ok(()),
+            Self::Assess(_) | Self::Limit(_) | Self::Moving(_) | Self::Thrust(_) => Ok(()),
             Self::Tilt(o) => check_directions(&path, &o.toward, o.all),
             Self::Repose(o) if !(0.0..=1.0).contains(&o.moving_mass) => {
                 refuse("moving_mass", format!("must be a share from 0 to 1, got {}", o.moving_mass))
@@ -362,6 +379,10 @@ impl Question {
             Self::Limit(LimitOptions { skip_dead: true, .. }) => {
                 ("skip_dead", "remove it: rows never ask for the verdict without the live load")
             }
+            Self::Moving(MovingOptions { skip_dead: true, .. }) => (
+                "skip_dead",
+                "remove it: rows ask for the verdict without the train where dry friction needs it, and nowhere else",
+            ),
             Self::Tilt(TiltOptions { skip_dead: true, .. }) => (
                 "skip_dead",
                 "remove it: rows ask for the verdict when level where dry friction needs it, and nowhere else",
@@ -401,6 +422,7 @@ impl Question {
         match self {
             Self::Assess(_) => "assess",
             Self::Limit(_) => "limit",
+            Self::Moving(_) => "moving",
             Self::Tilt(_) => "tilt",
             Self::Critical(_) => "critical",
             Self::Thrust(_) => "thrust",
@@ -419,6 +441,7 @@ impl Question {
         match self {
             Self::Assess(o) => o.law,
             Self::Limit(o) => o.law,
+            Self::Moving(o) => o.law,
             Self::Tilt(o) => o.law,
             Self::Critical(o) => o.law,
             Self::Thrust(o) => o.law,
@@ -444,6 +467,7 @@ impl Question {
             | Self::Stages(_)
             | Self::Rock(_) => None,
             Self::Limit(o) => o.require,
+            Self::Moving(o) => o.require,
             Self::Tilt(o) => o.require,
             Self::Repose(o) => o.require,
             Self::Kinematic(o) => o.require,
@@ -464,6 +488,7 @@ impl Question {
                 Some(if o.greatest { "greatest thrust in N" } else { "least thrust in N" })
             }
             Self::Limit(_) => Some("load factor"),
+            Self::Moving(_) => Some("least load factor of the train"),
             Self::Tilt(_) => Some("tilt in degrees"),
             Self::Critical(_) => Some("value at which the verdict flips"),
             Self::Repose(_) => Some("angle of maximum stability in degrees"),
@@ -481,6 +506,10 @@ impl Question {
     pub fn for_one_number(&self) -> Self {
         match self.clone() {
             Self::Limit(o) => Self::Limit(LimitOptions { skip_dead: true, ..o }),
+            // With dry friction all positions share it.
+            Self::Moving(o) => {
+                Self::Moving(MovingOptions { skip_dead: o.law == Law::Associative, ..o })
+            }
             // With dry friction all directions share it.
             Self::Tilt(o) => Self::Tilt(TiltOptions { skip_dead: o.law == Law::Associative, ..o }),
             Self::Thrust(o) => Self::Thrust(ThrustOptions { range: false, ..o }),

@@ -4,12 +4,20 @@ use super::{
     again::{skip_dead, worst},
     args::Limit,
     exit::Exit,
+    moving,
     question::{Session, requirement, unless_weaker},
     terminal::Terminal,
 };
+use anyhow::bail;
 use voussoir::analysis::{LimitOptions, Question};
 
 pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
+    if args.moving {
+        return moving::run(args, terminal);
+    }
+    if let Some(option) = moving::idle(args) {
+        bail!("{option} goes with --moving");
+    }
     let mut session =
         Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     let question = Question::Limit(LimitOptions {

@@ -20,6 +20,7 @@ mod input;
 pub mod kinematic;
 pub mod limit;
 pub mod man;
+pub mod moving;
 pub mod open;
 mod output;
 pub mod path;

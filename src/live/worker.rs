@@ -63,7 +63,7 @@ fn answer(
     let start = Instant::now();
     let bytes = job.file.as_ref().as_ref().map_err(Clone::clone)?;
     let (scene, value) = scene(file, job, bytes)?;
-    let model = reuse.prepare(&scene, &keys(job, &value))?;
+    let model = reuse.prepare(&scene, &keys(job, &value), &|| deadline.is_over())?;
     let points = model.contact_points() as u64;
     limits::afford("solving for the contact points", points, limits::PER_CONTACT_POINT)?;
     if *shown != job.epoch && desk.say(job.revision, News::Scene, reply::scene(job, &value, &model))

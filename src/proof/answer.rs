@@ -2,8 +2,8 @@
 //! question stand.
 
 use super::{
-    critical::CriticalValue, kinematic::KinematicAnswer, path::PathAnswer, result::DryResult,
-    rocking::RockingAnswer, stages::StagesAnswer, thrust::ThrustAnswer,
+    critical::CriticalValue, kinematic::KinematicAnswer, moving::MovingAnswer, path::PathAnswer,
+    result::DryResult, rocking::RockingAnswer, stages::StagesAnswer, thrust::ThrustAnswer,
 };
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
@@ -20,6 +20,8 @@ pub enum Answer {
     Verdict(VerdictAnswer),
     /// How large may the live load grow?
     Limit(LimitAnswer),
+    /// How heavy may a train be?
+    Moving(Box<MovingAnswer>),
     /// At what tilt does it fall?
     Tilt(TiltAnswer),
     /// The values at which the verdict flips.
@@ -199,6 +201,7 @@ impl Answer {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => Some(a.verdict),
             Self::Limit(a) => a.verdict,
             Self::Tilt(a) => a.verdict,
+            Self::Moving(a) => a.verdict,
             Self::Kinematic(a) => a.verdict,
             Self::Stages(a) => Some(a.verdict),
             Self::Critical(_)
@@ -222,6 +225,7 @@ impl Answer {
         match self {
             Self::Limit(a) => Some(&a.load_factor),
             Self::Tilt(a) => Some(&a.tan_tilt),
+            Self::Moving(a) => Some(&a.load_factor),
             Self::Kinematic(a) => Some(&a.alpha0),
             _ => None,
         }
@@ -287,6 +291,7 @@ impl Answer {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => a.part.as_ref(),
             Self::Limit(a) => a.part.as_ref(),
             Self::Tilt(a) => a.part.as_ref(),
+            Self::Moving(a) => a.part.as_ref(),
             Self::Kinematic(a) => a.part.as_ref(),
             _ => None,
         }
@@ -298,6 +303,7 @@ impl Answer {
             Self::Verdict(a) | Self::Simulation(_, Some(a)) => a.proof,
             Self::Limit(a) => a.proof,
             Self::Tilt(a) => a.proof,
+            Self::Moving(a) => a.proof,
             Self::Kinematic(a) => a.proof,
             Self::Rocking(a) => a.proof,
             _ => None,
@@ -358,6 +364,9 @@ pub(super) struct Flat {
     /// What a mechanism does on ground that moves.
     #[serde(skip_serializing_if = "Option::is_none")]
     rocking: Option<Box<RockingAnswer>>,
+    /// One position of a train.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    moving: Option<Box<MovingAnswer>>,
 }
 
 impl JsonSchema for Answer {
@@ -403,6 +412,7 @@ impl From<Answer> for Flat {
             Answer::Kinematic(a) => Self { kinematic: Some(a), ..Self::default() },
             Answer::Stages(a) => Self { stages: Some(a), ..Self::default() },
             Answer::Rocking(a) => Self { rocking: Some(a), ..Self::default() },
+            Answer::Moving(a) => Self { moving: Some(a), ..Self::default() },
         }
     }
 }
@@ -430,6 +440,7 @@ impl TryFrom<Flat> for Answer {
             kinematic,
             stages,
             rocking,
+            moving,
         } = flat;
         let alone_in_all = verdict.is_none()
             && law.is_none()
@@ -443,12 +454,18 @@ impl TryFrom<Flat> for Answer {
             && tilt_deg.is_none()
             && critical.is_none()
             && thrust.is_none();
-        match (path, kinematic, stages, rocking) {
-            (None, None, None, None) => {}
-            (Some(path), None, None, None) if alone_in_all => return Ok(Self::Path(path)),
-            (None, Some(a), None, None) if alone_in_all => return Ok(Self::Kinematic(a)),
-            (None, None, Some(a), None) if alone_in_all => return Ok(Self::Stages(a)),
-            (None, None, None, Some(a)) if alone_in_all => return Ok(Self::Rocking(a)),
+        let mut lone = [
+            path.map(Self::Path),
+            kinematic.map(Self::Kinematic),
+            stages.map(Self::Stages),
+            rocking.map(Self::Rocking),
+            moving.map(Self::Moving),
+        ]
+        .into_iter()
+        .flatten();
+        match (lone.next(), lone.next()) {
+            (None, _) => {}
+            (Some(answer), None) if alone_in_all => return Ok(answer),
             _ => return Err(MIXED),
         }
         let alone = verdict.is_none() && part.is_none() && proof.is_none();

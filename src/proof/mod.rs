@@ -5,6 +5,7 @@ pub mod answer;
 pub mod critical;
 pub mod kinematic;
 pub mod member;
+pub mod moving;
 #[cfg(feature = "solve")]
 mod pack;
 pub mod packing;

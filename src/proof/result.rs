@@ -50,18 +50,18 @@ pub struct ResultFile {
     pub question: QuestionKind,
     /// The scene.
     pub scene: SceneSummary,
-    /// The answer to the question; of a tilt in several directions, the least.
+    /// The answer to the question; of a tilt in several directions, of a train on its way the least.
     pub answer: Answer,
     /// The evidence for `answer`.
     pub certificate: Certificate,
-    /// Tilt and kinematic: every direction asked for.
+    /// Tilt and kinematic: every direction asked for. Moving: every position of the train.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<Direction>,
-    /// Limit, tilt and kinematic, where asked as well: whether it stands under its dead load alone.
+    /// Limit, moving, tilt and kinematic, where asked as well: whether it stands under its dead load alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead_load: Option<Direction>,
-    /// Limit, the least direction of a tilt and the worst of `kinematic`: the load factor with dry
-    /// friction.
+    /// Limit, the least position of a train, the least direction of a tilt and the worst of
+    /// `kinematic`: the load factor with dry friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry: Option<DryResult>,
     /// The state under dry friction, where it had to be computed.
@@ -121,6 +121,8 @@ pub enum QuestionKind {
     Assess,
     /// How large may the live load grow?
     Limit,
+    /// How heavy may the train be that drives over it?
+    Moving,
     /// At what tilt does it fall?
     Tilt,
     /// At what value of a number in the scene does the verdict flip?
@@ -189,8 +191,8 @@ pub struct Certificate {
     pub verified: Vec<String>,
 }
 
-/// An answer beside the main one, with the evidence for it: one direction of a tilt, or the dead
-/// load alone.
+/// An answer beside the main one, with the evidence for it: one direction of a tilt, one position of
+/// a train, or the dead load alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Direction {
@@ -198,7 +200,7 @@ pub struct Direction {
     pub answer: Answer,
     /// The evidence for it.
     pub certificate: Certificate,
-    /// A direction of a tilt or an earthquake: its load factor with dry friction.
+    /// A direction of a tilt or an earthquake, a position of a train: its load factor with dry friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry: Option<DryResult>,
 }

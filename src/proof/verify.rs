@@ -8,7 +8,7 @@ pub(super) mod states;
 use super::{
     ResultFile,
     answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
-    critical, kinematic, member, part, path,
+    critical, kinematic, member, moving, part, path,
     result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
     rocking, stages, thrust,
 };
@@ -115,6 +115,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         QuestionKind::Kinematic => kinematic::verify(&mut all, file, scene, model),
         QuestionKind::Stages => stages::verify(&mut all, file, scene, model),
         QuestionKind::Rock => rocking::verify(&mut all, file, scene, model),
+        QuestionKind::Moving => moving::verify(&mut all, file, scene, model),
     }
     let strangers = [
         file.question != QuestionKind::Critical && file.critical.is_some(),
@@ -135,7 +136,11 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             answer(model, QuestionKind::Assess, &dead.answer, &dead.certificate, all.refuted()).0,
         );
     }
-    if matches!(file.question, QuestionKind::Limit | QuestionKind::Tilt | QuestionKind::Kinematic) {
+    let by_direction = matches!(
+        file.question,
+        QuestionKind::Tilt | QuestionKind::Kinematic | QuestionKind::Moving
+    );
+    if by_direction || file.question == QuestionKind::Limit {
         let (dead, mut f) =
             (file.dead_load.as_ref().and_then(|d| d.answer.verdict()), Findings::default());
         let said = file
@@ -147,7 +152,6 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         require(&mut f, said, "the verdict beside it is that of the dead load alone");
         all.part("dead load alone", f);
     }
-    let by_direction = matches!(file.question, QuestionKind::Tilt | QuestionKind::Kinematic);
     if let Some(dry) = file.dry.as_ref().filter(|_| !by_direction) {
         let findings = match file.question {
             QuestionKind::Assess
@@ -397,6 +401,9 @@ fn says_what_is_claimed(
         (QuestionKind::Limit, Answer::Limit(LimitAnswer { load_factor: l, .. }), claim)
         | (QuestionKind::Tilt, Answer::Tilt(TiltAnswer { tan_tilt: l, .. }), claim) => {
             bound_says(&l.associative, claim)
+        }
+        (QuestionKind::Moving, Answer::Moving(a), claim) => {
+            bound_says(&a.load_factor.associative, claim)
         }
         (QuestionKind::Kinematic, Answer::Kinematic(a), claim) => {
             bound_says(&a.alpha0.associative, claim)

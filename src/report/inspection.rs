@@ -10,7 +10,7 @@ use crate::{
     assembly::{Action, JointLaw, Member, MemberKind, Wrench},
     error::Finding,
     interface::{ContactKind, Model},
-    scene::Friction,
+    scene::{Friction, Scene, Train},
     verdict::member::legs,
 };
 use schemars::{JsonSchema, generate::SchemaSettings};
@@ -26,6 +26,9 @@ pub struct Inspection<'a> {
     interfaces: Vec<Contact<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     members: Vec<Joined<'a>>,
+    /// The train that `limit --moving` drives over it, as the scene has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    train: Option<&'a Train>,
     findings: Vec<&'a Finding>,
 }
 
@@ -130,8 +133,15 @@ impl<'a> Inspection<'a> {
             blocks: blocks.collect(),
             interfaces: contacts.collect(),
             members: interfaces.members.iter().map(Into::into).collect(),
+            train: None,
             findings: model.findings().collect(),
         }
+    }
+
+    /// The same with the train of its scene.
+    #[must_use]
+    pub fn with_train(self, scene: &'a Scene) -> Self {
+        Self { train: scene.train.as_ref(), ..self }
     }
 }
 

@@ -9,6 +9,7 @@ pub mod imported;
 pub mod inspection;
 pub mod json;
 pub mod kinematic;
+pub mod moving;
 pub mod page;
 pub mod path;
 pub mod stages;

@@ -88,7 +88,7 @@ pub struct OnRoad {
 }
 
 /// The usual length of the patch of an axle, m.
-fn patch() -> f64 {
+pub(super) fn patch() -> f64 {
     0.3
 }
 

@@ -21,6 +21,7 @@ mod source;
 mod stage;
 mod suggest;
 pub mod template;
+mod train;
 
 #[cfg(test)]
 mod tests;
@@ -40,6 +41,7 @@ pub use source::Source;
 pub use stage::StageSpec;
 pub(crate) use suggest::suggest;
 pub use template::Template;
+pub use train::{Axle, AxleForce, Train};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -105,6 +107,9 @@ pub struct Scene {
     /// asks for them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stages: Vec<StageSpec>,
+    /// Axles that drive over the road of a bridge. `limit --moving` alone asks for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub train: Option<Train>,
 }
 
 /// 9.81 m/s² downward.
@@ -129,6 +134,7 @@ impl Default for Scene {
             contact: ContactSpec::default(),
             site: None,
             stages: Vec::new(),
+            train: None,
         }
     }
 }

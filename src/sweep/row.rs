@@ -166,6 +166,9 @@ pub struct RowAnswer {
     /// The direction of the least tilt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub toward: Option<[f64; 3]>,
+    /// Where the train of the least load factor is, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x: Option<f64>,
 }
 
 impl RowAnswer {
@@ -183,6 +186,10 @@ impl RowAnswer {
         match answer {
             Answer::Assess(a) => Self::of_assessment(a),
             Answer::Limit(l) => Self::of_load_factor(&l.bound, l.dry.as_ref(), |lambda| lambda),
+            Answer::Moving(m) => least(&mut m.positions.iter().map(|s| Self {
+                x: Some(s.position.x),
+                ..Self::of_load_factor(&s.bound, s.dry.as_ref(), |lambda| lambda)
+            })),
             Answer::Tilt(t) => least(&mut t.directions.iter().map(tilt)),
             Answer::Repose(p) => least(
                 &mut p
@@ -374,14 +381,14 @@ impl RowAnswer {
     /// Which direction governs: one without an answer must not hide behind the others.
     fn governing(&self) -> f64 {
         match self.status {
-            RowStatus::Unbounded => 90.0,
+            RowStatus::Unbounded => f64::INFINITY,
             _ => self.value.unwrap_or(f64::NEG_INFINITY),
         }
     }
 
     /// An answer that is only a word.
     pub fn of(status: RowStatus) -> Self {
-        Self { status, value: None, lower: None, upper: None, dry: None, toward: None }
+        Self { status, value: None, lower: None, upper: None, dry: None, toward: None, x: None }
     }
 }
 

@@ -5,7 +5,8 @@
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{
-        Control, Law, Limited, LoadFactor, Outcome, Proved, Tilted, assess, coulomb, limit, tilt,
+        Control, Law, Limited, LoadFactor, MovingOptions, Outcome, Proved, Question, Tilted,
+        assess, coulomb, limit, tilt,
     },
     import::{Reach, read_meshes},
     interface::{Model, prepare},
@@ -156,6 +157,17 @@ pub fn load_factor(scene: &Scene) -> f64 {
     let (outcome, value) = outcome(scene);
     assert_eq!(outcome, Outcome::Found, "{}", scene.name);
     value
+}
+
+/// The least load factor of the train, with proof of every position.
+pub fn moving(scene: &Scene) -> f64 {
+    let options = MovingOptions { law: Law::Associative, ..MovingOptions::default() };
+    let model = model(scene);
+    let answer =
+        voussoir::analysis::ask(&Question::Moving(options), scene, &model, &Control::default());
+    let file = ResultFile::of(scene, &model, &answer.expect("an answer")).expect("a result");
+    prove(scene, &file);
+    file.answer.load_factor().and_then(|l| l.value).expect("a load factor")
 }
 
 /// The load factor is `want` within a relative tolerance, and its proved bracket contains `want` up

@@ -225,3 +225,42 @@ fn mistakes_are_named() {
         assert!(text.contains(wanted), "{text}: {wanted}");
     }
 }
+
+/// BR01: the influence line of a ring, joint by joint from its left springing. The load stands on the
+/// extrados where two voussoirs meet, on either of them. (Published, of voussoirs weighed as sectors:
+/// 2.751 kN at the eighth joint; Stockdale et al. 2018, SoftwareX 7.)
+#[test]
+fn influence_line_of_a_ring() {
+    let text = include_str!("../../structures/arch-influence-line.json");
+    let scene: Value = serde_json::from_str(text).expect("JSON");
+    let outer = 1.806 * (1.0 + 0.1661);
+    for (joint, wanted) in [
+        (6, 9.309041),
+        (7, 4.55384),
+        (8, 2.746597018),
+        (9, 1.854861),
+        (10, 1.370516),
+        (11, 1.084117),
+        (12, 0.954211),
+        (13, 0.938082),
+        (14, 0.938082),
+        (21, 9.309041),
+    ] {
+        for block in [joint - 1, joint] {
+            let mut value = scene.clone();
+            let angle = std::f64::consts::PI * (1.0 - f64::from(joint) / 27.0);
+            let load = &mut value["loads"]["live"][0];
+            load["at"] = json!([outer * angle.cos(), 0, outer * angle.sin()]);
+            load["block"] = json!(format!("v{block:02}"));
+            close(&format!("joint {joint} on {block}"), load_factor(&read(&value)), wanted, 1e-6);
+        }
+    }
+}
+
+/// BR02: a ring with a load on its crown, without tension.
+#[test]
+fn ring_with_a_load_on_its_crown() {
+    let text = include_str!("../../structures/arch-crown-load.json");
+    let scene = read(&serde_json::from_str(text).expect("JSON"));
+    close("crown", load_factor(&scene), 0.1335391887, 1e-7);
+}

@@ -54,3 +54,4 @@ mod strength;
 mod sweep;
 mod symmetry;
 mod thrust;
+mod train;

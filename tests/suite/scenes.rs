@@ -71,6 +71,15 @@ fn load_factors_are_those_expected_and_proved() {
 }
 
 #[test]
+fn trains_weigh_what_is_expected_and_proved() {
+    asked("moving", 1, |file, scene, entry| {
+        let got = ask::moving(scene);
+        let want = entry["expect"]["load_factor"].as_f64().expect("a number");
+        close(file, got, want, tolerance(entry));
+    });
+}
+
+#[test]
 fn tilts_are_those_expected_and_proved() {
     asked("tilt", 2, |file, scene, entry| {
         let toward = [0, 1].map(|k| entry["toward"][k].as_f64().expect("a direction"));

@@ -137,7 +137,7 @@ fn fits(schema: &Value, value: &Value, what: &str) {
 #[test]
 fn every_verb_answers_as_the_schema_says() {
     let schema = run(&["schema", "result"]);
-    let questions: [&[&str]; 23] = [
+    let questions: [&[&str]; 24] = [
         &["assess", "structures/oppenheim-arch.json"],
         &["assess", "structures/semicircular-arch-thin.json", "--simulate"],
         &["assess", "structures/squeezed-block.json"],
@@ -174,6 +174,14 @@ fn every_verb_answers_as_the_schema_says() {
             "4",
         ],
         &["simulate", "structures/column.json", "--fast", "--frames", "3"],
+        &[
+            "limit",
+            "structures/bridge-single-axle.json",
+            "--moving",
+            "--law",
+            "associative",
+            "--skip-dead",
+        ],
         &["kinematic", "structures/overturning-wall.json", "--all", "3"],
         &["kinematic", "structures/overturning-wall-with-tie.json", "--toward", "1,0"],
         &["stages", "structures/barrel-on-centring.json", "--toward", "1,0"],

@@ -517,6 +517,38 @@ class Limit(Answer):
         return self._certificate("dead_load")
 
 
+class Moving(Answer):
+    """How heavy may a train be? The least load factor of all its positions is the answer."""
+
+    question = "moving"
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        own: dict[str, Any] = self._answer["moving"]
+        return own
+
+    @property
+    def load_factor(self) -> LoadFactor:
+        """The least load factor on the forces of the axles."""
+        return LoadFactor._of(self._own["load_factor"])
+
+    @property
+    def x(self) -> float:
+        """Where the train's origin is there, m."""
+        return float(self._own["x"])
+
+    @property
+    def travel(self) -> str:
+        """Which way it goes there: ``forward`` (towards +x) or ``backward``."""
+        return str(self._own["travel"])
+
+    @property
+    def axles(self) -> list[dict[str, Any]]:
+        """The axles on the spans there: ``axle`` (from 0), ``x`` (m), ``force`` (N), ``share``."""
+        axles: list[dict[str, Any]] = self._own["axles"]
+        return axles
+
+
 class Tilt(Answer):
     """At what tilt of the ground does it fall? The least of all directions is the answer."""
 
@@ -902,6 +934,7 @@ class Packing(Answer):
 _KINDS: dict[str, type[Answer]] = {
     "assess": Assessment,
     "limit": Limit,
+    "moving": Moving,
     "tilt": Tilt,
     "critical": Critical,
     "thrust": Thrust,

@@ -15,6 +15,7 @@ from ._answers import (
     Critical,
     Kinematic,
     Limit,
+    Moving,
     Packing,
     Path,
     Simulation,
@@ -127,6 +128,32 @@ def limit(
         progress=progress,
     )
     return Limit(answer)
+
+
+def moving(
+    scene: SceneLike,
+    *,
+    law: Law = "coulomb",
+    skip_dead: bool = False,
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Moving:
+    """How heavy may the train of the scene be that drives over it?
+
+    Every position of it is asked, in both directions of travel, and more around the least, which
+    is the answer. Parameters are those of :func:`limit`.
+    """
+    options: dict[str, Any] = {"law": law, "skip_dead": skip_dead}
+    return Moving(
+        _ask(
+            scene,
+            {"moving": options},
+            keep_all=keep_all,
+            time_limit=time_limit,
+            progress=progress,
+        )
+    )
 
 
 def _directions(toward: Sequence[Vector] | Vector | None, all: int | None) -> dict[str, Any]:

@@ -61,6 +61,17 @@ impl DryLoadFactor {
     pub fn is_reached(&self) -> bool {
         super::is_reached(self.rests_at, self.value)
     }
+
+    /// The load factor to use, beside the `bound` where that was found; nothing where there is
+    /// none, or no limit.
+    pub fn to_use(&self, bound: Option<f64>) -> Option<f64> {
+        match self.found {
+            _ if !self.is_reached() => None,
+            Found::NothingSlides => bound,
+            Found::FixedPoint | Found::Rests | Found::RestsBelow => Some(self.value),
+            Found::Unlimited | Found::NotAtRest | Found::Undecided => None,
+        }
+    }
 }
 
 /// δ, and the change of the friction limits (mean block loads) at which the next one is taken up.

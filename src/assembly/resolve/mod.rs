@@ -15,6 +15,7 @@ mod prism;
 mod shape;
 mod site;
 mod stages;
+mod train;
 
 #[cfg(test)]
 mod tests;
@@ -76,6 +77,7 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     let gravity = gravity(scene, &root.key("gravity"))?;
     check::contact(&scene.contact, &root.key("contact"))?;
     site::resolve(scene.site.as_ref(), &root.key("site"))?;
+    train::resolve(scene, gravity, &root.key("train"))?;
 
     let Blocks { list: blocks, findings } = blocks;
     let names = Names::new(&blocks)?;

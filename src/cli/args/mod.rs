@@ -260,6 +260,17 @@ pub struct Limit {
     /// unless --law associative, is below, 3 if that stays open.
     #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = finite)]
     pub require: Option<f64>,
+    /// Drive the train of the scene over the bridge in place of its live load: a load factor for
+    /// every position, both directions of travel, and more positions around the least, which is the
+    /// answer.
+    #[arg(long)]
+    pub moving: bool,
+    /// With --moving: draw the load factor against the place of the train to this file.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
+    pub chart: Option<PathBuf>,
+    /// With --moving: write every position with its load factor to this file, comma-separated.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
+    pub positions: Option<PathBuf>,
     /// Do not ask as well whether it stands without its live load.
     #[arg(long)]
     pub skip_dead: bool,

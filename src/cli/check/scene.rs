@@ -27,9 +27,14 @@ pub fn run(
         model.findings().cloned().partition(|f| f.code.is_mistake());
     pictures.write(&View::bare(&model))?;
     if args.json {
-        terminal::print(&report::json::pretty(&Inspection::new(&model))?)?;
+        terminal::print(&report::json::pretty(&Inspection::new(&model).with_train(scene))?)?;
     } else if !pictures.printed() {
-        terminal.page(&text::inspection(&model, &mistakes, &notes, terminal.layout(&args.file)))?;
+        terminal.page(&text::inspection(
+            &model,
+            scene.train.as_ref(),
+            [&mistakes, &notes],
+            terminal.layout(&args.file),
+        ))?;
     }
     Ok(if mistakes.is_empty() { Exit::Yes } else { Exit::No })
 }

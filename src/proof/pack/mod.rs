@@ -2,6 +2,7 @@
 
 mod critical;
 mod kinematic;
+mod moving;
 mod packing;
 mod path;
 mod rocking;
@@ -101,6 +102,7 @@ impl ResultFile {
         Some(match answer {
             Answered::Assess(a) => Self::assessment(scene, model, a),
             Answered::Limit(l) => Self::load_factor(scene, model, l),
+            Answered::Moving(m) => return Self::moving(scene, model, m),
             Answered::Tilt(t) => return Self::tilt(scene, model, t),
             Answered::Critical(c) => Self::critical(scene, model, c),
             Answered::Thrust(t) => Self::thrust(scene, model, t),

@@ -32,7 +32,7 @@ pub(super) fn left_out(file: &ResultFile, scene: &Scene, model: &Model) -> Findi
         (QuestionKind::Limit, _, Some(b)) => {
             Some(ClosedAnswer::LoadFactor { status: b.status, value: b.value })
         }
-        (QuestionKind::Tilt | QuestionKind::Kinematic, ..) => file
+        (QuestionKind::Tilt | QuestionKind::Kinematic | QuestionKind::Moving, ..) => file
             .directions
             .iter()
             .map(|d| &d.answer)

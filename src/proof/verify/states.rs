@@ -13,8 +13,8 @@ use crate::{
 
 #[cfg(feature = "solve")]
 use crate::analysis::{
-    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, Question, TiltOptions, ask,
-    closing, coulomb, critical::probe,
+    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, MovingOptions, Question,
+    TiltOptions, ask, closing, coulomb, critical::probe,
 };
 
 /// What the scene does under its dead load with dry friction.
@@ -56,6 +56,7 @@ pub fn closed(
         QuestionKind::Assess => Question::Assess(AssessOptions { law }),
         QuestionKind::Limit => Question::Limit(LimitOptions::default()),
         QuestionKind::Tilt => Question::Tilt(TiltOptions { toward, ..TiltOptions::default() }),
+        QuestionKind::Moving => Question::Moving(MovingOptions::default()),
         QuestionKind::Kinematic => {
             Question::Kinematic(KinematicOptions { toward, ..KinematicOptions::default() })
         }

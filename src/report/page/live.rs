@@ -78,5 +78,6 @@ fn nothing() -> View {
         motions: Vec::new(),
         film: Vec::new(),
         course: Course::default(),
+        values: None,
     }
 }

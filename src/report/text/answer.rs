@@ -35,7 +35,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
             Some(Verdict::Undecided) | None => ("undecided".to_string(), Role::Unsure),
         },
         QuestionKind::Simulate => simulation::title(file),
-        QuestionKind::Limit => match (status(&file.answer), found(&file.answer)) {
+        QuestionKind::Limit | QuestionKind::Moving => match (status(&file.answer), found(&file.answer)) {
             (Outcome::Found, Some((value, lower, upper))) => {
                 let role = if upper < 0.0 { Role::Bad } else { Role::Value };
                 let bound = bracketed(value, lower, upper);
@@ -116,6 +116,10 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         QuestionKind::Stages => super::stages::title(file),
         QuestionKind::Rock => super::rocking::title(file),
     };
+    let text = match super::moving::place(file) {
+        Some(place) => text + &place,
+        None => text,
+    };
     let (text, role) = match without_live_load(file) {
         Some(words) => (format!("{text}; {words}"), Role::Bad),
         None => (text, role),
@@ -137,6 +141,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
 fn without_live_load(file: &ResultFile) -> Option<String> {
     let place = match file.question {
         QuestionKind::Limit => "without its live load",
+        QuestionKind::Moving => "without the train",
         QuestionKind::Tilt => "when level",
         QuestionKind::Kinematic => "without an earthquake",
         _ => return None,
@@ -224,6 +229,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
             dry(page, file);
             return dead_load(page, file);
         }
+        QuestionKind::Moving => super::moving::why(page, file),
         QuestionKind::Limit | QuestionKind::Tilt => {}
     }
     let tilt = file.question == QuestionKind::Tilt;
@@ -323,6 +329,9 @@ fn settled(file: &ResultFile) -> String {
 
 /// What λ multiplies.
 fn unit(file: &ResultFile) -> &'static str {
+    if file.question == QuestionKind::Moving {
+        return "";
+    }
     let live = &file.scene.input.loads.live;
     match live.as_slice() {
         [one]
@@ -439,6 +448,7 @@ fn dead_load(page: &mut Page, file: &ResultFile) {
     let place = match file.question {
         QuestionKind::Tilt => "When level",
         QuestionKind::Kinematic => "Without an earthquake",
+        QuestionKind::Moving => "Without the train",
         _ => "Without its live load",
     };
     let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);

@@ -8,6 +8,8 @@ use crate::{
     interface::Model,
     number::{count, short},
     proof::{result::ResultFile, verify::Verification},
+    scene::Train,
+    train,
 };
 
 /// The verification of a result: what holds and what fails, part by part.
@@ -51,7 +53,12 @@ pub fn verification(file: &ResultFile, verification: &Verification, layout: Layo
 }
 
 /// A scene's likely mistakes, and what else is worth knowing about it.
-pub fn inspection(model: &Model, mistakes: &[Finding], notes: &[Finding], layout: Layout) -> Page {
+pub fn inspection(
+    model: &Model,
+    train: Option<&Train>,
+    [mistakes, notes]: [&[Finding]; 2],
+    layout: Layout,
+) -> Page {
     let mut page = Page::new(layout);
     match mistakes.len() {
         0 => page.title(&model.assembly.name, "nothing suspicious", Role::Good),
@@ -70,6 +77,20 @@ pub fn inspection(model: &Model, mistakes: &[Finding], notes: &[Finding], layout
         format!("{} ({}): {most}", m.id, m.kind.word())
     };
     page.row("members", model.interfaces.members.iter().map(words));
+    page.row(
+        "train",
+        train.map(|t| {
+            format!(
+                "{}, {} from x = {} to {} m in steps of {} m{}: `limit` with --moving",
+                count(t.axles.len(), "axle"),
+                count(train::positions(t).len(), "position"),
+                short(t.path[0]),
+                short(t.path[1]),
+                short(t.step),
+                if train::is_symmetric(t) { "" } else { ", both directions of travel" }
+            )
+        }),
+    );
     let supports = model.assembly.blocks.iter().filter(|b| b.support).count();
     let interfaces = &model.interfaces.list;
     page.row(

@@ -6,6 +6,7 @@ mod critical;
 mod heaps;
 mod kinematic;
 mod mechanism;
+mod moving;
 mod packing;
 mod page;
 mod path;
@@ -75,6 +76,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     path::rows(&mut page, file, options);
     kinematic::rows(&mut page, file, options);
     stages::rows(&mut page, file, options);
+    moving::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
@@ -181,6 +183,7 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
     let verb = match file.question {
         QuestionKind::Assess => "assess",
         QuestionKind::Limit => "limit",
+        QuestionKind::Moving => "limit",
         QuestionKind::Tilt => "tilt",
         QuestionKind::Critical => "critical",
         QuestionKind::Thrust => "thrust",

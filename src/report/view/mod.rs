@@ -12,6 +12,7 @@ mod motion;
 mod stages;
 mod state;
 mod surface;
+mod train;
 
 pub use course::{Course, frames};
 pub use film::Film;
@@ -20,6 +21,7 @@ pub use motion::{Mark, ViewMotion, ViewPose};
 pub use stages::ViewValues;
 pub use state::{Resultant, Segment, ViewPart, ViewState};
 pub use surface::{Surface, ViewShape};
+pub use train::positions;
 
 use crate::kinematic::quake;
 use crate::proof::result::{QuestionKind, ResultFile};
@@ -133,12 +135,17 @@ impl View {
     /// # Errors
     /// A certificate that does not belong to the scene.
     pub fn new(model: &Model, file: &ResultFile, film: Vec<Frame>) -> Result<Self, ViewError> {
-        // What an earthquake pushes with is no load of the scene itself.
+        // What an earthquake pushes with, or a train presses with, is no load of the scene itself.
         let pushed = file
             .answer
             .kinematic()
             .and_then(|a| quake(&file.scene.input, model, Vector3::from(a.toward)).ok());
+        let moved = file
+            .answer
+            .moving()
+            .and_then(|a| crate::train::at(&file.scene.input, model, a.position()));
         let model = pushed.as_ref().map_or(model, |q| &q.model);
+        let model = moved.as_ref().map_or(model, |t| &t.model);
         let mut view = Self::bare(model);
         view.name.clone_from(&file.scene.name);
         if let Some(up) = tipped(view.up, file) {
@@ -154,6 +161,9 @@ impl View {
             view.course = Course::of(path);
         }
         view.stage(model, file);
+        if moved.is_some() {
+            view.course = Course::train();
+        }
         view.film.retain(|f| f.blocks.len() == view.bodies.len());
         Ok(view)
     }

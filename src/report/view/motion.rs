@@ -61,7 +61,7 @@ pub struct ViewPose {
 }
 
 impl ViewMotion {
-    fn new(
+    pub(super) fn new(
         model: &Model,
         part: ViewPart,
         name: &str,

@@ -371,7 +371,10 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         forces.iter_mut().flatten().for_each(|w| *w = *w * (1.0 / 1f64.hypot(tangent)));
         let mut state = ViewState::new(model, named, &forces);
         state.balances = !state.name.contains(CLOSEST);
-        let pushes = matches!(file.question, QuestionKind::Limit | QuestionKind::Kinematic);
+        let pushes = matches!(
+            file.question,
+            QuestionKind::Limit | QuestionKind::Moving | QuestionKind::Kinematic
+        );
         state.live = pushes && part != ViewPart::Dead;
         if let Some(toward) = file.answer.toward() {
             state.up = (state.up - Vector3::from(toward) * tangent).normalize();

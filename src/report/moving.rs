@@ -1,0 +1,203 @@
+//! Load factors of a train against its place, as tables and charts.
+
+use super::{
+    cells::{Cell, Table},
+    page::{Axis, Chart, Series},
+    path::PathError,
+};
+use crate::{
+    number::short,
+    proof::{ResultFile, moving::MovingAnswer},
+    train::{Travel, is_symmetric},
+};
+use plotters::{
+    prelude::{
+        ChartBuilder, Circle, IntoDrawingArea, PathElement, RGBColor, SVGBackend,
+        SeriesLabelPosition, WHITE,
+    },
+    style::{Color, IntoFont},
+};
+
+fn refused(e: impl std::fmt::Display) -> PathError {
+    PathError::new(e)
+}
+
+fn said(file: &ResultFile) -> Result<Vec<&MovingAnswer>, PathError> {
+    let list: Vec<_> = file.directions.iter().filter_map(|d| d.answer.moving()).collect();
+    match list.is_empty() {
+        true => Err(PathError::new("this is no result of `limit --moving`")),
+        false => Ok(list),
+    }
+}
+
+/// Every position, a row each: direction of travel, place of the train's origin (m), the load factor
+/// to use, its ends, the bound with joints that open as they slide, and where the axles on the spans
+/// stand (m).
+///
+/// # Errors
+/// The result is of another question.
+pub fn csv(file: &ResultFile) -> Result<String, PathError> {
+    let mut table = Table::new();
+    let head = ["travel", "x", "load_factor", "lower", "upper", "bound", "axles"];
+    table.write_record(head).map_err(refused)?;
+    for a in said(file)? {
+        let l = &a.load_factor;
+        let axles: Vec<String> =
+            a.axles.iter().map(|s| format!("{} at {}", s.axle + 1, short(s.x))).collect();
+        let mut row: Vec<Cell> = vec![travel(a.travel).into(), a.x.into()];
+        row.extend([l.value, l.lower, l.upper, l.associative.value].map(Cell::from));
+        row.push(axles.join("; ").into());
+        table.write_record(row).map_err(refused)?;
+    }
+    table.end().map_err(refused)
+}
+
+fn travel(travel: Travel) -> &'static str {
+    match travel {
+        Travel::Forward => "forward",
+        Travel::Backward => "backward",
+    }
+}
+
+/// Load factors are drawn up to so many times the least: where an axle has hardly come onto a span
+/// they are without bound, and nothing could be read off the rest.
+const HIGH: f64 = 6.0;
+
+/// A direction of travel in words, and its points.
+type Line = (&'static str, Vec<(f64, f64)>);
+
+/// What the line of a train is called that is the same from both ends.
+const BOTH: &str = "both directions of travel";
+
+/// The line of each direction of travel, where it is not above [`HIGH`] × the least.
+fn lines(file: &ResultFile, list: &[&MovingAnswer]) -> Vec<Line> {
+    let symmetric = file.scene.input.train.as_ref().is_some_and(is_symmetric);
+    let value = |a: &MovingAnswer| a.load_factor.value.filter(|v| v.is_finite());
+    let least = list.iter().filter_map(|a| value(a)).fold(f64::INFINITY, f64::min);
+    let line = |travel: Travel| {
+        let of = list.iter().filter(|a| a.travel == travel);
+        let points = of.filter_map(|a| Some((a.x, value(a)?)));
+        let name = if symmetric { BOTH } else { travel.words() };
+        (name, points.filter(|p| p.1 <= HIGH * least.abs()).collect())
+    };
+    [Travel::Forward, Travel::Backward]
+        .into_iter()
+        .map(line)
+        .filter(|l: &Line| !l.1.is_empty())
+        .collect()
+}
+
+/// The answer as a point, where it has a value.
+fn worst(file: &ResultFile) -> Option<(f64, f64)> {
+    let a = file.answer.moving()?;
+    Some((a.x, a.load_factor.value?))
+}
+
+const X: &str = "place of the train's origin, m";
+const Y: &str = "load factor λ";
+
+/// The chart of a page, with a cursor that goes with the film.
+pub fn page_chart(file: &ResultFile) -> Option<Chart> {
+    let list = said(file).ok()?;
+    let hint = |(x, y): &(f64, f64)| format!("λ = {} at x = {} m", short(*y), short(*x));
+    let series = |name: &str, line: bool, points: &[(f64, f64)]| Series {
+        name: name.into(),
+        line,
+        points: points.iter().map(|p| [Some(p.0), Some(p.1)]).collect(),
+        hints: points.iter().map(hint).collect(),
+        ..Series::default()
+    };
+    let mut all: Vec<Series> =
+        lines(file, &list).iter().map(|(name, points)| series(name, true, points)).collect();
+    if all.iter().all(|s| s.points.len() < 2) {
+        return None;
+    }
+    all.extend(worst(file).map(|p| series("the least", false, &[p])));
+    Some(Chart {
+        title: "Load factor where the train stands".into(),
+        x: Axis::new(X, false),
+        y: Axis::new(Y, false),
+        series: all,
+        note: format!("up to {HIGH} × the least; every point proved, nothing between them"),
+        film: true,
+        ..Chart::default()
+    })
+}
+
+const SIZE: (u32, u32) = (680, 420);
+/// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008).
+const COLOURS: [RGBColor; 2] = [RGBColor(0, 114, 178), RGBColor(213, 94, 0)];
+const WORST: RGBColor = RGBColor(0, 0, 0);
+
+/// The chart as SVG: load factor against the place of the train, a line for each direction of travel.
+///
+/// # Errors
+/// The result is of another question, or has no two load factors.
+pub fn chart(file: &ResultFile) -> Result<String, PathError> {
+    let list = said(file)?;
+    let lines = lines(file, &list);
+    let all = || lines.iter().flat_map(|l| l.1.iter());
+    let ends = |of: fn(&(f64, f64)) -> f64| {
+        all().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)))
+    };
+    let ((left, right), (low, high)) = (ends(|p| p.0), ends(|p| p.1));
+    if all().count() < 2 || left >= right || high <= 0.0 {
+        return Err(PathError::new("there are not two load factors to draw a line through"));
+    }
+    let edge = 0.02 * (right - left);
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        area.fill(&WHITE).map_err(refused)?;
+        let mut chart = ChartBuilder::on(&area)
+            .margin(12)
+            .caption(crate::plain::cell(&file.scene.name), ("sans-serif", 18))
+            .x_label_area_size(42)
+            .y_label_area_size(70)
+            .build_cartesian_2d(left - edge..right + edge, low.min(0.0)..1.06 * high)
+            .map_err(refused)?;
+        chart
+            .configure_mesh()
+            .label_style(("sans-serif", 14))
+            .x_desc(X)
+            .y_desc(Y)
+            .x_label_formatter(&|v| short(zero(*v)))
+            .y_label_formatter(&|v| short(zero(*v)))
+            .light_line_style(WHITE.mix(0.0))
+            .draw()
+            .map_err(refused)?;
+        for ((name, points), colour) in lines.iter().zip(COLOURS) {
+            chart
+                .draw_series([PathElement::new(points.clone(), colour.stroke_width(2))])
+                .map_err(refused)?
+                .label(*name)
+                .legend(move |(x, y)| {
+                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
+                });
+            chart
+                .draw_series(points.iter().map(|p| Circle::new(*p, 2, colour.filled())))
+                .map_err(refused)?;
+        }
+        if let Some(point) = worst(file) {
+            chart
+                .draw_series([Circle::new(point, 5, WORST.stroke_width(2))])
+                .map_err(refused)?
+                .label(format!("least: {} at {} m", short(point.1), short(point.0)))
+                .legend(|(x, y)| Circle::new((x + 8, y), 5, WORST.stroke_width(2)));
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::LowerMiddle)
+            .background_style(WHITE.mix(0.8))
+            .label_font(("sans-serif", 13).into_font())
+            .draw()
+            .map_err(refused)?;
+        area.present().map_err(refused)?;
+    }
+    Ok(text)
+}
+
+/// What an axis leaves of zero.
+fn zero(v: f64) -> f64 {
+    if v.abs() < 1e-12 { 0.0 } else { v }
+}

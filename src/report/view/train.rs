@@ -1,0 +1,56 @@
+//! A train on its way as a film: one frame a position, each with the mechanism that starts there.
+
+use super::{Body, Course, View, ViewMotion, ViewPart};
+use crate::{
+    dynamics::{Fidelity, Frame, Pose},
+    interface::Model,
+    proof::result::ResultFile,
+    verdict::{check::Claim, evidence::read_rates},
+};
+use nalgebra::Vector3;
+
+/// The mechanisms are shown so far along that the farthest corner has come this share of the size of
+/// the scene. More: blocks part that only turn about a hinge. Less: nothing is seen.
+const SHOWN: f64 = 0.03;
+
+impl Course {
+    /// That of a train.
+    pub(super) fn train() -> Self {
+        Self {
+            name: "train, position by position".into(),
+            quantity: "Place of the train",
+            unit: "m",
+            way: "way in the mechanism shown",
+            ..Self::default()
+        }
+    }
+}
+
+/// The positions of a train in the direction of travel of the answer, where a mechanism is proved.
+pub fn positions(model: &Model, file: &ResultFile) -> Vec<Frame> {
+    let Some(worst) = file.answer.moving() else { return Vec::new() };
+    let view = View::bare(model);
+    let frame = |d: &crate::proof::result::Direction| {
+        let a = d.answer.moving().filter(|a| a.travel == worst.travel)?;
+        matches!(d.certificate.claim, Some(Claim::LoadFactor { .. })).then_some(())?;
+        let rates = read_rates(&model.assembly, &d.certificate.rates).ok()?;
+        let motion = ViewMotion::new(model, ViewPart::Answer, "", rates, &view.bodies)?;
+        let pose = |(k, body): (usize, &Body)| {
+            let pose = motion.pose(k, SHOWN * view.size());
+            Pose {
+                center: body.center + pose.shift,
+                turn: pose.turn,
+                velocity: Vector3::zeros(),
+                spin: Vector3::zeros(),
+            }
+        };
+        Some(Frame {
+            time: a.x,
+            fidelity: Fidelity::Fine,
+            relative: 0.0,
+            energy: 0.0,
+            blocks: view.bodies.iter().enumerate().map(pose).collect(),
+        })
+    };
+    file.directions.iter().filter_map(frame).collect()
+}
