@@ -14,6 +14,7 @@ pub mod follow;
 pub mod geometric;
 mod in_time;
 pub mod kinematic;
+mod known;
 pub mod limit;
 mod mend;
 pub mod moving;

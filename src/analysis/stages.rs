@@ -4,10 +4,14 @@
 //!
 //! Blocks are rigid and stand where the scene puts them: a stage does not know how the one before
 //! has settled, and forces of one do not stay in the next.
+//!
+//! What stood still stands where nothing that it rests on has changed: an independent part that
+//! several stages have alike is answered once ([`Known`]), and its proof checked in each.
 
 use super::{
     Answer, Assessment, Control, LimitOptions, Proved, Question, StagesOptions, TiltOptions, ask,
-    assess, doubt,
+    doubt,
+    known::Known,
     thrust::{ThrustEnd, level, outwards, thrust},
 };
 use crate::{
@@ -66,8 +70,10 @@ pub fn stages(
     control: &Control,
 ) -> Result<Stages, InputError> {
     let list = assembly::asked_stages(options.remove_each, scene, &model.assembly)?;
-    let answered =
-        parallel::try_map(0, &list, |stage| staged(options, scene, model, stage, control));
+    let known = Known::default();
+    let answered = parallel::try_map(0, &list, |stage| {
+        staged(options, scene, (model, stage), &known, control)
+    });
     let stages = answered.map_err(|e| {
         InputError::at(JsonPath::root(), format!("threads cannot be started: {e}"))
     })??;
@@ -77,12 +83,12 @@ pub fn stages(
 fn staged(
     options: &StagesOptions,
     scene: &Scene,
-    whole: &Model,
-    stage: &Stage,
+    (whole, stage): (&Model, &Stage),
+    known: &Known,
     control: &Control,
 ) -> Result<Staged, InputError> {
     let model = at_stage(scene, whole, stage)?;
-    let verdict = assess(&model, control);
+    let verdict = known.assess(&model, control);
     let stands = verdict.verdict == Verdict::Stable;
     let asked = stands && !options.skip_margin && !options.remove_each;
     let no_margin = if asked { no_tilt(&model) } else { None };

@@ -6,9 +6,10 @@ use serde_json::{Value, json};
 use voussoir::{
     analysis::{Answer, Control, Question, StagesOptions, ask, assess},
     assembly,
-    interface::{Model, prepare},
+    interface::{self, Model, prepare},
     proof::{self, ResultFile, answer::FactorStatus, stages::StageResult},
     scene::{Scene, read_str},
+    sweep::{RowAnswer, RowStatus},
     verdict::Verdict,
 };
 
@@ -70,6 +71,31 @@ fn so_many_voussoirs_stand_without_centring() {
     }
 }
 
+/// Rows of a sweep have no margins, and count the stages that stand.
+#[test]
+fn a_row_counts_the_stages_that_stand() {
+    let row = |scene: &Scene, remove_each: bool| {
+        let question = Question::Stages(StagesOptions { remove_each, ..Default::default() });
+        question.check_for_one_number().unwrap();
+        let model = prepare(scene).unwrap();
+        let question = question.for_one_number();
+        RowAnswer::of_answer(&ask(&question, scene, &model, &Control::default()).unwrap())
+    };
+    let arch = arch(20, 0.3, 1000.0, 180.0, 1.0);
+    let RowAnswer { status, value, .. } = row(&arch, false);
+    assert_eq!((status, value), (RowStatus::Found, Some(5.0)));
+    let RowAnswer { status, value, .. } = row(&arch, true);
+    assert_eq!((status, value), (RowStatus::Found, Some(0.0)));
+    for (key, value) in
+        [("skip_margin", json!(true)), ("skip_held", json!(true)), ("all", json!(4))]
+    {
+        let mut question = json!({ "stages": {} });
+        question["stages"][key] = value;
+        let question: Question = serde_json::from_value(question).unwrap();
+        assert!(question.check_for_one_number().is_err(), "{key}");
+    }
+}
+
 /// A stage is the scene that has these blocks and no others.
 fn alone(scene: &Scene, present: &dyn Fn(&str) -> bool, held: &[&str]) -> Verdict {
     let whole = prepare(&Scene { stages: Vec::new(), ..scene.clone() }).unwrap();
@@ -118,6 +144,15 @@ fn a_barrel_falls_where_its_centring_is_struck_too_early() {
     assert_eq!((said.verdict, said.stages, said.stand_first), (Verdict::Stable, 8, 8));
     assert_eq!(said.least_load_factor.as_ref().unwrap().stage, "a cart on the haunch");
     assert_eq!(said.least_tilt_deg.as_ref().unwrap().stage, "centring struck");
+    // What stages have in common is answered once: to the last bit as each by itself.
+    let whole = prepare(&scene).unwrap();
+    let stages = assembly::stages(&scene, &whole.assembly).unwrap();
+    for (stage, said) in stages.iter().zip(list(&file)) {
+        let model = interface::at_stage(&scene, &whole, stage).unwrap();
+        let own = ResultFile::assessment(&scene, &model, &assess(&model, &Control::default()));
+        assert_eq!(own.certificate.forces, said.verdict.certificate.forces, "{}", stage.name);
+        assert_eq!(own.answer, said.verdict.answer);
+    }
     let mut early = scene.clone();
     // Struck before the key row is there.
     let strike = early.stages.remove(6);

@@ -14,6 +14,15 @@ use crate::{
 
 /// Decides whether an assembly stands under its dead load, part by part.
 pub fn assess(model: &Model, control: &Control) -> Assessment {
+    assess_by(model, control, &|part, control| of_part(&part.model, control))
+}
+
+/// The same with parts answered by `solve`.
+pub fn assess_by(
+    model: &Model,
+    control: &Control,
+    solve: &(dyn Fn(&Part, &Control) -> Assessment + Sync),
+) -> Assessment {
     let parts = interface::parts(model);
     if parts.is_empty() {
         return of_part(model, control);
@@ -22,7 +31,7 @@ pub fn assess(model: &Model, control: &Control) -> Assessment {
         return answer;
     }
     let all: Vec<usize> = (0..parts.len()).collect();
-    let answers = each(&parts, &all, control, |k, control| of_part(&parts[k].model, control));
+    let answers = each(&parts, &all, control, |k, control| solve(&parts[k], control));
     merged(model, &parts, &answers)
 }
 

@@ -53,7 +53,9 @@ impl ResultFile {
             file.warnings.push(Finding::new(FindingCode::ContactIgnored, text.to_string()));
         }
         for (stage, seconds, said, trace) in told {
-            file.trace.extend(trace);
+            // What stages have in common was tried once.
+            let new: Vec<_> = trace.into_iter().filter(|a| !file.trace.contains(a)).collect();
+            file.trace.extend(new);
             file.timings.check += seconds;
             let said = said.into_iter();
             file.warnings

@@ -137,7 +137,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             s.held.iter().filter(touching).map(move |id| (s, id))
         });
         let held: Vec<String> = held.map(|(s, id)| holds(s, id)).collect();
-        page.row("hold at least", cut(&held, NAMES, options));
+        page.row("held with", cut(&held, NAMES, options));
     }
     let proved = result.list.iter().filter(|s| s.verdict.certificate.claim.is_some()).count();
     let grade = a.proof.map_or(String::new(), |g| format!("; the weakest: {g}"));
