@@ -49,8 +49,16 @@ fn pointer(path: &[String]) -> String {
     path.iter().map(|p| format!("/{}", p.replace('~', "~0").replace('/', "~1"))).collect()
 }
 
+/// The place in words: the first of a list without its number, components by their axis.
 fn label(path: &[String]) -> String {
-    path.iter().skip(1).map(String::as_str).collect::<Vec<_>>().join(" ")
+    const VECTORS: [&str; 6] = ["at", "force", "moment", "weight", "acceleration", "direction"];
+    let words = path.windows(2).filter_map(|w| match w[1].parse::<usize>() {
+        Ok(k) if VECTORS.contains(&w[0].as_str()) => Some((*["x", "y", "z"].get(k)?).to_string()),
+        Ok(0) => None,
+        Ok(k) => Some((k + 1).to_string()),
+        Err(_) => Some(w[1].replace('_', " ")),
+    });
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// Numbers that are counts: a template of 13.5 voussoirs is none.
@@ -134,6 +142,8 @@ mod tests {
         assert_eq!(list.len(), 9);
         assert_eq!(of("/templates/0/arch/voussoirs")["whole"], true);
         assert_eq!(of("/joints/default/friction")["low"], 0.0);
+        assert_eq!(of("/templates/0/arch/thickness")["label"], "arch thickness");
+        assert_eq!(of("/loads/live/0/at/2")["label"], "live at z");
         for knob in &list {
             let [v, low, high] = ["value", "low", "high"].map(|k| knob[k].as_f64().unwrap());
             assert!(low <= v && v <= high && low < high, "{knob}");

@@ -29,6 +29,8 @@ function corners() {
     const own = r > 0 ? [[r, 0, 0], [-r, 0, 0], [0, r, 0], [0, -r, 0], [0, 0, r], [0, 0, -r]].map((d) => add(c, d)) : Array.from({ length: bodies.cornerStart[i + 1] - bodies.cornerStart[i] }, (_, k) => at3(bodies.corners, bodies.cornerStart[i] + k));
     list.push(...own.map(inside));
   }
+  // Arrows of loads that are shown stand above the scene.
+  if (state.layers.has("loads")) loadArrows().forEach((f, k) => list.push(sub(at3(loads.at, k), f)));
   return list.length ? list : [[0, 0, 0]];
 }
 

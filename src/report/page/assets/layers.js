@@ -11,6 +11,12 @@ const LAYERS = [
 const forcesNow = () => view.states[state.force];
 const LONGEST = 0.16, THICK = 0.0036;
 
+// Loads as they are drawn: the greatest live and the greatest dead one are as long as each other.
+function loadArrows() {
+  const many = Math.max(1, Math.cbrt(JOINTS / 120)), most = [0, 1].map((live) => { let m = 1e-300; for (let k = 0; k < loads.body.length; k++) if (loads.live[k] === live) m = Math.max(m, norm(at3(loads.newton, k))); return m; });
+  return Array.from(loads.body, (_, k) => mul(at3(loads.newton, k), (0.9 * LONGEST) / many / most[loads.live[k]]));
+}
+
 // Rods and arrows as [from, to, radius, colour], dots as [at, radius, colour].
 function strokes() {
   const rods = [], arrows = [], dots = [], on = (name) => state.layers.has(name), forces = forcesNow();
@@ -37,13 +43,10 @@ function strokes() {
       if (norm(f) > 2e-4) { const at = moved(joints.b[k], at3(joints.points, p)); arrows.push([at, add(at, f), 0.7 * r, ink]); }
     }
   }
-  if (on("loads")) {
-    const most = [0, 1].map((live) => { let m = 1e-300; for (let k = 0; k < loads.body.length; k++) if (loads.live[k] === live) m = Math.max(m, norm(at3(loads.newton, k))); return m; });
-    for (let k = 0; k < loads.body.length; k++) {
-      const live = loads.live[k], at = moved(loads.body[k], at3(loads.at, k)), f = mul(at3(loads.newton, k), (0.9 * LONGEST) / many / most[live]);
-      if (norm(f) > 2e-4) arrows.push([sub(at, f), at, r, rgb(live ? "--live" : "--ink")]);
-    }
-  }
+  if (on("loads")) loadArrows().forEach((f, k) => {
+    const at = moved(loads.body[k], at3(loads.at, k));
+    if (norm(f) > 2e-4) arrows.push([sub(at, f), at, r, rgb(loads.live[k] ? "--live" : "--ink")]);
+  });
   if (state.picked && state.picked.body !== undefined) {
     const i = state.picked.body, corner = (k) => moved(i, at3(bodies.corners, bodies.cornerStart[i] + bodies.edges[k]));
     for (let k = bodies.edgeStart[i]; k < bodies.edgeStart[i + 1]; k += 2) rods.push([corner(k), corner(k + 1), 0.0016, rgb("--pick")]);

@@ -1,6 +1,6 @@
 // The page that lives: it hears what is answered, shows it where the camera is, and asks again.
 const TABS = [["assess", "Stands?"], ["limit", "Load factor"], ["tilt", "Tilt"], ["thrust", "Thrust"], ["settle", "Settle"], ["kinematic", "Earthquake"]];
-const live = { question: "assess", epoch: 0, edits: {}, scene: { knobs: [], loads: [], supports: [] }, revision: 0, seen: 0, wanted: 0, kind: "", layout: "", busy: false, again: false, timer: 0, support: "", way: null };
+const live = { question: "assess", epoch: 0, edits: {}, scene: { knobs: [], loads: [], supports: [] }, revision: 0, seen: 0, wanted: 0, kind: "", layout: "", busy: false, again: false, timer: 0, sliders: new Map(), support: "", way: null };
 const badge = make("div", { class: "badge", id: "badge", hidden: true });
 el("view").append(badge);
 
@@ -142,7 +142,7 @@ function choose(key) {
 }
 
 // A number as a slider and as something to type.
-function knob({ label, value, low, high, whole }, change) {
+function knob({ pointer, label, value, low, high, whole }, change) {
   const slider = make("input", { type: "range", min: low, max: high, step: whole ? 1 : (high - low) / 400, "aria-label": label }), box = make("input", { type: "number", step: "any", "aria-label": `${label}, value` });
   const set = (v, from) => {
     if (!Number.isFinite(v)) return;
@@ -153,6 +153,7 @@ function knob({ label, value, low, high, whole }, change) {
   slider.addEventListener("input", () => set(Number(Number(slider.value).toPrecision(6)), slider));
   box.addEventListener("input", () => box.value !== "" && set(whole ? Math.round(Number(box.value)) : Number(box.value), box));
   set(value);
+  if (pointer) live.sliders.set(pointer, set);
   return [make("label", { class: "knob" }, make("span", {}, label), slider, box)];
 }
 const FIRST_KNOBS = 10;
@@ -160,6 +161,7 @@ function heard(scene) {
   if (scene.epoch === live.epoch) return;
   const open = el("more-knobs") && el("more-knobs").open;
   [live.scene, live.epoch, live.edits] = [scene, scene.epoch, {}];
+  live.sliders.clear();
   if (!scene.supports.includes(live.support)) live.support = scene.supports[scene.supports.length - 1] || "";
   const rows = scene.knobs.map((k) => knob(k, (v) => { live.edits[k.pointer] = v; })[0]);
   const more = rows.splice(FIRST_KNOBS), list = [make("h2", {}, "Numbers of the scene"), ...rows];
@@ -188,7 +190,7 @@ async function save() {
 // Loads whose place is given are dragged along the upper side of the free blocks.
 let held = null;
 const local = (e) => { const b = shown.getBoundingClientRect(); return [e.clientX - b.left, e.clientY - b.top, b.width, b.height]; };
-const placeOf = (load) => (live.edits[`${load.pointer}/at`] || load.at).map((v, k) => (v - view.middle[k]) / view.length);
+const placeOf = (load) => (live.edits[`${load.pointer}/at`] || load.at).map((v, k) => ((live.edits[`${load.pointer}/at/${k}`] ?? v) - view.middle[k]) / view.length);
 function onScreen(p, width, height) {
   const m = lens(width, height).matrix, w = m[3] * p[0] + m[7] * p[1] + m[11] * p[2] + m[15];
   return [(0.5 + (0.5 * (m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12])) / w) * width, (0.5 - (0.5 * (m[1] * p[0] + m[5] * p[1] + m[9] * p[2] + m[13])) / w) * height];
@@ -210,13 +212,15 @@ shown.addEventListener("pointerdown", (e) => {
 shown.addEventListener("pointermove", (e) => {
   if (!held) { shown.style.cursor = live.scene.loads.length && !e.buttons && loadAt(e) ? "move" : ""; return; }
   e.stopImmediatePropagation();
-  const { from, way } = ray(...local(e)), at = placeOf(held), z = axes().z, q = add(from, mul(way, dot(sub(at, from), z) / dot(way, z))), top = add(q, mul(up, 4));
+  const { from, way } = ray(...local(e)), at = placeOf(held), look = axes().z, z = [front, right, up].sort((a, b) => Math.abs(dot(b, look)) - Math.abs(dot(a, look)))[0], q = add(from, mul(way, dot(sub(at, from), z) / dot(way, z))), top = add(q, mul(up, 4));
   let best = Infinity, body = -1;
   for (let i = 0; i < COUNT; i++) if (!bodies.support[i]) { const t = hitBody(i, top, mul(up, -1)); if (t < best) [best, body] = [t, i]; }
   if (body < 0) return;
   // A hair inside: single precision must not put it off the block.
   const p = sub(top, mul(up, best + 2e-6));
-  live.edits[`${held.pointer}/at`] = p.map((v, k) => Number((v * view.length + view.middle[k]).toPrecision(9)));
+  const metres = p.map((v, k) => Number((v * view.length + view.middle[k]).toPrecision(9)));
+  live.edits[`${held.pointer}/at`] = metres;
+  metres.forEach((v, k) => { delete live.edits[`${held.pointer}/at/${k}`]; live.sliders.get(`${held.pointer}/at/${k}`)?.(v); });
   live.edits[`${held.pointer}/block`] = bodies.ids[body];
   send();
 }, true);
