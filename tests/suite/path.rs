@@ -9,6 +9,7 @@ use voussoir::{
     analysis::{
         Answer, Control, ControlPoint, PushOptions, Question, SettleOptions, SupportMove, ask,
     },
+    deadline::Deadline,
     dynamics::{Fate, Fidelity, SimulationSettings, simulate},
     path::{Carried, saved::read_poses},
     proof::{
@@ -276,7 +277,7 @@ fn a_settling_base_carries_the_least_it_can() {
     {
         let scene = wall_on_two_bases(friction);
         let moves = vec![to("right", [0.0, 0.0, -1.0])];
-        let file = followed_open(&scene, moves);
+        let file = followed_for(&scene, moves, 2.0);
         let said = file.answer.path().expect("a path");
         let least = said.least_reaction.expect("a least reaction");
         let m = model(&scene);
@@ -289,9 +290,15 @@ fn a_settling_base_carries_the_least_it_can() {
 
 /// The answer, which may stay open.
 fn followed_open(scene: &Scene, moves: Vec<SupportMove>) -> ResultFile {
+    followed_for(scene, moves, f64::INFINITY)
+}
+
+/// What is known after so many seconds.
+fn followed_for(scene: &Scene, moves: Vec<SupportMove>, seconds: f64) -> ResultFile {
     let model = model(scene);
     let question = Question::Settle(SettleOptions { moves, at: Vec::new(), ..Default::default() });
-    let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
+    let control = Control { deadline: Deadline::within(seconds), ..Control::default() };
+    let answer = ask(&question, scene, &model, &control).expect("an answer");
     let file = ResultFile::of(scene, &model, &answer).expect("a result");
     let found = proof::verify(&file, scene).expect("a scene");
     let fails: Vec<_> = found.parts.iter().flat_map(|(_, f)| &f.fails).collect();
@@ -303,7 +310,8 @@ fn followed_open(scene: &Scene, moves: Vec<SupportMove>) -> ResultFile {
 /// far as a motion is found, never with the dilatant one, and it is said where it ends.
 #[test]
 fn a_motion_that_slides_is_followed_as_far_as_dry_friction_leads() {
-    let file = followed_open(&wall_on_two_bases(0.3), vec![to("right", [0.0, 0.0, -1.0])]);
+    let moves = vec![to("right", [0.0, 0.0, -1.0])];
+    let file = followed_for(&wall_on_two_bases(0.3), moves, 10.0);
     let said = file.answer.path().unwrap();
     assert_ne!(said.status, PathStatus::Falls, "{said:?}");
     let ends = path(&file).points.iter().all(|p| p.certificate.claim.is_some());

@@ -20,14 +20,14 @@ const SHORTEST: f64 = 1e-7;
 /// Events are known to this × the longest step in scenes of no more than [`FEW`] blocks; in others
 /// they lie between two points.
 const EVENT: f64 = 1e-4;
-const FEW: usize = 64;
+const FEW: usize = 24;
 /// Steps at most.
 const STEPS: usize = 4000;
 /// Steps in a row that do not come to rest: what comes is sudden. Fewer: where equilibrium ends is
 /// known less well. More: time.
-const FAILS: usize = 10;
+const FAILS: usize = 8;
 /// The same of all steps.
-const ALL_FAILS: usize = 24;
+const ALL_FAILS: usize = 16;
 
 impl Tracker<'_> {
     /// Why a motion that slides cannot be followed, where it cannot: a joint of edges or corners,
