@@ -83,7 +83,9 @@ fn difference(command: &str, want: &[String], got: &[String]) -> String {
 #[test]
 fn every_console_block_prints_what_it_says() {
     let folder = tempfile::tempdir().unwrap();
-    for part in ["structures", "structures/sweeps"] {
+    for part in
+        ["structures", "structures/sweeps", "structures/records", "structures/records/suite"]
+    {
         std::fs::create_dir(folder.path().join(part)).unwrap();
         for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(part)).unwrap() {
             let path = entry.unwrap().path();
