@@ -48,6 +48,35 @@ fn records() -> [(&'static str, String); 3] {
     [("ricker.csv", ricker), ("chords.at2", chords), ("bursts.asc", bursts)]
 }
 
+/// The twelve records of `structures/records/suite`.
+fn suite() -> Vec<(String, String)> {
+    let one = |n: u32| {
+        let mut text = format!(
+            "PEER STRONG MOTION DATABASE RECORD. SYNTHETIC, BY A FORMULA\nEIGHT SINES UNDER AN ENVELOPE, NUMBER {n}\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=   401, DT=   .0250 SEC\n"
+        );
+        for k in 0..=400 {
+            let t = 0.025 * f64::from(k);
+            let envelope = t / 3.0 * (1.0 - t / 3.0).exp();
+            let sum: f64 = (1..=8)
+                .map(|j| {
+                    let phase = 0.618_033_988_75 * f64::from((j + 8 * n).pow(2));
+                    let j = f64::from(j);
+                    (2.0 * PI * (0.3 * j * t + phase)).sin() / j.sqrt()
+                })
+                .sum();
+            let end = if k % 5 == 4 || k == 400 { "\n" } else { "" };
+            write!(text, "{:>15.6E}{end}", 0.2 * envelope * sum).expect("text");
+        }
+        (format!("suite/chords-{n:02}.at2"), text)
+    };
+    (1..=12).map(one).collect()
+}
+
+fn all_records() -> Vec<(String, String)> {
+    let first = records().into_iter().map(|(name, text)| (name.to_string(), text));
+    first.chain(suite()).collect()
+}
+
 fn folder() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("structures/records")
 }
@@ -55,15 +84,15 @@ fn folder() -> std::path::PathBuf {
 #[test]
 #[ignore = "writes the records"]
 fn write_records() {
-    for (name, text) in records() {
+    for (name, text) in all_records() {
         std::fs::write(folder().join(name), text).expect("written");
     }
 }
 
 #[test]
 fn records_are_those_of_their_formulas() {
-    for (name, text) in records() {
-        let there = std::fs::read_to_string(folder().join(name)).expect("a record");
+    for (name, text) in all_records() {
+        let there = std::fs::read_to_string(folder().join(&name)).expect("a record");
         assert!(there == text, "{name} differs from its formula");
     }
 }
@@ -308,7 +337,7 @@ mod command {
             ("kinematic BLOCK --pulse jump:1 --restitution 1.5", "not a restitution"),
             ("kinematic BLOCK --ground structures/records/missing.csv", "missing.csv"),
             ("kinematic BLOCK --ground structures/README.md", "README.md"),
-            ("kinematic BLOCK --pulse jump:1 --save x.json", "--save keeps proofs"),
+            ("simulate BLOCK --pulse jump:1 --save x.json", "--save keeps proofs"),
             ("kinematic structures/oblique-sliding.json --pulse jump:1", "slides"),
             ("simulate BLOCK --scale 2", "--scale goes with"),
             ("simulate BLOCK --pulse double-jump:1", "waits for a landing"),

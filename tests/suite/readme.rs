@@ -111,13 +111,14 @@ fn difference(command: &str, want: &[String], got: &[String]) -> String {
 #[test]
 fn every_console_block_prints_what_it_says() {
     let folder = tempfile::tempdir().unwrap();
-    for part in ["structures", "structures/sweeps", "structures/meshes"] {
-        std::fs::create_dir(folder.path().join(part)).unwrap();
-        for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(part)).unwrap() {
+    for part in ["", "sweeps", "meshes", "records", "records/suite"] {
+        let part = format!("structures/{part}");
+        std::fs::create_dir(folder.path().join(&part)).unwrap();
+        for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(&part)).unwrap() {
             let path = entry.unwrap().path();
             // Charts are made anew by the commands.
             if path.is_file() && path.extension().is_none_or(|e| e != "svg") {
-                std::fs::copy(&path, folder.path().join(part).join(path.file_name().unwrap()))
+                std::fs::copy(&path, folder.path().join(&part).join(path.file_name().unwrap()))
                     .unwrap();
             }
         }

@@ -197,6 +197,19 @@ fn every_verb_answers_as_the_schema_says() {
         wrong(&schema, &schema, &other, "", &mut out);
         assert!(!out.is_empty(), "{question:?}");
     }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("rock.json");
+    run(&[
+        "kinematic",
+        "structures/slender-block.json",
+        "--ground",
+        "structures/records/bursts.asc",
+        "--json",
+        "--save",
+        path.to_str().expect("a path"),
+    ]);
+    let saved = std::fs::read_to_string(path).expect("saved");
+    fits(&schema, &serde_json::from_str(&saved).expect("JSON"), "rock");
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod both;
 mod command;
 mod plan;
 mod rows;
+mod shaken;
 mod slurm;
 mod summary;
 mod worst;

@@ -166,6 +166,9 @@ fn a_scene_with_a_mistake_is_told_as_such() {
 fn the_schema_knows_every_key_of_a_plan() {
     let schema = voussoir::sweep::schema();
     let keys: Vec<&String> = schema["properties"].as_object().unwrap().keys().collect();
-    assert_eq!(keys, ["format", "name", "scene", "question", "vary", "sampling", "seed"]);
+    assert_eq!(
+        keys,
+        ["format", "name", "scene", "question", "vary", "sampling", "seed", "records"]
+    );
     assert!(schema.to_string().contains("latin_hypercube"));
 }
