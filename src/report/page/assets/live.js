@@ -117,7 +117,9 @@ function problem(error) {
 
 // Tabs, and what belongs to them.
 function tabs() {
-  el("questions").replaceChildren(...TABS.map(([key, text]) => make("button", { type: "button", "aria-pressed": String(key === live.question), "data-question": key, onclick: () => choose(key) }, text)));
+  // Made once: what has the focus keeps it.
+  if (!el("questions").children.length) el("questions").append(...TABS.map(([key, text]) => make("button", { type: "button", "data-question": key, onclick: () => choose(key) }, text)));
+  for (const b of el("questions").children) b.setAttribute("aria-pressed", String(b.dataset.question === live.question));
   const focus = document.activeElement && document.activeElement.id;
   const shape = `${live.question}:${live.scene.supports.join()}`;
   if (el("options").dataset.shape === shape) return;
@@ -137,7 +139,6 @@ function choose(key) {
   if (!live.scene.supports.includes(live.support)) live.support = live.scene.supports[live.scene.supports.length - 1] || "";
   if (!live.way) live.way = [Number((0.1 * span()).toPrecision(2)), 0, 0];
   tabs();
-  [...el("questions").children].find((b) => b.dataset.question === key).focus();
   send();
 }
 
