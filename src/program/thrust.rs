@@ -105,24 +105,6 @@ pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Positions)
     )
 }
 
-/// Program T beside a live load: `min c·x − κ λ` subject to `A x + w + s λ ℓ = 0`, with `s` the
-/// `live_scale`. Its dual moves the blocks so that the live load has the power `κ / s`.
-pub fn driven(
-    statics: &Statics,
-    objective: &[f64],
-    live_scale: f64,
-    kappa: f64,
-) -> (ConicProgram, Positions) {
-    let (mut p, layout) = thrust(statics, objective);
-    let lambda = p.objective.len();
-    p.objective.push(-kappa);
-    p.matrix.columns += 1;
-    for (row, l) in statics.live.iter().enumerate() {
-        p.matrix.push(row, lambda, live_scale * l);
-    }
-    (p, layout)
-}
-
 /// `min c·x + ½ δ x·x` subject to `A x + w = 0` with `x` free where contact points are `active`, no
 /// shear where they are `sliding`, and zero elsewhere: its multipliers close the gaps `c` of the
 /// active contacts as least squares do, whatever their signs.

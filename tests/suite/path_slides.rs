@@ -146,28 +146,22 @@ fn a_support_drawn_away_slides_under_what_rests_on_another() {
     }
 }
 
-/// Pushed by its own weight × λ a block slides at λ = μ, as far as its base reaches on the table.
+/// Pushed by its own weight × λ a block slides: a load factor under dry friction is not followed,
+/// and that is said.
 #[test]
-fn a_block_that_is_pushed_slides_at_its_friction() {
+fn what_slides_under_a_load_factor_is_not_followed() {
     let blocks = json!([
         fixed(cuboid("table", [4.0, 1.0, 0.5], [0.0, 0.0, -0.5])),
         cuboid("block", [1.0, 1.0, 0.5], [0.5, 0.0, 0.0]),
     ]);
     let scene = scene(0.3, blocks, push([1.0, 0.0, 0.0]));
     let control = ControlPoint { block: "block".into(), point: [0.5, 0.0, 0.25] };
-    let question = Question::Push(PushOptions {
-        control,
-        toward: [1.0, 0.0, 0.0],
-        at: vec![0.5],
-        from: Vec::new(),
-    });
-    let file = asked(&scene, &question);
-    assert_eq!(status(&file), PathStatus::Reached, "{:?}", file.answer.path());
-    for p in &path(&file).points {
-        close(p.load_factor.expect("a load factor"), 0.3, 1e-7);
-        let [x, _, z] = way(&scene, p, "block");
-        assert!((x - p.value).abs() < 1e-9 && z.abs() < 1e-9);
-    }
+    let toward = [1.0, 0.0, 0.0];
+    let options = PushOptions { control, toward, at: Vec::new(), from: Vec::new() };
+    let file = asked(&scene, &Question::Push(options));
+    assert_eq!(status(&file), PathStatus::Slides, "{:?}", file.answer.path());
+    let [start] = &path(&file).points[..] else { panic!("more than the start") };
+    close(start.load_factor.expect("a load factor"), 0.3, 1e-7);
 }
 
 /// What slid is in the poses: none of it can be changed.

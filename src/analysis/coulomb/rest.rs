@@ -267,8 +267,8 @@ fn climb(
         // What lies above is little, and the bound is proved: the safe end is a value.
         let is_near = associative.outcome == Outcome::Found
             && answer.rests_at >= (1.0 - tolerance::REST_WITHIN) * associative.value;
-        let is_value = answer.found != Found::Undecided && answer.is_reached();
-        if let Some((rests_at, state)) = probe.rests().filter(|_| is_near && !is_value) {
+        let is_open = answer.found == Found::Undecided;
+        if let Some((rests_at, state)) = probe.rests().filter(|_| is_near && is_open) {
             (answer.found, answer.value) = (Found::RestsBelow, *rests_at);
             answer.forces.clone_from(&state.forces);
             (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);

@@ -24,7 +24,7 @@ use crate::{
     solve::coulomb::Anderson,
     terms::Law,
     tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, check, exact::existence},
+    verdict::{Forces, Rate, Verdict, certificate, exact::existence},
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -48,7 +48,6 @@ pub(super) struct Rested {
     pub touch: Vec<(usize, Vec<Vector3<f64>>)>,
     /// Forces there.
     pub forces: Forces,
-    pub load_factor: f64,
     /// How each joint touches, and whether it slid in the step that led here.
     pub joints: Vec<(Joint, bool)>,
     /// How the blocks moved in that step, per unit of the parameter.
@@ -104,7 +103,6 @@ struct Solved {
     active: Vec<(usize, Vector3<f64>, bool)>,
     forces: Forces,
     rates: Vec<Rate>,
-    load_factor: f64,
     change: f64,
 }
 
@@ -118,7 +116,6 @@ impl Tracker<'_> {
         };
         let reach = self.reach(from.value, value);
         let mut poses = from.poses.clone();
-        let mut slope = None;
         let mut last: Option<(Solved, Stage)> = None;
         for round in 0..ROUNDS {
             if self.deadline.is_over() {
@@ -128,14 +125,12 @@ impl Tracker<'_> {
             if let Some((solved, before)) = &last
                 && solved.change <= SETTLED
                 && self.is_at_rest(&poses, before, &stage, solved)
-                && self.is_there(&poses, value)
             {
                 return self.rested(from, value, poses, before, solved, reach);
             }
             let goals: Vec<Pose> = (0..blocks.len()).map(|i| goal(i, &poses)).collect();
             let guess = (round == 0).then(|| (&from.rates[..], value - from.value));
-            let solved =
-                self.solve(&stage, from, &poses, &goals, guess, reach, value, &mut slope)?;
+            let solved = self.solve(&stage, from, &poses, &goals, guess, reach)?;
             if solved.change > UNSETTLED {
                 return None;
             }
@@ -167,8 +162,7 @@ impl Tracker<'_> {
             let [a, b] = [from, to].map(|v| self.drive.pose(i, v));
             (b.shift - a.shift).norm() + a.turn.angle_to(&b.turn) * blocks[i].size
         });
-        let supports = supports.fold(0.0, f64::max);
-        if self.drive.is_push() { to - from } else { supports }
+        supports.fold(0.0, f64::max)
     }
 
     /// All places where joints touch or may.
@@ -201,16 +195,7 @@ impl Tracker<'_> {
             })
     }
 
-    /// Whether the control point is where it has to be.
-    fn is_there(&self, poses: &[Pose], value: f64) -> bool {
-        self.drive.demand(value).is_none_or(|d| {
-            let block = &self.start().blocks[d.block];
-            let way = poses[d.block].way(&block.centroid, &d.point).dot(&d.toward);
-            (way - value).abs() <= AT_REST * tolerance::ON_THE_WAY * block.size
-        })
-    }
-
-    #[allow(clippy::too_many_arguments)]
+    /// One program and the slips that settle in it.
     fn solve(
         &self,
         stage: &Stage,
@@ -219,12 +204,9 @@ impl Tracker<'_> {
         goals: &[Pose],
         guess: Option<(&[Rate], f64)>,
         reach: f64,
-        value: f64,
-        slope: &mut Option<f64>,
     ) -> Option<Solved> {
         let model = &stage.model;
-        let live = self.drive.is_push();
-        let statics = self.statics(model, live);
+        let statics = self.statics(model);
         let assembly = &model.assembly;
         let by = statics.total_load() * reach;
         let way = |to: &[Pose], since: &[Pose], i: usize, at: &Vector3<f64>| {
@@ -282,8 +264,7 @@ impl Tracker<'_> {
         let rest = vec![Rate::zero(); assembly.blocks.len()];
         let (rates, times) = guess.unwrap_or((&rest, 0.0));
         let mut held = slips(&ways(rates, times));
-        let scale = if live { check::natural_factor(assembly) } else { 1.0 };
-        let run = |held: &[f64], kappa: f64| -> Option<(Forces, Vec<Rate>, f64)> {
+        let run = |held: &[f64]| -> Option<(Forces, Vec<Rate>)> {
             let mut objective = vec![0.0; statics.matrix.columns];
             for ((r, b), s) in rows.iter().zip(&statics.bearings).zip(held) {
                 let u = r.so_far + r.n * (s * reach);
@@ -291,50 +272,12 @@ impl Tracker<'_> {
                     objective[r.column + k] = b.unit * basis.force.dot(&u) / by;
                 }
             }
-            let (program, layout) = if live {
-                conic::driven(&statics, &objective, scale, kappa)
-            } else {
-                conic::thrust(&statics, &objective)
-            };
+            let (program, layout) = conic::thrust(&statics, &objective);
             let solution = program::solved(&program)?;
             let x = layout.forces(&solution.x, &solution.z);
             let y = layout.rates(&solution.x, &solution.z);
             let rates = program::rates(&statics, assembly.blocks.len(), y, by);
-            let lambda = if live { scale * solution.x[x.len()] } else { 0.0 };
-            Some((statics.forces(&model.interfaces, x), rates, lambda))
-        };
-        // What the control point still has to go, and how far these rates take it.
-        let demand = self.drive.demand(value).map(|d| {
-            let c = self.start().blocks[d.block].centroid;
-            let p = poses[d.block].apply(&c, &d.point);
-            (d, p, value - poses[d.block].way(&c, &d.point).dot(&d.toward))
-        });
-        let driven = |held: &[f64], slope: &mut Option<f64>| {
-            let Some((d, p, left)) = &demand else { return run(held, 0.0) };
-            let goes = |rates: &[Rate]| certificate::at(assembly, rates, d.block, p).dot(&d.toward);
-            let zero = run(held, 0.0)?;
-            let per = match *slope {
-                Some(per) => per,
-                None => {
-                    let per = goes(&run(held, 1.0)?.1) - goes(&zero.1);
-                    *slope = Some(per);
-                    per
-                }
-            };
-            if !(per > 0.0) {
-                return None;
-            }
-            // The way is piecewise linear in what drives it.
-            let (mut kappa, mut best) = (0.0, zero);
-            for _ in 0..8 {
-                let off = left - goes(&best.1);
-                if off.abs() <= SETTLED * reach {
-                    break;
-                }
-                kappa += off / per;
-                best = run(held, kappa)?;
-            }
-            Some(best)
+            Some((statics.forces(&model.interfaces, x), rates))
         };
         let mut anderson = Anderson::default();
         let mut best: Option<Solved> = None;
@@ -342,7 +285,7 @@ impl Tracker<'_> {
             if self.deadline.is_over() {
                 break;
             }
-            let (forces, rates, load_factor) = driven(&held, slope)?;
+            let (forces, rates) = run(&held)?;
             let next = slips(&ways(&rates, 1.0));
             let change = held.iter().zip(&next).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             if !change.is_finite() {
@@ -366,7 +309,7 @@ impl Tracker<'_> {
             let better = best.as_ref().is_none_or(|b| change < 2.0 * b.change);
             let following = anderson.next(&held, &next);
             if better {
-                best = Some(Solved { active, forces, rates, load_factor, change });
+                best = Some(Solved { active, forces, rates, change });
             }
             if change <= SETTLED {
                 break;
@@ -386,15 +329,12 @@ impl Tracker<'_> {
         active: &[(usize, Vector3<f64>, bool)],
         reach: f64,
     ) -> Option<Vec<Pose>> {
-        if self.drive.is_push() {
-            return None;
-        }
         let blocks = &self.start().blocks;
         let mut poses = near.to_vec();
         for _ in 0..CLOSINGS {
             let stage = self.stage(&poses);
             let model = &stage.model;
-            let statics = self.statics(model, false);
+            let statics = self.statics(model);
             let by = statics.total_load() * reach;
             let slid = |i: usize, at: &Vector3<f64>| {
                 let (start, c) = (self.carried.before(&poses, i, at), blocks[i].centroid);
@@ -449,8 +389,8 @@ impl Tracker<'_> {
         Some(poses)
     }
 
-    fn statics(&self, model: &Model, live: bool) -> Statics {
-        let plane = Statics::new(model, StaticsOptions { live, ..StaticsOptions::default() });
+    fn statics(&self, model: &Model) -> Statics {
+        let plane = Statics::new(model, StaticsOptions::default());
         let crate::path::Drive::Settle(moves) = self.drive else { return plane };
         // A plane scene knows no motion out of its plane.
         let across = plane.plane.is_some_and(|p| {
@@ -460,10 +400,7 @@ impl Tracker<'_> {
             })
         });
         if across {
-            Statics::new(
-                model,
-                StaticsOptions { keep_all: true, live, ..StaticsOptions::default() },
-            )
+            Statics::new(model, StaticsOptions { keep_all: true, ..StaticsOptions::default() })
         } else {
             plane
         }
@@ -497,7 +434,7 @@ impl Tracker<'_> {
                 }
             }
         }
-        let forces = self.balanced(&found.model, forces, solved.load_factor)?;
+        let forces = self.balanced(&found.model, forces)?;
         let joints = self.joints(&poses, |k| {
             let own = stage.spots.iter().enumerate().filter(|(_, (own, _))| *own == k);
             own.flat_map(|(c, _)| {
@@ -528,20 +465,17 @@ impl Tracker<'_> {
             })
             .collect();
         let touch = found.from.iter().copied().zip(list.iter().map(|f| f.points.clone())).collect();
-        let load_factor = solved.load_factor;
-        Some(Rested { value, poses, touch, forces, load_factor, joints, rates })
+        Some(Rested { value, poses, touch, forces, joints, rates })
     }
 
     /// These forces, balanced to what counts as balance; others that are, where that is no small
-    /// change. Without live loads nothing where there are none, for then it does not stand.
-    fn balanced(&self, model: &Model, mut forces: Forces, lambda: f64) -> Option<Forces> {
+    /// change; nothing where there are none, for then it does not stand.
+    fn balanced(&self, model: &Model, mut forces: Forces) -> Option<Forces> {
         mend::cut(&model.interfaces, &mut forces);
-        if self.drive.is_push()
-            || certificate::statics(model, &forces, lambda).unbalance <= tolerance::UNBALANCE
-        {
+        if certificate::statics(model, &forces, 0.0).unbalance <= tolerance::UNBALANCE {
             return Some(forces);
         }
-        if let Some(better) = existence::improved(model, &forces, lambda) {
+        if let Some(better) = existence::improved(model, &forces, 0.0) {
             return Some(better);
         }
         let control =

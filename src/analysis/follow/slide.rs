@@ -52,6 +52,10 @@ impl Tracker<'_> {
         poses: &[Pose],
         path: &mut Path,
     ) -> Result<End, End> {
+        if how.drive.is_push() {
+            // A load factor under dry friction has no certificate of its own at a pose.
+            return Err(End::Stuck("what is pushed slides".into()));
+        }
         if let Some(end) = self.bars_sliding() {
             return Ok(end);
         }
@@ -62,7 +66,6 @@ impl Tracker<'_> {
             poses: poses.to_vec(),
             touch: Vec::new(),
             forces: Vec::new(),
-            load_factor: 0.0,
             joints: self.joints(poses, |_| false),
             rates: vec![Rate::zero(); blocks],
         };
@@ -80,9 +83,6 @@ impl Tracker<'_> {
         for _ in 0..STEPS {
             if here.value >= how.until {
                 return Ok(End::Reached);
-            }
-            if how.drive.is_push() && here.load_factor <= 0.0 {
-                return Ok(End::Vanishes);
             }
             if self.deadline.is_over() {
                 return Ok(End::Stuck("the time was over".into()));
@@ -189,7 +189,7 @@ impl Tracker<'_> {
             value: at.value,
             poses: at.poses.clone(),
             closed: vec![Vec::new(); list.len()],
-            load_factor: at.load_factor,
+            load_factor: 0.0,
             forces: at.forces.clone(),
             room: 0.0,
             rates: Vec::new(),
@@ -205,9 +205,6 @@ impl Tracker<'_> {
         let why =
             "no equilibrium under dry friction was found beyond, near by: what comes is sudden";
         let stuck = End::Stuck(why.into());
-        if self.drive.is_push() {
-            return stuck;
-        }
         // On as it went: so near by that the way is straight.
         let rates = before
             .map_or(&here.rates, |b| if b.value < here.value { &here.rates } else { &b.rates });

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     number::{bracketed, count, fixed, point, short},
     proof::{
-        path::{DrivenBy, PathEvent, PathPoint, PathResult, PathStatus},
+        path::{DrivenBy, PathEvent, PathEventKind, PathPoint, PathResult, PathStatus},
         result::{QuestionKind, ResultFile},
     },
     report::path::{along, happens},
@@ -93,12 +93,16 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
             "The motion is followed along its linkage with finite rotations. At the last value contact forces inside the friction cones balance the loads of the displaced scene; at the next nothing does, and no other equilibrium was found where the mechanism goes from there.",
         ),
         PathStatus::Slides => page.paragraph(
-            "What slides would open as well in limit analysis, and dry joints do not: beyond the first instant such a motion is wrong, and it is not followed.",
+            "What slides would open as well in limit analysis, and dry joints do not: beyond the first instant such a motion is wrong. No motion under dry friction was found that leads on; with a load factor none is sought.",
         ),
         PathStatus::Reached | PathStatus::Vanishes | PathStatus::Open => {}
     }
     if let Some(text) = &a.why {
         page.paragraph(&format!("Not followed any further: {text}."));
+    }
+    let events = file.path.iter().flat_map(|p| &p.events);
+    if events.into_iter().any(|e| e.kind == PathEventKind::Slides) {
+        page.paragraph("Where joints slide the motion is that of dry friction: they slide without opening, against μ times what presses them. Other states may be admissible beside it.");
     }
     if file.question == QuestionKind::Push {
         page.paragraph("At each point the load factor is that of the displaced scene, between forces that balance it and a mechanism that admits no more; the point moves as the mechanism takes it.");
@@ -134,6 +138,15 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             })
             .collect();
         page.row("hinges", cut(&hinges, POINTS, options));
+        let slips: Vec<String> = last
+            .slips
+            .iter()
+            .map(|s| {
+                let [a, b] = &s.between;
+                format!("{a} | {b}, by {} m, touching at {}", short(s.way), point(s.at))
+            })
+            .collect();
+        page.row("slips", cut(&slips, POINTS, options));
     }
     for (label, p) in ["stands at", "falls at"].iter().zip(&path.ends) {
         let head = format!("{}, proved:", p.value);
