@@ -63,8 +63,9 @@ fn travel(travel: Travel) -> &'static str {
 /// they are without bound, and nothing could be read off the rest.
 const HIGH: f64 = 6.0;
 
-/// A direction of travel in words, and its points.
-type Line = (&'static str, Vec<(f64, f64)>);
+/// A direction of travel in words, and its points: place and load factor, none where the line is
+/// broken, for positions without a load factor, or with one too high to be drawn, lie there.
+type Line = (&'static str, Vec<(f64, Option<f64>)>);
 
 /// What the line of a train is called that is the same from both ends.
 const BOTH: &str = "both directions of travel";
@@ -74,16 +75,24 @@ fn lines(file: &ResultFile, list: &[&MovingAnswer]) -> Vec<Line> {
     let symmetric = file.scene.input.train.as_ref().is_some_and(is_symmetric);
     let value = |a: &MovingAnswer| a.load_factor.value.filter(|v| v.is_finite());
     let least = list.iter().filter_map(|a| value(a)).fold(f64::INFINITY, f64::min);
+    let step = file.scene.input.train.as_ref().map_or(f64::INFINITY, |t| t.step);
     let line = |travel: Travel| {
-        let of = list.iter().filter(|a| a.travel == travel);
-        let points = of.filter_map(|a| Some((a.x, value(a)?)));
-        let name = if symmetric { BOTH } else { travel.words() };
-        (name, points.filter(|p| p.1 <= HIGH * least.abs()).collect())
+        let mut points: Vec<(f64, Option<f64>)> = Vec::new();
+        for a in list.iter().filter(|a| a.travel == travel) {
+            // Steps at which no axle stands on a span are not in the list.
+            if let Some(&(x, _)) = points.last()
+                && a.x - x > 1.5 * step
+            {
+                points.push((0.5 * (a.x + x), None));
+            }
+            points.push((a.x, value(a).filter(|y| *y <= HIGH * least.abs())));
+        }
+        (if symmetric { BOTH } else { travel.words() }, points)
     };
     [Travel::Forward, Travel::Backward]
         .into_iter()
         .map(line)
-        .filter(|l: &Line| !l.1.is_empty())
+        .filter(|l: &Line| l.1.iter().any(|p| p.1.is_some()))
         .collect()
 }
 
@@ -99,20 +108,23 @@ const Y: &str = "load factor λ";
 /// The chart of a page, with a cursor that goes with the film.
 pub fn page_chart(file: &ResultFile) -> Option<Chart> {
     let list = said(file).ok()?;
-    let hint = |(x, y): &(f64, f64)| format!("λ = {} at x = {} m", short(*y), short(*x));
-    let series = |name: &str, line: bool, points: &[(f64, f64)]| Series {
+    let hint = |&(x, y): &(f64, Option<f64>)| {
+        y.map_or(String::new(), |y| format!("λ = {} at x = {} m", short(y), short(x)))
+    };
+    let series = |name: &str, line: bool, points: &[(f64, Option<f64>)]| Series {
         name: name.into(),
         line,
-        points: points.iter().map(|p| [Some(p.0), Some(p.1)]).collect(),
+        points: points.iter().map(|p| [Some(p.0), p.1]).collect(),
         hints: points.iter().map(hint).collect(),
         ..Series::default()
     };
     let mut all: Vec<Series> =
         lines(file, &list).iter().map(|(name, points)| series(name, true, points)).collect();
-    if all.iter().all(|s| s.points.len() < 2) {
+    let drawn = |s: &Series| s.points.iter().filter(|p| p[1].is_some()).count();
+    if all.iter().all(|s| drawn(s) < 2) {
         return None;
     }
-    all.extend(worst(file).map(|p| series("the least", false, &[p])));
+    all.extend(worst(file).map(|p| series("the least", false, &[(p.0, Some(p.1))])));
     Some(Chart {
         title: "Load factor where the train stands".into(),
         x: Axis::new(X, false),
@@ -136,7 +148,8 @@ const WORST: RGBColor = RGBColor(0, 0, 0);
 pub fn chart(file: &ResultFile) -> Result<String, PathError> {
     let list = said(file)?;
     let lines = lines(file, &list);
-    let all = || lines.iter().flat_map(|l| l.1.iter());
+    let runs: Vec<Vec<Vec<(f64, f64)>>> = lines.iter().map(|l| runs(&l.1)).collect();
+    let all = || runs.iter().flatten().flatten();
     let ends = |of: fn(&(f64, f64)) -> f64| {
         all().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)))
     };
@@ -166,16 +179,19 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
             .light_line_style(WHITE.mix(0.0))
             .draw()
             .map_err(refused)?;
-        for ((name, points), colour) in lines.iter().zip(COLOURS) {
+        for (((name, _), runs), colour) in lines.iter().zip(&runs).zip(COLOURS) {
             chart
-                .draw_series([PathElement::new(points.clone(), colour.stroke_width(2))])
+                .draw_series(
+                    runs.iter().map(|run| PathElement::new(run.clone(), colour.stroke_width(2))),
+                )
                 .map_err(refused)?
                 .label(*name)
                 .legend(move |(x, y)| {
                     PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
                 });
+            let points = runs.iter().flatten();
             chart
-                .draw_series(points.iter().map(|p| Circle::new(*p, 2, colour.filled())))
+                .draw_series(points.map(|p| Circle::new(*p, 2, colour.filled())))
                 .map_err(refused)?;
         }
         if let Some(point) = worst(file) {
@@ -195,6 +211,15 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
         area.present().map_err(refused)?;
     }
     Ok(text)
+}
+
+/// The pieces of a line.
+fn runs(points: &[(f64, Option<f64>)]) -> Vec<Vec<(f64, f64)>> {
+    points
+        .split(|p| p.1.is_none())
+        .map(|run| run.iter().filter_map(|&(x, y)| Some((x, y?))).collect::<Vec<_>>())
+        .filter(|run| !run.is_empty())
+        .collect()
 }
 
 /// What an axis leaves of zero.
