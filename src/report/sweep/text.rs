@@ -3,7 +3,7 @@
 use crate::{
     number::{count, seconds, short},
     report::text::{Layout, Page, Role},
-    sweep::{Header, LognormalFit, Proportion, Summary},
+    sweep::{Header, LognormalFit, Proportion, Sampling, Summary},
 };
 
 /// So many numbers are listed by their influence.
@@ -63,7 +63,8 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
             n => format!("{what}; {} left out, with no answer", count(n, "row")),
         };
         // A grid is no sample: its share has no interval.
-        let share = if summary.fragility.is_some() {
+        let grid = matches!(header.plan.sampling, Sampling::Grid {});
+        let share = if summary.fragility.is_some() && !grid {
             share(failed)
         } else {
             format!("{} of {}", failed.failed, failed.of)

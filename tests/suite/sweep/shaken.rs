@@ -103,7 +103,7 @@ fn records(folder: &Path) -> Sweep {
     fs::write(folder.join("scene.json"), block().to_string()).unwrap();
     let plan = json!({
         "format": "voussoir-sweep/1", "scene": "../scene.json",
-        "question": { "rock": { "from": 0 , "ground": {}} },
+        "question": { "rock": { "ground": { "record": "../ricker.csv" } } },
         "vary": [
             { "pointer": RECORD, "folder": ".." },
             { "pointer": "/question/rock/ground/scale", "from": 0.5, "to": 4, "count": 8 }
