@@ -112,6 +112,9 @@ pub fn asked_stages(
     Ok(all)
 }
 
+/// One stage of those that a spec stands for: what tells it from the others, and what it changes.
+type Split = (Option<String>, Vec<Change>);
+
 /// One change with its lists.
 struct Change {
     key: &'static str,
@@ -235,11 +238,7 @@ impl<'a> Known<'a> {
     }
 
     /// The stages that one spec stands for, each with what tells it from the others.
-    fn split(
-        &self,
-        spec: &StageSpec,
-        path: &JsonPath,
-    ) -> Result<Vec<(Option<String>, Vec<Change>)>, InputError> {
+    fn split(&self, spec: &StageSpec, path: &JsonPath) -> Result<Vec<Split>, InputError> {
         let StageSpec { name: _, add, remove, hold, release, add_one_by_one, remove_one_by_one } =
             spec;
         let plain = [add, hold, release, remove].iter().any(|l| !l.is_empty());
