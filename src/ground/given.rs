@@ -181,7 +181,8 @@ impl Series {
             ));
         }
         let finite = self.components.iter().flatten().all(|v| v.is_finite());
-        if !finite || !(self.step > 0.0 && self.step.is_finite()) {
+        let has_step = self.step > 0.0 && self.step.is_finite();
+        if !finite || !has_step {
             return Err(format!("{}: a number of the record is not finite", self.name));
         }
         let at = |i: usize| {

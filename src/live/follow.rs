@@ -74,10 +74,13 @@ fn look(file: &File, bytes: &Result<Vec<u8>, InputError>) -> (bool, BTreeSet<Pat
     (whole, list)
 }
 
+/// What stood in the file, or why it cannot be read.
+type Bytes = Result<Vec<u8>, InputError>;
+
 /// Follows a file for good.
 pub fn run(file: &File, desk: &Desk) {
     let mut meshes = BTreeSet::new();
-    let mut shown: Option<(Vec<Stamp>, Result<Vec<u8>, InputError>)> = None;
+    let mut shown: Option<(Vec<Stamp>, Bytes)> = None;
     let (mut checked, mut waiting) = (Instant::now(), None::<(Vec<Stamp>, Instant)>);
     loop {
         let now: Vec<Stamp> =

@@ -87,8 +87,11 @@ pub fn csv(file: &ResultFile) -> Result<String, PathError> {
     table.end().map_err(refused)
 }
 
+/// A number of a stage, where it has one.
+type OfStage = fn(&StageResult) -> Option<f64>;
+
 /// What the chart shows of stages, with its name.
-fn quantity(result: &StagesResult) -> Option<(&'static str, fn(&StageResult) -> Option<f64>)> {
+fn quantity(result: &StagesResult) -> Option<(&'static str, OfStage)> {
     let factor = |s: &StageResult| s.load_factor().and_then(|l| l.value);
     let tilt = |s: &StageResult| s.tilt_deg().and_then(|l| l.value);
     if result.list.iter().any(|s| tilt(s).is_some()) {

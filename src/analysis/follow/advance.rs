@@ -142,8 +142,9 @@ impl Tracker<'_> {
                 pose.shift += solved.rates[i].velocity;
                 pose.turn = UnitQuaternion::from_scaled_axis(solved.rates[i].spin) * pose.turn;
                 pose.turn.renormalize();
-                let way = (pose.shift - from.poses[i].shift).norm();
-                if !(way <= JUMP * reach) {
+                // What is no number is as far away as can be.
+                let is_near = (pose.shift - from.poses[i].shift).norm() <= JUMP * reach;
+                if !is_near {
                     return None;
                 }
             }
@@ -381,7 +382,8 @@ impl Tracker<'_> {
                 pose.shift += rates[i].velocity;
                 pose.turn = UnitQuaternion::from_scaled_axis(rates[i].spin) * pose.turn;
                 pose.turn.renormalize();
-                if !((pose.shift - near[i].shift).norm() <= reach) {
+                let is_near = (pose.shift - near[i].shift).norm() <= reach;
+                if !is_near {
                     return None;
                 }
             }

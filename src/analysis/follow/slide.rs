@@ -29,6 +29,9 @@ const FAILS: usize = 8;
 /// The same of all steps.
 const ALL_FAILS: usize = 16;
 
+/// Whether a joint, and whether it slides, differs between two poses.
+type Changed<'a> = &'a dyn Fn(&(Joint, bool), &(Joint, bool)) -> bool;
+
 impl Tracker<'_> {
     /// Why a motion that slides cannot be followed, where it cannot: a joint of edges or corners,
     /// whose faces are not known, or members.
@@ -153,7 +156,7 @@ impl Tracker<'_> {
 
     /// What changes between two poses.
     fn tell(&self, low: &Rested, high: &Rested, path: &mut Path) {
-        let changed = |is: &dyn Fn(&(Joint, bool), &(Joint, bool)) -> bool| {
+        let changed = |is: Changed| {
             let pairs = low.joints.iter().zip(&high.joints).enumerate();
             pairs.filter(|(_, (a, b))| is(a, b)).map(|(k, _)| k).collect::<Vec<usize>>()
         };
