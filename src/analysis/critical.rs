@@ -93,7 +93,9 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             return Err(InputError::at(JsonPath::root(), "the time is up"));
         }
         probes += 1;
-        probe(scene, &range.pointer, value, &control)
+        // The first is asked whatever the time: an answer that says what is open is worth it.
+        let is_over = || probes > 1 && control.deadline.is_over();
+        probe_until(scene, &range.pointer, value, &control, &is_over)
     };
     let mut scan: Vec<Scanned> = Vec::new();
     let mut found: Vec<Probe> = Vec::new();
@@ -199,8 +201,18 @@ pub fn probe(
     value: f64,
     control: &Control,
 ) -> Result<Probe, InputError> {
-    let is_over = || control.deadline.is_over();
-    let model = prepare_until(&scene.with_field(pointer, value)?, &is_over)?;
+    probe_until(scene, pointer, value, control, &|| false)
+}
+
+/// The same, given up as soon as `is_over` while contacts are looked for.
+fn probe_until(
+    scene: &Scene,
+    pointer: &str,
+    value: f64,
+    control: &Control,
+    is_over: &dyn Fn() -> bool,
+) -> Result<Probe, InputError> {
+    let model = prepare_until(&scene.with_field(pointer, value)?, is_over)?;
     let assessment = assess::unproved(&model, control);
     Ok(Probe { value, model, assessment })
 }

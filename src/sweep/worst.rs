@@ -18,7 +18,7 @@ use super::{RowAnswer, RowStatus, pointer::Pointer};
 use crate::{
     analysis::{Control, Law, Question, ask},
     error::{InputError, JsonPath},
-    interface::prepare_until,
+    interface::prepare,
     scene::{Friction, Load, Scene},
 };
 use std::{fmt, str::FromStr};
@@ -122,7 +122,7 @@ pub fn worst(
         if corners == 1 {
             return Ok(Worst { scene, argument, corners });
         }
-        let model = prepare_until(&scene, &|| control.deadline.is_over())?;
+        let model = prepare(&scene)?;
         let answer = RowAnswer::of_answer(&ask(&asked.for_one_number(), &scene, &model, control)?);
         if worst.as_ref().is_none_or(|(_, least, _)| height(&answer) < height(least)) {
             worst = Some((scene, answer, corner));

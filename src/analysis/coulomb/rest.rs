@@ -180,7 +180,7 @@ pub(in crate::analysis) fn up_to_rest(
     {
         return answer;
     }
-    if answer.value.is_finite() && is_forest(&at(0.0)) {
+    if answer.found != Found::Undecided && is_forest(&at(0.0)) {
         answer.rests_at = answer.value;
         return answer;
     }
