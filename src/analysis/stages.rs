@@ -6,7 +6,7 @@
 //! has settled, and forces of one do not stay in the next.
 //!
 //! What stood still stands where nothing that it rests on has changed: an independent part that
-//! several stages have alike is answered once ([`Known`]), and its proof checked in each.
+//! several stages have alike is answered once, and its proof checked in each.
 
 use super::{
     Answer, Assessment, Control, LimitOptions, Proved, Question, StagesOptions, TiltOptions, ask,

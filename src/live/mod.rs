@@ -1,7 +1,7 @@
 //! A page that follows a scene file while it is worked on: `voussoir open`.
 //!
-//! One thread watches the file ([`follow`]), one asks ([`worker`]), one per connection answers a
-//! browser ([`server`]); they meet at the [`Desk`](desk::Desk), which holds what is wanted and what
+//! One thread watches the file (`follow`), one asks (`worker`), one per connection answers a
+//! browser (`server`); they meet at the `Desk`, which holds what is wanted and what
 //! was found last. Every answer comes from [`ask`](crate::analysis::ask()).
 //!
 //! The server is a few routes over `std::net` with `httparse` for the heads of requests. That crate

@@ -32,6 +32,10 @@ const STEPS: usize = 200;
 /// last. Larger: fewer digits than are printed. Smaller: rounding.
 const STILL: f64 = 1e-12;
 
+/// A likelihood that is less by this share of it is as good. Larger: steps that lead away from the
+/// greatest. Smaller: near the greatest, steps are halved for the rounding of its sum without end.
+const ROUNDING: f64 = 1e-12;
+
 /// Linear predictor `a + b y` with the covariance of `a` and `b`.
 struct Line {
     a: f64,
@@ -151,7 +155,7 @@ fn probit(rows: &[(f64, bool)]) -> Option<Line> {
         let mut part = 1.0;
         let next = loop {
             let next = likelihood(a + part * step[0], b + part * step[1]);
-            if next >= here || part < 1e-9 {
+            if next >= here - ROUNDING * here.abs() || part < 1e-9 {
                 break next;
             }
             part *= 0.5;

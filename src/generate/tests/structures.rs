@@ -74,7 +74,7 @@ fn expected_answers_and_the_table_list_every_structure_once() {
         let expect = &entry["expect"];
         let complete = match entry["question"].as_str() {
             Some("assess") => expect["verdict"].is_string(),
-            Some("limit") => {
+            Some("limit" | "moving") => {
                 expect["load_factor"].is_number() && expect["tolerance_rel"].is_number()
                     || expect["load_factor_status"].is_string()
             }
