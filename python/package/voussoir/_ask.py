@@ -404,7 +404,8 @@ def stages(
     options: dict[str, Any] = {
         "law": law,
         "remove_each": remove_each,
-        **_directions(toward, all),
+        # Where blocks are taken out no tilts are asked for.
+        **({} if remove_each and toward is None and all is None else _directions(toward, all)),
         "skip_margin": skip_margin,
         "skip_held": skip_held,
     }
