@@ -113,6 +113,56 @@ pub struct ResultFile {
     pub versions: Versions,
 }
 
+impl ResultFile {
+    /// A result that holds an answer with its evidence, and nothing else yet.
+    pub(super) fn new(
+        question: QuestionKind,
+        scene: &Scene,
+        model: &Model,
+        answer: Answer,
+        certificate: Certificate,
+    ) -> Self {
+        Self {
+            format: ResultFormat::V2,
+            question,
+            scene: SceneSummary {
+                name: scene.name.clone(),
+                blocks: model.assembly.blocks.len(),
+                supports: model.assembly.blocks.iter().filter(|b| b.support).count(),
+                interfaces: model.interfaces.list.len(),
+                contact_points: model.contact_points(),
+                members: model.interfaces.members.len(),
+                input: scene.clone(),
+            },
+            answer,
+            certificate,
+            directions: Vec::new(),
+            dead_load: None,
+            dry: None,
+            coulomb_state: None,
+            critical: None,
+            thrust: None,
+            path: None,
+            stages: None,
+            rocking: None,
+            simulation: None,
+            mechanism: None,
+            members: Vec::new(),
+            left_out_contacts: model
+                .interfaces
+                .left_out
+                .map(|contacts| LeftOutContacts { contacts, closed: None }),
+            doubt: None,
+            left_out: Vec::new(),
+            warnings: model.findings().cloned().collect(),
+            timings: model.timings,
+            work: None,
+            trace: Vec::new(),
+            versions: Versions::default(),
+        }
+    }
+}
+
 /// What was asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]

@@ -4,6 +4,7 @@ use super::{
     cells::{Cell, Table},
     page::{Axis, Chart, Series},
     path::PathError,
+    plot::{self, Plot},
 };
 use crate::{
     kinematic::{Capacity, States},
@@ -12,11 +13,8 @@ use crate::{
     verdict::check::Claim,
 };
 use plotters::{
-    prelude::{
-        ChartBuilder, Circle, IntoDrawingArea, PathElement, RGBColor, SVGBackend,
-        SeriesLabelPosition, TriangleMarker, WHITE,
-    },
-    style::{Color, IntoFont},
+    prelude::{Circle, PathElement, RGBColor, SeriesLabelPosition, TriangleMarker},
+    style::Color,
 };
 
 fn refused(e: impl std::fmt::Display) -> PathError {
@@ -161,10 +159,8 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
     })
 }
 
-const SIZE: (u32, u32) = (680, 420);
-/// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008).
-const EXACT: RGBColor = RGBColor(0, 114, 178);
-const STRAIGHT: RGBColor = RGBColor(213, 94, 0);
+const EXACT: RGBColor = plot::BLUE;
+const STRAIGHT: RGBColor = plot::RED;
 
 /// The curve as SVG: acceleration against equivalent displacement, exact and straight, SLV and SLC.
 ///
@@ -186,35 +182,19 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
     } else {
         "way of the control point, m"
     };
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        area.fill(&WHITE).map_err(refused)?;
-        let mut chart = ChartBuilder::on(&area)
-            .margin(12)
-            .caption(crate::plain::cell(&file.scene.name), ("sans-serif", 18))
-            .x_label_area_size(42)
-            .y_label_area_size(70)
-            .build_cartesian_2d(0.0..1.03 * end, 0.0..1.06 * high)
-            .map_err(refused)?;
-        chart
-            .configure_mesh()
-            .label_style(("sans-serif", 14))
-            .x_desc(x)
-            .y_desc("a = α g / (e* FC), m/s²")
-            .x_label_formatter(&|v| short(*v))
-            .y_label_formatter(&|v| short(*v))
-            .light_line_style(WHITE.mix(0.0))
-            .draw()
-            .map_err(refused)?;
-        let legend = |colour: RGBColor| {
-            move |(x, y)| PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
-        };
+    let plot = Plot {
+        name: &file.scene.name,
+        axes: [x, "a = α g / (e* FC), m/s²"],
+        ends: [0.0..1.03 * end, 0.0..1.06 * high],
+        left: 70,
+        legend: Some(SeriesLabelPosition::UpperRight),
+    };
+    plot.svg(|chart| {
         chart
             .draw_series([PathElement::new(exact.clone(), EXACT.stroke_width(2))])
             .map_err(refused)?
             .label("exact, every point proved")
-            .legend(legend(EXACT));
+            .legend(plot::sample(EXACT));
         chart
             .draw_series(exact.into_iter().map(|p| Circle::new(p, 2, EXACT.filled())))
             .map_err(refused)?;
@@ -223,7 +203,7 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
                 .draw_series([PathElement::new(straight(c), STRAIGHT.stroke_width(1))])
                 .map_err(refused)?
                 .label("straight line from a0 to d0")
-                .legend(legend(STRAIGHT));
+                .legend(plot::sample(STRAIGHT));
             let marks = |s: &States, colour: RGBColor| {
                 states(s).map(|p| TriangleMarker::new(p, 6, colour.filled()))
             };
@@ -235,14 +215,6 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
                 .label("SLV at 0.4 d0, SLC at 0.6 d0")
                 .legend(|(x, y)| TriangleMarker::new((x + 8, y), 6, EXACT.filled()));
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE.mix(0.8))
-            .label_font(("sans-serif", 13).into_font())
-            .draw()
-            .map_err(refused)?;
-        area.present().map_err(refused)?;
-    }
-    Ok(text)
+        Ok(())
+    })
 }

@@ -12,6 +12,7 @@ pub mod kinematic;
 pub mod moving;
 pub mod page;
 pub mod path;
+mod plot;
 pub mod stages;
 pub mod study;
 pub mod sweep;

@@ -4,6 +4,7 @@ use super::{
     cells::{Cell, Table},
     page::{Axis, Chart, Series},
     path::PathError,
+    plot::{self, Plot},
 };
 use crate::{
     number::short,
@@ -11,11 +12,8 @@ use crate::{
     train::{Travel, is_symmetric},
 };
 use plotters::{
-    prelude::{
-        ChartBuilder, Circle, IntoDrawingArea, PathElement, RGBColor, SVGBackend,
-        SeriesLabelPosition, WHITE,
-    },
-    style::{Color, IntoFont},
+    prelude::{Circle, PathElement, RGBColor, SeriesLabelPosition},
+    style::Color,
 };
 
 fn refused(e: impl std::fmt::Display) -> PathError {
@@ -136,9 +134,7 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
     })
 }
 
-const SIZE: (u32, u32) = (680, 420);
-/// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008).
-const COLOURS: [RGBColor; 2] = [RGBColor(0, 114, 178), RGBColor(213, 94, 0)];
+const COLOURS: [RGBColor; 2] = [plot::BLUE, plot::RED];
 const WORST: RGBColor = RGBColor(0, 0, 0);
 
 /// The chart as SVG: load factor against the place of the train, a line for each direction of travel.
@@ -158,27 +154,14 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
         return Err(PathError::new("there are not two load factors to draw a line through"));
     }
     let edge = 0.02 * (right - left);
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        area.fill(&WHITE).map_err(refused)?;
-        let mut chart = ChartBuilder::on(&area)
-            .margin(12)
-            .caption(crate::plain::cell(&file.scene.name), ("sans-serif", 18))
-            .x_label_area_size(42)
-            .y_label_area_size(70)
-            .build_cartesian_2d(left - edge..right + edge, low.min(0.0)..1.06 * high)
-            .map_err(refused)?;
-        chart
-            .configure_mesh()
-            .label_style(("sans-serif", 14))
-            .x_desc(X)
-            .y_desc(Y)
-            .x_label_formatter(&|v| short(zero(*v)))
-            .y_label_formatter(&|v| short(zero(*v)))
-            .light_line_style(WHITE.mix(0.0))
-            .draw()
-            .map_err(refused)?;
+    let plot = Plot {
+        name: &file.scene.name,
+        axes: [X, Y],
+        ends: [left - edge..right + edge, low.min(0.0)..1.06 * high],
+        left: 70,
+        legend: Some(SeriesLabelPosition::LowerMiddle),
+    };
+    plot.svg(|chart| {
         for (((name, _), runs), colour) in lines.iter().zip(&runs).zip(COLOURS) {
             chart
                 .draw_series(
@@ -186,9 +169,7 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
                 )
                 .map_err(refused)?
                 .label(*name)
-                .legend(move |(x, y)| {
-                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
-                });
+                .legend(plot::sample(colour));
             let points = runs.iter().flatten();
             chart
                 .draw_series(points.map(|p| Circle::new(*p, 2, colour.filled())))
@@ -201,16 +182,8 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
                 .label(format!("least: {} at {} m", short(point.1), short(point.0)))
                 .legend(|(x, y)| Circle::new((x + 8, y), 5, WORST.stroke_width(2)));
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::LowerMiddle)
-            .background_style(WHITE.mix(0.8))
-            .label_font(("sans-serif", 13).into_font())
-            .draw()
-            .map_err(refused)?;
-        area.present().map_err(refused)?;
-    }
-    Ok(text)
+        Ok(())
+    })
 }
 
 /// The pieces of a line.
@@ -220,9 +193,4 @@ fn runs(points: &[(f64, Option<f64>)]) -> Vec<Vec<(f64, f64)>> {
         .map(|run| run.iter().filter_map(|&(x, y)| Some((x, y?))).collect::<Vec<_>>())
         .filter(|run| !run.is_empty())
         .collect()
-}
-
-/// What an axis leaves of zero.
-fn zero(v: f64) -> f64 {
-    if v.abs() < 1e-12 { 0.0 } else { v }
 }

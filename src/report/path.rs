@@ -1,6 +1,9 @@
 //! Paths as tables and charts: what holds the structure against how far it has moved.
 
-use super::cells::{Cell, Table};
+use super::{
+    cells::{Cell, Table},
+    plot::{self, Plot},
+};
 use crate::{
     number::short,
     proof::{
@@ -10,11 +13,8 @@ use crate::{
     verdict::check::Claim,
 };
 use plotters::{
-    prelude::{
-        ChartBuilder, Circle, IntoDrawingArea, PathElement, RGBColor, SVGBackend,
-        SeriesLabelPosition, WHITE,
-    },
-    style::{Color, IntoFont},
+    prelude::{Circle, PathElement, RGBColor, SeriesLabelPosition},
+    style::Color,
 };
 
 /// A curve that cannot be written or drawn.
@@ -164,11 +164,10 @@ pub fn happens(e: &PathEvent) -> String {
     }
 }
 
-const SIZE: (u32, u32) = (680, 420);
 /// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008).
 const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
+    plot::BLUE,
+    plot::RED,
     RGBColor(0, 158, 115),
     RGBColor(230, 159, 0),
     RGBColor(204, 121, 167),
@@ -190,28 +189,15 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
         return Err(PathError("there are not two points to draw a line through".into()));
     }
     let y = held_by(path);
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        area.fill(&WHITE).map_err(refused)?;
-        let margin = 0.06 * (high - low);
-        let mut chart = ChartBuilder::on(&area)
-            .margin(12)
-            .caption(crate::plain::cell(&file.scene.name), ("sans-serif", 18))
-            .x_label_area_size(42)
-            .y_label_area_size(80)
-            .build_cartesian_2d(0.0..1.03 * end, low - margin..high + margin)
-            .map_err(refused)?;
-        chart
-            .configure_mesh()
-            .label_style(("sans-serif", 14))
-            .x_desc(parameter(path))
-            .y_desc(y)
-            .x_label_formatter(&|v| short(*v))
-            .y_label_formatter(&|v| short(*v))
-            .light_line_style(WHITE.mix(0.0))
-            .draw()
-            .map_err(refused)?;
+    let margin = 0.06 * (high - low);
+    let plot = Plot {
+        name: &file.scene.name,
+        axes: [parameter(path), y],
+        ends: [0.0..1.03 * end, low - margin..high + margin],
+        left: 80,
+        legend: Some(SeriesLabelPosition::LowerLeft),
+    };
+    plot.svg(|chart| {
         let grey = RGBColor(120, 120, 120).stroke_width(1);
         let ends = [low - margin, high + margin];
         chart
@@ -227,21 +213,11 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
                 .draw_series([PathElement::new(line.clone(), colour.stroke_width(2))])
                 .map_err(refused)?
                 .label(crate::plain::cell(&name))
-                .legend(move |(x, y)| {
-                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
-                });
+                .legend(plot::sample(colour));
             chart
                 .draw_series(line.into_iter().map(|p| Circle::new(p, 3, colour.filled())))
                 .map_err(refused)?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::LowerLeft)
-            .background_style(WHITE.mix(0.8))
-            .label_font(("sans-serif", 13).into_font())
-            .draw()
-            .map_err(refused)?;
-        area.present().map_err(refused)?;
-    }
-    Ok(text)
+        Ok(())
+    })
 }

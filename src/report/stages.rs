@@ -4,6 +4,7 @@ use super::{
     cells::{Cell, Table},
     page::{Axis, Chart, Series},
     path::PathError,
+    plot::{self, Plot},
 };
 use crate::{
     number::short,
@@ -15,10 +16,7 @@ use crate::{
     verdict::Verdict,
 };
 use plotters::{
-    prelude::{
-        ChartBuilder, Circle, IntoDrawingArea, PathElement, RGBColor, SVGBackend, TriangleMarker,
-        WHITE,
-    },
+    prelude::{Circle, PathElement, RGBColor, TriangleMarker},
     style::Color,
 };
 
@@ -134,8 +132,6 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
     })
 }
 
-const SIZE: (u32, u32) = (680, 420);
-
 /// The margins stage by stage as SVG; triangles at zero where a stage does not stand.
 ///
 /// # Errors
@@ -149,60 +145,36 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
     let high = points.iter().map(|p| p.1).fold(0.0, f64::max);
     let low = points.iter().map(|p| p.1).fold(0.0, f64::min);
     let margin = 0.06 * (high - low).max(f64::MIN_POSITIVE);
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        area.fill(&WHITE).map_err(refused)?;
-        let end = result.list.len() as f64 + 0.5;
-        let mut chart = ChartBuilder::on(&area)
-            .margin(12)
-            .caption(crate::plain::cell(&file.scene.name), ("sans-serif", 18))
-            .x_label_area_size(42)
-            .y_label_area_size(80)
-            .build_cartesian_2d(0.5..end, low - margin..high + margin)
-            .map_err(refused)?;
-        chart
-            .configure_mesh()
-            .label_style(("sans-serif", 14))
-            .x_desc("stage")
-            .y_desc(name)
-            .x_label_formatter(&|v| short(*v))
-            .y_label_formatter(&|v| short(*v))
-            .light_line_style(WHITE.mix(0.0))
-            .draw()
-            .map_err(refused)?;
-        let (blue, red) = (RGBColor(0, 114, 178), RGBColor(213, 94, 0));
+    let end = result.list.len() as f64 + 0.5;
+    let plot = Plot {
+        name: &file.scene.name,
+        axes: ["stage", name],
+        ends: [0.5..end, low - margin..high + margin],
+        left: 80,
+        legend: None,
+    };
+    plot.svg(|chart| {
         // A line has a gap where a stage has no margin.
         let mut run: Vec<(f64, f64)> = Vec::new();
         for (k, s) in numbered() {
             match value(s) {
                 Some(v) => run.push((k, v)),
-                None => draw(&mut chart, std::mem::take(&mut run), blue)?,
+                None => draw(chart, std::mem::take(&mut run), plot::BLUE)?,
             }
         }
-        draw(&mut chart, run, blue)?;
+        draw(chart, run, plot::BLUE)?;
         chart
-            .draw_series(points.into_iter().map(|p| Circle::new(p, 3, blue.filled())))
+            .draw_series(points.into_iter().map(|p| Circle::new(p, 3, plot::BLUE.filled())))
             .map_err(refused)?;
         let falls = numbered().filter(|(_, s)| s.stands() != Verdict::Stable);
         chart
-            .draw_series(falls.map(|(k, _)| TriangleMarker::new((k, 0.0), 6, red.filled())))
+            .draw_series(falls.map(|(k, _)| TriangleMarker::new((k, 0.0), 6, plot::RED.filled())))
             .map_err(refused)?;
-        area.present().map_err(refused)?;
-    }
-    Ok(text)
+        Ok(())
+    })
 }
 
-type Drawn<'a, 'b> = plotters::prelude::ChartContext<
-    'a,
-    SVGBackend<'b>,
-    plotters::prelude::Cartesian2d<
-        plotters::coord::types::RangedCoordf64,
-        plotters::coord::types::RangedCoordf64,
-    >,
->;
-
-fn draw(chart: &mut Drawn, run: Vec<(f64, f64)>, colour: RGBColor) -> Result<(), PathError> {
+fn draw(chart: &mut plot::Drawn, run: Vec<(f64, f64)>, colour: RGBColor) -> Result<(), PathError> {
     if run.len() > 1 {
         chart.draw_series([PathElement::new(run, colour.stroke_width(2))]).map_err(refused)?;
     }

@@ -117,6 +117,15 @@ pub fn prove(scene: &Scene, file: &ResultFile) {
     );
 }
 
+/// Asks a question; the answer as a file, proved from the scene alone.
+pub fn asked(scene: &Scene, question: &Question) -> ResultFile {
+    let model = model(scene);
+    let answer = voussoir::analysis::ask(question, scene, &model, &Control::default());
+    let file = ResultFile::of(scene, &model, &answer.expect("an answer")).expect("a result");
+    prove(scene, &file);
+    file
+}
+
 /// The verdict by a law of sliding, with proof.
 pub fn verdict(scene: &Scene, law: Law) -> Verdict {
     let model = model(scene);

@@ -313,7 +313,8 @@ fn a_motion_that_slides_is_followed_as_far_as_dry_friction_leads() {
     let moves = vec![to("right", [0.0, 0.0, -1.0])];
     let file = followed_for(&wall_on_two_bases(0.3), moves, 10.0);
     let said = file.answer.path().unwrap();
-    assert_ne!(said.status, PathStatus::Falls, "{said:?}");
+    assert!(matches!(said.status, PathStatus::Slides | PathStatus::Open), "{said:?}");
+    assert!(said.why.is_some(), "{said:?}");
     let ends = path(&file).points.iter().all(|p| p.certificate.claim.is_some());
     assert!(ends && said.value.is_some());
     let slides = path(&file).events.iter().any(|e| e.kind == PathEventKind::Slides);

@@ -1,10 +1,10 @@
 //! Large displacements with members: closed forms of blocks that ties hold, yield against and let
 //! fall; arches whose tie takes its share of the thrust.
 
-use crate::ask::{cuboid, fixed, ground, model, prove, push, scene, template};
+use crate::ask::{asked as followed, cuboid, fixed, ground, model, push, scene, template};
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, ControlPoint, PushOptions, Question, SettleOptions, SupportMove, ask},
+    analysis::{ControlPoint, PushOptions, Question, SettleOptions, SupportMove, ask},
     proof::{
         self, ResultFile,
         path::{PathEventKind, PathPoint, PathResult, PathStatus},
@@ -14,14 +14,6 @@ use voussoir::{
 };
 
 const NO_SLIDING: f64 = f64::INFINITY;
-
-fn followed(scene: &Scene, question: &Question) -> ResultFile {
-    let model = model(scene);
-    let answer = ask(question, scene, &model, &Control::default()).expect("an answer");
-    let file = ResultFile::of(scene, &model, &answer).expect("a result");
-    prove(scene, &file);
-    file
-}
 
 fn path(file: &ResultFile) -> &PathResult {
     file.path.as_ref().expect("a path")

@@ -1,10 +1,10 @@
 //! Large displacements that slide, under dry friction: closed forms of blocks, wedges and tables;
 //! every point with proof from its poses alone.
 
-use crate::ask::{cuboid, fixed, model, prism, prove, push, scene, template};
+use crate::ask::{asked, cuboid, fixed, model, prism, push, scene, template};
 use serde_json::json;
 use voussoir::{
-    analysis::{Control, ControlPoint, PushOptions, Question, SettleOptions, SupportMove, ask},
+    analysis::{ControlPoint, PushOptions, Question, SettleOptions, SupportMove},
     path::saved::read_poses,
     proof::{
         self, ResultFile,
@@ -24,14 +24,6 @@ fn settled(scene: &Scene, moves: &[(&str, [f64; 3], [f64; 3])], at: &[f64]) -> R
         .collect();
     let options = SettleOptions { moves, at: at.to_vec(), ..Default::default() };
     asked(scene, &Question::Settle(options))
-}
-
-fn asked(scene: &Scene, question: &Question) -> ResultFile {
-    let model = model(scene);
-    let answer = ask(question, scene, &model, &Control::default()).expect("an answer");
-    let file = ResultFile::of(scene, &model, &answer).expect("a result");
-    prove(scene, &file);
-    file
 }
 
 fn path(file: &ResultFile) -> &PathResult {

@@ -16,7 +16,6 @@ use super::{
     member::lines,
     result::{
         Certificate, CoulombState, Direction, DryResult, MechanismWords, QuestionKind, ResultFile,
-        ResultFormat, SceneSummary, Versions,
     },
 };
 use crate::{
@@ -27,7 +26,7 @@ use crate::{
     error::{Finding, FindingCode},
     interface::Model,
     scene::Scene,
-    terms::{Bound, Law, LeftOutContacts},
+    terms::{Bound, Law},
     verdict::{
         Evidence, Verdict,
         evidence::{write_forces, write_members, write_rates},
@@ -49,53 +48,6 @@ fn certificate<T: Claims>(model: &Model, proved: &Proved<T>) -> Certificate {
 }
 
 impl ResultFile {
-    fn new(
-        question: QuestionKind,
-        scene: &Scene,
-        model: &Model,
-        answer: Answer,
-        certificate: Certificate,
-    ) -> Self {
-        Self {
-            format: ResultFormat::V2,
-            question,
-            scene: SceneSummary {
-                name: scene.name.clone(),
-                blocks: model.assembly.blocks.len(),
-                supports: model.assembly.blocks.iter().filter(|b| b.support).count(),
-                interfaces: model.interfaces.list.len(),
-                contact_points: model.contact_points(),
-                members: model.interfaces.members.len(),
-                input: scene.clone(),
-            },
-            answer,
-            certificate,
-            directions: Vec::new(),
-            dead_load: None,
-            dry: None,
-            coulomb_state: None,
-            critical: None,
-            thrust: None,
-            path: None,
-            stages: None,
-            rocking: None,
-            simulation: None,
-            mechanism: None,
-            members: Vec::new(),
-            left_out_contacts: model
-                .interfaces
-                .left_out
-                .map(|contacts| LeftOutContacts { contacts, closed: None }),
-            doubt: None,
-            left_out: Vec::new(),
-            warnings: model.findings().cloned().collect(),
-            timings: model.timings,
-            work: None,
-            trace: Vec::new(),
-            versions: Versions::default(),
-        }
-    }
-
     /// The result of a question; packings have one of their own
     /// ([`PackingFile`](super::PackingFile)).
     pub fn of(scene: &Scene, model: &Model, answer: &Answered) -> Option<Self> {

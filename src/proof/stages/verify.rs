@@ -7,7 +7,7 @@ use crate::{
     interface::{Model, at_stage},
     path::reaction,
     proof::{
-        result::{Certificate, QuestionKind, ResultFile, ResultFormat, SceneSummary, Versions},
+        result::{Certificate, QuestionKind, ResultFile},
         verify::{Verification, failure, require, verify_model},
     },
     scene::Scene,
@@ -127,40 +127,14 @@ fn file(proof: &StageProof, scene: &Scene, model: &Model) -> ResultFile {
         mechanism,
         members,
     } = proof.clone();
+    let named = Scene { name: scene.name.clone(), ..Scene::default() };
     ResultFile {
-        format: ResultFormat::V2,
-        question,
-        scene: SceneSummary {
-            name: scene.name.clone(),
-            blocks: model.assembly.blocks.len(),
-            supports: model.assembly.blocks.iter().filter(|b| b.support).count(),
-            interfaces: model.interfaces.list.len(),
-            contact_points: model.contact_points(),
-            members: model.interfaces.members.len(),
-            input: Scene { name: scene.name.clone(), ..Scene::default() },
-        },
-        answer,
-        certificate,
         directions,
-        dead_load: None,
         dry,
         coulomb_state,
-        critical: None,
-        thrust: None,
-        path: None,
-        rocking: None,
-        stages: None,
-        simulation: None,
         mechanism,
-        left_out_contacts: None,
-        doubt: None,
         members,
-        left_out: Vec::new(),
-        warnings: Vec::new(),
-        timings: model.timings,
-        work: None,
-        trace: Vec::new(),
-        versions: Versions::default(),
+        ..ResultFile::new(question, &named, model, answer, certificate)
     }
 }
 

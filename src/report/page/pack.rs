@@ -273,6 +273,7 @@ fn film(view: &View, units: &Units) -> Value {
         "quantity": view.course.quantity,
         "unit": view.course.unit,
         "way": view.course.way,
+        "opens": view.course.opens.map_or(1.0, |k| k as f64 / (view.film.len() - 1) as f64),
         "words": view.course.words,
         "hidden": wholes(view.course.hidden.iter().flatten().map(|h| usize::from(*h))),
         "far": far,

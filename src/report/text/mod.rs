@@ -99,7 +99,8 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     );
     page.row("time", [time(file)]);
     if options.verbose {
-        page.row("work", file.work.iter().map(work));
+        let done = file.work.iter().filter(|w| w.attempts + w.fixed_points > 0);
+        page.row("work", done.map(work));
         page.row("attempts", file.trace.iter().map(attempt));
     }
     page.blank();

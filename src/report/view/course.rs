@@ -22,6 +22,8 @@ pub struct Course {
     pub unit: &'static str,
     /// How far blocks have come in it, in words.
     pub way: &'static str,
+    /// The frame that the answer is about, which is shown first; the last where none is said.
+    pub opens: Option<usize>,
     /// Of stages: what each frame is; else empty.
     pub words: Vec<String>,
     /// Of stages: blocks that are not there, frame by frame; else empty.
@@ -35,6 +37,7 @@ impl Default for Course {
             quantity: "Time",
             unit: "s",
             way: "way in the simulation",
+            opens: None,
             words: Vec::new(),
             hidden: Vec::new(),
         }

@@ -161,10 +161,10 @@ impl View {
             view.course = Course::of(path);
         }
         view.stage(model, file);
-        if moved.is_some() {
-            view.course = Course::train();
-        }
         view.film.retain(|f| f.blocks.len() == view.bodies.len());
+        if let Some(worst) = file.answer.moving() {
+            view.course = Course::train(worst.x, &view.film);
+        }
         Ok(view)
     }
 

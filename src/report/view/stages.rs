@@ -48,6 +48,7 @@ impl View {
             quantity: "Stage",
             unit: "",
             way: "",
+            opens: result.answer().and_then(|a| result.list.iter().position(|s| s.name == a.worst)),
             words: list
                 .iter()
                 .zip(&result.list)
@@ -91,7 +92,7 @@ impl View {
                 });
             }
         }
-        let ends = ["the rest stands without it", "the rest falls"].map(String::from);
+        let ends = ["the rest stands", "the rest falls"].map(String::from);
         self.values = Some(ViewValues { name: "Taken out by itself".into(), ends, of });
     }
 

@@ -14,9 +14,10 @@ use nalgebra::Vector3;
 const SHOWN: f64 = 0.03;
 
 impl Course {
-    /// That of a train.
-    pub(super) fn train() -> Self {
+    /// That of a train whose worst position is `x`, over the frames of its positions.
+    pub(super) fn train(x: f64, film: &[Frame]) -> Self {
         Self {
+            opens: film.iter().position(|f| f.time == x),
             name: "train, position by position".into(),
             quantity: "Place of the train",
             unit: "m",
