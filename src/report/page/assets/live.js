@@ -34,8 +34,9 @@ function free() {
   if (live.again) send();
 }
 
-// The picture is not that of the scene as it is.
+// Picture, heading and numbers are not those of the scene as it is.
 function old(words) {
+  document.body.classList.toggle("old", Boolean(words));
   el("view").classList.toggle("old", Boolean(words));
   badge.hidden = !words;
   badge.textContent = words || "";
