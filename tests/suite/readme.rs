@@ -124,7 +124,8 @@ fn every_console_block_prints_what_it_says() {
         }
     }
     std::fs::create_dir(folder.path().join("structures/drawings")).unwrap();
-    assert!(examples(&readme()).len() >= 6, "the README shows too little");
+    let shown = guide().iter().map(|(_, text)| examples(text).len()).sum::<usize>();
+    assert!(examples(&readme()).len() >= 6 && shown >= 40, "only {shown} commands are shown");
     for (page, text) in guide() {
         for (command, printed) in examples(&text) {
             let (want, got) =
