@@ -18,6 +18,7 @@ mod known;
 pub mod limit;
 mod mend;
 pub mod moving;
+mod order;
 mod parts;
 mod proved;
 pub mod question;

@@ -278,6 +278,21 @@ pub struct StagesOptions {
     /// In place of the stages of the scene: the scene without each of its free blocks.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub remove_each: bool,
+    /// In place of the stages of the scene: an order in which its free blocks can be placed one by
+    /// one, so that it stands all the time with as few of them held as can be.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub any_order: bool,
+    /// The same where the order is given: every free block once, `*` for any letters of a name. What
+    /// has to be held on the way is sought.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub order: Vec<String>,
+    /// So many blocks can be held at a time; any number where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hands: Option<usize>,
+    /// Sets of blocks that the search for the least holds looks at, at most; 5000 where nothing is
+    /// said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tries: Option<usize>,
     /// Tilts towards these directions, where a stage has no live load.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub toward: Vec<[f64; 3]>,
@@ -350,10 +365,7 @@ impl Question {
                 refuse("at", "must be ways from 0 on".into())
             }
             Self::Push(_) => Ok(()),
-            Self::Stages(o) if o.remove_each && (o.all.is_some() || !o.toward.is_empty()) => {
-                refuse("remove_each", "no tilts are asked for where blocks are taken out".into())
-            }
-            Self::Stages(o) => check_directions(&path, &o.toward, o.all),
+            Self::Stages(o) => check_stages(&path, o),
             Self::Kinematic(o) if o.fc.is_some_and(|f| !(f >= 1.0 && f.is_finite())) => refuse(
                 "fc",
                 format!("a factor of confidence is at least 1, got {}", o.fc.unwrap_or(f64::NAN)),
@@ -495,6 +507,7 @@ impl Question {
             Self::Settle(_) => Some("share of the movement up to which it stands"),
             Self::Kinematic(_) => Some("α0"),
             Self::Stages(o) if o.remove_each => Some("blocks that may be taken out"),
+            Self::Stages(o) if o.has_order() => Some("blocks held at a time"),
             Self::Stages(_) => Some("stages that stand before the first that does not"),
             Self::Push(_) => Some("way of the control point up to which it resists in m"),
         }
@@ -549,6 +562,33 @@ fn check_moves(path: &JsonPath, o: &SettleOptions) -> Result<(), InputError> {
         return refuse("at", "must be shares of the movement, from 0 to 1".into());
     }
     Ok(())
+}
+
+/// Refuses options of `stages` that mean nothing together.
+fn check_stages(path: &JsonPath, o: &StagesOptions) -> Result<(), InputError> {
+    let refuse = |key: &str, text: &str| Err(InputError::at(path.key(key), text));
+    let tilts = o.all.is_some() || !o.toward.is_empty();
+    if o.remove_each && tilts {
+        return refuse("remove_each", "no tilts are asked for where blocks are taken out");
+    }
+    if o.any_order && !o.order.is_empty() {
+        return refuse("any_order", "an order is given and sought");
+    }
+    match (o.has_order(), o.remove_each) {
+        (true, true) => refuse("remove_each", "blocks are placed and taken out"),
+        (true, false) if tilts => refuse("toward", "no tilts are asked for where an order is"),
+        (false, _) if o.hands.is_some() => refuse("hands", "no order is asked for"),
+        (false, _) if o.tries.is_some() => refuse("tries", "no order is asked for"),
+        (true, false) if o.tries == Some(0) => refuse("tries", "must be at least 1"),
+        _ => check_directions(path, &o.toward, o.all),
+    }
+}
+
+impl StagesOptions {
+    /// Whether an order is asked for, given or sought.
+    pub fn has_order(&self) -> bool {
+        self.any_order || !self.order.is_empty()
+    }
 }
 
 fn check_directions(

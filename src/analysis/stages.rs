@@ -12,15 +12,16 @@ use super::{
     Answer, Assessment, Control, LimitOptions, Proved, Question, StagesOptions, TiltOptions, ask,
     doubt,
     known::Known,
+    order,
     thrust::{ThrustEnd, level, outwards, thrust},
 };
 use crate::{
-    assembly::{self, Stage, Wrench},
+    assembly::{self, AskedStages, Placed, Stage, Wrench},
     error::{InputError, JsonPath},
     interface::{Model, at_stage},
     parallel,
     scene::Scene,
-    terms::Doubt,
+    terms::{Doubt, Order},
     verdict::{
         Verdict,
         thrust::{Extreme, ThrustAt},
@@ -33,6 +34,10 @@ use crate::{
 pub struct Stages {
     /// The stages are the scene without each of its free blocks.
     pub remove_each: bool,
+    /// The order of which they are the stages.
+    pub order: Option<Order>,
+    /// So many blocks can be held at a time, where that was said.
+    pub hands: Option<usize>,
     /// In their order; at least one.
     pub stages: Vec<Staged>,
 }
@@ -69,15 +74,55 @@ pub fn stages(
     model: &Model,
     control: &Control,
 ) -> Result<Stages, InputError> {
-    let list = assembly::asked_stages(options.remove_each, scene, &model.assembly)?;
     let known = Known::default();
+    let order = match options.has_order() {
+        true => Some(ordered(options, scene, model, &known, control)?),
+        false => None,
+    };
+    let asked = match &order {
+        Some(order) => AskedStages::InOrder(&order.placed),
+        None if options.remove_each => AskedStages::RemoveEach,
+        None => AskedStages::OfScene,
+    };
+    let list = assembly::asked_stages(asked, scene, &model.assembly)?;
     let answered = parallel::try_map(0, &list, |stage| {
         staged(options, scene, (model, stage), &known, control)
     });
     let stages = answered.map_err(|e| {
         InputError::at(JsonPath::root(), format!("threads cannot be started: {e}"))
     })??;
-    Ok(Stages { remove_each: options.remove_each, stages })
+    Ok(Stages { remove_each: options.remove_each, order, hands: options.hands, stages })
+}
+
+/// The order that is given or sought.
+fn ordered(
+    options: &StagesOptions,
+    scene: &Scene,
+    model: &Model,
+    known: &Known,
+    control: &Control,
+) -> Result<Order, InputError> {
+    let path = JsonPath::root().key("stages").key("order");
+    let named = || assembly::named_blocks(&options.order, scene, &model.assembly, &path);
+    let given = (!options.any_order).then(named).transpose()?;
+    if model.assembly.free().next().is_none() {
+        return Err(InputError::at(JsonPath::root(), "there is no free block to place"));
+    }
+    let tries = options.tries.unwrap_or(order::TRIES);
+    order::order((given.as_deref(), tries), scene, model, known, control)
+}
+
+/// No order does with fewer blocks held at a time than this number, as far as a search with that
+/// many tries knows; for who checks what was said about it.
+///
+/// # Errors
+/// As [`stages`].
+pub fn least_held(said: &Order, scene: &Scene, model: &Model) -> Result<usize, InputError> {
+    let of = |p: &Placed| model.assembly.find(&p.block);
+    let given: Vec<usize> = said.placed.iter().filter_map(of).collect();
+    let given = said.given.then_some(given.as_slice());
+    let (known, control) = (Known::default(), Control::default());
+    Ok(order::order((given, said.tries), scene, model, &known, &control)?.least_held)
 }
 
 fn staged(
@@ -90,7 +135,8 @@ fn staged(
     let model = at_stage(scene, whole, stage)?;
     let verdict = known.assess(&model, control);
     let stands = verdict.verdict == Verdict::Stable;
-    let asked = stands && !options.skip_margin && !options.remove_each;
+    let only_verdict = options.skip_margin || options.remove_each || options.has_order();
+    let asked = stands && !only_verdict;
     let no_margin = if asked { no_tilt(&model) } else { None };
     let margin = (asked && no_margin.is_none())
         .then(|| margin(options, scene, &model, control))

@@ -19,9 +19,9 @@ pub use member::{Action, Anchor, BlockFace, DowelPlan, Member, MemberKind, Membe
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
 pub use pose::Pose;
 pub use resolve::{
-    Blocks, asked_stages, resolve, resolve_blocks, resolve_until, resolve_with, stages, with_loads,
+    Blocks, asked_stages, named_blocks, resolve, resolve_blocks, resolve_until, resolve_with, stages, with_loads,
 };
-pub use stage::Stage;
+pub use stage::{AskedStages, Placed, Stage};
 
 use crate::{
     error::{Finding, JsonPath},

@@ -1,7 +1,32 @@
 //! A stage of construction with its names resolved.
 
 use super::Assembly;
-use crate::error::JsonPath;
+use crate::error::{InputError, JsonPath};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A block that is placed in a structure, and the blocks that are held while it stands as far as
+/// that.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Placed {
+    /// The block that comes.
+    pub block: String,
+    /// Free blocks that are held then; it may be one of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub held: Vec<String>,
+}
+
+/// Which stages are asked about.
+#[derive(Clone, Copy, Debug)]
+pub enum AskedStages<'a> {
+    /// Those that the scene names.
+    OfScene,
+    /// The whole structure without each of its free blocks.
+    RemoveEach,
+    /// One for each block that is placed.
+    InOrder(&'a [Placed]),
+}
 
 /// What stands at a stage, and what is held.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +68,44 @@ impl Stage {
             stage
         };
         assembly.free().map(without).collect()
+    }
+
+    /// For every block that is placed the stage after it, in this order; where all that is there is
+    /// held, there is nothing to decide, and no stage.
+    ///
+    /// # Errors
+    /// A block is none of the free ones, is placed twice, or is held before it is there.
+    pub fn in_order(assembly: &Assembly, placed: &[Placed]) -> Result<Vec<Self>, InputError> {
+        let mut stage = Self::whole(assembly.blocks.len());
+        assembly.free().for_each(|i| stage.present[i] = false);
+        let mut stages = Vec::new();
+        for Placed { block, held } in placed {
+            let free = |id: &str| {
+                let here = assembly.find(id).filter(|&i| !assembly.blocks[i].support);
+                let text = format!("no free block is called {id:?}");
+                here.ok_or_else(|| InputError::at(JsonPath::root(), text))
+            };
+            let refuse = |text: String| Err(InputError::at(JsonPath::root(), text));
+            let i = free(block)?;
+            if stage.present[i] {
+                return refuse(format!("{block:?} is placed twice"));
+            }
+            stage.present[i] = true;
+            stage.held.fill(false);
+            for id in held {
+                let i = free(id)?;
+                if !stage.present[i] {
+                    return refuse(format!("{id:?} is held before it is placed"));
+                }
+                stage.held[i] = true;
+            }
+            stage.name = format!("place {block}");
+            stage.path = assembly.blocks[i].path.clone();
+            if assembly.free().any(|i| stage.present[i] && !stage.held[i]) {
+                stages.push(stage.clone());
+            }
+        }
+        Ok(stages)
     }
 
     /// Blocks that are held here and move otherwise, as indices.

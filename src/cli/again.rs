@@ -121,11 +121,18 @@ impl Stages {
         let all = self.all.map(|n| format!("--all {n}"));
         let given = [
             (self.remove_each, "--remove-each"),
+            (self.any_order, "--any-order"),
             (self.skip_margin, "--skip-margin"),
             (self.skip_held, "--skip-held"),
         ];
         let words = given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string());
-        toward.chain(all).chain(words).collect()
+        let order = (!self.order.is_empty()).then(|| {
+            format!("--order {}", super::question::quoted(&self.order.join(",")))
+        });
+        let hands = self.hands.map(|n| format!("--hands {n}"));
+        let tries = self.tries.map(|n| format!("--tries {n}"));
+        let more = [all, order, hands, tries].into_iter().flatten();
+        toward.chain(more).chain(words).collect()
     }
 }
 

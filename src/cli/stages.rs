@@ -23,6 +23,10 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let question = Question::Stages(StagesOptions {
         law: session.law(),
         remove_each: args.remove_each,
+        any_order: args.any_order,
+        order: args.order.clone(),
+        hands: args.hands,
+        tries: args.tries.map(|n| n as usize),
         toward: args.toward.clone(),
         all: args.all,
         skip_margin: args.skip_margin,
@@ -68,6 +72,13 @@ fn exit(said: &StagesAnswer) -> Exit {
         // Nothing can be taken out, as far as is known.
         Some(_) if said.proof.is_none() => Exit::Undecided,
         Some(_) => Exit::No,
+        None if said.least_held.is_some() && said.verdict == Verdict::Stable => {
+            match said.hands_do() {
+                Some(true) => Exit::Yes,
+                Some(false) => Exit::No,
+                None => Exit::Undecided,
+            }
+        }
         // A margin that is negative or was not found is no yes.
         None if said.verdict == Verdict::Stable && !said.is_safe() => Exit::Undecided,
         None => verdict(Some(said.verdict)),

@@ -220,6 +220,12 @@ impl RowAnswer {
     /// How many stages stand, from the first on, with the verdict of the worst; of blocks taken out
     /// how many may be.
     fn of_stages(s: &Stages) -> Self {
+        if let Some(order) = &s.order {
+            let (held, least) = (order.most_held(), order.least_held);
+            let value = held.filter(|h| *h == least).map(|h| h as f64);
+            let status = value.map_or(RowStatus::Undecided, |_| RowStatus::Found);
+            return Self { value, ..Self::of(status) };
+        }
         let verdicts = || s.stages.iter().map(|s| s.verdict.verdict);
         let first = verdicts().take_while(|v| *v == Verdict::Stable).count();
         let all = verdicts().filter(|v| *v == Verdict::Stable).count();

@@ -12,6 +12,7 @@ mod ends;
 mod friction;
 mod law;
 mod method;
+mod order;
 mod outcome;
 mod simulation;
 
@@ -26,5 +27,6 @@ pub(crate) use friction::MANY;
 pub use friction::{Found, StateMotion, StateStep, is_reached, resolution};
 pub use law::Law;
 pub use method::Method;
+pub use order::Order;
 pub use outcome::Outcome;
 pub use simulation::{Fate, Fidelity, Run, Stop};

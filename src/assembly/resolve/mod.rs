@@ -28,7 +28,7 @@ use crate::{
 use nalgebra::Vector3;
 use std::collections::HashMap;
 
-pub use stages::{asked_stages, stages, with_loads};
+pub use stages::{asked_stages, named_blocks, stages, with_loads};
 
 /// Resolves a scene.
 ///

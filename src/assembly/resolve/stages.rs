@@ -5,7 +5,7 @@
 
 use super::Names;
 use crate::{
-    assembly::{Assembly, MemberPlan, Stage},
+    assembly::{AskedStages, Assembly, MemberPlan, Stage},
     error::{InputError, JsonPath},
     scene::{Scene, StageSpec, suggest},
 };
@@ -86,30 +86,65 @@ pub fn stages(scene: &Scene, assembly: &Assembly) -> Result<Vec<Stage>, InputErr
     Ok(all)
 }
 
-/// The stages that are asked about: those of the scene, or the scene without each free block.
+/// The stages that are asked about.
 ///
 /// # Errors
-/// As [`stages`], and where there are none.
+/// As [`stages`], and where there are none; a block is placed that cannot be.
 pub fn asked_stages(
-    remove_each: bool,
+    asked: AskedStages,
     scene: &Scene,
     assembly: &Assembly,
 ) -> Result<Vec<Stage>, InputError> {
-    if remove_each {
-        let all = Stage::removals(assembly);
-        if all.len() < 2 {
-            let text = "there is one free block: nothing is left to stand without it";
-            return Err(InputError::at(JsonPath::root(), text).hint("ask `voussoir assess`"));
+    match asked {
+        AskedStages::RemoveEach => {
+            let all = Stage::removals(assembly);
+            if all.len() < 2 {
+                let text = "there is one free block: nothing is left to stand without it";
+                return Err(InputError::at(JsonPath::root(), text).hint("ask `voussoir assess`"));
+            }
+            Ok(all)
         }
-        return Ok(all);
+        AskedStages::InOrder(placed) => Stage::in_order(assembly, placed),
+        AskedStages::OfScene => {
+            let all = stages(scene, assembly)?;
+            if all.is_empty() {
+                return Err(InputError::at(JsonPath::root(), "the scene has no stages").hint(
+                    "add \"stages\": [{ \"add_one_by_one\": [\"*\"] }] to it, or ask with --remove-each or --any-order",
+                ));
+            }
+            Ok(all)
+        }
     }
-    let all = stages(scene, assembly)?;
-    if all.is_empty() {
-        return Err(InputError::at(JsonPath::root(), "the scene has no stages").hint(
-            "add \"stages\": [{ \"add_one_by_one\": [\"*\"] }] to it, or ask with --remove-each",
-        ));
+}
+
+/// The free blocks of a scene in the order in which names and patterns (`*` for any letters) give
+/// them; all of one pattern in the order of the scene.
+///
+/// # Errors
+/// A name fits no free block, or names one twice; a free block is not named.
+pub fn named_blocks(
+    names: &[String],
+    scene: &Scene,
+    assembly: &Assembly,
+    path: &JsonPath,
+) -> Result<Vec<usize>, InputError> {
+    let known = Known::new(scene, assembly)?;
+    let things = known.blocks(names, path)?;
+    let mut list = Vec::new();
+    for (thing, path) in things {
+        let Thing::Block(i) = thing else { continue };
+        if !assembly.blocks[i].support {
+            list.push(i);
+        } else if names.iter().any(|n| *n == assembly.blocks[i].id) {
+            let text = format!("{:?} is a support: it stands from the start", known.name(&thing));
+            return Err(InputError::at(path, text).hint("leave it out of the order"));
+        }
     }
-    Ok(all)
+    if let Some(missing) = assembly.free().find(|i| !list.contains(i)) {
+        let text = format!("{:?} is not in the order", assembly.blocks[missing].id);
+        return Err(InputError::at(path.clone(), text).hint("name every free block once"));
+    }
+    Ok(list)
 }
 
 /// One stage of those that a spec stands for: what tells it from the others, and what it changes.

@@ -13,7 +13,7 @@ use crate::{
         answer::Answer,
         result::{Certificate, QuestionKind, ResultFile},
         stages::{
-            HeldForce, StageProof, StageResult, StagesAnswer, StagesResult, reactions_of,
+            HeldForce, StageProof, StageResult, StagesResult, reactions_of,
             weight_along,
         },
     },
@@ -29,18 +29,14 @@ impl ResultFile {
         let bare = Scene { name: scene.name.clone(), ..Scene::default() };
         let mut told = Vec::new();
         let list = asked.stages.iter().map(|s| stage(&bare, model, s, &mut told)).collect();
-        let result = StagesResult { remove_each: asked.remove_each, list };
-        let answer = result.answer().unwrap_or(StagesAnswer {
-            verdict: Verdict::Undecided,
-            worst: String::new(),
-            stages: 0,
-            stand_first: 0,
-            stand: 0,
-            least_load_factor: None,
-            least_tilt_deg: None,
-            removable: None,
-            proof: None,
-        });
+        let Stages { remove_each, order, hands, .. } = asked;
+        let result = StagesResult {
+            remove_each: *remove_each,
+            order: order.clone(),
+            hands: *hands,
+            list,
+        };
+        let answer = result.answer();
         let mut file = Self::new(
             QuestionKind::Stages,
             scene,

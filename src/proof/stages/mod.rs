@@ -16,7 +16,8 @@ use super::{
     },
 };
 use crate::{
-    terms::{Bound, Doubt, Outcome},
+    assembly::AskedStages,
+    terms::{Bound, Doubt, Order, Outcome},
     verdict::{Verdict, exact::Grade},
 };
 use schemars::JsonSchema;
@@ -46,6 +47,15 @@ pub struct StagesAnswer {
     /// Of blocks taken out one at a time: those without which the rest stands.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub removable: Option<Vec<String>>,
+    /// Of an order: the most blocks that are held at a time; absent where none was found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub most_held: Option<usize>,
+    /// Of an order: with fewer held at a time there is none, as far as the search went.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least_held: Option<usize>,
+    /// Of an order: so many blocks can be held at a time, where that was said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hands: Option<usize>,
     /// How exactly the verdicts are proved, the weakest of all; absent where one is undecided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
@@ -71,6 +81,12 @@ pub struct StagesResult {
     /// The stages are the scene without each of its free blocks.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub remove_each: bool,
+    /// The stages are those of this order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub order: Option<Order>,
+    /// So many blocks can be held at a time, where that was said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hands: Option<usize>,
     /// In their order.
     pub list: Vec<StageResult>,
 }
@@ -227,6 +243,17 @@ impl StagesAnswer {
         };
         self.verdict == Verdict::Stable && margins.into_iter().all(good)
     }
+
+    /// Of an order: whether as many blocks can be held as have to be; nothing where that is not
+    /// known.
+    pub fn hands_do(&self) -> Option<bool> {
+        match (self.hands, self.most_held, self.least_held) {
+            (Some(hands), _, Some(least)) if hands < least => Some(false),
+            (Some(hands), Some(most), _) => (most <= hands).then_some(true),
+            (None, Some(_), _) => Some(true),
+            _ => None,
+        }
+    }
 }
 
 /// What orders margins: the least first, and before all what did not come out.
@@ -249,8 +276,34 @@ fn rank(verdict: Verdict) -> u8 {
 }
 
 impl StagesResult {
-    /// What is said of all of them; nothing where there are none.
-    pub fn answer(&self) -> Option<StagesAnswer> {
+    /// Which stages they are.
+    pub fn asked(&self) -> AskedStages<'_> {
+        match &self.order {
+            Some(order) => AskedStages::InOrder(&order.placed),
+            None if self.remove_each => AskedStages::RemoveEach,
+            None => AskedStages::OfScene,
+        }
+    }
+
+    /// What is said of all of them; where there are none, that nothing is known.
+    pub fn answer(&self) -> StagesAnswer {
+        self.of_each().unwrap_or(StagesAnswer {
+            verdict: Verdict::Undecided,
+            worst: String::new(),
+            stages: 0,
+            stand_first: 0,
+            stand: 0,
+            least_load_factor: None,
+            least_tilt_deg: None,
+            removable: None,
+            most_held: None,
+            least_held: self.order.as_ref().map(|o| o.least_held),
+            hands: self.hands,
+            proof: None,
+        })
+    }
+
+    fn of_each(&self) -> Option<StagesAnswer> {
         let list = &self.list;
         let least = |of: fn(&StageResult) -> Option<&LoadFactorAnswer>| {
             let there = list.iter().filter_map(|s| Some((s, of(s)?)));
@@ -283,6 +336,9 @@ impl StagesResult {
             least_load_factor,
             least_tilt_deg,
             removable,
+            most_held: self.order.as_ref().and_then(Order::most_held),
+            least_held: self.order.as_ref().map(|o| o.least_held),
+            hands: self.hands,
             proof,
         })
     }

@@ -8,10 +8,10 @@ use crate::{
     path::reaction,
     proof::{
         result::{Certificate, QuestionKind, ResultFile},
-        verify::{Verification, failure, require, verify_model},
+        verify::{Verification, failure, require, states, verify_model},
     },
     scene::Scene,
-    terms::{Bound, Outcome},
+    terms::{Bound, Order, Outcome},
     tolerance,
     verdict::{
         Evidence, Verdict,
@@ -33,7 +33,7 @@ pub(in crate::proof) fn verify(
     let (Some(said), Some(result)) = (file.answer.stages(), &file.stages) else {
         return all.part("answer", failure("the answer is not one to its question"));
     };
-    let here = match assembly::asked_stages(result.remove_each, scene, &model.assembly) {
+    let here = match assembly::asked_stages(result.asked(), scene, &model.assembly) {
         Ok(here) => here,
         Err(e) => return all.part("stages", failure(e.to_string())),
     };
@@ -44,7 +44,7 @@ pub(in crate::proof) fn verify(
     require(&mut f, same, format!("the stages are those of the scene, {} of them", here.len()));
     require(
         &mut f,
-        result.answer().as_ref() == Some(said),
+        result.answer() == *said,
         "what is said of all follows from what is said of each",
     );
     let standing = || result.list.iter().filter(|s| s.stands() == Verdict::Stable);
@@ -56,6 +56,9 @@ pub(in crate::proof) fn verify(
     );
     require(&mut f, file.certificate.claim.is_none(), "nothing else is claimed");
     let asked = standing().any(|s| !s.least_forces.is_empty());
+    if let Some(order) = &result.order {
+        complete(&mut f, order, scene, model);
+    }
     all.part("stages", f);
     if same {
         for (stage, said) in here.iter().zip(&result.list) {
@@ -66,6 +69,25 @@ pub(in crate::proof) fn verify(
         }
     }
     all.claimed = said.verdict != Verdict::Undecided;
+}
+
+/// An order: every free block is placed, and with fewer held there is none, as far as a search like
+/// the one before finds out.
+fn complete(f: &mut Findings, order: &Order, scene: &Scene, model: &Model) {
+    let free = model.assembly.free().count();
+    let all = order.placed.is_empty() || order.placed.len() == free;
+    require(f, all, format!("every free block is placed, {free} of them"));
+    let least = order.least_held;
+    if least == 0 || !f.fails.is_empty() {
+        return;
+    }
+    let text = format!("with fewer than {least} held at a time no order was found");
+    f.computed = true;
+    match states::least_held(order, scene, model) {
+        Some(Ok(here)) => require(f, least <= here, format!("{text} (sought again, not proved)")),
+        Some(Err(e)) => f.fails.push(e.to_string()),
+        None => f.unchecked.push(text),
+    }
 }
 
 /// One stage; `model` is made anew for it.

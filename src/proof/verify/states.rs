@@ -7,14 +7,14 @@ use crate::{
     proof::{result::QuestionKind, rocking::RockingAnswer},
     rocking::RockOptions,
     scene::Scene,
-    terms::{ClosedAnswer, Law, StateMotion},
+    terms::{ClosedAnswer, Law, Order, StateMotion},
     verdict::Verdict,
 };
 
 #[cfg(feature = "solve")]
 use crate::analysis::{
     Answer, AssessOptions, Control, KinematicOptions, LimitOptions, MovingOptions, Question,
-    TiltOptions, ask, closing, coulomb, critical::probe,
+    TiltOptions, ask, closing, coulomb, critical::probe, stages,
 };
 
 /// What the scene does under its dead load with dry friction.
@@ -80,6 +80,16 @@ pub fn rocking(
     }
 }
 
+/// The number of held blocks below which a search finds no order like this one.
+#[cfg(feature = "solve")]
+pub fn least_held(
+    order: &Order,
+    scene: &Scene,
+    model: &Model,
+) -> Option<Result<usize, InputError>> {
+    Some(stages::least_held(order, scene, model))
+}
+
 #[cfg(not(feature = "solve"))]
 mod none {
     use super::*;
@@ -109,6 +119,10 @@ mod none {
         None
     }
 
+    pub fn least_held(_: &Order, _: &Scene, _: &Model) -> Option<Result<usize, InputError>> {
+        None
+    }
+
     pub fn with_value(
         _: &Scene,
         _: &str,
@@ -120,4 +134,4 @@ mod none {
 }
 
 #[cfg(not(feature = "solve"))]
-pub use none::{closed, motion, rests_alone, rocking, with_value};
+pub use none::{closed, least_held, motion, rests_alone, rocking, with_value};

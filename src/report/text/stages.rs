@@ -11,6 +11,7 @@ use crate::{
         result::ResultFile,
         stages::{LeastMargin, StageResult, StagesAnswer, StagesResult},
     },
+    terms::Order,
     verdict::Verdict,
 };
 
@@ -24,7 +25,10 @@ fn said(file: &ResultFile) -> Option<(&StagesAnswer, &StagesResult)> {
 
 /// The first line.
 pub(super) fn title(file: &ResultFile) -> (String, Role) {
-    let Some((a, _)) = said(file) else { return ("undecided".into(), Role::Unsure) };
+    let Some((a, result)) = said(file) else { return ("undecided".into(), Role::Unsure) };
+    if let Some(order) = &result.order {
+        return ordered(a, order);
+    }
     if let Some(removable) = &a.removable {
         return removals(a, removable);
     }
@@ -73,6 +77,49 @@ fn removals(a: &StagesAnswer, removable: &[String]) -> (String, Role) {
     }
 }
 
+/// The first line about an order.
+fn ordered(a: &StagesAnswer, order: &Order) -> (String, Role) {
+    let least = order.least_held;
+    let Some(most) = a.most_held else {
+        let text = format!("no order was found; with fewer than {least} held at a time there is none");
+        let open = if least > 0 { text } else { "no order was found".into() };
+        return match a.hands_do() {
+            Some(false) => (hands(a, open), Role::Bad),
+            _ => (open, Role::Unsure),
+        };
+    };
+    if a.verdict != Verdict::Stable {
+        return (format!("undecided at {}", a.worst), Role::Unsure);
+    }
+    let this = if order.given { "in the order given" } else { "in the order below" };
+    let with = match most {
+        0 => "with nothing held".into(),
+        n => format!("with {} held at a time", count(n, "block")),
+    };
+    let fewer = match (most, order.given) {
+        (0, _) => "",
+        (n, true) if n == least => "; fewer do not",
+        (n, false) if n == least => "; no order does with fewer",
+        (_, true) => "; whether fewer do was not found out",
+        (_, false) => "; whether another does with fewer was not found out",
+    };
+    let text = format!("stands at every stage {this} {with}{fewer}");
+    match a.hands_do() {
+        Some(true) => (text, Role::Good),
+        Some(false) => (hands(a, text), Role::Bad),
+        None => (hands(a, text), Role::Unsure),
+    }
+}
+
+/// What can be held, and what has to be.
+fn hands(a: &StagesAnswer, text: String) -> String {
+    match (a.hands, a.hands_do()) {
+        (Some(n), Some(false)) => format!("cannot be built with {n} held at a time: {text}"),
+        (Some(n), _) => format!("undecided whether {n} held at a time are enough: {text}"),
+        (None, _) => text,
+    }
+}
+
 /// A least margin in words.
 fn least(l: &LeastMargin, what: &str, unit: &str) -> String {
     match (l.status, l.value) {
@@ -85,6 +132,9 @@ fn least(l: &LeastMargin, what: &str, unit: &str) -> String {
 /// The sentences below it.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let Some((_, result)) = said(file) else { return };
+    if let Some(order) = &result.order {
+        page.paragraph(&format!("Blocks are placed one after the other, each where the scene puts it, and what is held is held without moving; every stage has its proof. How a block comes to its place between the others, and what is held while hands change from one stage to the next, is not asked. That fewer held do not do is the outcome of a search (up to {} sets of blocks), not of a proof; a mechanism goes on as long as none of the blocks that move in it is held.", order.tries));
+    }
     page.paragraph(match result.remove_each {
         true => "Each block is taken out by itself and the rest asked whether it stands, with a proof. Two blocks that can each be taken out cannot always be taken out together.",
         false => "Every stage is a scene of its own, with a proof: what stands at it, under the loads that are there, with what is held. Blocks are rigid, and stand where the scene puts them: how a stage before has settled is not in it.",
@@ -130,6 +180,10 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             }
         }
     } else {
+        if let Some(order) = &result.order {
+            let placed: Vec<&str> = order.placed.iter().map(|p| p.block.as_str()).collect();
+            page.row("order", [placed.join(", ")]);
+        }
         let lines: Vec<String> = result.list.iter().map(line).collect();
         page.row("stages", cut(&lines, STAGES, options));
         let held = result.list.iter().flat_map(|s| {

@@ -33,10 +33,10 @@ impl View {
     pub(super) fn stage(&mut self, model: &Model, file: &ResultFile) {
         let Some(result) = &file.stages else { return };
         let scene = &file.scene.input;
-        let Ok(list) = assembly::asked_stages(result.remove_each, scene, &model.assembly) else {
+        let Ok(list) = assembly::asked_stages(result.asked(), scene, &model.assembly) else {
             return;
         };
-        if list.len() != result.list.len() {
+        if list.is_empty() || list.len() != result.list.len() {
             return;
         }
         if result.remove_each {
@@ -48,7 +48,7 @@ impl View {
             quantity: "Stage",
             unit: "",
             way: "",
-            opens: result.answer().and_then(|a| result.list.iter().position(|s| s.name == a.worst)),
+            opens: result.list.iter().position(|s| s.name == result.answer().worst),
             words: list
                 .iter()
                 .zip(&result.list)
