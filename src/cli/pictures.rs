@@ -91,6 +91,11 @@ impl Pictures {
         })
     }
 
+    /// From where they are seen.
+    pub fn aspect(&self) -> Aspect {
+        self.aspect
+    }
+
     /// Whether anything is to be made.
     pub fn wanted(&self) -> bool {
         self.svg.is_some() || self.vtk.is_some() || self.csv.is_some()

@@ -23,7 +23,9 @@ use voussoir::{
     limits,
     proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, work::Work},
     report::{
-        json, kinematic, moving, page, stages,
+        json, kinematic, moving, page,
+        record::Record,
+        stages,
         text::{self, Asked, TextOptions},
         view::View,
     },
@@ -295,7 +297,10 @@ impl<'a> Session<'a> {
                 .into_iter()
                 .flatten()
                 .collect();
-                report.write(&page::page(&text, &view, &charts)?)?;
+                let origin = report::origin(&self.common.scene, asked, &file);
+                let from = self.pictures.aspect();
+                let record = Record::new(&file, &self.model, &view, from, &origin);
+                report.write(&page::filed(&text, &view, &charts, &record)?)?;
             }
             if !matches!(file.question, Kind::Simulate | Kind::Settle | Kind::Push) {
                 // A verdict is drawn with its mechanism, whatever else was seen.

@@ -13,6 +13,7 @@ pub mod moving;
 pub mod page;
 pub mod path;
 mod plot;
+pub mod record;
 pub mod stages;
 pub mod study;
 pub mod sweep;
