@@ -26,6 +26,7 @@ pub(super) use choice::sized;
 use super::view::View;
 use crate::plain::markup;
 use choice::{Choice, Movement};
+use nalgebra::Vector3;
 use legend::{Glyph, Legend};
 use projection::Projection;
 use sheet::Sheet;
@@ -42,6 +43,12 @@ const LINE: f64 = 24.0;
 const MANY: usize = 24;
 /// Panels of structures flatter than this stand below each other.
 const FLAT: f64 = 0.6;
+
+/// Whether everything happens in a plane, and the direction from which one looks at it.
+pub fn plane(view: &View) -> Option<Vector3<f64>> {
+    let axes = Aspect::Auto.axes(view, Choice::of(view).movement.as_ref());
+    (axes.level && !view.bodies.is_empty()).then_some(axes.eye)
+}
 
 /// Draws an answer.
 pub fn svg(view: &View, aspect: Aspect) -> String {

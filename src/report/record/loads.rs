@@ -3,7 +3,7 @@
 use super::{Part, Section, listed, quantity};
 use crate::{
     interface::Model,
-    number::{point, short},
+    number::point,
     report::view::View,
 };
 use nalgebra::Vector3;
@@ -68,9 +68,6 @@ fn members(view: &View) -> Part {
     Part::table(
         &["member", "kind", "from – to, m", "#strength", "#force", "#used"],
         listed(view.members.iter().map(row).collect(), MOST),
-        &format!(
-            "Forces are those of the answer; {} in all.",
-            short(view.members.len() as f64)
-        ),
+        "Forces are those of the answer.",
     )
 }

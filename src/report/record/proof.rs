@@ -27,7 +27,7 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
         facts.push(["doubt".into(), format!("{}; {}", doubt.evidence, doubt.next)]);
     }
     let how = "The certificate was recomputed from the geometry of the scene alone, apart from the \
-               solver that found it. A result saved with --save holds it; `voussoir check` verifies it again.";
+               solver that found it. A result saved with --save holds it; voussoir check verifies it again.";
     let versions = vec![
         ["voussoir".into(), file.versions.voussoir.clone()],
         ["format of results".into(), "voussoir-result/2".into()],
