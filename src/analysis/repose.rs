@@ -350,8 +350,7 @@ fn fit(cells: &[(f64, f64)], d: f64, turned: f64) -> Option<(Slope, [(f64, f64);
         (way * cos - height * sin, way * sin + height * cos)
     };
     let ends = [inner.first(), inner.last()].map(|c| end(c.map_or(x, |c| c.0)));
-    let slope =
-        Slope { angle_deg: (-xz / xx).atan().to_degrees(), r_squared, cells: inner.len() };
+    let slope = Slope { angle_deg: (-xz / xx).atan().to_degrees(), r_squared, cells: inner.len() };
     Some((slope, ends))
 }
 

@@ -6,10 +6,9 @@ use std::{
 };
 use voussoir::{
     dynamics::Frame,
-    proof::ResultFile,
     report::{
         record::{Origin, date},
-        text::{self, Asked, Layout, TextOptions},
+        text::{Layout, TextOptions},
         view::Film,
     },
 };
@@ -35,14 +34,14 @@ pub fn see(film: &mut Option<Film>, moment: Option<&Frame>) {
 }
 
 /// Where a record comes from.
-pub fn origin(scene: &Path, asked: Asked, file: &ResultFile) -> Origin {
+pub fn origin(scene: &Path, command: String) -> Origin {
     let changed = std::fs::metadata(scene).and_then(|m| m.modified()).ok().and_then(since);
     let name = if scene.as_os_str() == "-" { String::new() } else { scene.display().to_string() };
     let written = changed.map(|s| format!(", as written on {}", date(s))).unwrap_or_default();
     Origin {
         file: if name.is_empty() { name } else { format!("{name}{written}") },
         made: since(SystemTime::now()).map(date).unwrap_or_default(),
-        command: text::command(file, asked),
+        command,
     }
 }
 

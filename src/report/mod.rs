@@ -3,6 +3,7 @@
 mod cells;
 pub mod contacts;
 pub mod drawing;
+pub mod gltf;
 pub mod ground;
 pub mod heaps;
 pub mod imported;
@@ -10,6 +11,7 @@ pub mod inspection;
 pub mod json;
 pub mod kinematic;
 pub mod moving;
+pub mod obj;
 pub mod page;
 pub mod path;
 mod plot;

@@ -26,8 +26,8 @@ pub(super) use choice::sized;
 use super::view::View;
 use crate::plain::markup;
 use choice::{Choice, Movement};
-use nalgebra::Vector3;
 use legend::{Glyph, Legend};
+use nalgebra::Vector3;
 use projection::Projection;
 use sheet::Sheet;
 
@@ -66,12 +66,8 @@ fn draw(view: &View, aspect: Aspect, attributes: &str, styled: impl Fn(&str) -> 
     let still = body::still(view);
     let moved = choice.movement.as_ref().map(|m| (m, m.bodies(view)));
     let axes = aspect.axes(view, choice.movement.as_ref());
-    let mut paper = Projection::new(
-        view,
-        axes,
-        &still,
-        moved.as_ref().map(|(_, bodies)| &bodies[..]),
-    );
+    let mut paper =
+        Projection::new(view, axes, &still, moved.as_ref().map(|(_, bodies)| &bodies[..]));
     let forces = !choice.states.is_empty() || moved.is_none();
     let beside = forces && moved.is_some() && paper.aspect() > FLAT;
     let columns = if beside { 2.0 } else { 1.0 };

@@ -24,9 +24,10 @@ pub fn draw(sheet: &mut Sheet, view: &View, paper: &Projection, legend: &mut Leg
     }
     let [[ax, ay], [bx, by]] = slope.line.map(|p| paper.at(&p));
     sheet.put(format_args!("<path class=\"surface\" d=\"{path}\"/>\n"));
-    sheet.put(format_args!(
-        "<path class=\"fitted\" d=\"M{ax:.2} {ay:.2}L{bx:.2} {by:.2}\"/>\n"
-    ));
+    sheet.put(format_args!("<path class=\"fitted\" d=\"M{ax:.2} {ay:.2}L{bx:.2} {by:.2}\"/>\n"));
     legend.add(Glyph::Line("surface"), "highest grains, mean of all paths");
-    legend.add(Glyph::Line("fitted"), &format!("straight line through them, {:.1}°", slope.angle_deg));
+    legend.add(
+        Glyph::Line("fitted"),
+        &format!("straight line through them, {:.1}°", slope.angle_deg),
+    );
 }

@@ -86,7 +86,11 @@ pub(super) fn view(view: &View) -> Value {
     let plane = drawing::plane(view);
     let front = plane.unwrap_or(view.front);
     // Roughly where one stands at first.
-    let corner = if plane.is_some() { front } else { (front + view.up.cross(&front) * 0.4 + view.up * 0.3).normalize() };
+    let corner = if plane.is_some() {
+        front
+    } else {
+        (front + view.up.cross(&front) * 0.4 + view.up * 0.3).normalize()
+    };
     json!({
         "name": view.name,
         "length": units.length,

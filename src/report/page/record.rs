@@ -15,7 +15,7 @@ pub(super) fn asked(record: &Record) -> String {
 
 /// Drawing and sections, below the picture.
 pub(super) fn html(record: &Record) -> String {
-    if record.sections.is_empty() {
+    if record.sections.is_empty() && record.drawing.is_empty() {
         return String::new();
     }
     let sections: String = record.sections.iter().map(section).collect();
@@ -38,7 +38,9 @@ fn part(part: &Part) -> String {
             let class = |word: bool| if word { " class=\"word\"" } else { "" };
             let head: String = columns
                 .iter()
-                .map(|(name, word)| format!("<th scope=\"col\"{}>{}</th>", class(*word), markup(name)))
+                .map(|(name, word)| {
+                    format!("<th scope=\"col\"{}>{}</th>", class(*word), markup(name))
+                })
                 .collect();
             let row = |row: &Vec<String>| {
                 let cells: String = row
@@ -81,7 +83,8 @@ mod tests {
             rows: vec![vec![bad.clone()]],
             note: bad.clone(),
         };
-        let parts = vec![Part::Text(bad.clone()), Part::Facts(vec![[bad.clone(), bad.clone()]]), table];
+        let parts =
+            vec![Part::Text(bad.clone()), Part::Facts(vec![[bad.clone(), bad.clone()]]), table];
         let record = Record {
             asked: vec![[bad.clone(), bad.clone()]],
             drawing: String::new(),

@@ -33,7 +33,11 @@ pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
             stress(law.tension),
             if law.compression.is_finite() { stress(law.compression) } else { "no limit".into() },
             stress(law.pore_pressure),
-            if law.rolling_arm == 0.0 { "0".into() } else { format!("{} m", short(law.rolling_arm)) },
+            if law.rolling_arm == 0.0 {
+                "0".into()
+            } else {
+                format!("{} m", short(law.rolling_arm))
+            },
         ]
     };
     let columns = [
@@ -46,7 +50,8 @@ pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
         "#pore pressure",
         "#rolling arm",
     ];
-    let note = "Strengths as the scene gives them; 0 and “no limit” are what holds where it gives none.";
+    let note =
+        "Strengths as the scene gives them; 0 and “no limit” are what holds where it gives none.";
     (!model.interfaces.list.is_empty()).then(|| {
         let rows = super::listed(laws.iter().map(row).collect(), 12);
         Section::new("Joints", vec![Part::table(&columns, rows, note)])
@@ -57,9 +62,18 @@ pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
 pub(super) fn tolerances(file: &ResultFile, model: &Model) -> Vec<Section> {
     let contact = &model.assembly.contact;
     let mut facts = vec![
-        ["gap".into(), format!("faces touch within {} of the size of the smaller block", short(contact.gap))],
-        ["angle".into(), format!("their normals are opposite within {}°", short(contact.angle_deg))],
-        ["least area".into(), format!("contacts below {} of its size squared are left out", short(contact.min_area))],
+        [
+            "gap".into(),
+            format!("faces touch within {} of the size of the smaller block", short(contact.gap)),
+        ],
+        [
+            "angle".into(),
+            format!("their normals are opposite within {}°", short(contact.angle_deg)),
+        ],
+        [
+            "least area".into(),
+            format!("contacts below {} of its size squared are left out", short(contact.min_area)),
+        ],
     ];
     if let Some(words) = contact.widened() {
         facts.push(["wider than usual".into(), words]);

@@ -1,11 +1,7 @@
 //! Loads beside the weight, and members.
 
 use super::{Part, Section, listed, quantity};
-use crate::{
-    interface::Model,
-    number::point,
-    report::view::View,
-};
+use crate::{interface::Model, number::point, report::view::View};
 use nalgebra::Vector3;
 
 /// Loads that are listed, and members.
@@ -45,7 +41,8 @@ fn loads(model: &Model, view: &View) -> Vec<Part> {
             quantity(sum.norm(), "N"),
             point(sum.try_normalize(0.0).unwrap_or_default().into())
         );
-        let columns = [if live { "live load on" } else { "dead load on" }, "at, m", "#force", "along"];
+        let columns =
+            [if live { "live load on" } else { "dead load on" }, "at, m", "#force", "along"];
         parts.push(Part::table(&columns, listed(rows, MOST), &note));
     }
     parts

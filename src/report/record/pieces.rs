@@ -50,7 +50,10 @@ pub(super) fn section(model: &Model) -> Section {
         Part::Facts(vec![
             ["free blocks".into(), count(assembly.free().count(), "block")],
             ["their weight".into(), quantity(mass * g, "N")],
-            ["gravity".into(), format!("{} m/s², along {}", short(g), point((assembly.gravity / g).into()))],
+            [
+                "gravity".into(),
+                format!("{} m/s², along {}", short(g), point((assembly.gravity / g).into())),
+            ],
         ]),
         Part::table(
             &["material", "#free blocks", "#density, kg/m³", "#volume, m³", "#mass, kg"],

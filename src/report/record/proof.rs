@@ -1,18 +1,16 @@
 //! Why the answer is to be believed, and what made it.
 
 use super::{Part, Section};
-use crate::{
-    number::short,
-    proof::result::ResultFile,
-    verdict::exact::Grade,
-};
+use crate::{number::short, proof::result::ResultFile, verdict::exact::Grade};
 
 /// The proof as it was found when the answer was given, and versions.
 pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
     let mut facts: Vec<[String; 2]> = Vec::new();
     if let Some(grade) = file.answer.proof() {
         let words = match grade {
-            Grade::Exact => "exact: a theorem about the numbers of the scene, no rounding excused".into(),
+            Grade::Exact => {
+                "exact: a theorem about the numbers of the scene, no rounding excused".into()
+            }
             Grade::ToRounding(left) => {
                 format!("to rounding: what is left is {} (the greater, the weaker)", short(left))
             }

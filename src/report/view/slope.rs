@@ -32,16 +32,15 @@ const ASKED: usize = 400;
 impl View {
     /// Whether supports hide so much, seen from a direction, that they have to be seen through.
     pub fn walled(&self, eye: &Vector3<f64>) -> bool {
-        let free: Vec<usize> = (0..self.bodies.len()).filter(|&i| !self.bodies[i].support).collect();
+        let free: Vec<usize> =
+            (0..self.bodies.len()).filter(|&i| !self.bodies[i].support).collect();
         let held: Vec<usize> = (0..self.bodies.len()).filter(|&i| self.bodies[i].support).collect();
         if self.hides_supports || free.is_empty() || held.is_empty() {
             return false;
         }
-        let asked: Vec<usize> =
-            free.iter().copied().step_by(free.len().div_ceil(ASKED)).collect();
-        let hidden = |&&i: &&usize| {
-            held.iter().any(|&k| self.bodies[k].stops(&self.bodies[i].center, eye))
-        };
+        let asked: Vec<usize> = free.iter().copied().step_by(free.len().div_ceil(ASKED)).collect();
+        let hidden =
+            |&&i: &&usize| held.iter().any(|&k| self.bodies[k].stops(&self.bodies[i].center, eye));
         asked.iter().filter(hidden).count() as f64 > HIDDEN * asked.len() as f64
     }
 }
@@ -68,9 +67,8 @@ impl super::Body {
                 let t = n.dot(&(corner(0) - from)) / towards;
                 let p = from + way * t;
                 t > 0.0
-                    && (0..piece.len()).all(|k| {
-                        n.dot(&(corner(k + 1) - corner(k)).cross(&(p - corner(k)))) >= 0.0
-                    })
+                    && (0..piece.len())
+                        .all(|k| n.dot(&(corner(k + 1) - corner(k)).cross(&(p - corner(k)))) >= 0.0)
             }),
         }
     }
