@@ -9,9 +9,9 @@ use crate::report::view::View;
 use std::fmt::Write;
 
 /// The look of the surface and its line.
-pub const STYLE: &str = ".surface{fill:none;stroke:#0b62a8;stroke-width:1.6;stroke-linejoin:round}\
+pub const STYLE: &str = ".surface{fill:none;stroke:#222222;stroke-width:2;stroke-linejoin:round}\
 .fitted{fill:none;stroke:#a3230b;stroke-width:2.6;stroke-dasharray:9 5;stroke-linecap:round}\
-@media (prefers-color-scheme:dark){.surface{stroke:#6cb8ff}.fitted{stroke:#ff7d5c}}";
+@media (prefers-color-scheme:dark){.surface{stroke:#e6e6e6}.fitted{stroke:#ff7d5c}}";
 
 /// Draws them, with the angle in the legend.
 pub fn draw(sheet: &mut Sheet, view: &View, paper: &Projection, legend: &mut Legend) {

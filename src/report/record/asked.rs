@@ -1,7 +1,7 @@
 //! What was asked, and what the number of the answer means.
 
 use crate::{
-    number::{bracketed, count, short},
+    number::{bracketed, count, ends},
     proof::result::{QuestionKind as Kind, ResultFile},
     terms::Law,
 };
@@ -40,17 +40,13 @@ fn value(file: &ResultFile) -> Option<String> {
     let (text, unit) = match file.question {
         Kind::Tilt => {
             let [v, l, u] = [value, lower, upper].map(|t| t.atan().to_degrees());
-            (format!("{} (between {} and {})", bracketed(v, l, u), short(l), short(u)), "°")
+            let [low, high] = ends(v, l, u);
+            (format!("{} (between {low} and {high})", bracketed(v, l, u)), "°")
         }
-        _ => (
-            format!(
-                "{} (between {} and {})",
-                bracketed(value, lower, upper),
-                short(lower),
-                short(upper)
-            ),
-            "",
-        ),
+        _ => {
+            let [low, high] = ends(value, lower, upper);
+            (format!("{} (between {low} and {high})", bracketed(value, lower, upper)), "")
+        }
     };
     let name = match file.question {
         Kind::Tilt => "tilt",

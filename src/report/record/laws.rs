@@ -64,7 +64,7 @@ pub(super) fn tolerances(file: &ResultFile, model: &Model) -> Vec<Section> {
     let mut facts = vec![
         [
             "gap".into(),
-            format!("faces touch within {} of the size of the smaller block", short(contact.gap)),
+            format!("faces touch within {} of the size of the smaller block", contact.gap),
         ],
         [
             "angle".into(),
@@ -72,7 +72,7 @@ pub(super) fn tolerances(file: &ResultFile, model: &Model) -> Vec<Section> {
         ],
         [
             "least area".into(),
-            format!("contacts below {} of its size squared are left out", short(contact.min_area)),
+            format!("contacts below {} of its size squared are left out", contact.min_area),
         ],
     ];
     if let Some(words) = contact.widened() {

@@ -7,16 +7,16 @@ use nalgebra::Vector3;
 /// Loads that are listed, and members.
 const MOST: usize = 16;
 
-/// The sections about loads and members.
-pub(super) fn sections(model: &Model, view: &View) -> Vec<Section> {
-    let mut list = vec![Section::new("Loads", loads(model, view))];
+/// The sections about loads and members; `idle` where live loads take no part in the answer.
+pub(super) fn sections(model: &Model, view: &View, idle: bool) -> Vec<Section> {
+    let mut list = vec![Section::new("Loads", loads(model, view, idle))];
     if !view.members.is_empty() {
         list.push(Section::new("Members", vec![members(view)]));
     }
     list
 }
 
-fn loads(model: &Model, view: &View) -> Vec<Part> {
+fn loads(model: &Model, view: &View, idle: bool) -> Vec<Part> {
     let mut parts = vec![Part::Text(
         "The weight of every free block acts at its centre of mass, always.".into(),
     )];
@@ -37,7 +37,8 @@ fn loads(model: &Model, view: &View) -> Vec<Part> {
             continue;
         }
         let note = format!(
-            "{title}; together {} along {}.",
+            "{title}{}; together {} along {}.",
+            if live && idle { ", which this question leaves out" } else { "" },
             quantity(sum.norm(), "N"),
             point(sum.try_normalize(0.0).unwrap_or_default().into())
         );

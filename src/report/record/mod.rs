@@ -15,7 +15,7 @@ pub use date::date;
 use super::view::View;
 use crate::{
     interface::Model,
-    proof::result::ResultFile,
+    proof::result::{QuestionKind, ResultFile},
     report::drawing::{self, Aspect},
 };
 
@@ -71,7 +71,9 @@ pub struct Origin {
 impl Record {
     /// The record of a result; `model` is that of its scene, `view` what there is to see of it.
     pub fn new(file: &ResultFile, model: &Model, view: &View, from: Aspect, at: &Origin) -> Self {
-        let mut record = Self::of_scene(model, view, from);
+        // Verdicts and tilts are about dead loads alone.
+        let idle = matches!(file.question, QuestionKind::Assess | QuestionKind::Tilt);
+        let mut record = Self::of_scene(model, view, from, idle);
         let mut asked = asked::facts(file);
         asked.extend(at.facts());
         record.asked = asked;
@@ -81,11 +83,10 @@ impl Record {
         record
     }
 
-    /// What a record says of a scene alone.
-    pub fn of_scene(model: &Model, view: &View, from: Aspect) -> Self {
+    fn of_scene(model: &Model, view: &View, from: Aspect, idle: bool) -> Self {
         let mut sections = vec![pieces::section(model)];
         sections.extend(laws::section(model, view));
-        sections.extend(loads::sections(model, view));
+        sections.extend(loads::sections(model, view, idle));
         Self { asked: Vec::new(), drawing: drawing::printed(view, from), sections }
     }
 }

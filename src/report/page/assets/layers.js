@@ -3,10 +3,10 @@ const LAYERS = [
   ["line", "Line of thrust", "--line", () => forcesNow() && forcesNow().lineBody.length],
   ["resultants", "Resultants", "--arrow", () => forcesNow()],
   ["contacts", "Contact forces", "--arrow", () => forcesNow()],
-  ["loads", "Loads", "--live", () => loads.body.length],
+  ["loads", "Loads", null, () => [...loads.body.keys()].some(acts)],
   ["members", "Members", "--member", () => members.ids.length],
   ["marks", "Moving joints", "--mark", () => view.motions.length],
-  ["slope", "Slope", "--mark", () => view.slope],
+  ["slope", "Slope", null, () => view.slope],
   ["joints", "Joints", "--joint", () => JOINTS],
   ["edges", "Edges", null, () => bodies.edges.length],
 ];
@@ -74,7 +74,7 @@ function strokes() {
   });
   if (view.slope && on("slope")) {
     const { surface, line } = view.slope;
-    for (let k = 0; 3 * k + 3 < surface.length; k++) rods.push([at3(surface, k), at3(surface, k + 1), 0.6 * THICK, rgb("--line")]);
+    for (let k = 0; 3 * k + 3 < surface.length; k++) rods.push([at3(surface, k), at3(surface, k + 1), 0.7 * THICK, rgb("--ink")]);
     rods.push([at3(line, 0), at3(line, 1), 1.1 * THICK, rgb("--mark")]);
   }
   return { rods, arrows, dots };
@@ -118,7 +118,9 @@ function legend() {
   const scale = { value: view.values && [view.values.name, ...view.values.ends], share: ["Share of a joint that is used", "0", "all"], force: ["Greatest force on a joint", "0", newtons(1)], speed: ["Speed in the mechanism", "0", "fastest"], moved: ["Way so far", "0", farthest > 0 ? meters(farthest / (state.motion === FILM ? state.magnify : 1)) : "0"] }[state.colour];
   const keys = LAYERS.filter(([name, , ink, there]) => ink && state.layers.has(name) && there()).map(([name, title, ink]) => make("span", {}, make("i", { class: name === "marks" ? "dot" : false, style: `border-color:var(${ink});${name === "marks" ? `background:var(${ink})` : ""}` }), title));
   if (state.colour === "material") bodies.materials.forEach((name, k) => keys.push(make("span", {}, make("i", { class: "dot", style: `background:rgb(${PALETTE[k % PALETTE.length].map((v) => Math.round(255 * v)).join(",")})` }), name)));
-  if (view.slope && state.layers.has("slope")) keys.push(make("span", {}, make("i", { style: "border-color:var(--line)" }), "highest grains, mean of all paths"), make("span", {}, `fitted line ${short(view.slope.angle, 3)}°`));
+  const key = (ink, words) => make("span", {}, make("i", { style: `border-color:var(${ink})` }), words);
+  if (state.layers.has("loads")) for (const [live, ink, words] of [[0, "--ink", "dead loads"], [1, "--live", "live loads (× λ)"]]) if ([...loads.body.keys()].some((k) => loads.live[k] === live && acts(k))) keys.push(key(ink, words));
+  if (view.slope && state.layers.has("slope")) keys.push(key("--ink", "highest grains, mean of all paths"), key("--mark", `straight line through them, ${short(view.slope.angle, 3)}°`));
   if (view.caption) keys.push(make("span", {}, view.caption));
   const parts = [make("div", { class: "keys" }, keys)];
   if (scale) parts.push(scale[0], make("div", { class: "bar", style: "background:linear-gradient(90deg,var(--low),var(--middle),var(--high))" }), make("div", { class: "ends" }, make("span", {}, scale[1]), make("span", {}, scale[2])));

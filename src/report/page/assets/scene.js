@@ -219,7 +219,7 @@ function begin() {
   if (loads.body.length <= FEW) layer("loads");
   const falls = Boolean(document.querySelector("h1.bad"));
   layer("edges");
-  if (view.film) { state.way = view.film.opens; colour("moved"); if (view.values) colour("value"); motionNow(FILM); } else if (view.values) { colour("value"); motionNow(-1); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!forcesNow() || forcesNow().lineBody.length <= CROWD) layer("line"); colour(telling()); layer("marks"); motionNow(view.motions.length ? 0 : -1); }
+  if (view.film) { state.way = view.film.opens; colour("moved"); if (view.values) colour("value"); motionNow(FILM); } else if (view.values) { colour("value"); motionNow(-1); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!view.slope && (!forcesNow() || forcesNow().lineBody.length <= CROWD)) layer("line"); colour(telling()); layer("marks"); motionNow(view.motions.length ? 0 : -1); }
   el("motion").value = state.motion;
   fillList();
   numbers();
