@@ -47,10 +47,11 @@ function strokes() {
       if (norm(f) > 2e-4) { const at = moved(joints.b[k], at3(joints.points, p)); arrows.push([at, add(at, f), 0.7 * r, ink]); }
     }
   }
+  const thin = loads.body.length > 40 ? 0.55 : 1;
   if (on("loads")) loadArrows().forEach((f, k) => {
     if (!f) return;
     const at = moved(loads.body[k], at3(loads.at, k));
-    if (norm(f) > 2e-4) arrows.push([sub(at, f), at, r, rgb(loads.live[k] ? "--live" : "--ink")]);
+    if (norm(f) > 2e-4) arrows.push([sub(at, f), at, r * thin, rgb(loads.live[k] ? "--live" : "--ink")]);
   });
   if (state.picked && state.picked.body !== undefined) {
     const i = state.picked.body, corner = (k) => moved(i, at3(bodies.corners, bodies.cornerStart[i] + bodies.edges[k]));
@@ -68,6 +69,7 @@ function strokes() {
     let most = 1e-300;
     for (const f of members.newton) most = Math.max(most, Math.abs(f || 0));
     const ink = rgb("--member"), thick = members.slack[k] || !members.newton[k] ? 0.35 : 0.5 + 0.9 * Math.sqrt(Math.abs(members.newton[k]) / most);
+    if (state.picked && state.picked.member === k) rods.push([a, b, 1.6 * r * thick, rgb("--pick")]);
     if (push) arrows.push([a, b, r, ink]);
     else if (norm(sub(a, b)) > 1e-9) rods.push([a, b, r * thick, ink]);
     else dots.push([a, 1.8 * r, ink]);

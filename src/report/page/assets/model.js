@@ -49,7 +49,9 @@ const state = { motion: -1, way: 0, magnify: 1, force: 0, colour: "stone", suppo
 const GLASS = 0.17;
 const opacity = (i) => (!bodies.support[i] || state.supports === "shown" ? 1 : state.supports === "glass" ? GLASS : 0);
 // Greatest and least way of the fastest corner in a mechanism, over the size of the scene, when the slider is at its end.
-const FAR = 0.16, NEAR = 0.05;
+const FAR = 0.16, NEAR = 0.03;
+// Where it can be, no joint gapes or slides by more than this share of the smaller of its blocks: one sees what belonged together.
+const GAPE = 0.5;
 // Where it can be, no block turns by more than this then, radians; those that do not may grow by 1 / cos of it, 5 %.
 const WIDEST = 0.3;
 const FILM = -2;
@@ -102,7 +104,12 @@ function amplitude(motion) {
   if (!motion.far) {
     let most = 1e-9;
     for (let i = 0; i < COUNT; i++) most = Math.max(most, norm(at3(motion.spin, i)));
-    motion.far = Math.max(NEAR, Math.min(FAR, WIDEST / most));
+    let far = Math.min(FAR, WIDEST / most);
+    for (const k of motion.markJoint) {
+      const speed = (i, p) => add(at3(motion.velocity, i), cross(at3(motion.spin, i), sub(p, at3(bodies.center, i)))), size = 2 * Math.min(reach[joints.a[k]], reach[joints.b[k]]);
+      for (let p = joints.pointStart[k]; p < joints.pointStart[k + 1]; p++) { const at = at3(joints.points, p), apart = norm(sub(speed(joints.a[k], at), speed(joints.b[k], at))); if (apart * far > GAPE * size) far = (GAPE * size) / apart; }
+    }
+    motion.far = Math.max(NEAR, far);
   }
   return motion.far;
 }

@@ -30,8 +30,7 @@ function redraw(changed) {
 function pick(picked) {
   state.picked = picked;
   numbers();
-  if (picked && picked.member !== undefined) { el("list").value = ""; redraw(true); return; }
-  const kind = picked && picked.joint !== undefined ? "joints" : "blocks", index = picked ? (kind === "joints" ? picked.joint : picked.body) : -1;
+  const kind = picked && picked.joint !== undefined ? "joints" : picked && picked.member !== undefined ? "members" : "blocks", index = picked ? picked[{ blocks: "body", joints: "joint", members: "member" }[kind]] : -1;
   if (picked) {
     if (el("kind").value !== kind) { el("kind").value = kind; el("find").value = ""; fillList(); }
     if (![...el("list").options].some((o) => Number(o.value) === index) && el("find").value) { el("find").value = ""; fillList(); }
@@ -45,22 +44,22 @@ function pick(picked) {
 // The list of blocks or joints, as far as it is asked for.
 const MOST = 4000;
 function fillList() {
-  const kind = el("kind").value, wanted = el("find").value.toLowerCase(), count = kind === "blocks" ? COUNT : JOINTS, options = [];
+  const kind = el("kind").value, wanted = el("find").value.toLowerCase(), count = { blocks: COUNT, joints: JOINTS, members: members.ids.length }[kind], options = [];
   let left = 0;
   for (let k = 0; k < count; k++) {
-    const name = kind === "blocks" ? bodies.ids[k] : nameOf(k);
+    const name = kind === "blocks" ? bodies.ids[k] : kind === "members" ? `${members.ids[k]} (${members.kinds[k]})` : nameOf(k);
     if (wanted && !name.toLowerCase().includes(wanted)) continue;
     if (options.length < MOST) options.push(make("option", { value: k }, kind === "blocks" && bodies.support[k] ? `${name} (support)` : name));
     else left++;
   }
   el("list").replaceChildren(...options);
-  el("list").setAttribute("aria-label", kind === "blocks" ? "Blocks" : "Joints");
-  el("find").placeholder = `Find a ${kind === "blocks" ? "block" : "joint"}`;
+  el("list").setAttribute("aria-label", { blocks: "Blocks", joints: "Joints", members: "Members" }[kind]);
+  el("find").placeholder = `Find a ${kind.slice(0, -1)}`;
   el("listNote").textContent = left ? `${left} more: type a part of the name` : "";
 }
 el("kind").addEventListener("change", () => { el("find").value = ""; fillList(); });
 el("find").addEventListener("input", fillList);
-el("list").addEventListener("change", () => pick({ [el("kind").value === "blocks" ? "body" : "joint"]: Number(el("list").value) }));
+el("list").addEventListener("change", () => pick({ [{ blocks: "body", joints: "joint", members: "member" }[el("kind").value]]: Number(el("list").value) }));
 
 function next(kind, step) {
   const key = kind === "blocks" ? "body" : "joint", count = kind === "blocks" ? COUNT : JOINTS, now = state.picked && state.picked[key];
@@ -128,6 +127,7 @@ function choices() {
   if (view.film) motions.unshift([FILM, view.film.name]);
   el("motion").replaceChildren(...options(motions));
   el("motionBox").hidden = !motions.length;
+  el("kind").replaceChildren(...options([["blocks", "Blocks"], ["joints", "Joints"], members.ids.length && ["members", "Members"]].filter(Boolean)));
   const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "joint share used"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", "speed in the mechanism"], view.film && view.film.way && ["moved", view.film.way], view.values && ["value", view.values.name.toLowerCase()]].filter(Boolean);
   el("colour").replaceChildren(...options(kinds));
   if (view.film) {
