@@ -5,6 +5,8 @@ use crate::report::text::{Page, Role, Span};
 
 /// Rows about the solver and its work, which are folded together.
 const INTERNALS: [&str; 4] = ["left out", "time", "work", "attempts"];
+/// Rows that a record repeats.
+const RECORDED: [&str; 2] = ["proof", "scene"];
 /// The row of commands.
 const NEXT: &str = "next";
 /// Rows of more lines than this are folded.
@@ -121,8 +123,12 @@ impl Row {
         } else {
             body
         };
-        // What to type next is of no use on paper.
-        let class = if self.label == NEXT { " class=\"typed\"" } else { "" };
+        // What to type next is of no use on paper, and a record says some of it in full.
+        let class = match self.label.as_str() {
+            NEXT => " class=\"typed\"",
+            label if RECORDED.contains(&label) => " class=\"recorded\"",
+            _ => "",
+        };
         format!("<dt{class}>{}</dt><dd{class}>{body}</dd>", markup(&self.label))
     }
 }

@@ -93,11 +93,11 @@ function memberLines() {
   return list;
 }
 
-// What is drawn over the blocks, as [from, to, words, what a click picks].
+// What is drawn over the blocks, as [from, to, words, what a click picks, whether a block under the pointer goes before].
 function named() {
   const list = [], on = (name) => state.layers.has(name), motion = view.motions[state.motion];
   if (on("members")) for (const [k, a, b] of memberLines()) list.push([a, b, `${members.kinds[k]} ${members.ids[k]}${members.slack[k] ? ", slack" : members.newton[k] === null ? "" : `: ${withUnit(members.newton[k], "N")}`}`, { member: k }]);
-  if (on("loads")) loadArrows().forEach((f, k) => { if (f && norm(f) > 2e-4) { const at = moved(loads.body[k], at3(loads.at, k)); list.push([sub(at, f), at, `${loads.live[k] ? "live load (× λ)" : "dead load"} ${withUnit(norm(at3(loads.newton, k)), "N")} on ${bodies.ids[loads.body[k]]}`, { body: loads.body[k] }]); } });
+  if (on("loads")) loadArrows().forEach((f, k) => { if (f && norm(f) > 2e-4) { const at = moved(loads.body[k], at3(loads.at, k)); list.push([sub(at, f), at, `${loads.live[k] ? "live load (× λ)" : "dead load"} ${withUnit(norm(at3(loads.newton, k)), "N")} on ${bodies.ids[loads.body[k]]}`, { body: loads.body[k] }, true]); } });
   if (motion && on("marks")) for (let k = 0; k < motion.markJoint.length; k++) { const joint = motion.markJoint[k], p = markAt(joint, at3(motion.markAt, k), motion.markJoint.length); if (p) list.push([p, p, `${motion.markKind[k]}: ${nameOf(joint)}`, { joint }]); }
   if (view.slope && on("slope")) list.push([at3(view.slope.line, 0), at3(view.slope.line, 1), `straight line through the highest grains, ${short(view.slope.angle, 3)}°`, null]);
   return list;

@@ -62,14 +62,14 @@ function markAt(k, at, many) {
   return list.some((p) => isSeen(moved(body, off(p)))) ? own : null;
 }
 
-// What is drawn over the blocks and lies under the pointer: [words, what a click picks].
+// What is drawn over the blocks and lies under the pointer: [words, what a click picks, whether a block goes before].
 function overlay(x, y, width, height) {
   const m = lens(width, height).matrix;
   const far = (p) => { const w = m[3] * p[0] + m[7] * p[1] + m[11] * p[2] + m[15]; return w > 1e-6 ? [(0.5 + (0.5 * (m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12])) / w) * width, (0.5 - (0.5 * (m[1] * p[0] + m[5] * p[1] + m[9] * p[2] + m[13])) / w) * height] : [-1e9, -1e9]; };
   const beside = (a, b) => { const [p, q] = [far(a), far(b)], d = [q[0] - p[0], q[1] - p[1]], t = Math.min(1, Math.max(0, ((x - p[0]) * d[0] + (y - p[1]) * d[1]) / (d[0] * d[0] + d[1] * d[1] || 1))); return Math.hypot(x - p[0] - t * d[0], y - p[1] - t * d[1]); };
   // Within what is drawn, or a block beside a hinge could not be picked.
   let best = 4.5, found = null;
-  for (const [a, b, words, picked] of named()) { const d = beside(a, b); if (d < best) [best, found] = [d, [words, picked]]; }
+  for (const [a, b, words, picked, weak] of named()) { const d = beside(a, b); if (d < best) [best, found] = [d, [words, picked, weak]]; }
   return found;
 }
 

@@ -156,7 +156,9 @@ document.querySelectorAll("[data-look]").forEach((b) => b.addEventListener("clic
 
 steer(shown, (e) => {
   const box = shown.getBoundingClientRect(), at = [e.clientX - box.left, e.clientY - box.top, box.width, box.height], over = overlay(...at);
-  pick((over && over[1]) || hit(...at));
+  // Arrows lie over blocks that they do not load: a block under the pointer is what is meant.
+  const block = hit(...at);
+  pick(over && over[1] && !(over[2] && block) ? over[1] : block);
 });
 // What lies under the pointer says its name.
 let asked = null;
