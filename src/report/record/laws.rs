@@ -61,10 +61,11 @@ pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
 /// Tolerances of contacts, and what was found in the scene.
 pub(super) fn tolerances(file: &ResultFile, model: &Model) -> Vec<Section> {
     let contact = &model.assembly.contact;
+    let shown = |v: f64| if v < 1e-2 { format!("{v:e}") } else { v.to_string() };
     let mut facts = vec![
         [
             "gap".into(),
-            format!("faces touch within {} of the size of the smaller block", contact.gap),
+            format!("faces touch within {} of the size of the smaller block", shown(contact.gap)),
         ],
         [
             "angle".into(),
@@ -72,7 +73,7 @@ pub(super) fn tolerances(file: &ResultFile, model: &Model) -> Vec<Section> {
         ],
         [
             "least area".into(),
-            format!("contacts below {} of its size squared are left out", contact.min_area),
+            format!("contacts below {} of its size squared are left out", shown(contact.min_area)),
         ],
     ];
     if let Some(words) = contact.widened() {
