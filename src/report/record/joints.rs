@@ -9,10 +9,11 @@
 
 use super::{Part, Section, percent, quantity};
 use crate::{
-    interface::Model,
+    interface::{Interface, Model},
     report::view::{Joint, Resultant, View, ViewPart, ViewState},
     strength::crushing::{crushes, edge_bounds},
 };
+use nalgebra::Vector3;
 
 /// Joints that are listed.
 const MOST: usize = 12;
@@ -103,7 +104,7 @@ fn table(model: &Model, view: &View, state: &ViewState) -> Part {
 fn shares(model: &Model, view: &View, state: &ViewState, k: usize, at: &Resultant) -> [f64; 3] {
     let joint = &view.joints[k];
     let way = if joint.area > 0.0 { at.used } else { f64::NAN };
-    [way, friction(joint, at), compression(model, state, k, at)]
+    [way, friction(joint, at), compression(model, joint, &state.forces[k], k, at)]
 }
 
 fn friction(joint: &Joint, at: &Resultant) -> f64 {
@@ -121,12 +122,20 @@ fn friction(joint: &Joint, at: &Resultant) -> f64 {
     }
 }
 
-fn compression(model: &Model, state: &ViewState, k: usize, at: &Resultant) -> f64 {
-    let face = &model.interfaces.list[k];
-    if !crushes(face) {
+fn compression(
+    model: &Model,
+    joint: &Joint,
+    forces: &[Vector3<f64>],
+    k: usize,
+    at: &Resultant,
+) -> f64 {
+    // What is seen may be the scene with another number in it: then its faces are not at hand.
+    let same =
+        |f: &&Interface| (f.a, f.b, f.area, f.law) == (joint.a, joint.b, joint.area, joint.law);
+    let Some(face) = model.interfaces.list.get(k).filter(same).filter(|f| crushes(f)) else {
         return f64::NAN;
-    }
-    let normal: Vec<f64> = state.forces[k].iter().map(|f| face.frame.n.dot(f)).collect();
+    };
+    let normal: Vec<f64> = forces.iter().map(|f| face.frame.n.dot(f)).collect();
     let edges = edge_bounds(face);
     let stress = edges
         .iter()

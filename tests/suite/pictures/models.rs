@@ -134,8 +134,8 @@ fn an_animation_ends_at_the_displaced_pose() {
     let way = told["fastest_corner_m"].as_f64().unwrap();
     assert!(way > 0.0 && told["name"] == motion.name.as_str());
     let animation = &file.list("animations")[0];
-    let mut ends: Vec<(Option<Vector3<f64>>, Option<UnitQuaternion<f64>>)> =
-        vec![(None, None); view.bodies.len()];
+    type End = (Option<Vector3<f64>>, Option<UnitQuaternion<f64>>);
+    let mut ends: Vec<End> = vec![(None, None); view.bodies.len()];
     for channel in animation["channels"].as_array().unwrap() {
         let sampler = &animation["samplers"][whole(&channel["sampler"])];
         let (times, values) =
