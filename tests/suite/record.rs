@@ -89,6 +89,18 @@ fn a_load_factor_says_what_it_multiplies() {
     assert!(asked.contains("a number without a unit") && asked.contains("voussoir limit"));
 }
 
+/// The proof of a thrust stands at its two ends, and is not said to be missing.
+#[test]
+fn a_thrust_is_proved_at_both_ends() {
+    let desk = tempfile::tempdir().unwrap();
+    let arch = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/semicircular-arch-thick.json");
+    let file = desk.path().join("page.html");
+    let page = report(&["thrust", arch, "--law", "associative"], &file);
+    let proof = page.split("<h3>Proof</h3>").nth(1).unwrap().split("</section>").next().unwrap();
+    assert!(proof.contains("<dt>least</dt>") && proof.contains("<dt>greatest</dt>"), "{proof}");
+    assert!(!proof.contains("claims nothing"), "{proof}");
+}
+
 /// Of a scene that falls no forces balance it, and no joint is said to be used.
 #[test]
 fn what_falls_has_no_used_joints() {

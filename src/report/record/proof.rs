@@ -18,6 +18,22 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
         facts.push(["proved".into(), words]);
     }
     facts.extend(file.certificate.verified.iter().map(|v| ["certificate".into(), v.clone()]));
+    if let Some(thrust) = &file.thrust {
+        for (name, certificate) in [("least", &thrust.least), ("greatest", &thrust.greatest)] {
+            facts.extend(certificate.verified.iter().map(|v| [name.into(), v.clone()]));
+        }
+    }
+    // Each of these has a certificate of its own, which the answer in words tells.
+    for (there, words) in [
+        (file.critical.is_some(), "a verdict with its certificate on either side of every flip"),
+        (file.path.is_some(), "a certificate at every point of the curve"),
+        (file.stages.is_some(), "a certificate for every stage"),
+        (file.rocking.is_some(), "a certificate for the mechanism; its motion is computed"),
+    ] {
+        if there {
+            facts.push(["certificates".into(), words.into()]);
+        }
+    }
     if facts.is_empty() {
         facts.push(["proved".into(), "nothing: the certificate claims nothing".into()]);
     }

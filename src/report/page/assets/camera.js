@@ -35,7 +35,7 @@ function corners() {
   if (view.slope) for (const k of [0, 1]) list.push(at3(view.slope.line, k));
   // Arrows of loads that are shown stand above the scene.
   if (state.layers.has("loads")) loadArrows().forEach((f, k) => f && list.push(sub(at3(loads.at, k), f)));
-  if (state.layers.has("members")) for (let k = 0; k < members.points.length / 3; k++) list.push(inside(at3(members.points, k)));
+  if (state.layers.has("members")) for (let k = 0; k < members.points.length / 3; k++) list.push(at3(members.points, k).map((v, n) => Math.min(Math.max(v, -half[n] - 0.4), half[n] + 0.4)));
   return list.length ? list : [[0, 0, 0]];
 }
 
