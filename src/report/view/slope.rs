@@ -34,13 +34,26 @@ impl View {
     pub fn walled(&self, eye: &Vector3<f64>) -> bool {
         let free: Vec<usize> =
             (0..self.bodies.len()).filter(|&i| !self.bodies[i].support).collect();
-        let held: Vec<usize> = (0..self.bodies.len()).filter(|&i| self.bodies[i].support).collect();
+        // With balls around them: of measured stones most rays miss all of the thousands of facets.
+        let ball = |k: usize| {
+            let (low, high) = self.bodies[k].extent();
+            (k, (low + high) * 0.5, (high - low).norm_squared() * 0.25)
+        };
+        let supports = (0..self.bodies.len()).filter(|&i| self.bodies[i].support);
+        let held: Vec<(usize, Vector3<f64>, f64)> = supports.map(ball).collect();
         if self.hides_supports || free.is_empty() || held.is_empty() {
             return false;
         }
         let asked: Vec<usize> = free.iter().copied().step_by(free.len().div_ceil(ASKED)).collect();
-        let hidden =
-            |&&i: &&usize| held.iter().any(|&k| self.bodies[k].stops(&self.bodies[i].center, eye));
+        let eye = eye.normalize();
+        let hidden = |&&i: &&usize| {
+            let from = &self.bodies[i].center;
+            held.iter().any(|(k, middle, squared)| {
+                let to = middle - from;
+                to.norm_squared() - to.dot(&eye).powi(2) <= *squared * (1.0 + 1e-9)
+                    && self.bodies[*k].stops(from, &eye)
+            })
+        };
         asked.iter().filter(hidden).count() as f64 > HIDDEN * asked.len() as f64
     }
 }
