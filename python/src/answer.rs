@@ -11,7 +11,9 @@ use voussoir::{
     proof::{PackingFile, ResultFile, VerificationFile, read, result::Certificate, verify},
     report::{
         drawing::{self, Aspect},
-        json, page, path, table,
+        gltf, json, obj, page, path,
+        record::{Origin, Record},
+        table,
         text::{self, Asked, Layout, TextOptions},
         view::View,
         vtk,
@@ -269,7 +271,16 @@ impl Answer {
                 None => text::render(&kept.file, asked, EVERYTHING, layout),
             };
             let charts = page::attempts(&kept.file);
-            page::page(&words, &kept.view()?, charts.as_slice()).map_err(Trouble::other)
+            let view = kept.view()?;
+            let record = match &kept.packed {
+                Some(_) => Record::default(),
+                None => {
+                    // Without a date: the same answer makes the same page.
+                    let (model, origin) = (kept.model()?, Origin::default());
+                    Record::new(&kept.file, &model, &view, Aspect::Auto, &origin)
+                }
+            };
+            page::filed(&words, &view, charts.as_slice(), &record).map_err(Trouble::other)
         })
     }
 
@@ -288,6 +299,21 @@ impl Answer {
     /// A file for ParaView.
     fn vtp(&self, py: Python) -> PyResult<String> {
         made(py, &self.kept, |kept| Ok(vtk::vtp(&kept.view()?)))
+    }
+
+    /// glTF 2.0 as text.
+    fn gltf(&self, py: Python) -> PyResult<String> {
+        made(py, &self.kept, |kept| gltf::text(&kept.view()?).map_err(Trouble::other))
+    }
+
+    /// glTF 2.0 as a binary container.
+    fn glb(&self, py: Python) -> PyResult<Vec<u8>> {
+        made(py, &self.kept, |kept| gltf::binary(&kept.view()?).map_err(Trouble::other))
+    }
+
+    /// The displaced blocks (OBJ).
+    fn obj(&self, py: Python) -> PyResult<String> {
+        made(py, &self.kept, |kept| Ok(obj::obj(&kept.view()?)))
     }
 
     /// A table with commas: `joints`, `blocks`, `members` or `path`.

@@ -197,6 +197,12 @@ def test_pages_and_drawings(tmp_path: Path) -> None:
     assert answer.svg("top") != answer.svg("front")
     answer.vtk(tmp_path / "answer.vtp")
     assert "PolyData" in (tmp_path / "answer.vtp").read_text()
+    answer.gltf(tmp_path / "answer.gltf")
+    assert json.loads((tmp_path / "answer.gltf").read_text())["asset"]["version"] == "2.0"
+    answer.gltf(tmp_path / "answer.glb")
+    assert (tmp_path / "answer.glb").read_bytes()[:4] == b"glTF"
+    answer.obj(tmp_path / "answer.obj")
+    assert (tmp_path / "answer.obj").read_text().count("\no ") == len(answer.blocks.ids)
     assert answer.table("blocks").splitlines()[0].startswith("id") or "block" in answer.table("blocks")
     assert answer.title.startswith("Table") and "stands" in str(answer)
 

@@ -52,6 +52,17 @@ pub struct Slope {
     pub cells: usize,
 }
 
+/// The free surface of a heap as its slope was read from it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// The mean of the highest grains, step by step down the slope, m.
+    pub surface: Vec<Vector3<f64>>,
+    /// The ends of the straight line through it, m.
+    pub line: [Vector3<f64>; 2],
+    /// The slope of that line.
+    pub slope: Slope,
+}
+
 /// A heap and its slope.
 #[derive(Clone, Debug, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Heap {
@@ -139,7 +150,10 @@ pub fn heap(
         .flat_map(|(i, pose)| tops(&assembly.blocks[i], pose))
         .collect();
     let turned = rest.turned.unwrap_or(0.0);
-    let (slope, parts) = surface(protocol, &spots, turned);
+    let (slope, parts) = {
+        let (profile, parts) = surface(protocol, &spots, turned);
+        (profile.map(|p| p.slope), parts)
+    };
     let mut findings = Vec::new();
     let mut say = |text: String| findings.push(Finding::new(FindingCode::Numerics, text));
     if !rest.rested {
@@ -181,6 +195,20 @@ fn tops(
         assembly::Solid::Clump { balls, .. } => balls.iter().map(|(c, r)| (moved(c), *r)).collect(),
         assembly::Solid::Polyhedron(p) => p.vertices.iter().map(|v| (moved(v), 0.0)).collect(),
     }
+}
+
+/// The surface of a heap that lies still, from its scene: what [`heap`] measured.
+pub fn profile(protocol: &Protocol, heap: &assembly::Assembly) -> Option<Profile> {
+    let spots: Vec<(Vector3<f64>, f64)> = heap
+        .free()
+        .map(|i| &heap.blocks[i])
+        .flat_map(|b| tops(b, (b.centroid, UnitQuaternion::identity())))
+        .collect();
+    let turned = match protocol.kind {
+        ProtocolKind::Tilt => heap.gravity.x.atan2(-heap.gravity.z),
+        ProtocolKind::Drain | ProtocolKind::Funnel | ProtocolKind::Cylinder => 0.0,
+    };
+    surface(protocol, &spots, turned).0
 }
 
 /// The heap as a scene: what stayed, where it lies.
@@ -243,7 +271,7 @@ fn surface(
     protocol: &Protocol,
     spots: &[(Vector3<f64>, f64)],
     turned: f64,
-) -> (Option<Slope>, Vec<Slope>) {
+) -> (Option<Profile>, Vec<Slope>) {
     let d = protocol.diameter;
     let width = CELL * d;
     let open = matches!(protocol.kind, ProtocolKind::Funnel | ProtocolKind::Cylinder);
@@ -285,11 +313,18 @@ fn surface(
     // A step that not every path reaches lies beyond the toe of the mean.
     let profile: Vec<(f64, f64)> =
         steps.values().filter(|cells| 2 * cells.len() > full).map(mean).collect();
-    (fit(&profile, d, turned), paths.values().filter_map(|cells| fit(cells, d, turned)).collect())
+    let parts = paths.values().filter_map(|cells| fit(cells, d, turned)).map(|f| f.0).collect();
+    let Some((slope, ends)) = fit(&profile, d, turned) else { return (None, parts) };
+    // In the plane of the section through the middle; in the open along x.
+    let from = if open { middle } else { Vector3::zeros() };
+    let place = |(x, z): (f64, f64)| Vector3::new(from.x + x, from.y, z);
+    let surface = profile.into_iter().map(place).collect();
+    (Some(Profile { surface, line: ends.map(place), slope }), parts)
 }
 
-/// A straight line through cells, the first (at the wall, or the top) and the toe left out.
-fn fit(cells: &[(f64, f64)], d: f64, turned: f64) -> Option<Slope> {
+/// A straight line through cells, the first (at the wall, or the top) and the toe left out, and its
+/// ends against the bed.
+fn fit(cells: &[(f64, f64)], d: f64, turned: f64) -> Option<(Slope, [(f64, f64); 2])> {
     // Beyond the last cell that stands clear of the floor is the toe; its own last cell is cut by
     // it.
     let end = cells.iter().rposition(|c| c.1 > TOE * d)?;
@@ -309,7 +344,14 @@ fn fit(cells: &[(f64, f64)], d: f64, turned: f64) -> Option<Slope> {
         return None;
     }
     let r_squared = if zz > 0.0 { xz * xz / (xx * zz) } else { 1.0 };
-    Some(Slope { angle_deg: (-xz / xx).atan().to_degrees(), r_squared, cells: inner.len() })
+    // Back against the bed.
+    let end = |way: f64| {
+        let height = z + xz / xx * (way - x);
+        (way * cos - height * sin, way * sin + height * cos)
+    };
+    let ends = [inner.first(), inner.last()].map(|c| end(c.map_or(x, |c| c.0)));
+    let slope = Slope { angle_deg: (-xz / xx).atan().to_degrees(), r_squared, cells: inner.len() };
+    Some((slope, ends))
 }
 
 /// The tilt downhill that a heap at rest still bears. In the open it is asked for along x.
@@ -374,7 +416,10 @@ mod tests {
             })
             .collect();
         let (mean, parts) = surface(&protocol, &spots, 0.0);
-        let mean = mean.expect("a slope");
+        let Profile { surface: cells, line, slope: mean } = mean.expect("a slope");
+        // Its line passes through the tops, which lie half a grain above the centres.
+        let top = |x: f64| 9.0 * d - slope * x;
+        assert!(cells.iter().chain(&line).all(|p| (p.z - top(p.x)).abs() < 1e-9 && p.y == 0.0));
         assert!(
             (mean.angle_deg - 25.0).abs() < 1e-9 && mean.r_squared > 1.0 - 1e-12 && mean.cells >= 5,
             "{mean:?}"
@@ -383,7 +428,8 @@ mod tests {
         assert!(parts.iter().all(|p| (p.angle_deg - 25.0).abs() < 1e-9), "{parts:?}");
         // The same grains where gravity has turned by 10°: ten more, with the same fit.
         let (mean, _) = surface(&protocol, &spots, 10f64.to_radians());
-        let mean = mean.expect("a slope");
+        let Profile { line, slope: mean, .. } = mean.expect("a slope");
+        assert!(line.iter().all(|p| (p.z - top(p.x)).abs() < 1e-9), "{line:?}");
         assert!((mean.angle_deg - 35.0).abs() < 1e-9 && mean.r_squared > 1.0 - 1e-12, "{mean:?}");
         assert_eq!(surface(&protocol, &spots[..10], 0.0).0, None, "one row of grains has no slope");
         assert_eq!(surface(&protocol, &[], 0.0), (None, Vec::new()));

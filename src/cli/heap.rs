@@ -12,7 +12,7 @@ use std::{borrow::Cow, ops::ControlFlow};
 use voussoir::{
     analysis::{
         Control, Law, Tilted,
-        repose::{Heap, Margin, heap, margin},
+        repose::{Heap, Margin, heap, margin, profile},
     },
     deadline::Deadline,
     interface::prepare,
@@ -20,8 +20,10 @@ use voussoir::{
     parallel,
     proof::ResultFile,
     report::{
+        drawing,
         heaps::{HeapResult, MarginResult, ReposeFile},
         json, page,
+        record::Record,
         text::{self, TextOptions},
         view::View,
     },
@@ -48,6 +50,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         );
     }
     let pictures = Pictures::open(&args.pictures, None)?;
+    pictures.hides_something(args.common.report.is_some())?;
     let report = args.common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let outputs: Vec<Option<Sink>> = (0..u64::from(args.seeds))
         .map(|k| {
@@ -115,7 +118,12 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         if let (Some(margin), None, true) = (&result, known, in_time()) {
             keep(&Piece::Margin { seed, keep_all: args.common.keep_all, margin: margin.clone() })?;
         }
-        let view = shown.then(|| picture(&heap, fresh.as_ref())).transpose()?;
+        let mut view = shown.then(|| picture(&heap, fresh.as_ref())).transpose()?;
+        if let Some(view) = &mut view {
+            let assembly = prepare(&heap.scene)?.assembly;
+            view.slope = profile(&protocol, &assembly).map(Into::into);
+            view.hides_supports = pictures.hides_supports();
+        }
         Ok((HeapResult::new(&heap, result), view))
     };
     let outputs: Vec<(usize, Option<Sink>)> = outputs.into_iter().enumerate().collect();
@@ -133,7 +141,9 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     if let (Some(report), Some(view)) = (report, views.iter().flatten().next()) {
         let words = text::heaps(&file, report::EVERYTHING, report::layout(layout));
-        report.write(&page::page(&words, view, page::heaps(&file).as_slice())?)?;
+        let drawing =
+            Record { drawing: drawing::printed(view, pictures.aspect()), ..Record::default() };
+        report.write(&page::filed(&words, view, page::heaps(&file).as_slice(), &drawing)?)?;
     }
     if args.common.json {
         terminal::print(&text)?;

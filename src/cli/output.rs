@@ -59,12 +59,20 @@ impl Sink {
     pub fn write(&self, text: &str) -> anyhow::Result<()> {
         match self {
             Self::Stdout => terminal::print(text),
-            Self::File(target) => replace(target, text)
+            Self::File(_) | Self::Device(_) => self.write_bytes(text.as_bytes()),
+        }
+    }
+
+    /// Writes what is no text, to anything but standard output.
+    pub fn write_bytes(&self, bytes: &[u8]) -> anyhow::Result<()> {
+        match self {
+            Self::Stdout => bail!("standard output takes text alone"),
+            Self::File(target) => replace(target, bytes)
                 .with_context(|| format!("{}: cannot be written", target.display())),
             Self::Device(target) => match OpenOptions::new()
                 .write(true)
                 .open(target)
-                .and_then(|mut f| f.write_all(text.as_bytes()))
+                .and_then(|mut f| f.write_all(bytes))
             {
                 Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
                 other => other.with_context(|| format!("{}: cannot be written", target.display())),
@@ -77,10 +85,10 @@ fn folder(target: &Path) -> &Path {
     target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Puts a file with this text in the place of the target, whole or not at all.
-fn replace(target: &Path, text: &str) -> std::io::Result<()> {
+/// Puts a file with these bytes in the place of the target, whole or not at all.
+fn replace(target: &Path, bytes: &[u8]) -> std::io::Result<()> {
     #[cfg(target_os = "linux")]
-    if let Some(done) = nameless(target, text) {
+    if let Some(done) = nameless(target, bytes) {
         return done;
     }
     let mut builder = tempfile::Builder::new();
@@ -92,12 +100,12 @@ fn replace(target: &Path, text: &str) -> std::io::Result<()> {
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let mut file = builder.tempfile_in(folder(target)).map_err(files::unnamed)?;
-    fill(file.as_file_mut(), target, text)?;
+    fill(file.as_file_mut(), target, bytes)?;
     file.persist(target).map(drop).map_err(|e| e.error)
 }
 
-fn fill(file: &mut fs::File, target: &Path, text: &str) -> std::io::Result<()> {
-    file.write_all(text.as_bytes())?;
+fn fill(file: &mut fs::File, target: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    file.write_all(bytes)?;
     if let Ok(old) = fs::metadata(target) {
         file.set_permissions(old.permissions())?;
     }
@@ -107,7 +115,7 @@ fn fill(file: &mut fs::File, target: &Path, text: &str) -> std::io::Result<()> {
 /// Writes a file that has no name until it is whole, so that even a kill leaves nothing beside the
 /// target. `None` where the system or the file system has no such files.
 #[cfg(target_os = "linux")]
-fn nameless(target: &Path, text: &str) -> Option<std::io::Result<()>> {
+fn nameless(target: &Path, bytes: &[u8]) -> Option<std::io::Result<()>> {
     use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat, openat};
     use std::os::fd::AsRawFd;
     let fd = openat(
@@ -118,7 +126,7 @@ fn nameless(target: &Path, text: &str) -> Option<std::io::Result<()>> {
     )
     .ok()?;
     let mut file = fs::File::from(fd);
-    if let Err(e) = fill(&mut file, target, text) {
+    if let Err(e) = fill(&mut file, target, bytes) {
         return Some(Err(e));
     }
     let open = format!("/proc/self/fd/{}", file.as_raw_fd());

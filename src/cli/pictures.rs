@@ -5,7 +5,7 @@ use anyhow::{Context, bail};
 use std::path::{Path, PathBuf};
 use voussoir::report::{
     drawing::{self, Aspect},
-    table,
+    gltf, obj, table,
     view::View,
     vtk,
 };
@@ -16,6 +16,11 @@ pub struct Pictures {
     svg: Option<Sink>,
     aspect: Aspect,
     vtk: Option<Sink>,
+    /// With whether it is the binary container.
+    gltf: Option<(Sink, bool)>,
+    obj: Option<Sink>,
+    /// Supports are left out.
+    hides: bool,
     /// Where the files of single moments go.
     frames: Option<PathBuf>,
     /// Joints and blocks.
@@ -62,13 +67,15 @@ impl Pictures {
             );
         }
         let open = |path: Option<&Path>| path.map(|p| Sink::open(Some(p))).transpose();
-        let printed = [args.svg.as_deref(), args.vtk.as_deref(), table]
+        let printed = [&args.svg, &args.vtk, &args.gltf, &args.obj]
             .into_iter()
+            .map(|p| p.as_deref())
+            .chain([table])
             .flatten()
             .filter(|p| is_dash(p))
             .count();
         if printed > 1 {
-            bail!("standard output takes one of --svg, --vtk and --csv");
+            bail!("standard output takes one of --svg, --vtk, --gltf, --obj and --csv");
         }
         let tables = match table {
             Some(path) if is_dash(path) => {
@@ -80,10 +87,15 @@ impl Pictures {
             None => None,
         };
         let (svg, vtk) = (open(args.svg.as_deref())?, open(args.vtk.as_deref())?);
+        let binary = |p: &Path| p.extension().is_some_and(|e| e.eq_ignore_ascii_case("glb"));
+        let gltf = args.gltf.as_deref().map(|p| anyhow::Ok((Sink::open(Some(p))?, binary(p))));
         Ok(Self {
             svg,
             aspect: args.view.unwrap_or_default(),
             vtk,
+            gltf: gltf.transpose()?,
+            obj: open(args.obj.as_deref())?,
+            hides: args.hide.is_some(),
             frames: None,
             csv: tables,
             members: table.map(|path| beside(path, "members")),
@@ -91,9 +103,34 @@ impl Pictures {
         })
     }
 
+    /// From where they are seen.
+    pub fn aspect(&self) -> Aspect {
+        self.aspect
+    }
+
     /// Whether anything is to be made.
     pub fn wanted(&self) -> bool {
-        self.svg.is_some() || self.vtk.is_some() || self.csv.is_some()
+        self.svg.is_some() || self.vtk.is_some() || self.csv.is_some() || self.is_solid()
+    }
+
+    /// Whether blocks are to be written for programs that show them in space.
+    fn is_solid(&self) -> bool {
+        self.gltf.is_some() || self.obj.is_some()
+    }
+
+    /// Whether supports are left out.
+    pub fn hides_supports(&self) -> bool {
+        self.hides
+    }
+
+    /// Refuses to leave supports out of nothing.
+    pub fn hides_something(&self, page: bool) -> anyhow::Result<()> {
+        if self.hides && !(page || self.svg.is_some() || self.is_solid()) {
+            bail!(
+                "--hide says what --svg, --gltf, --obj and --report leave out: ask for one of them"
+            );
+        }
+        Ok(())
     }
 
     /// Whether one of them is what standard output holds.
@@ -103,6 +140,16 @@ impl Pictures {
 
     /// Writes them.
     pub fn write(&self, view: &View) -> anyhow::Result<()> {
+        let hidden = self.hides.then(|| View { hides_supports: true, ..view.clone() });
+        let view = hidden.as_ref().unwrap_or(view);
+        match &self.gltf {
+            Some((sink, true)) => sink.write_bytes(&gltf::binary(view)?)?,
+            Some((sink, false)) => sink.write(&gltf::text(view)?)?,
+            None => {}
+        }
+        if let Some(sink) = &self.obj {
+            sink.write(&obj::obj(view))?;
+        }
         if let Some(svg) = &self.svg {
             svg.write(&drawing::svg(view, self.aspect))?;
         }

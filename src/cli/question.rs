@@ -23,7 +23,9 @@ use voussoir::{
     limits,
     proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, work::Work},
     report::{
-        json, kinematic, moving, page, stages,
+        json, kinematic, moving, page,
+        record::Record,
+        stages,
         text::{self, Asked, TextOptions},
         view::View,
     },
@@ -142,16 +144,22 @@ impl<'a> Session<'a> {
         table: Option<&Path>,
         open: impl FnOnce() -> anyhow::Result<Pictures>,
     ) -> anyhow::Result<Self> {
-        let given =
-            [("--svg", args.svg.as_deref()), ("--vtk", args.vtk.as_deref()), ("--csv", table)];
+        let given = [
+            ("--svg", args.svg.as_deref()),
+            ("--vtk", args.vtk.as_deref()),
+            ("--gltf", args.gltf.as_deref()),
+            ("--obj", args.obj.as_deref()),
+            ("--csv", table),
+        ];
         for (option, path) in given.into_iter().filter_map(|(o, p)| Some((o, p?))) {
             if is_same(path, &self.common.scene) {
                 bail!("{option} {} would replace the scene", path.display());
             }
         }
         let pictures = open()?;
+        pictures.hides_something(self.report.is_some())?;
         if pictures.printed() && (self.common.json || report::is_printed(&self.common.report)) {
-            bail!("standard output takes one of --svg, --vtk, --report and --json");
+            bail!("standard output takes one of --svg, --vtk, --gltf, --obj, --report and --json");
         }
         Ok(Self { pictures, ..self })
     }
@@ -283,6 +291,7 @@ impl<'a> Session<'a> {
                 Seen::Other(view) => (*view, None),
                 Seen::Drawn(view) => (View::new(&self.model, &file, Vec::new())?, Some(*view)),
             };
+            view.hides_supports = self.pictures.hides_supports();
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
                 let charts: Vec<_> = [
@@ -295,7 +304,11 @@ impl<'a> Session<'a> {
                 .into_iter()
                 .flatten()
                 .collect();
-                report.write(&page::page(&text, &view, &charts)?)?;
+                let command = text::command(&file, asked);
+                let origin = report::origin(&self.common.scene, command);
+                let from = self.pictures.aspect();
+                let record = Record::new(&file, &self.model, &view, from, &origin);
+                report.write(&page::filed(&text, &view, &charts, &record)?)?;
             }
             if !matches!(file.question, Kind::Simulate | Kind::Settle | Kind::Push) {
                 // A verdict is drawn with its mechanism, whatever else was seen.

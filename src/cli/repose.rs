@@ -5,7 +5,7 @@ use super::{
     exit::Exit,
     heap,
     output::Sink,
-    question::Session,
+    question::{Session, quoted},
     report,
     terminal::{self, Terminal},
 };
@@ -18,6 +18,7 @@ use voussoir::{
     proof::packing::PackingFile,
     report::{
         contacts, json, page,
+        record::Record,
         text::{self, TextOptions},
         view::View,
     },
@@ -91,12 +92,19 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         .is_filmed()
         .then(|| anyhow::Ok(View::new(&prepare(&proof.scene.input)?, &proof, Vec::new())?))
         .transpose()?;
+    let seen =
+        seen.map(|view| View { hides_supports: session.pictures().hides_supports(), ..view });
     if let Some(view) = &seen {
         session.pictures().write(view)?;
     }
     if let (Some(report), Some(view)) = (session.report(), &seen) {
         let words = text::packing(&file, report::EVERYTHING, report::layout(layout));
-        report.write(&page::page(&words, view, page::attempts(&proof).as_slice())?)?;
+        let command = format!("voussoir repose {}", quoted(&args.common.scene.to_string_lossy()));
+        let origin = report::origin(&args.common.scene, command);
+        let model = prepare(&proof.scene.input)?;
+        let record = Record::new(&proof, &model, view, session.pictures().aspect(), &origin);
+        let charts = page::attempts(&proof);
+        report.write(&page::filed(&words, view, charts.as_slice(), &record)?)?;
     }
     if args.common.json {
         terminal::print(&json::pretty(&file)?)?;

@@ -44,6 +44,7 @@ mod pictures;
 mod published;
 mod readme;
 mod real;
+mod record;
 mod reference;
 mod rocking;
 mod same;

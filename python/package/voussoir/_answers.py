@@ -430,6 +430,19 @@ class Answer:
         """Write a file for ParaView (``.vtp``)."""
         _write(path, self._core.vtp())
 
+    def gltf(self, path: str | os.PathLike[str]) -> None:
+        """Write blocks, mechanisms and films for programs that architects use (glTF 2.0): binary where
+        the name ends with ``.glb``, else text."""
+        if os.fspath(path).lower().endswith(".glb"):
+            with open(path, "wb") as file:
+                file.write(self._core.glb())
+        else:
+            _write(path, self._core.gltf())
+
+    def obj(self, path: str | os.PathLike[str]) -> None:
+        """Write the displaced blocks (``.obj``)."""
+        _write(path, self._core.obj())
+
     def table(self, which: str = "joints") -> str:
         """A table with commas: ``joints``, ``blocks``, ``members``."""
         return self._core.csv(which)

@@ -18,6 +18,10 @@ pub enum Written {
     Lines,
     /// VTK, one answer or a film.
     Vtk,
+    /// glTF, as text or binary.
+    Gltf,
+    /// Meshes of blocks.
+    Obj,
     /// A folder of several files.
     Folder,
 }
@@ -32,6 +36,8 @@ impl Written {
             Self::Json => "JSON",
             Self::Lines => "JSON lines",
             Self::Vtk => "a file for ParaView (VTK XML)",
+            Self::Gltf => "a model for architects' programs (glTF)",
+            Self::Obj => "a mesh (OBJ)",
             Self::Folder => "several files into a folder",
         }
     }
@@ -45,6 +51,8 @@ impl Written {
             Self::Json => &["json"],
             Self::Lines => &["jsonl", "ndjson", "json"],
             Self::Vtk => &["vtp", "pvd"],
+            Self::Gltf => &["gltf", "glb"],
+            Self::Obj => &["obj"],
             Self::Folder => &[],
         }
     }

@@ -1,7 +1,7 @@
 //! Arguments of pictures and tables.
 
 use super::parse::{Written, output};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use voussoir::report::drawing::Aspect;
 
@@ -21,6 +21,25 @@ pub struct Pictures {
     /// with a folder of the same name beside it).
     #[arg(long, value_name = "FILE")]
     pub vtk: Option<PathBuf>,
+    /// Write the blocks as named nodes with their materials, lines of thrust, members, and every
+    /// mechanism or film as an animation to this file, .gltf or .glb (glTF 2.0): for Blender, Rhino,
+    /// and viewers on the web.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Gltf))]
+    pub gltf: Option<PathBuf>,
+    /// Write the blocks where the mechanism takes them, or at the end of a film, to this file, one
+    /// object a block; how far it goes is said in its head.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Obj))]
+    pub obj: Option<PathBuf>,
+    /// Leave supports out of --svg, --gltf, --obj and --report.
+    #[arg(long, value_name = "WHAT", value_enum)]
+    pub hide: Option<Hide>,
+}
+
+/// What pictures can leave out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Hide {
+    /// Blocks that are held.
+    Supports,
 }
 
 /// Tables of an answer.

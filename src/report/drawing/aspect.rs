@@ -85,6 +85,8 @@ impl Aspect {
         let x = x.normalize();
         let y = up.cross(&x);
         let eye = match self {
+            // The slope of a heap is seen from the side.
+            Self::Auto if view.slope.is_some() => -y,
             Self::Auto => match plane(view, movement, up, [y, x]) {
                 Some(axis) if axis.cross(&up).sum() > 0.0 => -axis,
                 Some(axis) => axis,

@@ -31,7 +31,12 @@ pub fn draw(
 ) {
     for &i in order {
         let body = &bodies[i];
-        let class = if view.bodies[i].support { "support" } else { class(i) };
+        let class = match view.bodies[i].support {
+            true if view.hides_supports => continue,
+            true if paper.glass => "support glass",
+            true => "support",
+            false => class(i),
+        };
         sheet.put(format_args!("<g class=\"{class}\"><title>{}</title>", markup(&body.body.id)));
         match &body.form {
             Form::Sphere(radius) => {

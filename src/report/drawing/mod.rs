@@ -18,6 +18,7 @@ mod members;
 mod order;
 mod projection;
 mod sheet;
+mod slope;
 
 pub use aspect::Aspect;
 pub(super) use choice::sized;
@@ -26,6 +27,7 @@ use super::view::View;
 use crate::plain::markup;
 use choice::{Choice, Movement};
 use legend::{Glyph, Legend};
+use nalgebra::Vector3;
 use projection::Projection;
 use sheet::Sheet;
 
@@ -42,8 +44,24 @@ const MANY: usize = 24;
 /// Panels of structures flatter than this stand below each other.
 const FLAT: f64 = 0.6;
 
+/// Whether everything happens in a plane, and the direction from which one looks at it.
+pub fn plane(view: &View) -> Option<Vector3<f64>> {
+    let axes = Aspect::Auto.axes(view, Choice::of(view).movement.as_ref());
+    (axes.level && !view.bodies.is_empty()).then_some(axes.eye)
+}
+
 /// Draws an answer.
 pub fn svg(view: &View, aspect: Aspect) -> String {
+    draw(view, aspect, "", |style| style.to_string())
+}
+
+/// Draws an answer for a place inside a page that is printed: on white paper, and what its style
+/// says holds for it alone.
+pub fn printed(view: &View, aspect: Aspect) -> String {
+    draw(view, aspect, " class=\"sheet\"", |style| sheet::scoped(style, ".sheet"))
+}
+
+fn draw(view: &View, aspect: Aspect, attributes: &str, styled: impl Fn(&str) -> String) -> String {
     let choice = Choice::of(view);
     let still = body::still(view);
     let moved = choice.movement.as_ref().map(|m| (m, m.bodies(view)));
@@ -64,14 +82,23 @@ pub fn svg(view: &View, aspect: Aspect) -> String {
         panels.push(kinematics(view, movement, &paper, [&still, bodies], &mut legend));
     }
     let (text, height) = lay_out(&panels, &paper, beside, &legend);
+    let mut styles = styled(sheet::STYLE);
+    styles.push_str(&styled(&thin(view, &paper)));
+    for (there, style) in [
+        (!view.members.is_empty(), members::STYLE),
+        (view.values.is_some(), sheet::VALUES),
+        (paper.glass, sheet::GLASS),
+        (view.slope.is_some(), slope::STYLE),
+    ] {
+        if there {
+            styles.push_str(&styled(style));
+        }
+    }
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH:.0} {height:.0}\" width=\"{WIDTH:.0}\" height=\"{height:.0}\" role=\"img\">\n<title>{}</title>\n<desc>{}</desc>\n<style>{}{}</style>\n<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH:.0} {height:.0}\" width=\"{WIDTH:.0}\" height=\"{height:.0}\" role=\"img\"{attributes}>\n<title>{}</title>\n<desc>{}</desc>\n<style>{}</style>\n<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n",
         markup(&view.name),
         markup(&panels.iter().map(|p| p.caption.as_str()).collect::<Vec<_>>().join("; ")),
-        sheet::STYLE,
-        thin(view, &paper)
-            + if view.members.is_empty() { "" } else { members::STYLE }
-            + if view.values.is_some() { sheet::VALUES } else { "" }
+        styles
     );
     out.push_str(&text);
     out.push_str("</svg>\n");
@@ -142,6 +169,7 @@ fn statics(
     }
     members::draw(&mut sheet, view, paper, legend);
     marks::loads(&mut sheet, view, paper, choice.states.first().copied(), legend);
+    slope::draw(&mut sheet, view, paper, legend);
     Panel { caption, content: sheet.text }
 }
 

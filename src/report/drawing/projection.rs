@@ -24,6 +24,8 @@ pub struct Projection {
     pub elevation: bool,
     /// Units of the sheet per metre.
     pub scale: f64,
+    /// Whether supports hide so much that they are drawn as glass.
+    pub glass: bool,
     low: [f64; 2],
     high: [f64; 2],
 }
@@ -76,7 +78,7 @@ impl Projection {
     pub fn new(view: &View, axes: Axes, still: &[Solid], moved: Option<&[Solid]>) -> Self {
         let any_free = view.bodies.iter().any(|b| !b.support);
         let free = |b: &&Solid| !b.body.support || !any_free;
-        let held = |b: &&Solid| b.body.support;
+        let held = |b: &&Solid| b.body.support && !view.hides_supports;
         let mut frame = Frame::of(&axes, still.iter().filter(free));
         let size = frame.size();
         if let Some(moved) = moved {
@@ -89,7 +91,8 @@ impl Projection {
         if !(frame.size().is_finite() && frame.size() > 0.0) {
             frame = Frame { low: [0.0; 2], high: [1.0; 2] };
         }
-        Self { axes, elevation: axes.level, scale: 1.0, low: frame.low, high: frame.high }
+        let glass = view.walled(&axes.eye);
+        Self { axes, elevation: axes.level, scale: 1.0, glass, low: frame.low, high: frame.high }
     }
 
     /// Height over width.

@@ -36,6 +36,25 @@ pub const VALUES: &str = "\
 .goes .f0{fill:#2f5c3a}.goes .f1{fill:#285132}.goes .f2{fill:#21452a}.goes .f3{fill:#1b3922}.goes .edge,.goes circle{stroke:#8fd6a0}\
 .open .f0{fill:#6b5c22}.open .f1{fill:#5e511d}.open .f2{fill:#504518}.open .f3{fill:#423914}.open .edge,.open circle{stroke:#e6d27a}}";
 
+/// Supports that one looks through.
+pub const GLASS: &str = "\
+.glass .f0,.glass .f1,.glass .f2,.glass .f3{fill-opacity:.16}.glass .edge{stroke-opacity:.55}";
+
+/// The rules of a style for what lies inside `place` alone, without those for dark pages.
+pub fn scoped(style: &str, place: &str) -> String {
+    let light = style.split("@media").next().unwrap_or_default();
+    let mut out = String::new();
+    for rule in light.split_inclusive('}') {
+        let Some((names, body)) = rule.split_once('{') else { continue };
+        let names: Vec<String> =
+            names.split(',').map(|name| format!("{place} {}", name.trim())).collect();
+        out.push_str(&names.join(","));
+        out.push('{');
+        out.push_str(body);
+    }
+    out
+}
+
 /// Text that grows.
 #[derive(Default)]
 pub struct Sheet {

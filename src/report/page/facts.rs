@@ -3,6 +3,12 @@
 use crate::plain::markup;
 use crate::report::text::{Page, Role, Span};
 
+/// Rows about the solver and its work, which are folded together.
+const INTERNALS: [&str; 4] = ["left out", "time", "work", "attempts"];
+/// Rows that a record repeats.
+const RECORDED: [&str; 2] = ["proof", "scene"];
+/// The row of commands.
+const NEXT: &str = "next";
 /// Rows of more lines than this are folded.
 const LINES: usize = 9;
 /// So are rows of more characters than this.
@@ -71,8 +77,22 @@ pub(super) fn body(page: &Page) -> String {
                 .push(format!("<p>{}</p>", spans.iter().map(inline).collect::<String>().trim())),
         }
     }
-    let rows: String = rows.iter().map(Row::html).collect();
-    format!("<div class=\"why\">{}</div><dl class=\"rows\">{rows}</dl>", paragraphs.concat())
+    let (inner, rows): (Vec<Row>, Vec<Row>) =
+        rows.into_iter().partition(|r| INTERNALS.contains(&r.label.as_str()));
+    let list = |rows: &[Row]| rows.iter().map(Row::html).collect::<String>();
+    let inner = if inner.is_empty() {
+        String::new()
+    } else {
+        format!(
+            "<details class=\"internals\"><summary>How it was computed</summary><dl class=\"rows\">{}</dl></details>",
+            list(&inner)
+        )
+    };
+    format!(
+        "<div class=\"why\">{}</div><dl class=\"rows\">{}</dl>{inner}",
+        paragraphs.concat(),
+        list(&rows)
+    )
 }
 
 fn inline(span: &Span) -> String {
@@ -103,7 +123,13 @@ impl Row {
         } else {
             body
         };
-        format!("<dt>{}</dt><dd>{body}</dd>", markup(&self.label))
+        // What to type next is of no use on paper, and a record says some of it in full.
+        let class = match self.label.as_str() {
+            NEXT => " class=\"typed\"",
+            label if RECORDED.contains(&label) => " class=\"recorded\"",
+            _ => "",
+        };
+        format!("<dt{class}>{}</dt><dd{class}>{body}</dd>", markup(&self.label))
     }
 }
 

@@ -79,5 +79,7 @@ fn nothing() -> View {
         film: Vec::new(),
         course: Course::default(),
         values: None,
+        slope: None,
+        hides_supports: false,
     }
 }

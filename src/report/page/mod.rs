@@ -11,6 +11,7 @@ mod facts;
 mod html;
 mod live;
 mod pack;
+mod record;
 mod study;
 mod sweep;
 
@@ -19,7 +20,7 @@ pub use live::{live, piece};
 pub use study::{extreme, omissions, study};
 pub use sweep::sweep;
 
-use super::{text::Page, view::View};
+use super::{record::Record, text::Page, view::View};
 use crate::plain::markup;
 use serde_json::json;
 
@@ -48,6 +49,19 @@ const PICTURE: &str = include_str!("assets/picture.html");
 /// # Errors
 /// Only if memory runs out.
 pub fn page(text: &Page, view: &View, charts: &[Chart]) -> Result<String, serde_json::Error> {
+    filed(text, view, charts, &Record::default())
+}
+
+/// The page of one answer with its record: what was asked of what, for the file and the printer.
+///
+/// # Errors
+/// Only if memory runs out.
+pub fn filed(
+    text: &Page,
+    view: &View,
+    charts: &[Chart],
+    record: &Record,
+) -> Result<String, serde_json::Error> {
     let data = json!({ "view": pack::view(view), "charts": charts });
     let scripts: Vec<&str> = [BASE, CHARTS].into_iter().chain(SCENE).collect();
     Ok(html::fill(
@@ -58,7 +72,8 @@ pub fn page(text: &Page, view: &View, charts: &[Chart]) -> Result<String, serde_
             ("head", &facts::head(text)),
             ("kind", "picture"),
             ("main", PICTURE),
-            ("facts", &facts::body(text)),
+            ("facts", &(record::asked(record) + &facts::body(text))),
+            ("record", &record::html(record)),
             ("version", env!("CARGO_PKG_VERSION")),
             ("data", &html::json(&data)?),
             ("script", &scripts.join("\n")),

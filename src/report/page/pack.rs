@@ -6,6 +6,7 @@
 
 use crate::{
     interface::ContactKind,
+    report::drawing,
     report::view::{Course, View, ViewMotion, ViewShape, ViewState},
     verdict::mechanism::JointMotion as Kind,
 };
@@ -82,6 +83,14 @@ pub(super) fn view(view: &View) -> Value {
         middle: view.middle(),
         force: if greatest.is_finite() && greatest > 0.0 { greatest } else { 1.0 },
     };
+    let plane = drawing::plane(view);
+    let front = plane.unwrap_or(view.front);
+    // Roughly where one stands at first.
+    let corner = if plane.is_some() {
+        front
+    } else {
+        (front + view.up.cross(&front) * 0.4 + view.up * 0.3).normalize()
+    };
     json!({
         "name": view.name,
         "length": units.length,
@@ -89,10 +98,18 @@ pub(super) fn view(view: &View) -> Value {
         "force": units.force,
         "up": view.up.as_slice(),
         "caption": view.caption,
-        "front": view.front.as_slice(),
+        "front": front.as_slice(),
+        "plane": plane.is_some(),
+        "supports": if view.hides_supports { "hidden" } else if view.walled(&corner) { "glass" } else { "shown" },
         "extent": ((view.high - view.low) / units.length).as_slice(),
         "bodies": bodies(view, &units),
         "joints": joints(view, &units),
+        "members": members(view, &units),
+        "slope": view.slope.as_ref().map(|s| json!({
+            "surface": units.points(&s.surface),
+            "line": units.points(&s.line),
+            "angle": s.angle_deg,
+        })),
         "loads": {
             "body": wholes(view.loads.iter().map(|l| l.body)),
             "at": units.points(view.loads.iter().map(|l| &l.at)),
@@ -178,6 +195,29 @@ fn joints(view: &View, units: &Units) -> Value {
     })
 }
 
+fn members(view: &View, units: &Units) -> Value {
+    let list = || view.members.iter();
+    let none = view.bodies.len();
+    json!({
+        "ids": list().map(|m| m.id.as_str()).collect::<Vec<_>>(),
+        "kinds": list().map(|m| m.kind.word()).collect::<Vec<_>>(),
+        "start": starts(list().map(|m| m.points.len())),
+        "points": units.points(list().flat_map(|m| &m.points)),
+        // One more than the last block: the ground.
+        "bodies": wholes(list().flat_map(|m| {
+            (0..m.points.len()).map(move |k| m.bodies.get(k).copied().flatten().unwrap_or(none))
+        })),
+        // Not a number: no direction.
+        "direction": singles(list().flat_map(|m| {
+            let d = m.direction.unwrap_or_else(|| Vector3::repeat(f64::NAN));
+            [d.x, d.y, d.z]
+        })),
+        "newton": list().map(|m| m.force).collect::<Vec<_>>(),
+        "strength": list().map(|m| Some(m.strength).filter(|s| s.is_finite())).collect::<Vec<_>>(),
+        "slack": list().map(|m| m.slack).collect::<Vec<_>>(),
+    })
+}
+
 /// How a joint resists, in words.
 fn law(law: &crate::assembly::JointLaw) -> String {
     use crate::number::short;
@@ -208,6 +248,7 @@ fn state(s: &ViewState, joints: usize, units: &Units) -> Value {
         s.resultants.iter().map(|r| r.map_or(units.middle, |r| r.at)).collect();
     json!({
         "name": s.name,
+        "live": s.live,
         "forces": units.forces(s.forces.iter().flatten()),
         "at": units.points(&at),
         "used": of(&|r| r.used),

@@ -179,7 +179,8 @@ fn attempt(a: &Attempt) -> String {
     )
 }
 
-fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
+/// The command that asks the same again.
+pub fn command(file: &ResultFile, asked: Asked) -> String {
     let scene = asked.scene;
     let verb = match file.question {
         QuestionKind::Assess => "assess",
@@ -194,11 +195,15 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         QuestionKind::Kinematic | QuestionKind::Rock => "kinematic",
         QuestionKind::Stages => "stages",
     };
-    let again = if asked.options.is_empty() {
+    if asked.options.is_empty() {
         format!("voussoir {verb} {scene}")
     } else {
         format!("voussoir {verb} {scene} {}", asked.options)
-    };
+    }
+}
+
+fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
+    let (scene, again) = (asked.scene, command(file, asked));
     let look = (format!("voussoir check {scene}"), "mistakes in the scene, near misses, overlaps");
     let elsewhere = file.critical.is_some()
         || file.thrust.is_some()

@@ -16,6 +16,8 @@ pub struct ViewMember {
     pub kind: MemberKind,
     /// Its ends and deviators, or where it acts, m.
     pub points: Vec<Vector3<f64>>,
+    /// The block at each of them; none at the ground.
+    pub bodies: Vec<Option<usize>>,
     /// Of what pushes: the direction in which it does.
     pub direction: Option<Vector3<f64>>,
     /// Its force, N, where an answer has one.
@@ -28,10 +30,16 @@ pub struct ViewMember {
 
 /// The members of a model.
 pub fn of(model: &Model) -> Vec<ViewMember> {
+    // What pushes at one point is held against something else; the last end is what is pushed.
+    let bodies = |m: &crate::assembly::Member| match (m.action.points().len(), m.action.ends()) {
+        (1, ends) => vec![ends.last().copied().flatten()],
+        (_, ends) => ends,
+    };
     let view = |m: &crate::assembly::Member| ViewMember {
         id: m.id.clone(),
         kind: m.kind,
         points: m.action.points(),
+        bodies: bodies(m),
         direction: match &m.action {
             Action::Push { direction, .. } => Some(*direction),
             Action::Press { normal, .. } => Some(*normal),

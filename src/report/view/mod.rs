@@ -9,6 +9,7 @@ mod course;
 mod film;
 mod member;
 mod motion;
+mod slope;
 mod stages;
 mod state;
 mod surface;
@@ -18,6 +19,7 @@ pub use course::{Course, frames};
 pub use film::Film;
 pub use member::ViewMember;
 pub use motion::{Mark, ViewMotion, ViewPose};
+pub use slope::ViewSlope;
 pub use stages::ViewValues;
 pub use state::{Resultant, Segment, ViewPart, ViewState};
 pub use surface::{Surface, ViewShape};
@@ -75,6 +77,10 @@ pub struct View {
     pub course: Course,
     /// Numbers of blocks that are shown by colour.
     pub values: Option<ViewValues>,
+    /// The surface of a heap, with the line through it.
+    pub slope: Option<ViewSlope>,
+    /// Whether supports are left out of pictures.
+    pub hides_supports: bool,
 }
 
 /// A block.
@@ -211,6 +217,8 @@ impl View {
             film: Vec::new(),
             course: Course::default(),
             values: None,
+            slope: None,
+            hides_supports: false,
             bodies,
         }
     }

@@ -20,6 +20,8 @@ mod ball;
 mod mesh;
 mod xml;
 
+pub(super) use ball::ball;
+
 use super::{
     drawing::sized,
     view::{View, ViewPart},

@@ -262,3 +262,87 @@ fn a_simulation_plays_and_a_sweep_shows_values() {
     assert_eq!(browser.run(first), "24");
     desk.quiet("sweep");
 }
+
+/// Plane scenes lie in the plane of the screen; members, supports and what is hidden; names under the
+/// pointer.
+#[test]
+fn the_view_shows_what_there_is() {
+    let Some(desk) = Desk::new(&[]) else { return };
+    let browser = &desk.browser;
+    desk.open("tie", &["limit", &structure("tied-arch"), "--law", "associative"]);
+    // By parallel rays along the normal of the plane: both ends of a block's depth are seen at one
+    // place, and what is drawn is inside the canvas, between the buttons and the legend.
+    let spots = "const b = shown.getBoundingClientRect(), m = lens(b.width, b.height).matrix;
+        const at = (p) => { const w = m[3]*p[0]+m[7]*p[1]+m[11]*p[2]+m[15]; return [(0.5+0.5*(m[0]*p[0]+m[4]*p[1]+m[8]*p[2]+m[12])/w)*b.width, (0.5-0.5*(m[1]*p[0]+m[5]*p[1]+m[9]*p[2]+m[13])/w)*b.height]; };";
+    let apart = browser.run(&format!("{spots} const [p, q] = [at([0.1, -0.2, 0.1]), at([0.1, 0.2, 0.1])]; return Math.hypot(p[0]-q[0], p[1]-q[1])"));
+    assert!(apart.as_f64().is_some_and(|d| d < 1e-3), "{apart}");
+    let inside = "loadArrows().every((f, k) => { const p = at(sub(at3(loads.at, k), f)); return p[0] > 0 && p[0] < b.width && p[1] > 30 && p[1] < b.height - el('legend').offsetHeight; })";
+    assert_eq!(browser.run(&format!("{spots} return loadArrows().length > 0 && {inside}")), true);
+    // The tie is named, picked and listed.
+    let name = format!(
+        "{spots} const [, p, q] = memberLines()[0], s = at(mul(add(p, q), 0.5)), over = overlay(...s, b.width, b.height); pick(over[1]); return [over[0], el('picked').textContent, el('list').selectedOptions[0].textContent]"
+    );
+    let said = browser.run(&name);
+    assert!(
+        said[0].as_str().is_some_and(|t| t.starts_with("tie tie: ") && t.ends_with("N")),
+        "{said}"
+    );
+    assert!(said[1].as_str().is_some_and(|t| t.contains("force")), "{said}");
+    assert_eq!(said[2], "tie (tie)");
+    // The key O changes the rays, and a named side takes them back.
+    browser.run("shown.focus()");
+    browser.keys("o");
+    assert_eq!(
+        browser.run("return [isParallel(), el('lens').getAttribute('aria-pressed')]"),
+        json!([false, "true"])
+    );
+    browser.keys("f");
+    assert_eq!(
+        browser.run("return [isParallel(), el('lens').getAttribute('aria-pressed')]"),
+        json!([true, "false"])
+    );
+    // Without supports, the support is neither drawn nor picked.
+    let ground = browser.run("return bodies.support.findIndex((s) => s)");
+    let seen = format!(
+        "{spots} const s = at(at3(bodies.center, {ground})); return hit(...s, b.width, b.height)?.body ?? null"
+    );
+    assert_eq!(browser.run(&seen), ground);
+    browser
+        .run("el('supports').value = 'hidden'; el('supports').dispatchEvent(new Event('change'))");
+    assert_eq!(browser.run(&seen), Value::Null);
+    desk.quiet("tie");
+    desk.open("hidden", &["assess", &structure("tied-arch"), "--hide", "supports"]);
+    assert_eq!(browser.run("return state.supports"), "hidden");
+    // Grains in a box: glass, the line through the surface, seen from the side.
+    let heap = ["repose", "drain", "grains=300", "--question", "repose", "--skip-margin"];
+    desk.open("heap", &heap);
+    let shown = browser.run("return [state.supports, isParallel(), el('legend').textContent]");
+    assert_eq!((&shown[0], &shown[1]), (&json!("glass"), &json!(true)));
+    let line = "return view.slope && [state.layers.has('slope'), named().some((n) => n[2].includes('straight line'))]";
+    let line = browser.run(line);
+    assert_eq!(line, json!([true, true]));
+    desk.quiet("heap");
+}
+
+/// On paper: the record with its drawing, no picture that needs a graphics card, nothing to click,
+/// nothing wider than the sheet.
+#[test]
+fn a_record_is_printed() {
+    let Some(desk) = Desk::new(&[]) else { return };
+    let browser = &desk.browser;
+    desk.open("record", &["limit", &structure("arch-with-point-load"), "--law", "associative"]);
+    browser.command("Emulation.setEmulatedMedia", json!({ "media": "print" }));
+    let metrics = json!({ "width": 690, "height": 1000, "deviceScaleFactor": 1, "mobile": false });
+    browser.command("Emulation.setDeviceMetricsOverride", metrics);
+    let seen = "const seen = (q) => [...document.querySelectorAll(q)].filter((e) => e.getClientRects().length > 0);
+        return [seen('canvas, button, select, input, summary').length, seen('.record .sheet .pin').length > 0, seen('.record table').length,
+            document.documentElement.scrollWidth <= innerWidth, seen('.typed, .internals').length]";
+    let found = browser.run(seen);
+    assert_eq!(
+        (&found[0], &found[1], &found[3], &found[4]),
+        (&json!(0), &json!(true), &json!(true), &json!(0)),
+        "{found}"
+    );
+    assert!(found[2].as_u64().is_some_and(|n| n >= 4), "{found}");
+    desk.quiet("record");
+}

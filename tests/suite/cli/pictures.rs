@@ -75,6 +75,29 @@ fn pictures_and_tables_are_written_beside_the_answer() {
     );
 }
 
+/// Models beside the answer, by their endings; supports are left out of something or refused.
+#[test]
+fn models_are_written_beside_the_answer() {
+    let desk = Desk::new();
+    let [text, binary, mesh] = ["a.gltf", "a.glb", "a.obj"].map(|n| desk.at(n));
+    let asked = ["assess", &desk.at("thin.json"), "--law", "associative", "-q"];
+    expect(NO, voussoir(&[&asked[..], &["--gltf", &text, "--obj", &mesh]].concat()));
+    expect(NO, voussoir(&[&asked[..], &["--gltf", &binary, "--hide", "supports"]].concat()));
+    let read = |name: &str| fs::read(desk.path(name)).unwrap();
+    let json: Value = serde_json::from_slice(&read("a.gltf")).unwrap();
+    assert_eq!(json["asset"]["version"], "2.0");
+    assert_eq!(&read("a.glb")[..4], b"glTF");
+    // The bound of a mechanism has no line of thrust: a root and the blocks.
+    let names = |bytes: &[u8]| String::from_utf8_lossy(bytes).matches("\"mass_kg\"").count();
+    let objects = String::from_utf8(read("a.obj")).unwrap().matches("\no ").count();
+    assert_eq!((names(&read("a.gltf")), names(&read("a.glb"))), (objects, objects - 2));
+    let wrong = [&asked[..], &["--hide", "supports"]].concat();
+    let said = expect(USAGE, voussoir(&wrong));
+    assert!(String::from_utf8_lossy(&said.stderr).contains("--hide"), "{said:?}");
+    let wrong = [&asked[..], &["--gltf", &mesh]].concat();
+    expect(USAGE, voussoir(&wrong));
+}
+
 #[test]
 fn saved_results_and_scenes_are_drawn_by_check() {
     let desk = Desk::new();

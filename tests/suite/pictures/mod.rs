@@ -1,6 +1,8 @@
 //! Drawings, VTK files and tables are read back, and what they say is compared with the mechanics.
 
 mod loads;
+mod models;
+mod shown;
 mod svg;
 mod table;
 mod vtk;

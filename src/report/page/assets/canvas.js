@@ -7,15 +7,17 @@ function plain(canvas) {
     const seen = (p) => {
       const w = m[3] * p[0] + m[7] * p[1] + m[11] * p[2] + m[15];
       if (w < 1e-6) return null;
-      return [(0.5 + (0.5 * (m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12])) / w) * width, (0.5 - (0.5 * (m[1] * p[0] + m[5] * p[1] + m[9] * p[2] + m[13])) / w) * height, w];
+      const deep = dot(sub(l.at, p), l.z);
+      return [(0.5 + (0.5 * (m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12])) / w) * width, (0.5 - (0.5 * (m[1] * p[0] + m[5] * p[1] + m[9] * p[2] + m[13])) / w) * height, w, deep];
     };
     const paint = (c, alpha = 1) => `rgba(${c.map((v) => Math.round(255 * Math.min(1, v))).join(",")},${alpha})`;
     const tints = colours(), sun = unit(add(add(mul(l.z, 0.7), mul(l.x, -0.55)), mul(l.y, 0.75))), pieces = [];
     for (let i = 0; i < COUNT; i++) {
-      const colour = at3(tints, i);
+      const colour = at3(tints, i), alpha = opacity(i);
+      if (!alpha) continue;
       if (bodies.radius[i] > 0) {
         const at = seen(moved(i, at3(bodies.center, i)));
-        if (at) pieces.push({ far: at[2], at, r: ((bodies.radius[i] / at[2]) * height) / (2 * SLOPE), fill: paint(mul(colour, 0.92)) });
+        if (at) pieces.push({ far: at[3], at, alpha, r: ((bodies.radius[i] / at[2]) * height) / (2 * SLOPE), fill: paint(mul(colour, 0.92), alpha) });
         continue;
       }
       const points = [];
@@ -25,11 +27,11 @@ function plain(canvas) {
         let normal = [0, 0, 0];
         for (let j = 1; j + 1 < loop.length; j++) normal = add(normal, cross(sub(loop[j], loop[0]), sub(loop[j + 1], loop[0])));
         normal = unit(normal);
-        if (dot(normal, sub(l.at, loop[0])) <= 0) continue;
+        if (dot(normal, l.flat ? l.z : sub(l.at, loop[0])) <= 0) continue;
         const flat = loop.map(seen);
         if (flat.includes(null)) continue;
         const light = 0.5 + 0.22 * (0.5 + 0.5 * dot(normal, up)) + 0.3 * Math.max(0, dot(normal, sun)) + 0.12 * Math.max(0, dot(normal, l.z));
-        pieces.push({ far: flat.reduce((s, p) => s + p[2], 0) / flat.length, flat, fill: paint(mul(colour, light)) });
+        pieces.push({ far: flat.reduce((s, p) => s + p[3], 0) / flat.length, flat, alpha, fill: paint(mul(colour, light), alpha) });
       }
     }
     pieces.sort((a, b) => b.far - a.far);
@@ -42,7 +44,7 @@ function plain(canvas) {
       else { context.beginPath(); context.arc(piece.at[0], piece.at[1], piece.r, 0, 7); }
       context.fillStyle = piece.fill;
       context.fill();
-      context.strokeStyle = border || piece.fill;
+      context.strokeStyle = piece.alpha < 1 ? paint(rgb("--edge"), 0.35) : border || piece.fill;
       context.lineWidth = border ? Math.max(0.6, height / 900) : 0.5;
       context.stroke();
     }

@@ -131,6 +131,10 @@ function drawChart(chart) {
 
 function drawCharts(charts) {
   cursors.length = 0;
-  (el("charts") || el("trace")).replaceChildren(...charts.map(drawChart));
+  // How the solver came to it is folded away with its other numbers.
+  const inner = document.querySelector(".internals"), own = (c) => inner && c.title === "Error against time";
+  document.querySelector(".internals .charts")?.remove();
+  (el("charts") || el("trace")).replaceChildren(...charts.filter((c) => !own(c)).map(drawChart));
+  if (charts.some(own)) inner.append(make("div", { class: "charts" }, charts.filter(own).map(drawChart)));
 }
 drawCharts(data.charts);

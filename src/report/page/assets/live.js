@@ -85,6 +85,7 @@ function keep() {
     el("motion").value = state.motion;
     state.colour = "stone";
     colour(shade);
+    supports(state.supports);
   }
   live.layout = layout;
   motionNow(state.motion);

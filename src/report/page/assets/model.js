@@ -1,11 +1,12 @@
 // The scene in units of its size, and where its blocks are at the moment.
 const unpack = (part) => { for (const key in part) if (typeof part[key] === "string" && /^(f32|u16|u32|i16):/.test(part[key]) && !["name", "quantity", "unit", "way"].includes(key)) part[key] = decode(part[key]); return part; };
-let view, bodies, joints, loads, COUNT, JOINTS, reach, jointsOf, poses;
+let view, bodies, joints, loads, members, COUNT, JOINTS, reach, jointsOf, poses;
 
 // Takes a view in the place of the one there was.
 function take(fresh) {
   view = fresh;
-  [bodies, joints, loads] = [view.bodies, view.joints, view.loads].map(unpack);
+  [bodies, joints, loads, members] = [view.bodies, view.joints, view.loads, view.members].map(unpack);
+  if (view.slope) unpack(view.slope);
   view.states.forEach(unpack);
   view.motions.forEach(unpack);
   if (view.film) unpack(view.film);
@@ -43,9 +44,14 @@ const meters = (v) => withUnit(v * view.length, "m");
 const newtons = (v) => withUnit(v * view.force, "N");
 
 // What is chosen. `way` runs from 0 to 1.
-const state = { motion: -1, way: 0, magnify: 1, force: 0, colour: "stone", layers: new Set(), picked: null };
+const state = { motion: -1, way: 0, magnify: 1, force: 0, colour: "stone", supports: "shown", layers: new Set(), picked: null };
+// How much there is to see of a block: supports can be seen through, or be left out.
+const GLASS = 0.17;
+const opacity = (i) => (!bodies.support[i] || state.supports === "shown" ? 1 : state.supports === "glass" ? GLASS : 0);
 // Greatest and least way of the fastest corner in a mechanism, over the size of the scene, when the slider is at its end.
-const FAR = 0.16, NEAR = 0.05;
+const FAR = 0.16, NEAR = 0.03;
+// Where it can be, no joint gapes or slides by more than this share of the smaller of its blocks: one sees what belonged together.
+const GAPE = 0.5;
 // Where it can be, no block turns by more than this then, radians; those that do not may grow by 1 / cos of it, 5 %.
 const WIDEST = 0.3;
 const FILM = -2;
@@ -98,7 +104,12 @@ function amplitude(motion) {
   if (!motion.far) {
     let most = 1e-9;
     for (let i = 0; i < COUNT; i++) most = Math.max(most, norm(at3(motion.spin, i)));
-    motion.far = Math.max(NEAR, Math.min(FAR, WIDEST / most));
+    let far = Math.min(FAR, WIDEST / most);
+    for (const k of motion.markJoint) {
+      const speed = (i, p) => add(at3(motion.velocity, i), cross(at3(motion.spin, i), sub(p, at3(bodies.center, i)))), size = 2 * Math.min(reach[joints.a[k]], reach[joints.b[k]]);
+      for (let p = joints.pointStart[k]; p < joints.pointStart[k + 1]; p++) { const at = at3(joints.points, p), apart = norm(sub(speed(joints.a[k], at), speed(joints.b[k], at))); if (apart * far > GAPE * size) far = (GAPE * size) / apart; }
+    }
+    motion.far = Math.max(NEAR, far);
   }
   return motion.far;
 }

@@ -1,6 +1,7 @@
 // Picking with a ray, and the numbers of what is picked.
 function ray(x, y, width, height) {
   const l = lens(width, height), u = (2 * x) / width - 1, v = 1 - (2 * y) / height;
+  if (l.flat) return { from: add(add(add(l.at, mul(l.z, 4)), mul(l.x, u * SLOPE * l.aspect * eye.distance)), mul(l.y, v * SLOPE * eye.distance)), way: mul(l.z, -1) };
   return { from: l.at, way: unit(add(add(mul(l.x, u * SLOPE * l.aspect), mul(l.y, v * SLOPE)), mul(l.z, -1))) };
 }
 
@@ -39,7 +40,36 @@ function hit(x, y, width, height) {
     if (t < best) [best, found] = [t, { joint: k }];
   }
   if (found) return found;
-  for (let i = 0; i < COUNT; i++) { const t = hitBody(i, from, way); if (t < best) [best, found] = [t, { body: i }]; }
+  for (let i = 0; i < COUNT; i++) { if (opacity(i) < 1) continue; const t = hitBody(i, from, way); if (t < best) [best, found] = [t, { body: i }]; }
+  return found;
+}
+
+// Whether nothing stands between a point and the eye.
+function isSeen(p) {
+  const l = axes(), flat = isParallel(), way = flat ? l.z : unit(sub(add(eye.target, mul(l.z, eye.distance)), p));
+  for (let i = 0; i < COUNT; i++) if (opacity(i) === 1 && hitBody(i, p, way) < Infinity) return false;
+  return true;
+}
+// Of more than this, everything that is marked is drawn: to ask for each what hides it would take longer than a frame.
+const LOOKED = 6e4;
+// Where a mark on a joint is drawn: at it, or at a corner of the joint that one sees; null where all of it is hidden.
+function markAt(k, at, many) {
+  const body = joints.a[k], own = moved(body, at), middle = at3(joints.center, k), list = [at];
+  if (many * COUNT > LOOKED) return own;
+  for (let p = joints.pointStart[k]; p < joints.pointStart[k + 1]; p++) list.push(at3(joints.points, p));
+  // A hair off the joint, or its own blocks hide it.
+  const off = (p) => { const d = sub(p, middle); return add(p, mul(d, 0.03 + 1e-4 / Math.max(norm(d), 1e-4))); };
+  return list.some((p) => isSeen(moved(body, off(p)))) ? own : null;
+}
+
+// What is drawn over the blocks and lies under the pointer: [words, what a click picks, whether a block goes before].
+function overlay(x, y, width, height) {
+  const m = lens(width, height).matrix;
+  const far = (p) => { const w = m[3] * p[0] + m[7] * p[1] + m[11] * p[2] + m[15]; return w > 1e-6 ? [(0.5 + (0.5 * (m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12])) / w) * width, (0.5 - (0.5 * (m[1] * p[0] + m[5] * p[1] + m[9] * p[2] + m[13])) / w) * height] : [-1e9, -1e9]; };
+  const beside = (a, b) => { const [p, q] = [far(a), far(b)], d = [q[0] - p[0], q[1] - p[1]], t = Math.min(1, Math.max(0, ((x - p[0]) * d[0] + (y - p[1]) * d[1]) / (d[0] * d[0] + d[1] * d[1] || 1))); return Math.hypot(x - p[0] - t * d[0], y - p[1] - t * d[1]); };
+  // Within what is drawn, or a block beside a hinge could not be picked.
+  let best = 4.5, found = null;
+  for (const [a, b, words, picked, weak] of named()) { const d = beside(a, b); if (d < best) [best, found] = [d, [words, picked, weak]]; }
   return found;
 }
 
@@ -50,8 +80,8 @@ const tableOf = (rows) => make("table", {}, make("tbody", {}, rows.filter((r) =>
 
 function numbers() {
   const box = el("picked"), p = state.picked;
-  if (!p) return box.replaceChildren(make("p", { class: "note" }, "Click a block, or choose one from the list, to read its numbers. With joints shown, click a joint."));
-  box.replaceChildren(...(p.body !== undefined ? bodyNumbers(p.body) : jointNumbers(p.joint)));
+  if (!p) return box.replaceChildren(make("p", { class: "note" }, "Click a block, an arrow, a hinge or a member, or choose from the list, to read its numbers. With joints shown, click a joint."));
+  box.replaceChildren(...(p.body !== undefined ? bodyNumbers(p.body) : p.member !== undefined ? memberNumbers(p.member) : jointNumbers(p.joint)));
 }
 
 function bodyNumbers(i) {
@@ -69,6 +99,18 @@ function bodyNumbers(i) {
     ["touches", make("div", { class: "links" }, jointsOf[i].map((k) => jump({ joint: k }, bodies.ids[joints.a[k] === i ? joints.b[k] : joints.a[k]])))],
   ];
   return [make("h2", {}, bodies.ids[i]), tableOf(rows)];
+}
+
+function memberNumbers(k) {
+  const force = members.newton[k], strength = members.strength[k];
+  const rows = [
+    ["", members.kinds[k]],
+    ["force", force === null ? null : members.slack[k] ? "slack" : withUnit(force, "N")],
+    ["strength", strength === null ? "no limit" : withUnit(strength, "N")],
+    ["used", force === null || !strength ? null : percent(Math.abs(force) / strength)],
+    ...Array.from({ length: members.start[k + 1] - members.start[k] }, (_, p) => { const n = members.start[k] + p, b = members.bodies[n]; return [p ? "to" : "at", make("span", {}, `${place(at3(members.points, n))} `, b < COUNT ? jump({ body: b }, bodies.ids[b]) : "on the ground")]; }),
+  ];
+  return [make("h2", {}, members.ids[k]), tableOf(rows)];
 }
 
 function jointNumbers(k) {

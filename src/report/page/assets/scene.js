@@ -30,7 +30,7 @@ function redraw(changed) {
 function pick(picked) {
   state.picked = picked;
   numbers();
-  const kind = picked && picked.joint !== undefined ? "joints" : "blocks", index = picked ? (kind === "joints" ? picked.joint : picked.body) : -1;
+  const kind = picked && picked.joint !== undefined ? "joints" : picked && picked.member !== undefined ? "members" : "blocks", index = picked ? picked[{ blocks: "body", joints: "joint", members: "member" }[kind]] : -1;
   if (picked) {
     if (el("kind").value !== kind) { el("kind").value = kind; el("find").value = ""; fillList(); }
     if (![...el("list").options].some((o) => Number(o.value) === index) && el("find").value) { el("find").value = ""; fillList(); }
@@ -44,22 +44,22 @@ function pick(picked) {
 // The list of blocks or joints, as far as it is asked for.
 const MOST = 4000;
 function fillList() {
-  const kind = el("kind").value, wanted = el("find").value.toLowerCase(), count = kind === "blocks" ? COUNT : JOINTS, options = [];
+  const kind = el("kind").value, wanted = el("find").value.toLowerCase(), count = { blocks: COUNT, joints: JOINTS, members: members.ids.length }[kind], options = [];
   let left = 0;
   for (let k = 0; k < count; k++) {
-    const name = kind === "blocks" ? bodies.ids[k] : nameOf(k);
+    const name = kind === "blocks" ? bodies.ids[k] : kind === "members" ? `${members.ids[k]} (${members.kinds[k]})` : nameOf(k);
     if (wanted && !name.toLowerCase().includes(wanted)) continue;
     if (options.length < MOST) options.push(make("option", { value: k }, kind === "blocks" && bodies.support[k] ? `${name} (support)` : name));
     else left++;
   }
   el("list").replaceChildren(...options);
-  el("list").setAttribute("aria-label", kind === "blocks" ? "Blocks" : "Joints");
-  el("find").placeholder = `Find a ${kind === "blocks" ? "block" : "joint"}`;
+  el("list").setAttribute("aria-label", { blocks: "Blocks", joints: "Joints", members: "Members" }[kind]);
+  el("find").placeholder = `Find a ${kind.slice(0, -1)}`;
   el("listNote").textContent = left ? `${left} more: type a part of the name` : "";
 }
 el("kind").addEventListener("change", () => { el("find").value = ""; fillList(); });
 el("find").addEventListener("input", fillList);
-el("list").addEventListener("change", () => pick({ [el("kind").value === "blocks" ? "body" : "joint"]: Number(el("list").value) }));
+el("list").addEventListener("change", () => pick({ [{ blocks: "body", joints: "joint", members: "member" }[el("kind").value]]: Number(el("list").value) }));
 
 function next(kind, step) {
   const key = kind === "blocks" ? "body" : "joint", count = kind === "blocks" ? COUNT : JOINTS, now = state.picked && state.picked[key];
@@ -127,6 +127,7 @@ function choices() {
   if (view.film) motions.unshift([FILM, view.film.name]);
   el("motion").replaceChildren(...options(motions));
   el("motionBox").hidden = !motions.length;
+  el("kind").replaceChildren(...options([["blocks", "Blocks"], ["joints", "Joints"], members.ids.length && ["members", "Members"]].filter(Boolean)));
   const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "joint share used"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", "speed in the mechanism"], view.film && view.film.way && ["moved", view.film.way], view.values && ["value", view.values.name.toLowerCase()]].filter(Boolean);
   el("colour").replaceChildren(...options(kinds));
   if (view.film) {
@@ -140,6 +141,11 @@ function choices() {
   el("layers").replaceChildren(el("layers").firstElementChild);
   for (const [name, title, , there] of LAYERS) if (there()) el("layers").append(make("label", {}, make("input", { type: "checkbox", value: name, id: `layer-${name}`, onchange: (e) => { e.target.checked ? state.layers.add(name) : state.layers.delete(name); redraw(true); } }), title));
 }
+el("supports").addEventListener("change", () => { state.supports = el("supports").value; redraw(true); });
+function supports(how) {
+  el("supportsBox").hidden = !bodies.support.some((s) => s);
+  [state.supports, el("supports").value] = [how, how];
+}
 const layer = (name) => { const box = el(`layer-${name}`); if (box) { box.checked = true; state.layers.add(name); } };
 const colour = (name) => { if ([...el("colour").options].some((o) => o.value === name)) { el("colour").value = name; state.colour = name; } };
 el("state").addEventListener("change", () => { state.force = Number(el("state").value); numbers(); redraw(true); });
@@ -148,11 +154,36 @@ el("colour").addEventListener("change", () => { state.colour = el("colour").valu
 el("magnify").addEventListener("change", () => { state.magnify = Number(el("magnify").value); redraw(true); });
 document.querySelectorAll("[data-look]").forEach((b) => b.addEventListener("click", () => look(b.dataset.look)));
 
-steer(shown, (e) => { const box = shown.getBoundingClientRect(); pick(hit(e.clientX - box.left, e.clientY - box.top, box.width, box.height)); });
+steer(shown, (e) => {
+  const box = shown.getBoundingClientRect(), at = [e.clientX - box.left, e.clientY - box.top, box.width, box.height], over = overlay(...at);
+  // Arrows lie over blocks that they do not load: a block under the pointer is what is meant.
+  const block = hit(...at);
+  pick(over && over[1] && !(over[2] && block) ? over[1] : block);
+});
+// What lies under the pointer says its name.
+let asked = null;
+const unnamed = () => { asked = null; el("hint").hidden = true; };
+shown.addEventListener("pointermove", (e) => {
+  if (e.buttons || e.pointerType === "touch") return unnamed();
+  const idle = !asked;
+  asked = e;
+  if (idle) requestAnimationFrame(() => {
+    if (!asked) return;
+    const box = shown.getBoundingClientRect(), [x, y] = [asked.clientX - box.left, asked.clientY - box.top], over = overlay(x, y, box.width, box.height), found = over ? null : hit(x, y, box.width, box.height);
+    asked = null;
+    const words = over ? over[0] : !found ? "" : found.joint !== undefined ? `joint ${nameOf(found.joint)}` : `${bodies.ids[found.body]}${bodies.support[found.body] ? " (support)" : ""}`;
+    el("hint").hidden = !words;
+    el("hint").textContent = words;
+    const left = Math.max(4, Math.min(x + 14, box.width - el("hint").offsetWidth - 6));
+    el("hint").style.transform = `translate(${left}px,${y > 40 ? y - 34 : y + 18}px)`;
+  });
+});
+shown.addEventListener("pointerleave", unnamed);
+el("lens").addEventListener("click", () => lensTo(isParallel() ? "perspective" : "parallel"));
 shown.addEventListener("keydown", (e) => {
   if (e.ctrlKey || e.metaKey || e.altKey) return;
   const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key];
-  const acts = { "+": () => zoomBy(0.88), "=": () => zoomBy(0.88), "-": () => zoomBy(1.14), Home: () => look("start"), f: () => look("front"), s: () => look("side"), t: () => look("top"), n: () => next("blocks", 1), p: () => next("blocks", -1), j: () => next("joints", 1), J: () => next("joints", -1), Escape: () => pick(null), " ": () => el("play").hidden || play(!playing) };
+  const acts = { "+": () => zoomBy(0.88), "=": () => zoomBy(0.88), "-": () => zoomBy(1.14), Home: () => look("start"), f: () => look("front"), s: () => look("side"), t: () => look("top"), o: () => lensTo(isParallel() ? "perspective" : "parallel"), n: () => next("blocks", 1), p: () => next("blocks", -1), j: () => next("joints", 1), J: () => next("joints", -1), Escape: () => pick(null), " ": () => el("play").hidden || play(!playing) };
   const act = turns ? () => (e.shiftKey ? shiftBy(-0.05 * turns[0], 0.05 * turns[1]) : turnBy(-0.09 * turns[0], 0.09 * turns[1])) : acts[e.key];
   if (act) { e.preventDefault(); act(); }
 });
@@ -169,6 +200,8 @@ canvas.addEventListener("webglcontextlost", (e) => e.preventDefault());
 // Printers get an image: a canvas may come out empty.
 addEventListener("beforeprint", () => { el("printed").src = shown.toDataURL("image/png"); el("printed").alt = shown.getAttribute("aria-label"); });
 
+// Of more arrows than these nothing is seen but arrows.
+const FEW = 400;
 // Of more lines than these nothing is seen but lines.
 const CROWD = 4000;
 // At a limit nearly every joint is used up: then the forces say more.
@@ -183,9 +216,12 @@ function begin() {
   state.layers.clear();
   Object.assign(state, { motion: -1, way: 0, force: 0, colour: "stone" });
   choices();
+  supports(view.supports);
+  for (const name of ["members", "slope"]) layer(name);
+  if (loads.body.length <= FEW) layer("loads");
   const falls = Boolean(document.querySelector("h1.bad"));
   layer("edges");
-  if (view.film) { state.way = view.film.opens; colour("moved"); if (view.values) colour("value"); motionNow(FILM); } else if (view.values) { colour("value"); motionNow(-1); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!forcesNow() || forcesNow().lineBody.length <= CROWD) layer("line"); colour(telling()); layer("marks"); if (loads.body.length <= 24) layer("loads"); motionNow(view.motions.length ? 0 : -1); }
+  if (view.film) { state.way = view.film.opens; colour("moved"); if (view.values) colour("value"); motionNow(FILM); } else if (view.values) { colour("value"); motionNow(-1); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!view.slope && (!forcesNow() || forcesNow().lineBody.length <= CROWD)) layer("line"); colour(telling()); layer("marks"); motionNow(view.motions.length ? 0 : -1); }
   el("motion").value = state.motion;
   fillList();
   numbers();

@@ -16,15 +16,16 @@ return colour*(0.50+0.22*sky+0.30*key+0.12*fill);}
 const SHADERS = {
   solid: [`${POSED}
 layout(location=0) in vec3 p;layout(location=1) in vec3 n;layout(location=2) in uint body;
-out vec3 normal;out vec3 colour;out vec3 own;
-void main(){vec4 q=texel(body,0);vec4 c=texel(body,1);colour=texel(body,2).rgb;own=p;normal=rotated(q,n);
-gl_Position=matrix*vec4(c.xyz+rotated(q,p*c.w),1.0);}`,
+out vec3 normal;out vec4 colour;out vec3 own;uniform float glass;
+void main(){vec4 q=texel(body,0);vec4 c=texel(body,1);colour=texel(body,2);own=p;normal=rotated(q,n);
+bool there=glass>0.5?colour.a>0.0&&colour.a<1.0:colour.a>=1.0;
+gl_Position=there?matrix*vec4(c.xyz+rotated(q,p*c.w),1.0):vec4(2.0,2.0,2.0,1.0);}`,
   `${LIGHT}
-in vec3 normal;in vec3 colour;in vec3 own;uniform float ball;out vec4 ink;
-void main(){vec3 c=lit(colour,normalize(normal));if(ball>0.5&&abs(own.z)<0.045)c*=0.8;ink=vec4(c,1.0);}`],
+in vec3 normal;in vec4 colour;in vec3 own;uniform float ball;out vec4 ink;
+void main(){vec3 c=lit(colour.rgb,normalize(normal));if(ball>0.5&&abs(own.z)<0.045)c*=0.8;ink=vec4(c*colour.a,colour.a);}`],
   edge: [`${POSED}
 layout(location=0) in vec3 p;layout(location=2) in uint body;
-void main(){vec4 q=texel(body,0);vec4 c=texel(body,1);gl_Position=matrix*vec4(c.xyz+rotated(q,p*c.w),1.0);}`,
+void main(){vec4 q=texel(body,0);vec4 c=texel(body,1);gl_Position=texel(body,2).a>0.0?matrix*vec4(c.xyz+rotated(q,p*c.w),1.0):vec4(2.0,2.0,2.0,1.0);}`,
   `#version 300 es
 precision highp float;uniform vec4 tint;out vec4 ink;void main(){ink=tint;}`],
   // Profiles turned about the way from one end to the other: x in lengths, y and z in radii, along and across.

@@ -39,6 +39,11 @@ function looking(x, y, z, eye) {
   return new Float32Array([x[0], y[0], z[0], 0, x[1], y[1], z[1], 0, x[2], y[2], z[2], 0, -dot(x, eye), -dot(y, eye), -dot(z, eye), 1]);
 }
 
+// Parallel rays, with the same last row at every point: what is divided by it has its size at the target.
+function parallel(slope, aspect, distance, near, far) {
+  return new Float32Array([1 / (slope * aspect), 0, 0, 0, 0, 1 / slope, 0, 0, 0, 0, (-2 * distance) / (far - near), 0, 0, 0, (-distance * (far + near)) / (far - near), distance]);
+}
+
 function perspective(slope, aspect, near, far) {
   return new Float32Array([1 / (slope * aspect), 0, 0, 0, 0, 1 / slope, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0, (2 * far * near) / (near - far), 0]);
 }

@@ -15,7 +15,7 @@ function webgl(canvas) {
     gl.linkProgram(program);
     if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
     const place = (key) => gl.getUniformLocation(program, key);
-    programs[name] = { program, at: Object.fromEntries(["matrix", "blocks", "upward", "sun", "eye", "ball", "tint", "shrink"].map((k) => [k, place(k)])) };
+    programs[name] = { program, at: Object.fromEntries(["matrix", "blocks", "upward", "sun", "eye", "ball", "tint", "shrink", "glass"].map((k) => [k, place(k)])) };
   }
   const send = (list) => { const b = gl.createBuffer(); gl.bindBuffer(gl.ARRAY_BUFFER, b); gl.bufferData(gl.ARRAY_BUFFER, list, gl.STATIC_DRAW); return b; };
   const attribute = (at, size, buffer, stride = 0, offset = 0, each = 0) => { gl.bindBuffer(gl.ARRAY_BUFFER, buffer); gl.enableVertexAttribArray(at); gl.vertexAttribPointer(at, size, gl.FLOAT, false, stride, offset); gl.vertexAttribDivisor(at, each); };
@@ -73,7 +73,7 @@ function webgl(canvas) {
         const o = 12 * i, c = at3(bodies.center, i);
         texels.set(poses.subarray(8 * i, 8 * i + 4), o);
         texels.set([c[0] + poses[8 * i + 4], c[1] + poses[8 * i + 5], c[2] + poses[8 * i + 6], bodies.radius[i] || 1], o + 4);
-        texels.set([tints[3 * i], tints[3 * i + 1], tints[3 * i + 2], 1], o + 8);
+        texels.set([tints[3 * i], tints[3 * i + 1], tints[3 * i + 2], opacity(i)], o + 8);
       }
       gl.bindTexture(gl.TEXTURE_2D, texture);
       gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, Math.max(1, 3 * wide), high, 0, gl.RGBA, gl.FLOAT, texels);
@@ -94,18 +94,27 @@ function webgl(canvas) {
     gl.disable(gl.BLEND);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 1.5);
-    let at = use("solid");
-    gl.uniform1f(at.ball, 0);
-    gl.bindVertexArray(solids);
-    gl.drawArrays(gl.TRIANGLES, 0, scene.corners);
-    if (spheres.length) {
+    let at;
+    const solid = (glass) => {
+      at = use("solid");
+      gl.uniform1f(at.glass, glass);
+      gl.uniform1f(at.ball, 0);
+      gl.bindVertexArray(solids);
+      gl.drawArrays(gl.TRIANGLES, 0, scene.corners);
+      if (!spheres.length) return;
       gl.uniform1f(at.ball, 1);
       gl.bindVertexArray(balls);
       gl.drawArraysInstanced(gl.TRIANGLES, 0, globe.length / 3, spheres.length);
-    }
+    };
+    solid(0);
     gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    if (state.supports === "glass") {
+      gl.depthMask(false);
+      solid(1);
+      gl.depthMask(true);
+    }
     gl.disable(gl.CULL_FACE);
     if (state.layers.has("edges")) {
       at = use("edge");

@@ -1,0 +1,136 @@
+//! What was asked, and what the number of the answer means.
+
+use crate::{
+    number::{bracketed, count, ends},
+    proof::result::{QuestionKind as Kind, ResultFile},
+    terms::Law,
+};
+
+/// The question in words, its number with unit and meaning, and the law of sliding.
+pub(super) fn facts(file: &ResultFile) -> Vec<[String; 2]> {
+    let (question, unit) = words(file.question);
+    let mut list: Vec<[String; 2]> = vec![["question".into(), question.into()]];
+    if let Some(value) = value(file) {
+        list.push(["answer".into(), value]);
+    }
+    if !unit.is_empty() {
+        list.push(["meaning".into(), unit.into()]);
+    }
+    if let Some(law) = law(file) {
+        list.push(["sliding".into(), law.into()]);
+    }
+    let s = &file.scene;
+    list.push([
+        "of".into(),
+        format!(
+            "{} ({}), {}{}",
+            count(s.blocks, "block"),
+            count(s.supports, "support"),
+            count(s.interfaces, "joint"),
+            if s.members > 0 { format!(", {}", count(s.members, "member")) } else { String::new() }
+        ),
+    ]);
+    list
+}
+
+/// The number with its bracket, where there is one.
+fn value(file: &ResultFile) -> Option<String> {
+    let said = file.answer.load_factor()?;
+    let (value, lower, upper) = (said.value?, said.lower?, said.upper?);
+    let (text, unit) = match file.question {
+        Kind::Tilt => {
+            let [v, l, u] = [value, lower, upper].map(|t| t.atan().to_degrees());
+            let [low, high] = ends(v, l, u);
+            (format!("{} (between {low} and {high})", bracketed(v, l, u)), "°")
+        }
+        _ => {
+            let [low, high] = ends(value, lower, upper);
+            (format!("{} (between {low} and {high})", bracketed(value, lower, upper)), "")
+        }
+    };
+    let name = match file.question {
+        Kind::Tilt => "tilt",
+        Kind::Kinematic => "α0",
+        _ => "λ",
+    };
+    Some(match unit {
+        "" => format!("{name} = {text}, a number without a unit"),
+        unit => format!("{name} = {text}, in {unit}"),
+    })
+}
+
+/// The question, and what its number is.
+fn words(kind: Kind) -> (&'static str, &'static str) {
+    match kind {
+        Kind::Assess => (
+            "Does it stand under its weight and the dead loads listed below?",
+            "It stands where contact forces that press, inside the friction cones and within the \
+             strengths given, balance every block, and the loads produce such forces by themselves.",
+        ),
+        Kind::Limit => (
+            "By how much may the live loads listed below be multiplied until it falls?",
+            "λ multiplies all live loads together; weights and dead loads stay as they are. λ = 1 is \
+             the live loads as listed; the scene falls where λ goes beyond the value above.",
+        ),
+        Kind::Moving => (
+            "By how much may the axle loads be multiplied, wherever the train stands?",
+            "λ multiplies the axle loads of the train at its worst position; weights, fill and dead \
+             loads stay as they are.",
+        ),
+        Kind::Tilt => (
+            "At what inclination of the ground does it fall?",
+            "Gravity keeps its size and is turned by this angle towards the direction given; weights \
+             and dead loads turn with it.",
+        ),
+        Kind::Critical => (
+            "At what value of a number of the scene does the verdict flip?",
+            "On either side of each value the verdict is proved for a scene with that number.",
+        ),
+        Kind::Thrust => (
+            "How hard does it push a support (or pull a member), at least and at most?",
+            "Newtons along the direction named. Statics alone leaves every value between the ends \
+             possible; settlements and history decide which one acts.",
+        ),
+        Kind::Simulate => (
+            "What happens in time?",
+            "Computed by a rigid-body simulation, not proved; the verdict beside it is.",
+        ),
+        Kind::Settle => (
+            "How far may supports move until it falls?",
+            "A share of the movement given, and metres.",
+        ),
+        Kind::Push => (
+            "How does the load factor change as it moves?",
+            "λ multiplies the live loads; the way is that of the control point, in metres.",
+        ),
+        Kind::Kinematic => (
+            "At what horizontal acceleration does a mechanism start to move?",
+            "α0 is the horizontal push on every mass, as a multiple of its weight, at which the worst \
+             mechanism begins.",
+        ),
+        Kind::Stages => (
+            "Does every stage of the construction stand?",
+            "Every stage is a scene of its own, with its own verdict and proof.",
+        ),
+        Kind::Rock => (
+            "What does its mechanism do on ground that moves?",
+            "Integrated as a machine of one degree of freedom from the mechanism that is proved.",
+        ),
+    }
+}
+
+/// For which law of sliding the answer holds.
+fn law(file: &ResultFile) -> Option<&'static str> {
+    let law = match (file.answer.load_factor(), file.answer.as_verdict()) {
+        (Some(said), _) => said.law,
+        (None, Some(said)) => said.law?,
+        (None, None) => return None,
+    };
+    Some(match law {
+        Law::Coulomb => "dry friction: joints slide without opening (Coulomb)",
+        Law::Associative => {
+            "joints open by μ times their slip as they slide (associative): with dry friction the \
+             answer can be less favourable, never more"
+        }
+    })
+}

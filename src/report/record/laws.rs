@@ -1,0 +1,90 @@
+//! How joints resist, and what tells that blocks touch.
+
+use super::{Part, Section, quantity};
+use crate::{
+    assembly::JointLaw, interface::Model, number::short, proof::result::ResultFile,
+    report::view::View,
+};
+
+/// One row for each law of resistance.
+pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
+    let mut laws: Vec<(JointLaw, usize, f64)> = Vec::new();
+    for joint in &view.joints {
+        match laws.iter_mut().find(|(law, ..)| *law == joint.law) {
+            Some((_, count, area)) => (*count, *area) = (*count + 1, *area + joint.area),
+            None => laws.push((joint.law, 1, joint.area)),
+        }
+    }
+    // Where every joint has a strength of its own, the list is as long as that of the joints.
+    laws.sort_by_key(|l| std::cmp::Reverse(l.1));
+    let row = |(law, count, area): &(JointLaw, usize, f64)| {
+        let mu = law.friction.mu();
+        let stress = |v: f64| if v == 0.0 { "0".into() } else { quantity(v, "Pa") };
+        let friction = if mu.is_finite() {
+            format!("{} ({}°)", short(mu), short(mu.atan().to_degrees()))
+        } else {
+            "no sliding".into()
+        };
+        vec![
+            count.to_string(),
+            short(*area),
+            friction,
+            stress(law.cohesion),
+            stress(law.tension),
+            if law.compression.is_finite() { stress(law.compression) } else { "no limit".into() },
+            stress(law.pore_pressure),
+            if law.rolling_arm == 0.0 {
+                "0".into()
+            } else {
+                format!("{} m", short(law.rolling_arm))
+            },
+        ]
+    };
+    let columns = [
+        "#joints",
+        "#area, m²",
+        "#friction μ (angle)",
+        "#cohesion",
+        "#tension",
+        "#compression",
+        "#pore pressure",
+        "#rolling arm",
+    ];
+    let note =
+        "Strengths as the scene gives them; 0 and “no limit” are what holds where it gives none.";
+    (!model.interfaces.list.is_empty()).then(|| {
+        let rows = super::listed(laws.iter().map(row).collect(), 12);
+        Section::new("Joints", vec![Part::table(&columns, rows, note)])
+    })
+}
+
+/// Tolerances of contacts, and what was found in the scene.
+pub(super) fn tolerances(file: &ResultFile, model: &Model) -> Vec<Section> {
+    let contact = &model.assembly.contact;
+    let shown = |v: f64| if v < 1e-2 { format!("{v:e}") } else { v.to_string() };
+    let mut facts = vec![
+        [
+            "gap".into(),
+            format!("faces touch within {} of the size of the smaller block", shown(contact.gap)),
+        ],
+        [
+            "angle".into(),
+            format!("their normals are opposite within {}°", short(contact.angle_deg)),
+        ],
+        [
+            "least area".into(),
+            format!("contacts below {} of its size squared are left out", shown(contact.min_area)),
+        ],
+    ];
+    if let Some(words) = contact.widened() {
+        facts.push(["wider than usual".into(), words]);
+    }
+    let mut parts = vec![Part::Facts(facts)];
+    let rows: Vec<Vec<String>> = file.warnings.iter().map(|f| vec![f.text.clone()]).collect();
+    parts.push(if rows.is_empty() {
+        Part::Text("Findings in the scene: none.".into())
+    } else {
+        Part::table(&["findings in the scene"], super::listed(rows, 20), "")
+    });
+    vec![Section::new("Tolerances and findings", parts)]
+}

@@ -1,0 +1,53 @@
+//! Why the answer is to be believed, and what made it.
+
+use super::{Part, Section};
+use crate::{number::short, proof::result::ResultFile, verdict::exact::Grade};
+
+/// The proof as it was found when the answer was given, and versions.
+pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
+    let mut facts: Vec<[String; 2]> = Vec::new();
+    if let Some(grade) = file.answer.proof() {
+        let words = match grade {
+            Grade::Exact => {
+                "exact: a theorem about the numbers of the scene, no rounding excused".into()
+            }
+            Grade::ToRounding(left) => {
+                format!("to rounding: what is left is {} (the greater, the weaker)", short(left))
+            }
+        };
+        facts.push(["proved".into(), words]);
+    }
+    facts.extend(file.certificate.verified.iter().map(|v| ["certificate".into(), v.clone()]));
+    if let Some(thrust) = &file.thrust {
+        for (name, certificate) in [("least", &thrust.least), ("greatest", &thrust.greatest)] {
+            facts.extend(certificate.verified.iter().map(|v| [name.into(), v.clone()]));
+        }
+    }
+    // Each of these has a certificate of its own, which the answer in words tells.
+    for (there, words) in [
+        (file.critical.is_some(), "a verdict with its certificate on either side of every flip"),
+        (file.path.is_some(), "a certificate at every point of the curve"),
+        (file.stages.is_some(), "a certificate for every stage"),
+        (file.rocking.is_some(), "a certificate for the mechanism; its motion is computed"),
+    ] {
+        if there {
+            facts.push(["certificates".into(), words.into()]);
+        }
+    }
+    if facts.is_empty() {
+        facts.push(["proved".into(), "nothing: the certificate claims nothing".into()]);
+    }
+    if let Some(doubt) = &file.doubt {
+        facts.push(["doubt".into(), format!("{}; {}", doubt.evidence, doubt.next)]);
+    }
+    let how = "The certificate was recomputed from the geometry of the scene alone, apart from the \
+               solver that found it. A result saved with --save holds it; voussoir check verifies it again.";
+    let versions = vec![
+        ["voussoir".into(), file.versions.voussoir.clone()],
+        ["format of results".into(), "voussoir-result/2".into()],
+    ];
+    vec![
+        Section::new("Proof", vec![Part::Facts(facts), Part::Text(how.into())]),
+        Section::new("Versions", vec![Part::Facts(versions)]),
+    ]
+}
