@@ -27,6 +27,7 @@ pub mod reuse;
 pub mod rocking;
 pub mod stability;
 pub mod stages;
+pub mod state;
 pub mod thrust;
 pub mod tilt;
 
@@ -50,7 +51,7 @@ pub use moving::Moving;
 pub use proved::{Claims, Proved};
 pub use question::{
     AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
-    PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions, StagesOptions,
+    PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions, StagesOptions, StateOptions,
     SupportMove, ThrustOptions, TiltOptions,
 };
 pub use rocking::Rocking;

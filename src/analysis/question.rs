@@ -6,6 +6,7 @@ use crate::{
     error::{InputError, JsonPath},
     path::saved::SavedPose,
     rocking::RockOptions,
+    yielding::Quadrature,
 };
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -40,6 +41,9 @@ pub enum Question {
     /// At what acceleration does a mechanism start under an earthquake, and how does its resistance
     /// fall as it moves? In several directions the least.
     Kinematic(KinematicOptions),
+    /// What forces and displacements follow from the stiffness of its joints, under its dead load and
+    /// along its live load? Forces and laws are checked; that it goes there is computed.
+    State(StateOptions),
     /// What does its mechanism do on ground that moves? Computed from where it starts, which is
     /// proved.
     Rock(RockOptions),
@@ -293,6 +297,33 @@ pub struct StagesOptions {
     pub skip_held: bool,
 }
 
+/// Options of `state`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct StateOptions {
+    /// Where joints with an area are integrated.
+    #[serde(skip_serializing_if = "is_area")]
+    pub quadrature: Quadrature,
+    /// The point whose way along the live load is the curve; where nothing is said the centre of mass
+    /// of the block with the greatest live load.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control: Option<ControlPoint>,
+    /// Load factors that become points of the curve, beside others.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at: Vec<f64>,
+    /// The state under the dead load alone. Rows of a sweep show the load factor of the path, and
+    /// without a live load the greatest displacement.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub dead_only: bool,
+    /// A load factor below this counts as failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub require: Option<f64>,
+}
+
+fn is_area(q: &Quadrature) -> bool {
+    *q == Quadrature::Area
+}
+
 /// A point of a block.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -365,6 +396,13 @@ impl Question {
                 refuse("at", "the linear analysis has no curve".into())
             }
             Self::Kinematic(o) => check_directions(&path, &o.toward, o.all),
+            Self::State(o) if o.at.iter().any(|v| !(*v > 0.0 && v.is_finite())) => {
+                refuse("at", "must be load factors above 0".into())
+            }
+            Self::State(o) if o.dead_only && (!o.at.is_empty() || o.control.is_some()) => {
+                refuse("dead_only", "without a live load there is no curve".into())
+            }
+            Self::State(_) => Ok(()),
             Self::Rock(o) => o.check().map_err(|e| e.under(&path)),
         }
     }
@@ -411,6 +449,10 @@ impl Question {
             Self::Rock(RockOptions { fate_only: true, .. }) => {
                 ("fate_only", "remove it: rows end by themselves once their fate is known")
             }
+            Self::State(o) if !o.at.is_empty() => ("at", "remove it: rows show no curve"),
+            Self::State(StateOptions { control: Some(_), .. }) => {
+                ("control", "remove it: rows show no curve")
+            }
             _ => return Ok(()),
         };
         let path = JsonPath::root().key(self.word()).key(key);
@@ -433,6 +475,7 @@ impl Question {
             Self::Kinematic(_) => "kinematic",
             Self::Stages(_) => "stages",
             Self::Rock(_) => "rock",
+            Self::State(_) => "state",
         }
     }
 
@@ -449,7 +492,7 @@ impl Question {
             Self::Kinematic(o) => o.law,
             Self::Stages(o) => o.law,
             // What slides in time does not open.
-            Self::Simulate(_) => Law::Coulomb,
+            Self::Simulate(_) | Self::State(_) => Law::Coulomb,
             // Hinges alone are followed, which are the same for both.
             Self::Settle(_) | Self::Push(_) | Self::Rock(_) => Law::Associative,
         }
@@ -471,6 +514,7 @@ impl Question {
             Self::Tilt(o) => o.require,
             Self::Repose(o) => o.require,
             Self::Kinematic(o) => o.require,
+            Self::State(o) => o.require,
         }
     }
 
@@ -494,6 +538,10 @@ impl Question {
             Self::Repose(_) => Some("angle of maximum stability in degrees"),
             Self::Settle(_) => Some("share of the movement up to which it stands"),
             Self::Kinematic(_) => Some("α0"),
+            Self::State(StateOptions { dead_only: true, .. }) => {
+                Some("greatest displacement in m")
+            }
+            Self::State(_) => Some("load factor of the path"),
             Self::Stages(o) if o.remove_each => Some("blocks that may be taken out"),
             Self::Stages(_) => Some("stages that stand before the first that does not"),
             Self::Push(_) => Some("way of the control point up to which it resists in m"),

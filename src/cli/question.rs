@@ -23,7 +23,7 @@ use voussoir::{
     limits,
     proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, work::Work},
     report::{
-        json, kinematic, moving, page, stages,
+        json, kinematic, moving, page, stages, state,
         text::{self, Asked, TextOptions},
         view::View,
     },
@@ -288,6 +288,7 @@ impl<'a> Session<'a> {
                 let charts: Vec<_> = [
                     kinematic::page_chart(&file),
                     stages::page_chart(&file),
+                    state::page_chart(&file),
                     moving::page_chart(&file),
                     page::curve(&file),
                     page::attempts(&file),

@@ -14,6 +14,7 @@ pub mod page;
 pub mod path;
 mod plot;
 pub mod stages;
+pub mod state;
 pub mod study;
 pub mod sweep;
 pub mod table;
