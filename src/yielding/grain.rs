@@ -138,7 +138,7 @@ impl Grain {
             if t.value() <= s.value() {
                 continue;
             }
-            let share = (t.times(2.0) + s) / (s + t).times(3.0);
+            let share = (s.times(2.0) + t) / (s + t).times(3.0);
             let width = (t - s).times(-8.0 * self.shear * self.radius.sqrt());
             for (i, all) in sum.iter_mut().enumerate() {
                 *all = *all + width * (e[i] + (f[i] - e[i]) * share);

@@ -71,7 +71,7 @@ impl Claims for Rest {
 
 /// Load factors are followed up to this share of the bound. More: contacts shrink to nothing, which
 /// rounding cannot follow. Less: the load factor has fewer digits.
-const UP_TO: f64 = 1.0 - 1e-6;
+const UP_TO: f64 = 1.0 - 1e-4;
 /// Steps along the live load at least, in shares of the bound.
 const STEP: f64 = 0.05;
 /// Steps shorter than this share of the bound end the path. More: the load factor has fewer digits.
@@ -79,6 +79,8 @@ const STEP: f64 = 0.05;
 const LEAST: f64 = 1e-7;
 /// Events are found to this share of the bound.
 const EVENT: f64 = 1e-7;
+/// Multiples of the last step at which a search may begin.
+const AHEAD: [f64; 5] = [0.5, 1.0, 2.0, 3.0, 4.0];
 /// Most steps of a path.
 const MOST: usize = 2000;
 /// Without a bound, the path is followed up to this many times the load factor at which live and
@@ -184,7 +186,20 @@ impl Walk<'_, '_, '_> {
                 w
             })
             .collect();
-        let from = track.state.displaced.clone();
+        // What grows without end grows fourfold while the distance from the end is halved.
+        let here = &track.state.displaced;
+        let mut from = vec![here.clone()];
+        if let [.., before, _] = &track.steps[..] {
+            let on = |by: f64| {
+                let one = |(a, b): (&Rate, &Rate)| Rate {
+                    velocity: a.velocity + (a.velocity - b.velocity) * by,
+                    spin: a.spin + (a.spin - b.spin) * by,
+                };
+                here.iter().zip(&before.displaced).map(one).collect()
+            };
+            from.extend(AHEAD.map(on));
+        }
+        let from = self.newton.nearest(&track.state, &loads, from);
         self.newton.balance(&track.state, &loads, &from, self.control)
     }
 

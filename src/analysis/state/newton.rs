@@ -25,10 +25,10 @@ const GOOD: f64 = 1e-9;
 /// there is nothing to find.
 const STEPS: usize = 60;
 /// Halvings of a step at most.
-const HALVINGS: usize = 12;
-/// Share of the diagonal that is added where a motion meets no resistance. More: steps are short.
-/// Less: rounding of the factors decides.
-const SHIFT: f64 = 1e-12;
+const HALVINGS: usize = 6;
+/// Shares of the diagonal that are added where a motion meets no resistance, the next one where the one
+/// before leads nowhere. More at first: steps are short. Less: rounding of the factors decides.
+const SHIFTS: [f64; 6] = [1e-12, 1e-8, 1e-6, 1e-4, 1e-2, 1.0];
 /// Differences of mirrored entries that are rounding, in multiples of the diagonal. More: steps of what
 /// slides point aside. Less: everything is taken for unsymmetric, which costs time alone.
 const SYMMETRIC: f64 = 1e-13;
@@ -48,6 +48,13 @@ impl<'a> Newton<'a> {
     /// Of these equations.
     pub fn new(system: &'a System<'a>) -> Self {
         Self { system, lu: None, cholesky: None, steps: 0 }
+    }
+
+    /// Of these displacements those that are nearest to balance.
+    pub fn nearest(&self, state: &State, loads: &[Wrench], from: Vec<Vec<Rate>>) -> Vec<Rate> {
+        let size = |q: &Vec<Rate>| self.residual(state, loads, q, 0.0).0;
+        let best = from.into_iter().map(|q| (self.size(&size(&q)), q));
+        best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| state.displaced.clone(), |b| b.1)
     }
 
     /// Displacements at which the loads are balanced, from those of `from`, by joints that remember
@@ -107,20 +114,26 @@ impl<'a> Newton<'a> {
                 return Some(displaced);
             }
             self.steps += 1;
-            let way = self.way(state, &displaced, glue, &left)?;
             let mut best: Option<(f64, Vec<Rate>, Vec<f64>, f64)> = None;
-            let mut share = 1.0;
-            for _ in 0..HALVINGS {
-                let next = self.moved(&displaced, &way, share);
-                let (r, s) = self.residual(state, loads, &next, glue);
-                let new = self.size(&r);
-                if best.as_ref().is_none_or(|b| new < b.0) {
-                    best = Some((new, next, r, s));
+            // Where the tangent says nothing (what slides resists no more) steps are damped.
+            'damped: for shift in SHIFTS {
+                let Some(way) = self.way(state, &displaced, glue, &left, shift) else { continue };
+                let mut share = 1.0;
+                for _ in 0..HALVINGS {
+                    let next = self.moved(&displaced, &way, share);
+                    let (r, s) = self.residual(state, loads, &next, glue);
+                    let new = self.size(&r);
+                    if best.as_ref().is_none_or(|b| new < b.0) {
+                        best = Some((new, next, r, s));
+                    }
+                    if best.as_ref().is_some_and(|b| b.0 < (1.0 - 1e-4 * share) * size) {
+                        break 'damped;
+                    }
+                    share *= 0.5;
                 }
-                if best.as_ref().is_some_and(|b| b.0 < (1.0 - 1e-4 * share) * size) {
+                if size <= GOOD * scale {
                     break;
                 }
-                share *= 0.5;
             }
             let (new, next, r, s) = best?;
             if new >= size {
@@ -172,11 +185,12 @@ impl<'a> Newton<'a> {
         displaced: &[Rate],
         glue: f64,
         left: &[f64],
+        shift: f64,
     ) -> Option<Vec<f64>> {
         let System { diagonal, pattern, .. } = self.system;
         let tangent = self.system.tangent(state, displaced, glue, Friction::Follows);
         let unit: Vec<f64> = diagonal.iter().map(|d| d.sqrt()).collect();
-        let [lower, upper] = self.system.values(&tangent, &unit, SHIFT);
+        let [lower, upper] = self.system.values(&tangent, &unit, shift);
         let mut x: Vec<f64> = left.iter().zip(&unit).map(|(r, d)| r / d).collect();
         let off = |(l, u): (&f64, &f64)| (l - u).abs();
         let symmetric = lower.iter().zip(&upper).map(off).fold(0.0, f64::max) <= SYMMETRIC;
