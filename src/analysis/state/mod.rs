@@ -71,7 +71,7 @@ impl Claims for Rest {
 
 /// Load factors are followed up to this share of the bound. More: contacts shrink to nothing, which
 /// rounding cannot follow. Less: the load factor has fewer digits.
-const UP_TO: f64 = 1.0 - 1e-4;
+const UP_TO: f64 = 1.0 - 1e-3;
 /// Steps along the live load at least, in shares of the bound.
 const STEP: f64 = 0.05;
 /// Steps shorter than this share of the bound end the path. More: the load factor has fewer digits.
@@ -200,7 +200,7 @@ impl Walk<'_, '_, '_> {
             from.extend(AHEAD.map(on));
         }
         let from = self.newton.nearest(&track.state, &loads, from);
-        self.newton.balance(&track.state, &loads, &from, self.control)
+        self.newton.follow(&track.state, &loads, &from, self.control)
     }
 
     /// Follows the live load.

@@ -32,6 +32,11 @@ const SHIFTS: [f64; 6] = [1e-12, 1e-8, 1e-6, 1e-4, 1e-2, 1.0];
 /// Differences of mirrored entries that are rounding, in multiples of the diagonal. More: steps of what
 /// slides point aside. Less: everything is taken for unsymmetric, which costs time alone.
 const SYMMETRIC: f64 = 1e-13;
+/// A step is taken where the work that is left along it is less than this share. More: searches go
+/// to and fro. Less: steps are short.
+const LESS_WORK: f64 = 0.5;
+/// Most steps that leave more than was left before.
+const WORSE: usize = 20;
 /// Shares of glue, one after the other.
 const GLUE: [f64; 9] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5];
 
@@ -55,6 +60,17 @@ impl<'a> Newton<'a> {
         let size = |q: &Vec<Rate>| self.residual(state, loads, q, 0.0).0;
         let best = from.into_iter().map(|q| (self.size(&size(&q)), q));
         best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| state.displaced.clone(), |b| b.1)
+    }
+
+    /// The same without glue: where the last state is near.
+    pub fn follow(
+        &mut self,
+        state: &State,
+        loads: &[Wrench],
+        from: &[Rate],
+        control: &Control,
+    ) -> Option<Vec<Rate>> {
+        self.search(state, loads, from.to_vec(), 0.0, control)
     }
 
     /// Displacements at which the loads are balanced, from those of `from`, by joints that remember
@@ -105,7 +121,7 @@ impl<'a> Newton<'a> {
     ) -> Option<Vec<Rate>> {
         let (mut left, mut scale) = self.residual(state, loads, &displaced, glue);
         let mut size = self.size(&left);
-        let mut stuck = 0;
+        let mut worse = 0;
         for _ in 0..STEPS {
             if control.deadline.is_over() {
                 return None;
@@ -124,9 +140,15 @@ impl<'a> Newton<'a> {
                     let (r, s) = self.residual(state, loads, &next, glue);
                     let new = self.size(&r);
                     if best.as_ref().is_none_or(|b| new < b.0) {
-                        best = Some((new, next, r, s));
+                        best = Some((new, next.clone(), r.clone(), s));
                     }
                     if best.as_ref().is_some_and(|b| b.0 < (1.0 - 1e-4 * share) * size) {
+                        break 'damped;
+                    }
+                    // What is left does less work along the step: in a curved valley, where sizes
+                    // say little, that is progress (Crisfield 1982).
+                    if work(&r, &way).abs() <= LESS_WORK * work(&left, &way).abs() {
+                        best = Some((new, next, r, s));
                         break 'damped;
                     }
                     share *= 0.5;
@@ -136,16 +158,11 @@ impl<'a> Newton<'a> {
                 }
             }
             let (new, next, r, s) = best?;
-            if new >= size {
-                // Rounding, or a kink: what is good enough is taken.
-                if size <= GOOD * scale {
-                    return Some(displaced);
-                }
-                stuck += 1;
-                if stuck > 3 || !new.is_finite() {
-                    return None;
-                }
+            if new >= size && (size <= GOOD * scale || !new.is_finite() || worse > WORSE) {
+                // Rounding: what is good enough is taken.
+                return (size <= GOOD * scale).then_some(displaced);
             }
+            worse += usize::from(new >= size);
             (displaced, left, size, scale) = (next, r, new, s);
         }
         (size <= GOOD * scale).then_some(displaced)
@@ -217,4 +234,9 @@ impl<'a> Newton<'a> {
         x.iter_mut().zip(&unit).for_each(|(x, d)| *x /= d);
         x.iter().all(|v| v.is_finite()).then_some(x)
     }
+}
+
+/// The work of what is left along a step.
+fn work(left: &[f64], way: &[f64]) -> f64 {
+    left.iter().zip(way).map(|(r, w)| r * w).sum()
 }

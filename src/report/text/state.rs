@@ -75,11 +75,11 @@ fn path(l: &PathFactor) -> String {
     };
     match l.end {
         PathEnd::Bound if !l.slides => format!(
-            "Nothing slides on the way, and states were found up to a ten thousandth below the bound: the load factor of the path is the proved bound, {}.",
+            "Nothing slides on the way, and states were found up to a thousandth below the bound: the load factor of the path is the proved bound, {}.",
             l.associative.value.map_or(String::new(), |v| fixed(v, 6))
         ),
         PathEnd::Bound => format!(
-            "States were found up to a ten thousandth below the bound although joints slide; {bound}."
+            "States were found up to a thousandth below the bound although joints slide; {bound}."
         ),
         PathEnd::NoBalance => format!(
             "Beyond λ = {} no displacements balance the loads (computed, not proved); {bound}, which joints that slide do not reach.",
