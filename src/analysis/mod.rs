@@ -51,8 +51,8 @@ pub use moving::Moving;
 pub use proved::{Claims, Proved};
 pub use question::{
     AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
-    PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions, StagesOptions, StateOptions,
-    SupportMove, ThrustOptions, TiltOptions,
+    PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions, StagesOptions,
+    StateOptions, SupportMove, ThrustOptions, TiltOptions,
 };
 pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};

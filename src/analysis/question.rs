@@ -538,9 +538,7 @@ impl Question {
             Self::Repose(_) => Some("angle of maximum stability in degrees"),
             Self::Settle(_) => Some("share of the movement up to which it stands"),
             Self::Kinematic(_) => Some("α0"),
-            Self::State(StateOptions { dead_only: true, .. }) => {
-                Some("greatest displacement in m")
-            }
+            Self::State(StateOptions { dead_only: true, .. }) => Some("greatest displacement in m"),
             Self::State(_) => Some("load factor of the path"),
             Self::Stages(o) if o.remove_each => Some("blocks that may be taken out"),
             Self::Stages(_) => Some("stages that stand before the first that does not"),

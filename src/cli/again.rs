@@ -1,8 +1,8 @@
 //! The options that would have to be given again for the same answer, as typed.
 
 use super::args::{
-    Assess, Common, Critical, Curve, DIRECTIONS, Kinematic, Law, Push, Quadrature, Settle, Simulate,
-    Stages, State, Thrust, Tilt,
+    Assess, Common, Critical, Curve, DIRECTIONS, Kinematic, Law, Push, Quadrature, Settle,
+    Simulate, Stages, State, Thrust, Tilt,
 };
 use voussoir::sweep::Between;
 
@@ -136,7 +136,8 @@ impl State {
             let word = format!("{id}={}", list(point));
             format!("--control {}", super::question::quoted(&word))
         });
-        let corners = (self.quadrature == Quadrature::Corners).then(|| "--quadrature corners".into());
+        let corners =
+            (self.quadrature == Quadrature::Corners).then(|| "--quadrature corners".into());
         let dead = self.dead_only.then(|| "--dead-only".to_string());
         [control, at(&self.at), corners, dead].into_iter().flatten().collect()
     }

@@ -21,8 +21,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         path.as_deref().map(|p| Sink::open(Some(p))).transpose()
     };
     let (csv, chart) = (open(&args.csv)?, open(&args.chart)?);
-    let control =
-        args.control.clone().map(|(block, point)| ControlPoint { block, point });
+    let control = args.control.clone().map(|(block, point)| ControlPoint { block, point });
     let question = Question::State(StateOptions {
         quadrature: args.quadrature.into(),
         control,

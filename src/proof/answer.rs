@@ -3,7 +3,8 @@
 
 use super::{
     critical::CriticalValue, kinematic::KinematicAnswer, moving::MovingAnswer, path::PathAnswer,
-    result::DryResult, rocking::RockingAnswer, stages::StagesAnswer, state::StateAnswer, thrust::ThrustAnswer,
+    result::DryResult, rocking::RockingAnswer, stages::StagesAnswer, state::StateAnswer,
+    thrust::ThrustAnswer,
 };
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},

@@ -37,8 +37,19 @@ pub fn csv(file: &ResultFile) -> Result<String, PathError> {
     let mut table = Table::new();
     if a.curve.is_empty() {
         let head = [
-            "a", "b", "normal_force", "shear_force", "fx", "fy", "fz", "greatest_pressure",
-            "pressed_area", "opening", "closing", "shear_displacement", "slip",
+            "a",
+            "b",
+            "normal_force",
+            "shear_force",
+            "fx",
+            "fy",
+            "fz",
+            "greatest_pressure",
+            "pressed_area",
+            "opening",
+            "closing",
+            "shear_displacement",
+            "slip",
         ];
         table.write_record(head).map_err(refused)?;
         for j in &a.joints {
@@ -60,14 +71,8 @@ fn row(j: &JointAnswer) -> Vec<Cell> {
     let mut cells: Vec<Cell> = j.between.iter().map(|id| Cell::from(id.as_str())).collect();
     cells.extend([j.normal_force, j.shear_force].map(Cell::from));
     cells.extend(j.force.map(Cell::from));
-    let rest = [
-        j.greatest_pressure,
-        j.pressed_area,
-        j.opening,
-        j.closing,
-        j.shear_displacement,
-        j.slip,
-    ];
+    let rest =
+        [j.greatest_pressure, j.pressed_area, j.opening, j.closing, j.shear_displacement, j.slip];
     cells.extend(rest.map(Cell::from));
     cells
 }

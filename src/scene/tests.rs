@@ -373,12 +373,13 @@ fn scene() -> impl Strategy<Value = Scene> {
         prop::collection::vec(mass, list(2)),
     )
         .prop_map(|(dead, live, masses)| Loads { dead, live, masses });
-    let materials = prop::collection::btree_map(
-        name(),
-        (number(), some(number()), some(number()))
-            .prop_map(|(density, young, poisson)| Material { density, young, poisson }),
-        list(3),
-    );
+    let materials =
+        prop::collection::btree_map(
+            name(),
+            (number(), some(number()), some(number()))
+                .prop_map(|(density, young, poisson)| Material { density, young, poisson }),
+            list(3),
+        );
     let contact =
         vector().prop_map(|[gap, angle_deg, min_area]| ContactSpec { gap, angle_deg, min_area });
     let parts = (

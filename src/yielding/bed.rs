@@ -258,11 +258,8 @@ impl Past {
         let mut sides = [Vector3::zeros(); 2];
         for spot in &self.spots {
             let weight = 1.0 / far(spot, here).powi(2).max(f64::MIN_POSITIVE);
-            let row = Vector3::new(
-                1.0,
-                (spot.at[0] - here[0]) / size,
-                (spot.at[1] - here[1]) / size,
-            );
+            let row =
+                Vector3::new(1.0, (spot.at[0] - here[0]) / size, (spot.at[1] - here[1]) / size);
             matrix += row * row.transpose() * weight;
             for (side, e) in sides.iter_mut().zip(spot.stretch) {
                 *side += row * (weight * e);
@@ -271,7 +268,10 @@ impl Past {
         let scale = matrix.trace();
         let solved = (matrix / scale).try_inverse().filter(|m| m.amax() < 1e12);
         let Some(inverse) = solved else { return nearest.stretch.map(S::of) };
-        let d = [(at[0] - S::of(here[0])).times(1.0 / size), (at[1] - S::of(here[1])).times(1.0 / size)];
+        let d = [
+            (at[0] - S::of(here[0])).times(1.0 / size),
+            (at[1] - S::of(here[1])).times(1.0 / size),
+        ];
         sides.map(|side| {
             let field = inverse * side / scale;
             S::of(field.x) + d[0].times(field.y) + d[1].times(field.z)

@@ -119,7 +119,8 @@ impl Grain {
                 let (before, first) = tried[k - 1];
                 for share in crossings((before, first), (at, e), depth, slope) {
                     let place = before + (at - before) * share;
-                    let held: [S; 2] = std::array::from_fn(|i| first[i] + (e[i] - first[i]) * share);
+                    let held: [S; 2] =
+                        std::array::from_fn(|i| first[i] + (e[i] - first[i]) * share);
                     corners.push((place, held));
                 }
             }
@@ -219,8 +220,11 @@ fn crossings<S: Number>(
         let sum = if b.value() >= 0.0 { -(b + root) } else { root - b };
         let one = sum / a.times(2.0);
         let two = if sum.value() == 0.0 { one } else { c.times(2.0) / sum };
-        roots =
-            if one.value() <= two.value() { [Some(one), Some(two)] } else { [Some(two), Some(one)] };
+        roots = if one.value() <= two.value() {
+            [Some(one), Some(two)]
+        } else {
+            [Some(two), Some(one)]
+        };
     }
     roots.into_iter().flatten().filter(|s| s.value() > 0.0 && s.value() < 1.0)
 }

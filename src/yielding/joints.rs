@@ -116,8 +116,7 @@ impl Joints {
     pub fn new(model: &Model, quadrature: Quadrature) -> Result<Self, InputError> {
         needs(model)?;
         let faces = &model.interfaces.list;
-        let points: usize =
-            faces.iter().filter(|f| f.area > 0.0).map(|f| f.points.len()).sum();
+        let points: usize = faces.iter().filter(|f| f.area > 0.0).map(|f| f.points.len()).sum();
         let area: f64 = faces.iter().map(|f| f.area).sum();
         let share = (points > 0).then(|| area / points as f64);
         let mut told = Told::default();
@@ -310,12 +309,8 @@ impl Joint {
         friction: Friction,
     ) -> Resultant<S> {
         match (&self.kind, past) {
-            (JointKind::Bed(bed), Past::Bed(past)) => {
-                bed.respond(past, motion, friction, |_| {})
-            }
-            (JointKind::Grain(grain), Past::Grain(past)) => {
-                grain.respond(past, motion, friction).0
-            }
+            (JointKind::Bed(bed), Past::Bed(past)) => bed.respond(past, motion, friction, |_| {}),
+            (JointKind::Grain(grain), Past::Grain(past)) => grain.respond(past, motion, friction).0,
             _ => Resultant::zero(),
         }
     }

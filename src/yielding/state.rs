@@ -151,20 +151,20 @@ fn shares(corners: &[Vector2<f64>], at: Vector2<f64>) -> Vec<(usize, f64)> {
         [a, b] => {
             let along = b - a;
             let square = along.norm_squared();
-            let s = if square > 0.0 { ((at - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
+            let s =
+                if square > 0.0 { ((at - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
             vec![(0, 1.0 - s), (1, s)]
         }
         _ => {
             let of = |i: usize| {
-                let m = Matrix2::from_columns(&[corners[i] - corners[0], corners[i + 1] - corners[0]]);
+                let m =
+                    Matrix2::from_columns(&[corners[i] - corners[0], corners[i + 1] - corners[0]]);
                 let inverse = m.try_inverse()?;
                 let s = inverse * (at - corners[0]);
                 let least = s.x.min(s.y).min(1.0 - s.x - s.y);
                 Some((i, s, least))
             };
-            let best = (1..corners.len() - 1)
-                .filter_map(of)
-                .max_by(|a, b| a.2.total_cmp(&b.2));
+            let best = (1..corners.len() - 1).filter_map(of).max_by(|a, b| a.2.total_cmp(&b.2));
             let Some((i, s, _)) = best else { return vec![(0, 1.0)] };
             let [x, y] = [s.x.max(0.0), s.y.max(0.0)];
             let over = (x + y).max(1.0);

@@ -120,7 +120,8 @@ impl<'a> System<'a> {
                 }
             }
         }
-        [left, passing].map(|list| list.iter().flat_map(|v| v.iter().copied().collect::<Vec<_>>()).collect())
+        [left, passing]
+            .map(|list| list.iter().flat_map(|v| v.iter().copied().collect::<Vec<_>>()).collect())
     }
 
     /// Masses and inertias of the free blocks.
@@ -251,9 +252,7 @@ fn glued(model: &Model, joint: &Joint) -> Matrix6<f64> {
             let weight = [joint.a, joint.b]
                 .iter()
                 .filter(|&&i| !model.assembly.blocks[i].support)
-                .map(|&i| {
-                    model.assembly.weight(i).max(model.assembly.dead[i].force.norm())
-                })
+                .map(|&i| model.assembly.weight(i).max(model.assembly.dead[i].force.norm()))
                 .fold(f64::MIN_POSITIVE, f64::max);
             let contact = (grain.radius * grain.approach(weight)).sqrt();
             slopes[(0, 0)] = -8.0 * contact * grain.shear;

@@ -125,8 +125,7 @@ pub(super) fn state(
         end = match top {
             Some(top) if top > 0.0 => {
                 let last = if asked.outcome == Outcome::Found { UP_TO * top } else { top };
-                let mut walk =
-                    Walk { model, joints: &joints, newton: &mut newton, control, top };
+                let mut walk = Walk { model, joints: &joints, newton: &mut newton, control, top };
                 let end = walk.along(track, last, &options.at);
                 match (end, asked.outcome) {
                     (PathEnd::Bound, Outcome::Unbounded) => PathEnd::Unbounded,

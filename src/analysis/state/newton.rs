@@ -89,12 +89,9 @@ impl<'a> Newton<'a> {
         // Glued wholly it is one step.
         let mut displaced = self.search(state, loads, from.to_vec(), 1.0, control)?;
         for glue in GLUE {
-            if let Some(next) =
-                self.search(state, loads, displaced.clone(), glue, control)
-            {
+            if let Some(next) = self.search(state, loads, displaced.clone(), glue, control) {
                 displaced = next;
-                let last =
-                    self.search(state, loads, displaced.clone(), 0.0, control);
+                let last = self.search(state, loads, displaced.clone(), 0.0, control);
                 if let Some(displaced) = last {
                     return Some(displaced);
                 }

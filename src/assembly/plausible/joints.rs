@@ -46,10 +46,9 @@ fn look(
         tell("compression", spec.compression.and_then(|s| compression(s, path, weights)));
         tell("cohesion", spec.cohesion.and_then(|s| bond("cohesion", s, path, weights)));
         tell("tension", spec.tension.and_then(|s| bond("tension", s, path, weights)));
-        for (key, value) in [
-            ("normal_stiffness", spec.normal_stiffness),
-            ("shear_stiffness", spec.shear_stiffness),
-        ] {
+        for (key, value) in
+            [("normal_stiffness", spec.normal_stiffness), ("shear_stiffness", spec.shear_stiffness)]
+        {
             tell(key, value.and_then(|k| stiffness(key, k, path, weights)));
         }
         tell("pore_pressure", spec.pore_pressure.and_then(|p| pressure(p, path, weights)));

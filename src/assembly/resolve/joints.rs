@@ -92,12 +92,14 @@ fn law(
         "pore_pressure is in Pa: one metre of water is 9810",
     )?;
     let rolling_arm = amount("rolling_arm", spec.rolling_arm, "rolling_arm is a length in m")?;
-    let stiffness = |key: &str, value: Option<f64>| match value {
+    let stiffness = |key: &str, value: Option<f64>| {
+        match value {
         Some(v) if !(v > 0.0 && v.is_finite()) => {
             Err(InputError::at(path.key(key), format!("must be a finite number > 0, got {v}"))
                 .hint("stiffness is in Pa per metre (N/m³): 10 N/mm³ is 1e10; leave it out where the joint is rigid"))
         }
         _ => Ok(value),
+    }
     };
     let normal_stiffness = stiffness("normal_stiffness", spec.normal_stiffness)?;
     let shear_stiffness = stiffness("shear_stiffness", spec.shear_stiffness)?;

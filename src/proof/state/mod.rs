@@ -11,8 +11,8 @@ use crate::{
     terms::Bound,
     verdict::{Rate, Verdict, exact::Grade},
     yielding::{
-        EventKind, Grip, JointKind, JointState, Joints, PathEnd, PathFactor, Quadrature, Residuals, System, Touch,
-        Track, events, frequencies,
+        EventKind, Grip, JointKind, JointState, Joints, PathEnd, PathFactor, Quadrature, Residuals,
+        System, Touch, Track, events, frequencies,
     },
 };
 use nalgebra::Vector3;
@@ -322,8 +322,7 @@ pub(crate) fn displacements(model: &Model, displaced: &[Rate]) -> Vec<Displaceme
 fn greatest(displacements: &[Displacement], joints: &[JointAnswer]) -> Option<Greatest> {
     let size = |d: &Displacement| Vector3::from(d.displacement).norm();
     let far = displacements.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
-    let hard =
-        joints.iter().max_by(|a, b| a.greatest_pressure.total_cmp(&b.greatest_pressure))?;
+    let hard = joints.iter().max_by(|a, b| a.greatest_pressure.total_cmp(&b.greatest_pressure))?;
     let most = |of: fn(&JointAnswer) -> f64| joints.iter().map(of).fold(0.0, f64::max);
     Some(Greatest {
         displacement: size(far),

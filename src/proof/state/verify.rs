@@ -31,7 +31,10 @@ pub(in crate::proof) fn verify(all: &mut Verification, file: &ResultFile, model:
     let (Some(said), Some(result)) = (file.answer.state(), &file.state) else {
         return all.part("answer", failure("the answer is not one to its question"));
     };
+    require_one_kind(all, file, result);
     if result.steps.is_empty() {
+        let proved = file.dead_load.as_ref().is_some_and(|d| d.certificate.claim.is_some());
+        all.claimed = proved && said.verdict != Verdict::Undecided;
         return all.part("answer", without(file, said));
     }
     let joints = match Joints::new(model, said.quadrature) {
@@ -72,10 +75,19 @@ pub(in crate::proof) fn verify(all: &mut Verification, file: &ResultFile, model:
             "all numbers of the answer follow from the displacements of {} states",
             track.steps.len()
         )),
-        Some(at) => f.fails.push(format!("the answer's {at} does not follow from the displacements")),
+        Some(at) => {
+            f.fails.push(format!("the answer's {at} does not follow from the displacements"))
+        }
     }
     f.computed |= track.steps.len() > 1;
     all.part("answer", f);
+}
+
+/// A state, or a verdict in its place.
+fn require_one_kind(all: &mut Verification, file: &ResultFile, result: &StateResult) {
+    if !result.steps.is_empty() && file.dead_load.is_some() {
+        all.part("form", failure("beside a state stands a verdict that was not asked for"));
+    }
 }
 
 /// No state was found: the verdict is that of `dead_load`, and nothing else is claimed.
@@ -181,8 +193,7 @@ fn forces(file: &ResultFile, model: &Model, track: &Track, said: &StateAnswer) -
     let stands = evidence.claim == Some(Claim::Stable) && said.verdict == Verdict::Stable;
     require(&mut f, stands, "it is claimed that it stands, and said");
     if stands {
-        let claimed =
-            check::verify(model, &Claim::Stable, Evidence::new(&track.forces, &[]));
+        let claimed = check::verify(model, &Claim::Stable, Evidence::new(&track.forces, &[]));
         let grade = said.proof.unwrap_or(Grade::ToRounding(f64::INFINITY));
         require(
             &mut f,
@@ -213,7 +224,8 @@ fn bound(
         asked.dry.is_none() && said.verdict.is_none() && said.load_factor.found.is_none(),
         "beside the path stands the bound alone",
     );
-    let found = answer(model, QuestionKind::Limit, &asked.answer, &asked.certificate, all.refuted());
+    let found =
+        answer(model, QuestionKind::Limit, &asked.answer, &asked.certificate, all.refuted());
     all.part("bound on the live load", found.0);
     Some(said.load_factor.associative)
 }
@@ -229,7 +241,8 @@ fn path(
     let last = track.steps[track.steps.len() - 1].load_factor;
     require(
         f,
-        bound.is_some() == said.load_factor.is_some() && (bound.is_some() || result.steps.len() == 1),
+        bound.is_some() == said.load_factor.is_some()
+            && (bound.is_some() || result.steps.len() == 1),
         "the answer has a path where there is a bound",
     );
     let Some(bound) = bound else { return };
@@ -241,53 +254,60 @@ fn path(
     }
 }
 
-/// Where two answers differ: numbers by what is greatest under the same key.
+/// Where two answers differ: a number by itself, of a vector by its size; what is nothing beside all
+/// numbers of the same place is rounding.
 fn differs(said: &Value, here: &Value) -> Option<String> {
     let mut scales = HashMap::new();
     scale(here, "", &mut scales);
-    compare(said, here, "", &scales, String::new())
+    compare(said, here, (String::new(), ""), &scales, 0.0)
 }
 
-fn scale<'a>(value: &'a Value, key: &'a str, scales: &mut HashMap<&'a str, f64>) {
+/// The greatest number by place, whatever its position in a list.
+fn scale(value: &Value, at: &str, scales: &mut HashMap<String, f64>) {
     match value {
         Value::Number(n) => {
-            let all = scales.entry(key).or_insert(0.0);
+            let all = scales.entry(at.to_string()).or_insert(0.0);
             *all = all.max(n.as_f64().unwrap_or(0.0).abs());
         }
-        Value::Array(list) => list.iter().for_each(|v| scale(v, key, scales)),
-        Value::Object(map) => map.iter().for_each(|(k, v)| scale(v, k, scales)),
+        Value::Array(list) => list.iter().for_each(|v| scale(v, at, scales)),
+        Value::Object(map) => map.iter().for_each(|(k, v)| scale(v, &format!("{at}.{k}"), scales)),
         _ => {}
     }
 }
 
 /// Residuals of this size are rounding, which another machine has otherwise.
-const ROUNDING: f64 = 1e-9;
+const RESIDUAL: f64 = 1e-9;
+/// So are numbers of this size beside the greatest of the same place.
+const ROUNDING: f64 = 1e-13;
 
 fn compare(
     said: &Value,
     here: &Value,
-    key: &str,
-    scales: &HashMap<&str, f64>,
-    at: String,
+    (at, place): (String, &str),
+    scales: &HashMap<String, f64>,
+    vector: f64,
 ) -> Option<String> {
     match (said, here) {
         (Value::Number(a), Value::Number(b)) => {
             let (a, b) = (a.as_f64().unwrap_or(f64::NAN), b.as_f64().unwrap_or(f64::NAN));
-            let floor = if at.starts_with("residuals") { ROUNDING } else { 0.0 };
-            let greatest = scales.get(key).copied().unwrap_or(0.0);
-            let near = (a - b).abs() <= (tolerance::SAVED * greatest).max(floor);
-            (!near).then_some(at)
+            let floor = if place.starts_with(".residuals") { RESIDUAL } else { 0.0 };
+            let greatest = scales.get(place).copied().unwrap_or(0.0);
+            let allowed = tolerance::SAVED * b.abs().max(vector) + ROUNDING * greatest + floor;
+            ((a - b).abs() > allowed || a.is_nan()).then_some(at)
         }
-        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => a
-            .iter()
-            .zip(b)
-            .enumerate()
-            .find_map(|(k, (a, b))| compare(a, b, key, scales, format!("{at}[{k}]"))),
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+            let size = |v: &Value| v.as_f64().unwrap_or(0.0).abs();
+            let vector = b.iter().map(size).fold(0.0, f64::max);
+            a.iter().zip(b).enumerate().find_map(|(k, (a, b))| {
+                compare(a, b, (format!("{at}[{k}]"), place), scales, vector)
+            })
+        }
         (Value::Object(a), Value::Object(b)) if a.len() == b.len() => {
             a.iter().find_map(|(k, a)| {
+                let inner = format!("{place}.{k}");
                 let at = if at.is_empty() { k.clone() } else { format!("{at}.{k}") };
                 match b.get(k) {
-                    Some(b) => compare(a, b, k, scales, at),
+                    Some(b) => compare(a, b, (at, &inner), scales, 0.0),
                     None => Some(at),
                 }
             })

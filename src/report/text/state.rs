@@ -14,6 +14,9 @@ use crate::{
     yielding::{EventKind, Grip, PathEnd, PathFactor, Quadrature, Residuals, Touch},
 };
 
+/// Rotations (rad) of blocks of any size below this multiple of their displacement (m), and shear forces
+/// below this share of the normal force, are rounding.
+const ROUNDING: f64 = 1e-9;
 /// So many joints, blocks and events are listed.
 const LISTED: usize = 12;
 
@@ -37,9 +40,10 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     match &a.load_factor {
         None => (rest, Role::Good),
         Some(l) => match (l.end, l.value) {
-            (PathEnd::Unbounded, _) => {
-                (format!("{rest}; followed up to λ = {}, without an end", fixed(l.reached, 6)), Role::Good)
-            }
+            (PathEnd::Unbounded, _) => (
+                format!("{rest}; followed up to λ = {}, without an end", fixed(l.reached, 6)),
+                Role::Good,
+            ),
             (_, Some(v)) => (format!("λ = {} along the path; {rest}", fixed(v, 6)), Role::Value),
             (_, None) => {
                 let text = format!("{rest}; followed up to λ = {} only", fixed(l.reached, 6));
@@ -101,7 +105,11 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         page.row(
             "greatest",
             [
-                format!("displacement {} m, of {}", short(g.displacement), crate::plain::cell(&g.block)),
+                format!(
+                    "displacement {} m, of {}",
+                    short(g.displacement),
+                    crate::plain::cell(&g.block)
+                ),
                 format!("pressure {} Pa, in {pair}", short(g.pressure)),
                 format!("opening {} m, slip {} m", short(g.opening), short(g.slip)),
             ],
@@ -113,8 +121,15 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let blocks: Vec<String> = blocks
         .into_iter()
         .map(|d| {
-            let turn = d.rotation.map(|r| r * 1e3);
-            format!("{}: {} m, turned by {} mrad", crate::plain::cell(&d.block), point(d.displacement), point(turn))
+            // Rounding says nothing.
+            let least = ROUNDING * size(d.displacement);
+            let turn = d.rotation.map(|r| if r.abs() > least { r * 1e3 } else { 0.0 });
+            format!(
+                "{}: {} m, turned by {} mrad",
+                crate::plain::cell(&d.block),
+                point(d.displacement),
+                point(turn)
+            )
         })
         .collect();
     page.row("moved", cut(&blocks, LISTED, options));
@@ -168,7 +183,7 @@ fn joint(j: &JointAnswer) -> String {
     format!(
         "{pair}: {touch}{grip}, {} N, shear {} N, up to {} Pa",
         short(j.normal_force),
-        short(j.shear_force),
+        short(if j.shear_force > ROUNDING * j.normal_force { j.shear_force } else { 0.0 }),
         short(j.greatest_pressure)
     )
 }
