@@ -57,6 +57,7 @@ pub use question::{
 pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};
 pub use stages::{Stages, stages};
+pub use state::StateOptions;
 pub use tilt::{Tilt, tilt};
 #[cfg(feature = "dynamics")]
 pub use {ask::ask_watched, in_time::Watch};

@@ -1,12 +1,11 @@
 //! What can be asked: one type for verbs, plans, result files and the library, checked where it is
 //! made ([`Question::check`]).
 
-use super::{Control, Law};
+use super::{Control, Law, StateOptions};
 use crate::{
     error::{InputError, JsonPath},
     path::saved::SavedPose,
     rocking::RockOptions,
-    yielding::Quadrature,
 };
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -295,33 +294,6 @@ pub struct StagesOptions {
     /// No least forces on what is held. Rows of a sweep ask for none: a plan has no such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub skip_held: bool,
-}
-
-/// Options of `state`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct StateOptions {
-    /// Where joints with an area are integrated.
-    #[serde(skip_serializing_if = "is_area")]
-    pub quadrature: Quadrature,
-    /// The point whose way along the live load is the curve; where nothing is said the centre of mass
-    /// of the block with the greatest live load.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub control: Option<ControlPoint>,
-    /// Load factors that become points of the curve, beside others.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub at: Vec<f64>,
-    /// The state under the dead load alone. Rows of a sweep show the load factor of the path, and
-    /// without a live load the greatest displacement.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub dead_only: bool,
-    /// A load factor below this counts as failure.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub require: Option<f64>,
-}
-
-fn is_area(q: &Quadrature) -> bool {
-    *q == Quadrature::Area
 }
 
 /// A point of a block.

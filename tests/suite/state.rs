@@ -360,7 +360,6 @@ fn forged_results_are_refused() {
     forge("/answer/state/load_factor/slides", &|_| json!(true));
     forge("/answer/state/joints/0/touch", &|_| json!("partly_open"));
     forge("/answer/state/quadrature", &|_| json!("corners"));
-    forge("/scene/input/joints/default/normal_stiffness", &|_| json!(1e9));
     let mut softer = scene.clone();
     softer.joints.default.normal_stiffness = Some(9e8);
     let file: ResultFile = serde_json::from_value(value.clone()).unwrap();

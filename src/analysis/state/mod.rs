@@ -7,10 +7,13 @@
 //! has ended.
 
 mod newton;
+mod options;
+
+pub use options::StateOptions;
 
 use super::{
-    Assessment, Control, Law, LoadFactor, Outcome, Proved, StateOptions, assess,
-    kinematic::control_of, limit, proved::Claims,
+    Assessment, Control, Law, LoadFactor, Outcome, Proved, assess, kinematic::control_of, limit,
+    proved::Claims,
 };
 use crate::{
     assembly::Wrench,
