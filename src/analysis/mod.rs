@@ -52,7 +52,7 @@ pub use proved::{Claims, Proved};
 pub use question::{
     AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
     PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions, StagesOptions,
-    StateOptions, SupportMove, ThrustOptions, TiltOptions,
+    SupportMove, ThrustOptions, TiltOptions,
 };
 pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};
