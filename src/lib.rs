@@ -139,6 +139,8 @@ pub mod kinematic;
 
 pub mod train;
 
+pub mod yielding;
+
 #[cfg(feature = "solve")]
 pub mod program;
 

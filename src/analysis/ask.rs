@@ -20,6 +20,7 @@ use super::{
     stability,
     stability::Packing,
     stages::{self, Stages},
+    state::{self, Stated},
     thrust,
     thrust::Thrust,
     tilt,
@@ -56,6 +57,8 @@ pub enum Answer {
     Kinematic(Box<Kinematic>),
     /// Does every stage of its construction stand?
     Stages(Box<Stages>),
+    /// What follows from the stiffness of its joints?
+    State(Box<Stated>),
     /// On ground that moves: what does its mechanism do?
     Rock(Box<Rocking>),
     /// What happens in time?
@@ -163,6 +166,7 @@ fn answer(
         Question::Stages(options) => {
             Answer::Stages(Box::new(stages::stages(options, scene, model, control)?))
         }
+        Question::State(options) => Answer::State(Box::new(state::state(options, model, control)?)),
         Question::Rock(options) => {
             Answer::Rock(Box::new(rocking::rock(options, scene, model, control)?))
         }

@@ -76,6 +76,11 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
             })
             .or_else(|| k.dead.as_ref().and_then(|dead| about.verdict(dead))),
         Answer::Stages(s) => s.stages.iter().find_map(|s| s.doubt.clone()),
+        Answer::State(s) => s
+            .verdict
+            .as_ref()
+            .and_then(|v| about.verdict(v))
+            .or_else(|| about.bound(s.bound.as_ref()?)),
         // A path says itself where it ended, and why.
         Answer::Path(_) | Answer::Rock(_) => None,
         #[cfg(feature = "dynamics")]

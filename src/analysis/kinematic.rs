@@ -144,7 +144,10 @@ pub(super) fn kinematic(
     Ok(answer)
 }
 
-fn control_of(model: &Model, c: &ControlPoint) -> Result<(usize, Vector3<f64>), InputError> {
+pub(super) fn control_of(
+    model: &Model,
+    c: &ControlPoint,
+) -> Result<(usize, Vector3<f64>), InputError> {
     let blocks = &model.assembly.blocks;
     let error = |text: String| InputError::at(JsonPath::root(), text);
     let Some(i) = model.assembly.find(&c.block).filter(|&i| !blocks[i].support) else {

@@ -28,6 +28,7 @@ pub mod reuse;
 pub mod rocking;
 pub mod stability;
 pub mod stages;
+pub mod state;
 pub mod thrust;
 pub mod tilt;
 
@@ -57,6 +58,7 @@ pub use question::{
 pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};
 pub use stages::{Stages, stages};
+pub use state::StateOptions;
 pub use tilt::{Tilt, tilt};
 #[cfg(feature = "dynamics")]
 pub use {ask::ask_watched, in_time::Watch};

@@ -1,7 +1,7 @@
 //! What can be asked: one type for verbs, plans, result files and the library, checked where it is
 //! made ([`Question::check`]).
 
-use super::{Control, Law};
+use super::{Control, Law, StateOptions};
 use crate::{
     error::{InputError, JsonPath},
     path::saved::SavedPose,
@@ -40,6 +40,9 @@ pub enum Question {
     /// At what acceleration does a mechanism start under an earthquake, and how does its resistance
     /// fall as it moves? In several directions the least.
     Kinematic(KinematicOptions),
+    /// What forces and displacements follow from the stiffness of its joints, under its dead load and
+    /// along its live load? Forces and laws are checked; that it goes there is computed.
+    State(StateOptions),
     /// What does its mechanism do on ground that moves? Computed from where it starts, which is
     /// proved.
     Rock(RockOptions),
@@ -377,6 +380,13 @@ impl Question {
                 refuse("at", "the linear analysis has no curve".into())
             }
             Self::Kinematic(o) => check_directions(&path, &o.toward, o.all),
+            Self::State(o) if o.at.iter().any(|v| !(*v > 0.0 && v.is_finite())) => {
+                refuse("at", "must be load factors above 0".into())
+            }
+            Self::State(o) if o.dead_only && (!o.at.is_empty() || o.control.is_some()) => {
+                refuse("dead_only", "without a live load there is no curve".into())
+            }
+            Self::State(_) => Ok(()),
             Self::Rock(o) => o.check().map_err(|e| e.under(&path)),
         }
     }
@@ -423,6 +433,10 @@ impl Question {
             Self::Rock(RockOptions { fate_only: true, .. }) => {
                 ("fate_only", "remove it: rows end by themselves once their fate is known")
             }
+            Self::State(o) if !o.at.is_empty() => ("at", "remove it: rows show no curve"),
+            Self::State(StateOptions { control: Some(_), .. }) => {
+                ("control", "remove it: rows show no curve")
+            }
             _ => return Ok(()),
         };
         let path = JsonPath::root().key(self.word()).key(key);
@@ -445,6 +459,7 @@ impl Question {
             Self::Kinematic(_) => "kinematic",
             Self::Stages(_) => "stages",
             Self::Rock(_) => "rock",
+            Self::State(_) => "state",
         }
     }
 
@@ -461,7 +476,7 @@ impl Question {
             Self::Kinematic(o) => o.law,
             Self::Stages(o) => o.law,
             // What slides in time does not open.
-            Self::Simulate(_) => Law::Coulomb,
+            Self::Simulate(_) | Self::State(_) => Law::Coulomb,
             // Hinges alone are followed, which are the same for both.
             Self::Settle(_) | Self::Push(_) | Self::Rock(_) => Law::Associative,
         }
@@ -483,6 +498,7 @@ impl Question {
             Self::Tilt(o) => o.require,
             Self::Repose(o) => o.require,
             Self::Kinematic(o) => o.require,
+            Self::State(o) => o.require,
         }
     }
 
@@ -506,6 +522,8 @@ impl Question {
             Self::Repose(_) => Some("angle of maximum stability in degrees"),
             Self::Settle(_) => Some("share of the movement up to which it stands"),
             Self::Kinematic(_) => Some("α0"),
+            Self::State(StateOptions { dead_only: true, .. }) => Some("greatest displacement in m"),
+            Self::State(_) => Some("load factor of the path"),
             Self::Stages(o) if o.remove_each => Some("blocks that may be taken out"),
             Self::Stages(o) if o.has_order() => Some("blocks held at a time"),
             Self::Stages(_) => Some("stages that stand before the first that does not"),

@@ -21,6 +21,11 @@ pub struct JointLaw {
     /// Rolling arm c, m: a point or an edge that touches carries couples `‖m_t‖ ≤ c f_n` (rolling)
     /// and `|m_n| ≤ c f_n` (twisting).
     pub rolling_arm: f64,
+    /// Pressure by which the joint closes one metre, Pa/m, where it is known. The joint is rigid for
+    /// every question but `state`.
+    pub normal_stiffness: Option<f64>,
+    /// The same for shear, Pa/m.
+    pub shear_stiffness: Option<f64>,
 }
 
 impl JointLaw {
@@ -33,12 +38,15 @@ impl JointLaw {
             compression: f64::INFINITY,
             pore_pressure: 0.0,
             rolling_arm: 0.0,
+            normal_stiffness: None,
+            shear_stiffness: None,
         }
     }
 
-    /// Whether dry friction is all there is.
+    /// Whether dry friction is all there is, however far it yields.
     pub fn is_dry(&self) -> bool {
-        *self == Self::dry(self.friction)
+        let rigid = Self { normal_stiffness: None, shear_stiffness: None, ..*self };
+        rigid == Self::dry(self.friction)
     }
 
     /// Whether nothing in it is a stress: only friction and couples in proportion to the normal

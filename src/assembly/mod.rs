@@ -70,6 +70,8 @@ pub struct Block {
     pub support: bool,
     /// Name of its material, if any.
     pub material: Option<String>,
+    /// How its material yields where it touches at points, where that is known.
+    pub elastic: Option<Elastic>,
     /// Mass, kg.
     pub mass: f64,
     /// Centre of mass, m.
@@ -82,6 +84,22 @@ pub struct Block {
     pub solid: Solid,
     /// Bounding-box diagonal, m; the length scale of every tolerance about this block.
     pub size: f64,
+}
+
+/// An isotropic elastic material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Elastic {
+    /// Young's modulus, Pa.
+    pub young: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+}
+
+impl Elastic {
+    /// Shear modulus, Pa.
+    pub fn shear(&self) -> f64 {
+        self.young / (2.0 * (1.0 + self.poisson))
+    }
 }
 
 /// The geometry of a block in scene coordinates.

@@ -1,8 +1,8 @@
 //! The options that would have to be given again for the same answer, as typed.
 
 use super::args::{
-    Assess, Common, Critical, Curve, DIRECTIONS, Kinematic, Law, Push, Settle, Simulate, Stages,
-    Thrust, Tilt,
+    Assess, Common, Critical, Curve, DIRECTIONS, Kinematic, Law, Push, Quadrature, Settle,
+    Simulate, Stages, State, Thrust, Tilt,
 };
 use voussoir::sweep::Between;
 
@@ -133,6 +133,20 @@ impl Stages {
         let tries = self.tries.map(|n| format!("--tries {n}"));
         let more = [all, order, hands, tries].into_iter().flatten();
         toward.chain(more).chain(words).collect()
+    }
+}
+
+impl State {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let control = self.control.as_ref().map(|(id, point)| {
+            let word = format!("{id}={}", list(point));
+            format!("--control {}", super::question::quoted(&word))
+        });
+        let corners =
+            (self.quadrature == Quadrature::Corners).then(|| "--quadrature corners".into());
+        let dead = self.dead_only.then(|| "--dead-only".to_string());
+        [control, at(&self.at), corners, dead].into_iter().flatten().collect()
     }
 }
 

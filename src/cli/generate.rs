@@ -65,7 +65,8 @@ pub fn run(args: &Generate) -> anyhow::Result<Exit> {
         Scene { name: args.name.clone().unwrap_or_else(|| title(name)), ..Scene::default() };
     head.source = format!("voussoir generate {name}{}", command.concat());
     head.joints.default.friction = Some(args.friction);
-    head.materials.extend(args.density.map(|density| (MATERIAL.to_string(), Material { density })));
+    head.materials
+        .extend(args.density.map(|density| (MATERIAL.to_string(), Material::of_density(density))));
     let mut value = serde_json::to_value(&head)?;
     value["templates"] = Value::from(vec![template]);
     // Lines and columns of a text that nobody has seen help nobody: the path is enough.

@@ -34,6 +34,7 @@ pub mod schema;
 pub mod simulate;
 mod slurm;
 pub mod stages;
+pub mod state;
 pub mod study;
 pub mod sweep;
 pub mod terminal;

@@ -25,7 +25,7 @@ use voussoir::{
     report::{
         json, kinematic, moving, page,
         record::Record,
-        stages,
+        stages, state,
         text::{self, Asked, TextOptions},
         view::View,
     },
@@ -297,6 +297,7 @@ impl<'a> Session<'a> {
                 let charts: Vec<_> = [
                     kinematic::page_chart(&file),
                     stages::page_chart(&file),
+                    state::page_chart(&file),
                     moving::page_chart(&file),
                     page::curve(&file),
                     page::attempts(&file),

@@ -235,7 +235,7 @@ fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
     };
     scene.source = format!("voussoir repose --question repose, seed {seed}");
     for name in ["grain", "wall"] {
-        scene.materials.insert(name.into(), Material { density: p.density });
+        scene.materials.insert(name.into(), Material::of_density(p.density));
     }
     let arm = (p.rolling_arm > 0.0).then_some(p.rolling_arm * d);
     scene.joints.default = JointSpec {
@@ -253,6 +253,8 @@ fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
         compression: None,
         pore_pressure: None,
         rolling_arm: Some(0.0),
+        normal_stiffness: None,
+        shear_stiffness: None,
     });
     Deposit { scene, gates, layers }
 }

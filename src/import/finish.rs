@@ -56,7 +56,7 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
         }
     }
     if let Some(density) = options.density {
-        scene.materials = [(MATERIAL.to_string(), Material { density })].into();
+        scene.materials = [(MATERIAL.to_string(), Material::of_density(density))].into();
         scene.blocks.iter_mut().for_each(|b| b.material = Some(MATERIAL.into()));
     }
     supports(&mut scene, options, &mut findings)?;

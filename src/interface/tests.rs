@@ -125,6 +125,7 @@ fn assembly(shapes: &[Shape]) -> Assembly {
                 path,
                 support: false,
                 material: None,
+                elastic: None,
                 mass: 1.0,
                 centroid: V::zeros(),
                 gyration: Gyration::new(&Matrix3::identity(), 1.0),

@@ -3,7 +3,8 @@
 
 use super::{
     critical::CriticalValue, kinematic::KinematicAnswer, moving::MovingAnswer, path::PathAnswer,
-    result::DryResult, rocking::RockingAnswer, stages::StagesAnswer, thrust::ThrustAnswer,
+    result::DryResult, rocking::RockingAnswer, stages::StagesAnswer, state::StateAnswer,
+    thrust::ThrustAnswer,
 };
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
@@ -34,6 +35,8 @@ pub enum Answer {
     Kinematic(Box<KinematicAnswer>),
     /// Does every stage of its construction stand, and how safely?
     Stages(Box<StagesAnswer>),
+    /// What follows from the stiffness of its joints.
+    State(Box<StateAnswer>),
     /// On ground that moves: what its mechanism does.
     Rocking(Box<RockingAnswer>),
     /// What became of it in time, beside the verdict where that was asked.
@@ -204,6 +207,7 @@ impl Answer {
             Self::Moving(a) => a.verdict,
             Self::Kinematic(a) => a.verdict,
             Self::Stages(a) => Some(a.verdict),
+            Self::State(a) => Some(a.verdict),
             Self::Critical(_)
             | Self::Thrust(_)
             | Self::Path(_)
@@ -306,6 +310,7 @@ impl Answer {
             Self::Moving(a) => a.proof,
             Self::Kinematic(a) => a.proof,
             Self::Rocking(a) => a.proof,
+            Self::State(a) => a.proof,
             _ => None,
         }
     }
@@ -361,6 +366,9 @@ pub(super) struct Flat {
     /// What its stages do.
     #[serde(skip_serializing_if = "Option::is_none")]
     stages: Option<Box<StagesAnswer>>,
+    /// What follows from the stiffness of its joints.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    state: Option<Box<StateAnswer>>,
     /// What a mechanism does on ground that moves.
     #[serde(skip_serializing_if = "Option::is_none")]
     rocking: Option<Box<RockingAnswer>>,
@@ -411,6 +419,7 @@ impl From<Answer> for Flat {
             Answer::Path(path) => Self { path: Some(path), ..Self::default() },
             Answer::Kinematic(a) => Self { kinematic: Some(a), ..Self::default() },
             Answer::Stages(a) => Self { stages: Some(a), ..Self::default() },
+            Answer::State(a) => Self { state: Some(a), ..Self::default() },
             Answer::Rocking(a) => Self { rocking: Some(a), ..Self::default() },
             Answer::Moving(a) => Self { moving: Some(a), ..Self::default() },
         }
@@ -439,6 +448,7 @@ impl TryFrom<Flat> for Answer {
             path,
             kinematic,
             stages,
+            state,
             rocking,
             moving,
         } = flat;
@@ -458,6 +468,7 @@ impl TryFrom<Flat> for Answer {
             path.map(Self::Path),
             kinematic.map(Self::Kinematic),
             stages.map(Self::Stages),
+            state.map(Self::State),
             rocking.map(Self::Rocking),
             moving.map(Self::Moving),
         ]

@@ -16,6 +16,7 @@ pub mod result;
 pub mod rocking;
 pub mod simulation;
 pub mod stages;
+pub mod state;
 pub mod thrust;
 pub mod verification;
 pub mod verify;

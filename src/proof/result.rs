@@ -10,6 +10,7 @@ use super::{
     rocking::RockingResult,
     simulation::Simulation,
     stages::StagesResult,
+    state::StateResult,
     thrust::ThrustResult,
     work::Work,
 };
@@ -79,6 +80,9 @@ pub struct ResultFile {
     /// Stages: every one with its evidence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stages: Option<StagesResult>,
+    /// State: displacements, from which everything follows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<StateResult>,
     /// Rock: the evidence against the direction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rocking: Option<RockingResult>,
@@ -144,6 +148,7 @@ impl ResultFile {
             thrust: None,
             path: None,
             stages: None,
+            state: None,
             rocking: None,
             simulation: None,
             mechanism: None,
@@ -189,6 +194,8 @@ pub enum QuestionKind {
     Kinematic,
     /// Does every stage of its construction stand?
     Stages,
+    /// What follows from the stiffness of its joints?
+    State,
     /// What does its mechanism do on ground that moves?
     Rock,
 }

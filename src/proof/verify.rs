@@ -10,7 +10,7 @@ use super::{
     answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
     critical, kinematic, member, moving, part, path,
     result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
-    rocking, stages, thrust,
+    rocking, stages, state, thrust,
 };
 use crate::{
     error::{Finding, FindingCode, InputError},
@@ -114,6 +114,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         QuestionKind::Settle | QuestionKind::Push => path::verify(&mut all, file, model),
         QuestionKind::Kinematic => kinematic::verify(&mut all, file, scene, model),
         QuestionKind::Stages => stages::verify(&mut all, file, scene, model),
+        QuestionKind::State => state::verify(&mut all, file, model),
         QuestionKind::Rock => rocking::verify(&mut all, file, scene, model),
         QuestionKind::Moving => moving::verify(&mut all, file, scene, model),
     }
@@ -121,6 +122,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         file.question != QuestionKind::Critical && file.critical.is_some(),
         file.question != QuestionKind::Thrust && file.thrust.is_some(),
         file.question != QuestionKind::Stages && file.stages.is_some(),
+        file.question != QuestionKind::State && file.state.is_some(),
         file.question != QuestionKind::Rock && file.rocking.is_some(),
         !matches!(
             file.question,
@@ -160,6 +162,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             | QuestionKind::Thrust
             | QuestionKind::Settle
             | QuestionKind::Stages
+            | QuestionKind::State
             | QuestionKind::Rock
             | QuestionKind::Push => failure("the file holds a load factor that was not asked for"),
             _ => again::dry_friction(

@@ -99,6 +99,10 @@ struct Law<'a> {
     pore_pressure: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     rolling_arm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    normal_stiffness: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shear_stiffness: Option<f64>,
 }
 
 impl<'a> Inspection<'a> {
@@ -185,6 +189,8 @@ impl<'a> From<&'a JointLaw> for Law<'a> {
             compression: law.compression.is_finite().then_some(law.compression),
             pore_pressure: some(law.pore_pressure),
             rolling_arm: some(law.rolling_arm),
+            normal_stiffness: law.normal_stiffness,
+            shear_stiffness: law.shear_stiffness,
         }
     }
 }

@@ -17,6 +17,7 @@ pub mod path;
 mod plot;
 pub mod record;
 pub mod stages;
+pub mod state;
 pub mod study;
 pub mod sweep;
 pub mod table;

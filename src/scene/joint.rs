@@ -14,6 +14,20 @@ use std::{
 pub struct Material {
     /// Density, kg/m³.
     pub density: f64,
+    /// Young's modulus, Pa, of what touches at points: spheres by Hertz. `state` alone asks for it;
+    /// rigid where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub young: Option<f64>,
+    /// Poisson's ratio, above −1 and at most 0.5; given with `young`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poisson: Option<f64>,
+}
+
+impl Material {
+    /// A material of which nothing but its density is known, kg/m³.
+    pub fn of_density(density: f64) -> Self {
+        Self { density, young: None, poisson: None }
+    }
 }
 
 /// How joints resist: one rule for all, and exceptions.
@@ -54,6 +68,14 @@ pub struct JointSpec {
     /// Rolling arm, m, of contacts at points and edges. Default 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_arm: Option<f64>,
+    /// Pressure by which the joint closes one metre, Pa/m. `state` alone asks for it; the joint is
+    /// rigid for all other questions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal_stiffness: Option<f64>,
+    /// Shear stress by which its sides move one metre along it before it slides, Pa/m. The normal
+    /// stiffness where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear_stiffness: Option<f64>,
 }
 
 /// An exception: the joints between two materials, or between two blocks. What it leaves out is as
@@ -88,6 +110,12 @@ pub struct JointOverride {
     /// Rolling arm, m, of contacts at points and edges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_arm: Option<f64>,
+    /// Pressure by which the joint closes one metre, Pa/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal_stiffness: Option<f64>,
+    /// Shear stress by which its sides move one metre along it before it slides, Pa/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear_stiffness: Option<f64>,
 }
 
 /// Dry friction in a joint.
@@ -133,6 +161,8 @@ impl JointOverride {
             compression: self.compression,
             pore_pressure: self.pore_pressure,
             rolling_arm: self.rolling_arm,
+            normal_stiffness: self.normal_stiffness,
+            shear_stiffness: self.shear_stiffness,
         }
     }
 }

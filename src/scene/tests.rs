@@ -276,6 +276,8 @@ fn joints() -> impl Strategy<Value = Joints> {
                 some(number()),
                 some(number()),
                 some(number()),
+                some(number()),
+                some(number()),
             ],
         )
     };
@@ -283,7 +285,16 @@ fn joints() -> impl Strategy<Value = Joints> {
         strength().prop_map(
             |(
                 friction,
-                [friction_angle_deg, cohesion, tension, compression, pore_pressure, rolling_arm],
+                [
+                    friction_angle_deg,
+                    cohesion,
+                    tension,
+                    compression,
+                    pore_pressure,
+                    rolling_arm,
+                    normal_stiffness,
+                    shear_stiffness,
+                ],
             )| JointSpec {
                 friction,
                 friction_angle_deg,
@@ -292,6 +303,8 @@ fn joints() -> impl Strategy<Value = Joints> {
                 compression,
                 pore_pressure,
                 rolling_arm,
+                normal_stiffness,
+                shear_stiffness,
             },
         )
     };
@@ -306,6 +319,8 @@ fn joints() -> impl Strategy<Value = Joints> {
             compression: s.compression,
             pore_pressure: s.pore_pressure,
             rolling_arm: s.rolling_arm,
+            normal_stiffness: s.normal_stiffness,
+            shear_stiffness: s.shear_stiffness,
         });
     (spec(), prop::collection::vec(rule, 0..3))
         .prop_map(|(default, overrides)| Joints { default, overrides })
@@ -358,11 +373,13 @@ fn scene() -> impl Strategy<Value = Scene> {
         prop::collection::vec(mass, list(2)),
     )
         .prop_map(|(dead, live, masses)| Loads { dead, live, masses });
-    let materials = prop::collection::btree_map(
-        name(),
-        number().prop_map(|density| Material { density }),
-        list(3),
-    );
+    let materials =
+        prop::collection::btree_map(
+            name(),
+            (number(), some(number()), some(number()))
+                .prop_map(|(density, young, poisson)| Material { density, young, poisson }),
+            list(3),
+        );
     let contact =
         vector().prop_map(|[gap, angle_deg, min_area]| ContactSpec { gap, angle_deg, min_area });
     let parts = (

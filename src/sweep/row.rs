@@ -10,12 +10,14 @@ use crate::{
             End,
             answer::{Followed, PointProof},
         },
+        state::Stated,
         thrust::ThrustEnd,
     },
     dynamics::Fate,
     proof::critical::FlipResult,
     rocking,
-    verdict::Verdict,
+    verdict::{Rate, Verdict},
+    yielding::PathEnd,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -208,6 +210,7 @@ impl RowAnswer {
                 ..Self::of_load_factor(&d.bound, d.dry.as_ref(), |lambda| lambda)
             })),
             Answer::Stages(s) => Self::of_stages(s),
+            Answer::State(s) => Self::of_state(s),
             Answer::Rock(r) => Self::of_rocking(r),
             Answer::Simulate(outcome) => Self::of(match outcome.fate {
                 Fate::Stands => RowStatus::Stable,
@@ -215,6 +218,31 @@ impl RowAnswer {
                 Fate::Undecided => RowStatus::Undecided,
             }),
         }
+    }
+
+    /// The load factor of the path; without a live load the greatest displacement.
+    fn of_state(s: &Stated) -> Self {
+        let Some(track) = &s.track else {
+            return Self::of(match s.standing() {
+                Verdict::Unstable => RowStatus::Unstable,
+                Verdict::Conditional => RowStatus::Conditional,
+                Verdict::Stable | Verdict::Undecided => RowStatus::Undecided,
+            });
+        };
+        let Some(bound) = &s.bound else {
+            let size = |q: &Rate| q.velocity.norm();
+            let most = track.steps[0].displaced.iter().map(size).fold(0.0, f64::max);
+            return Self { value: Some(most), ..Self::of(RowStatus::Found) };
+        };
+        let upper = finite(bound.bracket.upper);
+        let factor = s.factor();
+        let value = factor.and_then(|f| f.value);
+        let status = match (s.end, value) {
+            (PathEnd::Unbounded, _) => RowStatus::Unbounded,
+            (_, Some(_)) => RowStatus::Found,
+            (_, None) => RowStatus::Undecided,
+        };
+        Self { value, lower: factor.map(|f| f.reached), upper, ..Self::of(status) }
     }
 
     /// How many stages stand, from the first on, with the verdict of the worst; of blocks taken out

@@ -51,6 +51,7 @@ mod same;
 mod scenes;
 mod schema;
 mod stages;
+mod state;
 mod strength;
 mod sweep;
 mod symmetry;

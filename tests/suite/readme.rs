@@ -180,8 +180,8 @@ fn charts_are_those_of_the_commands(folder: &Path) {
 }
 
 /// Pages of `docs/` whose console blocks are run where they stand.
-const PAGES: [&str; 4] =
-    ["docs/bridges.md", "docs/ground.md", "docs/kinematic.md", "docs/stages.md"];
+const PAGES: [&str; 5] =
+    ["docs/bridges.md", "docs/ground.md", "docs/kinematic.md", "docs/stages.md", "docs/state.md"];
 
 #[test]
 fn pages_print_what_they_say() {

@@ -137,7 +137,7 @@ fn fits(schema: &Value, value: &Value, what: &str) {
 #[test]
 fn every_verb_answers_as_the_schema_says() {
     let schema = run(&["schema", "result"]);
-    let questions: [&[&str]; 24] = [
+    let questions: [&[&str]; 25] = [
         &["assess", "structures/oppenheim-arch.json"],
         &["assess", "structures/semicircular-arch-thin.json", "--simulate"],
         &["assess", "structures/squeezed-block.json"],
@@ -186,6 +186,7 @@ fn every_verb_answers_as_the_schema_says() {
         &["kinematic", "structures/overturning-wall-with-tie.json", "--toward", "1,0"],
         &["stages", "structures/barrel-on-centring.json", "--toward", "1,0"],
         &["stages", "structures/a-frame-stands.json", "--remove-each"],
+        &["state", "structures/block-on-bed.json"],
     ];
     for question in questions {
         let result = run(&[question, &["--json"]].concat());

@@ -61,6 +61,25 @@ pub const DENSITY_UNITS: [DensityUnit; 8] = [
     DensityUnit { name: "t/mm³", window: 1.2e-9..=3.4e-9, kilograms: 1e12 },
 ];
 
+/// A joint that closes under the weight of a block of stone standing on it by more than this share of
+/// the block's size is no joint of stone. More: stiffnesses in MPa/m pass. Less: joints of rubber or
+/// of soft mortar are reported.
+pub const GREATEST_CLOSING: f64 = 0.05;
+
+/// Stiffnesses of joints of masonry and rock in N/mm³ (MPa/mm): 0.1 to 1000 N/mm³ is 1e8 to 1e12
+/// Pa/m. Wider: numbers that were chosen are taken for a mistake. Narrower: a mistake passes.
+pub const STIFFNESS_IN_NEWTONS_PER_MM3: RangeInclusive<f64> = 0.1..=1e3;
+
+/// The same in MPa/m and in kPa/m. As above.
+pub const STIFFNESS_IN_MEGAPASCALS_PER_M: RangeInclusive<f64> = 1e3..=1e6;
+
+/// Young's moduli in GPa: stone, glass and steel have 1 to 400. Wider: soft grains that were chosen
+/// are reported. Narrower: a mistake passes.
+pub const YOUNG_IN_GIGAPASCALS: RangeInclusive<f64> = 0.5..=500.0;
+
+/// The same in MPa. As above.
+pub const YOUNG_IN_MEGAPASCALS: RangeInclusive<f64> = 1e3..=5e5;
+
 /// Block sizes outside this range, m, are mistakes. Narrower: clay grains or mountains are
 /// reported. Wider: micrometres pass.
 pub const SIZE: RangeInclusive<f64> = 1e-6..=1e4;

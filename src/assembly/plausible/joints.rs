@@ -17,6 +17,14 @@ pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
     for (i, rule) in scene.joints.overrides.iter().enumerate() {
         look(&rule.spec(), &path.key("overrides").index(i), weights.as_ref(), largest, &mut told);
     }
+    if weights.is_some() {
+        for (name, material) in &scene.materials {
+            let path = JsonPath::root().key("materials").key(name.as_str()).key("young");
+            if let Some(text) = material.young.and_then(|e| young(e, &path)) {
+                told.add("young", || text);
+            }
+        }
+    }
     told.texts("joint rules")
 }
 
@@ -38,6 +46,11 @@ fn look(
         tell("compression", spec.compression.and_then(|s| compression(s, path, weights)));
         tell("cohesion", spec.cohesion.and_then(|s| bond("cohesion", s, path, weights)));
         tell("tension", spec.tension.and_then(|s| bond("tension", s, path, weights)));
+        for (key, value) in
+            [("normal_stiffness", spec.normal_stiffness), ("shear_stiffness", spec.shear_stiffness)]
+        {
+            tell(key, value.and_then(|k| stiffness(key, k, path, weights)));
+        }
         tell("pore_pressure", spec.pore_pressure.and_then(|p| pressure(p, path, weights)));
     }
     // An arm longer than the block itself would hold a ball on a wall.
@@ -116,6 +129,42 @@ fn pressure(pressure: f64, path: &JsonPath, weights: &Weights) -> Option<String>
             pressure * 1e3
         )
     })
+}
+
+fn stiffness(key: &str, stiffness: f64, path: &JsonPath, weights: &Weights) -> Option<String> {
+    let closes = weights.volume * weights.size / stiffness;
+    if closes <= bounds::GREATEST_CLOSING * weights.size {
+        return None;
+    }
+    let (unit, factor) = if bounds::STIFFNESS_IN_NEWTONS_PER_MM3.contains(&stiffness) {
+        ("N/mm³ (MPa/mm)", 1e9)
+    } else if bounds::STIFFNESS_IN_MEGAPASCALS_PER_M.contains(&stiffness) {
+        ("MPa/m", 1e6)
+    } else {
+        return None;
+    };
+    Some(format!(
+        "{} is {} Pa/m: under the weight of one block it gives way by {} m. It looks like {unit}: stiffnesses are in Pa/m, write {:e}",
+        path.key(key),
+        short(stiffness),
+        short(closes),
+        stiffness * factor
+    ))
+}
+
+fn young(young: f64, path: &JsonPath) -> Option<String> {
+    let (unit, factor) = if bounds::YOUNG_IN_GIGAPASCALS.contains(&young) {
+        ("GPa", 1e9)
+    } else if bounds::YOUNG_IN_MEGAPASCALS.contains(&young) {
+        ("MPa (N/mm²)", 1e6)
+    } else {
+        return None;
+    };
+    Some(format!(
+        "{path} is {} Pa, softer than jelly. It looks like {unit}: moduli are in Pa, write {:e}",
+        short(young),
+        young * factor
+    ))
 }
 
 /// The unit that a stress was written in, and how many Pa it is.

@@ -5,10 +5,10 @@ use super::{
     shape::{self, Frame},
 };
 use crate::{
-    assembly::{Block, Gyration, Mend},
+    assembly::{Block, Elastic, Gyration, Mend},
     error::{Finding, FindingCode, InputError, JsonPath, Step},
     generate, limits,
-    scene::{BlockSpec, Scene, suggest},
+    scene::{BlockSpec, Material, Scene, suggest},
     tolerance::DEFAULT_DENSITY,
 };
 use std::collections::HashMap;
@@ -52,6 +52,7 @@ pub(super) fn resolve(
             &root.key("materials").key(name.as_str()).key("density"),
             "kg/m³",
         )?;
+        elastic_moduli(material, &root.key("materials").key(name.as_str()))?;
     }
     let mut blocks = Vec::with_capacity(scene.blocks.len());
     let mut mended = Mended::default();
@@ -140,11 +141,12 @@ fn block(
     let material = match &spec.material {
         None => None,
         Some(name) => match scene.materials.get(name) {
-            Some(material) => Some(material.density),
+            Some(material) => Some(material),
             None => return place.check(Err(no_material(scene, name, &root.key("material")))),
         },
     };
-    let density = own.or(material);
+    let density = own.or(material.map(|m| m.density));
+    let elastic = material.and_then(|m| Some(Elastic { young: m.young?, poisson: m.poisson? }));
 
     let volume = body.properties.volume;
     let mass = mass.unwrap_or(density.unwrap_or(DEFAULT_DENSITY) * volume);
@@ -169,6 +171,7 @@ fn block(
         path: place.path.clone(),
         support: spec.support,
         material: spec.material.clone(),
+        elastic,
         mass,
         centroid,
         gyration: Gyration::new(&inertia, mass),
@@ -178,6 +181,26 @@ fn block(
     };
     let chosen = if spec.mass.is_some() { Some(mass / volume) } else { density };
     Ok((block, chosen))
+}
+
+/// Refuses moduli that no material has, and one without the other.
+fn elastic_moduli(material: &Material, path: &JsonPath) -> Result<(), InputError> {
+    if let Some(young) = material.young {
+        check::positive(young, &path.key("young"), "Young's modulus in Pa: 70 GPa is 70e9")?;
+    }
+    if let Some(poisson) = material.poisson
+        && !(poisson > -1.0 && poisson <= 0.5)
+    {
+        let text = format!("must be above -1 and at most 0.5, got {poisson}");
+        return Err(InputError::at(path.key("poisson"), text).hint("stone has 0.15 to 0.3"));
+    }
+    match (material.young, material.poisson) {
+        (Some(_), None) => Err(InputError::at(path.clone(), "young is given without poisson")
+            .hint("add \"poisson\", 0.2 for stone and glass")),
+        (None, Some(_)) => Err(InputError::at(path.clone(), "poisson is given without young")
+            .hint("add \"young\", in Pa")),
+        _ => Ok(()),
+    }
 }
 
 /// The error about a material that is not in the list.

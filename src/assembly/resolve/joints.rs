@@ -92,6 +92,17 @@ fn law(
         "pore_pressure is in Pa: one metre of water is 9810",
     )?;
     let rolling_arm = amount("rolling_arm", spec.rolling_arm, "rolling_arm is a length in m")?;
+    let stiffness = |key: &str, value: Option<f64>| {
+        match value {
+        Some(v) if !(v > 0.0 && v.is_finite()) => {
+            Err(InputError::at(path.key(key), format!("must be a finite number > 0, got {v}"))
+                .hint("stiffness is in Pa per metre (N/m³): 10 N/mm³ is 1e10; leave it out where the joint is rigid"))
+        }
+        _ => Ok(value),
+    }
+    };
+    let normal_stiffness = stiffness("normal_stiffness", spec.normal_stiffness)?;
+    let shear_stiffness = stiffness("shear_stiffness", spec.shear_stiffness)?;
     let Some(friction) = given.or(base.map(|b| b.friction)) else { return Ok(None) };
     let dry = JointLaw::dry(friction);
     let base = base.unwrap_or(&dry);
@@ -102,6 +113,8 @@ fn law(
         compression: compression.unwrap_or(base.compression),
         pore_pressure: pore_pressure.unwrap_or(base.pore_pressure),
         rolling_arm: rolling_arm.unwrap_or(base.rolling_arm),
+        normal_stiffness: normal_stiffness.or(base.normal_stiffness),
+        shear_stiffness: shear_stiffness.or(base.shear_stiffness),
     }))
 }
 

@@ -9,6 +9,7 @@ mod pictures;
 mod repose;
 mod simulate;
 mod stages;
+mod state;
 mod study;
 mod sweep;
 
@@ -20,6 +21,7 @@ pub use pictures::{Pictures, Tables};
 pub use repose::{Asked, Repose};
 pub use simulate::Simulate;
 pub use stages::Stages;
+pub use state::{Quadrature, State};
 pub use study::Study;
 pub use sweep::{Merge, Slurm, Summary, Sweep, SweepStatus, SweepVerb, Task};
 
@@ -160,6 +162,16 @@ pub enum Verb {
     /// stage stands (or some block can be taken out), 1 if one does not (or none can be), 3 if that
     /// stays open.
     Stages(Stages),
+    /// What forces and displacements follow from the stiffness of its joints?
+    ///
+    /// Joints with a "normal_stiffness" yield as springs that cannot pull, spheres of materials with
+    /// "young" and "poisson" by Hertz and Mindlin, friction by Coulomb's law. The state under the dead
+    /// load is one step from nothing; along the live load steps end where a joint opens or slides, up to
+    /// the load factor of that path. The forces prove that it stands, and balance and the conditions
+    /// of Signorini and Coulomb are printed with what is left of each. Exit code 0 if a state is found
+    /// and the path followed to its end, 1 if it falls or the load factor is below --require, 3 if that
+    /// stays open.
+    State(State),
     /// What happens in time, and does the verdict say the same?
     ///
     /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any

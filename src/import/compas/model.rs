@@ -120,7 +120,7 @@ fn materials(data: &Cursor, raw: &mut Raw) -> Result<HashMap<String, String>, In
         let Some(density) = material.get("density") else { continue };
         let density = density.number()?;
         let name = material.get("name").and_then(|n| n.value().as_str()).unwrap_or("material");
-        let entry = Material { density };
+        let entry = Material::of_density(density);
         let mut unique = name.to_string();
         let mut number = 2;
         while raw.materials.get(&unique).is_some_and(|m| *m != entry) {

@@ -215,6 +215,7 @@ fn block(block: &Block, units: &Units) -> Block {
         path: Default::default(),
         support: block.support,
         material: None,
+        elastic: None,
         mass: block.mass * density,
         centroid: units.place(&block.centroid),
         inertia: block.inertia * density / length / length,

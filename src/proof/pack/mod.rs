@@ -9,6 +9,7 @@ mod rocking;
 #[cfg(feature = "dynamics")]
 mod simulation;
 mod stages;
+mod state;
 mod thrust;
 
 use super::{
@@ -64,6 +65,7 @@ impl ResultFile {
             #[cfg(feature = "dynamics")]
             Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
             Answered::Rock(r) => Self::rocking(scene, model, r),
+            Answered::State(s) => Self::state(scene, model, s),
             Answered::Repose(_) => return None,
         })
     }

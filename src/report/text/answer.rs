@@ -114,6 +114,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         QuestionKind::Settle | QuestionKind::Push => super::path::title(file),
         QuestionKind::Kinematic => super::kinematic::title(file),
         QuestionKind::Stages => super::stages::title(file),
+        QuestionKind::State => super::state::title(file),
         QuestionKind::Rock => super::rocking::title(file),
     };
     let text = match super::moving::place(file) {
@@ -223,6 +224,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         QuestionKind::Thrust => return super::thrust::why(page, file),
         QuestionKind::Settle | QuestionKind::Push => return super::path::why(page, file),
         QuestionKind::Stages => return super::stages::why(page, file),
+        QuestionKind::State => return super::state::why(page, file),
         QuestionKind::Rock => return super::rocking::why(page, file),
         QuestionKind::Kinematic => {
             super::kinematic::why(page, file);

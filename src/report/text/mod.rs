@@ -13,6 +13,7 @@ mod path;
 mod rocking;
 mod simulation;
 mod stages;
+pub(super) mod state;
 mod template;
 mod thrust;
 
@@ -76,6 +77,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     path::rows(&mut page, file, options);
     kinematic::rows(&mut page, file, options);
     stages::rows(&mut page, file, options);
+    state::rows(&mut page, file, options);
     moving::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
@@ -194,6 +196,7 @@ pub fn command(file: &ResultFile, asked: Asked) -> String {
         QuestionKind::Push => "push",
         QuestionKind::Kinematic | QuestionKind::Rock => "kinematic",
         QuestionKind::Stages => "stages",
+        QuestionKind::State => "state",
     };
     if asked.options.is_empty() {
         format!("voussoir {verb} {scene}")

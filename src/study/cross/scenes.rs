@@ -104,7 +104,7 @@ pub fn extent(scene: &Scene) -> (Vector3<f64>, Vector3<f64>) {
 fn empty(friction: f64, density: f64) -> Scene {
     let mut scene = Scene::default();
     scene.joints.default.friction = Some(Friction::Coefficient(friction));
-    scene.materials.insert("stone".into(), Material { density });
+    scene.materials.insert("stone".into(), Material::of_density(density));
     scene
 }
 
@@ -155,6 +155,8 @@ fn wedge(random: &mut Random) -> Scene {
         compression: None,
         pore_pressure: None,
         rolling_arm: None,
+        normal_stiffness: None,
+        shear_stiffness: None,
     };
     scene.joints.overrides = vec![
         exception("left", random.between(0.1, 0.9)),

@@ -69,7 +69,7 @@ pub fn beside(scene: &Scene, masses: &[f64], stranger: Stranger, before: bool) -
         if before { "before" } else { "after" }
     )
     .to_lowercase();
-    union.materials.insert(MATERIAL.into(), Material { density: 1.0 });
+    union.materials.insert(MATERIAL.into(), Material::of_density(1.0));
     union.joints.overrides.push(JointOverride {
         between: Some([MATERIAL.into(), MATERIAL.into()]),
         blocks: None,
@@ -86,6 +86,8 @@ pub fn beside(scene: &Scene, masses: &[f64], stranger: Stranger, before: bool) -
             .map(|_| 1e3 * count as f64 * mass * 9.81 / (0.5 * size).powi(2)),
         pore_pressure: Some(0.0),
         rolling_arm: Some(0.0),
+        normal_stiffness: None,
+        shear_stiffness: None,
     });
     if before {
         blocks.append(&mut union.blocks);

@@ -34,7 +34,7 @@ pub fn scene(
     let mut scene =
         Scene { name: format!("soak {seed}/{index}: {family}"), blocks, ..Scene::default() };
     scene.joints.default.friction = Some(Friction::Coefficient(random.between(0.1, 0.9)));
-    scene.materials.insert(STONE.into(), Material { density: random.decades(1.0, 4.0) });
+    scene.materials.insert(STONE.into(), Material::of_density(random.decades(1.0, 4.0)));
     scene.blocks.iter_mut().for_each(|b| b.material = Some(STONE.into()));
     let perturbations = perturb(&mut scene, random);
     Ok((scene, family, perturbations))

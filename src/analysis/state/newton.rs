@@ -1,0 +1,239 @@
+//! Newton's method for the displacements at which joints that yield balance the loads.
+//!
+//! The unknowns are six displacements a free block, the equations their balance; the tangent is
+//! that of the laws themselves, blocks of 6 × 6, unsymmetric where something slides. Where the scene
+//! has motions that no joint resists (a sphere that rolls) a small multiple of the diagonal is
+//! added, which is zero at the solution. Where Newton's method does not get there from where it
+//! starts, joints are glued by a share that is taken away by and by (continuation); what is found
+//! with glue counts for nothing.
+
+use crate::{
+    analysis::Control,
+    assembly::Wrench,
+    solve::{Cholesky, Lu},
+    verdict::Rate,
+    yielding::{State, System, law::Friction},
+};
+use nalgebra::Vector3;
+
+/// Balance that is reached, by the measure of the joints' stiffness. Less: rounding of displacements
+/// keeps tall scenes from it. More: forces have fewer digits than their check asks for.
+const BALANCED: f64 = 1e-13;
+/// Balance that is good enough where rounding keeps from more. More: the check of the forces fails.
+const GOOD: f64 = 1e-9;
+/// Most steps of one search. Fewer: joints that open one by one are given up. More: minutes where
+/// there is nothing to find.
+const STEPS: usize = 60;
+/// Halvings of a step at most.
+const HALVINGS: usize = 6;
+/// Shares of the diagonal that are added where a motion meets no resistance, the next one where the one
+/// before leads nowhere. More at first: steps are short. Less: rounding of the factors decides.
+const SHIFTS: [f64; 6] = [1e-12, 1e-8, 1e-6, 1e-4, 1e-2, 1.0];
+/// Differences of mirrored entries that are rounding, in multiples of the diagonal. More: steps of what
+/// slides point aside. Less: everything is taken for unsymmetric, which costs time alone.
+const SYMMETRIC: f64 = 1e-13;
+/// A step is taken where the work that is left along it is less than this share. More: searches go
+/// to and fro. Less: steps are short.
+const LESS_WORK: f64 = 0.5;
+/// Most steps that leave more than was left before.
+const WORSE: usize = 20;
+/// Shares of glue, one after the other.
+const GLUE: [f64; 9] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5];
+
+/// What solves the equations of a model.
+pub struct Newton<'a> {
+    system: &'a System<'a>,
+    lu: Option<Lu>,
+    cholesky: Option<Cholesky>,
+    /// Steps that it took so far.
+    pub steps: usize,
+}
+
+impl<'a> Newton<'a> {
+    /// Of these equations.
+    pub fn new(system: &'a System<'a>) -> Self {
+        Self { system, lu: None, cholesky: None, steps: 0 }
+    }
+
+    /// Of these displacements those that are nearest to balance.
+    pub fn nearest(&self, state: &State, loads: &[Wrench], from: Vec<Vec<Rate>>) -> Vec<Rate> {
+        let size = |q: &Vec<Rate>| self.residual(state, loads, q, 0.0).0;
+        let best = from.into_iter().map(|q| (self.size(&size(&q)), q));
+        best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| state.displaced.clone(), |b| b.1)
+    }
+
+    /// The same without glue: where the last state is near.
+    pub fn follow(
+        &mut self,
+        state: &State,
+        loads: &[Wrench],
+        from: &[Rate],
+        control: &Control,
+    ) -> Option<Vec<Rate>> {
+        self.search(state, loads, from.to_vec(), 0.0, control)
+    }
+
+    /// Displacements at which the loads are balanced, from those of `from`, by joints that remember
+    /// `state`; nothing where none were found.
+    pub fn balance(
+        &mut self,
+        state: &State,
+        loads: &[Wrench],
+        from: &[Rate],
+        control: &Control,
+    ) -> Option<Vec<Rate>> {
+        let first = self.search(state, loads, from.to_vec(), 0.0, control);
+        if let Some(displaced) = first {
+            return Some(displaced);
+        }
+        // Glued wholly it is one step.
+        let mut displaced = self.search(state, loads, from.to_vec(), 1.0, control)?;
+        for glue in GLUE {
+            if let Some(next) = self.search(state, loads, displaced.clone(), glue, control) {
+                displaced = next;
+                let last = self.search(state, loads, displaced.clone(), 0.0, control);
+                if let Some(displaced) = last {
+                    return Some(displaced);
+                }
+            } else {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// The displacements of glued joints: where a search begins.
+    pub fn guess(&mut self, state: &State, loads: &[Wrench], control: &Control) -> Vec<Rate> {
+        let start = vec![Rate::zero(); state.displaced.len()];
+        self.search(state, loads, start.clone(), 1.0, control).unwrap_or(start)
+    }
+
+    fn search(
+        &mut self,
+        state: &State,
+        loads: &[Wrench],
+        mut displaced: Vec<Rate>,
+        glue: f64,
+        control: &Control,
+    ) -> Option<Vec<Rate>> {
+        let (mut left, mut scale) = self.residual(state, loads, &displaced, glue);
+        let mut size = self.size(&left);
+        let mut worse = 0;
+        for _ in 0..STEPS {
+            if control.deadline.is_over() {
+                return None;
+            }
+            if size <= BALANCED * scale {
+                return Some(displaced);
+            }
+            self.steps += 1;
+            let mut best: Option<(f64, Vec<Rate>, Vec<f64>, f64)> = None;
+            // Where the tangent says nothing (what slides resists no more) steps are damped.
+            'damped: for shift in SHIFTS {
+                let Some(way) = self.way(state, &displaced, glue, &left, shift) else { continue };
+                let mut share = 1.0;
+                for _ in 0..HALVINGS {
+                    let next = self.moved(&displaced, &way, share);
+                    let (r, s) = self.residual(state, loads, &next, glue);
+                    let new = self.size(&r);
+                    if best.as_ref().is_none_or(|b| new < b.0) {
+                        best = Some((new, next.clone(), r.clone(), s));
+                    }
+                    if best.as_ref().is_some_and(|b| b.0 < (1.0 - 1e-4 * share) * size) {
+                        break 'damped;
+                    }
+                    // What is left does less work along the step: in a curved valley, where sizes
+                    // say little, that is progress (Crisfield 1982).
+                    if work(&r, &way).abs() <= LESS_WORK * work(&left, &way).abs() {
+                        best = Some((new, next, r, s));
+                        break 'damped;
+                    }
+                    share *= 0.5;
+                }
+                if size <= GOOD * scale {
+                    break;
+                }
+            }
+            let (new, next, r, s) = best?;
+            if new >= size && (size <= GOOD * scale || !new.is_finite() || worse > WORSE) {
+                // Rounding: what is good enough is taken.
+                return (size <= GOOD * scale).then_some(displaced);
+            }
+            worse += usize::from(new >= size);
+            (displaced, left, size, scale) = (next, r, new, s);
+        }
+        (size <= GOOD * scale).then_some(displaced)
+    }
+
+    /// What is left of the loads, and the size of all that acts.
+    fn residual(
+        &self,
+        state: &State,
+        loads: &[Wrench],
+        displaced: &[Rate],
+        glue: f64,
+    ) -> (Vec<f64>, f64) {
+        let [left, passing] = self.system.left(state, loads, displaced, glue);
+        let scale = self.size(&passing);
+        (left, scale)
+    }
+
+    /// The size of a residual: by the displacement that it makes.
+    fn size(&self, left: &[f64]) -> f64 {
+        left.iter().zip(&self.system.diagonal).map(|(r, d)| r * r / d).sum::<f64>().sqrt()
+    }
+
+    fn moved(&self, displaced: &[Rate], way: &[f64], share: f64) -> Vec<Rate> {
+        let mut next = displaced.to_vec();
+        for (row, &i) in self.system.free.iter().enumerate() {
+            let w = &way[6 * row..6 * row + 6];
+            next[i].velocity += Vector3::new(w[0], w[1], w[2]) * share;
+            next[i].spin += Vector3::new(w[3], w[4], w[5]) * share;
+        }
+        next
+    }
+
+    fn way(
+        &mut self,
+        state: &State,
+        displaced: &[Rate],
+        glue: f64,
+        left: &[f64],
+        shift: f64,
+    ) -> Option<Vec<f64>> {
+        let System { diagonal, pattern, .. } = self.system;
+        let tangent = self.system.tangent(state, displaced, glue, Friction::Follows);
+        let unit: Vec<f64> = diagonal.iter().map(|d| d.sqrt()).collect();
+        let [lower, upper] = self.system.values(&tangent, &unit, shift);
+        let mut x: Vec<f64> = left.iter().zip(&unit).map(|(r, d)| r / d).collect();
+        let off = |(l, u): (&f64, &f64)| (l - u).abs();
+        let symmetric = lower.iter().zip(&upper).map(off).fold(0.0, f64::max) <= SYMMETRIC;
+        let solved = symmetric && {
+            if self.cholesky.is_none() {
+                self.cholesky = Cholesky::new(pattern.clone());
+            }
+            self.cholesky.as_mut().is_some_and(|c| {
+                let good = c.factorize(&lower);
+                if good {
+                    c.solve(&mut x);
+                }
+                good
+            })
+        };
+        if !solved {
+            if self.lu.is_none() {
+                self.lu = Lu::new(pattern);
+            }
+            if !self.lu.as_mut()?.solve(&lower, &upper, &mut x) {
+                return None;
+            }
+        }
+        x.iter_mut().zip(&unit).for_each(|(x, d)| *x /= d);
+        x.iter().all(|v| v.is_finite()).then_some(x)
+    }
+}
+
+/// The work of what is left along a step.
+fn work(left: &[f64], way: &[f64]) -> f64 {
+    left.iter().zip(way).map(|(r, w)| r * w).sum()
+}

@@ -1,0 +1,55 @@
+//! `voussoir state`
+
+use super::{
+    args::State as Arguments,
+    exit::Exit,
+    output::Sink,
+    question::{Session, verdict},
+    terminal::Terminal,
+};
+use voussoir::{
+    analysis::{ControlPoint, Question, StateOptions},
+    proof::state::StateAnswer,
+    report::state,
+    verdict::Verdict,
+    yielding::PathEnd,
+};
+
+pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
+    let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
+    let open = |path: &Option<std::path::PathBuf>| {
+        path.as_deref().map(|p| Sink::open(Some(p))).transpose()
+    };
+    let (csv, chart) = (open(&args.csv)?, open(&args.chart)?);
+    let control = args.control.clone().map(|(block, point)| ControlPoint { block, point });
+    let question = Question::State(StateOptions {
+        quadrature: args.quadrature.into(),
+        control,
+        at: args.at.clone(),
+        dead_only: args.dead_only,
+        require: args.require,
+    });
+    let answer = session.ask(&question)?;
+    let file = session.result(&question, &answer)?;
+    let file = session.answer(terminal, &args.options(), file)?;
+    if let Some(csv) = csv {
+        csv.write(&state::csv(&file)?)?;
+    }
+    if let Some(chart) = chart {
+        chart.write(&state::chart(&file)?)?;
+    }
+    Ok(file.answer.state().map_or(Exit::Undecided, |a| exit(a, args.require)))
+}
+
+/// Whether it stands, and the path reaches far enough.
+fn exit(a: &StateAnswer, require: Option<f64>) -> Exit {
+    match (a.load_factor, require) {
+        _ if a.verdict != Verdict::Stable => verdict(Some(a.verdict)),
+        (Some(l), Some(r)) if l.reached >= r || l.value.is_some_and(|v| v >= r) => Exit::Yes,
+        (Some(l), Some(r)) if l.associative.upper.is_some_and(|u| u < r) => Exit::No,
+        (Some(l), Some(_)) if l.value.is_some() => Exit::No,
+        (_, Some(_)) => Exit::Undecided,
+        (Some(l), None) if l.end == PathEnd::Open => Exit::Undecided,
+        (_, None) => Exit::Yes,
+    }
+}

@@ -1,0 +1,88 @@
+//! States of joints that yield.
+
+use super::{assessment, bound, certificate};
+use crate::{
+    analysis::state::Stated,
+    interface::Model,
+    proof::{
+        answer::{Answer, LimitAnswer, LoadFactorAnswer},
+        result::{Certificate, Direction, QuestionKind, ResultFile},
+        state::{Given, StateAnswer, StateResult, StepResult, displacements},
+    },
+    scene::Scene,
+};
+
+impl ResultFile {
+    /// The result of `state`.
+    pub fn state(scene: &Scene, model: &Model, asked: &Stated) -> Self {
+        let limit = asked.bound.as_ref().map(|b| bound(b));
+        let answer = match &asked.track {
+            Some(track) => Given {
+                model,
+                joints: &asked.joints,
+                quadrature: asked.options.quadrature,
+                track,
+                proof: asked.rest.grade(),
+                control: asked.control,
+                end: asked.end,
+                bound: limit,
+            }
+            .answer(),
+            None => StateAnswer {
+                verdict: asked.standing(),
+                proof: None,
+                quadrature: asked.options.quadrature,
+                residuals: None,
+                displacements: Vec::new(),
+                joints: Vec::new(),
+                greatest: None,
+                frequencies: Vec::new(),
+                load_factor: None,
+                control: None,
+                curve: Vec::new(),
+                events: Vec::new(),
+                joints_at_end: Vec::new(),
+            },
+        };
+        let evidence = match &asked.track {
+            Some(_) => certificate(model, &asked.rest),
+            None => Certificate::none(),
+        };
+        let mut file =
+            Self::new(QuestionKind::State, scene, model, Answer::State(Box::new(answer)), evidence);
+        file.warnings.extend(asked.joints.findings.iter().cloned());
+        if asked.track.is_some() || asked.rest.refused().is_some() {
+            file.warn(&asked.rest);
+        }
+        let steps = asked.track.iter().flat_map(|t| &t.steps).map(|s| StepResult {
+            load_factor: s.load_factor,
+            displacements: displacements(model, &s.displaced),
+        });
+        let bound = asked.bound.as_ref().map(|l| {
+            file.trace.extend(l.attempts.iter().cloned());
+            file.left_out.clone_from(&l.left_out);
+            file.warn(l);
+            Direction {
+                answer: Answer::Limit(LimitAnswer {
+                    load_factor: LoadFactorAnswer::new(super::bound(l), None),
+                    verdict: None,
+                    part: l.part.clone(),
+                    proof: l.grade(),
+                }),
+                certificate: certificate(model, l),
+                dry: None,
+            }
+        });
+        file.state = Some(StateResult { steps: steps.collect(), bound, newton_steps: asked.steps });
+        if let Some(dead) = &asked.verdict {
+            file.dead_load = Some(Direction {
+                answer: Answer::Verdict(assessment(dead)),
+                certificate: certificate(model, dead),
+                dry: None,
+            });
+            file.trace.extend(dead.attempts.iter().cloned());
+            file.warn(dead);
+        }
+        file
+    }
+}

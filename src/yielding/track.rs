@@ -1,0 +1,217 @@
+//! A path of states: the dead load first, then one state an increment of the live load, each from
+//! what the joints remember of the one before.
+
+use super::{
+    joints::{JointKind, Joints},
+    law::AT_LIMIT,
+    residual::{Residuals, residuals},
+    state::{JointState, State, corner_forces},
+};
+use crate::{
+    interface::Model,
+    verdict::{Forces, Rate},
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How much of a joint presses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Touch {
+    /// All of it.
+    Pressed,
+    /// A part of it.
+    PartlyOpen,
+    /// Nothing.
+    Open,
+}
+
+/// How much of what presses has reached its limit of friction in this step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Grip {
+    /// Nothing.
+    Sticks,
+    /// A part.
+    Slips,
+    /// All of it: the joint slides.
+    Slides,
+}
+
+/// What a joint does, in two words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Condition {
+    /// How much presses.
+    pub touch: Touch,
+    /// How much slides.
+    pub grip: Grip,
+}
+
+/// What happens to a joint between two states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EventKind {
+    /// Its edge opens.
+    Opens,
+    /// All of it presses again.
+    Closes,
+    /// It parts altogether.
+    Parts,
+    /// It touches again.
+    Touches,
+    /// A part of it begins to slide.
+    Slips,
+    /// All of it slides.
+    Slides,
+    /// It sticks again.
+    Sticks,
+}
+
+/// A state on the path.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// The load factor.
+    pub load_factor: f64,
+    /// Displacements of all blocks.
+    pub displaced: Vec<Rate>,
+    /// What the joints do, in words.
+    pub conditions: Vec<Condition>,
+    /// What is left of the laws.
+    pub residuals: Residuals,
+}
+
+/// A path.
+#[derive(Clone, Debug)]
+pub struct Track {
+    /// The states, the one under the dead load first.
+    pub steps: Vec<Step>,
+    /// What the joints remember of the last one.
+    pub state: State,
+    /// What the joints do under the dead load.
+    pub dead: Vec<JointState>,
+    /// The same as forces at the corners.
+    pub forces: Forces,
+    /// What the joints remember under the dead load.
+    pub at_rest: State,
+    /// What the joints do in the last state.
+    pub last: Vec<JointState>,
+}
+
+/// Edges that open by less than this share of what their joint closes are closed. More: edges that
+/// open go unseen. Less: rounding opens joints that press evenly.
+const EDGE: f64 = 1e-9;
+/// Joints that close by less than this share of the greatest closing are open. More: joints that
+/// hardly press are open. Less: rounding closes them.
+const TOUCHES: f64 = 1e-12;
+
+impl Track {
+    /// Begins with displacements under the dead load.
+    pub fn start(model: &Model, joints: &Joints, displaced: Vec<Rate>) -> Self {
+        let (state, dead) = State::start(model, joints).step(model, joints, displaced);
+        let forces = corner_forces(model, joints, &dead);
+        let step = Step {
+            load_factor: 0.0,
+            displaced: state.displaced.clone(),
+            conditions: conditions(joints, &dead),
+            residuals: residuals(model, joints, &dead, &forces, 0.0),
+        };
+        Self { steps: vec![step], at_rest: state.clone(), state, last: dead.clone(), dead, forces }
+    }
+
+    /// What the joints would do in the next state.
+    pub fn ahead(&self, model: &Model, joints: &Joints, displaced: &[Rate]) -> Vec<Condition> {
+        conditions(joints, &self.state.step(model, joints, displaced.to_vec()).1)
+    }
+
+    /// One state on.
+    pub fn push(&mut self, model: &Model, joints: &Joints, load_factor: f64, displaced: Vec<Rate>) {
+        let (state, last) = self.state.step(model, joints, displaced);
+        let forces = corner_forces(model, joints, &last);
+        self.steps.push(Step {
+            load_factor,
+            displaced: state.displaced.clone(),
+            conditions: conditions(joints, &last),
+            residuals: residuals(model, joints, &last, &forces, load_factor),
+        });
+        (self.state, self.last) = (state, last);
+    }
+
+    /// The worst of each residual on the whole path.
+    pub fn residuals(&self) -> Residuals {
+        let mut all = self.steps[0].residuals;
+        for s in &self.steps[1..] {
+            let r = s.residuals;
+            all.balance = all.balance.max(r.balance);
+            all.gap = all.gap.max(r.gap);
+            all.pressure = all.pressure.max(r.pressure);
+            all.complementarity = all.complementarity.max(r.complementarity);
+            all.cone = all.cone.max(r.cone);
+            all.sticking = all.sticking.max(r.sticking);
+            all.direction = all.direction.max(r.direction);
+        }
+        all
+    }
+
+    /// Whether anything has slid on the way.
+    pub fn slides(&self) -> bool {
+        self.steps.iter().any(|s| s.conditions.iter().any(|c| c.grip != Grip::Sticks))
+    }
+}
+
+/// What all joints do, in words.
+pub fn conditions(joints: &Joints, states: &[JointState]) -> Vec<Condition> {
+    let closing = states.iter().map(|s| -s.opening[0]).fold(0.0, f64::max);
+    joints
+        .list
+        .iter()
+        .zip(states)
+        .map(|(joint, s)| {
+            let [low, high] = s.opening;
+            let touch = if -low <= TOUCHES * closing {
+                Touch::Open
+            } else if high <= EDGE * -low {
+                Touch::Pressed
+            } else {
+                Touch::PartlyOpen
+            };
+            let mu = match &joint.kind {
+                JointKind::Bed(bed) => bed.mu,
+                JointKind::Grain(grain) => grain.mu,
+            };
+            let slides = |s: &&super::law::Spot| {
+                s.slip != [0.0; 2] && s.shear[0].hypot(s.shear[1]) >= AT_LIMIT * mu * s.normal
+            };
+            let all = s.spots.iter().filter(|s| s.normal > 0.0);
+            let grip = match (all.clone().filter(slides).count(), all.count()) {
+                (0, _) => Grip::Sticks,
+                (some, all) if some == all => Grip::Slides,
+                _ => Grip::Slips,
+            };
+            Condition { touch, grip }
+        })
+        .collect()
+}
+
+/// What happens between two states, joint by joint.
+pub fn events(before: &[Condition], after: &[Condition]) -> Vec<(EventKind, usize)> {
+    let mut list = Vec::new();
+    for (k, (a, b)) in before.iter().zip(after).enumerate() {
+        let touch = match (a.touch, b.touch) {
+            (a, b) if a == b => None,
+            (Touch::Pressed, Touch::PartlyOpen) => Some(EventKind::Opens),
+            (_, Touch::Open) => Some(EventKind::Parts),
+            (Touch::Open, _) => Some(EventKind::Touches),
+            _ => Some(EventKind::Closes),
+        };
+        let grip = match (a.grip, b.grip) {
+            (a, b) if a == b => None,
+            (_, Grip::Slides) => Some(EventKind::Slides),
+            (Grip::Sticks, Grip::Slips) => Some(EventKind::Slips),
+            (_, Grip::Sticks) => Some(EventKind::Sticks),
+            // From sliding to slipping: a part of it sticks again.
+            _ => Some(EventKind::Slips),
+        };
+        list.extend(touch.into_iter().chain(grip).map(|kind| (kind, k)));
+    }
+    list
+}
