@@ -148,6 +148,11 @@ def test_stages(structures: Path) -> None:
     assert table["tilt_deg"][:4].notna().all()
     frame = structures / "a-frame-stands.json"
     assert voussoir.stages(frame, remove_each=True).removable == []
+    built = voussoir.stages(arch, any_order=True, skip_held=True)
+    assert (built.least_held, built.most_held, answer.order) == (1, 1, None)
+    assert built.order is not None and sorted(built.order) == [f"v{k:02}" for k in range(20)]
+    same = voussoir.stages(arch, order=built.order, skip_held=True)
+    assert (same.most_held, same.order) == (1, built.order)
 
 
 def test_packings_and_sweeps(structures: Path, tmp_path: Path) -> None:

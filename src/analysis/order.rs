@@ -87,22 +87,16 @@ pub(super) fn order(
     };
     let (placed, least_held) = found?;
     let id = |i: usize| model.assembly.blocks[i].id.clone();
-    let placed = placed.into_iter().map(|(block, held)| Placed {
-        block: id(block),
-        held: held.into_iter().map(id).collect(),
-    });
+    let placed = placed
+        .into_iter()
+        .map(|(block, held)| Placed { block: id(block), held: held.into_iter().map(id).collect() });
     Ok(Order { given: given.is_some(), tries, least_held, placed: placed.collect() })
 }
 
 type Found = (Vec<(usize, Blocks)>, usize);
 
 impl<'a> Search<'a> {
-    fn new(
-        scene: &'a Scene,
-        whole: &'a Model,
-        known: &'a Known,
-        control: &'a Control,
-    ) -> Self {
+    fn new(scene: &'a Scene, whole: &'a Model, known: &'a Known, control: &'a Control) -> Self {
         let of = &whole.assembly;
         let mut neighbours = vec![Blocks::new(); of.blocks.len()];
         let mut join = |a: usize, b: usize| {

@@ -19,7 +19,8 @@ pub use member::{Action, Anchor, BlockFace, DowelPlan, Member, MemberKind, Membe
 pub use polyhedron::{Facet, MassProperties, Mend, Polyhedron, ShapeError};
 pub use pose::Pose;
 pub use resolve::{
-    Blocks, asked_stages, named_blocks, resolve, resolve_blocks, resolve_until, resolve_with, stages, with_loads,
+    Blocks, asked_stages, named_blocks, resolve, resolve_blocks, resolve_until, resolve_with,
+    stages, with_loads,
 };
 pub use stage::{AskedStages, Placed, Stage};
 

@@ -126,9 +126,8 @@ impl Stages {
             (self.skip_held, "--skip-held"),
         ];
         let words = given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string());
-        let order = (!self.order.is_empty()).then(|| {
-            format!("--order {}", super::question::quoted(&self.order.join(",")))
-        });
+        let order = (!self.order.is_empty())
+            .then(|| format!("--order {}", super::question::quoted(&self.order.join(","))));
         let hands = self.hands.map(|n| format!("--hands {n}"));
         let tries = self.tries.map(|n| format!("--tries {n}"));
         let more = [all, order, hands, tries].into_iter().flatten();

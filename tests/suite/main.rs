@@ -50,6 +50,7 @@ mod rocking;
 mod same;
 mod scenes;
 mod schema;
+mod stage_order;
 mod stages;
 mod state;
 mod strength;

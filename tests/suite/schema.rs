@@ -186,6 +186,7 @@ fn every_verb_answers_as_the_schema_says() {
         &["kinematic", "structures/overturning-wall-with-tie.json", "--toward", "1,0"],
         &["stages", "structures/barrel-on-centring.json", "--toward", "1,0"],
         &["stages", "structures/a-frame-stands.json", "--remove-each"],
+        &["stages", "structures/a-frame-stands.json", "--any-order"],
         &["state", "structures/block-on-bed.json"],
     ];
     for question in questions {

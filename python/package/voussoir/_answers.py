@@ -853,6 +853,22 @@ class Stages(Answer):
         """Of blocks taken out one at a time, those without which the rest stands."""
         return self._own.get("removable")
 
+    @property
+    def order(self) -> list[str] | None:
+        """Of an order: the blocks as they are placed; empty where none was found."""
+        order = self.to_dict()["stages"].get("order")
+        return None if order is None else [p["block"] for p in order.get("placed", [])]
+
+    @property
+    def most_held(self) -> int | None:
+        """Of an order: the most blocks that are held at a time."""
+        return self._own.get("most_held")
+
+    @property
+    def least_held(self) -> int | None:
+        """Of an order: with fewer held at a time a search found none (computed, not proved)."""
+        return self._own.get("least_held")
+
     def to_pandas(self) -> pandas.DataFrame:
         """The stages, one row a stage: name, verdict, blocks, load factor, tilt in degrees."""
         import pandas

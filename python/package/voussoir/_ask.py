@@ -377,6 +377,10 @@ def stages(
     scene: SceneLike,
     *,
     remove_each: bool = False,
+    any_order: bool = False,
+    order: Sequence[str] = (),
+    hands: int | None = None,
+    tries: int | None = None,
     toward: Vector | Sequence[Vector] | None = None,
     all: int | None = None,
     skip_margin: bool = False,
@@ -392,6 +396,15 @@ def stages(
     ----------
     remove_each : bool
         In place of the stages of the scene: the scene without each of its free blocks.
+    any_order : bool
+        In place of the stages of the scene: an order in which its free blocks can be placed one by
+        one, so that it stands all the time with as few of them held as can be.
+    order : sequence of str
+        The same for a given order: every free block once, ``*`` for any letters of a name.
+    hands : int, optional
+        So many blocks can be held at a time; any number where nothing is said.
+    tries : int, optional
+        Sets of blocks that the search looks at, at most; 5000 where nothing is said.
     toward : two or three numbers, or several of them, optional
         Directions of tilts, where a stage has no live load.
     all : int, optional
@@ -404,8 +417,16 @@ def stages(
     options: dict[str, Any] = {
         "law": law,
         "remove_each": remove_each,
-        # Where blocks are taken out no tilts are asked for.
-        **({} if remove_each and toward is None and all is None else _directions(toward, all)),
+        "any_order": any_order,
+        "order": [order] if isinstance(order, str) else list(order),
+        **({} if hands is None else {"hands": hands}),
+        **({} if tries is None else {"tries": tries}),
+        # No tilts are asked for where blocks are taken out or an order is.
+        **(
+            {}
+            if (remove_each or any_order or order) and toward is None and all is None
+            else _directions(toward, all)
+        ),
         "skip_margin": skip_margin,
         "skip_held": skip_held,
     }

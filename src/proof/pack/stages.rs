@@ -12,10 +12,7 @@ use crate::{
     proof::{
         answer::Answer,
         result::{Certificate, QuestionKind, ResultFile},
-        stages::{
-            HeldForce, StageProof, StageResult, StagesResult, reactions_of,
-            weight_along,
-        },
+        stages::{HeldForce, StageProof, StageResult, StagesResult, reactions_of, weight_along},
     },
     scene::Scene,
     terms::{Attempt, Bound},
@@ -30,12 +27,8 @@ impl ResultFile {
         let mut told = Vec::new();
         let list = asked.stages.iter().map(|s| stage(&bare, model, s, &mut told)).collect();
         let Stages { remove_each, order, hands, .. } = asked;
-        let result = StagesResult {
-            remove_each: *remove_each,
-            order: order.clone(),
-            hands: *hands,
-            list,
-        };
+        let result =
+            StagesResult { remove_each: *remove_each, order: order.clone(), hands: *hands, list };
         let answer = result.answer();
         let mut file = Self::new(
             QuestionKind::Stages,

@@ -112,6 +112,11 @@ fn words(kind: Kind) -> (&'static str, &'static str) {
             "Does every stage of the construction stand?",
             "Every stage is a scene of its own, with its own verdict and proof.",
         ),
+        Kind::State => (
+            "Which forces and displacements follow from the stiffness of its joints?",
+            "Computed from the stiffnesses listed, with friction followed along the load; that the \
+             forces are admissible is proved.",
+        ),
         Kind::Rock => (
             "What does its mechanism do on ground that moves?",
             "Integrated as a machine of one degree of freedom from the mechanism that is proved.",

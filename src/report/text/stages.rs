@@ -81,7 +81,8 @@ fn removals(a: &StagesAnswer, removable: &[String]) -> (String, Role) {
 fn ordered(a: &StagesAnswer, order: &Order) -> (String, Role) {
     let least = order.least_held;
     let Some(most) = a.most_held else {
-        let text = format!("no order was found; with fewer than {least} held at a time there is none");
+        let text =
+            format!("no order was found; with fewer than {least} held at a time there is none");
         let open = if least > 0 { text } else { "no order was found".into() };
         return match a.hands_do() {
             Some(false) => (hands(a, open), Role::Bad),

@@ -1,0 +1,198 @@
+//! Orders in which a structure can be built: against all orders tried one by one, against what is
+//! known of arches, forged, and asked wrongly.
+
+use crate::ask::{cuboid, fixed, prove, scene, template};
+use serde_json::{Value, json};
+use std::{collections::BTreeMap, process::Command};
+use voussoir::{
+    analysis::{Answer, Control, Question, StagesOptions, ask, assess},
+    assembly::Stage,
+    interface::{at_stage, prepare},
+    proof::{self, ResultFile},
+    scene::Scene,
+    verdict::Verdict,
+};
+
+fn any() -> StagesOptions {
+    StagesOptions { any_order: true, skip_held: true, ..Default::default() }
+}
+
+fn result(scene: &Scene, options: StagesOptions) -> ResultFile {
+    let model = prepare(scene).unwrap();
+    let question = Question::Stages(options);
+    question.check().unwrap();
+    let answer = ask(&question, scene, &model, &Control::default()).unwrap();
+    assert!(matches!(answer, Answer::Stages(_)));
+    let file =
+        ResultFile::of_question(&question, scene, &model, &answer, &Control::default()).unwrap();
+    prove(scene, &file);
+    file
+}
+
+/// The least and the most blocks that are held at a time, as the answer has them.
+fn held(file: &ResultFile) -> (usize, usize) {
+    let said = file.answer.stages().unwrap();
+    assert_eq!(said.verdict, Verdict::Stable);
+    (said.least_held.unwrap(), said.most_held.unwrap())
+}
+
+fn arch(voussoirs: usize) -> Scene {
+    let arch = json!({ "radius": 1.0, "thickness": 0.2, "depth": 1.0,
+        "voussoirs": voussoirs, "embrace_deg": 180.0 });
+    template(0.7, json!({ "arch": arch }), json!({}))
+}
+
+/// Blocks on a ledge: `shelf` reaches out too far for itself, `weight` holds its tail down, `cap`
+/// lies on its tip.
+fn ledge() -> Scene {
+    let blocks = json!([
+        fixed(cuboid("ground", [2.0, 1.0, 1.0], [0.0, 0.0, -1.0])),
+        cuboid("shelf", [2.0, 1.0, 0.2], [1.1, 0.0, 0.0]),
+        cuboid("weight", [0.5, 1.0, 2.0], [0.4, 0.0, 0.2]),
+        cuboid("cap", [0.4, 1.0, 0.2], [1.8, 0.0, 0.2]),
+        cuboid("beside", [0.3, 1.0, 0.3], [-0.7, 0.0, 0.0]),
+    ]);
+    scene(0.6, blocks, json!({}))
+}
+
+/// The least number of blocks to hold at a time over all orders, every set and every hold asked.
+fn by_trying_all(scene: &Scene) -> usize {
+    let model = prepare(scene).unwrap();
+    let free: Vec<usize> = model.assembly.free().collect();
+    let n = free.len();
+    let stands = |set: usize, hold: usize| {
+        let mut stage = Stage::whole(model.assembly.blocks.len());
+        for (k, &i) in free.iter().enumerate() {
+            stage.present[i] = set >> k & 1 == 1;
+            stage.held[i] = hold >> k & 1 == 1;
+        }
+        let there = at_stage(scene, &model, &stage).unwrap();
+        set == hold || assess(&there, &Control::default()).verdict == Verdict::Stable
+    };
+    let needs = |set: usize| {
+        let holds = (0..1usize << n).filter(|h| h & !set == 0 && stands(set, *h));
+        holds.map(usize::count_ones).min().unwrap() as usize
+    };
+    let mut best: BTreeMap<usize, usize> = BTreeMap::from([(0, 0)]);
+    for set in 1..1usize << n {
+        let before = (0..n).filter(|k| set >> k & 1 == 1).map(|k| best[&(set & !(1 << k))]);
+        let least = before.min().unwrap();
+        best.insert(set, least.max(needs(set)));
+    }
+    best[&((1 << n) - 1)]
+}
+
+#[test]
+fn the_least_holds_are_those_of_all_orders_tried() {
+    for (name, scene) in [("ledge", ledge()), ("arch", arch(5))] {
+        let file = result(&scene, any());
+        let want = by_trying_all(&scene);
+        assert_eq!(held(&file), (want, want), "{name}");
+    }
+    // The weight first would have nothing below it; the shelf is held until the weight is there.
+    assert_eq!(held(&result(&ledge(), any())), (1, 1));
+}
+
+#[test]
+fn an_arch_is_built_with_one_hand_and_a_wall_with_none() {
+    let file = result(&arch(12), any());
+    assert_eq!(held(&file), (1, 1));
+    let placed = &file.stages.as_ref().unwrap().order.as_ref().unwrap().placed;
+    assert_eq!(placed.len(), 12);
+    assert!(placed.last().unwrap().held.is_empty(), "the arch stands by itself at the end");
+    // Laid from both springings in turn, both halves need a hand.
+    let turns = (0..6).flat_map(|k| [format!("v{k:02}"), format!("v{:02}", 11 - k)]);
+    let both = StagesOptions { any_order: false, order: turns.collect(), ..any() };
+    assert_eq!(held(&result(&arch(12), both)), (2, 2));
+    let one = StagesOptions { any_order: false, order: vec!["v*".into()], ..any() };
+    assert_eq!(held(&result(&arch(12), one)), (1, 1));
+    let wall = template(
+        0.6,
+        json!({ "wall": { "size": [1.2, 0.2, 0.6], "courses": 4, "blocks": 3 } }),
+        json!({}),
+    );
+    assert_eq!(held(&result(&wall, any())), (0, 0));
+}
+
+#[test]
+fn few_tries_give_an_order_and_say_that_fewer_holds_may_do() {
+    let file = result(&arch(12), StagesOptions { tries: Some(3), ..any() });
+    let (least, most) = held(&file);
+    assert!(least == 0 && most >= 1, "{least} {most}");
+}
+
+#[test]
+fn forged_orders_are_refused() {
+    let scene = arch(7);
+    let good = serde_json::to_value(result(&scene, any())).unwrap();
+    assert_eq!(good["answer"]["stages"]["least_held"], 1);
+    let refuted = |forge: &dyn Fn(&mut Value)| {
+        let mut value = good.clone();
+        forge(&mut value);
+        let file: ResultFile = serde_json::from_value(value).unwrap();
+        assert!(proof::verify(&file, &scene).unwrap().refuted());
+    };
+    // Nothing is said to be held, there and in the order.
+    refuted(&|v| v["answer"]["stages"]["most_held"] = 0.into());
+    refuted(&|v| {
+        for placed in v["stages"]["order"]["placed"].as_array_mut().unwrap() {
+            placed.as_object_mut().unwrap().remove("held");
+        }
+        for stage in v["stages"]["list"].as_array_mut().unwrap() {
+            stage.as_object_mut().unwrap().remove("held");
+        }
+        v["answer"]["stages"]["most_held"] = 0.into();
+    });
+    // More hands than needed are said to be needed.
+    refuted(&|v| {
+        v["answer"]["stages"]["least_held"] = 2.into();
+        v["stages"]["order"]["least_held"] = 2.into();
+    });
+    // A block is never placed.
+    refuted(&|v| drop(v["stages"]["order"]["placed"].as_array_mut().unwrap().pop()));
+    refuted(&|v| v["stages"]["order"]["placed"][1] = v["stages"]["order"]["placed"][0].clone());
+}
+
+#[test]
+fn orders_that_mean_nothing_are_refused_with_their_place() {
+    let scene = arch(5);
+    let model = prepare(&scene).unwrap();
+    for order in [vec!["v00"], vec!["v*", "v00"], vec!["nobody", "v*"], vec!["v*", "springer_left"]]
+    {
+        let order = order.into_iter().map(String::from).collect();
+        let options = StagesOptions { any_order: false, order, ..any() };
+        let e = ask(&Question::Stages(options), &scene, &model, &Control::default()).unwrap_err();
+        assert!(e.to_string().contains("order"), "{e}");
+    }
+    for more in [
+        json!({ "any_order": true, "order": ["v*"] }),
+        json!({ "any_order": true, "remove_each": true }),
+        json!({ "any_order": true, "all": 4 }),
+        json!({ "any_order": true, "tries": 0 }),
+        json!({ "hands": 1 }),
+        json!({ "tries": 10 }),
+    ] {
+        let question: Question = serde_json::from_value(json!({ "stages": more })).unwrap();
+        assert!(question.check().is_err(), "{more}");
+    }
+}
+
+/// The exit code says whether the hands that there are will do.
+#[test]
+fn the_exit_code_is_whether_hands_are_enough() {
+    let root = env!("CARGO_MANIFEST_DIR");
+    for (hands, code) in [(None, 0), (Some("1"), 0), (Some("0"), 1)] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_voussoir"));
+        command.current_dir(root).args([
+            "stages",
+            "structures/arch-without-centring.json",
+            "--any-order",
+            "--skip-held",
+        ]);
+        command.args(hands.map(|h| ["--hands", h]).into_iter().flatten());
+        let out = command.output().unwrap();
+        let text = String::from_utf8_lossy(&out.stdout).into_owned();
+        assert_eq!(out.status.code(), Some(code), "{text}");
+        assert_eq!(text.contains("cannot be built with 0"), code == 1, "{text}");
+    }
+}
