@@ -77,9 +77,12 @@ fn row(j: &JointAnswer) -> Vec<Cell> {
     cells
 }
 
+/// Points of a curve, and the direction along which ways are measured.
+type Line = (Vec<(f64, f64)>, [f64; 3]);
+
 /// Load factors against the way of the control point along the direction in which it goes farthest,
 /// and that direction.
-fn line(curve: &[CurvePoint]) -> Option<(Vec<(f64, f64)>, [f64; 3])> {
+fn line(curve: &[CurvePoint]) -> Option<Line> {
     let last = curve.last().filter(|_| curve.len() > 1)?;
     let first = &curve[0];
     let way = |p: &CurvePoint| {

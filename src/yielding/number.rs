@@ -83,18 +83,28 @@ impl Sub for Dual {
     }
 }
 
+/// The product rule.
+fn product(a: Dual, b: Dual) -> Dual {
+    Dual::with(a.value * b.value, |i| a.slopes[i] * b.value + a.value * b.slopes[i])
+}
+
+/// The quotient rule.
+fn quotient(a: Dual, b: Dual) -> Dual {
+    let value = a.value / b.value;
+    Dual::with(value, |i| (a.slopes[i] - value * b.slopes[i]) / b.value)
+}
+
 impl Mul for Dual {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
-        Self::with(self.value * b.value, |i| self.slopes[i] * b.value + self.value * b.slopes[i])
+        product(self, b)
     }
 }
 
 impl Div for Dual {
     type Output = Self;
     fn div(self, b: Self) -> Self {
-        let value = self.value / b.value;
-        Self::with(value, |i| (self.slopes[i] - value * b.slopes[i]) / b.value)
+        quotient(self, b)
     }
 }
 
