@@ -155,6 +155,22 @@ def test_stages(structures: Path) -> None:
     assert (same.most_held, same.order) == (1, built.order)
 
 
+def test_joints_that_yield(structures: Path) -> None:
+    bed = structures / "block-on-bed.json"
+    answer = voussoir.state(bed)
+    assert without_time(answer.to_dict()) == without_time(said("state", bed))
+    assert isinstance(answer, voussoir.State) and answer.verdict
+    # N / (k A): 39.24 kN on 1 m² of 1e9 Pa/m.
+    assert answer.displacements["block"] == pytest.approx([0, 0, -3.924e-5], rel=1e-9, abs=1e-15)
+    assert answer.rotations["block"] == pytest.approx([0, 0, 0], abs=1e-12)
+    factors, ways = answer.curve
+    assert factors[0] == 0 and ways.shape == (len(factors), 3)
+    assert answer.load_factor is not None and answer.residuals is not None
+    assert len(answer.frequencies) and answer.events
+    assert list(answer.to_pandas()["normal_force"]) == pytest.approx([39240.0])
+    assert voussoir.state(bed, dead_only=True).load_factor is None
+
+
 def test_packings_and_sweeps(structures: Path, tmp_path: Path) -> None:
     pile = structures / "tetrahedral-pile.json"
     packing = voussoir.repose(pile, all=4)

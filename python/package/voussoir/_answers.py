@@ -892,6 +892,75 @@ class Stages(Answer):
         return pandas.DataFrame(rows)
 
 
+class State(Answer):
+    """Which forces and displacements follow from the stiffness of the joints?"""
+
+    question = "state"
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        own: dict[str, Any] = self._answer["state"]
+        return own
+
+    @property
+    def verdict(self) -> Verdict:
+        """``stable`` where the forces of the state balance every block; else what ``assess`` says."""
+        return Verdict(self._own["verdict"])
+
+    @property
+    def proof(self) -> Any:
+        """How exactly it is proved that it stands; ``None`` where no state was found."""
+        return self._own.get("proof")
+
+    @property
+    def displacements(self) -> dict[str, Array]:
+        """Under the dead load, of the centre of mass of every free block, m; shape (3,) each."""
+        said = self._own.get("displacements", [])
+        return {d["block"]: np.array(d["displacement"], dtype=np.float64) for d in said}
+
+    @property
+    def rotations(self) -> dict[str, Array]:
+        """Under the dead load, the rotation vector of every free block, rad; shape (3,) each."""
+        said = self._own.get("displacements", [])
+        return {d["block"]: np.array(d["rotation"], dtype=np.float64) for d in said}
+
+    @property
+    def frequencies(self) -> Array:
+        """Lowest frequencies of small motion about the state, Hz, ascending."""
+        return np.array(self._own.get("frequencies", []), dtype=np.float64)
+
+    @property
+    def residuals(self) -> dict[str, float] | None:
+        """What is left of balance, of Signorini's and of Coulomb's conditions."""
+        return self._own.get("residuals")
+
+    @property
+    def load_factor(self) -> dict[str, Any] | None:
+        """Along a live load: ``value``, ``reached``, how the path ended, the bound."""
+        return self._own.get("load_factor")
+
+    @property
+    def curve(self) -> tuple[Array, Array]:
+        """Load factors, shape (n,), and displacements of the control point, m, shape (n, 3)."""
+        points = self._own.get("curve", [])
+        factors = np.array([p["load_factor"] for p in points], dtype=np.float64)
+        ways = [p["displacement"] for p in points]
+        return factors, np.array(ways, dtype=np.float64).reshape(-1, 3)
+
+    @property
+    def events(self) -> list[dict[str, Any]]:
+        """What happens to joints on the way."""
+        events: list[dict[str, Any]] = self._own.get("events", [])
+        return events
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The joints under the dead load, a row each: blocks, forces in N, pressure in Pa, …"""
+        import pandas
+
+        rows = [{**j, "between": " | ".join(j["between"])} for j in self._own.get("joints", [])]
+        return pandas.DataFrame(rows)
+
+
 class Simulation(Answer):
     """What happens in time? A second opinion, not a proof."""
 
@@ -972,6 +1041,7 @@ _KINDS: dict[str, type[Answer]] = {
     "kinematic": Kinematic,
     "stages": Stages,
     "simulate": Simulation,
+    "state": State,
 }
 
 

@@ -20,6 +20,7 @@ from ._answers import (
     Path,
     Simulation,
     Stages,
+    State,
     Thrust,
     Tilt,
     of_core,
@@ -433,6 +434,53 @@ def stages(
     question = {"stages": options}
     return Stages(
         _ask(scene, question, keep_all=keep_all, time_limit=time_limit, progress=progress)
+    )
+
+
+def state(
+    scene: SceneLike,
+    *,
+    control: tuple[str, Vector] | None = None,
+    at: Sequence[float] = (),
+    quadrature: Literal["area", "corners"] = "area",
+    dead_only: bool = False,
+    require: float | None = None,
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> State:
+    """Which forces and displacements follow from the stiffness of the joints?
+
+    Parameters
+    ----------
+    control : (id of a block, three numbers), optional
+        The point whose way along the live load is the curve.
+    at : numbers
+        Load factors that become points of the curve.
+    quadrature : {"area", "corners"}
+        Where joints with an area are integrated.
+    dead_only : bool
+        The state under the dead load alone.
+    require : float, optional
+        A load factor below this counts as failure.
+    """
+    options: dict[str, Any] = {
+        "quadrature": quadrature,
+        "at": [float(v) for v in at],
+        "dead_only": dead_only,
+    }
+    if control is not None:
+        options["control"] = {"block": control[0], "point": _three(control[1])}
+    if require is not None:
+        options["require"] = float(require)
+    return State(
+        _ask(
+            scene,
+            {"state": options},
+            keep_all=keep_all,
+            time_limit=time_limit,
+            progress=progress,
+        )
     )
 
 
