@@ -12,6 +12,7 @@ use voussoir::{
         state::{Displacement, StateAnswer},
     },
     scene::{Scene, read_str},
+    sweep::{RowAnswer, RowStatus},
     verdict::Verdict,
     yielding::{Grip, PathEnd, Quadrature, Touch},
 };
@@ -279,6 +280,74 @@ proptest! {
             }
         }
     }
+}
+
+/// Neither the place on the map nor the directions of the axes nor what lies beside change it;
+/// densities and stiffness in the same measure change forces alone.
+#[test]
+fn places_directions_neighbours_and_densities_do_not_matter() {
+    let load = |force: [f64; 3], at: [f64; 3]| json!({ "live": [{ "block": "block", "force": force, "at": at }] });
+    let one = state(bed(1e9, 4e8, load([1000.0, 0.0, 0.0], [0.0, 0.0, 2.0])));
+    let way = |a: &StateAnswer, k: usize| a.curve.last().unwrap().displacement[k];
+    let same = |what: &str, got: f64, want: f64, scale: f64| {
+        assert!((got - want).abs() <= 1e-6 * scale, "{what}: {got} {want}");
+    };
+    let far = [4.1e4, -2.7e4, 350.0];
+    let mut shifted = bed(
+        1e9,
+        4e8,
+        load([1000.0, 0.0, 0.0], std::array::from_fn(|k| far[k] + [0.0, 0.0, 2.0][k])),
+    );
+    let mut beside = bed(1e9, 4e8, load([1000.0, 0.0, 0.0], [0.0, 0.0, 2.0]));
+    for block in shifted["blocks"].as_array_mut().unwrap() {
+        for k in 0..3 {
+            block["at"][k] = json!(block["at"][k].as_f64().unwrap() + far[k]);
+        }
+    }
+    beside["blocks"].as_array_mut().unwrap().push(json!({
+        "id": "boulder", "shape": { "box": { "size": [1, 1, 1] } }, "at": [1.5, 1.5, 0.5],
+        "material": "lead"
+    }));
+    beside["materials"]["lead"] = json!({ "density": 11000 });
+    let across = state(bed(1e9, 4e8, load([0.0, 1000.0, 0.0], [0.0, 0.0, 2.0])));
+    let mut dense = bed(1e10, 4e9, load([10000.0, 0.0, 0.0], [0.0, 0.0, 2.0]));
+    dense["materials"]["stone"]["density"] = json!(20000);
+    let (shifted, beside, dense) = (state(shifted), state(beside), state(dense));
+    for (what, other, k) in [
+        ("place", &shifted, 0),
+        ("neighbour", &beside, 0),
+        ("axes", &across, 1),
+        ("density", &dense, 0),
+    ] {
+        let (a, b) = (one.load_factor.unwrap(), other.load_factor.unwrap());
+        same(what, b.value.unwrap(), a.value.unwrap(), a.value.unwrap());
+        let [x, y] = [&one, other].map(|s| of(s, "block").displacement[2]);
+        same(what, y, x, x.abs());
+        // The greatest force of a curve at its end depends on where that is; its first way does not.
+        let step = |s: &StateAnswer, k: usize| s.curve[1].displacement[k] / s.curve[1].load_factor;
+        same(what, step(other, k), step(&one, 0), step(&one, 0).abs());
+        assert!(way(other, k) > 0.0);
+    }
+    let [a, b] = [&one, &dense].map(|s| s.joints[0].normal_force);
+    same("force", b, 10.0 * a, b);
+}
+
+/// Rows of a sweep show the load factor of the path, or without a live load how far it moves.
+#[test]
+fn a_row_is_the_load_factor_or_the_displacement() {
+    let row = |value: Value| {
+        let scene = scene(value);
+        let question = Question::State(StateOptions::default()).for_one_number();
+        let model = prepare(&scene).unwrap();
+        RowAnswer::of_answer(&ask(&question, &scene, &model, &Control::default()).unwrap())
+    };
+    let live = json!({ "live": [{ "block": "block", "moment": [0, 1000, 0] }] });
+    let factor = row(bed(1e9, 4e8, live));
+    assert_eq!(factor.status, RowStatus::Found);
+    assert!((factor.value.unwrap() - N / 2000.0).abs() < 1e-6 * N / 2000.0);
+    let way = row(bed(1e9, 4e8, json!({})));
+    assert_eq!(way.status, RowStatus::Found);
+    assert!((way.value.unwrap() - N / 1e9).abs() < 1e-9 * N / 1e9);
 }
 
 /// With one stiffness everywhere, at corners, the state is that under dry friction of the other questions
