@@ -52,12 +52,12 @@ pub use moving::Moving;
 pub use proved::{Claims, Proved};
 pub use question::{
     AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
-    PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions, StagesOptions,
-    SupportMove, ThrustOptions, TiltOptions,
+    PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions, SupportMove,
+    ThrustOptions, TiltOptions,
 };
 pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};
-pub use stages::{Stages, stages};
+pub use stages::{Stages, StagesOptions, stages};
 pub use state::StateOptions;
 pub use tilt::{Tilt, tilt};
 #[cfg(feature = "dynamics")]

@@ -1,7 +1,7 @@
 //! What can be asked: one type for verbs, plans, result files and the library, checked where it is
 //! made ([`Question::check`]).
 
-use super::{Control, Law, StateOptions};
+use super::{Control, Law, StagesOptions, StateOptions};
 use crate::{
     error::{InputError, JsonPath},
     path::saved::SavedPose,
@@ -272,45 +272,6 @@ pub struct KinematicOptions {
     pub skip_dead: bool,
 }
 
-/// Options of `stages`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct StagesOptions {
-    /// How joints slide.
-    pub law: Law,
-    /// In place of the stages of the scene: the scene without each of its free blocks.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub remove_each: bool,
-    /// In place of the stages of the scene: an order in which its free blocks can be placed one by
-    /// one, so that it stands all the time with as few of them held as can be.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub any_order: bool,
-    /// The same where the order is given: every free block once, `*` for any letters of a name. What
-    /// has to be held on the way is sought.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub order: Vec<String>,
-    /// So many blocks can be held at a time; any number where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hands: Option<usize>,
-    /// Sets of blocks that the search for the least holds looks at, at most; 5000 where nothing is
-    /// said.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tries: Option<usize>,
-    /// Tilts towards these directions, where a stage has no live load.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub toward: Vec<[f64; 3]>,
-    /// Tilts towards this many directions, evenly spread, the first along x; 8 where nothing is
-    /// said.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub all: Option<u16>,
-    /// No load factors and no tilts. Rows of a sweep ask for none: a plan has no such key.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub skip_margin: bool,
-    /// No least forces on what is held. Rows of a sweep ask for none: a plan has no such key.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub skip_held: bool,
-}
-
 /// A point of a block.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -368,7 +329,7 @@ impl Question {
                 refuse("at", "must be ways from 0 on".into())
             }
             Self::Push(_) => Ok(()),
-            Self::Stages(o) => check_stages(&path, o),
+            Self::Stages(o) => o.check(&path),
             Self::Kinematic(o) if o.fc.is_some_and(|f| !(f >= 1.0 && f.is_finite())) => refuse(
                 "fc",
                 format!("a factor of confidence is at least 1, got {}", o.fc.unwrap_or(f64::NAN)),
@@ -582,34 +543,7 @@ fn check_moves(path: &JsonPath, o: &SettleOptions) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Refuses options of `stages` that mean nothing together.
-fn check_stages(path: &JsonPath, o: &StagesOptions) -> Result<(), InputError> {
-    let refuse = |key: &str, text: &str| Err(InputError::at(path.key(key), text));
-    let tilts = o.all.is_some() || !o.toward.is_empty();
-    if o.remove_each && tilts {
-        return refuse("remove_each", "no tilts are asked for where blocks are taken out");
-    }
-    if o.any_order && !o.order.is_empty() {
-        return refuse("any_order", "an order is given and sought");
-    }
-    match (o.has_order(), o.remove_each) {
-        (true, true) => refuse("remove_each", "blocks are placed and taken out"),
-        (true, false) if tilts => refuse("toward", "no tilts are asked for where an order is"),
-        (false, _) if o.hands.is_some() => refuse("hands", "no order is asked for"),
-        (false, _) if o.tries.is_some() => refuse("tries", "no order is asked for"),
-        (true, false) if o.tries == Some(0) => refuse("tries", "must be at least 1"),
-        _ => check_directions(path, &o.toward, o.all),
-    }
-}
-
-impl StagesOptions {
-    /// Whether an order is asked for, given or sought.
-    pub fn has_order(&self) -> bool {
-        self.any_order || !self.order.is_empty()
-    }
-}
-
-fn check_directions(
+pub(super) fn check_directions(
     path: &JsonPath,
     toward: &[[f64; 3]],
     all: Option<u16>,

@@ -8,9 +8,12 @@
 //! What stood still stands where nothing that it rests on has changed: an independent part that
 //! several stages have alike is answered once, and its proof checked in each.
 
+mod options;
+
+pub use options::StagesOptions;
+
 use super::{
-    Answer, Assessment, Control, LimitOptions, Proved, Question, StagesOptions, TiltOptions, ask,
-    doubt,
+    Answer, Assessment, Control, LimitOptions, Proved, Question, TiltOptions, ask, doubt,
     known::Known,
     order,
     thrust::{ThrustEnd, level, outwards, thrust},
