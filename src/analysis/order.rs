@@ -46,6 +46,16 @@ struct Least {
     open: bool,
 }
 
+/// A set on the way down, with what is held of it.
+struct Level {
+    set: Blocks,
+    held: Blocks,
+    /// Blocks that may have come last and were not looked at yet.
+    left: std::vec::IntoIter<usize>,
+    /// The one that is looked at.
+    last: Option<usize>,
+}
+
 /// Why a search ends before its end.
 enum Halt {
     /// Tries or time are up.
@@ -71,6 +81,9 @@ struct Search<'a> {
 /// one (indices of all free blocks, the first placed first) with the least holds at each stage.
 /// Nothing is placed where time was up before an order was found.
 ///
+/// Structures beside each other are asked one by one, each with tries of its own: none of them
+/// changes what is found of another.
+///
 /// # Errors
 /// A load of the scene does not resolve at a stage.
 pub(super) fn order(
@@ -81,11 +94,24 @@ pub(super) fn order(
     control: &Control,
 ) -> Result<Order, InputError> {
     let mut search = Search::new(scene, model, known, control);
-    let found = match given {
-        Some(list) => search.given(list, tries),
-        None => search.any(tries),
+    let all: Blocks = model.assembly.free().collect();
+    let (mut ways, mut of) = (Vec::new(), vec![0; model.assembly.blocks.len()]);
+    for (k, part) in search.parts(&all).iter().enumerate() {
+        part.iter().for_each(|&i| of[i] = k);
+        search.left = tries;
+        ways.push(match given {
+            Some(list) => {
+                let own: Vec<usize> = list.iter().copied().filter(|i| part.contains(i)).collect();
+                search.given(&own)?
+            }
+            None => search.any(part)?,
+        });
+    }
+    let list = match given {
+        Some(list) => list.to_vec(),
+        None => ways.iter().flat_map(|w| w.placed.iter().map(|p| p.0)).collect(),
     };
-    let (placed, least_held) = found?;
+    let (placed, least_held) = together(&list, &ways, &of);
     let id = |i: usize| model.assembly.blocks[i].id.clone();
     let placed = placed
         .into_iter()
@@ -93,7 +119,38 @@ pub(super) fn order(
     Ok(Order { given: given.is_some(), tries, least_held, placed: placed.collect() })
 }
 
-type Found = (Vec<(usize, Blocks)>, usize);
+/// How a structure that stands by itself is built.
+#[derive(Default)]
+struct Way {
+    /// Block by block, with what is held then; none where time was up.
+    placed: Vec<(usize, Blocks)>,
+    /// At each of these stages no fewer holds do; of an order that was sought, at the last.
+    least: Vec<usize>,
+    /// Of an order that was sought: in no order fewer do.
+    any: usize,
+}
+
+/// The ways of several structures, in the order of `list`: what is held at a stage of one stays
+/// held while another goes on; `of` tells which structure a block belongs to. With the number of
+/// holds below which there is nothing.
+fn together(list: &[usize], ways: &[Way], of: &[usize]) -> (Vec<(usize, Blocks)>, usize) {
+    if ways.iter().any(|w| w.placed.is_empty()) {
+        // What was not built to its end cannot be sought again from the answer alone.
+        return (Vec::new(), ways.iter().map(|w| w.any).max().unwrap_or(0));
+    }
+    let mut stage = vec![0; ways.len()];
+    let mut least = ways.iter().map(|w| w.any).max().unwrap_or(0);
+    let mut placed = Vec::new();
+    for &block in list {
+        stage[of[block]] += 1;
+        let there = || ways.iter().zip(&stage).filter(|(_, at)| **at > 0);
+        let held = there().flat_map(|(w, at)| w.placed[at - 1].1.iter().copied()).collect();
+        let fewest = there().map(|(w, at)| w.least.get(at - 1).copied().unwrap_or(0)).sum();
+        least = least.max(fewest);
+        placed.push((block, held));
+    }
+    (placed, least)
+}
 
 impl<'a> Search<'a> {
     fn new(scene: &'a Scene, whole: &'a Model, known: &'a Known, control: &'a Control) -> Self {
@@ -127,51 +184,63 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Any order, with as few held at a time as tries allow, and the number below which none was
-    /// missed. Where tries or time are up, the best of what can be had without a search.
-    fn any(&mut self, tries: usize) -> Result<Found, InputError> {
-        let all: Blocks = self.whole.assembly.free().collect();
-        self.left = tries;
-        let mut least = 0;
+    /// Any order of a structure, with as few held at a time as tries allow. Where tries or time are
+    /// up, the best of what can be had without a search.
+    fn any(&mut self, all: &Blocks) -> Result<Way, InputError> {
+        let (mut any, mut found) = (0, None);
         for most in 0..=all.len() {
             self.open = false;
-            let mut order = Vec::new();
-            match self.build(&all, most, &mut HashSet::new(), &mut order) {
-                Ok(true) => return Ok((order, least)),
-                Ok(false) if least == most && !self.open => least = most + 1,
-                Ok(false) => {}
+            match self.build(all, most) {
+                Ok(None) if any == most && !self.open => any = most + 1,
+                Ok(None) => {}
+                Ok(order) => {
+                    found = order;
+                    break;
+                }
                 Err(Halt::Over) => break,
                 Err(Halt::Error(e)) => return Err(e),
             }
         }
-        let mut down = Vec::new();
-        let mut set = all;
-        while let Some(&block) = self.candidates(&set).first() {
-            set.remove(&block);
-            down.push(block);
+        let placed = match found {
+            Some(order) => order,
+            None => {
+                let mut set = all.clone();
+                let mut down = Vec::new();
+                while let Some(&block) = self.candidates(&set).first() {
+                    set.remove(&block);
+                    down.push(block);
+                }
+                down.reverse();
+                self.unsearched(&down)?
+            }
+        };
+        // Whole it stays as it is while other structures are built.
+        let whole = self.least.get(all).filter(|l| !l.open).map_or(0, |l| l.from);
+        let mut least = vec![0; placed.len()];
+        if let Some(last) = least.last_mut() {
+            *last = whole;
         }
-        down.reverse();
-        Ok((self.unsearched(&down)?, least))
+        Ok(Way { placed, least, any })
     }
 
-    /// The least holds at every stage of a given order, as far as tries go.
-    fn given(&mut self, list: &[usize], tries: usize) -> Result<Found, InputError> {
-        self.left = tries;
-        let (mut set, mut order, mut least) = (Blocks::new(), Vec::new(), 0);
+    /// The least holds of a structure at every stage of a given order, as far as tries go.
+    fn given(&mut self, list: &[usize]) -> Result<Way, InputError> {
+        let (mut set, mut way) = (Blocks::new(), Way::default());
         for &block in list {
             set.insert(block);
             self.open = false;
             match self.holds(&set, list.len()) {
                 Ok(Some(held)) => {
-                    least = least.max(if self.open { 0 } else { held.len() });
-                    order.push((block, held));
+                    way.least.push(if self.open { 0 } else { held.len() });
+                    way.placed.push((block, held));
                 }
-                Ok(None) => return Ok((Vec::new(), least)),
-                Err(Halt::Over) => return Ok((self.unsearched(list)?, least)),
+                // So many always do.
+                Ok(None) => return Ok(Way::default()),
+                Err(Halt::Over) => return Ok(Way { placed: self.unsearched(list)?, ..way }),
                 Err(Halt::Error(e)) => return Err(e),
             }
         }
-        Ok((order, least))
+        Ok(way)
     }
 
     /// An order with holds that need not be the least: what is held stays so until its part stands
@@ -210,33 +279,39 @@ impl<'a> Search<'a> {
         Ok(held)
     }
 
-    /// Whether a set can be built with at most so many held at a time; then `order` is how.
-    fn build(
-        &mut self,
-        set: &Blocks,
-        most: usize,
-        failed: &mut HashSet<Blocks>,
-        order: &mut Vec<(usize, Blocks)>,
-    ) -> Result<bool, Halt> {
-        let Some(held) = self.holds(set, most)? else { return Ok(false) };
-        if set.len() == 1 {
-            order.extend(set.iter().map(|&only| (only, held.clone())));
-            return Ok(true);
-        }
-        for block in self.candidates(set) {
-            let mut rest = set.clone();
-            rest.remove(&block);
-            if failed.contains(&rest) {
-                continue;
+    /// How a set can be built with at most so many held at a time; nothing where it cannot.
+    fn build(&mut self, all: &Blocks, most: usize) -> Result<Option<Vec<(usize, Blocks)>>, Halt> {
+        let mut failed = HashSet::new();
+        let mut down: Vec<Level> = Vec::new();
+        let mut set = all.clone();
+        loop {
+            match self.holds(&set, most)? {
+                Some(held) => {
+                    let mut left = self.candidates(&set).into_iter();
+                    if set.len() == 1 {
+                        let first = left.next().map(|only| (only, held));
+                        let later = down.into_iter().rev().filter_map(|l| Some((l.last?, l.held)));
+                        return Ok(Some(first.into_iter().chain(later).collect()));
+                    }
+                    down.push(Level { set, held, left, last: None });
+                }
+                None => drop(failed.insert(set)),
             }
-            self.count()?;
-            if self.build(&rest, most, failed, order)? {
-                order.push((block, held));
-                return Ok(true);
-            }
-            failed.insert(rest);
+            set = loop {
+                let Some(level) = down.last_mut() else { return Ok(None) };
+                level.last = level.left.next();
+                let Some(block) = level.last else {
+                    failed.extend(down.pop().map(|l| l.set));
+                    continue;
+                };
+                let mut rest = level.set.clone();
+                rest.remove(&block);
+                if !failed.contains(&rest) {
+                    self.count()?;
+                    break rest;
+                }
+            };
         }
-        Ok(false)
     }
 
     /// Blocks that may have been placed last: those first that miss a neighbour already, so that

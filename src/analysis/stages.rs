@@ -10,7 +10,7 @@
 
 mod options;
 
-pub use options::StagesOptions;
+pub use options::{MOST_TRIES, StagesOptions};
 
 use super::{
     Answer, Assessment, Control, LimitOptions, Proved, Question, TiltOptions, ask, doubt,
@@ -121,6 +121,10 @@ fn ordered(
 /// # Errors
 /// As [`stages`].
 pub fn least_held(said: &Order, scene: &Scene, model: &Model) -> Result<usize, InputError> {
+    if said.tries > MOST_TRIES {
+        let text = format!("an order is sought with at most {MOST_TRIES} tries");
+        return Err(InputError::at(JsonPath::root(), text));
+    }
     let of = |p: &Placed| model.assembly.find(&p.block);
     let given: Vec<usize> = said.placed.iter().filter_map(of).collect();
     let given = said.given.then_some(given.as_slice());

@@ -72,13 +72,11 @@ fn exit(said: &StagesAnswer) -> Exit {
         // Nothing can be taken out, as far as is known.
         Some(_) if said.proof.is_none() => Exit::Undecided,
         Some(_) => Exit::No,
-        None if said.least_held.is_some() && said.verdict == Verdict::Stable => {
-            match said.hands_do() {
-                Some(true) => Exit::Yes,
-                Some(false) => Exit::No,
-                None => Exit::Undecided,
-            }
-        }
+        None if said.least_held.is_some() => match (said.hands_do(), said.verdict) {
+            (Some(false), _) => Exit::No,
+            (Some(true), Verdict::Stable) => Exit::Yes,
+            _ => Exit::Undecided,
+        },
         // A margin that is negative or was not found is no yes.
         None if said.verdict == Verdict::Stable && !said.is_safe() => Exit::Undecided,
         None => verdict(Some(said.verdict)),

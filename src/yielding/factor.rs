@@ -1,6 +1,6 @@
 //! How far a path goes along the live load.
 
-use super::track::Track;
+use super::{joints::Joints, track::Track};
 use crate::terms::{Bound, Outcome};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -42,9 +42,9 @@ pub enum PathEnd {
 
 impl PathFactor {
     /// That of a path that ended so, with the bound by limit analysis.
-    pub fn new(end: PathEnd, track: &Track, associative: Bound) -> Self {
+    pub fn new(end: PathEnd, track: &Track, joints: &Joints, associative: Bound) -> Self {
         let reached = track.steps[track.steps.len() - 1].load_factor;
-        let slides = track.slides();
+        let slides = track.slides(joints);
         let value = match (end, associative.status) {
             (PathEnd::Bound, Outcome::Found) if !slides => associative.value,
             (PathEnd::Bound | PathEnd::NoBalance, _) => Some(reached),

@@ -8,16 +8,17 @@ use super::{
     state::Past,
 };
 use crate::{
-    assembly::{Assembly, Block, Solid},
+    assembly::{Assembly, Block, Solid, Wrench},
     error::{Finding, FindingCode, InputError, JsonPath},
     interface::{ContactFrame, Interface, Model},
-    plane::polygon::P2,
+    plane::{Sets, polygon::P2},
     strength,
     verdict::Rate,
 };
 use nalgebra::{Matrix6, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Where joints with an area are integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -36,6 +37,9 @@ pub enum Quadrature {
 pub struct Joints {
     /// The joints.
     pub list: Vec<Joint>,
+    /// Whether a live load acts on the structure that each belongs to; others do not take part in
+    /// what happens along it.
+    pub loaded: Vec<bool>,
     /// What was assumed.
     pub findings: Vec<Finding>,
 }
@@ -47,6 +51,8 @@ pub struct Joint {
     pub a: usize,
     /// Index of the second block.
     pub b: usize,
+    /// Those of both that may move.
+    pub free: Vec<usize>,
     /// Where relative displacements are measured, m.
     pub at: Vector3<f64>,
     /// Its frame.
@@ -116,15 +122,64 @@ impl Joints {
     pub fn new(model: &Model, quadrature: Quadrature) -> Result<Self, InputError> {
         needs(model)?;
         let faces = &model.interfaces.list;
-        let points: usize = faces.iter().filter(|f| f.area > 0.0).map(|f| f.points.len()).sum();
-        let area: f64 = faces.iter().map(|f| f.area).sum();
-        let share = (points > 0).then(|| area / points as f64);
+        let corners = Corners::new(model);
         let mut told = Told::default();
-        let list = faces
+        let list: Vec<Joint> = faces
             .iter()
-            .map(|face| joint(&model.assembly, face, quadrature, share, &mut told))
+            .map(|face| joint(&model.assembly, face, quadrature, &corners, &mut told))
             .collect::<Result<_, _>>()?;
-        Ok(Self { list, findings: told.findings() })
+        let loaded = loaded(model, &list);
+        Ok(Self { list, loaded, findings: told.findings() })
+    }
+
+    /// For every joint the greatest of a number (>= 0, one a joint) among the joints of its free
+    /// blocks: what is small beside it is small there. What acts on other blocks excuses nothing.
+    pub fn greatest_near(&self, of: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut most: BTreeMap<usize, f64> = BTreeMap::new();
+        for (k, joint) in self.list.iter().enumerate() {
+            for &i in &joint.free {
+                let here = most.entry(i).or_insert(0.0);
+                *here = here.max(of(k));
+            }
+        }
+        let near = |j: &Joint| j.free.iter().map(|i| most[i]).fold(0.0, f64::max);
+        self.list.iter().map(near).collect()
+    }
+}
+
+/// Whether a live load acts on what a joint belongs to.
+fn loaded(model: &Model, list: &[Joint]) -> Vec<bool> {
+    let mut sets = Sets::new(model.assembly.blocks.len());
+    for joint in list {
+        if let [a, b] = joint.free[..] {
+            sets.join(a, b);
+        }
+    }
+    let live = model.assembly.free().filter(|&i| model.assembly.live[i] != Wrench::zero());
+    let live: BTreeSet<usize> = live.map(|i| sets.find(i)).collect();
+    list.iter().map(|j| j.free.iter().any(|&i| live.contains(&sets.find(i)))).collect()
+}
+
+/// Area and corners of the joints of each free block, for contacts that have no area.
+struct Corners(Vec<(f64, usize)>);
+
+impl Corners {
+    fn new(model: &Model) -> Self {
+        let blocks = &model.assembly.blocks;
+        let mut of = vec![(0.0, 0); blocks.len()];
+        for face in model.interfaces.list.iter().filter(|f| f.area > 0.0) {
+            for i in [face.a, face.b].into_iter().filter(|&i| !blocks[i].support) {
+                of[i] = (of[i].0 + face.area, of[i].1 + face.points.len());
+            }
+        }
+        Self(of)
+    }
+
+    /// The share of the average corner of the joints of two blocks.
+    fn share(&self, blocks: [usize; 2]) -> Option<f64> {
+        let [a, b] = blocks.map(|i| self.0[i]);
+        let (area, count) = (a.0 + b.0, a.1 + b.1);
+        (count > 0).then(|| area / count as f64)
     }
 }
 
@@ -133,7 +188,7 @@ impl Joints {
 struct Told {
     shear: usize,
     edges: usize,
-    rigid: std::collections::BTreeSet<String>,
+    rigid: BTreeSet<String>,
 }
 
 impl Told {
@@ -147,7 +202,7 @@ impl Told {
         }
         if self.edges > 0 {
             texts.push(format!(
-                "{} contacts at edges or points have no area: each of their points yields as the average corner of a joint",
+                "{} contacts at edges or points have no area: each of their points yields as the average corner of the other joints of its blocks",
                 self.edges
             ));
         }
@@ -169,7 +224,7 @@ fn joint(
     assembly: &Assembly,
     face: &Interface,
     quadrature: Quadrature,
-    share: Option<f64>,
+    others: &Corners,
     told: &mut Told,
 ) -> Result<Joint, InputError> {
     let (one, two) = (&assembly.blocks[face.a], &assembly.blocks[face.b]);
@@ -181,7 +236,8 @@ fn joint(
         P2::new(d.dot(&frame.t1), d.dot(&frame.t2))
     };
     let mu = face.law.friction.mu();
-    let new = |kind| Joint { a: face.a, b: face.b, at, frame, kind };
+    let free = [face.a, face.b].into_iter().filter(|&i| !assembly.blocks[i].support).collect();
+    let new = |kind| Joint { a: face.a, b: face.b, free, at, frame, kind };
     if one.solid.is_round() || two.solid.is_round() {
         return Ok(new(JointKind::Grain(grain([one, two], &at, mu, told)?)));
     }
@@ -197,12 +253,13 @@ fn joint(
     let corners: Vec<P2> = face.points.iter().map(flat).collect();
     let place = if corners.len() < 3 || face.area <= 0.0 {
         told.edges += 1;
-        let Some(share) = share else {
+        let Some(share) = others.share([face.a, face.b]) else {
             let (a, b) = names(assembly, face);
             let text = format!(
-                "the contact between {a} and {b} has no area, and no joint of the scene has any: a stiffness in Pa/m means nothing there"
+                "the contact between {a} and {b} has no area, and no other joint of theirs has any: a stiffness in Pa/m means nothing there"
             );
-            return Err(InputError::at(JsonPath::root().key("joints"), text));
+            return Err(InputError::at(JsonPath::root().key("joints"), text)
+                .hint("cut the edge off, so that it is a face, or ask `assess`"));
         };
         Place::Points(corners.into_iter().map(|p| (p, share)).collect())
     } else {

@@ -1,5 +1,5 @@
 //! How far a state is from the laws that it claims to obey: balance, Signorini's three conditions
-//! and Coulomb's, each measured by what is greatest in the scene.
+//! and Coulomb's, each measured by what is greatest at the blocks that it is about.
 
 use super::{
     joints::{JointKind, Joints},
@@ -13,7 +13,8 @@ use crate::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What is left of each condition; zero is exact.
+/// What is left of each condition; zero is exact. What is greatest is so among the joints of the
+/// same blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Residuals {
@@ -54,10 +55,10 @@ pub fn residuals(
     forces: &Forces,
     lambda: f64,
 ) -> Residuals {
-    let greatest = |of: &dyn Fn(&JointState) -> f64| states.iter().map(of).fold(0.0, f64::max);
-    let force = greatest(&|s| s.spots.iter().map(|s| s.normal).fold(0.0, f64::max));
-    let closing = greatest(&|s| -s.opening[0]);
-    let slid = greatest(&JointState::slip);
+    let greatest = |of: &dyn Fn(&JointState) -> f64| joints.greatest_near(|k| of(&states[k]));
+    let forces_near = greatest(&|s| s.spots.iter().map(|s| s.normal).fold(0.0, f64::max));
+    let closing_near = greatest(&|s| -s.opening[0]);
+    let slid_near = greatest(&JointState::slip);
     let share = |value: f64, of: f64| if of > 0.0 { value / of } else { 0.0 };
     let mut all = Residuals {
         balance: certificate::statics(model, forces, lambda).unbalance,
@@ -69,7 +70,8 @@ pub fn residuals(
         direction: 0.0,
     };
     let worse = |worst: &mut f64, value: f64| *worst = worst.max(value);
-    for (joint, state) in joints.list.iter().zip(states) {
+    for (k, (joint, state)) in joints.list.iter().zip(states).enumerate() {
+        let (force, closing, slid) = (forces_near[k], closing_near[k], slid_near[k]);
         for s in &state.spots {
             let (own, mu) = match &joint.kind {
                 JointKind::Bed(bed) => (s.normal / (bed.normal * s.area), bed.mu),

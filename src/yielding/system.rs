@@ -5,7 +5,7 @@ use super::{
     law::{Friction, Resultant, along, opens},
     state::State,
 };
-use crate::{assembly::Wrench, cholesky::Pattern, interface::Model, verdict::Rate};
+use crate::{assembly::Wrench, cholesky::Pattern, interface::Model, plane::Sets, verdict::Rate};
 use nalgebra::{Matrix6, Vector6};
 use std::collections::BTreeMap;
 
@@ -34,18 +34,6 @@ pub struct System<'a> {
 pub struct Tangent {
     own: Vec<Matrix6<f64>>,
     pairs: Vec<[Matrix6<f64>; 2]>,
-}
-
-impl Tangent {
-    /// Its blocks on the diagonal.
-    pub fn own(&self) -> &[Matrix6<f64>] {
-        &self.own
-    }
-
-    /// The same, to be changed.
-    pub fn own_mut(&mut self) -> &mut [Matrix6<f64>] {
-        &mut self.own
-    }
 }
 
 impl<'a> System<'a> {
@@ -122,6 +110,16 @@ impl<'a> System<'a> {
         }
         [left, passing]
             .map(|list| list.iter().flat_map(|v| v.iter().copied().collect::<Vec<_>>()).collect())
+    }
+
+    /// For each free block, in the order of rows, the first row of the structure that it belongs to:
+    /// of blocks that joints join.
+    pub fn parts(&self) -> Vec<usize> {
+        let mut sets = Sets::new(self.free.len());
+        for &(lower, upper) in self.pairs.keys() {
+            sets.join(lower, upper);
+        }
+        (0..self.free.len()).map(|k| sets.find(k)).collect()
     }
 
     /// Masses and inertias of the free blocks.

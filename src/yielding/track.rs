@@ -100,7 +100,7 @@ pub struct Track {
 /// Edges that open by less than this share of what their joint closes are closed. More: edges that
 /// open go unseen. Less: rounding opens joints that press evenly.
 const EDGE: f64 = 1e-9;
-/// Joints that close by less than this share of the greatest closing are open. More: joints that
+/// Joints that close by less than this share of the greatest closing at their blocks are open. More: joints that
 /// hardly press are open. Less: rounding closes them.
 const TOUCHES: f64 = 1e-12;
 
@@ -152,20 +152,19 @@ impl Track {
         all
     }
 
-    /// Whether anything has slid on the way.
-    pub fn slides(&self) -> bool {
-        self.steps.iter().any(|s| s.conditions.iter().any(|c| c.grip != Grip::Sticks))
+    /// Whether anything that the live load acts on has slid on the way.
+    pub fn slides(&self, joints: &Joints) -> bool {
+        let slides = |c: &Condition| c.grip != Grip::Sticks;
+        let here = |s: &Step| s.conditions.iter().zip(&joints.loaded).any(|(c, l)| *l && slides(c));
+        self.steps.iter().any(here)
     }
 }
 
 /// What all joints do, in words.
 pub fn conditions(joints: &Joints, states: &[JointState]) -> Vec<Condition> {
-    let closing = states.iter().map(|s| -s.opening[0]).fold(0.0, f64::max);
-    joints
-        .list
-        .iter()
-        .zip(states)
-        .map(|(joint, s)| {
+    let closing = joints.greatest_near(|k| -states[k].opening[0]);
+    (joints.list.iter().zip(states).zip(closing))
+        .map(|((joint, s), closing)| {
             let [low, high] = s.opening;
             let touch = if -low <= TOUCHES * closing {
                 Touch::Open

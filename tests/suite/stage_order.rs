@@ -1,32 +1,24 @@
 //! Orders in which a structure can be built: against all orders tried one by one, against what is
 //! known of arches, forged, and asked wrongly.
 
-use crate::ask::{cuboid, fixed, prove, scene, template};
+use crate::{
+    ask::{cuboid, fixed, scene, template},
+    stages::result,
+};
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, process::Command};
 use voussoir::{
-    analysis::{Answer, Control, Question, StagesOptions, ask, assess},
+    analysis::{Control, Question, StagesOptions, ask, assess},
     assembly::Stage,
     interface::{at_stage, prepare},
     proof::{self, ResultFile},
     scene::Scene,
+    sweep::{RowAnswer, RowStatus},
     verdict::Verdict,
 };
 
 fn any() -> StagesOptions {
     StagesOptions { any_order: true, skip_held: true, ..Default::default() }
-}
-
-fn result(scene: &Scene, options: StagesOptions) -> ResultFile {
-    let model = prepare(scene).unwrap();
-    let question = Question::Stages(options);
-    question.check().unwrap();
-    let answer = ask(&question, scene, &model, &Control::default()).unwrap();
-    assert!(matches!(answer, Answer::Stages(_)));
-    let file =
-        ResultFile::of_question(&question, scene, &model, &answer, &Control::default()).unwrap();
-    prove(scene, &file);
-    file
 }
 
 /// The least and the most blocks that are held at a time, as the answer has them.
@@ -114,6 +106,57 @@ fn an_arch_is_built_with_one_hand_and_a_wall_with_none() {
     assert_eq!(held(&result(&wall, any())), (0, 0));
 }
 
+/// A structure beside it neither adds to what has to be held nor uses its tries up; of what needs a
+/// hand for good both do.
+#[test]
+fn what_stands_beside_changes_no_order() {
+    let blocks = |far: f64| -> Vec<Value> {
+        let foot = |id: &str, size: [f64; 3], at: [f64; 3]| {
+            cuboid(&format!("{id}{far}"), size, [at[0] + far, at[1], at[2]])
+        };
+        vec![
+            fixed(foot("ground", [2.0, 1.0, 1.0], [0.0, 0.0, -1.0])),
+            foot("shelf", [2.0, 1.0, 0.2], [1.1, 0.0, 0.0]),
+            foot("weight", [0.5, 1.0, 2.0], [0.4, 0.0, 0.2]),
+            foot("cap", [0.4, 1.0, 0.2], [1.8, 0.0, 0.2]),
+        ]
+    };
+    let mut both = blocks(0.0);
+    both.extend(blocks(50.0));
+    // A wall with more sets of blocks than there are tries.
+    both.push(fixed(cuboid("road", [20.0, 1.0, 1.0], [-30.0, 0.0, -1.0])));
+    both.extend(
+        (0..12).map(|k| {
+            cuboid(&format!("stone{k}"), [0.5, 1.0, 0.5], [-38.0 + f64::from(k), 0.0, 0.0])
+        }),
+    );
+    let options = StagesOptions { tries: Some(60), ..any() };
+    assert_eq!(held(&result(&scene(0.6, json!(both), json!({})), options)), (1, 1));
+    // Without their weights each shelf is held for good.
+    let light = |list: Vec<Value>| -> Vec<Value> {
+        list.into_iter().filter(|b| !b["id"].as_str().unwrap().starts_with("weight")).collect()
+    };
+    let one = scene(0.6, json!(light(blocks(0.0))), json!({}));
+    assert_eq!(held(&result(&one, any())), (1, 1));
+    let mut two = light(blocks(0.0));
+    two.extend(light(blocks(50.0)));
+    let two = scene(0.6, json!(two), json!({}));
+    assert_eq!(held(&result(&two, any())), (2, 2));
+    let given = StagesOptions { any_order: false, order: vec!["*".into()], ..any() };
+    assert_eq!(held(&result(&two, given)), (2, 2));
+}
+
+/// Rows of a sweep show how many have to be held.
+#[test]
+fn a_row_counts_the_blocks_that_are_held() {
+    let question = Question::Stages(any()).for_one_number();
+    let scene = ledge();
+    let model = prepare(&scene).unwrap();
+    let answer = ask(&question, &scene, &model, &Control::default()).unwrap();
+    let RowAnswer { status, value, .. } = RowAnswer::of_answer(&answer);
+    assert_eq!((status, value), (RowStatus::Found, Some(1.0)));
+}
+
 #[test]
 fn few_tries_give_an_order_and_say_that_fewer_holds_may_do() {
     let file = result(&arch(12), StagesOptions { tries: Some(3), ..any() });
@@ -169,6 +212,7 @@ fn orders_that_mean_nothing_are_refused_with_their_place() {
         json!({ "any_order": true, "remove_each": true }),
         json!({ "any_order": true, "all": 4 }),
         json!({ "any_order": true, "tries": 0 }),
+        json!({ "any_order": true, "tries": 1_000_000_000_000_u64 }),
         json!({ "hands": 1 }),
         json!({ "tries": 10 }),
     ] {

@@ -22,7 +22,7 @@ fn bare() -> StagesOptions {
 }
 
 /// The result, written, read back and proved.
-fn result(scene: &Scene, options: StagesOptions) -> ResultFile {
+pub fn result(scene: &Scene, options: StagesOptions) -> ResultFile {
     let model = prepare(scene).unwrap();
     let question = Question::Stages(options);
     let answer = ask(&question, scene, &model, &Control::default()).unwrap();

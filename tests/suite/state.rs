@@ -304,14 +304,19 @@ fn places_directions_neighbours_and_densities_do_not_matter() {
             block["at"][k] = json!(block["at"][k].as_f64().unwrap() + far[k]);
         }
     }
+    // A thousand million times as heavy, on a soft joint, and sliding in part under a load of its own.
     beside["blocks"].as_array_mut().unwrap().push(json!({
         "id": "boulder", "shape": { "box": { "size": [1, 1, 1] } }, "at": [1.5, 1.5, 0.5],
-        "material": "lead"
+        "material": "heavy"
     }));
-    beside["materials"]["lead"] = json!({ "density": 11000 });
+    beside["materials"]["heavy"] = json!({ "density": 4e12 });
+    beside["loads"]["dead"] =
+        json!([{ "block": "boulder", "force": [2.4e13, 0, 0], "at": [1.5, 1.5, 0.5] }]);
+    beside["joints"]["overrides"] = json!([{ "blocks": ["floor", "boulder"], "normal_stiffness": 1e14, "shear_stiffness": 1e3 }]);
     let across = state(bed(1e9, 4e8, load([0.0, 1000.0, 0.0], [0.0, 0.0, 2.0])));
     let mut dense = bed(1e10, 4e9, load([10000.0, 0.0, 0.0], [0.0, 0.0, 2.0]));
     dense["materials"]["stone"]["density"] = json!(20000);
+    let beside_scene = beside.clone();
     let (shifted, beside, dense) = (state(shifted), state(beside), state(dense));
     for (what, other, k) in [
         ("place", &shifted, 0),
@@ -328,8 +333,57 @@ fn places_directions_neighbours_and_densities_do_not_matter() {
         same(what, step(other, k), step(&one, 0), step(&one, 0).abs());
         assert!(way(other, k) > 0.0);
     }
+    assert_eq!(beside.load_factor.unwrap().slides, one.load_factor.unwrap().slides);
+    let turns = |s: &Value| state(s.clone()).load_factor.unwrap().slides;
+    let moment = json!([{ "block": "block", "moment": [0, 1000, 0] }]);
+    let mut turned = beside_scene.clone();
+    turned["loads"]["live"] = moment;
+    assert!(!turns(&turned), "what slides beside it takes no part");
+    assert!(beside.joints.iter().any(|j| j.grip != Grip::Sticks), "{:?}", beside.joints);
+    for f in &one.frequencies {
+        assert!(
+            beside.frequencies.iter().any(|g| (f - g).abs() <= 1e-6 * f),
+            "{f} {:?}",
+            beside.frequencies
+        );
+    }
     let [a, b] = [&one, &dense].map(|s| s.joints[0].normal_force);
     same("force", b, 10.0 * a, b);
+}
+
+/// A contact along an edge yields as the joints of its own blocks do, whatever lies elsewhere; where
+/// they have none it is refused.
+#[test]
+fn an_edge_takes_its_share_from_its_own_blocks() {
+    // A prism stands on its edge between two blocks that hold it with their faces.
+    let scene = |more: bool| {
+        let mut value = json!({
+            "format": "voussoir-scene/1",
+            "joints": { "default": { "friction": 0.7, "normal_stiffness": 1e9, "shear_stiffness": 1e9 } },
+            "blocks": [
+                { "id": "floor", "shape": { "box": { "size": [9, 9, 1] } }, "at": [0, 0, -0.5], "support": true },
+                { "id": "roof", "shape": { "prism": { "polygon": [[-0.4, 0.4], [0, 0], [0.4, 0.4]], "depth": 1 } } },
+                { "id": "left", "shape": { "box": { "size": [0.4, 1, 0.4] } }, "at": [-0.6, 0, 0.2] },
+                { "id": "right", "shape": { "box": { "size": [0.4, 1, 0.4] } }, "at": [0.6, 0, 0.2] },
+                { "id": "slab", "shape": { "box": { "size": [1.6, 1, 0.2] } }, "at": [0, 0, 0.5] }
+            ]
+        });
+        if more {
+            value["blocks"].as_array_mut().unwrap().push(json!({
+                "id": "field", "shape": { "box": { "size": [3, 3, 1] } }, "at": [3, 3, 0.5]
+            }));
+        }
+        value
+    };
+    let [one, other] = [false, true].map(|more| state(scene(more)));
+    let edge = one.joints.iter().find(|j| j.between == ["floor", "roof"].map(String::from));
+    assert!(edge.unwrap().normal_force > 0.0, "{:?}", one.joints);
+    for d in &one.displacements {
+        let here = of(&other, &d.block).displacement;
+        for (a, b) in d.displacement.iter().zip(here) {
+            assert!((a - b).abs() <= 1e-9 * d.displacement[2].abs(), "{} {a} {b}", d.block);
+        }
+    }
 }
 
 /// Rows of a sweep show the load factor of the path, or without a live load how far it moves.

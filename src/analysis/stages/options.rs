@@ -46,6 +46,9 @@ pub struct StagesOptions {
     pub skip_held: bool,
 }
 
+/// Most sets that a search for an order looks at: days.
+pub const MOST_TRIES: usize = 1_000_000;
+
 impl StagesOptions {
     /// Whether an order is asked for, given or sought.
     pub fn has_order(&self) -> bool {
@@ -67,7 +70,9 @@ impl StagesOptions {
             (true, false) if tilts => refuse("toward", "no tilts are asked for where an order is"),
             (false, _) if self.hands.is_some() => refuse("hands", "no order is asked for"),
             (false, _) if self.tries.is_some() => refuse("tries", "no order is asked for"),
-            (true, false) if self.tries == Some(0) => refuse("tries", "must be at least 1"),
+            (true, false) if self.tries.is_some_and(|n| !(1..=MOST_TRIES).contains(&n)) => {
+                refuse("tries", &format!("must be from 1 to {MOST_TRIES}"))
+            }
             _ => check_directions(path, &self.toward, self.all),
         }
     }

@@ -278,7 +278,7 @@ impl Stated {
     pub fn factor(&self) -> Option<PathFactor> {
         let bound = self.bound.as_ref()?;
         let bound = Bound::new(bound.outcome, bound.value, bound.bracket);
-        self.track.as_ref().map(|track| PathFactor::new(self.end, track, bound))
+        self.track.as_ref().map(|track| PathFactor::new(self.end, track, &self.joints, bound))
     }
 
     /// The verdict on the dead load.

@@ -43,6 +43,8 @@ const GLUE: [f64; 9] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5];
 /// What solves the equations of a model.
 pub struct Newton<'a> {
     system: &'a System<'a>,
+    /// For each free block the structure that it belongs to.
+    part: Vec<usize>,
     lu: Option<Lu>,
     cholesky: Option<Cholesky>,
     /// Steps that it took so far.
@@ -52,13 +54,13 @@ pub struct Newton<'a> {
 impl<'a> Newton<'a> {
     /// Of these equations.
     pub fn new(system: &'a System<'a>) -> Self {
-        Self { system, lu: None, cholesky: None, steps: 0 }
+        Self { system, part: system.parts(), lu: None, cholesky: None, steps: 0 }
     }
 
     /// Of these displacements those that are nearest to balance.
     pub fn nearest(&self, state: &State, loads: &[Wrench], from: Vec<Vec<Rate>>) -> Vec<Rate> {
-        let size = |q: &Vec<Rate>| self.residual(state, loads, q, 0.0).0;
-        let best = from.into_iter().map(|q| (self.size(&size(&q)), q));
+        let size = |q: &Vec<Rate>| self.residual(state, loads, q, 0.0).1;
+        let best = from.into_iter().map(|q| (size(&q), q));
         best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| state.displaced.clone(), |b| b.1)
     }
 
@@ -116,28 +118,26 @@ impl<'a> Newton<'a> {
         glue: f64,
         control: &Control,
     ) -> Option<Vec<Rate>> {
-        let (mut left, mut scale) = self.residual(state, loads, &displaced, glue);
-        let mut size = self.size(&left);
+        let (mut left, mut size) = self.residual(state, loads, &displaced, glue);
         let mut worse = 0;
         for _ in 0..STEPS {
             if control.deadline.is_over() {
                 return None;
             }
-            if size <= BALANCED * scale {
+            if size <= BALANCED {
                 return Some(displaced);
             }
             self.steps += 1;
-            let mut best: Option<(f64, Vec<Rate>, Vec<f64>, f64)> = None;
+            let mut best: Option<(f64, Vec<Rate>, Vec<f64>)> = None;
             // Where the tangent says nothing (what slides resists no more) steps are damped.
             'damped: for shift in SHIFTS {
                 let Some(way) = self.way(state, &displaced, glue, &left, shift) else { continue };
                 let mut share = 1.0;
                 for _ in 0..HALVINGS {
                     let next = self.moved(&displaced, &way, share);
-                    let (r, s) = self.residual(state, loads, &next, glue);
-                    let new = self.size(&r);
+                    let (r, new) = self.residual(state, loads, &next, glue);
                     if best.as_ref().is_none_or(|b| new < b.0) {
-                        best = Some((new, next.clone(), r.clone(), s));
+                        best = Some((new, next.clone(), r.clone()));
                     }
                     if best.as_ref().is_some_and(|b| b.0 < (1.0 - 1e-4 * share) * size) {
                         break 'damped;
@@ -145,27 +145,29 @@ impl<'a> Newton<'a> {
                     // What is left does less work along the step: in a curved valley, where sizes
                     // say little, that is progress (Crisfield 1982).
                     if work(&r, &way).abs() <= LESS_WORK * work(&left, &way).abs() {
-                        best = Some((new, next, r, s));
+                        best = Some((new, next, r));
                         break 'damped;
                     }
                     share *= 0.5;
                 }
-                if size <= GOOD * scale {
+                if size <= GOOD {
                     break;
                 }
             }
-            let (new, next, r, s) = best?;
-            if new >= size && (size <= GOOD * scale || !new.is_finite() || worse > WORSE) {
+            let (new, next, r) = best?;
+            if new >= size && (size <= GOOD || !new.is_finite() || worse > WORSE) {
                 // Rounding: what is good enough is taken.
-                return (size <= GOOD * scale).then_some(displaced);
+                return (size <= GOOD).then_some(displaced);
             }
             worse += usize::from(new >= size);
-            (displaced, left, size, scale) = (next, r, new, s);
+            (displaced, left, size) = (next, r, new);
         }
-        (size <= GOOD * scale).then_some(displaced)
+        (size <= GOOD).then_some(displaced)
     }
 
-    /// What is left of the loads, and the size of all that acts.
+    /// What is left of the loads, and its size: by the displacement that it makes, in multiples of
+    /// that of all that acts, of every structure by itself. So a heavy one beside it lets no other
+    /// off.
     fn residual(
         &self,
         state: &State,
@@ -174,13 +176,14 @@ impl<'a> Newton<'a> {
         glue: f64,
     ) -> (Vec<f64>, f64) {
         let [left, passing] = self.system.left(state, loads, displaced, glue);
-        let scale = self.size(&passing);
-        (left, scale)
-    }
-
-    /// The size of a residual: by the displacement that it makes.
-    fn size(&self, left: &[f64]) -> f64 {
-        left.iter().zip(&self.system.diagonal).map(|(r, d)| r * r / d).sum::<f64>().sqrt()
+        let mut sums = vec![[0.0; 2]; self.part.len()];
+        for (k, d) in self.system.diagonal.iter().enumerate() {
+            let sum = &mut sums[self.part[k / 6]];
+            sum[0] += left[k] * left[k] / d;
+            sum[1] += passing[k] * passing[k] / d;
+        }
+        let size = sums.iter().filter(|s| s[1] > 0.0).map(|s| s[0] / s[1]).sum::<f64>().sqrt();
+        (left, size)
     }
 
     fn moved(&self, displaced: &[Rate], way: &[f64], share: f64) -> Vec<Rate> {

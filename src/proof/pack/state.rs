@@ -28,21 +28,7 @@ impl ResultFile {
                 bound: limit,
             }
             .answer(),
-            None => StateAnswer {
-                verdict: asked.standing(),
-                proof: None,
-                quadrature: asked.options.quadrature,
-                residuals: None,
-                displacements: Vec::new(),
-                joints: Vec::new(),
-                greatest: None,
-                frequencies: Vec::new(),
-                load_factor: None,
-                control: None,
-                curve: Vec::new(),
-                events: Vec::new(),
-                joints_at_end: Vec::new(),
-            },
+            None => StateAnswer::without(asked.standing(), asked.options.quadrature),
         };
         let evidence = match &asked.track {
             Some(_) => certificate(model, &asked.rest),

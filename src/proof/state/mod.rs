@@ -225,7 +225,10 @@ impl Given<'_> {
             joints: dead,
             greatest,
             frequencies,
-            load_factor: self.bound.filter(|_| live).map(|b| PathFactor::new(self.end, track, b)),
+            load_factor: self
+                .bound
+                .filter(|_| live)
+                .map(|b| PathFactor::new(self.end, track, joints, b)),
             control: self.control.filter(|_| live).map(|(i, point)| Watched {
                 block: model.assembly.blocks[i].id.clone(),
                 point: point.into(),
@@ -332,6 +335,27 @@ fn greatest(displacements: &[Displacement], joints: &[JointAnswer]) -> Option<Gr
         opening: most(|j| j.opening),
         slip: most(|j| j.slip),
     })
+}
+
+impl StateAnswer {
+    /// Without a state: a verdict alone.
+    pub(crate) fn without(verdict: Verdict, quadrature: Quadrature) -> Self {
+        Self {
+            verdict,
+            proof: None,
+            quadrature,
+            residuals: None,
+            displacements: Vec::new(),
+            joints: Vec::new(),
+            greatest: None,
+            frequencies: Vec::new(),
+            load_factor: None,
+            control: None,
+            curve: Vec::new(),
+            events: Vec::new(),
+            joints_at_end: Vec::new(),
+        }
+    }
 }
 
 impl Answer {

@@ -100,21 +100,7 @@ fn without(file: &ResultFile, said: &StateAnswer) -> Findings {
         None => false,
     };
     require(&mut f, follows, "without a state the verdict is that of the dead load");
-    let bare = StateAnswer {
-        verdict: said.verdict,
-        proof: None,
-        quadrature: said.quadrature,
-        residuals: None,
-        displacements: Vec::new(),
-        joints: Vec::new(),
-        greatest: None,
-        frequencies: Vec::new(),
-        load_factor: None,
-        control: None,
-        curve: Vec::new(),
-        events: Vec::new(),
-        joints_at_end: Vec::new(),
-    };
+    let bare = StateAnswer::without(said.verdict, said.quadrature);
     require(&mut f, bare == *said, "without a state nothing is said of one");
     let evidence = Certificate { verified: Vec::new(), ..file.certificate.clone() };
     require(&mut f, evidence == Certificate::none(), "nothing else is claimed");

@@ -80,18 +80,19 @@ fn removals(a: &StagesAnswer, removable: &[String]) -> (String, Role) {
 /// The first line about an order.
 fn ordered(a: &StagesAnswer, order: &Order) -> (String, Role) {
     let least = order.least_held;
-    let Some(most) = a.most_held else {
-        let text =
-            format!("no order was found; with fewer than {least} held at a time there is none");
-        let open = if least > 0 { text } else { "no order was found".into() };
+    let open = match (a.most_held, least) {
+        (Some(_), _) if a.verdict == Verdict::Stable => None,
+        (Some(_), _) => Some(format!("undecided at {}", a.worst)),
+        (None, 0) => Some("no order was found".into()),
+        (None, n) => Some(format!("no order was found; with fewer than {n} held there is none")),
+    };
+    if let Some(open) = open {
         return match a.hands_do() {
             Some(false) => (hands(a, open), Role::Bad),
             _ => (open, Role::Unsure),
         };
-    };
-    if a.verdict != Verdict::Stable {
-        return (format!("undecided at {}", a.worst), Role::Unsure);
     }
+    let most = a.most_held.unwrap_or_default();
     let this = if order.given { "in the order given" } else { "in the order below" };
     let with = match most {
         0 => "with nothing held".into(),
