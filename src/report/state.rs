@@ -101,8 +101,8 @@ fn line(curve: &[CurvePoint]) -> Option<Line> {
     })
 }
 
-/// A curve is drawn up to this share of its greatest load factor.
-const SHOWN: f64 = 0.98;
+/// A curve is drawn up to this share of its greatest load factor: beyond, ways grow a hundredfold.
+const SHOWN: f64 = 0.9;
 
 const X: &str = "way of the control point from the dead load on, m";
 const Y: &str = "load factor";

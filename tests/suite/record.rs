@@ -111,3 +111,21 @@ fn what_falls_has_no_used_joints() {
     assert!(page.contains("class=\"bad\"") && !page.contains("The most used joints"));
     assert!(page.contains("class=\"record\""));
 }
+
+/// The drawing of a film says what its frame is: a share of a movement is no time, and stages do not
+/// move at all.
+#[test]
+fn a_film_is_drawn_with_what_it_goes_along() {
+    let desk = tempfile::tempdir().unwrap();
+    let record = |arguments: &[&str]| {
+        let page = report(arguments, &desk.path().join("page.html"));
+        let record = page.split("class=\"record\"").nth(1).unwrap().to_string();
+        (page, record)
+    };
+    let settled =
+        record(&["settle", "structures/spreading-arch.json", "--move", "springer_right=0.02,0,0"]);
+    assert!(settled.contains("Share of the movement 1") && !settled.contains(">after "));
+    let (page, staged) = record(&["stages", "structures/a-frame-stands.json", "--any-order"]);
+    assert!(!staged.contains(">after ") && !staged.contains("where it was"));
+    assert!(page.contains("In which order can it be built"));
+}

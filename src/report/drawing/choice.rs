@@ -2,7 +2,6 @@
 
 use super::body::{Displacement, Solid, posed};
 use crate::{
-    number::seconds,
     report::view::{Body, Mark, View, ViewMotion, ViewPart, ViewPose, ViewShape, ViewState},
     tolerance::MECHANISM_REST,
 };
@@ -113,7 +112,8 @@ impl Movement {
     }
 
     fn in_time(view: &View) -> Option<Self> {
-        let frame = view.film.last()?;
+        // Stages come and go and do not move.
+        let frame = view.film.last().filter(|_| view.course.words.is_empty())?;
         let poses = || view.bodies.iter().zip(&frame.blocks);
         let displacements = |by: f64| -> Vec<Displacement> {
             let pose = |(b, p): (&Body, &crate::dynamics::Pose)| ViewPose {
@@ -141,7 +141,7 @@ impl Movement {
         let moves = lengths.iter().map(|l| *l > MOVED * view.size()).collect();
         let speeds = displacements.iter().map(|w| w.shift).collect();
         Some(Self {
-            name: format!("after {}{times}", seconds(frame.time)),
+            name: format!("{}{times}", view.course.at(frame.time)),
             displacements,
             moves,
             marks: Vec::new(),

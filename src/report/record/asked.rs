@@ -8,7 +8,10 @@ use crate::{
 
 /// The question in words, its number with unit and meaning, and the law of sliding.
 pub(super) fn facts(file: &ResultFile) -> Vec<[String; 2]> {
-    let (question, unit) = words(file.question);
+    let (question, unit) = match file.stages.as_ref().and_then(|s| s.order.as_ref()) {
+        Some(order) => ordered(order.given),
+        None => words(file.question),
+    };
     let mut list: Vec<[String; 2]> = vec![["question".into(), question.into()]];
     if let Some(value) = value(file) {
         list.push(["answer".into(), value]);
@@ -57,6 +60,19 @@ fn value(file: &ResultFile) -> Option<String> {
         "" => format!("{name} = {text}, a number without a unit"),
         unit => format!("{name} = {text}, in {unit}"),
     })
+}
+
+/// Of an order in which blocks are placed.
+fn ordered(given: bool) -> (&'static str, &'static str) {
+    let question = match given {
+        true => "How many blocks have to be held at a time to build it in the order given?",
+        false => "In which order can it be built with as few blocks held at a time as can be?",
+    };
+    (
+        question,
+        "Every stage is a scene of its own, with its own verdict and proof. That fewer held do not do \
+         is the outcome of a search, not of a proof.",
+    )
 }
 
 /// The question, and what its number is.

@@ -3,6 +3,7 @@
 use crate::{
     dynamics::{Fidelity, Frame, Pose},
     interface::Model,
+    number::{seconds, short},
     path::saved::read_poses,
     proof::{
         path::{DrivenBy, PathResult},
@@ -30,11 +31,14 @@ pub struct Course {
     pub hidden: Vec<Vec<bool>>,
 }
 
+/// What the frames of a simulation are numbered by.
+const TIME: &str = "Time";
+
 impl Default for Course {
     fn default() -> Self {
         Self {
             name: "simulation".into(),
-            quantity: "Time",
+            quantity: TIME,
             unit: "s",
             way: "way in the simulation",
             opens: None,
@@ -45,6 +49,15 @@ impl Default for Course {
 }
 
 impl Course {
+    /// A frame in words, by its number.
+    pub fn at(&self, value: f64) -> String {
+        match (self.quantity, self.unit) {
+            (TIME, _) => format!("after {}", seconds(value)),
+            (what, "") => format!("{what} {}", short(value)),
+            (what, unit) => format!("{what} {} {unit}", short(value)),
+        }
+    }
+
     /// That of a path.
     pub fn of(path: &PathResult) -> Self {
         let (quantity, unit) = match path.driven_by {
