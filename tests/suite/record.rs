@@ -122,10 +122,21 @@ fn a_film_is_drawn_with_what_it_goes_along() {
         let record = page.split("class=\"record\"").nth(1).unwrap().to_string();
         (page, record)
     };
-    let settled =
+    let (_, settled) =
         record(&["settle", "structures/spreading-arch.json", "--move", "springer_right=0.02,0,0"]);
     assert!(settled.contains("Share of the movement 1") && !settled.contains(">after "));
     let (page, staged) = record(&["stages", "structures/a-frame-stands.json", "--any-order"]);
     assert!(!staged.contains(">after ") && !staged.contains("where it was"));
     assert!(page.contains("In which order can it be built"));
+}
+
+/// Where joints yield their stiffness is listed, and what came out stands beside the question.
+#[test]
+fn stiffness_is_listed_where_there_is_one() {
+    let desk = tempfile::tempdir().unwrap();
+    let page = report(&["state", "structures/block-on-bed.json"], &desk.path().join("page.html"));
+    let laws = &table(&page, "normal stiffness")[0];
+    assert_eq!(laws[8..], ["1 GPa/m", "400 MPa/m"]);
+    let asked = page.split("class=\"rows asked\"").nth(1).unwrap();
+    assert!(asked.contains("λ = 19.620000 along the path, the proved bound"));
 }

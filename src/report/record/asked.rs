@@ -1,8 +1,11 @@
 //! What was asked, and what the number of the answer means.
 
 use crate::{
-    number::{bracketed, count, ends},
-    proof::result::{QuestionKind as Kind, ResultFile},
+    number::{bracketed, count, ends, fixed, short},
+    proof::{
+        result::{QuestionKind as Kind, ResultFile},
+        state::StateAnswer,
+    },
     terms::Law,
 };
 
@@ -38,6 +41,9 @@ pub(super) fn facts(file: &ResultFile) -> Vec<[String; 2]> {
 
 /// The number with its bracket, where there is one.
 fn value(file: &ResultFile) -> Option<String> {
+    if let Some(state) = file.answer.state() {
+        return yields(state);
+    }
     let said = file.answer.load_factor()?;
     let (value, lower, upper) = (said.value?, said.lower?, said.upper?);
     let (text, unit) = match file.question {
@@ -59,6 +65,28 @@ fn value(file: &ResultFile) -> Option<String> {
     Some(match unit {
         "" => format!("{name} = {text}, a number without a unit"),
         unit => format!("{name} = {text}, in {unit}"),
+    })
+}
+
+/// How far the path of a state goes, or how far blocks move.
+fn yields(state: &StateAnswer) -> Option<String> {
+    let greatest = state.greatest.as_ref()?;
+    let moved = format!(
+        "displacement of up to {} m under the dead load, of {}",
+        short(greatest.displacement),
+        greatest.block
+    );
+    Some(match state.load_factor.and_then(|l| Some((l.value?, l.slides))) {
+        None => moved,
+        Some((value, true)) => {
+            format!(
+                "λ = {} along the path, the greatest at which a state was found; {moved}",
+                fixed(value, 6)
+            )
+        }
+        Some((value, false)) => {
+            format!("λ = {} along the path, the proved bound; {moved}", fixed(value, 6))
+        }
     })
 }
 

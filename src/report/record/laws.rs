@@ -17,6 +17,8 @@ pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
     }
     // Where every joint has a strength of its own, the list is as long as that of the joints.
     laws.sort_by_key(|l| std::cmp::Reverse(l.1));
+    // Stiffness is looked at by `state` alone, and not given otherwise.
+    let yields = laws.iter().any(|l| l.0.normal_stiffness.or(l.0.shear_stiffness).is_some());
     let row = |(law, count, area): &(JointLaw, usize, f64)| {
         let mu = law.friction.mu();
         let stress = |v: f64| if v == 0.0 { "0".into() } else { quantity(v, "Pa") };
@@ -25,7 +27,8 @@ pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
         } else {
             "no sliding".into()
         };
-        vec![
+        let stiffness = |v: Option<f64>| v.map_or("–".into(), |v| quantity(v, "Pa/m"));
+        let mut cells = vec![
             count.to_string(),
             short(*area),
             friction,
@@ -38,9 +41,13 @@ pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
             } else {
                 format!("{} m", short(law.rolling_arm))
             },
-        ]
+        ];
+        if yields {
+            cells.extend([law.normal_stiffness, law.shear_stiffness].map(stiffness));
+        }
+        cells
     };
-    let columns = [
+    let mut columns = vec![
         "#joints",
         "#area, m²",
         "#friction μ (angle)",
@@ -50,6 +57,9 @@ pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
         "#pore pressure",
         "#rolling arm",
     ];
+    if yields {
+        columns.extend(["#normal stiffness", "#shear stiffness"]);
+    }
     let note =
         "Strengths as the scene gives them; 0 and “no limit” are what holds where it gives none.";
     (!model.interfaces.list.is_empty()).then(|| {

@@ -16,6 +16,8 @@ struct Sum {
     volume: f64,
     mass: f64,
     density: [f64; 2],
+    /// Young's modulus (Pa) and Poisson's ratio, where it has them.
+    elastic: Option<[f64; 2]>,
 }
 
 /// The section about what the scene is made of.
@@ -29,12 +31,14 @@ pub(super) fn section(model: &Model) -> Section {
             volume: 0.0,
             mass: 0.0,
             density: [f64::INFINITY, 0.0],
+            elastic: block.elastic.map(|e| [e.young, e.poisson]),
         });
         let density = block.mass / volume;
         (sum.blocks, sum.volume, sum.mass) =
             (sum.blocks + 1, sum.volume + volume, sum.mass + block.mass);
         sum.density = [sum.density[0].min(density), sum.density[1].max(density)];
     }
+    let elastic = sums.values().any(|s| s.elastic.is_some());
     let row = |(name, s): (&&str, &Sum)| {
         let name = if name.is_empty() { "no name" } else { name };
         let density = if s.density[1] - s.density[0] <= 1e-9 * s.density[1] {
@@ -42,8 +46,19 @@ pub(super) fn section(model: &Model) -> Section {
         } else {
             format!("{} to {}", short(s.density[0]), short(s.density[1]))
         };
-        vec![name.into(), s.blocks.to_string(), density, short(s.volume), short(s.mass)]
+        let mut cells =
+            vec![name.into(), s.blocks.to_string(), density, short(s.volume), short(s.mass)];
+        if elastic {
+            let none = || ["–".to_string(), "–".to_string()];
+            cells.extend(s.elastic.map_or_else(none, |[e, nu]| [quantity(e, "Pa"), short(nu)]));
+        }
+        cells
     };
+    let mut columns =
+        vec!["material", "#free blocks", "#density, kg/m³", "#volume, m³", "#mass, kg"];
+    if elastic {
+        columns.extend(["#Young's modulus", "#Poisson's ratio"]);
+    }
     let mass: f64 = sums.values().map(|s| s.mass).sum();
     let g = assembly.gravity.norm();
     let mut parts = vec![
@@ -56,7 +71,7 @@ pub(super) fn section(model: &Model) -> Section {
             ],
         ]),
         Part::table(
-            &["material", "#free blocks", "#density, kg/m³", "#volume, m³", "#mass, kg"],
+            &columns,
             sums.iter().map(row).collect(),
             "Density is mass over volume as it counts, whether the scene gives it by material, by block or as a mass.",
         ),
