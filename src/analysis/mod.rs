@@ -18,7 +18,6 @@ mod known;
 pub mod limit;
 mod mend;
 pub mod moving;
-mod order;
 mod parts;
 mod proved;
 pub mod question;

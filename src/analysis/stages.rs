@@ -9,13 +9,13 @@
 //! several stages have alike is answered once, and its proof checked in each.
 
 mod options;
+mod order;
 
 pub use options::{MOST_TRIES, StagesOptions};
 
 use super::{
     Answer, Assessment, Control, LimitOptions, Proved, Question, TiltOptions, ask, doubt,
     known::Known,
-    order,
     thrust::{ThrustEnd, level, outwards, thrust},
 };
 use crate::{

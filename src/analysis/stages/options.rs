@@ -27,8 +27,8 @@ pub struct StagesOptions {
     /// So many blocks can be held at a time; any number where nothing is said.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hands: Option<usize>,
-    /// Sets of blocks that the search for the least holds looks at, at most; 5000 where nothing is
-    /// said.
+    /// Sets of blocks that the search for the least holds looks at, at most, for every structure that
+    /// stands by itself; 5000 where nothing is said.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tries: Option<usize>,
     /// Tilts towards these directions, where a stage has no live load.

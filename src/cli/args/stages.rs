@@ -30,7 +30,8 @@ pub struct Stages {
     /// number].
     #[arg(long, value_name = "N", requires = "asks_order")]
     pub hands: Option<usize>,
-    /// Sets of blocks that the search for the least holds looks at, at most [default: 5000].
+    /// Sets of blocks that the search for the least holds looks at, at most, of every structure
+    /// that stands by itself [default: 5000].
     #[arg(long, value_name = "N", requires = "asks_order", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub tries: Option<u32>,
     /// Tilts towards this direction (its part across gravity); may be given several times.

@@ -5,11 +5,11 @@
 //! held is a hitting set: a mechanism goes on as long as none of the blocks that move in it is held.
 //! Parts that do not touch are asked for themselves, once each.
 //!
-//! That a set stands is proved afterwards, as a stage ([`super::stages`]). That no order does with
+//! That a set stands is proved afterwards, as a stage ([`super`]). That no order does with
 //! fewer holds is the outcome of a search through all of them: computed, not proved.
 
-use super::{Control, known::Known};
 use crate::{
+    analysis::{Control, known::Known},
     assembly::{Placed, Stage},
     error::InputError,
     interface::{Model, at_stage},
