@@ -339,6 +339,13 @@ fn places_directions_neighbours_and_densities_do_not_matter() {
     let mut turned = beside_scene.clone();
     turned["loads"]["live"] = moment;
     assert!(!turns(&turned), "what slides beside it takes no part");
+    // Pressed without an end it is followed as far.
+    let down = load([0.0, 0.0, -1000.0], [0.0, 0.0, 2.0]);
+    let alone = state(bed(1e9, 4e8, down.clone())).load_factor.unwrap();
+    turned["loads"]["live"] = down["live"].clone();
+    let reached = state(turned).load_factor.unwrap().reached;
+    assert_eq!(alone.end, PathEnd::Unbounded);
+    same("end", reached, alone.reached, alone.reached);
     assert!(beside.joints.iter().any(|j| j.grip != Grip::Sticks), "{:?}", beside.joints);
     for f in &one.frequencies {
         assert!(

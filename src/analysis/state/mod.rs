@@ -25,6 +25,7 @@ use crate::{
 };
 use nalgebra::Vector3;
 use newton::Newton;
+use std::collections::BTreeSet;
 
 /// The answer of `state`.
 #[derive(Clone, Debug)]
@@ -122,7 +123,7 @@ pub(super) fn state(
         let asked = limit(model, &associative);
         let top = match asked.outcome {
             Outcome::Found => Some(asked.value),
-            Outcome::Unbounded => Some(WITHOUT_END * check::natural_factor(&model.assembly)),
+            Outcome::Unbounded => Some(WITHOUT_END * both_weigh(model, &joints)),
             Outcome::Impossible | Outcome::Undecided => None,
         };
         end = match top {
@@ -153,6 +154,17 @@ pub(super) fn state(
         end,
         steps,
     })
+}
+
+/// The load factor at which live and dead load weigh the same, on the structures that the live load
+/// acts on.
+fn both_weigh(model: &Model, joints: &Joints) -> f64 {
+    let mut assembly = model.assembly.clone();
+    let loaded = joints.list.iter().zip(&joints.loaded).filter(|(_, loaded)| **loaded);
+    let there: BTreeSet<usize> = loaded.flat_map(|(joint, _)| joint.free.clone()).collect();
+    let beside = |i: &usize| !there.contains(i);
+    (0..assembly.dead.len()).filter(beside).for_each(|i| assembly.dead[i] = Wrench::zero());
+    check::natural_factor(&assembly)
 }
 
 /// The block with the greatest live load, and its centre of mass.
