@@ -135,6 +135,8 @@ fn a_film_is_drawn_with_what_it_goes_along() {
 fn stiffness_is_listed_where_there_is_one() {
     let desk = tempfile::tempdir().unwrap();
     let page = report(&["state", "structures/block-on-bed.json"], &desk.path().join("page.html"));
+    // Rounding is no force.
+    assert_eq!(table(&page, "joint")[0][2], "0 N");
     let laws = &table(&page, "normal stiffness")[0];
     assert_eq!(laws[8..], ["1 GPa/m", "400 MPa/m"]);
     let asked = page.split("class=\"rows asked\"").nth(1).unwrap();

@@ -49,6 +49,10 @@ pub(super) fn sections(model: &Model, view: &View) -> Vec<Section> {
     vec![Section::new("The most used joints", parts.collect())]
 }
 
+/// Shear below this share of the normal force is rounding. More: what is there is not shown. Less:
+/// forces of nothing are.
+const ROUNDING: f64 = 1e-9;
+
 fn table(model: &Model, view: &View, state: &ViewState) -> Part {
     let mut uses: Vec<Use> = state
         .resultants
@@ -63,10 +67,11 @@ fn table(model: &Model, view: &View, state: &ViewState) -> Part {
     let row = |u: &Use| {
         let joint = &view.joints[u.joint];
         let name = |i: usize| view.bodies[i].id.as_str();
+        let shear = if u.at.shear > ROUNDING * u.at.normal { u.at.shear } else { 0.0 };
         vec![
             format!("{} | {}", name(joint.a), name(joint.b)),
             quantity(u.at.normal, "N"),
-            quantity(u.at.shear, "N"),
+            quantity(shear, "N"),
             if joint.area > 0.0 { format!("{:.3}", 0.5 * u.at.used) } else { "–".into() },
             percent(u.shares[0]),
             percent(u.shares[1]),

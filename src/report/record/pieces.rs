@@ -82,7 +82,7 @@ pub(super) fn section(model: &Model) -> Section {
         .filter(|b| b.support)
         .map(|b| vec![b.id.clone(), point(b.centroid.into())])
         .collect();
-    let note = "Supports are held: they neither move nor give way.";
+    let note = "Supports do not give way; where the question moves them they go as it says.";
     parts.push(Part::table(&["support", "centre, m"], listed(supports, SUPPORTS), note));
     Section::new("Blocks, materials, supports", parts)
 }
