@@ -145,6 +145,11 @@ pub const ON_FACE: f64 = 1e-4;
 /// coordinates no longer fit.
 pub const COORDINATE_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// Where contacts form no closed chain, a resultant within this × the size of a contact of its edge,
+/// or within this × its own size of the edge of friction, is left to the programs. Larger: piles
+/// that are plain cost a program. Smaller: the rounding of long sums decides.
+pub const FOREST_EDGE: f64 = 1e-9;
+
 /// Gaps and overlaps below this × the smaller block's size are rounding: closed without a word.
 /// Larger: gaps somebody drew are closed silently. Smaller: every rotated scene reports gaps.
 pub const GAP_WORTH_TELLING: f64 = 1e-9;

@@ -11,6 +11,7 @@ mod heap;
 mod import;
 #[path = "../../src/memory.rs"]
 mod memory;
+mod piles;
 mod scene;
 mod sweep;
 mod wait;
@@ -28,6 +29,7 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_class::<answer::Answer>()?;
     module.add_class::<sweep::Rows>()?;
     module.add_class::<heap::Heaps>()?;
+    module.add_class::<piles::Piles>()?;
     module.add_function(wrap_pyfunction!(ask::ask, module)?)?;
     module.add_function(wrap_pyfunction!(ask::is_result, module)?)?;
     module.add_function(wrap_pyfunction!(batch::ask_many, module)?)?;

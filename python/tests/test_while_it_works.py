@@ -133,6 +133,35 @@ def test_batches_are_the_single_answers() -> None:
     assert (many.margins[~many.stands] < -1e-6).all() and not many.errors
 
 
+def test_piles_from_arrays_are_scenes() -> None:
+    scene = voussoir.Scene("shapes", friction=0.6, density=2400)
+    scene.box("ground", (4, 4, 0.2), support=True).box("brick", (0.4, 0.4, 0.2))
+    piles = voussoir.Piles(scene)
+    assert piles.shapes == ["ground", "brick"]
+    shifts = np.linspace(0, 0.06, 14)
+    which = np.tile([0] + [1] * 10, (14, 1))
+    at = np.zeros((14, 11, 3))
+    at[:, 0, 2] = -0.1
+    at[:, 1:, 2] = 0.1 + 0.2 * np.arange(10)
+    at[:, 1:, 0] = shifts[:, None] * np.arange(10)
+    turn = np.tile([1.0, 0, 0, 0], (14, 11, 1))
+    told = piles.assess(which, at, turn, margin=True, threads=2)
+    assert told.stands.tolist() == [bool(5 * shift < 0.2) for shift in shifts]
+    assert set(told.by) == {"statics"} and not told.errors and len(told.to_pandas()) == 14
+    # The pile of ten tips about its foot: half its width less the way of its centre, over its height.
+    expected = np.minimum((0.2 - 4.5 * shifts) / 1.0, 0.6)
+    assert (told.margins[told.stands] <= expected[told.stands] + 1e-12).all()
+    assert told.margins[0] == pytest.approx(0.2, rel=1e-12)
+    which[0, 10], which[1, 3], at[2, 5, 1] = -1, 7, np.nan
+    told = piles.assess(which, at, masses=np.where(which == 1, 5.0, 1.0), margin=True)
+    assert told.margins[0] == pytest.approx(0.2 / 0.9, rel=1e-12)
+    assert sorted(told.errors) == [1, 2] and "shape" in told.errors[1] and "pose" in told.errors[2]
+    with pytest.raises(ValueError, match="at has the shape"):
+        piles.assess(which, at[:, :3])
+    with pytest.raises(voussoir.InputError, match="loads"):
+        voussoir.Piles(scene.load("live", block="brick", force=(1, 0, 0)))
+
+
 def test_margins_of_batches() -> None:
     unknown = pile(0.0, 1).joint(blocks=("b0", "nobody"), friction=0.1)
     many = voussoir.assess_many([pile(0.0, 4), pile(0.0, 8), unknown], margin="tilt", toward=(1, 0))

@@ -6,6 +6,7 @@ use super::{
     Bracket, Deciding, Proved,
     attempt::{Control, Rung, is_large, run, steps},
     coulomb::{State, StateMotion, state},
+    forest::{Fate, Forest},
     mend, parts,
 };
 use crate::{
@@ -106,6 +107,9 @@ pub(super) fn of_part(model: &Model, control: &Control) -> Assessment {
     if let Some(answer) = falls_freely(model) {
         return answer;
     }
+    if let Some(answer) = by_statics(model, control.law) {
+        return answer;
+    }
     let mut answer = least_unbalance(model, LiveLoad::Absent, control);
     answer.floating = floating(model);
     if answer.verdict == Verdict::Stable && control.law == Law::Coulomb {
@@ -113,6 +117,61 @@ pub(super) fn of_part(model: &Model, control: &Control) -> Assessment {
     }
     answer
 }
+
+/// A state at rest is forces that balance, to be checked: nothing else need be asked of its part.
+/// Nothing where they do not.
+pub(super) fn rests(model: &Model, state: State) -> Option<Assessment> {
+    let balance = certificate::statics(model, &state.forces, 0.0);
+    (balance.balanced && holds(model, &state.forces)).then(|| Assessment {
+        verdict: Verdict::Stable,
+        left_out: vec!["the least unbalance: the state rests on forces that balance".into()],
+        state: Some(state.clone()),
+        ..from_forces(model, state.forces, [0.0, balance.unbalance])
+    })
+}
+
+/// Whether forces prove that it stands.
+fn holds(model: &Model, forces: &Forces) -> bool {
+    check::verify(model, &Claim::Stable, Evidence::new(forces, &[])).proved()
+}
+
+/// An answer that says nothing yet but these forces and the ends of the least unbalance.
+pub(super) fn from_forces(model: &Model, forces: Forces, [lower, upper]: [f64; 2]) -> Assessment {
+    Assessment {
+        verdict: Verdict::Undecided,
+        unbalance: Bracket { lower, upper },
+        threshold: tolerance::UNBALANCE,
+        part: None,
+        forces,
+        load_factor: 0.0,
+        rates: vec![Rate::zero(); model.assembly.blocks.len()],
+        mechanism: None,
+        state: None,
+        floating: Vec::new(),
+        attempts: Vec::new(),
+        left_out: Vec::new(),
+    }
+}
+
+/// Where contacts form no closed chain, and each can carry what it has to, statics alone has the
+/// forces. What falls is left to the program, whose mechanism is the one of the least unbalance.
+fn by_statics(model: &Model, law: Law) -> Option<Assessment> {
+    let forest = Forest::of(model)?;
+    let forces = (forest.fate() == Fate::Stands).then(|| forest.forces())??;
+    let balance = certificate::statics(model, &forces, 0.0);
+    (balance.balanced && holds(model, &forces)).then(|| Assessment {
+        verdict: Verdict::Stable,
+        left_out: match law {
+            Law::Associative => vec![format!("the program: {STATICS_ALONE}")],
+            Law::Coulomb => vec![format!("{NO_STATE_NEEDED}, and any program: {STATICS_ALONE}")],
+        },
+        ..from_forces(model, forces.clone(), [0.0, balance.unbalance])
+    })
+}
+
+/// Why a scene without closed chains needs no program.
+const STATICS_ALONE: &str =
+    "contacts form no closed chain, so statics alone fixes what each one carries";
 
 /// How the line begins that says that program C was left out.
 pub(super) const NO_STATE_NEEDED: &str = "the state under dry friction";
@@ -123,7 +182,7 @@ const MEMBERS_YIELD: &str = "the stiffness of members against that of the joints
 /// Admissible forces exist: are they such as the loads produce?
 fn settle(model: &Model, control: &Control, answer: &mut Assessment) {
     if is_forest(model) {
-        answer.left_out.push(format!("{NO_STATE_NEEDED}: contacts form no closed chain, so statics alone fixes what each one carries"));
+        answer.left_out.push(format!("{NO_STATE_NEEDED}: {STATICS_ALONE}"));
         return;
     }
     if !model.interfaces.members.is_empty() {
@@ -195,18 +254,8 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
     let zero = no_forces(interfaces);
     let unloaded = certificate::statics(model, &zero, 0.0);
     let mut answer = Assessment {
-        verdict: Verdict::Undecided,
-        unbalance: Bracket { lower: 0.0, upper: unloaded.unbalance },
-        threshold: tolerance::UNBALANCE,
-        part: None,
-        forces: zero,
-        load_factor: 0.0,
-        rates: vec![Rate::zero(); assembly.blocks.len()],
-        mechanism: None,
-        state: None,
-        floating: Vec::new(),
-        attempts: Vec::new(),
         left_out: base.left_out.clone(),
+        ..from_forces(model, zero, [0.0, unloaded.unbalance])
     };
     let mut balanced = unloaded.balanced;
     // Bounds on crushing that one rung found hold for all.
@@ -296,9 +345,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         sections = statics.sections;
         let b = answer.unbalance;
         // Re-added without rounding, or the next attempt.
-        let holds =
-            |f: &Forces| check::verify(model, &Claim::Stable, Evidence::new(f, &[])).proved();
-        answer.verdict = if balanced && (live != LiveLoad::Absent || holds(&answer.forces)) {
+        answer.verdict = if balanced && (live != LiveLoad::Absent || holds(model, &answer.forces)) {
             Verdict::Stable
         } else if b.lower > tolerance::UNBALANCE {
             Verdict::Unstable

@@ -11,6 +11,7 @@ pub mod critical;
 pub mod doubt;
 pub mod flip;
 pub mod follow;
+mod forest;
 pub mod geometric;
 mod in_time;
 pub mod kinematic;
@@ -19,6 +20,7 @@ pub mod limit;
 mod mend;
 pub mod moving;
 mod parts;
+pub mod piles;
 mod proved;
 pub mod question;
 #[cfg(feature = "dynamics")]

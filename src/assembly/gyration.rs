@@ -7,7 +7,7 @@
 //! gyration.
 
 use crate::tolerance;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// The root of a block's inertia over its mass, and its inverse.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +30,12 @@ impl Gyration {
         let v = &eigen.eigenvectors;
         let with = |d: Vector3<f64>| tidy(v * Matrix3::from_diagonal(&d) * v.transpose());
         Self { root: with(radii), inverse: with(radii.map(f64::recip)), least: radii.min() }
+    }
+
+    /// Of the same block after a turn.
+    pub fn turned(&self, by: &Rotation3<f64>) -> Self {
+        let with = |m: &Matrix3<f64>| tidy(by.matrix() * m * by.matrix().transpose());
+        Self { root: with(&self.root), inverse: with(&self.inverse), least: self.least }
     }
 
     /// The same in units of `length`, m.

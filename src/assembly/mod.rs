@@ -11,6 +11,7 @@ mod plausible;
 mod polyhedron;
 mod pose;
 mod resolve;
+mod shelf;
 mod stage;
 
 pub use gyration::Gyration;
@@ -22,6 +23,7 @@ pub use resolve::{
     Blocks, asked_stages, named_blocks, resolve, resolve_blocks, resolve_until, resolve_with,
     stages, with_loads,
 };
+pub use shelf::{Put, Shelf};
 pub use stage::{AskedStages, Placed, Stage};
 
 use crate::{

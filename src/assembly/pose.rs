@@ -1,6 +1,6 @@
 //! Blocks somewhere else: rigid motions of any size, and what they make of blocks and loads.
 
-use super::{AppliedForce, Assembly, Block, Gyration, Polyhedron, Solid, Wrench};
+use super::{AppliedForce, Assembly, Block, Polyhedron, Solid, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// Where a block has come since the start: `x ↦ c + shift + R (x − c)` with `c` its centre of mass
@@ -49,11 +49,7 @@ impl Block {
                 volume: *volume,
             },
         };
-        let gyration = if self.mass > 0.0 {
-            Gyration::new(&inertia, self.mass)
-        } else {
-            self.gyration.clone()
-        };
+        let gyration = self.gyration.turned(&r);
         Self { centroid: self.centroid + pose.shift, inertia, gyration, solid, ..self.clone() }
     }
 }

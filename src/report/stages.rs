@@ -28,16 +28,6 @@ fn said(file: &ResultFile) -> Result<&StagesResult, PathError> {
     file.stages.as_ref().ok_or_else(|| PathError::new("this is no result of `stages`"))
 }
 
-/// A verdict as files have it.
-fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Stable => "stable",
-        Verdict::Conditional => "conditional",
-        Verdict::Unstable => "unstable",
-        Verdict::Undecided => "undecided",
-    }
-}
-
 /// The stages, a row each: name, verdict, least unbalance (lower and upper end, g), blocks, held
 /// blocks, load factor and tilt (degrees), each with its ends, and the least force (N) down on all
 /// that is held, one by one.
@@ -70,7 +60,7 @@ pub fn csv(file: &ResultFile) -> Result<String, PathError> {
     for (k, s) in said(file)?.list.iter().enumerate() {
         let unbalance = s.verdict.answer.as_verdict().map(|v| v.unbalance);
         let mut row: Vec<Cell> =
-            vec![(k + 1).into(), s.name.clone().into(), word(s.stands()).into()];
+            vec![(k + 1).into(), s.name.clone().into(), s.stands().word().into()];
         row.extend([unbalance.map(|u| u.lower).into(), unbalance.map(|u| u.upper).into()]);
         row.extend([s.blocks.into(), s.held.join("; ").into()]);
         row.extend(ends(s.load_factor()));
@@ -105,7 +95,7 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
     let numbered = || result.list.iter().enumerate();
     let hint = |(k, s): (usize, &StageResult)| {
         let margin = value(s).map_or(String::new(), |v| format!(", {}", short(v)));
-        format!("{}. {}: {}{margin}", k + 1, s.name, word(s.stands()))
+        format!("{}. {}: {}{margin}", k + 1, s.name, s.stands().word())
     };
     let stands = Series {
         name: name.into(),

@@ -37,6 +37,18 @@ pub enum Verdict {
     Undecided,
 }
 
+impl Verdict {
+    /// As written in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Conditional => "conditional",
+            Self::Unstable => "unstable",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
 /// What acts on block `b` at each contact point of each interface: force, N, and couple about that
 /// point, N·m (zero unless the joint has a rolling arm). After the interfaces one entry for each
 /// member, of one wrench whose force holds its amounts, N ([`member`]).

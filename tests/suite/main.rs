@@ -41,6 +41,7 @@ mod path;
 mod path_members;
 mod path_slides;
 mod pictures;
+mod piles;
 mod published;
 mod readme;
 mod real;

@@ -49,6 +49,7 @@ from ._ask import (
 from ._core import __version__
 from ._errors import InputError, SceneWarning, TimeIsUp, VoussoirError
 from ._many import Heaps, Inspection, Many, Sweep, assess_many, check, heaps, sweep
+from ._piles import Piled, Piles
 from ._scene import Scene, load, load_foreign
 
 __all__ = [
@@ -75,6 +76,8 @@ __all__ = [
     "Moving",
     "Packing",
     "Path",
+    "Piled",
+    "Piles",
     "Rates",
     "Scene",
     "SceneWarning",

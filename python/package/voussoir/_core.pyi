@@ -16,6 +16,7 @@ __all__ = [
     "Answer",
     "Rows",
     "Heaps",
+    "Piles",
     "ask",
     "is_result",
     "ask_many",
@@ -117,6 +118,23 @@ class Heaps:
     def json(self) -> str: ...
     def text(self, brief: bool = False) -> str: ...
     def scenes(self) -> list[Scene]: ...
+
+@final
+class Piles:
+    """Shapes made ready."""
+    def __new__(cls, scene: Scene) -> Piles: ...
+    def ids(self) -> list[str]: ...
+    def ask(
+        self,
+        which: npt.NDArray[np.int64],
+        at: _Array,
+        turn: _Array | None,
+        masses: _Array | None,
+        *,
+        margin: bool = False,
+        threads: int = 0,
+        progress: Callable[[float, float, str], object] | None = None,
+    ) -> tuple[list[str], _Array, _Array, list[str], list[tuple[int, str]]]: ...
 
 def is_result(text: str) -> bool: ...
 def ask_many(

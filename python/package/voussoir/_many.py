@@ -265,8 +265,13 @@ class Heaps:
 
     @property
     def angle_deg(self) -> float | None:
-        """Mean angle of the heaps at rest, degrees."""
+        """Mean angle of the heaps, degrees; None where one of them has none: see ``no_angle``."""
         return self._data.get("angle_deg")
+
+    @property
+    def no_angle(self) -> str | None:
+        """Why there is no angle of repose; None where there is one."""
+        return self._data.get("no_angle")
 
     @property
     def spread_deg(self) -> tuple[float, float] | None:
@@ -297,7 +302,16 @@ class Heaps:
         """One row a heap."""
         import pandas
 
-        keys = ("seed", "rested", "grains", "discarded", "angle_deg", "r_squared", "avalanche_deg")
+        keys = (
+            "seed",
+            "rested",
+            "grains",
+            "discarded",
+            "angle_deg",
+            "no_angle",
+            "r_squared",
+            "avalanche_deg",
+        )
         rows = [{key: heap.get(key) for key in keys} for heap in self._data["heaps"]]
         frame = pandas.DataFrame(rows, columns=list(keys))
         frame["margin_deg"] = self.margins_deg

@@ -1,0 +1,135 @@
+//! Many small assemblies from numbers, without a file between two of them: does it stand, and how
+//! much horizontal acceleration does it bear in every direction?
+//!
+//! Shapes are made ready once ([`Shelf`]); a pile names them and their places. Where contacts form
+//! no closed chain, statics alone decides (`analysis::forest`), in microseconds; elsewhere the state on
+//! compliant contacts is looked at first, which is proof enough where nothing slides and where all
+//! that moves opens, and the ladder of `assess` is climbed where it is none. Verdicts are those of [`assess`](super::assess()).
+
+mod compliant;
+mod margin;
+
+use super::{
+    Assessment, Bracket, Control, Proved, assess,
+    forest::{Fate, Forest},
+    parts,
+};
+use crate::{
+    assembly::{Put, Shelf},
+    error::{Finding, InputError},
+    interface::{self, Model, is_forest},
+    scene::Scene,
+    verdict::Verdict,
+};
+
+pub use margin::{MOST_DIRECTIONS, WITHIN};
+
+/// Shapes made ready, and what is asked of each pile of them.
+#[derive(Clone, Debug)]
+pub struct Piles {
+    shelf: Shelf,
+    /// How joints slide, and when to stop.
+    pub control: Control,
+    /// Ask for the margin.
+    pub margin: bool,
+}
+
+/// The answer about one pile.
+#[derive(Clone, Debug)]
+pub struct Pile {
+    /// Does it stand?
+    pub verdict: Verdict,
+    /// The greatest horizontal acceleration, in g, that it bears in every direction, where that was
+    /// asked and it stands: admissible forces exist up to the lower end (as `limit` means it), and
+    /// in some direction none do beyond the upper one.
+    pub margin: Option<Bracket>,
+    /// What decided.
+    pub by: Decided,
+    /// What was found about the contacts.
+    pub findings: Vec<Finding>,
+}
+
+/// What decided about a pile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Decided {
+    /// Statics alone: contacts form no closed chain.
+    Statics,
+    /// A program, its answer checked on the scene.
+    Program,
+}
+
+impl Decided {
+    /// One word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Statics => "statics",
+            Self::Program => "program",
+        }
+    }
+}
+
+impl Piles {
+    /// Takes the blocks of a scene as shapes, with its materials, joints, gravity and contact
+    /// tolerances.
+    ///
+    /// # Errors
+    /// The scene cannot be resolved, or says something about single blocks that are there (see
+    /// [`Shelf::new`]).
+    pub fn new(scene: &Scene) -> Result<Self, InputError> {
+        let shelf = Shelf::new(crate::assembly::resolve(scene)?)?;
+        Ok(Self { shelf, control: Control::default(), margin: false })
+    }
+
+    /// The shapes.
+    pub fn shelf(&self) -> &Shelf {
+        &self.shelf
+    }
+
+    /// The model of a pile, for every other question.
+    ///
+    /// # Errors
+    /// As [`Shelf::put`]; a joint of which nobody says how it resists.
+    pub fn model(&self, list: &[Put]) -> Result<Model, InputError> {
+        let assembly = self.shelf.put(list)?;
+        let interfaces = interface::detect(&assembly)?;
+        Ok(Model::new(assembly, interfaces))
+    }
+
+    /// Whether a pile stands, and its margin where that is asked.
+    ///
+    /// # Errors
+    /// As [`Self::model`].
+    pub fn ask(&self, list: &[Put]) -> Result<Pile, InputError> {
+        let mut model = self.model(list)?;
+        let findings = std::mem::take(&mut model.interfaces.findings);
+        if let Some(forest) = Forest::of(&model) {
+            let fate = forest.fate();
+            if fate != Fate::TooClose {
+                let stands = fate == Fate::Stands;
+                return Ok(Pile {
+                    verdict: if stands { Verdict::Stable } else { Verdict::Unstable },
+                    margin: (self.margin && stands).then(|| forest.margin()),
+                    by: Decided::Statics,
+                    findings,
+                });
+            }
+        }
+        let answer = Proved::new(
+            &model,
+            parts::assess::assess_by(&model, &self.control, &|p, c| quickly(&p.model, c)),
+        );
+        let verdict = answer.verdict;
+        let margin = (self.margin && verdict == Verdict::Stable)
+            .then(|| margin::margin(&model, &self.control));
+        Ok(Pile { verdict, margin, by: Decided::Program, findings })
+    }
+}
+
+/// The verdict on one part, from its state on compliant contacts where that says all there is.
+fn quickly(model: &Model, control: &Control) -> Assessment {
+    let quick = match is_forest(model) || !interface::floating(model).is_empty() {
+        true => None,
+        false => compliant::decide(model, control),
+    };
+    quick.unwrap_or_else(|| assess::of_part(model, control))
+}
