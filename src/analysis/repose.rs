@@ -1,11 +1,15 @@
 //! The angle of repose: the slope that a heap leaves behind which flowed and came to rest.
 //!
 //! A heap is made by a [`Protocol`] in the dynamics. Its free surface is the highest grain of every
-//! cell 2 d wide; the cells at wall and toe are dropped and a straight line is fitted along each of
+//! cell; the cells at wall and toe are dropped and a straight line is fitted along each of
 //! several paths (strips from the wall to the edge, or sectors from the middle) and through their
-//! mean. The heap at rest is then a scene like any other, and its static margin, the tilt that it
+//! mean. Whether that line is an angle of repose or an artefact is judged in [`judge`]. The heap at
+//! rest is then a scene like any other, and its static margin, the tilt that it
 //! still bears, is asked for as a cross-check by a method that shares nothing with the dynamics but
 //! the places of the grains.
+
+pub mod judge;
+mod surface;
 
 use super::{
     Control, Outcome, Tilt,
@@ -23,14 +27,8 @@ use crate::{
 };
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
-use std::{collections::BTreeMap, f64::consts::TAU, ops::ControlFlow, time::Instant};
+use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
-/// Width of a cell, d.
-const CELL: f64 = 2.0;
-/// Sectors around a heap in the open.
-const SECTORS: usize = 8;
-/// Fewest cells on a line.
-const FEWEST: usize = 3;
 /// A stage may take so many √(d/g) to come to rest.
 const HORIZON: f64 = 400.0;
 /// √(d/g) between two layers that are poured: a grain falls 3 d in the meantime.
@@ -38,8 +36,6 @@ const POUR: f64 = 2.5;
 /// Rounds in which grains that nothing balances are left out. More: a heap that really falls is
 /// taken apart.
 const UNBALANCED: usize = 4;
-/// Cells lower than this, d, are the rough floor with single grains on it: the toe.
-const TOE: f64 = 1.0;
 
 /// A straight line through the free surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -80,14 +76,28 @@ pub struct Heap {
     pub seconds: f64,
     /// Free grains that stayed, and those that fell over the edge.
     pub grains: [usize; 2],
-    /// The slope through the mean surface; `None` where fewer than three cells are left.
+    /// The slope through the mean surface; `None` where it is no angle of repose.
     pub slope: Option<Slope>,
-    /// The slopes of strips or sectors.
+    /// The slopes of strips or sectors; none where the mean has none.
     pub parts: Vec<Slope>,
+    /// Why there is no slope.
+    #[serde(default)]
+    pub refused: Option<Refused>,
     /// Tilt: the angle at which the bed began to flow, degrees.
     pub avalanche_deg: Option<f64>,
     /// Why there is something to doubt.
     pub findings: Vec<Finding>,
+}
+
+/// Why a heap has no angle of repose.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Refused {
+    /// One sentence each.
+    pub reasons: Vec<String>,
+    /// Cells of the mean surface between wall and toe; 0 where they are fewer than three.
+    pub cells: usize,
+    /// Coefficient of determination of the line through them.
+    pub r_squared: Option<f64>,
 }
 
 /// The static margin of a heap.
@@ -144,32 +154,8 @@ pub fn heap(
         }
     };
     let rest = flow(&assembly, &stages, d, HORIZON, watch)?;
-    let spots: Vec<(Vector3<f64>, f64)> = assembly
-        .free()
-        .filter_map(|i| rest.poses[i].map(|p| (i, p)))
-        .flat_map(|(i, pose)| tops(&assembly.blocks[i], pose))
-        .collect();
-    let turned = rest.turned.unwrap_or(0.0);
-    let (slope, parts) = {
-        let (profile, parts) = surface(protocol, &spots, turned);
-        (profile.map(|p| p.slope), parts)
-    };
-    let mut findings = Vec::new();
-    let mut say = |text: String| findings.push(Finding::new(FindingCode::Numerics, text));
-    if !rest.rested {
-        say(format!(
-            "the heap still moves: {:.1e} m g d a grain after {:.0} √(d/g)",
-            rest.energy,
-            rest.time / natural
-        ));
-    }
-    if slope.is_none() {
-        say(format!(
-            "fewer than {FEWEST} cells of the surface lie between wall and toe: too few grains for a slope"
-        ));
-    }
     let free = assembly.free().count();
-    Ok(Heap {
+    let mut heap = Heap {
         seed,
         scene: settled(&scene, &assembly, &rest, &index),
         rested: rest.rested,
@@ -177,38 +163,55 @@ pub fn heap(
         time: rest.time / natural,
         seconds: rest.seconds,
         grains: [free - rest.gone, rest.gone],
-        slope,
-        parts,
+        slope: None,
+        parts: Vec::new(),
         avalanche_deg: rest.turned.map(f64::to_degrees),
-        findings,
-    })
-}
-
-/// Spheres with these centres and radii, one of whose tops is the top of the grain as it has moved.
-fn tops(
-    block: &assembly::Block,
-    (center, turn): (Vector3<f64>, UnitQuaternion<f64>),
-) -> Vec<(Vector3<f64>, f64)> {
-    let moved = |p: &Vector3<f64>| center + turn * (p - block.centroid);
-    match &block.solid {
-        assembly::Solid::Sphere { center, radius } => vec![(moved(center), *radius)],
-        assembly::Solid::Clump { balls, .. } => balls.iter().map(|(c, r)| (moved(c), *r)).collect(),
-        assembly::Solid::Polyhedron(p) => p.vertices.iter().map(|v| (moved(v), 0.0)).collect(),
-    }
-}
-
-/// The surface of a heap that lies still, from its scene: what [`heap`] measured.
-pub fn profile(protocol: &Protocol, heap: &assembly::Assembly) -> Option<Profile> {
-    let spots: Vec<(Vector3<f64>, f64)> = heap
-        .free()
-        .map(|i| &heap.blocks[i])
-        .flat_map(|b| tops(b, (b.centroid, UnitQuaternion::identity())))
-        .collect();
-    let turned = match protocol.kind {
-        ProtocolKind::Tilt => heap.gravity.x.atan2(-heap.gravity.z),
-        ProtocolKind::Drain | ProtocolKind::Funnel | ProtocolKind::Cylinder => 0.0,
+        refused: None,
+        findings: Vec::new(),
     };
-    surface(protocol, &spots, turned).0
+    heap.measure(protocol)?;
+    Ok(heap)
+}
+
+/// The surface of a heap that lies still and lost no grain that it should not; `None` where it has
+/// no angle of repose.
+pub fn profile(protocol: &Protocol, heap: &assembly::Assembly) -> Option<Profile> {
+    let reading = surface::of(protocol, heap);
+    let slope = reading.mean.as_ref()?.slope;
+    let sound = judge::refuse(protocol, &reading, 0).is_empty();
+    sound.then_some(Profile { surface: reading.surface, line: reading.line, slope })
+}
+
+impl Heap {
+    /// Reads the surface again from the scene, and says what there is to say of it: what a heap
+    /// that was kept is worth does not depend on the version that kept it.
+    ///
+    /// # Errors
+    /// The scene cannot be resolved.
+    pub fn measure(&mut self, protocol: &Protocol) -> Result<(), InputError> {
+        let reading = surface::of(protocol, &assembly::resolve(&self.scene)?);
+        let mut reasons = judge::refuse(protocol, &reading, self.grains[1]);
+        if !self.rested {
+            let (energy, time) = (self.energy, self.time);
+            let moves =
+                format!("the heap still moves: {energy:.1e} m g d a grain after {time:.0} √(d/g)");
+            reasons.insert(0, moves);
+        }
+        let fit = reading.mean.as_ref().map(|f| f.slope);
+        let say = |text: &String| Finding::new(FindingCode::Numerics, text.clone());
+        self.findings = reasons.iter().map(say).collect();
+        self.slope = fit.filter(|_| reasons.is_empty());
+        self.parts = match self.slope {
+            Some(_) => reading.parts.iter().map(|f| f.slope).collect(),
+            None => Vec::new(),
+        };
+        self.refused = (!reasons.is_empty()).then(|| Refused {
+            reasons,
+            cells: fit.map_or(0, |f| f.cells),
+            r_squared: fit.map(|f| f.r_squared),
+        });
+        Ok(())
+    }
 }
 
 /// The heap as a scene: what stayed, where it lies.
@@ -262,98 +265,6 @@ fn lay(
     });
 }
 
-/// The fit through the mean surface, and the fits along strips or sectors.
-///
-/// Where the bed has been tilted by `turned` radians, ways and heights count as gravity sees them:
-/// against the bed the surface is nearly level, and a line through it would explain little of its
-/// roughness.
-fn surface(
-    protocol: &Protocol,
-    spots: &[(Vector3<f64>, f64)],
-    turned: f64,
-) -> (Option<Profile>, Vec<Slope>) {
-    let d = protocol.diameter;
-    let width = CELL * d;
-    let open = matches!(protocol.kind, ProtocolKind::Funnel | ProtocolKind::Cylinder);
-    let half = 0.5 * protocol.size[1] * d;
-    // In the open the foot of the highest grains' mean is the middle.
-    let middle = spots.iter().map(|(c, _)| *c).sum::<Vector3<f64>>() / spots.len().max(1) as f64;
-    // By path and step along it: the highest grain (way, height).
-    let mut cells: BTreeMap<(usize, usize), (f64, f64)> = BTreeMap::new();
-    for (c, r) in spots {
-        let (path, way) = if open {
-            let (x, y) = (c.x - middle.x, c.y - middle.y);
-            (
-                (((y.atan2(x) / TAU).rem_euclid(1.0) * SECTORS as f64) as usize).min(SECTORS - 1),
-                x.hypot(y),
-            )
-        } else {
-            // What hangs over the edge is no part of the surface.
-            if c.x < 0.0 || c.x > protocol.size[0] * d {
-                continue;
-            }
-            ((((c.y + half) / width).max(0.0)) as usize, c.x)
-        };
-        let cell = cells.entry((path, (way / width) as usize)).or_insert((way, f64::NEG_INFINITY));
-        if c.z + r > cell.1 {
-            *cell = (way, c.z + r);
-        }
-    }
-    let mut paths: BTreeMap<usize, Vec<(f64, f64)>> = BTreeMap::new();
-    let mut steps: BTreeMap<usize, Vec<(f64, f64)>> = BTreeMap::new();
-    for ((path, step), cell) in cells {
-        paths.entry(path).or_default().push(cell);
-        steps.entry(step).or_default().push(cell);
-    }
-    let full = paths.len();
-    let mean = |cells: &Vec<(f64, f64)>| {
-        let n = cells.len() as f64;
-        (cells.iter().map(|c| c.0).sum::<f64>() / n, cells.iter().map(|c| c.1).sum::<f64>() / n)
-    };
-    // A step that not every path reaches lies beyond the toe of the mean.
-    let profile: Vec<(f64, f64)> =
-        steps.values().filter(|cells| 2 * cells.len() > full).map(mean).collect();
-    let parts = paths.values().filter_map(|cells| fit(cells, d, turned)).map(|f| f.0).collect();
-    let Some((slope, ends)) = fit(&profile, d, turned) else { return (None, parts) };
-    // In the plane of the section through the middle; in the open along x.
-    let from = if open { middle } else { Vector3::zeros() };
-    let place = |(x, z): (f64, f64)| Vector3::new(from.x + x, from.y, z);
-    let surface = profile.into_iter().map(place).collect();
-    (Some(Profile { surface, line: ends.map(place), slope }), parts)
-}
-
-/// A straight line through cells, the first (at the wall, or the top) and the toe left out, and its
-/// ends against the bed.
-fn fit(cells: &[(f64, f64)], d: f64, turned: f64) -> Option<(Slope, [(f64, f64); 2])> {
-    // Beyond the last cell that stands clear of the floor is the toe; its own last cell is cut by
-    // it.
-    let end = cells.iter().rposition(|c| c.1 > TOE * d)?;
-    let (sin, cos) = turned.sin_cos();
-    let inner: Vec<(f64, f64)> =
-        cells.get(1..end)?.iter().map(|(x, z)| (x * cos + z * sin, z * cos - x * sin)).collect();
-    if inner.len() < FEWEST {
-        return None;
-    }
-    let n = inner.len() as f64;
-    let (x, z) =
-        (inner.iter().map(|c| c.0).sum::<f64>() / n, inner.iter().map(|c| c.1).sum::<f64>() / n);
-    let sum = |f: &dyn Fn(&(f64, f64)) -> f64| inner.iter().map(f).sum::<f64>();
-    let (xx, xz, zz) =
-        (sum(&|c| (c.0 - x).powi(2)), sum(&|c| (c.0 - x) * (c.1 - z)), sum(&|c| (c.1 - z).powi(2)));
-    if xx <= 0.0 {
-        return None;
-    }
-    let r_squared = if zz > 0.0 { xz * xz / (xx * zz) } else { 1.0 };
-    // Back against the bed.
-    let end = |way: f64| {
-        let height = z + xz / xx * (way - x);
-        (way * cos - height * sin, way * sin + height * cos)
-    };
-    let ends = [inner.first(), inner.last()].map(|c| end(c.map_or(x, |c| c.0)));
-    let slope = Slope { angle_deg: (-xz / xx).atan().to_degrees(), r_squared, cells: inner.len() };
-    Some((slope, ends))
-}
-
 /// The tilt downhill that a heap at rest still bears. In the open it is asked for along x.
 ///
 /// # Errors
@@ -399,39 +310,4 @@ impl Margin {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Grains on a plane of 25°: the fit gives that, on every path.
-    #[test]
-    fn the_slope_of_a_plane() {
-        let protocol = Protocol::default();
-        let d = protocol.diameter;
-        let slope = 25f64.to_radians().tan();
-        let spots: Vec<(Vector3<f64>, f64)> = (0..16)
-            .flat_map(|i| (0..10).map(move |j| (i, j)))
-            .map(|(i, j)| {
-                let (x, y) = (i as f64 + 0.5, j as f64 - 4.5);
-                (Vector3::new(x * d, y * d, (8.5 - slope * x) * d), 0.5 * d)
-            })
-            .collect();
-        let (mean, parts) = surface(&protocol, &spots, 0.0);
-        let Profile { surface: cells, line, slope: mean } = mean.expect("a slope");
-        // Its line passes through the tops, which lie half a grain above the centres.
-        let top = |x: f64| 9.0 * d - slope * x;
-        assert!(cells.iter().chain(&line).all(|p| (p.z - top(p.x)).abs() < 1e-9 && p.y == 0.0));
-        assert!(
-            (mean.angle_deg - 25.0).abs() < 1e-9 && mean.r_squared > 1.0 - 1e-12 && mean.cells >= 5,
-            "{mean:?}"
-        );
-        assert_eq!(parts.len(), 5);
-        assert!(parts.iter().all(|p| (p.angle_deg - 25.0).abs() < 1e-9), "{parts:?}");
-        // The same grains where gravity has turned by 10°: ten more, with the same fit.
-        let (mean, _) = surface(&protocol, &spots, 10f64.to_radians());
-        let Profile { line, slope: mean, .. } = mean.expect("a slope");
-        assert!(line.iter().all(|p| (p.z - top(p.x)).abs() < 1e-9), "{line:?}");
-        assert!((mean.angle_deg - 35.0).abs() < 1e-9 && mean.r_squared > 1.0 - 1e-12, "{mean:?}");
-        assert_eq!(surface(&protocol, &spots[..10], 0.0).0, None, "one row of grains has no slope");
-        assert_eq!(surface(&protocol, &[], 0.0), (None, Vec::new()));
-    }
-}
+mod tests;

@@ -8,7 +8,7 @@ use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use std::{borrow::Cow, ops::ControlFlow};
+use std::ops::ControlFlow;
 use voussoir::{
     analysis::{
         Control, Law, Tilted,
@@ -78,7 +78,9 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
             _ => None,
         });
         let heap = if let Some(heap) = old {
-            Cow::Borrowed(heap)
+            let mut heap = heap.clone();
+            heap.measure(&protocol)?;
+            heap
         } else {
             let heap = heap(&protocol, seed, &mut |flow| {
                 bar.set_message(format!(
@@ -93,7 +95,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
             if kept.is_some() && in_time() {
                 keep(&Piece::Heap(Box::new(heap.clone())))?;
             }
-            Cow::Owned(heap)
+            heap
         };
         // Written at once: what follows may take long.
         if let Some(output) = output {
@@ -121,7 +123,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         let mut view = shown.then(|| picture(&heap, fresh.as_ref())).transpose()?;
         if let Some(view) = &mut view {
             let assembly = prepare(&heap.scene)?.assembly;
-            view.slope = profile(&protocol, &assembly).map(Into::into);
+            view.slope = heap.slope.and_then(|_| profile(&protocol, &assembly)).map(Into::into);
             view.hides_supports = pictures.hides_supports();
         }
         Ok((HeapResult::new(&heap, result), view))
@@ -151,7 +153,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         let options = TextOptions { verbose: args.common.verbose, brief: args.common.quiet };
         terminal.page(&text::heaps(&file, options, layout))?;
     }
-    Ok(if file.at_rest == file.heaps.len() { Exit::Yes } else { Exit::Undecided })
+    Ok(if file.angle_deg.is_some() { Exit::Yes } else { Exit::Undecided })
 }
 
 /// The file of `--keep`, and a word about what is in it.
@@ -201,7 +203,9 @@ fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
         };
         *place = serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str()));
     }
-    serde_json::from_value(value).with_context(|| {
+    let protocol: Protocol = serde_json::from_value(value).with_context(|| {
         format!("`{name}` with these values is no protocol: drain, funnel, cylinder or tilt, with grain=sphere, clump or hull")
-    })
+    })?;
+    // What is kept and reported is the box that was used.
+    Ok(protocol.sized())
 }

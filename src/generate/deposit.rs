@@ -101,7 +101,7 @@ pub fn deposit(protocol: &Protocol, seed: u64) -> Result<Deposit, InputError> {
             "hulls resist rolling by their faces; spheres and clumps take a rolling arm",
         ));
     }
-    for (k, s) in p.size.iter().enumerate() {
+    for (k, s) in p.size().iter().enumerate() {
         if !(4.0..=1e3).contains(s) {
             return Err(InputError::at(
                 place.0.key("size").index(k),
@@ -128,7 +128,7 @@ impl Random {
 
 fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
     let d = p.diameter;
-    let [length, width] = p.size;
+    let [length, width] = p.size();
     let mut forms = Random(Pcg64::new(seed.into(), SHAPES));
     let grains: Vec<Grain> = (0..p.grains).map(|_| Grain::new(p, &mut forms)).collect();
     let pitch = LOOSE * (1.0 + p.sizes) * grains.iter().map(|g| g.reach).fold(1.0, f64::max);

@@ -32,14 +32,21 @@ pub struct ReposeFile {
     pub restitution: f64,
     /// See `restitution`.
     pub damping: f64,
-    /// Mean angle of the heaps at rest, degrees.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Mean angle of the heaps, degrees; `None` (null) where any of them has none: the mean of
+    /// those that are left would be chosen by their angles.
+    #[serde(default)]
     pub angle_deg: Option<f64>,
-    /// Least and greatest angle over the seeds, degrees.
+    /// Why there is no angle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_angle: Option<String>,
+    /// Least and greatest angle over the seeds, degrees; with `angle_deg`.
+    #[serde(default)]
     pub spread_deg: Option<[f64; 2]>,
-    /// Heaps that came to rest and have a slope.
+    /// Heaps that came to rest.
     pub at_rest: usize,
+    /// Heaps that have an angle of repose.
+    #[serde(default)]
+    pub measured: usize,
     /// One heap a seed.
     pub heaps: Vec<HeapResult>,
     /// Versions.
@@ -62,15 +69,19 @@ pub struct HeapResult {
     pub grains: usize,
     /// Free grains that fell over the edge.
     pub discarded: usize,
-    /// Angle of the fit through the mean surface, degrees.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Angle of the fit through the mean surface, degrees; `None` (null) where that is no angle of
+    /// repose.
+    #[serde(default)]
     pub angle_deg: Option<f64>,
-    /// Its coefficient of determination.
+    /// Why it is none, one sentence each; empty where there is an angle.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub no_angle: Vec<String>,
+    /// Coefficient of determination of the line through the cells.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub r_squared: Option<f64>,
-    /// Cells of the surface on it.
+    /// Cells of the surface on it; 0 where they are fewer than three.
     pub cells: usize,
-    /// Angles of strips or sectors, degrees.
+    /// Angles of strips or sectors, degrees; none where the heap has no angle.
     pub parts_deg: Vec<f64>,
     /// Tilt: the angle at which the bed began to flow, degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -119,7 +130,7 @@ impl From<&Margin> for MarginResult {
 impl HeapResult {
     /// Packs a heap.
     pub fn new(heap: &Heap, margin: Option<MarginResult>) -> Self {
-        let slope = heap.slope.as_ref();
+        let (slope, refused) = (heap.slope.as_ref(), heap.refused.as_ref());
         Self {
             seed: heap.seed,
             rested: heap.rested,
@@ -128,8 +139,9 @@ impl HeapResult {
             grains: heap.grains[0],
             discarded: heap.grains[1],
             angle_deg: slope.map(|s| s.angle_deg),
-            r_squared: slope.map(|s| s.r_squared),
-            cells: slope.map_or(0, |s| s.cells),
+            no_angle: refused.map_or_else(Vec::new, |r| r.reasons.clone()),
+            r_squared: slope.map(|s| s.r_squared).or(refused.and_then(|r| r.r_squared)),
+            cells: slope.map(|s| s.cells).or(refused.map(|r| r.cells)).unwrap_or(0),
             parts_deg: heap.parts.iter().map(|s: &Slope| s.angle_deg).collect(),
             avalanche_deg: heap.avalanche_deg,
             margin,
@@ -140,10 +152,10 @@ impl HeapResult {
 }
 
 impl ReposeFile {
-    /// The answer over all heaps; only those at rest count.
+    /// The answer over all heaps: a mean only where every one of them has an angle.
     pub fn new(protocol: &Protocol, heaps: Vec<HeapResult>) -> Self {
-        let angles: Vec<f64> =
-            heaps.iter().filter(|h| h.rested).filter_map(|h| h.angle_deg).collect();
+        let angles: Vec<f64> = heaps.iter().filter_map(|h| h.angle_deg).collect();
+        let whole = !angles.is_empty() && angles.len() == heaps.len();
         let mean = angles.iter().sum::<f64>() / angles.len().max(1) as f64;
         let ends = [
             angles.iter().copied().fold(f64::INFINITY, f64::min),
@@ -151,14 +163,29 @@ impl ReposeFile {
         ];
         Self {
             format: HeapsFormat::V1,
-            protocol: protocol.clone(),
+            protocol: protocol.sized(),
             restitution: 0.0,
             damping: 0.0,
-            angle_deg: (!angles.is_empty()).then_some(mean),
-            spread_deg: (!angles.is_empty()).then_some(ends),
-            at_rest: angles.len(),
+            angle_deg: whole.then_some(mean),
+            no_angle: (!whole).then(|| reason(&heaps)),
+            spread_deg: whole.then_some(ends),
+            at_rest: heaps.iter().filter(|h| h.rested).count(),
+            measured: angles.len(),
             heaps,
             versions: Versions::default(),
         }
     }
+}
+
+/// Why a row of heaps has no angle: the reason of the first that has none.
+fn reason(heaps: &[HeapResult]) -> String {
+    let mut without = heaps.iter().filter(|h| h.angle_deg.is_none());
+    let Some(first) = without.next() else { return "there is no heap".into() };
+    let more = match without.count() {
+        0 => String::new(),
+        1 => " (and one more heap has none)".into(),
+        n => format!(" (and {n} more heaps have none)"),
+    };
+    let why = first.no_angle.first().map_or("not measured", String::as_str);
+    format!("seed {}: {why}{more}", first.seed)
 }

@@ -30,8 +30,9 @@ pub struct Protocol {
     /// Density, kg/m³.
     pub density: f64,
     /// Length and width of the box (drain, tilt), or twice the diameter of the cylinder or of the
-    /// stream of the funnel and nothing, in mean diameters.
-    pub size: [f64; 2],
+    /// stream of the funnel and nothing, in mean diameters. Where it is not given it follows the
+    /// number of grains: see [`Protocol::size`].
+    pub size: Option<[f64; 2]>,
     /// Speed at which the cylinder is lifted, √(g d), or rate at which the bed is tilted, degrees
     /// per √(d/g).
     pub rate: f64,
@@ -90,8 +91,30 @@ impl Default for Protocol {
             wall_friction: 0.0,
             rolling_arm: 0.0,
             density: 2500.0,
-            size: [16.0, 10.0],
+            size: None,
             rate: 0.1,
         }
+    }
+}
+
+/// Length and width of the box of [`SIZED`] grains, mean diameters.
+const SIZE: [f64; 2] = [16.0, 10.0];
+/// Grains of the box of [`SIZE`].
+const SIZED: f64 = 2000.0;
+/// Least length and width of a box, mean diameters: less, and grains bridge it.
+const LEAST: f64 = 4.0;
+
+impl Protocol {
+    /// Length and width as given, or such that boxes of all numbers of grains are alike: 16 × 10
+    /// diameters for 2,000 grains, by the cube root of the number for others. In a box of one size
+    /// for all, few grains cover the floor and many fill a tower.
+    pub fn size(&self) -> [f64; 2] {
+        let scale = (self.grains as f64 / SIZED).cbrt();
+        self.size.unwrap_or_else(|| SIZE.map(|s| (s * scale).max(LEAST)))
+    }
+
+    /// The same with its size written out.
+    pub fn sized(&self) -> Self {
+        Self { size: Some(self.size()), ..self.clone() }
     }
 }

@@ -319,7 +319,7 @@ fn the_averages_of_one_sphere_in_a_pocket() {
 
 /// A drain small enough for a test.
 fn small(kind: ProtocolKind) -> Protocol {
-    Protocol { kind, grains: 40, size: [6.0, 4.0], rate: 2.0, ..Protocol::default() }
+    Protocol { kind, grains: 40, size: Some([6.0, 4.0]), rate: 2.0, ..Protocol::default() }
 }
 
 #[test]
@@ -371,7 +371,7 @@ fn values_out_of_range_are_refused_with_their_place() {
     assert!(bad(|p| p.diameter = f64::NAN).contains("diameter"));
     assert!(bad(|p| p.sizes = 1.0).contains("sizes"));
     assert!(bad(|p| p.friction = -0.1).contains("friction"));
-    assert!(bad(|p| p.size[1] = 0.0).contains("size[1]"));
+    assert!(bad(|p| p.size = Some([6.0, 0.0])).contains("size[1]"));
     assert!(bad(|p| (p.grain, p.elongation) = (GrainKind::Clump, 2.5)).contains("elongation"));
     assert!(bad(|p| (p.grain, p.corners) = (GrainKind::Hull, 3)).contains("corners"));
     assert!(bad(|p| (p.grain, p.rolling_arm) = (GrainKind::Hull, 0.1)).contains("rolling_arm"));

@@ -23,7 +23,8 @@ pub struct Repose {
     /// Values of the protocol that differ from the defaults (--question repose): grain=sphere (or
     /// clump, hull) elongation=1.5 (of clumps and hulls) corners=16 (of hulls) grains=2000
     /// diameter=0.01 (of spheres of the same volume) sizes=0.2 friction=0.5 wall_friction=0
-    /// rolling_arm=0 (in d) density=2500 size=[16,10] (in d) rate=0.1.
+    /// rolling_arm=0 (in d) density=2500 rate=0.1 size=[16,10] (in d; where not given it follows
+    /// the cube root of the number of grains).
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
     /// `stability`: the greatest tilt of the packing SCENE as it lies; `repose`: the slope that a

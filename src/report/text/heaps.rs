@@ -19,14 +19,17 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
     );
     match (file.angle_deg, file.spread_deg) {
         (Some(angle), Some([low, high])) => {
-            let seeds = count(file.at_rest, "heap");
+            let seeds = count(file.measured, "heap");
             page.title(
                 &name,
                 format!("angle of repose {angle:.1}° ({low:.1}° to {high:.1}° over {seeds})"),
                 Role::Value,
             );
         }
-        _ => page.title(&name, "no heap came to rest with a slope", Role::Unsure),
+        _ => {
+            let why = file.no_angle.as_deref().unwrap_or("not measured");
+            page.title(&name, format!("no angle of repose: {why}"), Role::Unsure);
+        }
     }
     if options.brief {
         return page;
@@ -36,6 +39,8 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
     page.blank();
     page.row("heaps", file.heaps.iter().map(row));
     page.row("margin", file.heaps.iter().filter_map(margin));
+    let [length, width] = p.size().map(short);
+    page.row("size", [format!("{length} × {width} d, d = {} m", short(p.diameter))]);
     page.row(
         "note",
         file.heaps
@@ -52,7 +57,8 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
 fn row(h: &HeapResult) -> String {
     let slope = match (h.angle_deg, h.r_squared) {
         (Some(angle), Some(r)) => format!("{angle:.1}°, R² {r:.3}, {} cells", h.cells),
-        _ => "no slope".into(),
+        (None, Some(r)) => format!("no angle (R² {r:.3}, {} cells)", h.cells),
+        _ => "no angle".into(),
     };
     let ends = (
         h.parts_deg.iter().copied().fold(f64::INFINITY, f64::min),

@@ -229,6 +229,24 @@ fn repose_answers_both_questions() {
     let file: Value = serde_json::from_str(&one).unwrap();
     assert_eq!(file["heaps"].as_array().unwrap().len(), 2, "{one}");
     assert!(file["heaps"][0]["rested"].as_bool().unwrap());
+    // So few grains have no angle of repose: no number, the reason, and the exit code of an open
+    // question.
+    expect(UNDECIDED, voussoir(&[&protocol[..], &["--skip-margin"]].concat()));
+    assert!(file["angle_deg"].is_null() && file["spread_deg"].is_null(), "{one}");
+    assert!(file.as_object().unwrap().contains_key("angle_deg"), "null, not absent: {one}");
+    assert!(file["no_angle"].as_str().unwrap().contains("cells of the surface"), "{one}");
+    for heap in file["heaps"].as_array().unwrap() {
+        assert!(heap["angle_deg"].is_null() && heap["parts_deg"] == json!([]), "{one}");
+        assert!(!heap["no_angle"].as_array().unwrap().is_empty(), "{one}");
+    }
+    assert_eq!(file["protocol"]["size"], json!([6.0, 4.0]));
+    let said = out(&voussoir(&[&protocol[..8], &["--skip-margin", "-q"]].concat()));
+    assert!(said.contains("no angle of repose: seed 1: "), "{said}");
+    let page = desk.at("heap.html");
+    let more = ["--skip-margin", "--report", page.as_str()];
+    expect(UNDECIDED, voussoir(&[&protocol[..8], &more].concat()));
+    let page = fs::read_to_string(&page).unwrap();
+    assert!(page.contains("no angle of repose") && !page.contains("class=\"fitted\" d="));
     assert!([YES, UNDECIDED].contains(&code(&voussoir(&[
         "repose",
         &desk.at("heap.1.json"),
