@@ -158,7 +158,9 @@ fn answer(
             Answer::Path(Box::new(follow::answer::settle(model, options, control)?))
         }
         Question::Push(options) => {
-            Answer::Path(Box::new(follow::answer::push(model, options, control)?))
+            // Where it slides it is followed under dry friction, whatever the points are proved by.
+            let control = Control { law: Law::Coulomb, ..*control };
+            Answer::Path(Box::new(follow::answer::push(model, options, &control)?))
         }
         Question::Kinematic(options) => {
             Answer::Kinematic(Box::new(kinematic::kinematic(options, scene, model, control)?))

@@ -42,7 +42,7 @@ pub use options::{Pyramid, StaticsOptions};
 pub use planar::Plane;
 pub use statics::{FreeBlock, Statics};
 pub use thrust::{
-    closing, endless_thrust, member_columns, reaction_columns, thrust, thrust_columns,
+    closing, endless_thrust, member_columns, pushed, reaction_columns, thrust, thrust_columns,
 };
 pub use unbalance::{LiveLoad, unbalance};
 

@@ -105,14 +105,43 @@ pub fn thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Positions)
     )
 }
 
+/// Program T under a live load: `min c·x − ω λ'` subject to `A x + w + s λ' ℓ = 0`, `x` in the cones,
+/// with `λ = s λ'` the last variable. Its multipliers are rates with a live power of `ω / s`: where
+/// `ω > 0` is small beside `c` the live load drives them.
+pub fn pushed(
+    statics: &Statics,
+    objective: &[f64],
+    live_scale: f64,
+    omega: f64,
+) -> (ConicProgram, Positions) {
+    let (p, layout) = thrust(statics, objective);
+    (with_live(p, statics, live_scale, omega), layout)
+}
+
+/// The program with a multiple of the live load, free, as its last variable.
+fn with_live(mut p: ConicProgram, statics: &Statics, scale: f64, omega: f64) -> ConicProgram {
+    let column = p.objective.len();
+    p.objective.push(-omega);
+    if !p.quadratic.is_empty() {
+        p.quadratic.push(0.0);
+    }
+    p.matrix.columns += 1;
+    for (row, l) in statics.live.iter().enumerate() {
+        p.matrix.push(row, column, scale * l);
+    }
+    p
+}
+
 /// `min c·x + ½ δ x·x` subject to `A x + w = 0` with `x` free where contact points are `active`, no
 /// shear where they are `sliding`, and zero elsewhere: its multipliers close the gaps `c` of the
-/// active contacts as least squares do, whatever their signs.
+/// active contacts as least squares do, whatever their signs. With a `drive` (scale `s` and `ω`) a
+/// free multiple of the live load is among the forces, as in [`pushed`].
 pub fn closing(
     statics: &Statics,
     objective: &[f64],
     active: &[bool],
     sliding: &[bool],
+    drive: Option<(f64, f64)>,
 ) -> (ConicProgram, Positions) {
     /// Larger: gaps stay open by this × the way of a step. Smaller: where contacts say the same twice
     /// the engine finds no solution.
@@ -153,7 +182,10 @@ pub fn closing(
         rates: 0,
         rate_count: rows,
     };
-    (p, layout)
+    match drive {
+        Some((scale, omega)) => (with_live(p, statics, scale, omega), layout),
+        None => (p, layout),
+    }
 }
 
 /// Can the thrust grow without end? Forces that balance by themselves with `objective · x = −1`, or

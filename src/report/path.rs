@@ -86,6 +86,9 @@ pub fn csv(file: &ResultFile) -> Result<String, PathError> {
             Some(Claim::LoadFactor { value, lower, upper }) => {
                 ("load factor", [value, lower, upper].map(Some))
             }
+            Some(Claim::DryLoadFactor { value }) => {
+                ("dry load factor", [Some(value), Some(value), bound(p)])
+            }
             _ => ("", [None; 3]),
         };
         let mut row: Vec<Cell> = vec![p.value.into(), proved.into()];
@@ -100,6 +103,14 @@ pub fn csv(file: &ResultFile) -> Result<String, PathError> {
         table.write_record(row).map_err(refused)?;
     }
     table.end().map_err(refused)
+}
+
+/// What bounds a load factor with dry friction from above, where that was found.
+pub fn bound(point: &PathPoint) -> Option<f64> {
+    match point.bound.as_ref()?.claim {
+        Some(Claim::LoadFactor { upper, .. }) => Some(upper),
+        _ => None,
+    }
 }
 
 /// What holds the structure, in words with its unit.

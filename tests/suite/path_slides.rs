@@ -138,22 +138,91 @@ fn a_support_drawn_away_slides_under_what_rests_on_another() {
     }
 }
 
-/// Pushed by its own weight × λ a block slides: a load factor under dry friction is not followed,
-/// and that is said.
+fn pushed(scene: &Scene, block: &str, point: [f64; 3], toward: [f64; 3], at: &[f64]) -> ResultFile {
+    let control = ControlPoint { block: block.into(), point };
+    let options = PushOptions { control, toward, at: at.to_vec(), from: Vec::new() };
+    asked(scene, &Question::Push(options))
+}
+
+/// Load factors of the points up to a way of the control point, m.
+fn factors(file: &ResultFile, to: f64) -> Vec<f64> {
+    let points = path(file).points.iter().filter(|p| p.value <= to);
+    points.map(|p| p.load_factor.expect("a load factor")).collect()
+}
+
+/// Pushed by its own weight × λ a block slides at λ = μ, until what presses it, `μ h / 2` before its
+/// centre of mass, reaches the edge of the table.
 #[test]
-fn what_slides_under_a_load_factor_is_not_followed() {
+fn a_block_that_is_pushed_slides_at_its_friction_up_to_the_edge() {
     let blocks = json!([
         fixed(cuboid("table", [4.0, 1.0, 0.5], [0.0, 0.0, -0.5])),
-        cuboid("block", [1.0, 1.0, 0.5], [0.5, 0.0, 0.0]),
+        cuboid("block", [1.0, 1.0, 0.5], [1.0, 0.0, 0.0]),
     ]);
     let scene = scene(0.3, blocks, push([1.0, 0.0, 0.0]));
-    let control = ControlPoint { block: "block".into(), point: [0.5, 0.0, 0.25] };
-    let toward = [1.0, 0.0, 0.0];
-    let options = PushOptions { control, toward, at: Vec::new(), from: Vec::new() };
-    let file = asked(&scene, &Question::Push(options));
-    assert_eq!(status(&file), PathStatus::Slides, "{:?}", file.answer.path());
-    let [start] = &path(&file).points[..] else { panic!("more than the start") };
-    close(start.load_factor.expect("a load factor"), 0.3, 1e-7);
+    let file = pushed(&scene, "block", [1.0, 0.0, 0.25], [1.0, 0.0, 0.0], &[0.7]);
+    assert!(path(&file).points.iter().any(|p| p.value == 0.7));
+    let edge = 1.0 - 0.3 * 0.25;
+    let found = factors(&file, edge - 1e-6);
+    assert!(found.len() > 100, "{}", found.len());
+    found.iter().for_each(|l| close(*l, 0.3, 1e-6));
+    for p in path(&file).points.iter().filter(|p| p.value < edge - 1e-6) {
+        assert!((way(&scene, p, "block")[2]).abs() < 1e-9, "it does not rise");
+        assert!(p.value == 0.0 || (p.slips[0].way - p.value).abs() < 1e-9);
+    }
+    close(file.answer.path().unwrap().value.expect("a value"), edge, 1e-4);
+    let first = &path(&file).events[0];
+    assert_eq!((first.kind, first.value), (PathEventKind::Slides, 0.0));
+    // Another number is not proved by the same evidence.
+    let mut forged = file.clone();
+    let points = &mut forged.path.as_mut().unwrap().points;
+    points[50].load_factor = points[50].load_factor.map(|l| 1.001 * l);
+    assert!(!proof::verify(&forged, &scene).expect("a scene").proved());
+}
+
+/// Pushed up an incline at an angle α it slides at `tan(α + φ)`, and stays on it.
+#[test]
+fn a_block_that_is_pushed_up_an_incline_slides_at_the_tangent_of_both_angles() {
+    let (angle, mu) = (10f64.to_radians(), 0.6_f64);
+    let at =
+        |x: f64, y: f64| [x * angle.cos() - y * angle.sin(), x * angle.sin() + y * angle.cos()];
+    let slope = prism("slope", &[at(-4.0, -1.0), at(4.0, -1.0), at(4.0, 0.0), at(-4.0, 0.0)]);
+    let block = prism("block", &[at(-0.5, 0.0), at(0.5, 0.0), at(0.5, 0.4), at(-0.5, 0.4)]);
+    let scene = scene(mu, json!([fixed(slope), block]), push([1.0, 0.0, 0.0]));
+    let [x, z] = at(0.0, 0.2);
+    let file = pushed(&scene, "block", [x, 0.0, z], [1.0, 0.0, 0.0], &[]);
+    assert_eq!(status(&file), PathStatus::Reached, "{:?}", file.answer.path());
+    for (p, l) in path(&file).points.iter().zip(factors(&file, f64::INFINITY)) {
+        close(l, (angle + mu.atan()).tan(), 1e-6);
+        let rise = way(&scene, p, "block")[2];
+        assert!((rise - p.value * angle.tan()).abs() < 1e-9, "{rise} at {}", p.value);
+    }
+}
+
+/// Of a stack whose top joint has a friction of 0.2 the top slides at λ = 0.2, whatever the others
+/// could carry, up to where it begins to tip.
+#[test]
+fn a_stack_that_is_pushed_slides_at_its_weakest_joint() {
+    let blocks = json!([
+        fixed(cuboid("ground", [20.0, 1.0, 0.5], [0.0, 0.0, -0.5])),
+        cuboid("a", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0]),
+        cuboid("b", [1.0, 1.0, 0.5], [0.0, 0.0, 0.5]),
+        cuboid("c", [1.0, 1.0, 0.5], [0.0, 0.0, 1.0]),
+    ]);
+    let joints = json!({
+        "default": { "friction": 0.6 }, "overrides": [{ "blocks": ["b", "c"], "friction": 0.2 }],
+    });
+    let mut more = push([1.0, 0.0, 0.0]);
+    more["joints"] = joints;
+    let scene = scene(0.6, blocks, more);
+    let file = pushed(&scene, "c", [0.0, 0.0, 1.25], [1.0, 0.0, 0.0], &[]);
+    let edge = 0.5 - 0.2 * 0.25;
+    let found = factors(&file, edge - 1e-6);
+    assert!(found.len() > 50, "{}", found.len());
+    found.iter().for_each(|l| close(*l, 0.2, 1e-6));
+    for p in &path(&file).points {
+        assert!(way(&scene, p, "b").iter().all(|w| w.abs() < 1e-9));
+    }
+    close(file.answer.path().unwrap().value.expect("a value"), edge, 1e-4);
 }
 
 /// What slid is in the poses: none of it can be changed.

@@ -11,8 +11,13 @@
 //! with Anderson acceleration; the poses follow by Newton's method, program by program, with the
 //! contacts found anew from the poses each time. Without friction and with one small step it is the
 //! least reaction of supports that yield.
+//!
+//! *Live load.* Where a live load pushes, its factor `λ` is an unknown of the program and `−ω λ` in
+//! its objective, so that the multipliers have a given live power; `ω` is a fixed point beside the
+//! slips, such that the control point goes as far as it is to. Without slips and with a small `ω` it
+//! is the greatest load factor.
 
-use super::{program, tracker::Tracker};
+use super::{control::live_power, program, tracker::Tracker};
 use crate::{
     analysis::{Control, assess, mend},
     assembly::Pose,
@@ -24,7 +29,7 @@ use crate::{
     solve::coulomb::Anderson,
     terms::Law,
     tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, exact::existence},
+    verdict::{Forces, Rate, Verdict, certificate, check, exact::existence},
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -52,6 +57,29 @@ pub(super) struct Rested {
     pub joints: Vec<(Joint, bool)>,
     /// How the blocks moved in that step, per unit of the parameter.
     pub rates: Vec<Rate>,
+    /// The load factor that balances it; 0 where none is asked for.
+    pub load_factor: f64,
+    /// The power of the live load on these rates; 0 where there is none.
+    pub power: f64,
+}
+
+/// What the control point is still to go, and the live power on that.
+#[derive(Clone, Copy)]
+pub(super) struct Push {
+    pub left: f64,
+    pub power: f64,
+}
+
+/// What one program moves from, and what it is told beforehand.
+pub(super) struct Step<'a> {
+    pub poses: &'a [Pose],
+    /// Where what is driven is to be.
+    pub goals: &'a [Pose],
+    /// Rates of the step before and how many times these are expected.
+    pub guess: Option<(&'a [Rate], f64)>,
+    /// What displacements are measured by, m.
+    pub reach: f64,
+    pub push: Option<Push>,
 }
 
 /// Programs of one step at most: two or three where there is a motion, for what carries forces is
@@ -64,10 +92,10 @@ const SOLVES: usize = 12;
 const SETTLED: f64 = 1e-7;
 /// Slips that change by more do not settle. Less: motions that the next program makes good are
 /// given up. More: time lost.
-const UNSETTLED: f64 = 1e-2;
+pub(super) const UNSETTLED: f64 = 1e-2;
 /// Poses are at rest when gaps that carry forces are less than this × [`tolerance::JOINT_CLOSED`]
 /// beside the size of their joint. Larger: contacts with forces are lost when the pose is read back.
-const AT_REST: f64 = 0.2;
+pub(super) const AT_REST: f64 = 0.2;
 /// Forces below this × the greatest are none.
 const NO_FORCE: f64 = 1e-7;
 /// Slips below this × the way of the step are none.
@@ -77,6 +105,17 @@ const JUMP: f64 = 100.0;
 
 /// Newton's steps at most that close what carries forces.
 const CLOSINGS: usize = 6;
+/// Added to what is accelerated beside slips, which stays above zero.
+const NOT_NEGATIVE: f64 = 10.0;
+/// Forces and load factor are those of a pose where the program moves nothing by more than this × the
+/// size of the scene. More: those of the pose before. Less: noise of the engine.
+const STILL: f64 = 1e-8;
+/// Motions of less than this × a step say nothing about how far the live load takes the control
+/// point. Less: what closes gaps is taken for it.
+const TOLD: f64 = 0.1;
+/// By so much more, or less, than before the control point may go in one program. More: a motion that
+/// hardly moves it is taken for one.
+const MOST_GAIN: f64 = 1e3;
 /// A contact is found again within this × the way of a step.
 const FOUND_AGAIN: f64 = 20.0;
 
@@ -91,19 +130,22 @@ struct Row {
 }
 
 /// The displaced scene of one program.
-struct Stage {
-    model: Model,
+pub(super) struct Stage {
+    pub model: Model,
     /// Joint and places of every contact.
-    spots: Vec<(usize, Vec<Spot>)>,
+    pub spots: Vec<(usize, Vec<Spot>)>,
 }
 
 /// What one program leaves.
-struct Solved {
+pub(super) struct Solved {
     /// Joints, places and whether they slide, of the contacts that carry a force.
-    active: Vec<(usize, Vector3<f64>, bool)>,
-    forces: Forces,
-    rates: Vec<Rate>,
-    change: f64,
+    pub active: Vec<(usize, Vector3<f64>, bool)>,
+    pub forces: Forces,
+    pub rates: Vec<Rate>,
+    pub load_factor: f64,
+    /// The power of the live load per way of the control point in this motion.
+    pub power: f64,
+    pub change: f64,
 }
 
 impl Tracker<'_> {
@@ -122,15 +164,20 @@ impl Tracker<'_> {
                 return None;
             }
             let stage = self.stage(&poses);
+            let power = last.as_ref().map_or(from.power, |(solved, _)| solved.power);
+            let push = self.left(&poses, value).map(|left| Push { left, power });
             if let Some((solved, before)) = &last
                 && solved.change <= SETTLED
+                && self.is_there(push)
+                && (push.is_none() || self.farthest(&solved.rates) <= STILL * self.size)
                 && self.is_at_rest(&poses, before, &stage, solved)
             {
                 return self.rested(from, value, poses, before, solved, reach);
             }
             let goals: Vec<Pose> = (0..blocks.len()).map(|i| goal(i, &poses)).collect();
             let guess = (round == 0).then(|| (&from.rates[..], value - from.value));
-            let solved = self.solve(&stage, from, &poses, &goals, guess, reach)?;
+            let step = Step { poses: &poses, goals: &goals, guess, reach, push };
+            let solved = self.solve(&stage, from, step)?;
             if solved.change > UNSETTLED {
                 return None;
             }
@@ -148,7 +195,7 @@ impl Tracker<'_> {
                     return None;
                 }
             }
-            if let Some(closed) = self.closed_up(from, &poses, &solved.active, reach) {
+            if let Some(closed) = self.closed_up(from, &poses, &solved.active, reach, value) {
                 poses = closed;
             }
             last = Some((solved, stage));
@@ -158,6 +205,9 @@ impl Tracker<'_> {
 
     /// How far what drives the scene moves between two values, m.
     fn reach(&self, from: f64, to: f64) -> f64 {
+        if self.drive.is_push() {
+            return to - from;
+        }
         let blocks = &self.start().blocks;
         let supports = (0..blocks.len()).filter(|&i| blocks[i].support).map(|i| {
             let [a, b] = [from, to].map(|v| self.drive.pose(i, v));
@@ -197,19 +247,13 @@ impl Tracker<'_> {
     }
 
     /// One program and the slips that settle in it.
-    fn solve(
-        &self,
-        stage: &Stage,
-        from: &Rested,
-        poses: &[Pose],
-        goals: &[Pose],
-        guess: Option<(&[Rate], f64)>,
-        reach: f64,
-    ) -> Option<Solved> {
+    pub(super) fn solve(&self, stage: &Stage, from: &Rested, step: Step<'_>) -> Option<Solved> {
+        let Step { poses, goals, guess, reach, push } = step;
         let model = &stage.model;
         let statics = self.statics(model);
         let assembly = &model.assembly;
         let by = statics.total_load() * reach;
+        let scale = check::natural_factor(assembly);
         let way = |to: &[Pose], since: &[Pose], i: usize, at: &Vector3<f64>| {
             let start = self.carried.before(poses, i, at);
             let c = self.start().blocks[i].centroid;
@@ -265,7 +309,10 @@ impl Tracker<'_> {
         let rest = vec![Rate::zero(); assembly.blocks.len()];
         let (rates, times) = guess.unwrap_or((&rest, 0.0));
         let mut held = slips(&ways(rates, times));
-        let run = |held: &[f64]| -> Option<(Forces, Vec<Rate>)> {
+        // Beside the slips the way that the live load is to have power on; what is accelerated is
+        // not negative.
+        held.extend(push.map(|p| p.left / reach + NOT_NEGATIVE));
+        let run = |held: &[f64]| -> Option<(Forces, Vec<Rate>, f64)> {
             let mut objective = vec![0.0; statics.matrix.columns];
             for ((r, b), s) in rows.iter().zip(&statics.bearings).zip(held) {
                 let u = r.so_far + r.n * (s * reach);
@@ -273,21 +320,40 @@ impl Tracker<'_> {
                     objective[r.column + k] = b.unit * basis.force.dot(&u) / by;
                 }
             }
-            let (program, layout) = conic::thrust(&statics, &objective);
+            let (program, layout) = match push.zip(held.last()) {
+                None => conic::thrust(&statics, &objective),
+                Some((push, way)) => {
+                    let omega = scale * push.power * (way - NOT_NEGATIVE) * reach / by;
+                    conic::pushed(&statics, &objective, scale, omega)
+                }
+            };
             let solution = program::solved(&program)?;
             let x = layout.forces(&solution.x, &solution.z);
             let y = layout.rates(&solution.x, &solution.z);
             let rates = program::rates(&statics, assembly.blocks.len(), y, by);
-            Some((statics.forces(&model.interfaces, x), rates))
+            let load_factor = push.map_or(0.0, |_| scale * solution.x[x.len()]);
+            Some((statics.forces(&model.interfaces, x), rates, load_factor))
         };
         let mut anderson = Anderson::default();
+        // How far the control point goes over what the power was thought to take it.
+        let mut gain = 1.0;
         let mut best: Option<Solved> = None;
-        for _ in 0..SOLVES {
+        for solve in 0..SOLVES {
             if self.deadline.is_over() {
                 break;
             }
-            let (forces, rates) = run(&held)?;
-            let next = slips(&ways(&rates, 1.0));
+            let (forces, rates, load_factor) = run(&held)?;
+            let mut next = slips(&ways(&rates, 1.0));
+            if let Some((push, way)) = push.zip(held.last()) {
+                let gone = self.speed(&rates, poses);
+                let given = (way - NOT_NEGATIVE) * reach;
+                if solve == 0 && given.abs() > TOLD * reach {
+                    let told = gone / given;
+                    gain = if told > 1.0 / MOST_GAIN { told.min(MOST_GAIN) } else { gain };
+                }
+                next.push(way + (push.left - gone) / (gain * reach));
+            }
+            let power = push.map_or(0.0, |p| p.power / gain);
             let change = held.iter().zip(&next).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             if !change.is_finite() {
                 break;
@@ -310,7 +376,7 @@ impl Tracker<'_> {
             let better = best.as_ref().is_none_or(|b| change < 2.0 * b.change);
             let following = anderson.next(&held, &next);
             if better {
-                best = Some(Solved { active, forces, rates, change });
+                best = Some(Solved { active, forces, rates, load_factor, power, change });
             }
             if change <= SETTLED {
                 break;
@@ -329,11 +395,14 @@ impl Tracker<'_> {
         near: &[Pose],
         active: &[(usize, Vector3<f64>, bool)],
         reach: f64,
+        value: f64,
     ) -> Option<Vec<Pose>> {
         let blocks = &self.start().blocks;
         let mut poses = near.to_vec();
         for _ in 0..CLOSINGS {
-            let stage = self.stage(&poses);
+            let mut stage = self.stage(&poses);
+            let left = self.left(&poses, value);
+            self.hold_control(&mut stage.model, &poses);
             let model = &stage.model;
             let statics = self.statics(model);
             let by = statics.total_load() * reach;
@@ -371,10 +440,14 @@ impl Tracker<'_> {
                     objective[b.column + k] = b.unit * basis.force.dot(&u) / by;
                 }
             }
-            if worst <= 1e-2 * tolerance::JOINT_CLOSED {
+            let is_there = self.is_there(left.map(|left| Push { left, power: 0.0 }));
+            if worst <= 1e-2 * tolerance::JOINT_CLOSED && is_there {
                 return Some(poses);
             }
-            let (program, layout) = conic::closing(&statics, &objective, &is_active, &slides);
+            let scale = statics.total_load();
+            let drive = left.map(|left| (scale, scale * left / by));
+            let (program, layout) =
+                conic::closing(&statics, &objective, &is_active, &slides, drive);
             let solution = program::solved(&program)?;
             let y = layout.rates(&solution.x, &solution.z);
             let rates = program::rates(&statics, blocks.len(), y, by);
@@ -392,7 +465,8 @@ impl Tracker<'_> {
     }
 
     fn statics(&self, model: &Model) -> Statics {
-        let plane = Statics::new(model, StaticsOptions::default());
+        let live = self.drive.is_push();
+        let plane = Statics::new(model, StaticsOptions { live, ..StaticsOptions::default() });
         let crate::path::Drive::Settle(moves) = self.drive else { return plane };
         // A plane scene knows no motion out of its plane.
         let across = plane.plane.is_some_and(|p| {
@@ -436,7 +510,7 @@ impl Tracker<'_> {
                 }
             }
         }
-        let forces = self.balanced(&found.model, forces)?;
+        let forces = self.balanced(&found.model, forces, solved.load_factor)?;
         let joints = self.joints(&poses, |k| {
             let own = stage.spots.iter().enumerate().filter(|(_, (own, _))| *own == k);
             own.flat_map(|(c, _)| {
@@ -458,7 +532,7 @@ impl Tracker<'_> {
             })
         });
         let step = value - from.value;
-        let rates = poses
+        let rates: Vec<Rate> = poses
             .iter()
             .zip(&from.poses)
             .map(|(a, b)| Rate {
@@ -467,14 +541,21 @@ impl Tracker<'_> {
             })
             .collect();
         let touch = found.from.iter().copied().zip(list.iter().map(|f| f.points.clone())).collect();
-        Some(Rested { value, poses, touch, forces, joints, rates })
+        let power = live_power(&found.model, &rates);
+        let load_factor = solved.load_factor;
+        Some(Rested { value, poses, touch, forces, joints, rates, load_factor, power })
     }
 
     /// These forces, balanced to what counts as balance; others that are, where that is no small
     /// change; nothing where there are none, for then it does not stand.
-    fn balanced(&self, model: &Model, mut forces: Forces) -> Option<Forces> {
+    fn balanced(&self, model: &Model, mut forces: Forces, lambda: f64) -> Option<Forces> {
         mend::cut(&model.interfaces, &mut forces);
-        if certificate::statics(model, &forces, 0.0).unbalance <= tolerance::UNBALANCE {
+        let left = certificate::statics(model, &forces, lambda).unbalance;
+        if self.drive.is_push() {
+            // Its proof is that of its load factor, which finds its own forces.
+            return (left <= tolerance::DRY_BALANCE).then_some(forces);
+        }
+        if left <= tolerance::UNBALANCE {
             return Some(forces);
         }
         if let Some(better) = existence::improved(model, &forces, 0.0) {

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     analysis::{
-        Claims, Control, Proved, limit, mend,
+        Claims, Control, LoadFactor, Proved, coulomb, limit, mend,
         question::{PushOptions, SettleOptions},
     },
     assembly::{Member, Pose, Solid, Wrench},
@@ -22,7 +22,7 @@ use crate::{
     tolerance,
     verdict::{
         Evidence, Forces, Rate,
-        check::{Claim, Findings},
+        check::{self, Claim, Findings},
         exact::existence,
     },
 };
@@ -57,6 +57,8 @@ pub struct PointProof {
     pub rates: Vec<Rate>,
     /// What the check found.
     pub findings: Findings,
+    /// Of a load factor with dry friction: what bounds it from above.
+    pub bound: Option<Box<PointProof>>,
 }
 
 /// Steps of the curve, over the size of the scene.
@@ -113,6 +115,7 @@ pub fn settle(
         at: options.at.clone(),
         step: STEP * size / speed,
         from: from.clone(),
+        dry: false,
     };
     Ok(answer(model, &how, control))
 }
@@ -153,6 +156,7 @@ pub fn push(
         at: options.at.clone(),
         step: STEP * size,
         from: from.clone(),
+        dry: control.law == Law::Coulomb,
     };
     Ok(answer(model, &how, control))
 }
@@ -296,7 +300,10 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
     let model = &found.model;
     if how.drive.is_push() {
         let l = limit(model, &Control { law: Law::Associative, ..*control });
-        return PointProof::of(model, &l);
+        return match &point.touch {
+            None => PointProof::of(model, &l),
+            Some(touch) => dry_proof(carried, &found, (point, touch), &l, control),
+        };
     }
     if let Some(touch) = &point.touch {
         return slid_proof(carried, &found, point, touch);
@@ -345,13 +352,48 @@ fn stands_or_falls(model: &Model, forces: Forces, rates: &[Rate]) -> PointProof 
     if falls.claim.is_some() { falls } else { stands(forces) }
 }
 
-/// Proves a point after sliding: the forces of dry friction, at the contacts that its poses have.
-fn slid_proof(
+/// Proves a load factor after sliding: forces and a mechanism that obey Coulomb's law together, and
+/// the bound of forces inside the friction cones, which no value passes. Where the two are one
+/// number the bound says it, from both sides.
+fn dry_proof(
     carried: &Carried,
     found: &Displaced,
-    point: &Point,
-    touch: &[(usize, Vec<Vector3<f64>>)],
+    (point, touch): (&Point, &Touch),
+    bound: &Proved<LoadFactor>,
+    control: &Control,
 ) -> PointProof {
+    let (model, value) = (&found.model, point.load_factor);
+    let width = tolerance::LOAD_FACTOR_WIDTH * value.abs()
+        + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(&model.assembly);
+    if bound.claim().is_some() && (bound.value - value).abs() <= width {
+        return PointProof::of(model, bound);
+    }
+    let forces = slid_forces(carried, found, point, touch);
+    let own =
+        Side { claim: Some(Claim::DryLoadFactor { value }), forces, rates: point.rates.clone() };
+    let proved = Proved::new(model, own);
+    let mut proof = PointProof::of(model, &proved);
+    if proof.claim.is_none() {
+        let dry = coulomb::complementary(model, bound, control);
+        let other = PointProof::of(model, &Proved::new(model, dry));
+        if other.claim.is_some() {
+            proof = other;
+        }
+    }
+    proof.bound = bound.claim().is_some().then(|| Box::new(PointProof::of(model, bound)));
+    proof
+}
+
+/// Proves a point after sliding: the forces of dry friction, at the contacts that its poses have.
+fn slid_proof(carried: &Carried, found: &Displaced, point: &Point, touch: &Touch) -> PointProof {
+    stands_or_falls(&found.model, slid_forces(carried, found, point, touch), &point.rates)
+}
+
+/// The joint at the start of every contact, and where it touches.
+type Touch = [(usize, Vec<Vector3<f64>>)];
+
+/// The forces of a point after sliding at the contacts that its poses have.
+fn slid_forces(carried: &Carried, found: &Displaced, point: &Point, touch: &Touch) -> Forces {
     let list = &found.model.interfaces.list;
     let mut forces = crate::verdict::no_forces(&found.model.interfaces);
     for ((k, places), given) in touch.iter().zip(&point.forces) {
@@ -366,7 +408,7 @@ fn slid_proof(
         }
     }
     mend::cut(&found.model.interfaces, &mut forces);
-    stands_or_falls(&found.model, forces, &point.rates)
+    forces
 }
 
 impl PointProof {
@@ -378,6 +420,7 @@ impl PointProof {
             forces: forces.clone(),
             rates: rates.to_vec(),
             findings: proved.findings().clone(),
+            bound: None,
         }
     }
 }

@@ -31,6 +31,8 @@ pub struct Follow {
     pub step: f64,
     /// The parameter and the poses to begin at, where that is not the start.
     pub from: Option<(f64, Vec<Pose>)>,
+    /// What a live load pushes is followed where it slides, under dry friction.
+    pub dry: bool,
 }
 
 /// A point of a path.
@@ -198,6 +200,7 @@ impl Tracker<'_> {
                     stuck("no mechanism was found: perhaps the blocks are wedged")
                 }
             })?;
+        let rates = next.rates.clone();
         let wrong = self.drive.is_push() && !self.advances(&next.rates, &state.poses);
         if first {
             path.first = Some((next.forces, next.rates));
@@ -221,7 +224,7 @@ impl Tracker<'_> {
                     touch: None,
                 }));
             }
-            return Err(match self.slide(how, state.value, &state.poses, path) {
+            return Err(match self.slide(how, state.value, &state.poses, &rates, path) {
                 Ok(end) => end,
                 Err(_) => End::Slides(k),
             });
@@ -423,7 +426,8 @@ impl Tracker<'_> {
         let lost = beyond.1.margin.as_ref().map_or_else(Vec::new, |m| self.lost(poses, closed, m));
         if lost.is_empty() {
             // Nothing is about to open: the edge that was reached is that of friction.
-            return Err(match self.slide(how, low.0, &low.1.at.place.poses, path) {
+            let rates = self.heading(old, &low);
+            return Err(match self.slide(how, low.0, &low.1.at.place.poses, &rates, path) {
                 Ok(end) => end,
                 Err(_) => self.slips_away(how, old, low, beyond, closed, path),
             });

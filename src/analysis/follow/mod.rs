@@ -3,6 +3,7 @@
 mod advance;
 pub mod answer;
 mod branch;
+mod control;
 pub mod crack;
 mod drop;
 mod linkage;

@@ -2,14 +2,16 @@
 
 use super::{
     advance::{Joint, Rested},
-    branch::{End, Event, EventKind, Follow, Path, Point},
+    branch::{End, Event, EventKind, Follow, Path, Point, Trial, WIDTH},
+    linkage::Linkage,
+    root::narrow,
     tracker::Tracker,
 };
 use crate::{
     analysis::{Control, assess},
     assembly::Pose,
     terms::Law,
-    verdict::{Rate, Verdict},
+    verdict::{Rate, Verdict, certificate},
 };
 use nalgebra::UnitQuaternion;
 
@@ -53,10 +55,10 @@ impl Tracker<'_> {
         how: &Follow,
         value: f64,
         poses: &[Pose],
+        rates: &[Rate],
         path: &mut Path,
     ) -> Result<End, End> {
-        if how.drive.is_push() {
-            // A load factor under dry friction has no certificate of its own at a pose.
+        if how.drive.is_push() && !how.dry {
             return Err(End::Stuck("what is pushed slides".into()));
         }
         if let Some(end) = self.bars_sliding() {
@@ -71,7 +73,15 @@ impl Tracker<'_> {
             forces: Vec::new(),
             joints: self.joints(poses, |_| false),
             rates: vec![Rate::zero(); blocks],
+            load_factor: 0.0,
+            power: 0.0,
         };
+        if how.drive.is_push() {
+            here = self.begins(&here, rates)?;
+            // Where dry friction rules from here on, the bound of before is not the value.
+            path.points.pop_if(|p| p.value >= value);
+            path.points.push(self.slid_point(&here));
+        }
         // The first step that there is tells that it slides and does not fall.
         let first = [1e-2, 1e-4, 1e-6].map(|by| by * how.step);
         let Some(next) = first.into_iter().find_map(|by| self.advance(&here, value + by)) else {
@@ -108,6 +118,9 @@ impl Tracker<'_> {
                 }
                 continue;
             };
+            if how.drive.is_push() && next.load_factor <= 0.0 {
+                return Ok(self.vanished(&here, next, path));
+            }
             in_a_row = 0;
             let mut next = next;
             if value - here.value <= EVENT * how.step {
@@ -188,6 +201,20 @@ impl Tracker<'_> {
 
     fn slid_point(&self, at: &Rested) -> Point {
         let list = &self.carried.start.interfaces.list;
+        if self.drive.is_push() {
+            // What a step leads to is known at its end; what moves there, of what touches there.
+            let at = self.flow(at).unwrap_or_else(|| at.clone());
+            return Point {
+                value: at.value,
+                poses: at.poses,
+                closed: vec![Vec::new(); list.len()],
+                load_factor: at.load_factor,
+                forces: at.forces,
+                room: 0.0,
+                rates: at.rates,
+                touch: Some(at.touch),
+            };
+        }
         Point {
             value: at.value,
             poses: at.poses.clone(),
@@ -200,6 +227,53 @@ impl Tracker<'_> {
         }
     }
 
+    /// How the blocks of a linkage move where it has come to, per unit of the way of the control
+    /// point; none where supports move.
+    pub(super) fn heading(&self, linkage: &Linkage, low: &(f64, Trial)) -> Vec<Rate> {
+        let back = 1e-6 * self.size;
+        let pushed = self.drive.is_push();
+        let before = pushed.then(|| self.at(linkage, &low.1.at.place, low.0 - back)).flatten();
+        let poses = &low.1.at.place.poses;
+        let rate = |(a, b): (&Pose, &Pose)| Rate {
+            velocity: (a.shift - b.shift) / back,
+            spin: (a.turn * b.turn.inverse()).scaled_axis() / back,
+        };
+        before.map_or_else(Vec::new, |b| poses.iter().zip(&b.place.poses).map(rate).collect())
+    }
+
+    /// The motion that dry friction begins where these rates lead without it.
+    fn begins(&self, here: &Rested, rates: &[Rate]) -> Result<Rested, End> {
+        let found = self.carried.displaced(&here.poses);
+        if rates.len() != here.poses.len() {
+            return Err(End::Stuck("no motion was found".into()));
+        }
+        let speed = self.speed(rates, &here.poses);
+        let blocks = &found.model.assembly;
+        let power: f64 =
+            blocks.free().map(|i| certificate::power(&blocks.live[i], &rates[i])).sum();
+        let per = |r: &Rate| Rate { velocity: r.velocity / speed, spin: r.spin / speed };
+        let driven =
+            Rested { power: power / speed, rates: rates.iter().map(per).collect(), ..here.clone() };
+        let flow = (speed > 0.0 && power > 0.0).then(|| self.flow(&driven)).flatten();
+        flow.ok_or_else(|| End::Stuck("no motion under dry friction was found".into()))
+    }
+
+    /// The load factor vanishes between two poses.
+    fn vanished(&self, here: &Rested, beyond: Rested, path: &mut Path) -> End {
+        let width = WIDTH * beyond.value;
+        let ends = narrow(
+            (here.value, here.load_factor, here.clone()),
+            (beyond.value, beyond.load_factor, beyond),
+            width,
+            |v, near| self.advance(near, v).map(|at| (at.load_factor, at)),
+        );
+        let Some([(_, _, low), _]) = ends else {
+            return End::Stuck("the place where the load factor vanishes was not found".into());
+        };
+        path.points.push(self.slid_point(&low));
+        End::Vanishes
+    }
+
     /// Equilibrium ends between a pose and a value: does it fall?
     fn ceases(&self, here: &Rested, before: Option<&Rested>, beyond: f64, path: &mut Path) -> End {
         if path.points.last().is_none_or(|p| p.value < here.value) {
@@ -208,6 +282,9 @@ impl Tracker<'_> {
         let why =
             "no equilibrium under dry friction was found beyond, near by: what comes is sudden";
         let stuck = End::Stuck(why.into());
+        if self.drive.is_push() {
+            return stuck;
+        }
         // On as it went: so near by that the way is straight.
         let rates = before
             .map_or(&here.rates, |b| if b.value < here.value { &here.rates } else { &b.rates });

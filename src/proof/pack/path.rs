@@ -12,7 +12,7 @@ use crate::{
         answer::Answer,
         path::{
             Bracketed, DrivenBy, MovingSupport, PathAnswer, PathEvent, PathEventKind, PathPoint,
-            PathResult, PathStatus, Reaction, hinges, slips,
+            PathResult, PathStatus, Reaction, hinges, is_good, slips,
         },
         result::{Certificate, QuestionKind, ResultFile},
     },
@@ -109,7 +109,7 @@ impl ResultFile {
 fn point(carried: &Carried, followed: &Followed, p: &Point, proof: &PointProof) -> PathPoint {
     let model = carried.start;
     let load_factor = match proof.claim {
-        Some(Claim::LoadFactor { value, .. }) => Some(value),
+        Some(Claim::LoadFactor { value, .. } | Claim::DryLoadFactor { value }) => Some(value),
         _ => None,
     };
     let reactions = followed.reactions(proof).into_iter().map(|(i, w)| Reaction {
@@ -124,15 +124,20 @@ fn point(carried: &Carried, followed: &Followed, p: &Point, proof: &PointProof) 
         hinges: hinges(carried, &p.poses),
         slips: slips(carried, &p.poses),
         poses: write_poses(&model.assembly, &p.poses),
-        certificate: Certificate {
-            claim: proof.claim,
-            forces: write_forces(&proof.model, &proof.forces),
-            members: write_members(&proof.model, &proof.forces),
-            base: None,
-            base_members: Vec::new(),
-            rates: write_rates(&proof.model.assembly, &proof.rates),
-            verified: proof.findings.holds.clone(),
-        },
+        certificate: certificate(proof),
+        bound: proof.bound.as_deref().map(certificate),
+    }
+}
+
+fn certificate(proof: &PointProof) -> Certificate {
+    Certificate {
+        claim: proof.claim,
+        forces: write_forces(&proof.model, &proof.forces),
+        members: write_members(&proof.model, &proof.forces),
+        base: None,
+        base_members: Vec::new(),
+        rates: write_rates(&proof.model.assembly, &proof.rates),
+        verified: proof.findings.holds.clone(),
     }
 }
 
@@ -143,9 +148,7 @@ fn answer(
     points: &[PathPoint],
     ends: &[PathPoint],
 ) -> PathAnswer {
-    let good = |p: &&PathPoint| {
-        matches!(p.certificate.claim, Some(Claim::Stable | Claim::LoadFactor { .. }))
-    };
+    let good = |p: &&PathPoint| p.certificate.claim.is_some_and(|c| is_good(&c));
     let last = points.iter().take_while(good).last().map(|p| p.value);
     let whole = points.iter().all(|p| good(&p));
     let unproved = || Some("a point on the way could not be proved".to_string());

@@ -5,7 +5,7 @@ mod verify;
 pub(super) use verify::{curve, verify};
 
 use super::result::Certificate;
-use crate::{path::Carried, path::saved::SavedPose, tolerance};
+use crate::{path::Carried, path::saved::SavedPose, tolerance, verdict::check::Claim};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -131,6 +131,10 @@ pub struct PathPoint {
     pub poses: Vec<SavedPose>,
     /// What is proved of that scene.
     pub certificate: Certificate,
+    /// Of a load factor with dry friction: the load factor of joints that open as they slide, which
+    /// no value passes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<Certificate>,
 }
 
 /// The blocks' force on a support.
@@ -265,4 +269,9 @@ pub(super) fn slips(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<S
             Some(Slip { between: between(carried, k), at: at.into(), way })
         })
         .collect()
+}
+
+/// Whether a point with this claim is one of the curve that is proved.
+pub(super) fn is_good(claim: &Claim) -> bool {
+    matches!(claim, Claim::Stable | Claim::LoadFactor { .. } | Claim::DryLoadFactor { .. })
 }

@@ -145,7 +145,9 @@ fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings 
     };
     let said = match (claim, drive) {
         (Claim::Stable | Claim::Unstable, Drive::Settle(_)) => point.load_factor.is_none(),
-        (Claim::LoadFactor { value, .. }, Drive::Push { .. }) => point.load_factor == Some(*value),
+        (Claim::LoadFactor { value, .. } | Claim::DryLoadFactor { value }, Drive::Push { .. }) => {
+            point.load_factor == Some(*value)
+        }
         _ => false,
     };
     require(&mut f, said, "the point says what its certificate claims");
@@ -153,6 +155,7 @@ fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings 
     f.grade = claimed.grade;
     f.holds.extend(claimed.holds);
     f.fails.extend(claimed.fails);
+    bounded(&mut f, model, point);
     let total: f64 = assembly.free().map(|i| assembly.weight(i)).sum();
     let near = |a: &[f64; 3], b: Vector3<f64>, scale: f64| {
         (Vector3::from(*a) - b).norm() <= tolerance::SAVED * scale
@@ -193,6 +196,38 @@ fn check_point(carried: &Carried, drive: &Drive, point: &PathPoint) -> Findings 
         });
     require(&mut f, same, format!("its slips are those of its poses, {} of them", slid.len()));
     f
+}
+
+/// A load factor with dry friction is at most its bound, and only such a one has a bound.
+fn bounded(f: &mut Findings, model: &Model, point: &PathPoint) {
+    let dry = matches!(point.certificate.claim, Some(Claim::DryLoadFactor { .. }));
+    let Some(bound) = &point.bound else {
+        // The forces alone say that no bound can be less.
+        return;
+    };
+    let Some(Claim::LoadFactor { upper, .. }) = bound.claim else {
+        return f.fails.push("its bound claims no load factor".into());
+    };
+    require(
+        f,
+        dry && point.load_factor.is_some_and(|l| l <= upper),
+        format!("the load factor with dry friction is at most {upper}"),
+    );
+    let read = || -> Result<(Forces, Vec<Rate>), String> {
+        let mut forces = read_forces(model, &bound.forces)?;
+        read_members(model, &bound.members, &mut forces)?;
+        Ok((forces, read_rates(&model.assembly, &bound.rates)?))
+    };
+    match (read(), &bound.claim) {
+        (Ok((forces, rates)), Some(claim)) => {
+            let found = check::verify(model, claim, Evidence::new(&forces, &rates));
+            f.grade = f.grade.and(found.grade);
+            f.holds.extend(found.holds.into_iter().map(|t| format!("bound: {t}")));
+            f.fails.extend(found.fails.into_iter().map(|t| format!("bound: {t}")));
+        }
+        (Err(text), _) => f.fails.push(text),
+        (Ok(_), None) => {}
+    }
 }
 
 /// Part of the way between two points at which it is looked whether anything overlaps.
@@ -270,7 +305,7 @@ fn follows(f: &mut Findings, carried: &Carried, drive: &Drive, poses: &[Pose], v
 /// Whether status and value follow from the points; load factors are measured by the natural one.
 fn says(said: &PathAnswer, path: &PathResult, drive: &Drive, natural: f64) -> bool {
     let claim = |p: &PathPoint| p.certificate.claim;
-    let good = |p: &&PathPoint| matches!(claim(p), Some(Claim::Stable | Claim::LoadFactor { .. }));
+    let good = |p: &&PathPoint| claim(p).is_some_and(|c| super::is_good(&c));
     let last = path.points.iter().take_while(good).last().map(|p| p.value);
     match said.status {
         PathStatus::Falls => match &path.ends[..] {

@@ -10,7 +10,7 @@ use crate::{
         path::{DrivenBy, PathEvent, PathEventKind, PathPoint, PathResult, PathStatus},
         result::{QuestionKind, ResultFile},
     },
-    report::path::{along, happens},
+    report::path::{along, bound, happens},
     verdict::check::Claim,
 };
 
@@ -93,7 +93,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
             "The motion is followed along its linkage with finite rotations. At the last value contact forces inside the friction cones balance the loads of the displaced scene; at the next nothing does, and no other equilibrium was found where the mechanism goes from there.",
         ),
         PathStatus::Slides => page.paragraph(
-            "What slides would open as well in limit analysis, and dry joints do not: beyond the first instant such a motion is wrong. No motion under dry friction was found that leads on; with a load factor none is sought.",
+            "What slides would open as well in limit analysis, and dry joints do not: beyond the first instant such a motion is wrong. No motion under dry friction was found that leads on.",
         ),
         PathStatus::Reached | PathStatus::Vanishes | PathStatus::Open => {}
     }
@@ -105,7 +105,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         page.paragraph("Where joints slide the motion is that of dry friction: they slide without opening, against μ times what presses them. Other states may be admissible beside it.");
     }
     if file.question == QuestionKind::Push {
-        page.paragraph("At each point the load factor is that of the displaced scene, between forces that balance it and a mechanism that admits no more; the point moves as the mechanism takes it.");
+        page.paragraph("At each point the load factor is that of the displaced scene, between forces that balance it and a mechanism that admits no more; the point moves as the mechanism takes it. Where it slides by dry friction it is that of forces and a mechanism that obey Coulomb's law together, and at most the bound beside it.");
     }
     page.paragraph("Every point is a scene of its own, with a proof. That the poses are those that the scene passes through is computed, not proved.");
 }
@@ -177,6 +177,10 @@ fn line(path: &PathResult, p: &PathPoint) -> String {
     match p.certificate.claim {
         Some(Claim::LoadFactor { value, lower, upper }) => {
             format!("{head} λ = {}", bracketed(value, lower, upper))
+        }
+        Some(Claim::DryLoadFactor { value }) => {
+            let most = bound(p).map_or(String::new(), |b| format!(", at most {}", short(b)));
+            format!("{head} λ = {} by dry friction{most}", fixed(value, 6))
         }
         Some(Claim::Stable) => {
             let all = along(path, p);
