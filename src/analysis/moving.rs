@@ -12,7 +12,7 @@ use crate::{
     interface::Model,
     parallel,
     scene::Scene,
-    train::{self, Position, Standing},
+    train::{self, Position, Standing, Way},
     verdict::Verdict,
 };
 
@@ -66,16 +66,16 @@ pub(super) fn moving(
     model: &Model,
     control: &Control,
 ) -> Result<Moving, InputError> {
-    let Some(train) = &scene.train else {
+    let (Some(train), Some(way)) = (&scene.train, Way::of(scene, model)) else {
         return Err(InputError::at(JsonPath::root(), "the scene has no train to drive over it")
             .hint("add \"train\": { \"axles\": [ { \"at\": 0, \"force\": 100000 } ], \"path\": [-3, 3], \"step\": 0.1 } to the scene, or ask `limit` about its live load"));
     };
     let dead = (!options.skip_dead).then(|| assess(model, control));
     let verdict = dead.as_ref().map(|d| d.verdict);
-    let asked = |position: &Position| at(scene, model, *position, verdict, control);
-    let mut positions = each(&train::positions(train), &asked);
+    let asked = |position: &Position| at(&way, *position, verdict, control);
+    let mut positions = each(&train::positions(train), &asked)?;
     let dips = dips(&positions);
-    let found = each_dip(&dips, &|&dip| follow(dip, FINEST * train.step, &asked));
+    let found = each_dip(&dips, &|&dip| follow(dip, FINEST * train.step, &asked))?;
     positions.extend(found.into_iter().flatten());
     positions.sort_by(|a, b| {
         let key = |s: &Stood| s.position;
@@ -92,26 +92,27 @@ pub(super) fn moving(
 }
 
 /// One position; nothing where no axle stands on a span.
-fn at(
-    scene: &Scene,
-    model: &Model,
-    position: Position,
-    dead: Option<Verdict>,
-    control: &Control,
-) -> Option<Stood> {
-    let train::Loaded { model, axles } = train::at(scene, model, position)?;
+fn at(way: &Way, position: Position, dead: Option<Verdict>, control: &Control) -> Asked {
+    let Some(train::Loaded { model, axles }) = way.at(position)? else { return Ok(None) };
     let bound = limit(&model, control);
     let dry = ask::dry(&model, &bound, dead, control);
-    Some(Stood { position, axles, bound, dry })
+    Ok(Some(Stood { position, axles, bound, dry }))
 }
+
+/// What comes of a position.
+type Asked = Result<Option<Stood>, InputError>;
 
 /// All positions, in their order, on more than one thread where there can be one: what is asked of
 /// each does not depend on that.
-fn each(list: &[Position], asked: &(impl Fn(&Position) -> Option<Stood> + Sync)) -> Vec<Stood> {
-    match parallel::map(THREADS, list, asked) {
-        Ok(done) => done.into_iter().flatten().collect(),
-        Err(_) => list.iter().filter_map(asked).collect(),
-    }
+fn each(
+    list: &[Position],
+    asked: &(impl Fn(&Position) -> Asked + Sync),
+) -> Result<Vec<Stood>, InputError> {
+    let done = match parallel::map(THREADS, list, asked) {
+        Ok(done) => done,
+        Err(_) => list.iter().map(asked).collect(),
+    };
+    done.into_iter().filter_map(Result::transpose).collect()
 }
 
 /// A dip of the steps: the positions on both sides of one that is no higher than they are, and its
@@ -150,9 +151,12 @@ fn dips(positions: &[Stood]) -> Vec<Dip> {
     list
 }
 
-fn each_dip(dips: &[Dip], follow: &(impl Fn(&Dip) -> Vec<Stood> + Sync)) -> Vec<Vec<Stood>> {
+fn each_dip(
+    dips: &[Dip],
+    follow: &(impl Fn(&Dip) -> Result<Vec<Stood>, InputError> + Sync),
+) -> Result<Vec<Vec<Stood>>, InputError> {
     match parallel::map(THREADS, dips, follow) {
-        Ok(done) => done,
+        Ok(done) => done.into_iter().collect(),
         Err(_) => dips.iter().map(follow).collect(),
     }
 }
@@ -160,15 +164,19 @@ fn each_dip(dips: &[Dip], follow: &(impl Fn(&Dip) -> Vec<Stood> + Sync)) -> Vec<
 /// Golden section on the load factors of a dip (J. Kiefer, *Sequential minimax search for a
 /// maximum*, Proc. AMS 4, 1953): every position on the way, each with its own proof. A position
 /// without a value counts as high; it is kept, and governs.
-fn follow(dip: Dip, finest: f64, asked: &impl Fn(&Position) -> Option<Stood>) -> Vec<Stood> {
+fn follow(
+    dip: Dip,
+    finest: f64,
+    asked: &impl Fn(&Position) -> Asked,
+) -> Result<Vec<Stood>, InputError> {
     let share = 0.5 * (5f64.sqrt() - 1.0);
     let [mut low, mut high] = dip.between;
     let mut list = Vec::new();
     let mut ask = |x: f64| {
-        let stood = asked(&Position { x, ..dip.lowest.0 });
+        let stood = asked(&Position { x, ..dip.lowest.0 })?;
         let value = stood.as_ref().and_then(Stood::value).unwrap_or(f64::INFINITY);
         list.extend(stood);
-        value
+        Ok::<f64, InputError>(value)
     };
     let inner = |low: f64, high: f64| (high - share * (high - low), low + share * (high - low));
     let (mut a, mut b) = inner(low, high);
@@ -176,10 +184,10 @@ fn follow(dip: Dip, finest: f64, asked: &impl Fn(&Position) -> Option<Stood>) ->
     while high - low > finest {
         // The width falls by a constant share, so that this ends.
         if at_a.is_nan() {
-            at_a = ask(a);
+            at_a = ask(a)?;
         }
         if at_b.is_nan() {
-            at_b = ask(b);
+            at_b = ask(b)?;
         }
         if at_a <= at_b {
             (high, b, at_b) = (b, a, at_a);
@@ -189,5 +197,5 @@ fn follow(dip: Dip, finest: f64, asked: &impl Fn(&Position) -> Option<Stood>) ->
             (b, at_b) = (inner(low, high).1, f64::NAN);
         }
     }
-    list
+    Ok(list)
 }

@@ -116,16 +116,22 @@ pub fn radial_section(
     radial(place, &midline, fields.thickness, voussoirs)
 }
 
-/// The same cut into rings of equal thickness, from inside out.
+/// The same cut into rings of equal thickness, from inside out; all together as thick as `fields`
+/// says at the crown and `springing` at the springings, the intrados the same.
 pub fn radial_rings(
     place: &Place,
     fields: &Fields,
     voussoirs: usize,
     rings: usize,
+    springing: f64,
 ) -> Result<Vec<Section>, InputError> {
     let midline = check(place, fields, voussoirs)?;
-    let at = |r: usize| fields.thickness * (r as f64 / rings as f64 - 0.5);
-    (0..rings).map(|r| ring(place, &midline, [at(r), at(r + 1)], voussoirs)).collect()
+    let crown = fields.thickness;
+    let at = |r: usize, u: f64| {
+        let thickness = crown + (springing - crown) * u;
+        thickness * (r as f64 / rings as f64) - 0.5 * crown
+    };
+    (0..rings).map(|r| ring(place, &midline, |u| [at(r, u), at(r + 1, u)], voussoirs)).collect()
 }
 
 /// What holds for every direction of the joints.
@@ -156,7 +162,7 @@ fn check(place: &Place, fields: &Fields, voussoirs: usize) -> Result<Midline, In
     let least = match midline {
         // A voussoir of 180° or more has no area between its straight chords.
         Midline::Circular { half_deg, .. } => (half_deg / 90.0).floor() as usize + 1,
-        Midline::Pointed { .. } | Midline::Elliptical { .. } => 2,
+        Midline::Pointed { .. } | Midline::Elliptical { .. } | Midline::ThreeCentred { .. } => 2,
         Midline::Parabolic { .. } => 1,
     };
     place.count("voussoirs", voussoirs, least)?;
@@ -177,18 +183,20 @@ fn radial(
     thickness: f64,
     n: usize,
 ) -> Result<Section, InputError> {
-    ring(place, midline, [-thickness / 2.0, thickness / 2.0], n)
+    ring(place, midline, |_| [-thickness / 2.0, thickness / 2.0], n)
 }
 
-/// The same between two distances from the mid-line, outwards.
+/// The same between two distances from the mid-line, outwards, at u from 0 (crown) to 1
+/// (springing).
 fn ring(
     place: &Place,
     midline: &Midline,
-    between: [f64; 2],
+    between: impl Fn(f64) -> [f64; 2],
     n: usize,
 ) -> Result<Section, InputError> {
-    let thickness = between[1] - between[0];
-    let joints: Vec<Joint> = (0..=n).map(|j| midline.joint_between(j, n, between)).collect();
+    let ends = between(1.0);
+    let thickness = ends[1] - ends[0];
+    let joints: Vec<Joint> = (0..=n).map(|j| midline.joint_between(j, n, &between)).collect();
     for pair in joints.windows(2) {
         let [[a, d], [b, c]] = [pair[0], pair[1]];
         // Where the thickness reaches past the centre of curvature, the intrados runs backwards.
@@ -206,7 +214,7 @@ fn ring(
         Midline::Circular { half_deg, .. } => {
             // One more voussoir, or half of what is left of the circle.
             let angle = half_deg + (2.0 * half_deg / n as f64).min((180.0 - half_deg) / 2.0);
-            continued(*midline, angle, between, springing)
+            continued(*midline, angle, ends, springing)
         }
         _ => {
             let [[a, d], [b, c]] = [joints[n - 1], springing];
@@ -310,7 +318,7 @@ fn continued(midline: Midline, angle: f64, between: [f64; 2], [b, c]: Joint) -> 
         Midline::Circular { radius, .. } => Midline::Circular { radius, half_deg: angle },
         other => other,
     };
-    let [inner, outer] = circle.joint_between(1, 1, between);
+    let [inner, outer] = circle.joint_between(1, 1, &|_| between);
     vec![b, inner, outer, c]
 }
 

@@ -13,7 +13,10 @@ use super::{
 };
 use crate::{
     error::InputError,
-    scene::{BlockSpec, Shape, template::Dome},
+    scene::{
+        BlockSpec, Shape,
+        template::{Dome, Lantern},
+    },
 };
 
 pub fn blocks(dome: &Dome) -> Result<Vec<BlockSpec>, InputError> {
@@ -25,7 +28,7 @@ pub fn blocks(dome: &Dome) -> Result<Vec<BlockSpec>, InputError> {
         let low = springing - r as f64 * step;
         // The last bed is the edge of the oculus, or the keystone's, to the last bit.
         let high = if r + 1 == dome.rings { top } else { springing - (r + 1) as f64 * step };
-        for k in 0..dome.segments {
+        for k in (0..dome.segments).filter(|&k| !is_open(dome, r, k)) {
             blocks.push(BlockSpec::new(
                 format!("r{r:0rings$}_{k:0segments$}"),
                 voussoir(dome, low, high, k),
@@ -34,6 +37,9 @@ pub fn blocks(dome: &Dome) -> Result<Vec<BlockSpec>, InputError> {
     }
     if dome.oculus_deg.is_none() {
         blocks.push(BlockSpec::new("keystone", keystone(dome, top)));
+    }
+    if let Some(lantern) = &dome.lantern {
+        blocks.extend(drum(dome, lantern, top));
     }
     let foot = springing + step.min((180.0 - springing) / 2.0);
     for k in 0..dome.segments {
@@ -57,6 +63,42 @@ fn check(place: &Place, dome: &Dome) -> Result<(f64, f64, f64), InputError> {
     place.count("rings", dome.rings, 1)?;
     place.count("segments", dome.segments, 3)?;
     place.total("segments", &[dome.rings.saturating_add(1), dome.segments])?;
+    for (i, opening) in dome.openings.iter().enumerate() {
+        let place = Place(place.0.key("openings").index(i));
+        let [from, to] = opening.rings;
+        if from > to || to >= dome.rings {
+            return Err(place.error(
+                "rings",
+                format!(
+                    "must be the first and the last of {} rings, got {from} and {to}",
+                    dome.rings
+                ),
+                "from 0 at the springing",
+            ));
+        }
+        if opening.segments.iter().any(|&k| k >= dome.segments) {
+            return Err(place.error(
+                "segments",
+                format!(
+                    "must be the first and the last of {} segments, got {:?}",
+                    dome.segments, opening.segments
+                ),
+                "from 0",
+            ));
+        }
+    }
+    if let Some(lantern) = &dome.lantern {
+        let place = Place(place.0.key("lantern"));
+        place.length("height", lantern.height)?;
+        place.length("cap", lantern.cap)?;
+        if dome.oculus_deg.is_none_or(|o| o >= 90.0) {
+            return Err(place.error(
+                "height",
+                "a lantern stands on the edge of an oculus in the upper half of the sphere",
+                "give oculus_deg, less than 90",
+            ));
+        }
+    }
     let springing = dome.springing_deg.unwrap_or(90.0);
     if !(springing > 0.0 && springing < 180.0) {
         return Err(place.error(
@@ -79,6 +121,61 @@ fn check(place: &Place, dome: &Dome) -> Result<(f64, f64, f64), InputError> {
             Ok((springing, step, step / 2.0))
         }
     }
+}
+
+/// Whether a voussoir is left out.
+fn is_open(dome: &Dome, ring: usize, segment: usize) -> bool {
+    dome.openings.iter().any(|o| {
+        let [from, to] = o.segments;
+        let across = if from <= to {
+            (from..=to).contains(&segment)
+        } else {
+            segment >= from || segment <= to
+        };
+        across && (o.rings[0]..=o.rings[1]).contains(&ring)
+    })
+}
+
+/// The drum upon the bed joint at `edge`, and its slab. The faces of a block of the drum stand upright
+/// over the sides of that joint; its foot is the joint itself.
+fn drum(dome: &Dome, lantern: &Lantern, edge: f64) -> Vec<BlockSpec> {
+    let [inner, outer] = radii(dome);
+    let top = outer * cos_deg(edge) + lantern.height;
+    let raised = |p: [f64; 3], z: f64| [p[0], p[1], z];
+    let n = dome.segments;
+    let width = digits(n);
+    let mut blocks: Vec<BlockSpec> = (0..n)
+        .map(|k| {
+            let corners = [(inner, k), (inner, k + 1), (outer, k + 1), (outer, k)];
+            let foot = corners.map(|(r, k)| point(dome, r, edge, k));
+            let shape = Shape::Polyhedron {
+                vertices: foot.into_iter().chain(foot.map(|p| raised(p, top))).collect(),
+                // Foot, head, inner face, outer face, the two meridian joints.
+                faces: [
+                    [0, 1, 2, 3],
+                    [7, 6, 5, 4],
+                    [1, 0, 4, 5],
+                    [3, 2, 6, 7],
+                    [2, 1, 5, 6],
+                    [0, 3, 7, 4],
+                ]
+                .map(Vec::from)
+                .into(),
+            };
+            BlockSpec::new(format!("lantern_{k:0width$}"), shape)
+        })
+        .collect();
+    let rim = |z: f64| (0..n).map(move |k| raised(point(dome, outer, edge, k), z));
+    let sides = (0..n).map(|k| {
+        let next = (k + 1) % n;
+        vec![k, next, n + next, n + k]
+    });
+    let slab = Shape::Polyhedron {
+        vertices: rim(top).chain(rim(top + lantern.cap)).collect(),
+        faces: [(0..n).rev().collect(), (n..2 * n).collect()].into_iter().chain(sides).collect(),
+    };
+    blocks.push(BlockSpec::new("lantern_cap", slab));
+    blocks
 }
 
 /// The point of a sphere at an angle from the axis and on meridian `k`; the meridians are symmetric

@@ -45,9 +45,28 @@ pub enum Midline {
     Elliptical { half_span: f64, rise: f64 },
     /// z = rise (1 − (x / half_span)²).
     Parabolic { half_span: f64, rise: f64 },
+    /// The right half: a circle of radius `crown` about (0, rise − crown) to 30° from the axis, then
+    /// one of radius `side` about (half span − side, 0).
+    ThreeCentred { crown: f64, side: f64 },
 }
 
 impl Fields {
+    /// Those of an arch by span and rise of its intrados, with radial joints.
+    pub fn of_intrados_alone(profile: Profile, [span, rise]: [f64; 2], thickness: f64) -> Self {
+        Self {
+            profile,
+            radius: None,
+            embrace_deg: None,
+            eccentricity: None,
+            span: None,
+            rise: None,
+            intrados_span: Some(span),
+            intrados_rise: Some(rise),
+            thickness,
+            sheared: false,
+        }
+    }
+
     /// Checks which fields are there and their ranges.
     pub fn resolve(&self, place: &Place) -> Result<Midline, InputError> {
         let lengths = [
@@ -113,6 +132,11 @@ impl Fields {
                 let (half_span, rise) = self.half_span_and_rise(place)?;
                 Ok(Midline::Parabolic { half_span, rise })
             }
+            Profile::ThreeCentred => {
+                self.refuse(place, "radius", self.radius)?;
+                let (half_span, rise) = self.half_span_and_rise(place)?;
+                three_centred(place, half_span, rise)
+            }
         }
     }
 
@@ -162,6 +186,9 @@ impl Fields {
                 Midline::Elliptical { half_span: half_span + half, rise: rise + half }
             }
             Midline::Parabolic { half_span, rise } => parabola_over(half_span, rise, half),
+            Midline::ThreeCentred { crown, side } => {
+                Midline::ThreeCentred { crown: crown + half, side: side + half }
+            }
         })
     }
 
@@ -232,6 +259,7 @@ impl Fields {
             Profile::Pointed => "a pointed arch",
             Profile::Elliptical => "an elliptical arch",
             Profile::Parabolic => "a parabolic arch",
+            Profile::ThreeCentred => "a three-centred arch",
         }
     }
 
@@ -242,7 +270,7 @@ impl Fields {
         let uses = match self.profile {
             Profile::Circular => "radius and embrace_deg, or span and rise",
             Profile::Pointed => "radius and eccentricity, or span and rise",
-            Profile::Elliptical | Profile::Parabolic => "span and rise",
+            Profile::Elliptical | Profile::Parabolic | Profile::ThreeCentred => "span and rise",
         };
         Err(place.error(
             field,
@@ -272,12 +300,12 @@ impl Midline {
     /// The joint normal to the mid-line at u = (2j − n) / n, with half the thickness on either
     /// side.
     pub fn radial_joint(&self, j: usize, n: usize, thickness: f64) -> Joint {
-        self.joint_between(j, n, [-thickness / 2.0, thickness / 2.0])
+        self.joint_between(j, n, &|_| [-thickness / 2.0, thickness / 2.0])
     }
 
-    /// The same between two distances from the mid-line, outwards.
-    pub fn joint_between(&self, j: usize, n: usize, between: [f64; 2]) -> Joint {
-        mirrored(j, n, |u| between.map(|out| self.offset(u, out)))
+    /// The same between two distances from the mid-line, outwards, at |u|.
+    pub fn joint_between(&self, j: usize, n: usize, between: &impl Fn(f64) -> [f64; 2]) -> Joint {
+        mirrored(j, n, |u| between(u).map(|out| self.offset(u, out)))
     }
 
     /// The point of the mid-line at (2j − n) / n of the half span.
@@ -297,6 +325,8 @@ impl Midline {
             Midline::Elliptical { half_span, .. } | Midline::Parabolic { half_span, .. } => {
                 half_span
             }
+            // The centres are 2 × (half span − side) apart.
+            Midline::ThreeCentred { crown, side } => 0.5 * (crown + side),
         }
     }
 
@@ -308,6 +338,13 @@ impl Midline {
             Midline::Pointed { radius, eccentricity } => circle(radius, x + eccentricity),
             Midline::Elliptical { half_span, rise } => rise * circle(1.0, x / half_span),
             Midline::Parabolic { half_span, rise } => rise * (1.0 - (x / half_span).powi(2)),
+            Midline::ThreeCentred { crown, side } => {
+                if x <= crown * sin_deg(HALF_CROWN_DEG) {
+                    circle(crown, x) - (crown - side) * cos_deg(HALF_CROWN_DEG)
+                } else {
+                    circle(side, x - 0.5 * (crown - side))
+                }
+            }
         }
     }
 
@@ -333,8 +370,43 @@ impl Midline {
             Midline::Parabolic { half_span: a, rise } => {
                 along([a * u, rise * (1.0 - u * u)], [2.0 * rise * u, a], out)
             }
+            Midline::ThreeCentred { crown, side } => {
+                // By length: half of the crown's arc has 30°, a side's 60°.
+                let arcs = [crown * HALF_CROWN_DEG, side * (90.0 - HALF_CROWN_DEG)];
+                let place = u * (arcs[0] + arcs[1]);
+                if place <= arcs[0] {
+                    let (r, angle) = (crown + out, place / crown);
+                    let low = (crown - side) * cos_deg(HALF_CROWN_DEG);
+                    return [r * sin_deg(angle), r * cos_deg(angle) - low];
+                }
+                // The springing to the last bit.
+                let left = if u == 1.0 { 0.0 } else { (1.0 - u) * (arcs[0] + arcs[1]) / side };
+                let (r, angle) = (side + out, 90.0 - left);
+                [r * sin_deg(angle) + 0.5 * (crown - side), r * cos_deg(angle)]
+            }
         }
     }
+}
+
+/// Half of the angle of the crown's arc of a three-centred arch: all three arcs have 60°, as
+/// C. Huygens drew it.
+const HALF_CROWN_DEG: f64 = 30.0;
+
+/// The radii for a span and a rise: side + (crown − side) sin 30° = half span and crown − (crown −
+/// side) cos 30° = rise.
+fn three_centred(place: &Place, half_span: f64, rise: f64) -> Result<Midline, InputError> {
+    let (sin, cos) = (sin_deg(HALF_CROWN_DEG), cos_deg(HALF_CROWN_DEG));
+    let least = half_span * (1.0 - cos) / sin;
+    if !(rise > least && rise <= half_span) {
+        return Err(place.error(
+            "rise",
+            format!("with three arcs of 60° it lies between {least} and half the span ({half_span}), got {rise}"),
+            "use profile circular or elliptical for a lower arch, pointed for a higher one",
+        ));
+    }
+    let apart = (half_span - rise) / (sin + cos - 1.0);
+    let side = half_span - apart * sin;
+    Ok(Midline::ThreeCentred { crown: side + apart, side })
 }
 
 /// The parabola whose points, moved inwards by `half` along its normals, have their ends

@@ -14,17 +14,21 @@ mod deposit;
 mod dome;
 mod flat_arch;
 mod grain;
+mod groin;
 mod hull;
 mod lattice;
+mod leaves;
 mod load;
 mod member;
 mod midline;
+mod portal;
 mod stack;
+mod tower;
 mod wall;
 
 pub use bridge::Spread;
 pub use deposit::{Deposit, deposit};
-pub use load::{loads, on_road};
+pub use load::{Road, loads, on_road, said};
 pub use member::members;
 
 use crate::{
@@ -49,8 +53,12 @@ pub fn expand(template: &Template) -> Result<Vec<BlockSpec>, InputError> {
         Template::Column(t) => (column::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Dome(t) => (dome::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::FlatArch(t) => (flat_arch::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Groin(t) => (groin::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Lattice(t) => (lattice::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Leaves(t) => (leaves::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Portal(t) => (portal::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Stack(t) => (stack::blocks(t)?, &t.prefix, t.at, &t.material),
+        Template::Tower(t) => (tower::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Wall(t) => (wall::blocks(t)?, &t.prefix, t.at, &t.material),
     };
     let root = JsonPath::root().key(template.name());
@@ -92,9 +100,9 @@ pub fn default_template(name: &str) -> Option<serde_json::Value> {
 pub fn make_room(values: &mut serde_json::Map<String, serde_json::Value>, chosen: &[(&str, &str)]) {
     let is_chosen = |key: &str| chosen.iter().any(|(k, _)| *k == key);
     let by_span = ["span", "rise", "intrados_span", "intrados_rise"].into_iter().any(is_chosen)
-        || chosen
-            .iter()
-            .any(|(key, value)| *key == "profile" && ["elliptical", "parabolic"].contains(value));
+        || chosen.iter().any(|(key, value)| {
+            *key == "profile" && ["elliptical", "parabolic", "three_centred"].contains(value)
+        });
     for (own, excluded) in [("radius", by_span), ("shift", is_chosen("harmonic"))] {
         // A flat arch has a span of its own and no radius.
         if excluded && !is_chosen(own) {
@@ -161,11 +169,45 @@ pub fn examples() -> Vec<Template> {
             center_depth: Some(3.0),
             ..Default::default()
         }),
+        Template::Groin(template::Groin {
+            clear_span: 4.0,
+            rise: 2.0,
+            thickness: 0.4,
+            side: 5.0,
+            voussoirs: 16,
+            springers: true,
+            ..Default::default()
+        }),
         Template::Lattice(template::Lattice { radius: 0.01, layers: 4, ..Default::default() }),
+        Template::Leaves(template::Leaves {
+            size: [0.6, 0.25, 0.25],
+            hollow: 0.2,
+            courses: 9,
+            blocks: 6,
+            through_every: Some(3),
+            ..Default::default()
+        }),
+        Template::Portal(template::Portal {
+            clear_span: 3.0,
+            rise: 1.5,
+            thickness: 0.4,
+            depth: 1.0,
+            voussoirs: 15,
+            pier: template::Pier { width: 1.2, height: 3.0, courses: 6 },
+            ..Default::default()
+        }),
         Template::Stack(template::Stack {
             blocks: 10,
             size: [1.0, 1.0, 0.2],
             shift: Some(0.05),
+            ..Default::default()
+        }),
+        Template::Tower(template::Tower {
+            size: [4.0, 4.0],
+            thickness: 0.8,
+            course: 0.6,
+            courses: 20,
+            blocks: 2,
             ..Default::default()
         }),
         Template::Wall(template::Wall {

@@ -8,7 +8,8 @@
 
 use crate::{
     assembly::{AppliedForce, Wrench},
-    generate,
+    error::{InputError, JsonPath},
+    generate::Road,
     interface::Model,
     scene::{At, Axle, AxleForce, OnRoad, Scene, Train},
 };
@@ -122,37 +123,67 @@ pub struct Loaded {
     pub axles: Vec<Standing>,
 }
 
-/// The scene with its train at a position; nothing where no axle presses on a block that may move.
-/// `model` is the scene as prepared.
-pub fn at(scene: &Scene, model: &Model, position: Position) -> Option<Loaded> {
-    let train = scene.train.as_ref()?;
-    let down = model.assembly.gravity.normalize();
-    let blocks = &model.assembly.blocks;
-    let mut live = vec![Wrench::zero(); blocks.len()];
-    let mut live_forces = Vec::new();
-    let mut axles = Vec::new();
-    for (k, axle) in train.axles.iter().enumerate() {
-        let x = position.x + position.travel.sign() * axle.at;
-        let on = OnRoad { x, patch: axle.patch, across: axle.across };
-        let whole = force(axle, &down);
-        let push = (down * whole).into();
-        let spread = scene.templates.iter().find_map(|t| generate::on_road(t, on, push));
-        let Some(spread) = spread else { continue };
-        for load in &spread.loads {
-            let block = load.block.as_deref().and_then(|id| model.assembly.find(id))?;
-            let (Some(force), Some(At::Point(p))) = (load.force.map(Vector3::from), load.at) else {
-                continue;
-            };
-            let arm = Vector3::from(p) - blocks[block].centroid;
-            live[block] += Wrench { force, moment: arm.cross(&force) };
-            live_forces.push(AppliedForce { block, force, arm });
+/// The way of the train of a scene, with all that no position changes made ready once: the roads
+/// and what lies below them.
+pub struct Way<'a> {
+    train: &'a Train,
+    model: &'a Model,
+    roads: Vec<Road>,
+    down: Vector3<f64>,
+}
+
+impl<'a> Way<'a> {
+    /// Nothing where the scene has no train. `model` is the scene as prepared.
+    pub fn of(scene: &'a Scene, model: &'a Model) -> Option<Self> {
+        let train = scene.train.as_ref()?;
+        let roads = scene.templates.iter().filter_map(Road::of).collect();
+        Some(Self { train, model, roads, down: model.assembly.gravity.normalize() })
+    }
+
+    /// The scene with its train at a position; nothing where no axle presses on a block that may
+    /// move.
+    ///
+    /// # Errors
+    /// A road lies on a block that the model does not have.
+    pub fn at(&self, position: Position) -> Result<Option<Loaded>, InputError> {
+        let assembly = &self.model.assembly;
+        let mut live = vec![Wrench::zero(); assembly.blocks.len()];
+        let mut live_forces = Vec::new();
+        let mut axles = Vec::new();
+        for (k, axle) in self.train.axles.iter().enumerate() {
+            let x = position.x + position.travel.sign() * axle.at;
+            let on = OnRoad { x, patch: axle.patch, across: axle.across };
+            let whole = force(axle, &self.down);
+            let push = (self.down * whole).into();
+            let Some(spread) = self.roads.iter().find_map(|r| r.under(on, push)) else { continue };
+            for load in &spread.loads {
+                // All three are there: so a road makes its loads.
+                let (Some(id), Some(force), Some(At::Point(p))) =
+                    (load.block.as_deref(), load.force.map(Vector3::from), load.at)
+                else {
+                    continue;
+                };
+                let block = assembly.find(id).ok_or_else(|| missing(k, x, id))?;
+                let arm = Vector3::from(p) - assembly.blocks[block].centroid;
+                live[block] += Wrench { force, moment: arm.cross(&force) };
+                live_forces.push(AppliedForce { block, force, arm });
+            }
+            axles.push(Standing { axle: k, x, force: whole, share: 1.0 - spread.beside });
         }
-        axles.push(Standing { axle: k, x, force: whole, share: 1.0 - spread.beside });
+        if live.iter().all(|w| *w == Wrench::zero()) {
+            return Ok(None);
+        }
+        let mut model = self.model.clone();
+        (model.assembly.live, model.assembly.live_forces) = (live, live_forces);
+        Ok(Some(Loaded { model, axles }))
     }
-    if live.iter().all(|w| *w == Wrench::zero()) {
-        return None;
-    }
-    let mut model = model.clone();
-    (model.assembly.live, model.assembly.live_forces) = (live, live_forces);
-    Some(Loaded { model, axles })
+}
+
+/// A road on a block that is not there: the position must not pass for one without a load.
+fn missing(axle: usize, x: f64, id: &str) -> InputError {
+    let path = JsonPath::root().key("train").key("axles").index(axle);
+    let text = format!("at x = {x} it presses on the block {id:?} of the road, which is not there");
+    InputError::at(path, text).hint(
+        "ask the whole scene as it was prepared, with all blocks of its bridge, or end the path before",
+    )
 }

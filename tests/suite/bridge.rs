@@ -226,6 +226,146 @@ fn mistakes_are_named() {
     }
 }
 
+/// A ring thicker at its springings has the same intrados, and as much more stone.
+#[test]
+fn a_ring_may_be_thicker_at_its_springings() {
+    let with = |thickness: Option<f64>| {
+        let mut value = scene(PRESTWOOD, None, 1.6375);
+        if let Some(t) = thickness {
+            value["templates"][0]["bridge"]["spans"][0]["springing_thickness"] = json!(t);
+        }
+        read(&value)
+    };
+    let same = model(&with(Some(0.22)));
+    let (plain, thick) = (model(&with(None)), model(&with(Some(0.44))));
+    let volume = |m: &voussoir::interface::Model| {
+        m.assembly.blocks.iter().filter(|b| !b.support).map(|b| b.mass).sum::<f64>()
+            / (20e3 / 9.81)
+            / 3.8
+    };
+    assert_eq!(volume(&same), volume(&plain));
+    // Between the circle of the intrados and r + t (1 + u) at an angle of u × half: t² (1 + u)² / 2 +
+    // r t (1 + u), from u = 0 to 1, twice.
+    let [span, rise, t, ..] = PRESTWOOD;
+    let r = (0.25 * span * span + rise * rise) / (2.0 * rise);
+    let half = (0.5 * span / r).asin();
+    let area = 2.0 * half * (r * t * 1.5 + 0.5 * t * t * 7.0 / 3.0);
+    close("area", volume(&thick), area, 2e-3);
+    let told: Vec<_> = thick.findings().map(|f| f.text.clone()).collect();
+    assert!(told.is_empty(), "{told:?}");
+    assert!(load_factor(&with(Some(0.44))) > 1.1 * load_factor(&with(None)));
+}
+
+/// Backing weighs and resists up to its height: as heavy as the fill and as stiff it changes nothing,
+/// up to the road it is the fill.
+#[test]
+fn backing_is_fill_of_its_own() {
+    let with = |backing: Value, weight: f64, k: f64| {
+        let mut value = scene(PRESTWOOD, Some(k), 1.6375);
+        let fill = &mut value["templates"][0]["bridge"]["fill"];
+        fill["unit_weight"] = json!(weight);
+        if !backing.is_null() {
+            fill["backing"] = backing;
+        }
+        read(&value)
+    };
+    let plain = load_factor(&with(Value::Null, 18e3, 1.5));
+    let alike = with(json!({ "height": 1.0, "unit_weight": 18e3 }), 18e3, 1.5);
+    close("alike", load_factor(&alike), plain, 1e-9);
+    let dead = |s: &Scene| {
+        let m = model(s);
+        let sum = |f: &dyn Fn(&voussoir::assembly::AppliedForce) -> f64| {
+            m.assembly.dead_forces.iter().map(f).sum::<f64>()
+        };
+        let x = |f: &voussoir::assembly::AppliedForce| {
+            (m.assembly.blocks[f.block].centroid.x + f.arm.x).abs() * -f.force.z
+        };
+        [sum(&|f| -f.force.z), sum(&x)]
+    };
+    let all = dead(&with(json!({ "height": 9.0, "unit_weight": 22e3 }), 18e3, 1.5));
+    let heavy = dead(&with(Value::Null, 22e3, 1.5));
+    close("weight", all[0], heavy[0], 1e-12);
+    close("place", all[1], heavy[1], 1e-12);
+    let part = dead(&with(json!({ "height": 0.7, "unit_weight": 22e3 }), 18e3, 1.5));
+    let light = dead(&with(Value::Null, 18e3, 1.5));
+    assert!(part[0] > light[0] && part[0] < heavy[0]);
+    let stiff = with(json!({ "height": 1.0, "unit_weight": 18e3, "passive": 3.0 }), 18e3, 1.5);
+    assert!(load_factor(&stiff) > plain * 1.01);
+    let told = |backing: Value| {
+        let s = with(backing, 18e3, 1.5);
+        let Err(e) = voussoir::interface::prepare(&s) else { panic!("no mistake") };
+        format!("{}: {}", e.path, e.message)
+    };
+    let text = told(json!({ "height": -1, "unit_weight": 1e4 }));
+    assert!(text.contains("bridge.fill.backing.height: must be > 0"), "{text}");
+    let text = told(json!({ "height": 1, "unit_weight": 1e4, "passive": -1 }));
+    assert!(text.contains("bridge.fill.backing.passive: must be at least 0"), "{text}");
+}
+
+/// The pressure of an elastic half-space is steeper below the patch than at its ends; all of the load
+/// is there, about its own middle, and each share is the integral of the pressure.
+#[test]
+fn boussinesq_loses_nothing_and_is_the_integral_of_its_pressure() {
+    let loads = |distribution: &str, x: f64| {
+        let mut value = scene([6.0, 0.3, 0.3, 3.0, 1.0], None, 3.0 + x);
+        value["templates"][0]["bridge"]["fill"]["distribution"] = json!(distribution);
+        value["templates"][0]["bridge"]["fill"]["dispersal"] = json!(1.0);
+        model(&read(&value))
+    };
+    let m = loads("boussinesq", 0.1);
+    let place =
+        |f: &voussoir::assembly::AppliedForce| m.assembly.blocks[f.block].centroid.x + f.arm.x;
+    let list = &m.assembly.live_forces;
+    let sum: f64 = list.iter().map(|f| -f.force.z).sum();
+    close("all", sum, 1000.0, 1e-12);
+    let middle: f64 = list.iter().map(|f| -f.force.z * place(f)).sum::<f64>() / sum;
+    assert!((middle - 0.1).abs() < 1e-9, "{middle}");
+    // By Simpson's rule over a chord in the middle, against the whole length. The depth is that below
+    // the patch's middle; the chord near the crown is level.
+    let even = loads("even", 0.1);
+    let most = |m: &voussoir::interface::Model| {
+        m.assembly.live_forces.iter().map(|f| -f.force.z).fold(0.0, f64::max)
+    };
+    assert!(most(&m) > 1.2 * most(&even), "{} {}", most(&m), most(&even));
+    let joints: Vec<f64> = {
+        // Extrados corners: radius and angle of the ring.
+        let r = (9.0f64 + 0.09) / 0.6 + 0.3;
+        let half = (3.0 / (r - 0.3)).asin();
+        (0..=40).map(|j| r * (half * (f64::from(j) / 20.0 - 1.0)).sin()).collect()
+    };
+    let r = (9.0f64 + 0.09) / 0.6 + 0.3;
+    let height = |x: f64| {
+        let k = joints.partition_point(|j| *j <= x).clamp(1, 40);
+        let z = |x: f64| (r * r - x * x).sqrt();
+        let (a, b) = (joints[k - 1], joints[k]);
+        z(a) + (x - a) / (b - a) * (z(b) - z(a))
+    };
+    let depth = r + 1.0 - height(0.1);
+    let pressure = |x: f64| {
+        let half = |u: f64| (u / depth).atan() + depth * u / (depth * depth + u * u);
+        half(x - 0.1 + 0.15) - half(x - 0.1 - 0.15)
+    };
+    let integral = |from: f64, to: f64| {
+        let n = 2000;
+        let h = (to - from) / f64::from(n);
+        (0..=n)
+            .map(|k| {
+                let w = if k == 0 || k == n { 1.0 } else { 2.0 + 2.0 * f64::from(k % 2) };
+                w * pressure(from + f64::from(k) * h)
+            })
+            .sum::<f64>()
+            * h
+            / 3.0
+    };
+    let reach = 0.15 + depth;
+    let whole = integral(0.1 - reach, 0.1 + reach);
+    for f in list {
+        let k = joints.partition_point(|j| *j <= place(f)).clamp(1, 40);
+        let (a, b) = (joints[k - 1].max(0.1 - reach), joints[k].min(0.1 + reach));
+        close("share", -f.force.z / 1000.0, integral(a, b) / whole, 1e-8);
+    }
+}
+
 /// BR01: the influence line of a ring, joint by joint from its left springing. The load stands on the
 /// extrados where two voussoirs meet, on either of them. (Published, of voussoirs weighed as sectors:
 /// 2.751 kN at the eighth joint; Stockdale et al. 2018, SoftwareX 7.)

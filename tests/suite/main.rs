@@ -57,5 +57,6 @@ mod state;
 mod strength;
 mod sweep;
 mod symmetry;
+mod templates;
 mod thrust;
 mod train;

@@ -100,6 +100,21 @@ fn the_worst_position_is_found_between_the_steps() {
     assert!(chart.contains("the train") && chart.contains("load factor"));
 }
 
+/// A road on a block that is not there is an error with its place, not a position without a train.
+#[test]
+fn a_road_on_a_missing_block_is_an_error() {
+    let scene = read(&bridge(12, axle([0.8, 2.0], 0.4)));
+    let whole = model(&scene);
+    let gone = whole.assembly.find("v02").expect("a voussoir");
+    let question =
+        Question::Moving(MovingOptions { law: Law::Associative, ..MovingOptions::default() });
+    let e =
+        ask(&question, &scene, &whole.without(&[gone]), &Control::default()).expect_err("an error");
+    let text = format!("{}: {} ({})", e.path, e.message, e.hint.unwrap_or_default());
+    assert!(text.starts_with("train.axles[0]: at x = "), "{text}");
+    assert!(text.contains("\"v02\"") && text.contains("as it was prepared"), "{text}");
+}
+
 /// The mirror image of a position is the train turned round: both directions of travel have the
 /// same least load factor on a bridge that is its own image.
 #[test]

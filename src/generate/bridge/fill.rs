@@ -5,11 +5,14 @@
 //! of the chord's middle (a member `soil`). *Spread.* A load on a length w of the road spreads to either
 //! side by `dispersal` × depth, down to the extrados below its middle, and presses evenly on the length
 //! it has there; on a chord that it covers in part it acts at the middle of that part (Melbourne &
-//! Gilbert 1995 spread alike, 1 horizontally to 2 vertically).
+//! Gilbert 1995 spread alike, 1 horizontally to 2 vertically); or it presses as in an elastic half-space
+//! (`pressure`). *Backing.* Below its height the strip has the backing's weight, and chords whose
+//! middle lies there its resistance.
 
 use super::{
     Plan,
     course::{Chord, chords},
+    pressure::Pressure,
 };
 use crate::{
     error::InputError,
@@ -17,7 +20,7 @@ use crate::{
     scene::{
         At, Load, Member, OnRoad,
         member::{Face, Near, Soil},
-        template::{Bridge, Fill},
+        template::{Bridge, Distribution, Fill},
     },
 };
 
@@ -74,6 +77,18 @@ pub(super) fn check(bridge: &Bridge, plan: &Plan) -> Result<(), InputError> {
             "in degrees",
         ));
     }
+    if let Some(backing) = &fill.backing {
+        let place = Place(place.0.key("backing"));
+        place.length("height", backing.height)?;
+        place.length("unit_weight", backing.unit_weight)?;
+        if let Some(k) = backing.passive.filter(|k| !(k.is_finite() && *k >= 0.0)) {
+            return Err(place.error(
+                "passive",
+                format!("must be at least 0, got {k}"),
+                "as that of the fill, greater where the backing is stiff; leave it out for that of the fill",
+            ));
+        }
+    }
     let road = Road::of(bridge, fill, plan);
     let list = chords(bridge, plan);
     let low = list.iter().flat_map(|c| [c.from, c.to]).find(|p| {
@@ -102,16 +117,50 @@ pub fn loads(bridge: &Bridge) -> Vec<Load> {
         let x = chord.from[0] + share * chord.length();
         down(chord, x, weight)
     };
+    let backed = |chord: &Chord| {
+        let backing = fill.backing.as_ref()?;
+        let more = (backing.unit_weight - fill.unit_weight) * bridge.width;
+        let (x, area) = below(chord, &road, backing.height)?;
+        down(chord, x, more * area)
+    };
     let parapet = |chord: &Chord| {
         let x = 0.5 * (chord.from[0] + chord.to[0]);
         down(chord, x, fill.parapets * chord.length())
     };
-    list.iter().filter_map(strip).chain(list.iter().filter_map(parapet)).collect()
+    let each = list.iter();
+    let strips = each.clone().filter_map(strip).chain(each.clone().filter_map(backed));
+    strips.chain(each.filter_map(parapet)).collect()
 }
 
-/// A weight on a chord.
+/// The area between a chord and a level above it (at most the road), and the x of its centroid.
+fn below(chord: &Chord, road: &Road, level: f64) -> Option<(f64, f64)> {
+    let [a, b] = [chord.from, chord.to];
+    // Depths change linearly between the ends of the chord, the crossing of the level and that of
+    // the road with it.
+    let depth = |x: f64| (level.min(road.height(x)) - chord.height(x)).max(0.0);
+    let crossing = |x: [f64; 2], of: &dyn Fn(f64) -> f64| {
+        let (from, to) = (of(x[0]), of(x[1]));
+        (from * to < 0.0).then(|| x[0] + (x[1] - x[0]) * from / (from - to))
+    };
+    let ends = [a[0], b[0]];
+    let mut marks = vec![a[0], b[0]];
+    marks.extend(crossing(ends, &|x| level - chord.height(x)));
+    marks.extend(crossing(ends, &|x| level - road.height(x)));
+    marks.sort_by(f64::total_cmp);
+    let (mut area, mut moment) = (0.0, 0.0);
+    for pair in marks.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let [d, e] = [depth(from), depth(to)];
+        area += 0.5 * (d + e) * (to - from);
+        // About x = 0: the trapezoid's own first moment.
+        moment += (to - from) / 6.0 * (d * (2.0 * from + to) + e * (from + 2.0 * to));
+    }
+    (area > 0.0).then(|| (moment / area, area))
+}
+
+/// A weight on a chord; less than nothing where backing is lighter than the fill.
 fn down(chord: &Chord, x: f64, weight: f64) -> Option<Load> {
-    (weight > 0.0).then(|| Load {
+    (weight != 0.0).then(|| Load {
         block: Some(chord.block.clone()),
         force: Some([0.0, 0.0, -weight]),
         at: Some(At::Point([x, 0.0, chord.height(x)])),
@@ -119,18 +168,26 @@ fn down(chord: &Chord, x: f64, weight: f64) -> Option<Load> {
     })
 }
 
+/// The coefficient of the passive pressure; 0 for none.
+pub(super) fn resistance(fill: &Fill) -> f64 {
+    match (fill.passive, fill.friction_deg) {
+        (Some(k), _) => k,
+        (None, Some(angle)) => 0.5 * (45.0 + 0.5 * angle).to_radians().tan().powi(2),
+        (None, None) => 0.0,
+    }
+}
+
 /// The members that stand for the resistance of the fill, names and places as in the template.
 pub fn soil(bridge: &Bridge) -> Vec<Member> {
     let (Some(fill), Ok(plan)) = (&bridge.fill, Plan::of(bridge)) else { return Vec::new() };
-    let k = match (fill.passive, fill.friction_deg) {
-        (Some(k), _) => k,
-        (None, Some(angle)) => 0.5 * (45.0 + 0.5 * angle).to_radians().tan().powi(2),
-        (None, None) => return Vec::new(),
-    };
+    let all = resistance(fill);
+    let backing = fill.backing.as_ref();
     let road = Road::of(bridge, fill, &plan);
     let resists = |chord: &Chord| {
         let middle = [0, 1].map(|i| 0.5 * (chord.from[i] + chord.to[i]));
         let surface = road.height(middle[0]);
+        let own = backing.filter(|b| middle[1] < b.height).and_then(|b| b.passive);
+        let k = own.unwrap_or(all);
         (chord.towards != 0.0 && surface > middle[1] && k > 0.0).then(|| Member {
             id: format!("soil_{}", chord.block),
             soil: Some(Soil {
@@ -155,39 +212,60 @@ pub struct Spread {
     pub beside: f64,
 }
 
-/// What a `force` on a stretch of the road does to the bridge; `x` of the stretch is about the
-/// template's origin. The plane model is as wide as the bridge: where less of it carries, the load
-/// counts for more.
-pub fn spread(bridge: &Bridge, on: OnRoad, force: [f64; 3]) -> Spread {
-    let Ok(plan) = Plan::of(bridge) else { return Spread { loads: Vec::new(), beside: 1.0 } };
-    let list = chords(bridge, &plan);
-    // Over an abutment nothing says how deep it is.
-    let below = list.iter().find(|c| c.from[0] <= on.x && on.x <= c.to[0]);
-    let reach = match (&bridge.fill, below) {
-        (Some(fill), Some(chord)) => {
-            let road = Road::of(bridge, fill, &plan);
-            (road.height(on.x) - chord.height(on.x)).max(0.0) * fill.dispersal
-        }
-        _ => 0.0,
-    };
-    let carries = on.across.map_or(bridge.width, |w| (w + 2.0 * reach).min(bridge.width));
-    let length = on.patch + 2.0 * reach;
-    let (from, to) = (on.x - 0.5 * length, on.x + 0.5 * length);
-    let mut beside = 1.0;
-    let mut loads = Vec::new();
-    for chord in &list {
-        let (a, b) = (chord.from[0].max(from), chord.to[0].min(to));
-        if b <= a {
-            continue;
-        }
-        let (x, share) = (0.5 * (a + b), (b - a) / length);
-        beside -= share;
-        loads.push(Load {
-            block: Some(chord.block.clone()),
-            force: Some(force.map(|f| f * share * bridge.width / carries)),
-            at: Some(At::Point([x, 0.0, chord.height(x)])),
-            ..Load::default()
-        });
+/// The upper surface of a bridge and what lies on it, made ready for any number of loads.
+pub struct Surface {
+    chords: Vec<Chord>,
+    /// The road, how far a load spreads per metre of depth, and how it is distributed there.
+    fill: Option<(Road, f64, Distribution)>,
+    width: f64,
+}
+
+impl Surface {
+    /// Nothing where the bridge has a mistake.
+    pub fn of(bridge: &Bridge) -> Option<Self> {
+        let plan = Plan::of(bridge).ok()?;
+        let road = |f: &Fill| (Road::of(bridge, f, &plan), f.dispersal, f.distribution);
+        Some(Self {
+            chords: chords(bridge, &plan),
+            fill: bridge.fill.as_ref().map(road),
+            width: bridge.width,
+        })
     }
-    Spread { loads, beside: beside.max(0.0) }
+
+    /// What a `force` on a stretch of the road does to the bridge; `x` of the stretch is about the
+    /// template's origin. The plane model is as wide as the bridge: where less of it carries, the
+    /// load counts for more.
+    pub fn spread(&self, on: OnRoad, force: [f64; 3]) -> Spread {
+        // Over an abutment nothing says how deep it is.
+        let below = self.chords.iter().find(|c| c.from[0] <= on.x && on.x <= c.to[0]);
+        let (depth, dispersal, distribution) = match (&self.fill, below) {
+            (Some((road, dispersal, distribution)), Some(chord)) => {
+                let depth = (road.height(on.x) - chord.height(on.x)).max(0.0);
+                (depth, *dispersal, *distribution)
+            }
+            _ => (0.0, 0.0, Distribution::Even),
+        };
+        let reach = depth * dispersal;
+        let carries = on.across.map_or(self.width, |w| (w + 2.0 * reach).min(self.width));
+        let length = on.patch + 2.0 * reach;
+        let pressure = Pressure::new(distribution, on.patch, depth, length);
+        let (from, to) = (on.x - 0.5 * length, on.x + 0.5 * length);
+        let mut beside = 1.0;
+        let mut loads = Vec::new();
+        for chord in &self.chords {
+            let (a, b) = (chord.from[0].max(from), chord.to[0].min(to));
+            if b <= a {
+                continue;
+            }
+            let (x, share) = pressure.between(on.x, a, b);
+            beside -= share;
+            loads.push(Load {
+                block: Some(chord.block.clone()),
+                force: Some(force.map(|f| f * share * self.width / carries)),
+                at: Some(At::Point([x, 0.0, chord.height(x)])),
+                ..Load::default()
+            });
+        }
+        Spread { loads, beside: beside.max(0.0) }
+    }
 }

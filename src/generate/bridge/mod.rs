@@ -3,8 +3,11 @@
 
 mod course;
 mod fill;
+mod pressure;
+mod said;
 
-pub use fill::{Spread, loads, soil, spread};
+pub use fill::{Spread, Surface, loads, soil};
+pub use said::said;
 
 use super::{
     arch::{Section, radial_rings},
@@ -88,19 +91,11 @@ impl SpanPlan {
         place.count("rings", span.rings, 1)?;
         place.length("clear_span", span.clear_span)?;
         place.length("rise", span.rise)?;
-        let fields = Fields {
-            profile: span.profile,
-            radius: None,
-            embrace_deg: None,
-            eccentricity: None,
-            span: None,
-            rise: None,
-            intrados_span: Some(span.clear_span),
-            intrados_rise: Some(span.rise),
-            thickness: span.thickness,
-            sheared: false,
-        };
-        let rings = radial_rings(place, &fields, span.voussoirs, span.rings)?;
+        let fields =
+            Fields::of_intrados_alone(span.profile, [span.clear_span, span.rise], span.thickness);
+        let springing = span.springing_thickness.unwrap_or(span.thickness);
+        place.length("springing_thickness", springing)?;
+        let rings = radial_rings(place, &fields, span.voussoirs, span.rings, springing)?;
         let up = -rings[0].springing[0][1];
         Ok(Self { rings, center: 0.0, up })
     }

@@ -10,9 +10,9 @@ use crate::{
             Verification, again, answer, failure, follows, mechanism_words, members, require,
         },
     },
-    scene::Scene,
+    scene::{Scene, Train},
     tolerance,
-    train::{self, Position, Standing},
+    train::{self, Position, Standing, Way},
     verdict::check::Findings,
 };
 
@@ -23,7 +23,7 @@ pub(in crate::proof) fn verify(
     scene: &Scene,
     model: &Model,
 ) {
-    let Some(train) = &scene.train else {
+    let (Some(train), Some(way)) = (&scene.train, Way::of(scene, model)) else {
         return all.part("answer", failure("the scene has no train to drive over it"));
     };
     let list = &file.directions;
@@ -53,8 +53,9 @@ pub(in crate::proof) fn verify(
     let is_there =
         |p: &Position| list.iter().any(|d| at(d).is_some_and(|q| near(q, *p, train.step)));
     let steps = train::positions(train);
-    let missing: Vec<&Position> =
-        steps.iter().filter(|p| !is_there(p) && train::at(scene, model, **p).is_some()).collect();
+    // A step that cannot be made ready counts as missing, too.
+    let is_loaded = |p: &Position| !matches!(way.at(p.to_owned()), Ok(None));
+    let missing: Vec<&Position> = steps.iter().filter(|p| !is_there(p) && is_loaded(p)).collect();
     require(
         &mut f,
         missing.is_empty(),
@@ -73,7 +74,7 @@ pub(in crate::proof) fn verify(
     all.part("answer", f);
     for (index, direction) in list.iter().enumerate() {
         let index = (index == least).then_some(file);
-        position(all, direction, index, (scene, model));
+        position(all, direction, index, (&way, train));
     }
     all.claimed = file.certificate.claim.is_some();
 }
@@ -88,12 +89,14 @@ fn position(
     all: &mut Verification,
     direction: &Direction,
     file: Option<&ResultFile>,
-    (scene, model): (&Scene, &Model),
+    (way, train): (&Way, &Train),
 ) {
     let Some(said) = direction.answer.moving() else { return };
     let title = format!("train at x = {} {}", said.x, said.travel.words());
-    let Some(under) = train::at(scene, model, said.position()) else {
-        return all.part(title, failure("there no axle stands on a span"));
+    let under = match way.at(said.position()) {
+        Ok(Some(under)) => under,
+        Ok(None) => return all.part(title, failure("there no axle stands on a span")),
+        Err(e) => return all.part(title, failure(e.to_string())),
     };
     let (mut f, rates) = answer(
         &under.model,
@@ -105,9 +108,8 @@ fn position(
     let alike = |(a, b): (&Standing, &Standing)| {
         let close = |a: f64, b: f64| (a - b).abs() <= tolerance::SAVED * a.abs().max(b.abs());
         // Places are told apart by steps, not by how far off the origin lies.
-        let step = scene.train.as_ref().map_or(0.0, |t| t.step);
         a.axle == b.axle
-            && (a.x - b.x).abs() <= tolerance::SAVED * step
+            && (a.x - b.x).abs() <= tolerance::SAVED * train.step
             && close(a.force, b.force)
             && (a.share - b.share).abs() <= tolerance::SAVED
     };

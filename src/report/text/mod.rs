@@ -1,6 +1,7 @@
 //! Answers as text for people: the answer first, then why, then what next.
 
 mod answer;
+mod bridge;
 mod check;
 mod critical;
 mod heaps;
@@ -93,6 +94,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
             with_members(s.members)
         )],
     );
+    bridge::rows(&mut page, file);
     page.row("doubt", file.doubt.iter().map(|d| format!("{}; {}", d.evidence, d.next)));
     page.row("left out", cut(&file.left_out, SHOWN, options));
     page.row(

@@ -146,10 +146,10 @@ impl View {
             .answer
             .kinematic()
             .and_then(|a| quake(&file.scene.input, model, Vector3::from(a.toward)).ok());
-        let moved = file
-            .answer
-            .moving()
-            .and_then(|a| crate::train::at(&file.scene.input, model, a.position()));
+        let moved = match (file.answer.moving(), crate::train::Way::of(&file.scene.input, model)) {
+            (Some(a), Some(way)) => way.at(a.position()).map_err(|e| ViewError(e.to_string()))?,
+            _ => None,
+        };
         let model = pushed.as_ref().map_or(model, |q| &q.model);
         let model = moved.as_ref().map_or(model, |t| &t.model);
         let mut view = Self::bare(model);

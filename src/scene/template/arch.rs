@@ -85,6 +85,9 @@ pub enum Profile {
     Elliptical,
     /// A parabola, by `span` and `rise`.
     Parabolic,
+    /// Three arcs of 60° that run into each other, upright at the springings (basket handle, anse
+    /// de panier), by `span` and `rise`.
+    ThreeCentred,
 }
 
 /// Direction of an arch's joints.

@@ -52,8 +52,13 @@ pub struct BridgeSpan {
     pub clear_span: f64,
     /// Clear rise: height of the crown of the intrados above the springings, m.
     pub rise: f64,
-    /// Thickness of all rings together, m.
+    /// Thickness of all rings together, m; at the crown where they are thicker at the springings.
     pub thickness: f64,
+    /// Thickness of all rings together at the springings, m, normal to the intrados; between crown
+    /// and springing it changes in proportion to the place along the ring. That of the crown where
+    /// absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springing_thickness: Option<f64>,
     /// Number of rings, with friction between them; 1 where absent.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub rings: usize,
@@ -97,9 +102,42 @@ pub struct Fill {
     /// How far a load spreads on either side per metre of depth, m; 0.5 where absent.
     #[serde(default = "half", skip_serializing_if = "is_half")]
     pub dispersal: f64,
+    /// How it is distributed over the length that it spreads to.
+    #[serde(default, skip_serializing_if = "super::is_default")]
+    pub distribution: Distribution,
+    /// Heavier and stiffer fill over the springings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub backing: Option<Backing>,
     /// Weight of both parapets per metre of the bridge, N/m.
     #[serde(default, skip_serializing_if = "super::is_zero")]
     pub parapets: f64,
+}
+
+/// How a load that has spread through the fill presses on the extrados.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Distribution {
+    /// Evenly.
+    #[default]
+    Even,
+    /// As the pressure in an elastic half-space below the patch, cut off where the spread ends, and
+    /// raised in proportion so that nothing of the load is lost.
+    Boussinesq,
+}
+
+/// Backing over the springings, as fill of its own: it weighs and resists, and carries nothing
+/// itself.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Backing {
+    /// Height of its level top above the springings, m; above the road nothing of it counts.
+    pub height: f64,
+    /// Weight per volume, N/m³.
+    pub unit_weight: f64,
+    /// Passive coefficient of the chords whose middle lies below its top, with the unit weight of the
+    /// fill; that of the fill where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub passive: Option<f64>,
 }
 
 fn one() -> usize {

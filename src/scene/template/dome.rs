@@ -41,4 +41,32 @@ pub struct Dome {
     /// keystone as wide as a ring is high.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub oculus_deg: Option<f64>,
+    /// Voussoirs that are left out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub openings: Vec<DomeOpening>,
+    /// A drum with a slab upon the edge of the oculus (with `oculus_deg`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lantern: Option<Lantern>,
+}
+
+/// An opening in a dome: some segments of some rings.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DomeOpening {
+    /// The first and the last ring, from 0 at the springing.
+    pub rings: [usize; 2],
+    /// The first and the last segment, from 0; the first may be the greater, where the opening
+    /// passes the meridian of segment 0.
+    pub segments: [usize; 2],
+}
+
+/// A lantern: an upright drum of blocks `lantern_00`, …, on the upper bed of the last ring, one a
+/// segment, and a slab `lantern_cap` upon them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Lantern {
+    /// Height of the drum above the highest corner of the dome, m.
+    pub height: f64,
+    /// Thickness of the slab, m.
+    pub cap: f64,
 }

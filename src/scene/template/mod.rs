@@ -11,18 +11,26 @@ mod bridge;
 mod column;
 mod dome;
 mod flat_arch;
+mod groin;
 mod lattice;
+mod leaves;
+mod nave;
 mod stack;
+mod tower;
 mod wall;
 
 pub use arch::{Arch, Buttresses, JointDirection, Profile, ThicknessAlong};
 pub use barrel::Barrel;
-pub use bridge::{Bridge, BridgePier, BridgeSpan, Fill};
+pub use bridge::{Backing, Bridge, BridgePier, BridgeSpan, Distribution, Fill};
 pub use column::Column;
-pub use dome::Dome;
+pub use dome::{Dome, DomeOpening, Lantern};
 pub use flat_arch::FlatArch;
+pub use groin::Groin;
 pub use lattice::{Lattice, Packing};
+pub use leaves::Leaves;
+pub use nave::{Pier, Portal};
 pub use stack::Stack;
+pub use tower::Tower;
 pub use wall::{Opening, Wall, WallBase, WallEnd};
 
 use schemars::JsonSchema;
@@ -44,10 +52,18 @@ pub enum Template {
     Dome(Dome),
     /// A flat arch (platbande) between two abutments.
     FlatArch(FlatArch),
+    /// A groin (cross) vault over a square bay.
+    Groin(Groin),
     /// A pile of equal spheres on a lattice.
     Lattice(Lattice),
+    /// A wall of two leaves, tied by through stones.
+    Leaves(Leaves),
+    /// An arch on two piers; with buttresses the section of a nave.
+    Portal(Portal),
     /// Blocks on top of each other, each shifted against the one below.
     Stack(Stack),
+    /// A hollow tower with bonded corners.
+    Tower(Tower),
     /// A wall of one leaf in running bond.
     Wall(Wall),
 }
@@ -63,8 +79,12 @@ impl Template {
             Template::Column(t) => &t.members,
             Template::Dome(t) => &t.members,
             Template::FlatArch(t) => &t.members,
+            Template::Groin(t) => &t.members,
             Template::Lattice(t) => &t.members,
+            Template::Leaves(t) => &t.members,
+            Template::Portal(t) => &t.members,
             Template::Stack(t) => &t.members,
+            Template::Tower(t) => &t.members,
             Template::Wall(t) => &t.members,
         }
     }
@@ -78,8 +98,12 @@ impl Template {
             Template::Column(t) => (&t.prefix, t.at),
             Template::Dome(t) => (&t.prefix, t.at),
             Template::FlatArch(t) => (&t.prefix, t.at),
+            Template::Groin(t) => (&t.prefix, t.at),
             Template::Lattice(t) => (&t.prefix, t.at),
+            Template::Leaves(t) => (&t.prefix, t.at),
+            Template::Portal(t) => (&t.prefix, t.at),
             Template::Stack(t) => (&t.prefix, t.at),
+            Template::Tower(t) => (&t.prefix, t.at),
             Template::Wall(t) => (&t.prefix, t.at),
         }
     }
@@ -93,8 +117,12 @@ impl Template {
             Template::Column(_) => "column",
             Template::Dome(_) => "dome",
             Template::FlatArch(_) => "flat_arch",
+            Template::Groin(_) => "groin",
             Template::Lattice(_) => "lattice",
+            Template::Leaves(_) => "leaves",
+            Template::Portal(_) => "portal",
             Template::Stack(_) => "stack",
+            Template::Tower(_) => "tower",
             Template::Wall(_) => "wall",
         }
     }

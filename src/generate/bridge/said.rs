@@ -1,0 +1,49 @@
+//! What a bridge is computed with beside its blocks, in words.
+
+use super::fill::resistance;
+use crate::{
+    number::short,
+    scene::template::{Bridge, Distribution},
+};
+
+/// One line for each part of the model that can be switched, whether it is on or off.
+pub fn said(bridge: &Bridge) -> Vec<String> {
+    let Some(fill) = &bridge.fill else {
+        return vec![
+            "no fill: no weight on the rings, loads press where they stand, nothing resists".into(),
+        ];
+    };
+    let mut lines = vec![format!(
+        "fill of {} N/m³, {} m over the crown, a bridge {} m wide",
+        short(fill.unit_weight),
+        short(fill.cover),
+        short(bridge.width)
+    )];
+    let over = match fill.distribution {
+        Distribution::Even => "evenly",
+        Distribution::Boussinesq => "as in an elastic half-space (Boussinesq), cut off there",
+    };
+    lines.push(match fill.dispersal > 0.0 {
+        true => format!(
+            "loads spread by {} m per metre of depth to either side, {over}",
+            short(fill.dispersal)
+        ),
+        false => "loads do not spread in the fill (dispersal 0)".into(),
+    });
+    lines.push(match resistance(fill) {
+        k if k > 0.0 => {
+            format!("passive pressure up to {} times the unit weight times the depth", short(k))
+        }
+        _ => "no passive pressure (neither passive nor friction_deg)".into(),
+    });
+    lines.push(match &fill.backing {
+        Some(b) => format!(
+            "backing of {} N/m³ up to {} m over the springings, passive pressure up to {} times; as fill, not as masonry",
+            short(b.unit_weight),
+            short(b.height),
+            short(b.passive.unwrap_or_else(|| resistance(fill)))
+        ),
+        None => "no backing".into(),
+    });
+    lines
+}
