@@ -151,12 +151,6 @@ fn verdicts_of_the_part_are_those_of_the_whole() {
             Verdict::Conditional,
             "mirror images of each other): 1 of 1",
         ),
-        (
-            "pinwheel",
-            pinwheel(5, 0.3),
-            Verdict::Stable,
-            "5 equal parts around the vertical): 2 of 6",
-        ),
     ];
     for (name, s, want, words) in cases {
         assert_eq!(ask::verdict(&s, Law::Coulomb), want, "{name}");
