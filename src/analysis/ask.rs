@@ -7,7 +7,10 @@ use super::{
     coulomb,
     coulomb::DryLoadFactor,
     critical, follow,
-    follow::answer::Followed,
+    follow::{
+        answer::Followed,
+        machine::{Built, MachineOptions, machine},
+    },
     in_time,
     kinematic::{self, Kinematic},
     limit,
@@ -16,6 +19,7 @@ use super::{
         CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
         directions,
     },
+    reuse::{Keys, Reuse},
     rocking::{self, Rocking},
     stability,
     stability::Packing,
@@ -33,6 +37,7 @@ use crate::{
     interface::Model,
     scene::Scene,
 };
+use std::sync::Arc;
 
 /// An answer.
 #[derive(Clone, Debug)]
@@ -104,7 +109,32 @@ pub fn ask(
     model: &Model,
     control: &Control,
 ) -> Result<Answer, InputError> {
-    answer(question, scene, model, control, &mut |o| in_time::unwatched(o, scene, model))
+    let simulate = &mut |o: &SimulateOptions| in_time::unwatched(o, scene, model);
+    let machine = &|o: &MachineOptions| Ok(Arc::new(machine(scene, model, o, control)?));
+    answer(question, scene, model, control, Means { simulate, machine })
+}
+
+/// The same for one of many scenes; what it shares with others by its `keys` is computed once.
+///
+/// # Errors
+/// As [`ask`].
+pub fn ask_among(
+    question: &Question,
+    scene: &Scene,
+    model: &Model,
+    control: &Control,
+    (reuse, keys): (&Reuse, &Keys),
+) -> Result<Answer, InputError> {
+    let simulate = &mut |o: &SimulateOptions| in_time::unwatched(o, scene, model);
+    let machine =
+        &|o: &MachineOptions| reuse.machine(keys, o, || machine(scene, model, o, control));
+    answer(question, scene, model, control, Means { simulate, machine })
+}
+
+/// How the parts of an answer are made that somebody watches or others share.
+struct Means<'a> {
+    simulate: &'a mut dyn FnMut(&SimulateOptions) -> Result<Answer, InputError>,
+    machine: &'a dyn Fn(&MachineOptions) -> Result<Arc<Built>, InputError>,
 }
 
 /// The same, with somebody who watches what happens in time.
@@ -120,10 +150,12 @@ pub fn ask_watched(
     watch: in_time::Watch,
 ) -> Result<Answer, InputError> {
     let mut watch = Some(watch);
-    answer(question, scene, model, control, &mut |o| match watch.take() {
+    let simulate = &mut |o: &SimulateOptions| match watch.take() {
         Some(watch) => in_time::watched(o, scene, model, watch),
         None => in_time::unwatched(o, scene, model),
-    })
+    };
+    let machine = &|o: &MachineOptions| Ok(Arc::new(machine(scene, model, o, control)?));
+    answer(question, scene, model, control, Means { simulate, machine })
 }
 
 fn answer(
@@ -131,7 +163,7 @@ fn answer(
     scene: &Scene,
     model: &Model,
     control: &Control,
-    simulate: &mut dyn FnMut(&SimulateOptions) -> Result<Answer, InputError>,
+    means: Means<'_>,
 ) -> Result<Answer, InputError> {
     question.check()?;
     let control = &question.control(control);
@@ -169,10 +201,8 @@ fn answer(
             Answer::Stages(Box::new(stages::stages(options, scene, model, control)?))
         }
         Question::State(options) => Answer::State(Box::new(state::state(options, model, control)?)),
-        Question::Rock(options) => {
-            Answer::Rock(Box::new(rocking::rock(options, scene, model, control)?))
-        }
-        Question::Simulate(options) => simulate(options)?,
+        Question::Rock(options) => Answer::Rock(Box::new(rocking::rock(options, means.machine)?)),
+        Question::Simulate(options) => (means.simulate)(options)?,
     })
 }
 

@@ -1,9 +1,11 @@
 //! Many scenes that share their blocks or their contacts: what they share is computed once.
 //!
 //! Blocks depend on shapes and densities, contacts on shapes alone (and the contact tolerances);
-//! joints, loads and gravity change neither. The caller says which scenes are alike by two
-//! [`Keys`]; a model made with reuse is the same bit by bit as one made without.
+//! joints, loads and gravity change neither; the machine of one degree of freedom depends on all of
+//! them and not on the ground that shakes it. The caller says which scenes are alike by [`Keys`];
+//! what is made with reuse is the same bit by bit as what is made without.
 
+use super::follow::machine::{Built, MachineOptions};
 use crate::{
     assembly::{self, Blocks},
     error::InputError,
@@ -26,17 +28,23 @@ pub struct Keys {
     pub shapes: Vec<u64>,
     /// Everything else that masses depend on.
     pub masses: Vec<u64>,
+    /// Everything else in the scene.
+    pub others: Vec<u64>,
 }
 
 /// So many blocks lists and contact lists are kept. More: memory. Fewer: threads that work on
 /// different parts of a grid push each other's out.
 const KEPT: usize = 64;
 
+/// A scene, and what its machine is asked for: numbers, bit by bit, and the block.
+type MachineKey = (Keys, Vec<Option<u64>>, Option<String>);
+
 /// The parts that are kept.
 #[derive(Default)]
 pub struct Reuse {
-    blocks: Store<Keys, Blocks>,
+    blocks: Store<[Vec<u64>; 2], Blocks>,
     contacts: Store<Vec<u64>, Interfaces>,
+    machines: Store<MachineKey, Built>,
 }
 
 impl Reuse {
@@ -51,7 +59,8 @@ impl Reuse {
         keys: &Keys,
         is_over: &dyn Fn() -> bool,
     ) -> Result<Model, InputError> {
-        let blocks = self.blocks.get(keys, || assembly::resolve_blocks(scene))?;
+        let key = [keys.shapes.clone(), keys.masses.clone()];
+        let blocks = self.blocks.get(&key, || assembly::resolve_blocks(scene))?;
         let assembly = assembly::resolve_with(scene, (*blocks).clone())?;
         let find = || interface::detect_until(&assembly, is_over);
         let contacts = self.contacts.get(&keys.shapes, find)?;
@@ -59,11 +68,31 @@ impl Reuse {
         Ok(Model::detected(assembly, interfaces))
     }
 
-    /// How often blocks were resolved and contacts detected.
-    pub fn computed(&self) -> [usize; 2] {
+    /// The machine of a scene, from what is known of scenes with the same keys; `make` makes it.
+    ///
+    /// # Errors
+    /// As `make`.
+    pub(super) fn machine(
+        &self,
+        keys: &Keys,
+        options: &MachineOptions,
+        make: impl FnOnce() -> Result<Built, InputError>,
+    ) -> Result<Arc<Built>, InputError> {
+        let MachineOptions { toward, control, restitution } = options;
+        let point = control.as_ref().and_then(|(_, point)| *point);
+        let numbers = toward.iter().map(|v| Some(v.to_bits()));
+        let rest = [0, 1, 2].map(|k| point.map(|p| p[k].to_bits()));
+        let numbers = numbers.chain(rest).chain([restitution.map(f64::to_bits)]).collect();
+        let block = control.as_ref().map(|(block, _)| block.clone());
+        self.machines.get(&(keys.clone(), numbers, block), make)
+    }
+
+    /// How often blocks were resolved, contacts detected and machines made.
+    pub fn computed(&self) -> [usize; 3] {
         [
             self.blocks.computed.load(Ordering::Relaxed),
             self.contacts.computed.load(Ordering::Relaxed),
+            self.machines.computed.load(Ordering::Relaxed),
         ]
     }
 }

@@ -1,17 +1,13 @@
 //! The mechanism of a scene on ground that moves. What sets it moving is proved; the history is
 //! integrated.
 
-use super::{
-    Control,
-    follow::machine::{Built, MachineOptions, machine},
-};
+use super::follow::machine::{Built, MachineOptions};
 use crate::{
     error::{InputError, JsonPath},
     ground::Motion,
-    interface::Model,
     rocking::{History, RockOptions, RunSettings, Scan, Search, run, scan},
-    scene::Scene,
 };
+use std::sync::Arc;
 
 /// The answer of `rock`.
 #[derive(Clone, Debug)]
@@ -21,7 +17,7 @@ pub struct Rocking {
     /// The motion of the ground, scaled.
     pub motion: Motion,
     /// The mechanism, with the load factors that prove it.
-    pub built: Built,
+    pub built: Arc<Built>,
     /// What it did.
     pub history: History,
     /// At which scales it overturns, where that was asked.
@@ -33,12 +29,10 @@ const SCALES: usize = 200;
 /// How near flips are narrowed, over the scale.
 const WIDTH: f64 = 1e-9;
 
-/// Runs the mechanism of a scene.
+/// Runs the mechanism of a scene, as `machine` makes it.
 pub(super) fn rock(
     options: &RockOptions,
-    scene: &Scene,
-    model: &Model,
-    control: &Control,
+    machine: &dyn Fn(&MachineOptions) -> Result<Arc<Built>, InputError>,
 ) -> Result<Rocking, InputError> {
     let asked = MachineOptions {
         toward: options.toward.into(),
@@ -48,7 +42,7 @@ pub(super) fn rock(
             .map(|c| (c.block.clone(), c.point.map(|point| point.into()))),
         restitution: options.restitution,
     };
-    let built = machine(scene, model, &asked, control)?;
+    let built = machine(&asked)?;
     let under = JsonPath::root().key("rock").key("ground");
     let given = options.ground.unscaled().map_err(|e| e.under(&under))?;
     let motion = given.scaled(options.ground.scale);

@@ -102,14 +102,18 @@ fn scene(file: &File, job: &Job, bytes: &[u8]) -> Result<(Scene, Value), InputEr
 /// unless interfaces are given by hand.
 fn keys(job: &Job, scene: &Value) -> Keys {
     let given = scene.get("interfaces").is_some();
-    let mut hash = DefaultHasher::new();
+    let (mut shapes, mut others) = (DefaultHasher::new(), DefaultHasher::new());
     for (pointer, value) in &job.edits {
         let part = pointer.split('/').nth(1).unwrap_or_default();
-        if given || !matches!(part, "joints" | "loads" | "gravity") {
-            (pointer, value.to_string()).hash(&mut hash);
-        }
+        let loads = !given && matches!(part, "joints" | "loads" | "gravity");
+        let hash = if loads { &mut others } else { &mut shapes };
+        (pointer, value.to_string()).hash(hash);
     }
-    Keys { shapes: vec![job.epoch, hash.finish()], masses: Vec::new() }
+    Keys {
+        shapes: vec![job.epoch, shapes.finish()],
+        masses: Vec::new(),
+        others: vec![others.finish()],
+    }
 }
 
 /// A question under joints that open as they slide, then with dry friction, where it tells them

@@ -217,11 +217,12 @@ impl Sweep {
     /// What scenes with these numbers have in common with others.
     pub fn keys(&self, parameters: &[Parameter]) -> Keys {
         let bits = |touches: Touches| {
-            let all = self.touches.iter().zip(self.plan.vary.iter().zip(parameters));
-            let changed = all.filter(|(t, _)| **t == touches);
-            changed.map(|(_, (vary, value))| vary.coordinate(value).to_bits()).collect()
+            let all = self.touches.iter().zip(&self.asks).zip(&self.plan.vary).zip(parameters);
+            let changed = all.filter(|(((t, asks), _), _)| **t == touches && !**asks);
+            changed.map(|((_, vary), value)| vary.coordinate(value).to_bits()).collect()
         };
-        Keys { shapes: bits(Touches::Shapes), masses: bits(Touches::Masses) }
+        let [shapes, masses, others] = [Touches::Shapes, Touches::Masses, Touches::Loads].map(bits);
+        Keys { shapes, masses, others }
     }
 
     /// The first line of a file of rows.

@@ -2,7 +2,7 @@
 
 use super::{Folder, Header, Opened, Row, RowAnswer, RowStatus, RowsFile, Shard, Sweep};
 use crate::{
-    analysis::{Control, ask, reuse::Reuse},
+    analysis::{Control, ask_among, reuse::Reuse},
     deadline::Deadline,
     error::RowsError,
     parallel,
@@ -52,8 +52,8 @@ pub struct Done {
     pub header: Header,
     /// Every row of the shard, by number.
     pub rows: Vec<Row>,
-    /// How often blocks were resolved and contacts detected.
-    pub computed: [usize; 2],
+    /// How often blocks were resolved, contacts detected and machines made.
+    pub computed: [usize; 3],
 }
 
 /// Answers the rows of a shard that are not in the file `path` yet, each appended as it ends.
@@ -150,8 +150,8 @@ pub fn measure(
     Ok((done > 0).then(|| sum / done as f64))
 }
 
-/// Answers rows, each appended as it ends. Also how often blocks were resolved and contacts
-/// detected.
+/// Answers rows, each appended as it ends. Also how often blocks were resolved, contacts detected
+/// and machines made.
 fn answers(
     sweep: &Sweep,
     file: &RowsFile,
@@ -159,7 +159,7 @@ fn answers(
     threads: Option<usize>,
     watch: &(dyn Fn(Event) + Sync),
     deadline: Deadline,
-) -> Result<(Vec<Row>, [usize; 2]), RowsError> {
+) -> Result<(Vec<Row>, [usize; 3]), RowsError> {
     open.sort_by_cached_key(|row| (sweep.keys(&sweep.parameters(*row)), *row));
     let threads = threads.unwrap_or(0);
     let reuse = Reuse::default();
@@ -188,10 +188,11 @@ pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize, deadline: Dead
     let parameters = sweep.parameters(number);
     let asked = || -> Result<RowAnswer, crate::error::InputError> {
         let scene = sweep.scene_with(&parameters)?;
-        let model = reuse.prepare(&scene, &sweep.keys(&parameters), &|| deadline.is_over())?;
+        let keys = sweep.keys(&parameters);
+        let model = reuse.prepare(&scene, &keys, &|| deadline.is_over())?;
         let control = Control { deadline, ..Control::default() };
         let question = sweep.question_with(&parameters)?.for_one_number();
-        let answer = ask(&question, &scene, &model, &control)?;
+        let answer = ask_among(&question, &scene, &model, &control, (reuse, &keys))?;
         Ok(RowAnswer::of_answer(&answer))
     };
     // A mistake in the program costs one row, not the sweep.

@@ -11,7 +11,8 @@ use voussoir::{
     rocking::{RunSettings, Search, run as run_machine, scan},
     scene::Scene,
     sweep::{
-        Folder, LognormalFit, RowStatus, RunOptions, Shard, Sweep, open, open_bytes, run, summarize,
+        Folder, LognormalFit, RowAnswer, RowStatus, RunOptions, Shard, Sweep, open, open_bytes,
+        run, summarize,
     },
 };
 
@@ -48,7 +49,7 @@ fn pulses(count: usize) -> Sweep {
     )
 }
 
-fn built() -> voussoir::analysis::follow::machine::Built {
+fn built() -> std::sync::Arc<voussoir::analysis::follow::machine::Built> {
     let scene = scene();
     let question = serde_json::from_value(json!({ "rock": { "from": 0.5 } })).unwrap();
     let answer = ask(&question, &scene, &prepare(&scene).unwrap(), &Control::default()).unwrap();
@@ -76,6 +77,38 @@ fn rows_over_pulses_are_those_of_the_machine() {
     assert!((3..14).contains(&overturned), "{overturned}");
     // A grid of pulses is a sample of nothing.
     assert!(summarize(&done.header, &done.rows).fragility.is_none());
+}
+
+#[test]
+fn a_machine_is_made_once_for_all_motions_of_its_ground() {
+    let pulse = json!({ "half_sine": { "acceleration": 3, "frequency": 1 } });
+    let sweep = sweep(
+        block(),
+        json!({ "rock": { "ground": { "pulse": pulse }, "restitution": 0.9 } }),
+        json!([
+            { "pointer": "/question/rock/ground/pulse/half_sine/acceleration", "values": [2, 4, 6] },
+            { "pointer": "/question/rock/restitution", "values": [0.8, 0.9] },
+            { "pointer": "/blocks/1/shape/prism/polygon/2/0", "values": [0.2, 0.19] },
+            { "pointer": "/materials/stone/density", "values": [2000, 2400] },
+            { "pointer": "/joints/default/friction", "values": [0.1, 0.7] }
+        ]),
+        json!({ "grid": {} }),
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let options = RunOptions { threads: Some(2), ..Default::default() };
+    let done = run(&sweep, &folder.path().join("rows.jsonl"), &options, &|_| {}).unwrap();
+    // What fails is asked again in every row: at a friction of 0.1 the block slides.
+    let failed = done.rows.iter().filter(|row| row.answer.status == RowStatus::Error).count();
+    assert_eq!((done.rows.len(), failed, done.computed), (48, 24, [4, 2, 8 + 24]));
+    for row in done.rows {
+        let scene = sweep.scene_with(&row.parameters).unwrap();
+        let question = sweep.question_with(&row.parameters).unwrap().for_one_number();
+        let alone = ask(&question, &scene, &prepare(&scene).unwrap(), &Control::default());
+        match alone {
+            Ok(answer) => assert_eq!(row.answer, RowAnswer::of_answer(&answer), "row {}", row.row),
+            Err(e) => assert_eq!(row.error, Some(e.to_string())),
+        }
+    }
 }
 
 #[test]
