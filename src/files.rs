@@ -219,11 +219,14 @@ mod tests {
                     fs::rename(folder.join("file"), folder.join("a")).unwrap();
                 }
             });
-            let read: Vec<_> = (0..20_000)
-                .filter_map(|_| text(open_below(&folder, Path::new("a"))).ok())
-                .collect();
+            // On a busy machine the link may stay for all of the tries that are meant to be enough.
+            let (mut tries, mut read) = (0, Vec::new());
+            while tries < 20_000 || read.is_empty() {
+                read.extend(text(open_below(&folder, Path::new("a"))).ok());
+                tries += 1;
+            }
             done.store(true, Ordering::Relaxed);
-            assert!(!read.is_empty() && read.iter().all(|t| t == "inside"));
+            assert!(read.iter().all(|t| t == "inside"));
         });
     }
 
