@@ -23,13 +23,15 @@ pub struct Piles {
     ids: Vec<String>,
 }
 
-/// Verdicts, lower and upper ends of margins, what decided, and why piles have no answer.
+/// Verdicts, lower and upper ends of margins, what decided, why piles have no answer, and what was
+/// found about contacts.
 type Columns<'py> = (
     Vec<&'static str>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
     Vec<&'static str>,
     Vec<(usize, String)>,
+    Vec<(usize, Vec<String>)>,
 );
 
 #[pymethods]
@@ -82,7 +84,7 @@ impl Piles {
             };
             parallel::map(threads, &list, one).map_err(Trouble::other)
         })?;
-        let mut errors = Vec::new();
+        let (mut errors, mut findings) = (Vec::new(), Vec::new());
         let (mut verdicts, mut by) = (Vec::new(), Vec::new());
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
         for (i, answer) in told.into_iter().enumerate() {
@@ -97,6 +99,9 @@ impl Piles {
             upper.push(margin.map_or(f64::NAN, |m| m.upper));
             match answer {
                 Ok(answer) => {
+                    if !answer.findings.is_empty() {
+                        findings.push((i, answer.findings.into_iter().map(|f| f.text).collect()));
+                    }
                     verdicts.push(answer.verdict.word());
                     by.push(answer.by.word());
                 }
@@ -108,7 +113,7 @@ impl Piles {
             }
         }
         let (lower, upper) = (PyArray1::from_vec(py, lower), PyArray1::from_vec(py, upper));
-        Ok((verdicts, lower, upper, by, errors))
+        Ok((verdicts, lower, upper, by, errors, findings))
     }
 }
 

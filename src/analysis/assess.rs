@@ -118,25 +118,13 @@ pub(super) fn of_part(model: &Model, control: &Control) -> Assessment {
     answer
 }
 
-/// A state at rest is forces that balance, to be checked: nothing else need be asked of its part.
-/// Nothing where they do not.
-pub(super) fn rests(model: &Model, state: State) -> Option<Assessment> {
-    let balance = certificate::statics(model, &state.forces, 0.0);
-    (balance.balanced && holds(model, &state.forces)).then(|| Assessment {
-        verdict: Verdict::Stable,
-        left_out: vec!["the least unbalance: the state rests on forces that balance".into()],
-        state: Some(state.clone()),
-        ..from_forces(model, state.forces, [0.0, balance.unbalance])
-    })
-}
-
 /// Whether forces prove that it stands.
 fn holds(model: &Model, forces: &Forces) -> bool {
     check::verify(model, &Claim::Stable, Evidence::new(forces, &[])).proved()
 }
 
 /// An answer that says nothing yet but these forces and the ends of the least unbalance.
-pub(super) fn from_forces(model: &Model, forces: Forces, [lower, upper]: [f64; 2]) -> Assessment {
+fn from_forces(model: &Model, forces: Forces, [lower, upper]: [f64; 2]) -> Assessment {
     Assessment {
         verdict: Verdict::Undecided,
         unbalance: Bracket { lower, upper },

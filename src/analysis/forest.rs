@@ -322,8 +322,7 @@ fn from_the_supports(model: &Model) -> Option<Vec<(usize, usize, usize)>> {
     (open.len() == count).then_some(order)
 }
 
-/// The sides of a contact: a corner and the direction inward. Those of a contact at two points or
-/// one are the directions in which it bears no moment, both ways.
+/// The sides of a contact: a corner and the direction inward. One at two points or one has none.
 fn edges<'a>(
     face: &'a Interface,
     n: &'a Vector3<f64>,

@@ -119,8 +119,10 @@ impl Shelf {
                 let text = format!("must be > 0, got {mass}");
                 return Err(InputError::at(root.key("mass"), text).hint("kg"));
             }
-            // The radii of gyration stay.
-            block.inertia *= mass / block.mass;
+            // The radii of gyration stay; a support may have had no mass.
+            if !block.support {
+                block.inertia *= mass / block.mass;
+            }
             block.mass = mass;
         }
         Ok(block)

@@ -1,6 +1,6 @@
 //! The wall of two leaves: two walls in running bond side by side, tied by courses of through stones.
 
-use super::{check::Place, digits, support};
+use super::{check::Place, digits, support, wall::cut};
 use crate::{
     error::InputError,
     scene::{BlockSpec, Shape, template::Leaves},
@@ -27,9 +27,9 @@ pub fn blocks(wall: &Leaves) -> Result<Vec<BlockSpec>, InputError> {
         let leaves = if through { &[("t", 0.0, whole)][..] } else { &leaves[..] };
         let z = height * (c as f64 + 0.5);
         for &(letter, y, depth) in leaves {
-            for (k, ends) in cuts(wall.blocks, c % 2 == 1).windows(2).enumerate() {
-                let size = [(ends[1] - ends[0]) * length, depth, height];
-                let at = [0.5 * (ends[0] + ends[1]) * length, y, z];
+            for (k, x) in cut(&(0.0..wall.blocks as f64), c % 2 == 1, &[]).iter().enumerate() {
+                let size = [(x.end - x.start) * length, depth, height];
+                let at = [0.5 * (x.start + x.end) * length, y, z];
                 let id = format!("{letter}{c:0courses$}_{k:0pieces$}");
                 blocks.push(BlockSpec { at, ..BlockSpec::new(id, Shape::Cuboid { size }) });
             }
@@ -40,14 +40,4 @@ pub fn blocks(wall: &Leaves) -> Result<Vec<BlockSpec>, InputError> {
     let at = [0.5 * total, 0.0, -0.5 * height];
     blocks.push(BlockSpec { at, ..support("base", slab) });
     Ok(blocks)
-}
-
-/// Where a course is cut, in block lengths; `moved` by half a block, with half blocks at its ends.
-fn cuts(blocks: usize, moved: bool) -> Vec<f64> {
-    let end = blocks as f64;
-    if !moved {
-        return (0..=blocks).map(|k| k as f64).collect();
-    }
-    let inner = (0..blocks).map(|k| k as f64 + 0.5);
-    std::iter::once(0.0).chain(inner).chain([end]).collect()
 }

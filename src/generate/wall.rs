@@ -141,8 +141,9 @@ fn snap(x: f64) -> f64 {
     if (x - nearest).abs() <= GRID_SNAP * x.abs().max(1.0) { nearest } else { x }
 }
 
-/// The blocks of a course between its ends, without what lies in the holes.
-fn cut(ends: &Range<f64>, moved: bool, holes: &[&Range<f64>]) -> Vec<Range<f64>> {
+/// The blocks of a course between its ends, in block lengths, without what lies in the holes; its
+/// joints `moved` by half a block.
+pub(super) fn cut(ends: &Range<f64>, moved: bool, holes: &[&Range<f64>]) -> Vec<Range<f64>> {
     let offset = if moved { 0.5 } else { 0.0 };
     let grid = ((ends.start - offset).floor() as i64..=(ends.end - offset).ceil() as i64)
         .map(|k| k as f64 + offset);

@@ -134,7 +134,9 @@ class Piles:
         margin: bool = False,
         threads: int = 0,
         progress: Callable[[float, float, str], object] | None = None,
-    ) -> tuple[list[str], _Array, _Array, list[str], list[tuple[int, str]]]: ...
+    ) -> tuple[
+        list[str], _Array, _Array, list[str], list[tuple[int, str]], list[tuple[int, list[str]]]
+    ]: ...
 
 def is_result(text: str) -> bool: ...
 def ask_many(

@@ -33,6 +33,8 @@ class Piled:
     """What decided: ``statics`` where contacts form no closed chain, else ``program``."""
     errors: dict[int, str]
     """Why a pile has no answer."""
+    findings: dict[int, list[str]]
+    """What was found about the contacts of a pile: overlaps, gaps, near misses, with their numbers."""
 
     def __len__(self) -> int:
         return len(self.verdicts)
@@ -53,6 +55,7 @@ class Piled:
                 "margin": self.margins,
                 "margin_upper": self.brackets[:, 1],
                 "by": self.by,
+                "findings": ["; ".join(self.findings.get(i, [])) for i in range(len(self))],
             }
         )
 
@@ -130,11 +133,12 @@ class Piles:
             told: Any = self._core.ask(
                 shape, places, turns, weights, margin=margin, threads=threads, progress=tell
             )
-        verdicts, lower, upper, by, errors = told
+        verdicts, lower, upper, by, errors, findings = told
         return Piled(
             np.asarray(verdicts, dtype=np.str_),
             lower,
             np.column_stack([lower, upper]),
             np.asarray(by, dtype=np.str_),
             dict(errors),
+            dict(findings),
         )

@@ -3,6 +3,7 @@
 use super::{
     advance::{Joint, Rested},
     branch::{End, Event, EventKind, Follow, Path, Point, Trial, WIDTH},
+    control::live_power,
     linkage::Linkage,
     root::narrow,
     tracker::Tracker,
@@ -11,7 +12,7 @@ use crate::{
     analysis::{Control, assess},
     assembly::Pose,
     terms::Law,
-    verdict::{Rate, Verdict, certificate},
+    verdict::{Rate, Verdict},
 };
 use nalgebra::UnitQuaternion;
 
@@ -248,9 +249,7 @@ impl Tracker<'_> {
             return Err(End::Stuck("no motion was found".into()));
         }
         let speed = self.speed(rates, &here.poses);
-        let blocks = &found.model.assembly;
-        let power: f64 =
-            blocks.free().map(|i| certificate::power(&blocks.live[i], &rates[i])).sum();
+        let power = live_power(&found.model, rates);
         let per = |r: &Rate| Rate { velocity: r.velocity / speed, spin: r.spin / speed };
         let driven =
             Rested { power: power / speed, rates: rates.iter().map(per).collect(), ..here.clone() };
