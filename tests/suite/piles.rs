@@ -195,6 +195,32 @@ fn units_places_and_directions_change_nothing() {
     }
 }
 
+/// A slab far away that is a billion times as heavy, or as light, is a part of its own.
+#[test]
+fn what_lies_beside_changes_nothing() {
+    let piles = boxes(&[[9.0, 9.0, 0.2], BRICK, [1.0, 1.0, 0.1]]);
+    let mut random = Random(11);
+    for chained in [false, true] {
+        let mut list = stack(&mut random, 4);
+        if chained {
+            // A second brick beside the first one, and one across both.
+            list = vec![put(0, [0.0, 0.0, -0.1])];
+            let [length, _, height] = BRICK;
+            let at = |x: f64, k: f64| [x * length, 0.0, (k + 0.5) * height];
+            list.extend([(-0.6, 0.0), (0.6, 0.0), (0.1, 1.0)].map(|(x, k)| put(1, at(x, k))));
+        }
+        let alone = piles.ask(&list).unwrap();
+        assert!(alone.margin.is_some() && (alone.by == Decided::Program) == chained, "{alone:?}");
+        for mass in [1e-7, 1e11] {
+            let slab = Put { mass: Some(mass), ..put(2, [3.5, 3.5, 0.05]) };
+            let beside = piles.ask(&[&list[..], &[slab]].concat()).unwrap();
+            assert_eq!((alone.verdict, alone.by), (beside.verdict, beside.by), "{mass}");
+            let [one, other] = [&alone, &beside].map(|p| p.margin.unwrap());
+            assert!(other.lower <= one.upper && one.lower <= other.upper, "{one:?} {other:?}");
+        }
+    }
+}
+
 #[test]
 fn too_close_to_say_is_left_to_the_programs() {
     // The centre of the upper brick lies on the edge of the lower one, to the last digit or nearly.
