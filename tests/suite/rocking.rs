@@ -65,7 +65,7 @@ fn a_block_is_exact_and_has_housners_numbers() {
     close("p", sense.frequency().expect("unstable"), 2.686_004_899_734_165_5, 1e-10);
     close("unstable", sense.unstable.expect("unstable"), ALPHA, 1e-10);
     close("release", sense.release(), 9.81 * 0.2, 1e-10);
-    close("load factor", built.proofs[0].1.value, 0.2, 1e-6);
+    close("load factor", built.proofs[0].1.value, 0.2, 1e-8);
 }
 
 /// Housner 1963, exact quarter periods by quadrature (30 digits).
@@ -191,19 +191,23 @@ fn frame(columns: usize, gamma: f64) -> Scene {
 #[test]
 fn frames_with_a_loose_beam() {
     let want = [
+        (0.0, 2.193113817, 0.9423076923, 0.6004968309),
         (0.5, 1.961580631, 0.9307692308, 0.6713758671),
         (2.0, 1.853519474, 0.9258241758, 0.7105174322),
         (10.0, 1.805053055, 0.9236972705, 0.729595118),
     ];
-    for columns in [2, 3] {
+    for columns in [1, 2, 3] {
         for (gamma, p, e, quarter) in want {
+            if (gamma == 0.0) != (columns == 1) {
+                continue;
+            }
             let built = built(&frame(columns, gamma), &options());
             assert_eq!(built.exactness, Exactness::Exact);
             let own = built.machine.senses[0].as_ref().and_then(|s| s.frequency()).expect("p");
             close("p", own, p, 1e-8);
             close("linear quarter period", 2.0_f64.acosh() / own, quarter, 1e-9);
             built.conserving.iter().for_each(|&c| close("e", c, e, 1e-8));
-            close("load factor", built.proofs[0].1.value, 0.2, 1e-6);
+            close("load factor", built.proofs[0].1.value, 0.2, 1e-8);
             close("release", built.machine.senses[0].as_ref().unwrap().release(), 1.962, 1e-9);
         }
     }
@@ -212,7 +216,7 @@ fn frames_with_a_loose_beam() {
 mod engine {
     //! The same blocks in the engine, which knows nothing of mechanisms.
 
-    use super::{ALPHA, block, close};
+    use super::{block, close};
     use crate::ask::model;
     use nalgebra::Vector3;
     use voussoir::{
@@ -239,7 +243,7 @@ mod engine {
     fn first_overturning_amplitudes() {
         let scene = block(0.2, 1.0);
         let p = 2.686_004_899_734_165_5;
-        for (a, pt) in [(1.5, 1.0987024), (3.0, 0.4065343)] {
+        for (a, pt) in [(1.5, 1.0987024), (2.0, 0.6941387), (3.0, 0.4065343)] {
             let motion =
                 Pulse::Rectangle { acceleration: a * 9.81 * 0.2, duration: pt / p }.motion();
             assert_eq!([0.98, 1.02].map(|k| overturns(&scene, &motion.scaled(k))), [false, true]);
@@ -248,7 +252,16 @@ mod engine {
         assert_eq!([0.98, 1.02].map(|k| overturns(&scene, &jump.scaled(k))), [false, true]);
         let scene = block(0.2_f64.tan(), 1.0);
         let p = (0.75 * 9.81 * 0.2_f64.cos()).sqrt();
-        for (ratio, a) in [(1.0, 1.321685), (4.0, 2.795134), (10.0, 5.804775)] {
+        for (ratio, a) in [
+            (1.0, 1.321685),
+            (2.0, 1.801227),
+            (3.0, 2.296165),
+            (4.0, 2.795134),
+            (5.0, 3.295663),
+            (6.0, 3.796937),
+            (8.0, 4.800531),
+            (10.0, 5.804775),
+        ] {
             let duration = std::f64::consts::PI / (ratio * p);
             let acceleration = a * 9.81 * 0.2_f64.tan();
             let motion = Pulse::HalfSine { acceleration, duration }.motion();
@@ -256,28 +269,35 @@ mod engine {
         }
     }
 
-    /// Housner 1963: an impact leaves 0.9423 of the speed at h/b = 5; told from the highest points
-    /// before and after it.
+    /// Housner 1963: what an impact leaves of the speed, told from the highest points before and
+    /// after it; the jump of the ground lifts every block to about the same part of its way.
     #[test]
     fn an_impact_keeps_housners_speed() {
-        let more =
-            SimulationSettings { seconds: Some(3.0), every_step: true, ..Default::default() };
-        let settings = SimulationSettings { fidelity: Some(Fidelity::Fine), ..more };
-        let mut angles: Vec<f64> = Vec::new();
-        let mut watch = |progress: &voussoir::dynamics::Progress| {
-            angles.extend(progress.moment.map(|f| f.blocks[1].turn.scaled_axis().y));
-            std::ops::ControlFlow::Continue(())
-        };
-        let motion = Pulse::Jump { velocity: 0.5 }.motion();
-        shake(&model(&block(0.2, 1.0)), &motion, &AXES(), &settings, &mut watch)
-            .expect("an outcome");
-        // The ground goes to +x, the block leans to −x, comes back, and leans to +x.
-        let first = angles.iter().copied().fold(0.0, f64::min);
-        let lowest = angles.iter().position(|a| *a == first).expect("an angle");
-        let second = angles[lowest..].iter().copied().fold(0.0, f64::max);
-        let energy = |angle: f64| (ALPHA - angle.abs()).cos() - ALPHA.cos();
-        let left = (energy(second) / energy(first)).sqrt();
-        close("what is left of the speed", left, 0.942_307_692_3, 5e-3);
+        for (slenderness, e) in
+            [(5.0, 0.942_307_692_3), (6.0, 0.959_459_459_5), (4.0, 0.911_764_705_9), (3.0, 0.85)]
+        {
+            let b: f64 = 1.0 / slenderness;
+            let (alpha, r) = (b.atan(), b.hypot(1.0));
+            let velocity = 0.68 / alpha.cos() * (8.0 / 3.0 * 9.81 * r * (1.0 - alpha.cos())).sqrt();
+            let more =
+                SimulationSettings { seconds: Some(3.0), every_step: true, ..Default::default() };
+            let settings = SimulationSettings { fidelity: Some(Fidelity::Fine), ..more };
+            let mut angles: Vec<f64> = Vec::new();
+            let mut watch = |progress: &voussoir::dynamics::Progress| {
+                angles.extend(progress.moment.map(|f| f.blocks[1].turn.scaled_axis().y));
+                std::ops::ControlFlow::Continue(())
+            };
+            let motion = Pulse::Jump { velocity }.motion();
+            shake(&model(&block(b, 1.0)), &motion, &AXES(), &settings, &mut watch)
+                .expect("an outcome");
+            // The ground goes to +x, the block leans to −x, comes back, and leans to +x.
+            let first = angles.iter().copied().fold(0.0, f64::min);
+            let lowest = angles.iter().position(|a| *a == first).expect("an angle");
+            let second = angles[lowest..].iter().copied().fold(0.0, f64::max);
+            let energy = |angle: f64| (alpha - angle.abs()).cos() - alpha.cos();
+            let left = (energy(second) / energy(first)).sqrt();
+            close(&format!("what is left of the speed at h/b = {slenderness}"), left, e, 5e-3);
+        }
     }
 }
 
