@@ -18,7 +18,7 @@ use crate::{
     },
     solve::{
         Settings,
-        coulomb::{Exact, FixedPoint, Newton, Solvers, StoppingCriterion, iterate},
+        coulomb::{Exact, FixedPoint, Newton, Solved, Solvers, StoppingCriterion, iterate},
     },
     terms::{StateMotion, StateStep},
     tolerance,
@@ -98,6 +98,7 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
     contacts.by_mass();
     let mut newton = Newton::new(&contacts);
     let mut history: Vec<Seen> = Vec::new();
+    let mut trail: Vec<(f64, Vec<f64>)> = Vec::new();
     let mut hopeless = 0;
     let rest = vec![0.0; contacts.statics.matrix.rows];
     // The associative state is the first guess of the friction limits.
@@ -117,29 +118,34 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
         let tolerance =
             (TOLERANCE_PER_EPSILON * epsilon).clamp(settings.tolerance, COARSEST_TOLERANCE);
         let settings = Settings { tolerance, ..settings };
-        let point = within_strength(&mut contacts, interfaces, |c| {
-            settled(c, Objective::State(epsilon), &from, newton.as_mut(), &settings)
+        let is_late = history.len() >= BEFORE_EXACT;
+        if is_late && exactly.is_none() {
+            exactly = Some(Exact::new(&contacts));
+        }
+        let mut exact_solver = exactly.as_mut().and_then(Option::as_mut).filter(|_| is_late);
+        let followed = exact_solver
+            .as_mut()
+            .and_then(|e| e.on(&contacts, &mut trail, epsilon, control.deadline))
+            .map(|solved| by_the_law(&contacts, solved, 0));
+        let is_followed = followed.is_some();
+        let point = followed.or_else(|| {
+            within_strength(&mut contacts, interfaces, |c| {
+                settled(c, Objective::State(epsilon), &from, newton.as_mut(), &settings)
+            })
         });
         let Some(mut point) = point else { break };
         let mut forces = contacts.statics.forces(interfaces, &point.forces);
         let mut moved = law::motion(model, &forces);
         let rests = decide(&history, &point, &moved) == StateMotion::Rests;
-        if history.len() >= BEFORE_EXACT && point.change > 0.0 && !rests {
-            let solver = exactly.get_or_insert_with(|| Exact::new(&contacts));
-            if let Some((solved, change)) = solver
-                .as_mut()
-                .and_then(|e| e.near(&contacts, epsilon, &point.rates, control.deadline))
-            {
-                point = FixedPoint {
-                    forces: contacts.cut(&solved.forces),
-                    rates: solved.rates,
-                    change,
-                    noise: change,
-                    ..point
-                };
-                forces = contacts.statics.forces(interfaces, &point.forces);
-                moved = law::motion(model, &forces);
-            }
+        if let Some(solver) = exact_solver
+            && !is_followed
+            && point.change > 0.0
+            && !rests
+            && let Some(solved) = solver.near(&contacts, epsilon, &point.rates, control.deadline)
+        {
+            point = by_the_law(&contacts, solved, point.solves);
+            forces = contacts.statics.forces(interfaces, &point.forces);
+            moved = law::motion(model, &forces);
         }
         let decided = decide(&history, &point, &moved);
         answer.steps.push(StateStep {
@@ -156,6 +162,7 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
             change: point.change,
             noise: point.noise,
         });
+        trail.push((epsilon, point.rates.clone()));
         last = Some(point);
         match (answer.motion, decided) {
             // A motion once told is followed while it obeys the law more and more exactly.
@@ -184,6 +191,18 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
         }
     }
     answer
+}
+
+/// What a solution of the law itself, with the imbalance it leaves, is as a fixed point.
+fn by_the_law(contacts: &Contacts, (solved, left): (Solved, f64), solves: usize) -> FixedPoint {
+    FixedPoint {
+        forces: contacts.cut(&solved.forces),
+        rates: solved.rates,
+        lambda: 0.0,
+        change: left,
+        noise: left,
+        solves,
+    }
 }
 
 /// The fixed point on the limits; where it does not settle, the twin on the sliding rates has a

@@ -16,4 +16,4 @@ pub use anderson::Anderson;
 pub use exact::Exact;
 pub use fixed_point::{FixedPoint, Solvers, StoppingCriterion, iterate};
 pub use law::Law;
-pub use newton::Newton;
+pub use newton::{Newton, Solved};

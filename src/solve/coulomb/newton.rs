@@ -13,10 +13,10 @@ use crate::{
     solve::{Cholesky, Pattern},
 };
 
-/// Most steps. Fewer: scenes of which many contacts open and close at the first ε go back to the
-/// engine. More: the engine, whose twelve to twenty iterations cost two to four steps each, would
-/// have been there before.
-const STEPS: usize = 60;
+/// Most steps. Fewer: scenes of which many contacts open and close go back to the engine, for good
+/// in this fixed point. More: the engine, whose twelve to twenty iterations cost two to four steps
+/// each in every one of twenty solutions, would have been there before.
+const STEPS: usize = 400;
 
 /// A full step is taken that leaves less than this of the imbalance. Larger: steps that lead
 /// nowhere. Smaller: many searches along the line.
@@ -37,6 +37,11 @@ const EXACT: f64 = 1e-8;
 /// noise in the rates at small ε, and the engine would have done better. Smaller: scenes of large
 /// forces, which it does no better either, go back to it.
 const ENOUGH: f64 = 1e-10;
+
+/// Rounding of the imbalance for each of the rates, which are large where something moves or ε is
+/// small. Larger: noise in the acceleration. Smaller: scenes whose rounding is larger wander about
+/// the solution and go back to the engine.
+const ROUNDING: f64 = 1e-13;
 
 /// A solver of the programs of one scene.
 pub struct Newton {
@@ -106,7 +111,7 @@ impl Newton {
             let (mut f, mut g) = look(&best);
             if left(&g) > FALL * size {
                 // No better for rounding.
-                if size <= ENOUGH {
+                if size <= ENOUGH.max(ROUNDING * dot(&rates, &rates).sqrt()) {
                     return Some(Solved { forces, rates });
                 }
                 let (first, mut last) = (dot(&gradient, &step), dot(&g, &step));
