@@ -274,3 +274,16 @@ fn links_inside_the_repository_lead_somewhere() {
     }
     assert!(links > 100, "only {links} links found");
 }
+
+#[test]
+fn what_is_cited_is_this_version() {
+    let text = std::fs::read_to_string(root().join("CITATION.cff")).unwrap();
+    let value = |key: &str| {
+        text.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(": ")).unwrap()
+    };
+    assert_eq!(value("version"), env!("CARGO_PKG_VERSION"));
+    assert_eq!(value("title"), env!("CARGO_PKG_NAME"));
+    let changes = std::fs::read_to_string(root().join("CHANGELOG.md")).unwrap();
+    let version = format!("## {}", env!("CARGO_PKG_VERSION"));
+    assert!(changes.lines().any(|line| line.starts_with(&version)), "no changes of {version}");
+}
