@@ -56,9 +56,10 @@ const COARSEST_TOLERANCE: f64 = 1e-9;
 /// that rest plainly. More: the limits of states near the edge of friction do not settle.
 const BEFORE_EXACT: usize = 2;
 
-/// Programs of a fixed point after which the next is sought the same way: more, and the law is
-/// followed instead. Fewer: a bridge of 40 voussoirs takes half as long again. More: values of
-/// bridges of several rings come out lower (8.417 for 8.487 with 16).
+/// Where a fixed point took no more programs than this, the next is sought the same way; where it
+/// took more, or none because the law was followed already, the law is followed. Fewer: a bridge of
+/// 40 voussoirs takes half as long again. More: values of bridges of several rings come out lower
+/// (8.417 for 8.487 with 16).
 const EASY: usize = 4;
 
 /// Friction limits that change by more than this, in the loads that pass there, at so many ε one
