@@ -260,7 +260,7 @@ fn tilted(options: &TiltOptions, model: &Model, control: &Control) -> Result<Til
 
 fn pushed(options: &ThrustOptions, model: &Model, control: &Control) -> Result<Thrust, InputError> {
     let at = match &options.member {
-        Some(id) => thrust::member(model, id)?,
+        Some(id) => thrust::member(model, id, options.direction)?,
         None => thrust::place(model, options.support.as_deref(), options.direction)?.into(),
     };
     let ends = match options {

@@ -13,7 +13,7 @@ use crate::{
         Evidence, Forces, Verdict,
         check::{self, Claim, Findings},
         exact::Grade,
-        thrust::Sought,
+        thrust::{MemberAt, Sought},
     },
 };
 use std::{ops::Deref, time::Instant};
@@ -184,12 +184,12 @@ impl Claims for ThrustEnd {
             (Outcome::Found, Sought::Thrust(at)) => {
                 Some(Claim::Thrust { at, extreme, value, lower, upper })
             }
-            (Outcome::Found, Sought::Member(member)) => {
-                Some(Claim::MemberForce { member, extreme, value, lower, upper })
+            (Outcome::Found, Sought::Member(MemberAt { member, along })) => {
+                Some(Claim::MemberForce { member, along, extreme, value, lower, upper })
             }
             (Outcome::Unbounded, Sought::Thrust(at)) => Some(Claim::EndlessThrust { at, extreme }),
-            (Outcome::Unbounded, Sought::Member(member)) => {
-                Some(Claim::EndlessMemberForce { member, extreme })
+            (Outcome::Unbounded, Sought::Member(MemberAt { member, along })) => {
+                Some(Claim::EndlessMemberForce { member, along, extreme })
             }
             (Outcome::Impossible | Outcome::Undecided, _) => None,
         }

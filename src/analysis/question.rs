@@ -133,7 +133,7 @@ pub struct ThrustOptions {
     /// The support; the first that touches a free block where nothing is said.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub support: Option<String>,
-    /// Direction of the thrust; outwards where nothing is said.
+    /// Direction of the thrust, outwards where nothing is said; of a dowel's shear.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
     /// The force in this member in place of a thrust.
@@ -296,9 +296,7 @@ impl Question {
         let path = JsonPath::root().key(self.word());
         let refuse = |key: &str, text: String| Err(InputError::at(path.key(key), text));
         match self {
-            Self::Thrust(o)
-                if o.member.is_some() && (o.support.is_some() || o.direction.is_some()) =>
-            {
+            Self::Thrust(o) if o.member.is_some() && o.support.is_some() => {
                 refuse("member", "a member and a support are both given".into())
             }
             Self::Assess(_) | Self::Limit(_) | Self::Moving(_) | Self::Thrust(_) => Ok(()),

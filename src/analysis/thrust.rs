@@ -11,6 +11,7 @@ use super::{
     parts,
 };
 use crate::{
+    assembly::Action,
     deadline::Deadline,
     error::{InputError, JsonPath},
     interface::{Interfaces, Model},
@@ -20,11 +21,9 @@ use crate::{
     terms::{Attempt, Bracket, Law, Outcome},
     tolerance,
     verdict::{
-        Forces, Rate, Verdict, certificate,
-        member::Bounds,
-        no_forces,
+        Forces, Rate, Verdict, certificate, no_forces,
         section::centroid,
-        thrust::{Extreme, Sought, ThrustAt, width},
+        thrust::{Extreme, MemberAt, Sought, ThrustAt, width},
     },
 };
 use nalgebra::Vector3;
@@ -130,11 +129,12 @@ pub fn place(
     Ok(ThrustAt { support, direction: direction.into() })
 }
 
-/// The member that is asked about.
+/// The member that is asked about; of a dowel the shear on the second block in the part of this
+/// direction across the normal of its joint, of a plane scene without one in the plane.
 ///
 /// # Errors
-/// There is no member of this name, or its force is not one number.
-pub fn member(model: &Model, id: &str) -> Result<Sought, InputError> {
+/// There is no member of this name, a direction is missing, or it means nothing.
+pub fn member(model: &Model, id: &str, direction: Option<[f64; 3]>) -> Result<Sought, InputError> {
     let members = &model.interfaces.members;
     let error = |text: String| InputError::at(JsonPath::root(), text);
     let Some(index) = members.iter().position(|m| m.id == id) else {
@@ -146,11 +146,29 @@ pub fn member(model: &Model, id: &str) -> Result<Sought, InputError> {
         };
         return Err(error(format!("member {id}: there is no such member")).hint(hint));
     };
-    if Bounds::of(&members[index]).axes() == 2 {
-        return Err(error(format!("member {id}: the force of a dowel has no fixed direction"))
-            .hint("ask for the force of a tie, strut, bar, tendon, strip, soil or grip"));
-    }
-    Ok(Sought::Member(index))
+    let Action::Shear { normal, .. } = &members[index].action else {
+        return match direction {
+            Some(_) => Err(error(format!("member {id}: its force has a direction of its own"))
+                .hint("a direction is for thrusts on supports and for dowels")),
+            None => Ok(Sought::Member(MemberAt { member: index, along: None })),
+        };
+    };
+    let along = match direction.map(Vector3::from) {
+        Some(d) => level(normal, d, d.norm()).ok_or_else(|| {
+            let d: [f64; 3] = d.into();
+            error(format!("direction {d:?} is parallel to the normal of {id}'s joint"))
+                .hint("a dowel takes shear: give a direction in the joint")
+        })?,
+        None => {
+            let plane = Statics::new(model, StaticsOptions::default()).plane;
+            let across = plane.and_then(|p| level(normal, p.axis.cross(normal), 1.0));
+            across.ok_or_else(|| {
+                error(format!("member {id}: the force of a dowel has no direction of its own"))
+                    .hint("give one in the joint, such as --direction 1,0,0")
+            })?
+        }
+    };
+    Ok(Sought::Member(MemberAt { member: index, along: Some(along.into()) }))
 }
 
 /// Whether a support touches a free block.
@@ -231,9 +249,13 @@ pub(super) fn of_part(
         Statics::new(model, StaticsOptions { keep_all, ..StaticsOptions::default() })
     };
     let mut base = build(control.keep_all);
-    // A plane scene knows no thrust out of its plane.
-    if let (Some(plane), Sought::Thrust(at)) = (base.plane, at)
-        && plane.axis.dot(&Vector3::from(at.direction)).abs() > tolerance::ALONG
+    // A plane scene knows no force out of its plane.
+    let direction = match at {
+        Sought::Thrust(at) => Some(at.direction),
+        Sought::Member(at) => at.along,
+    };
+    if let (Some(plane), Some(direction)) = (base.plane, direction)
+        && plane.axis.dot(&Vector3::from(direction)).abs() > tolerance::ALONG
     {
         base = build(true);
     }
@@ -294,7 +316,10 @@ impl Problem<'_> {
             Sought::Thrust(at) => {
                 program::thrust_columns(statics, interfaces, at.support, at.direction.into())
             }
-            Sought::Member(member) => program::member_columns(statics, *member),
+            Sought::Member(at) => {
+                let shares = at.shares(&interfaces.members[at.member]);
+                program::member_columns(statics, at.member, &shares)
+            }
         };
         columns.into_iter().map(|c| c * by).collect()
     }
@@ -371,8 +396,10 @@ impl Problem<'_> {
         let at = match *self.at {
             Sought::Thrust(at) => Sought::Thrust(at),
             // What yields has an end; the others have new places.
-            Sought::Member(m) => match kept.iter().position(|&k| k == joints + m) {
-                Some(place) => Sought::Member(place - unlimited.list.len()),
+            Sought::Member(at) => match kept.iter().position(|&k| k == joints + at.member) {
+                Some(place) => {
+                    Sought::Member(MemberAt { member: place - unlimited.list.len(), ..at })
+                }
                 None => return false,
             },
         };

@@ -38,12 +38,12 @@ pub fn thrust_columns(
     columns
 }
 
-/// Force in one member per unit of every column, N: its first amount.
-pub fn member_columns(statics: &Statics, member: usize) -> Vec<f64> {
+/// Force in one member per unit of every column, N: the sum of its amounts by these shares.
+pub fn member_columns(statics: &Statics, member: usize, shares: &Vector3<f64>) -> Vec<f64> {
     let mut columns = vec![0.0; statics.matrix.columns];
     for own in statics.members.iter().filter(|own| own.member == member) {
-        for (k, (_, sign)) in own.amounts.iter().enumerate().filter(|(_, (axis, _))| *axis == 0) {
-            columns[own.column + k] = sign * own.unit;
+        for (k, (axis, sign)) in own.amounts.iter().enumerate() {
+            columns[own.column + k] = sign * own.unit * shares[*axis];
         }
     }
     columns

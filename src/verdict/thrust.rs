@@ -7,10 +7,15 @@
 //! Virtual work gives for all admissible forces in equilibrium `σ T = w·q + Σ f·v ≥ w·q − D − Σ e
 //! f_n`, with `D` the dissipation of cohesion, tension and crushing: a bound from below (σ = 1, the
 //! support yields) or above (σ = −1, it is pushed in).
+//!
+//! The force `T` in a member is bounded in the same way by rates of the scene without it. A dowel
+//! holds a shear `a`, ‖a‖ ≤ R, with a component `T` along a direction `w` of the joint: for rates with
+//! the power `u` per amount and any `s > 0`, `−a·u = σ T s + a·p` with `p = −u − σ s w`, hence `σ T ≥
+//! (w·q − D − Σ e f_n − R ‖p‖) / s`, and the best `s` solves a quadratic ([`shear`]).
 
 use super::{Forces, Rate, certificate, findings::Findings, joint::water, member, no_forces};
 use crate::{
-    assembly::{Assembly, Wrench},
+    assembly::{Action, Assembly, Member, Wrench},
     interface::{Interfaces, Model},
     strength::laws::unlimited,
     tolerance,
@@ -48,13 +53,46 @@ pub struct ThrustAt {
     pub direction: [f64; 3],
 }
 
+/// The member that a force is asked of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MemberAt {
+    /// Its index in the scene.
+    pub member: usize,
+    /// Of a dowel: unit direction across the normal of its joint. The force along it on the second
+    /// block is meant.
+    pub along: Option<[f64; 3]>,
+}
+
+impl MemberAt {
+    /// What each amount of the member counts for in the force that is asked.
+    pub fn shares(&self, own: &Member) -> Vector3<f64> {
+        let Some(along) = self.along.map(Vector3::from) else { return Vector3::x() };
+        member::legs(own).iter().fold(Vector3::zeros(), |mut sum, leg| {
+            sum[leg.axis] += leg.direction.dot(&along);
+            sum
+        })
+    }
+
+    /// Whether a direction is given where the member needs one, across the normal of its joint.
+    fn is_of(&self, own: &Member) -> bool {
+        match (&own.action, self.along.map(Vector3::from)) {
+            (Action::Shear { normal, .. }, Some(along)) => {
+                (along.norm() - 1.0).abs() <= tolerance::ALONG
+                    && along.dot(normal).abs() <= tolerance::ALONG
+            }
+            (Action::Shear { .. }, None) => false,
+            (_, along) => along.is_none(),
+        }
+    }
+}
+
 /// What an extreme is sought of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sought {
     /// The thrust on a support.
     Thrust(ThrustAt),
-    /// The force in a member, by its index.
-    Member(usize),
+    /// The force in a member.
+    Member(MemberAt),
 }
 
 impl From<ThrustAt> for Sought {
@@ -111,12 +149,14 @@ impl ThrustAt {
 }
 
 impl Sought {
-    /// Its value under these forces, N; of a member its first amount.
+    /// Its value under these forces, N.
     pub fn value(&self, interfaces: &Interfaces, forces: &Forces) -> f64 {
         match self {
             Self::Thrust(at) => at.value(interfaces, forces),
-            Self::Member(m) => {
-                forces.get(interfaces.list.len() + m).map_or(f64::NAN, |f| member::amounts(f).x)
+            Self::Member(at) => {
+                let shares = at.shares(&interfaces.members[at.member]);
+                let own = forces.get(interfaces.list.len() + at.member);
+                own.map_or(f64::NAN, |f| member::amounts(f).dot(&shares))
             }
         }
     }
@@ -147,21 +187,33 @@ impl Sought {
                 let bound = sigma * (k.gain() - k.slack);
                 (bound, hidden(&rates), k.excess * largest.max(total))
             }
-            Self::Member(m) => {
-                let own = &model.interfaces.members[*m];
+            Self::Member(at) => {
+                let own = &model.interfaces.members[at.member];
+                let bounds = member::Bounds::of(own);
                 // What its own bounds say needs no mechanism.
-                let end = if sigma > 0.0 { own.least } else { own.greatest };
-                let (others, forces) = without(model, *m, forces);
+                let end = match bounds {
+                    member::Bounds::Disc(most) => -sigma * most,
+                    _ if sigma > 0.0 => own.least,
+                    _ => own.greatest,
+                };
+                let (others, forces) = without(model, at.member, forces);
                 let k = certificate::kinematics(&others, rates, &forces);
                 let u = member::power(assembly, own, rates);
-                let friction = match member::Bounds::of(own) {
-                    member::Bounds::Cone { mu, .. } => mu * u.y.hypot(u.z),
-                    _ => 0.0,
-                };
+                let gain = k.gain() - k.slack;
                 // Virtual work without the member: σ T × speed ≥ w·q − D − Σ e f_n.
-                let speed = sigma * (friction - u.x);
-                let behind = k.excess * largest.max(total) / speed;
-                let bound = sigma * (k.gain() - k.slack) / speed;
+                let (speed, gain, stray) = match bounds {
+                    member::Bounds::Range(..) => (-sigma * u.x, gain, 0.0),
+                    member::Bounds::Cone { mu, .. } => {
+                        (sigma * (mu * u.y.hypot(u.z) - u.x), gain, 0.0)
+                    }
+                    member::Bounds::Disc(most) => {
+                        let along = u.dot(&at.shares(own));
+                        let across = (u.norm_squared() - along * along).max(0.0).sqrt();
+                        shear(-sigma * along, across, most, gain)
+                    }
+                };
+                let behind = (k.excess + stray) * largest.max(total) / speed;
+                let bound = sigma * gain / speed;
                 let moves = speed > 0.0 && rounding(behind, value, total);
                 let better = moves && if sigma > 0.0 { bound > end } else { bound < end };
                 if better { (bound, hidden(rates) / speed, behind) } else { (end, 0.0, 0.0) }
@@ -177,12 +229,9 @@ impl Sought {
     fn is_there(&self, f: &mut Findings, model: &Model) -> bool {
         match self {
             Self::Thrust(at) => is_support(f, &model.assembly, at),
-            Self::Member(m) => {
-                let there = model
-                    .interfaces
-                    .members
-                    .get(*m)
-                    .is_some_and(|own| member::Bounds::of(own).axes() != 2);
+            Self::Member(at) => {
+                let there =
+                    model.interfaces.members.get(at.member).is_some_and(|own| at.is_of(own));
                 if !there {
                     f.fails.push("the force is not one of a member along its direction".into());
                 }
@@ -197,6 +246,26 @@ impl Sought {
             Self::Member(_) => "force",
         }
     }
+}
+
+/// What a mechanism proves of a dowel's shear in one direction: the speed `s` along it, what it
+/// gains beside a force of at most `most` across what is left, and what is left where nothing
+/// limits that force. `p` is the rate of yielding along the direction, `q ≥ 0` that across it.
+///
+/// `(gain − most ‖(p − s, q)‖) / s` is stationary where `most (n² − p s) = gain ‖(p − s, q)‖` with `n²
+/// = p² + q²`: a quadratic in `s`. Any `s > 0` is a proof; the best of its roots and `p` is taken.
+fn shear(p: f64, q: f64, most: f64, gain: f64) -> (f64, f64, f64) {
+    if most == f64::INFINITY {
+        return (p, gain, q);
+    }
+    let (c, n) = (gain / most, p.hypot(q));
+    let apart = ((n - c) * (n + c)).max(0.0);
+    let root = |sign: f64| (p * apart + sign * c * q * apart.sqrt()) / ((p - c) * (p + c));
+    let with = |s: f64| (s, gain - most * (p - s).hypot(q), 0.0);
+    let better = |x: (f64, f64, f64), y: (f64, f64, f64)| {
+        if y.0 > 0.0 && y.0.is_finite() && (x.0 <= 0.0 || y.1 / y.0 > x.1 / x.0) { y } else { x }
+    };
+    [root(1.0), root(-1.0)].into_iter().map(with).fold(with(p), better)
 }
 
 /// The scene without one of its members, and the forces of the rest.

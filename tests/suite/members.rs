@@ -41,8 +41,12 @@ fn lambda(scene: &Scene) -> f64 {
 
 /// Least and greatest force in a member, with proof; none where there is no end.
 fn range(scene: &Scene, member: &str) -> [Option<f64>; 2] {
+    range_along(scene, member, None)
+}
+
+fn range_along(scene: &Scene, member: &str, along: Option<[f64; 3]>) -> [Option<f64>; 2] {
     let m = model(scene);
-    let at = thrust::member(&m, member).unwrap();
+    let at = thrust::member(&m, member, along).unwrap();
     let answer = thrust::answer(&m, at, Ends::Both, &associative());
     let file = ResultFile::thrust(scene, &m, &answer);
     prove(scene, &file);
@@ -416,7 +420,7 @@ fn forged_members_are_refused() {
     // A range that claims more than it proves.
     let s = tied_arch(0.3, json!("infinite"), false);
     let m = model(&s);
-    let at = thrust::member(&m, "tie").unwrap();
+    let at = thrust::member(&m, "tie", None).unwrap();
     let file = ResultFile::thrust(&s, &m, &thrust::answer(&m, at, Ends::Both, &associative()));
     assert!(survives(&s, &file, |_| {}));
     for end in ["least", "greatest"] {
@@ -431,6 +435,109 @@ fn forged_members_are_refused() {
             }
         };
         assert!(!survives(&s, &file, forged), "{end}");
+    }
+}
+
+/// A unit cube of weight 1 on the ground at friction 0.3, with a load of 0.35 in its joint and a
+/// dowel in the middle of it: shears `d` with ‖d‖ ≤ R and ‖d + load‖ ≤ 0.3.
+fn doweled(strength: Value, load: [f64; 2]) -> Scene {
+    let dowel = json!({ "id": "d", "dowel": { "blocks": ["ground", "a"], "at": [0, 0, 0], "strength": strength } });
+    let dead = json!([{ "block": "a", "force": [load[0], load[1], 0], "at": [0, 0, 0] }]);
+    let more = json!({ "members": [dowel], "loads": { "dead": dead } });
+    scene(0.3, json!([ground(), cuboid("a", [1.0, 1.0, 1.0], [0.0; 3])]), more)
+}
+
+#[test]
+fn the_shear_of_a_dowel_has_ends_in_every_direction() {
+    let (load, friction): (f64, f64) = (0.35, 0.3);
+    for strength in [0.1, 0.2, 0.4, f64::INFINITY] {
+        let given = if strength.is_finite() { json!(strength) } else { json!("infinite") };
+        for turn in [0.0, 0.4, 1.1] {
+            let s = doweled(given.clone(), [load * f64::cos(turn), load * f64::sin(turn)]);
+            for angle in [0.0, 0.3, 1.3, PI / 2.0, 2.8] {
+                let along = [f64::cos(angle), f64::sin(angle), 0.0];
+                // In axes along the load: two discs. An extreme of what they have in common is the
+                // far point of one that lies in the other, or where their edges cross.
+                let (x, y) = (f64::cos(angle - turn), f64::sin(angle - turn));
+                let mut points = Vec::new();
+                for sign in [-1.0, 1.0] {
+                    if strength.is_finite() {
+                        points.push((sign * strength * x, sign * strength * y));
+                    }
+                    points.push((sign * friction * x - load, sign * friction * y));
+                    let cross =
+                        (friction * friction - load * load - strength * strength) / (2.0 * load);
+                    points.push((cross, sign * (strength * strength - cross * cross).sqrt()));
+                }
+                let common = points.into_iter().filter(|(a, b)| {
+                    a.hypot(*b) <= strength + 1e-12 && (a + load).hypot(*b) <= friction + 1e-12
+                });
+                let ends = common.map(|(a, b)| a * x + b * y);
+                let (low, high) = ends
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+                        (low.min(v), high.max(v))
+                    });
+                let [least, greatest] = range_along(&s, "d", Some(along)).map(Option::unwrap);
+                assert!((least - low).abs() <= 2e-7, "{strength} {turn} {angle}: {least} {low}");
+                assert!(
+                    (greatest - high).abs() <= 2e-7,
+                    "{strength} {turn} {angle}: {greatest} {high}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_dowels_direction_is_in_its_joint() {
+    let s = doweled(json!(0.1), [0.35, 0.0]);
+    let m = model(&s);
+    // A plane scene has one direction; the part along the joint of one that is given counts.
+    let [least, greatest] = range(&s, "d").map(Option::unwrap);
+    close("greatest by size", least.abs().max(greatest.abs()), 0.1, 2e-7);
+    close("least by size", least.abs().min(greatest.abs()), 0.05, 2e-6);
+    let steep = range_along(&s, "d", Some([1.0, 0.0, 5.0])).map(Option::unwrap);
+    close("least", steep[0], -0.1, 2e-7);
+    close("greatest", steep[1], -0.05, 2e-6);
+    let error = thrust::member(&m, "d", Some([0.0, 0.0, 2.0])).unwrap_err().to_string();
+    assert!(error.contains("parallel to the normal"), "{error}");
+    let s = doweled(json!(0.1), [0.3, 0.15]);
+    let error = thrust::member(&model(&s), "d", None).unwrap_err().to_string();
+    assert!(error.contains("--direction"), "{error}");
+    let tie = tied_arch(0.3, json!(0.013), false);
+    let error = thrust::member(&model(&tie), "tie", Some([1.0, 0.0, 0.0])).unwrap_err().to_string();
+    assert!(error.contains("a direction of its own"), "{error}");
+    // Numbers, direction and claim of a saved range are held together.
+    let along = Some([1.0, 0.0, 0.0]);
+    let answer =
+        thrust::answer(&m, thrust::member(&m, "d", along).unwrap(), Ends::Both, &associative());
+    let s = doweled(json!(0.1), [0.35, 0.0]);
+    let file = ResultFile::thrust(&s, &m, &answer);
+    assert!(survives(&s, &file, |_| {}));
+    assert!(!survives(&s, &file, |v| v["answer"]["thrust"]["direction"] = json!([-1, 0, 0])));
+    assert!(!survives(&s, &file, |v| {
+        v["answer"]["thrust"]["direction"] = json!([0, 1, 0]);
+        for end in ["least", "greatest"] {
+            v["thrust"][end]["claim"]["member_force"]["along"] = json!([0, 1, 0]);
+        }
+    }));
+    assert!(!survives(&s, &file, |v| {
+        v["answer"]["thrust"]["direction"] = json!([2, 0, 0]);
+        for end in ["least", "greatest"] {
+            v["thrust"][end]["claim"]["member_force"]["along"] = json!([2, 0, 0]);
+        }
+    }));
+    for end in ["least", "greatest"] {
+        assert!(!survives(&s, &file, |v| {
+            for place in
+                [format!("/answer/thrust/{end}"), format!("/thrust/{end}/claim/member_force")]
+            {
+                for key in ["value", "lower", "upper"] {
+                    let number = v.pointer_mut(&format!("{place}/{key}")).unwrap();
+                    *number = json!(number.as_f64().unwrap() * 0.99);
+                }
+            }
+        }));
     }
 }
 

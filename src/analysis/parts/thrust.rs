@@ -11,7 +11,7 @@ use crate::{
     interface::{self, Model, Part},
     verdict::{
         Forces, Rate,
-        thrust::{Extreme, Sought, ThrustAt},
+        thrust::{Extreme, MemberAt, Sought, ThrustAt},
     },
 };
 
@@ -30,7 +30,9 @@ pub fn thrust(
         Sought::Thrust(at) => {
             p.find(at.support).map(|support| Sought::Thrust(ThrustAt { support, ..at }))
         }
-        Sought::Member(m) => p.find_member(m).map(Sought::Member),
+        Sought::Member(at) => {
+            p.find_member(at.member).map(|member| Sought::Member(MemberAt { member, ..at }))
+        }
     };
     let touching: Vec<(&Part, Sought)> =
         parts.iter().filter_map(|p| own(p).map(|at| (p, at))).collect();

@@ -346,13 +346,14 @@ pub struct Thrust {
     /// The support; the first one that carries a free block where none is named.
     #[arg(long, value_name = "ID")]
     pub support: Option<String>,
-    /// The direction of the thrust (its part across gravity); outwards from the blocks' centre of
-    /// mass where none is given.
+    /// The direction of the thrust (its part across gravity), outwards from the blocks' centre of
+    /// mass where none is given; with `--member` that of a dowel's shear, in the plane of a plane
+    /// scene where none is given.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub direction: Option<[f64; 3]>,
-    /// The force in this member of the scene (a tie, strut, bar, tendon, `strip/1`, soil or grip),
-    /// least and greatest, in place of a thrust.
-    #[arg(long, value_name = "ID", conflicts_with_all = ["support", "direction"])]
+    /// The force in this member of the scene (a tie, strut, bar, tendon, dowel, `strip/1`, soil or
+    /// grip), least and greatest, in place of a thrust.
+    #[arg(long, value_name = "ID", conflicts_with = "support")]
     pub member: Option<String>,
 }
 

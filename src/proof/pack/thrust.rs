@@ -48,7 +48,9 @@ impl ResultFile {
             Sought::Thrust(at) => {
                 (Some(model.assembly.blocks[at.support].id.clone()), Some(at.direction), None)
             }
-            Sought::Member(m) => (None, None, Some(model.interfaces.members[m].id.clone())),
+            Sought::Member(at) => {
+                (None, at.along, Some(model.interfaces.members[at.member].id.clone()))
+            }
         };
         let answer = ThrustAnswer {
             support,

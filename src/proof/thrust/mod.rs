@@ -21,7 +21,7 @@ pub struct ThrustAnswer {
     /// The support.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support: Option<String>,
-    /// Unit direction of the thrust.
+    /// Unit direction of the thrust, or of the shear of a dowel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
     /// The member whose force is meant, in place of a support.

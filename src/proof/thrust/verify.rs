@@ -15,7 +15,7 @@ use crate::{
         Evidence, Forces, Rate,
         check::{self, Claim, Findings},
         evidence::read_rates,
-        thrust::{Extreme, Sought, ThrustAt},
+        thrust::{Extreme, MemberAt, Sought, ThrustAt},
     },
 };
 
@@ -38,10 +38,14 @@ pub fn verify(all: &mut Verification, file: &ResultFile, model: &Model) {
             Some(support) => Sought::Thrust(ThrustAt { support, direction }),
             None => return all.part("answer", failure(format!("the scene has no block {id}"))),
         },
-        (None, None, Some(id)) => match model.interfaces.members.iter().position(|m| m.id == *id) {
-            Some(member) => Sought::Member(member),
-            None => return all.part("answer", failure(format!("the scene has no member {id}"))),
-        },
+        (None, along, Some(id)) => {
+            match model.interfaces.members.iter().position(|m| m.id == *id) {
+                Some(member) => Sought::Member(MemberAt { member, along }),
+                None => {
+                    return all.part("answer", failure(format!("the scene has no member {id}")));
+                }
+            }
+        }
         _ => return all.part("answer", failure("it is not said whose force is meant")),
     };
     let [least, greatest] = match at {
@@ -121,16 +125,21 @@ fn end(
                 && *extreme == wanted
                 && numbers == (Some(*value), Some(*lower), Some(*upper))
         }
-        (Some(Claim::MemberForce { member, extreme, value, lower, upper }), Outcome::Found) => {
-            Sought::Member(*member) == here
+        (
+            Some(Claim::MemberForce { member, along, extreme, value, lower, upper }),
+            Outcome::Found,
+        ) => {
+            Sought::Member(MemberAt { member: *member, along: *along }) == here
                 && *extreme == wanted
                 && numbers == (Some(*value), Some(*lower), Some(*upper))
         }
         (Some(Claim::EndlessThrust { at, extreme }), Outcome::Unbounded) => {
             Sought::Thrust(*at) == here && *extreme == wanted && numbers == (None, None, None)
         }
-        (Some(Claim::EndlessMemberForce { member, extreme }), Outcome::Unbounded) => {
-            Sought::Member(*member) == here && *extreme == wanted && numbers == (None, None, None)
+        (Some(Claim::EndlessMemberForce { member, along, extreme }), Outcome::Unbounded) => {
+            Sought::Member(MemberAt { member: *member, along: *along }) == here
+                && *extreme == wanted
+                && numbers == (None, None, None)
         }
         _ => false,
     };

@@ -31,7 +31,10 @@ fn resolution(file: &ResultFile) -> f64 {
 /// Whose force it is.
 fn what(t: &ThrustAnswer) -> String {
     match (&t.support, &t.member) {
-        (_, Some(id)) => format!("force in {id}"),
+        (_, Some(id)) => match t.direction {
+            Some(d) => format!("shear of {id} towards {}", point(d)),
+            None => format!("force in {id}"),
+        },
         (Some(id), None) => format!("thrust on {id}"),
         (None, None) => "thrust".into(),
     }
@@ -74,6 +77,9 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         (Some(id), Some(direction), None) => page.paragraph(&format!(
             "The thrust is the horizontal force of the blocks on {id} towards {}. Contact forces inside the friction cones reach its least value when the support yields and its greatest when it is pushed in; the mechanisms of the two movements prove that no others go further.",
             point(direction)
+        )),
+        (_, Some(_), Some(id)) => page.paragraph(&format!(
+            "The shear is the force of the dowel on the second block that it joins. Forces inside the friction cones and the strengths of the members balance the dead load with any shear of {id} in this direction from the least to the greatest; mechanisms of the scene without it, or its own strength, prove that no others go further."
         )),
         (.., Some(id)) => page.paragraph(&format!(
             "Forces inside the friction cones and the strengths of the members balance the dead load with any force in {id} from the least to the greatest (tension > 0); mechanisms of the scene without it, or its own bounds, prove that no others go further."

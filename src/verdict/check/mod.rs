@@ -13,7 +13,7 @@ pub use motion::moving;
 
 use super::{
     Evidence, Verdict, certificate, thrust,
-    thrust::{Extreme, Sought, ThrustAt},
+    thrust::{Extreme, MemberAt, Sought, ThrustAt},
 };
 use crate::interface::Model;
 use balance::live_alone_balances;
@@ -76,6 +76,9 @@ pub enum Claim {
     MemberForce {
         /// Index of the member.
         member: usize,
+        /// Of a dowel: the direction of its shear.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        along: Option<[f64; 3]>,
         /// Least or greatest.
         extreme: Extreme,
         /// Claimed force, N.
@@ -90,6 +93,9 @@ pub enum Claim {
     EndlessMemberForce {
         /// Index of the member.
         member: usize,
+        /// Of a dowel: the direction of its shear.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        along: Option<[f64; 3]>,
         /// Least or greatest.
         extreme: Extreme,
     },
@@ -161,12 +167,12 @@ pub fn verify(model: &Model, claim: &Claim, evidence: Evidence) -> Findings {
         Claim::EndlessThrust { at, extreme } => {
             thrust::verify_endless(&mut f, model, forces, base, &at.into(), extreme)
         }
-        Claim::MemberForce { member, extreme, value, lower, upper } => {
-            let at = Sought::Member(member);
+        Claim::MemberForce { member, along, extreme, value, lower, upper } => {
+            let at = Sought::Member(MemberAt { member, along });
             thrust::verify(&mut f, model, (forces, rates), (&at, extreme), [value, lower, upper]);
         }
-        Claim::EndlessMemberForce { member, extreme } => {
-            let at = Sought::Member(member);
+        Claim::EndlessMemberForce { member, along, extreme } => {
+            let at = Sought::Member(MemberAt { member, along });
             thrust::verify_endless(&mut f, model, forces, base, &at, extreme)
         }
         Claim::Impossible => falls(&mut f, model, rates, true),
