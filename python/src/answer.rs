@@ -8,7 +8,7 @@ use std::sync::{Arc, OnceLock};
 use voussoir::{
     dynamics::Frame,
     interface::{Model, prepare},
-    proof::{PackingFile, ResultFile, VerificationFile, read, result::Certificate, verify},
+    proof::{PackingFile, ResultFile, VerificationFile, certificate::Certificate, read, verify},
     report::{
         drawing::{self, Aspect},
         gltf, json, obj, page, path,

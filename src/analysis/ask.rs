@@ -206,11 +206,6 @@ fn answer(
     })
 }
 
-/// Whether a bound leaves something to ask with dry friction.
-fn bounds(outcome: Outcome) -> bool {
-    matches!(outcome, Outcome::Found | Outcome::Unbounded)
-}
-
 fn limited(
     options: &LimitOptions,
     scene: &Scene,
@@ -231,20 +226,8 @@ fn limited(
     let settled = bound.outcome == Outcome::Impossible
         || (bound.outcome == Outcome::Found && bound.bracket.upper < 0.0);
     let dead = (!settled && !options.skip_dead).then(|| assess(model, control));
-    let dry = dry(model, &bound, dead.as_ref().map(|d| d.verdict), control);
+    let dry = coulomb::beside(model, &bound, dead.as_ref().map(|d| d.verdict), control);
     Ok(Limited { bound, dry, dead })
-}
-
-/// The load factor with dry friction beside its bound, where that is asked for and leaves something
-/// to ask; `level` is the verdict without the live load, where it is known.
-pub(super) fn dry(
-    model: &Model,
-    bound: &Proved<LoadFactor>,
-    level: Option<crate::verdict::Verdict>,
-    control: &Control,
-) -> Option<Proved<DryLoadFactor>> {
-    let ask_dry = control.law == Law::Coulomb && bounds(bound.outcome);
-    ask_dry.then(|| coulomb::load_factor_from(model, bound, level, control))
 }
 
 fn tilted(options: &TiltOptions, model: &Model, control: &Control) -> Result<Tilted, InputError> {

@@ -2,7 +2,8 @@
 //! resistance falls. The arithmetic on both is that of [`crate::kinematic`].
 
 use super::{
-    Assessment, Control, KinematicOptions, LoadFactor, Outcome, Proved, PushOptions, ask, assess,
+    Assessment, Control, KinematicOptions, LoadFactor, Outcome, Proved, PushOptions, assess,
+    coulomb,
     coulomb::{DryLoadFactor, Found},
     follow::{
         End,
@@ -111,7 +112,7 @@ pub(super) fn kinematic(
         .into_iter()
         .zip(bounds)
         .map(|(quake, bound)| {
-            let dry = ask::dry(&quake.model, &bound, level, control);
+            let dry = coulomb::beside(&quake.model, &bound, level, control);
             Quaked { quake, bound, dry }
         })
         .collect();

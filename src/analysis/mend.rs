@@ -20,8 +20,7 @@ use crate::{
     solve::{self, Settings},
     tolerance,
     verdict::{
-        Forces, Rate,
-        certificate::{self, at},
+        Forces, Rate, at, certificate,
         exact::motion::{MotionProof, motion},
         joint::{Strength, rolling_arm},
         member::{self, Bounds},

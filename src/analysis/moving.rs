@@ -4,7 +4,7 @@
 //! Between neighbouring positions nothing is proved: the steps say how finely it was looked.
 
 use super::{
-    Assessment, Control, LoadFactor, MovingOptions, Outcome, Proved, ask, assess,
+    Assessment, Control, LoadFactor, MovingOptions, Outcome, Proved, assess, coulomb,
     coulomb::DryLoadFactor, limit,
 };
 use crate::{
@@ -95,7 +95,7 @@ pub(super) fn moving(
 fn at(way: &Way, position: Position, dead: Option<Verdict>, control: &Control) -> Asked {
     let Some(train::Loaded { model, axles }) = way.at(position)? else { return Ok(None) };
     let bound = limit(&model, control);
-    let dry = ask::dry(&model, &bound, dead, control);
+    let dry = coulomb::beside(&model, &bound, dead, control);
     Ok(Some(Stood { position, axles, bound, dry }))
 }
 

@@ -142,7 +142,7 @@ pub fn simulate(args: &Simulate, session: &Session, terminal: &Terminal) -> anyh
     let settings = SimulationSettings {
         fidelity: Some(if args.fast { Fidelity::Fast } else { Fidelity::Fine }),
         seconds: args.seconds,
-        threads: super::simulate::threads(args.threads),
+        threads: super::terminal::threads(args.threads),
         frames: args.frames.map_or(if kept { FRAMES } else { 0 }, |n| n as usize),
         keep_frames: true,
         to_the_end: args.to_the_end,

@@ -104,14 +104,6 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     })
 }
 
-/// Threads of the engine, 0 for as many as there are processors.
-pub fn threads(threads: u16) -> usize {
-    match threads {
-        0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
-        n => n.into(),
-    }
-}
-
 /// Who watches a simulation: under a bar, until the time limit, with a film where there is to be
 /// one.
 pub struct Camera {
@@ -123,7 +115,7 @@ pub struct Camera {
 
 impl Camera {
     pub fn new(session: &Session, threads: u16, is_filmed: bool) -> Self {
-        let threads = self::threads(threads);
+        let threads = super::terminal::threads(threads);
         let film = is_filmed.then(|| Film::fitting(session.model.assembly.blocks.len()));
         Self { threads, frames: 0, keep_frames: true, film }
     }

@@ -142,3 +142,11 @@ pub fn usage(answer: &clap::Error) -> Exit {
         _ => Exit::Yes,
     }
 }
+
+/// Threads of the engine, 0 for as many as there are processors.
+pub fn threads(threads: u16) -> usize {
+    match threads {
+        0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
+        n => n.into(),
+    }
+}

@@ -1,11 +1,8 @@
 //! Grains before they fall: a rough floor, walls, and loose layers of grains of random sizes above.
 //!
-//! Everything follows from the seed (PCG-64 XSL RR; O'Neill 2014), to the last bit.
-//!
-//! * M. E. O'Neill, *PCG: A family of simple fast space-efficient statistically good algorithms for
-//!   random number generation*, Harvey Mudd College 2014.
+//! Everything follows from the seed ([`random`](super::random)).
 
-use super::{check::Place, grain::Grain, numbered, support};
+use super::{check::Place, grain::Grain, numbered, random::Random, support};
 use crate::{
     error::InputError,
     scene::{
@@ -13,10 +10,7 @@ use crate::{
         Scene, Shape,
     },
 };
-use rand_pcg::{
-    Pcg64,
-    rand_core::{Rng, SeedableRng},
-};
+use rand_pcg::{Pcg64, rand_core::SeedableRng};
 
 /// Grains and what holds them, before anything moves.
 #[derive(Clone, Debug)]
@@ -111,19 +105,6 @@ pub fn deposit(protocol: &Protocol, seed: u64) -> Result<Deposit, InputError> {
         }
     }
     Ok(build(p, &mut Random(Pcg64::seed_from_u64(seed)), seed))
-}
-
-/// Numbers between 0 and 1 with 53 random bits.
-pub(super) struct Random(Pcg64);
-
-impl Random {
-    pub fn unit(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
 }
 
 fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {

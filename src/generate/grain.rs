@@ -10,7 +10,7 @@
 //!
 //! * K. Shoemake, *Uniform random rotations*, Graphics Gems III, 1992.
 
-use super::{deposit::Random, hull::hull};
+use super::{hull::hull, random::Random};
 use crate::scene::{Ball, GrainKind, Protocol, Rotation, Shape};
 use std::f64::consts::{PI, TAU};
 

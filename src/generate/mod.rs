@@ -22,6 +22,7 @@ mod load;
 mod member;
 mod midline;
 mod portal;
+mod random;
 mod stack;
 mod tower;
 mod wall;

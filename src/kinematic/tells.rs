@@ -100,7 +100,8 @@ pub fn is_unique(model: &Model, rates: &[Rate]) -> Unique {
 
 /// Velocity of block `b` against block `a` at a point.
 fn relative(model: &Model, rates: &[Rate], a: usize, b: usize, p: &Vector3<f64>) -> Vector3<f64> {
-    certificate::at(&model.assembly, rates, b, p) - certificate::at(&model.assembly, rates, a, p)
+    crate::verdict::at(&model.assembly, rates, b, p)
+        - crate::verdict::at(&model.assembly, rates, a, p)
 }
 
 impl Bodies<'_> {

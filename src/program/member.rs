@@ -4,7 +4,6 @@ use super::{Cone, ConicProgram, Disc, StaticsOptions, planar::Plane, symmetry::M
 use crate::{
     assembly::{Action, Member, Wrench},
     interface::{ContactFrame, Model},
-    tolerance,
 };
 use nalgebra::Vector3;
 
@@ -176,32 +175,6 @@ fn effects(model: &Model, member: &Member, axis: usize, sign: f64) -> Vec<Effect
         }
     }
     list
-}
-
-/// Whether a member is its own image about a plane, and acts in it.
-pub(super) fn lies_in(model: &Model, member: &Member, axis: &Vector3<f64>, offset: f64) -> bool {
-    let blocks = &model.assembly.blocks;
-    let size = member
-        .action
-        .ends()
-        .into_iter()
-        .flatten()
-        .map(|i| blocks[i].size)
-        .fold(f64::INFINITY, f64::min);
-    let on = |p: &Vector3<f64>| (axis.dot(p) - offset).abs() <= tolerance::MIRROR * size;
-    // Of the two tangents of a frame one has to lie in the plane and the other across.
-    let framed = |n: &Vector3<f64>| {
-        let frame = ContactFrame::around(*n);
-        let along = |t: &Vector3<f64>| axis.dot(t).abs();
-        let (one, other) = (along(&frame.t1), along(&frame.t2));
-        one.min(other) <= tolerance::MIRROR && along(n) <= tolerance::MIRROR
-    };
-    member.action.points().iter().all(on)
-        && match &member.action {
-            Action::Line(_) => true,
-            Action::Push { direction, .. } => axis.dot(direction).abs() <= tolerance::MIRROR,
-            Action::Shear { normal, .. } | Action::Press { normal, .. } => framed(normal),
-        }
 }
 
 impl MemberColumns {

@@ -8,8 +8,11 @@
 //! answer. Rates in the plane are admissible in space as they stand. Members have to lie in the
 //! mirror plane.
 
-use super::member;
-use crate::{assembly::Wrench, interface::Model, tolerance};
+use crate::{
+    assembly::{Action, Member, Wrench},
+    interface::{ContactFrame, Model},
+    tolerance,
+};
 use nalgebra::Vector3;
 
 /// A mirror plane of the scene, with axes in it.
@@ -107,7 +110,7 @@ fn mirrored(
             return None;
         }
     }
-    if !interfaces.members.iter().all(|m| member::lies_in(model, m, &axis, offset)) {
+    if !interfaces.members.iter().all(|m| lies_in(model, m, &axis, offset)) {
         return None;
     }
     let down = assembly.gravity.normalize();
@@ -129,4 +132,30 @@ pub(super) fn mirror_of(
 ) -> Option<usize> {
     let image = p - axis * (2.0 * (axis.dot(&p) - offset));
     points.iter().position(|q| near((q - image).norm(), size))
+}
+
+/// Whether a member is its own image about a plane, and acts in it.
+fn lies_in(model: &Model, member: &Member, axis: &Vector3<f64>, offset: f64) -> bool {
+    let blocks = &model.assembly.blocks;
+    let size = member
+        .action
+        .ends()
+        .into_iter()
+        .flatten()
+        .map(|i| blocks[i].size)
+        .fold(f64::INFINITY, f64::min);
+    let on = |p: &Vector3<f64>| (axis.dot(p) - offset).abs() <= tolerance::MIRROR * size;
+    // Of the two tangents of a frame one has to lie in the plane and the other across.
+    let framed = |n: &Vector3<f64>| {
+        let frame = ContactFrame::around(*n);
+        let along = |t: &Vector3<f64>| axis.dot(t).abs();
+        let (one, other) = (along(&frame.t1), along(&frame.t2));
+        one.min(other) <= tolerance::MIRROR && along(n) <= tolerance::MIRROR
+    };
+    member.action.points().iter().all(on)
+        && match &member.action {
+            Action::Line(_) => true,
+            Action::Push { direction, .. } => axis.dot(direction).abs() <= tolerance::MIRROR,
+            Action::Shear { normal, .. } | Action::Press { normal, .. } => framed(normal),
+        }
 }

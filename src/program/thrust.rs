@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     interface::{Interfaces, Model},
-    verdict::{Rate, certificate, member},
+    verdict::{Rate, member},
 };
 use nalgebra::Vector3;
 
@@ -61,7 +61,7 @@ pub fn reaction_columns(statics: &Statics, model: &Model, rates: &[Rate]) -> Vec
             if !assembly.blocks[block].support {
                 continue;
             }
-            let velocity = certificate::at(assembly, rates, block, &point);
+            let velocity = crate::verdict::at(assembly, rates, block, &point);
             for (k, basis) in bearing.basis.iter().enumerate() {
                 let power = basis.force.dot(&velocity) + basis.moment.dot(&rates[block].spin);
                 columns[bearing.column + k] += sign * bearing.unit * power;

@@ -2,9 +2,9 @@
 //! question stand.
 
 use super::{
-    critical::CriticalValue, kinematic::KinematicAnswer, moving::MovingAnswer, path::PathAnswer,
-    result::DryResult, rocking::RockingAnswer, stages::StagesAnswer, state::StateAnswer,
-    thrust::ThrustAnswer,
+    certificate::DryResult, critical::CriticalValue, kinematic::KinematicAnswer,
+    moving::MovingAnswer, path::PathAnswer, rocking::RockingAnswer, stages::StagesAnswer,
+    state::StateAnswer, thrust::ThrustAnswer,
 };
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},

@@ -1,12 +1,10 @@
 //! The forces in the members of a scene, as an answer has them and as its evidence.
 
-use super::result::Certificate;
 use crate::{
     assembly::{Member, MemberKind},
     interface::Model,
     verdict::{
         Forces, certificate,
-        evidence::{ContactForces, MemberForce, read_forces, read_members},
         mechanism::MemberMotion,
         member::{Bounds, amounts},
     },
@@ -102,26 +100,6 @@ fn line(member: &Member, a: &Vector3<f64>, total: f64) -> MemberLine {
     };
     let (id, kind) = (member.id.clone(), member.kind);
     MemberLine { member: id, kind, force, friction, least, greatest, state }
-}
-
-impl Certificate {
-    /// The forces that it holds, of contacts and members, and those without the pre-stress or at
-    /// another load factor.
-    ///
-    /// # Errors
-    /// As [`read_forces`] and [`read_members`].
-    pub fn read(&self, model: &Model) -> Result<(Forces, Option<Forces>), String> {
-        let read = |contacts: &[ContactForces], members: &[MemberForce]| {
-            let mut forces = read_forces(model, contacts)?;
-            read_members(model, members, &mut forces)?;
-            Ok::<Forces, String>(forces)
-        };
-        let base = self.base.as_ref().map(|base| read(base, &self.base_members)).transpose()?;
-        if base.is_none() && !self.base_members.is_empty() {
-            return Err("forces of members stand without those of the contacts".into());
-        }
-        Ok((read(&self.forces, &self.members)?, base))
-    }
 }
 
 /// Whether two lists say the same, forces up to rounding.

@@ -2,6 +2,7 @@
 //! checked from the scene alone ([`verify`](verify())). No ink here; that is what reports are for.
 
 pub mod answer;
+pub mod certificate;
 pub mod critical;
 pub mod kinematic;
 pub mod member;

@@ -4,6 +4,7 @@
 
 use super::{
     answer::Answer,
+    certificate::{Certificate, DryResult},
     critical::CriticalResult,
     member::{MemberLine, MemberWords},
     path::PathResult,
@@ -18,15 +19,8 @@ use crate::{
     error::Finding,
     interface::{Model, Timings},
     scene::Scene,
-    terms::{
-        Attempt, Deciding, Doubt, Found, LeftOutContacts, Outcome, StateMotion, StateStep,
-        is_reached,
-    },
-    verdict::{
-        check::Claim,
-        evidence::{BlockRate, ContactForces, MemberForce},
-        mechanism::{JointMotion, Mechanism},
-    },
+    terms::{Attempt, Doubt, Found, LeftOutContacts, Outcome, StateMotion, StateStep},
+    verdict::mechanism::{JointMotion, Mechanism},
 };
 use serde::{Deserialize, Serialize};
 
@@ -221,33 +215,6 @@ pub struct SceneSummary {
     pub input: Scene,
 }
 
-/// The evidence for an answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Certificate {
-    /// What is claimed; absent where the question stayed undecided.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub claim: Option<Claim>,
-    /// Static side: forces per contact.
-    pub forces: Vec<ContactForces>,
-    /// The same for members: ties, struts, soil, …
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub members: Vec<MemberForce>,
-    /// Unbounded: forces at a load factor at which the scene stands. Conditional: the forces
-    /// without the pre-stress.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub base: Option<Vec<ContactForces>>,
-    /// The same for members.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub base_members: Vec<MemberForce>,
-    /// Kinematic side: rates per moving block.
-    pub rates: Vec<BlockRate>,
-    /// What the verification found when the answer was given. Not saved, for nobody could tell
-    /// whether it was edited: `check` finds it anew.
-    #[serde(default, skip_serializing)]
-    pub verified: Vec<String>,
-}
-
 /// An answer beside the main one, with the evidence for it: one direction of a tilt, one position of
 /// a train, or the dead load alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -288,41 +255,6 @@ pub struct CoulombState {
     pub steps: Vec<StateStep>,
 }
 
-/// A load factor with dry friction (program D).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DryResult {
-    /// How it was found.
-    pub found: Found,
-    /// The part of the scene that decides, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub part: Option<Deciding>,
-    /// The value, where found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub value: Option<f64>,
-    /// The greatest load factor at which the state under dry friction was seen at rest, having
-    /// rested from the dead load on. Computed, not proved.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rests_at: Option<f64>,
-    /// The least load factor at which it was seen to move.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub moves_at: Option<f64>,
-    /// How far forces and mechanism are from Coulomb's law.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub natural_map: Option<f64>,
-    /// Convex programs solved for it.
-    pub solves: usize,
-    /// The evidence.
-    pub certificate: Certificate,
-}
-
-impl DryResult {
-    /// Whether the state was seen at rest just below the value.
-    pub fn is_reached(&self) -> bool {
-        self.rests_at.zip(self.value).is_some_and(|(rests_at, value)| is_reached(rests_at, value))
-    }
-}
-
 /// A mechanism with names.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -358,21 +290,6 @@ pub struct Versions {
 impl Default for Versions {
     fn default() -> Self {
         Self { voussoir: env!("CARGO_PKG_VERSION").to_string() }
-    }
-}
-
-impl Certificate {
-    /// Nothing is claimed.
-    pub fn none() -> Self {
-        Self {
-            claim: None,
-            forces: Vec::new(),
-            members: Vec::new(),
-            base: None,
-            base_members: Vec::new(),
-            rates: Vec::new(),
-            verified: Vec::new(),
-        }
     }
 }
 

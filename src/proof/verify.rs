@@ -8,8 +8,9 @@ pub(super) mod states;
 use super::{
     ResultFile,
     answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
+    certificate::{Certificate, DryResult},
     critical, kinematic, member, moving, part, path,
-    result::{Certificate, Direction, DryResult, JointWords, MechanismWords, QuestionKind},
+    result::{Direction, JointWords, MechanismWords, QuestionKind},
     rocking, stages, state, thrust,
 };
 use crate::{

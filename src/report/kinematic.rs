@@ -3,7 +3,7 @@
 use super::{
     cells::{Cell, Table},
     page::{Axis, Chart, Series},
-    path::PathError,
+    plot::CurveError,
     plot::{self, Plot},
 };
 use crate::{
@@ -17,12 +17,12 @@ use plotters::{
     style::Color,
 };
 
-fn refused(e: impl std::fmt::Display) -> PathError {
-    PathError::new(e)
+fn refused(e: impl std::fmt::Display) -> CurveError {
+    CurveError::new(e)
 }
 
-fn said(file: &ResultFile) -> Result<&KinematicAnswer, PathError> {
-    file.answer.kinematic().ok_or_else(|| PathError::new("this is no result of `kinematic`"))
+fn said(file: &ResultFile) -> Result<&KinematicAnswer, CurveError> {
+    file.answer.kinematic().ok_or_else(|| CurveError::new("this is no result of `kinematic`"))
 }
 
 /// A point of the curve: way of the control point, m, acceleration, m/s², load factor with its
@@ -53,7 +53,7 @@ fn points(file: &ResultFile, a: &KinematicAnswer) -> Vec<Point> {
 ///
 /// # Errors
 /// The result is of another question.
-pub fn csv(file: &ResultFile) -> Result<String, PathError> {
+pub fn csv(file: &ResultFile) -> Result<String, CurveError> {
     let a = said(file)?;
     let mut table = Table::new();
     let head = [
@@ -166,7 +166,7 @@ const STRAIGHT: RGBColor = plot::RED;
 ///
 /// # Errors
 /// The result holds no curve, or none of two points.
-pub fn chart(file: &ResultFile) -> Result<String, PathError> {
+pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
     let a = said(file)?;
     let list = points(file, a);
     let ratio = a.numbers.capacity.map(|c| c.d_over_control);
@@ -175,7 +175,7 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
     let end = exact.iter().map(|p| p.0).fold(0.0, f64::max);
     let high = exact.iter().map(|p| p.1).fold(0.0, f64::max);
     if end <= 0.0 || high <= 0.0 {
-        return Err(PathError::new("there are not two points to draw a line through"));
+        return Err(CurveError::new("there are not two points to draw a line through"));
     }
     let x = if ratio.is_some() {
         "equivalent displacement d, m"

@@ -3,7 +3,7 @@
 use super::{
     cells::{Cell, Table},
     page::{Axis, Chart, Series},
-    path::PathError,
+    plot::CurveError,
     plot::{self, Plot},
 };
 use crate::{
@@ -16,14 +16,14 @@ use plotters::{
     style::Color,
 };
 
-fn refused(e: impl std::fmt::Display) -> PathError {
-    PathError::new(e)
+fn refused(e: impl std::fmt::Display) -> CurveError {
+    CurveError::new(e)
 }
 
-fn said(file: &ResultFile) -> Result<Vec<&MovingAnswer>, PathError> {
+fn said(file: &ResultFile) -> Result<Vec<&MovingAnswer>, CurveError> {
     let list: Vec<_> = file.directions.iter().filter_map(|d| d.answer.moving()).collect();
     match list.is_empty() {
-        true => Err(PathError::new("this is no result of `limit --moving`")),
+        true => Err(CurveError::new("this is no result of `limit --moving`")),
         false => Ok(list),
     }
 }
@@ -34,7 +34,7 @@ fn said(file: &ResultFile) -> Result<Vec<&MovingAnswer>, PathError> {
 ///
 /// # Errors
 /// The result is of another question.
-pub fn csv(file: &ResultFile) -> Result<String, PathError> {
+pub fn csv(file: &ResultFile) -> Result<String, CurveError> {
     let mut table = Table::new();
     let head = ["travel", "x", "load_factor", "lower", "upper", "bound", "axles"];
     table.write_record(head).map_err(refused)?;
@@ -141,7 +141,7 @@ const WORST: RGBColor = RGBColor(0, 0, 0);
 ///
 /// # Errors
 /// The result is of another question, or has no two load factors.
-pub fn chart(file: &ResultFile) -> Result<String, PathError> {
+pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
     let list = said(file)?;
     let lines = lines(file, &list);
     let runs: Vec<Vec<Vec<(f64, f64)>>> = lines.iter().map(|l| runs(&l.1)).collect();
@@ -151,7 +151,7 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
     };
     let ((left, right), (low, high)) = (ends(|p| p.0), ends(|p| p.1));
     if all().count() < 2 || left >= right || high <= 0.0 {
-        return Err(PathError::new("there are not two load factors to draw a line through"));
+        return Err(CurveError::new("there are not two load factors to draw a line through"));
     }
     let edge = 0.02 * (right - left);
     let plot = Plot {

@@ -2,7 +2,7 @@
 
 use super::{
     cells::{Cell, Table},
-    plot::{self, Plot},
+    plot::{self, CurveError, Plot},
 };
 use crate::{
     number::short,
@@ -17,20 +17,8 @@ use plotters::{
     style::Color,
 };
 
-/// A curve that cannot be written or drawn.
-#[derive(Debug, thiserror::Error)]
-#[error("no curve: {0}")]
-pub struct PathError(String);
-
-impl PathError {
-    /// For this reason.
-    pub(super) fn new(e: impl std::fmt::Display) -> Self {
-        Self(e.to_string())
-    }
-}
-
-fn refused(e: impl std::fmt::Display) -> PathError {
-    PathError(e.to_string())
+fn refused(e: impl std::fmt::Display) -> CurveError {
+    CurveError::new(e)
 }
 
 /// The unit of the parameter, in words.
@@ -67,8 +55,8 @@ fn farthest(point: &PathPoint) -> f64 {
 ///
 /// # Errors
 /// The result holds no curve.
-pub fn csv(file: &ResultFile) -> Result<String, PathError> {
-    let path = file.path.as_ref().ok_or_else(|| PathError("this is no result of one".into()))?;
+pub fn csv(file: &ResultFile) -> Result<String, CurveError> {
+    let path = file.path.as_ref().ok_or_else(|| CurveError::new("this is no result of one"))?;
     let mut head: Vec<String> =
         ["value", "proved", "load_factor", "lower", "upper", "farthest"].map(String::from).into();
     if let DrivenBy::Supports(list) = &path.driven_by {
@@ -190,14 +178,14 @@ const COLOURS: [RGBColor; 6] = [
 ///
 /// # Errors
 /// The result holds no curve, or none of two points.
-pub fn chart(file: &ResultFile) -> Result<String, PathError> {
-    let path = file.path.as_ref().ok_or_else(|| PathError("this is no result of one".into()))?;
+pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
+    let path = file.path.as_ref().ok_or_else(|| CurveError::new("this is no result of one"))?;
     let lines = curves(path);
     let all = || lines.iter().flat_map(|l| &l.1);
     let end = all().map(|p| p.0).fold(0.0, f64::max);
     let (low, high) = all().fold((0.0_f64, 0.0_f64), |(l, h), p| (l.min(p.1), h.max(p.1)));
     if end <= 0.0 || high <= low {
-        return Err(PathError("there are not two points to draw a line through".into()));
+        return Err(CurveError::new("there are not two points to draw a line through"));
     }
     let y = held_by(path);
     let margin = 0.06 * (high - low);

@@ -1,6 +1,5 @@
 //! Charts of lines on paper: area, axes and legend, which all of them share.
 
-use super::path::PathError;
 use crate::number::short;
 use plotters::{
     coord::types::RangedCoordf64,
@@ -17,6 +16,18 @@ use std::ops::Range;
 pub(super) const BLUE: RGBColor = RGBColor(0, 114, 178);
 /// The other one.
 pub(super) const RED: RGBColor = RGBColor(213, 94, 0);
+
+/// A curve that cannot be written or drawn.
+#[derive(Debug, thiserror::Error)]
+#[error("no curve: {0}")]
+pub struct CurveError(String);
+
+impl CurveError {
+    /// For this reason.
+    pub(super) fn new(e: impl std::fmt::Display) -> Self {
+        Self(e.to_string())
+    }
+}
 
 const SIZE: (u32, u32) = (680, 420);
 
@@ -45,20 +56,20 @@ impl Plot<'_> {
     /// It cannot be drawn.
     pub fn svg(
         self,
-        lines: impl FnOnce(&mut Drawn) -> Result<(), PathError>,
-    ) -> Result<String, PathError> {
+        lines: impl FnOnce(&mut Drawn) -> Result<(), CurveError>,
+    ) -> Result<String, CurveError> {
         let [across, up] = self.ends;
         let mut text = String::new();
         {
             let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-            area.fill(&WHITE).map_err(PathError::new)?;
+            area.fill(&WHITE).map_err(CurveError::new)?;
             let mut chart = ChartBuilder::on(&area)
                 .margin(12)
                 .caption(crate::plain::cell(self.name), ("sans-serif", 18))
                 .x_label_area_size(42)
                 .y_label_area_size(self.left)
                 .build_cartesian_2d(across, up)
-                .map_err(PathError::new)?;
+                .map_err(CurveError::new)?;
             chart
                 .configure_mesh()
                 .label_style(("sans-serif", 14))
@@ -68,7 +79,7 @@ impl Plot<'_> {
                 .y_label_formatter(&|v| short(zero(*v)))
                 .light_line_style(WHITE.mix(0.0))
                 .draw()
-                .map_err(PathError::new)?;
+                .map_err(CurveError::new)?;
             lines(&mut chart)?;
             if let Some(position) = self.legend {
                 chart
@@ -77,9 +88,9 @@ impl Plot<'_> {
                     .background_style(WHITE.mix(0.8))
                     .label_font(("sans-serif", 13).into_font())
                     .draw()
-                    .map_err(PathError::new)?;
+                    .map_err(CurveError::new)?;
             }
-            area.present().map_err(PathError::new)?;
+            area.present().map_err(CurveError::new)?;
         }
         Ok(text)
     }

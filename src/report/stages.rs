@@ -3,7 +3,7 @@
 use super::{
     cells::{Cell, Table},
     page::{Axis, Chart, Series},
-    path::PathError,
+    plot::CurveError,
     plot::{self, Plot},
 };
 use crate::{
@@ -20,12 +20,12 @@ use plotters::{
     style::Color,
 };
 
-fn refused(e: impl std::fmt::Display) -> PathError {
-    PathError::new(e)
+fn refused(e: impl std::fmt::Display) -> CurveError {
+    CurveError::new(e)
 }
 
-fn said(file: &ResultFile) -> Result<&StagesResult, PathError> {
-    file.stages.as_ref().ok_or_else(|| PathError::new("this is no result of `stages`"))
+fn said(file: &ResultFile) -> Result<&StagesResult, CurveError> {
+    file.stages.as_ref().ok_or_else(|| CurveError::new("this is no result of `stages`"))
 }
 
 /// The stages, a row each: name, verdict, least unbalance (lower and upper end, g), blocks, held
@@ -34,7 +34,7 @@ fn said(file: &ResultFile) -> Result<&StagesResult, PathError> {
 ///
 /// # Errors
 /// The result is of another question.
-pub fn csv(file: &ResultFile) -> Result<String, PathError> {
+pub fn csv(file: &ResultFile) -> Result<String, CurveError> {
     let mut table = Table::new();
     let head = [
         "stage",
@@ -126,10 +126,10 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
 ///
 /// # Errors
 /// The result is of another question, or no stage has a margin.
-pub fn chart(file: &ResultFile) -> Result<String, PathError> {
+pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
     let result = said(file)?;
     let (name, value) =
-        quantity(result).ok_or_else(|| PathError::new("no stage has a margin to draw"))?;
+        quantity(result).ok_or_else(|| CurveError::new("no stage has a margin to draw"))?;
     let numbered = || result.list.iter().enumerate().map(|(k, s)| ((k + 1) as f64, s));
     let points: Vec<(f64, f64)> = numbered().filter_map(|(k, s)| Some((k, value(s)?))).collect();
     let high = points.iter().map(|p| p.1).fold(0.0, f64::max);
@@ -164,7 +164,7 @@ pub fn chart(file: &ResultFile) -> Result<String, PathError> {
     })
 }
 
-fn draw(chart: &mut plot::Drawn, run: Vec<(f64, f64)>, colour: RGBColor) -> Result<(), PathError> {
+fn draw(chart: &mut plot::Drawn, run: Vec<(f64, f64)>, colour: RGBColor) -> Result<(), CurveError> {
     if run.len() > 1 {
         chart.draw_series([PathElement::new(run, colour.stroke_width(2))]).map_err(refused)?;
     }

@@ -3,7 +3,7 @@
 use super::{
     cells::{Cell, Table},
     page::{Axis, Chart, Series},
-    path::PathError,
+    plot::CurveError,
     plot::{self, Plot},
 };
 use crate::{
@@ -18,12 +18,12 @@ use plotters::{
     style::Color,
 };
 
-fn refused(e: impl std::fmt::Display) -> PathError {
-    PathError::new(e)
+fn refused(e: impl std::fmt::Display) -> CurveError {
+    CurveError::new(e)
 }
 
-fn said(file: &ResultFile) -> Result<&StateAnswer, PathError> {
-    file.answer.state().ok_or_else(|| PathError::new("this is no result of one"))
+fn said(file: &ResultFile) -> Result<&StateAnswer, CurveError> {
+    file.answer.state().ok_or_else(|| CurveError::new("this is no result of one"))
 }
 
 /// The curve where there is one, a row a point: load factor, displacement of the control point (m)
@@ -32,7 +32,7 @@ fn said(file: &ResultFile) -> Result<&StateAnswer, PathError> {
 ///
 /// # Errors
 /// The result is of another question.
-pub fn csv(file: &ResultFile) -> Result<String, PathError> {
+pub fn csv(file: &ResultFile) -> Result<String, CurveError> {
     let a = said(file)?;
     let mut table = Table::new();
     if a.curve.is_empty() {
@@ -132,16 +132,16 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
 ///
 /// # Errors
 /// The result holds no curve, or none of two points.
-pub fn chart(file: &ResultFile) -> Result<String, PathError> {
+pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
     let a = said(file)?;
     let Some((points, _)) = line(&a.curve) else {
-        return Err(PathError::new("there are not two points to draw a line through"));
+        return Err(CurveError::new("there are not two points to draw a line through"));
     };
     let end = points.iter().map(|p| p.0).fold(0.0, f64::max);
     let bound = a.load_factor.and_then(|l| l.associative.value);
     let high = points.iter().map(|p| p.1).chain(bound).fold(0.0, f64::max);
     if end <= 0.0 || high <= 0.0 {
-        return Err(PathError::new("there are not two points to draw a line through"));
+        return Err(CurveError::new("there are not two points to draw a line through"));
     }
     let plot = Plot {
         name: &file.scene.name,

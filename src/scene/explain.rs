@@ -1,10 +1,26 @@
 //! The reader's errors, in words for people: serde's messages name Rust types and no remedy.
 
-use super::{Source, read::Kind, suggest::suggest};
+use super::{Source, suggest::suggest};
 use crate::error::{InputError, JsonPath, Step};
 use serde::de::IgnoredAny;
 use serde_json::error::Category;
 use serde_path_to_error::Segment;
+
+/// A kind of file, in the words of its errors.
+pub(crate) struct Kind {
+    /// What it is called: "scene".
+    pub noun: &'static str,
+    /// The value of its key `format`.
+    pub format: &'static str,
+    /// What else could help where that key is missing.
+    pub otherwise: &'static str,
+}
+
+impl Kind {
+    pub(super) fn start(&self) -> String {
+        format!("a {} starts with {{ \"format\": {:?}", self.noun, self.format)
+    }
+}
 
 /// Nothing that is read nests deeper; the path of a text that does is cut off here.
 const DEEPEST: usize = 10;

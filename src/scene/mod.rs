@@ -28,12 +28,13 @@ mod tests;
 
 pub use block::{Ball, BlockSpec, Rotation, Shape};
 pub use contact::ContactSpec;
+pub(crate) use explain::Kind;
 pub use interface::InterfaceSpec;
 pub use joint::{Friction, JointOverride, JointSpec, Joints, Material};
 pub use load::{At, Load, Loads, OnRoad, PushingMass};
 pub use member::Member;
 pub use protocol::{GrainKind, Protocol, ProtocolKind};
-pub(crate) use read::{Kind, read_as, text};
+pub(crate) use read::{read_as, text};
 pub use read::{read_bytes, read_file, read_str};
 pub use schema::schema;
 pub use site::Site;

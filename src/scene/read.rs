@@ -1,6 +1,9 @@
 //! JSON text → [`Scene`], with errors that name file, line, column, JSON path and remedy.
 
-use super::{Scene, SceneFormat, Source, explain};
+use super::{
+    Scene, SceneFormat, Source,
+    explain::{self, Kind},
+};
 use crate::{
     error::{InputError, JsonPath},
     limits,
@@ -60,22 +63,6 @@ pub fn read_str(
         Some(SCENE.format)
     );
     read_as(&SCENE, Source::new(name, text))
-}
-
-/// A kind of file, in the words of its errors.
-pub(crate) struct Kind {
-    /// What it is called: "scene".
-    pub noun: &'static str,
-    /// The value of its key `format`.
-    pub format: &'static str,
-    /// What else could help where that key is missing.
-    pub otherwise: &'static str,
-}
-
-impl Kind {
-    pub(super) fn start(&self) -> String {
-        format!("a {} starts with {{ \"format\": {:?}", self.noun, self.format)
-    }
 }
 
 const SCENE: Kind = Kind {

@@ -20,7 +20,7 @@
 //! & Prager 1952 (cohesion).
 
 use super::{
-    Forces, Rate,
+    Forces, Rate, at,
     joint::{Strength, rolling_arm, tension, water},
     member,
 };
@@ -403,12 +403,6 @@ fn hidden(mu: f64, normal: f64, sliding: f64) -> f64 {
     } else {
         (mu * sliding - normal).max(0.0) / mu.hypot(1.0)
     }
-}
-
-/// Velocity of a point moving with a block.
-pub fn at(assembly: &Assembly, rates: &[Rate], block: usize, point: &Vector3<f64>) -> Vector3<f64> {
-    let q = &rates[block];
-    q.velocity + q.spin.cross(&(point - assembly.blocks[block].centroid))
 }
 
 /// Power of a wrench on a rate.

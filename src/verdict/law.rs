@@ -1,8 +1,8 @@
 //! Coulomb's law, exactly: how far forces and rates are from obeying it together.
 
 use super::{
-    Forces, Rate,
-    certificate::{at, load_scale, power, size, speed, statics},
+    Forces, Rate, at,
+    certificate::{load_scale, power, size, speed, statics},
     joint::{Strength, rolling_arm},
     member::{self, Bounds},
 };

@@ -144,8 +144,7 @@ fn joint(
         .points
         .iter()
         .map(|p| {
-            let v = certificate::at(assembly, rates, face.b, p)
-                - certificate::at(assembly, rates, face.a, p);
+            let v = super::at(assembly, rates, face.b, p) - super::at(assembly, rates, face.a, p);
             let vn = face.frame.n.dot(&v);
             let vt = (v - face.frame.n * vn).norm();
             let lift = match face.law.friction {

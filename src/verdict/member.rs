@@ -9,7 +9,7 @@
 //! S}`: `N × (rate of lengthening)⁺` for a tie of strength `N`. Where `S` has no end along `−u` a
 //! mechanism is inadmissible, by [`Loss::endless`] per newton, as it is where a joint closes.
 
-use super::{Rate, certificate::at};
+use super::{Rate, at};
 use crate::{
     assembly::{Action, Assembly, Member, Wrench},
     interface::ContactFrame,

@@ -16,7 +16,10 @@ pub mod section;
 pub mod thrust;
 pub mod tilted;
 
-use crate::{assembly::Wrench, interface::Interfaces};
+use crate::{
+    assembly::{Assembly, Wrench},
+    interface::Interfaces,
+};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -93,4 +96,10 @@ impl Rate {
     pub fn zero() -> Self {
         Self { velocity: Vector3::zeros(), spin: Vector3::zeros() }
     }
+}
+
+/// Velocity of a point moving with a block.
+pub fn at(assembly: &Assembly, rates: &[Rate], block: usize, point: &Vector3<f64>) -> Vector3<f64> {
+    let q = &rates[block];
+    q.velocity + q.spin.cross(&(point - assembly.blocks[block].centroid))
 }

@@ -5,7 +5,6 @@ use super::{
     grain::Grain,
     law::{Friction, Resultant},
     number::{Dual, Number},
-    state::Past,
 };
 use crate::{
     assembly::{Assembly, Block, Solid, Wrench},
@@ -19,6 +18,15 @@ use nalgebra::{Matrix6, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// What a joint remembers of the step before.
+#[derive(Clone, Debug)]
+pub enum Past {
+    /// Of a bed.
+    Bed(super::bed::Past),
+    /// Of spheres.
+    Grain(super::grain::Past),
+}
 
 /// Where joints with an area are integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

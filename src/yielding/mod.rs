@@ -29,8 +29,8 @@ mod track;
 
 pub use factor::{PathEnd, PathFactor};
 pub use frequencies::{COUNT, frequencies};
-pub use joints::{Joint, JointKind, Joints, Quadrature, needs};
+pub use joints::{Joint, JointKind, Joints, Past, Quadrature, needs};
 pub use residual::{Residuals, residuals};
-pub use state::{JointState, Past, State, corner_forces};
+pub use state::{JointState, State, corner_forces};
 pub use system::{System, Tangent};
 pub use track::{Condition, EventKind, Grip, Step, Touch, Track, conditions, events};

@@ -2,7 +2,7 @@
 
 use super::{
     bed, grain,
-    joints::{JointKind, Joints},
+    joints::{JointKind, Joints, Past},
     law::{Friction, Spot},
 };
 use crate::{
@@ -10,15 +10,6 @@ use crate::{
     verdict::{Forces, Rate, no_forces},
 };
 use nalgebra::{Matrix2, Vector2, Vector3};
-
-/// What a joint remembers of the step before.
-#[derive(Clone, Debug)]
-pub enum Past {
-    /// Of a bed.
-    Bed(bed::Past),
-    /// Of spheres.
-    Grain(grain::Past),
-}
 
 /// Displacements of all blocks, and what their joints remember.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use voussoir::{
     analysis::{Control, Limited, LoadFactor, Outcome, Proved, assess, coulomb, limit},
     interface::prepare,
-    proof::{ResultFile, answer::LoadFactorAnswer, read::read_str, result::DryResult, verify},
+    proof::{ResultFile, answer::LoadFactorAnswer, certificate::DryResult, read::read_str, verify},
     scene::Scene,
     terms::Bound,
     verdict::Verdict,

@@ -113,6 +113,68 @@ fn a_module_uses_only_modules_above_it() {
     }
 }
 
+/// A stage of a construction may ask any question, and a question may be one about stages.
+const AGAIN: [&str; 2] = ["analysis::ask", "analysis::stages"];
+
+/// The modules that every file names, itself as its path; files that only hold a folder together
+/// (`mod.rs`) are left out.
+fn names() -> std::collections::BTreeMap<String, Vec<String>> {
+    let modules: Vec<(String, String)> = sources("src")
+        .into_iter()
+        .filter(|(path, _)| !is_test(path) && !path.ends_with("mod.rs"))
+        .map(|(path, text)| {
+            let path = path.with_extension("");
+            let parts = path.components().skip(1).map(|c| c.as_os_str().to_string_lossy());
+            (parts.collect::<Vec<_>>().join("::"), text)
+        })
+        .collect();
+    let known = |path: &str| {
+        let named = |m: &&String| path == m.as_str() || path.starts_with(&format!("{m}::"));
+        modules.iter().map(|(m, _)| m).filter(named).max_by_key(|m| m.len()).cloned()
+    };
+    // Two and more steps up first: what is left of them is not one step.
+    const UP: [(&str, &str); 3] =
+        [("super::super::super::", "@3:"), ("super::super::", "@2:"), ("super::", "@1:")];
+    let of = |(own, text): &(String, String)| {
+        let marked = UP.iter().fold(text.clone(), |text, (up, mark)| text.replace(up, mark));
+        let mut targets: Vec<String> = named_after(&marked, "crate::");
+        for (steps, (_, mark)) in [3, 2, 1].into_iter().zip(UP) {
+            let parts: Vec<&str> = own.split("::").collect();
+            let base = parts[..parts.len().saturating_sub(steps)].join("::");
+            targets.extend(named_after(&marked, mark).iter().map(|t| format!("{base}::{t}")));
+        }
+        let whole = |t: &String| t.split([' ', '{']).next().unwrap_or_default().to_string();
+        // A file and those in the folder of its name are one module.
+        let apart = |t: &String| {
+            t != own && !t.starts_with(&format!("{own}::")) && !own.starts_with(&format!("{t}::"))
+        };
+        let mut targets: Vec<String> =
+            targets.iter().map(whole).filter_map(|t| known(&t)).filter(apart).collect();
+        targets.sort();
+        targets.dedup();
+        (own.clone(), targets)
+    };
+    modules.iter().map(of).collect()
+}
+
+#[test]
+fn no_two_files_need_each_other() {
+    let names = names();
+    assert!(names["verdict::check::exists"].is_empty() || names.len() > 300, "{}", names.len());
+    for (start, first) in &names {
+        let mut open: Vec<Vec<&String>> = first.iter().map(|t| vec![t]).collect();
+        let mut seen = std::collections::BTreeSet::new();
+        while let Some(way) = open.pop() {
+            let here = way[way.len() - 1];
+            let again = [start, here].iter().all(|m| AGAIN.contains(&m.as_str()));
+            assert!(again || here != start, "{start} names itself by way of {way:?}");
+            if seen.insert(here) && !again {
+                open.extend(names[here].iter().map(|t| [&way[..], &[t]].concat()));
+            }
+        }
+    }
+}
+
 /// Modules that are there in a build without any feature.
 fn checker() -> Vec<String> {
     let lib = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/lib.rs")).unwrap();

@@ -10,9 +10,9 @@
 //! Forces and a mechanism at λ say that the scene moves there, not that it comes to rest below:
 //! that is asked of the state ([`rest`](super::rest)).
 
-use super::{crushing::within_strength, rest::up_to_rest, state::state};
+use super::{answer::DryLoadFactor, crushing::within_strength, rest::up_to_rest, state::state};
 use crate::{
-    analysis::{Control, Deciding, LoadFactor, Outcome},
+    analysis::{Control, LoadFactor, Outcome},
     interface::{Model, is_forest},
     program::{
         StaticsOptions,
@@ -27,52 +27,6 @@ use crate::{
     tolerance,
     verdict::{Forces, Rate, Verdict, certificate, check, law},
 };
-
-/// A load factor with dry friction.
-#[derive(Clone, Debug)]
-pub struct DryLoadFactor {
-    /// How it was found.
-    pub found: Found,
-    /// The value; NaN where there is none.
-    pub value: f64,
-    /// The greatest load factor at which the state under dry friction was seen at rest; it rested
-    /// at all smaller ones that were asked, from the dead load on. NaN where it was not asked, or
-    /// did not come out.
-    pub rests_at: f64,
-    /// The least load factor at which it was seen to move; NaN where it never was.
-    pub moves_at: f64,
-    /// The part that decides, where there are several.
-    pub part: Option<Deciding>,
-    /// How far forces and mechanism are from Coulomb's law ([`law::natural_map`]).
-    pub natural_map: f64,
-    /// The same with rates as the program has them ([`law::natural_map_in_loads`]).
-    pub natural_map_in_loads: f64,
-    /// Convex programs solved for the value; those of the states that were asked whether they rest
-    /// are not counted.
-    pub solves: usize,
-    /// Forces at the value, N.
-    pub forces: Forces,
-    /// The mechanism.
-    pub rates: Vec<Rate>,
-}
-
-impl DryLoadFactor {
-    /// Whether the state was seen at rest just below the value.
-    pub fn is_reached(&self) -> bool {
-        super::is_reached(self.rests_at, self.value)
-    }
-
-    /// The load factor to use, beside the `bound` where that was found; nothing where there is
-    /// none, or no limit.
-    pub fn to_use(&self, bound: Option<f64>) -> Option<f64> {
-        match self.found {
-            _ if !self.is_reached() => None,
-            Found::NothingSlides => bound,
-            Found::FixedPoint | Found::Rests | Found::RestsBelow => Some(self.value),
-            Found::Unlimited | Found::NotAtRest | Found::Undecided => None,
-        }
-    }
-}
 
 /// δ, and the change of the friction limits (mean block loads) at which the next one is taken up.
 /// The error of the law falls with δ, the engine's noise in the forces grows with its tolerance /

@@ -8,7 +8,7 @@
 //! sought by halving. *Computed, not proved:* that a state comes to rest.
 
 use super::{
-    load_factor::DryLoadFactor,
+    answer::DryLoadFactor,
     state::{State, state},
 };
 use crate::{

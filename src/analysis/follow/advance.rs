@@ -17,7 +17,7 @@
 //! slips, such that the control point goes as far as it is to. Without slips and with a small `ω` it
 //! is the greatest load factor.
 
-use super::{control::live_power, program, tracker::Tracker};
+use super::{program, tracker::Tracker};
 use crate::{
     analysis::{Control, assess, mend},
     assembly::Pose,
@@ -295,7 +295,7 @@ impl Tracker<'_> {
                     if assembly.blocks[i].support {
                         Vector3::zeros()
                     } else {
-                        certificate::at(assembly, rates, i, &p)
+                        crate::verdict::at(assembly, rates, i, &p)
                     }
                 });
                 r.so_far + (b - a) * times
@@ -587,4 +587,10 @@ impl Tracker<'_> {
             })
             .collect()
     }
+}
+
+/// The power of the live load.
+pub(super) fn live_power(model: &Model, rates: &[Rate]) -> f64 {
+    let live = &model.assembly.live;
+    model.assembly.free().map(|i| certificate::power(&live[i], &rates[i])).sum()
 }

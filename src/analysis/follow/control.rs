@@ -2,7 +2,7 @@
 //! friction.
 
 use super::{
-    advance::{AT_REST, Push, Rested, Stage, Step, UNSETTLED},
+    advance::{AT_REST, Push, Rested, Stage, Step, UNSETTLED, live_power},
     tracker::Tracker,
 };
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     interface::Model,
     path::{Demand, Spot},
     tolerance,
-    verdict::{Rate, certificate},
+    verdict::Rate,
 };
 use nalgebra::Vector3;
 
@@ -90,12 +90,6 @@ impl Tracker<'_> {
         assembly.live = vec![Wrench::zero(); assembly.blocks.len()];
         assembly.live[block] = Wrench { force: toward, moment: arm.cross(&toward) };
     }
-}
-
-/// The power of the live load.
-pub(super) fn live_power(model: &Model, rates: &[Rate]) -> f64 {
-    let live = &model.assembly.live;
-    model.assembly.free().map(|i| certificate::power(&live[i], &rates[i])).sum()
 }
 
 /// The joint at the start of every contact, and its places.

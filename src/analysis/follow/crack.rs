@@ -11,7 +11,7 @@ use crate::{
     error::{InputError, JsonPath},
     interface::{Interface, Model},
     program::{Statics, StaticsOptions},
-    verdict::{Rate, certificate::at},
+    verdict::{Rate, at},
 };
 use nalgebra::Vector3;
 use schemars::JsonSchema;

@@ -2,8 +2,8 @@
 //! structure to the next equilibrium, or nowhere.
 
 use super::{
-    branch::End,
     linkage::{Linkage, OpenBy, Place},
+    point::End,
     program::Hold,
     root::narrow,
     tracker::Tracker,

@@ -1,8 +1,9 @@
 //! Members on the way: they keep their length until they yield.
 
 use super::{
-    branch::{End, Event, EventKind, Follow, Path, ROOM, State, Trial, WIDTH},
+    branch::{Follow, Path, ROOM, State, Trial, WIDTH},
     linkage::{Linkage, Place},
+    point::{End, Event, EventKind},
     program::{self, Hold},
     root::narrow,
     tracker::{Tracker, pin},

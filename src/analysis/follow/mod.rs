@@ -10,9 +10,11 @@ mod linkage;
 pub mod machine;
 mod member;
 mod moved;
+mod point;
 mod program;
 mod root;
 mod slide;
 mod tracker;
 
-pub use branch::{End, Event, EventKind, Follow, Path, Point};
+pub use branch::{Follow, Path};
+pub use point::{End, Event, EventKind, Point};

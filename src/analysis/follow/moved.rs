@@ -1,7 +1,10 @@
 //! The part of a scene that moves. What nothing that moves touches stays where it is, and none of
 //! its quantities bears on how the rest is followed: not its weight, its size, nor its place.
 
-use super::branch::{End, Event, Path, Point};
+use super::{
+    branch::Path,
+    point::{End, Event, Point},
+};
 use crate::{
     analysis::{Control, assess, limit},
     assembly::Pose,

@@ -1,10 +1,10 @@
 //! Motions that slide: from step to step under dry friction.
 
 use super::{
-    advance::{Joint, Rested},
-    branch::{End, Event, EventKind, Follow, Path, Point, Trial, WIDTH},
-    control::live_power,
+    advance::{Joint, Rested, live_power},
+    branch::{Follow, Path, Trial, WIDTH},
     linkage::Linkage,
+    point::{End, Event, EventKind, Point},
     root::narrow,
     tracker::Tracker,
 };

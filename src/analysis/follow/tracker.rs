@@ -2,8 +2,8 @@
 //! and what forces leave.
 
 use super::{
-    branch::{End, Point},
     linkage::{Linkage, Place},
+    point::{End, Point},
     program::{self, Hold, Margin},
 };
 use crate::{

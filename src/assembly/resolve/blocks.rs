@@ -2,6 +2,7 @@
 
 use super::{
     check,
+    place::Place,
     shape::{self, Frame},
 };
 use crate::{
@@ -12,28 +13,6 @@ use crate::{
     tolerance::DEFAULT_DENSITY,
 };
 use std::collections::HashMap;
-
-/// Where a block comes from, for errors about it.
-pub(super) struct Place {
-    path: JsonPath,
-    /// The name of a block that no key of the file holds.
-    generated: Option<String>,
-}
-
-impl Place {
-    /// Turns a path relative to the block into one from the root: a block of a template has no keys
-    /// of its own.
-    pub(super) fn check<T>(&self, result: Result<T, InputError>) -> Result<T, InputError> {
-        result.map_err(|e| match &self.generated {
-            None => e.under(&self.path),
-            Some(id) => InputError {
-                message: format!("block {id:?}, {}: {}", e.path, e.message),
-                path: self.path.clone(),
-                ..e
-            },
-        })
-    }
-}
 
 /// Whether a block with this path was made by a template.
 pub(super) fn from_template(path: &JsonPath) -> bool {

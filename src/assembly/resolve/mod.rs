@@ -11,6 +11,7 @@ mod given;
 mod joints;
 mod loads;
 mod members;
+mod place;
 mod prism;
 mod shape;
 mod site;

@@ -1,6 +1,6 @@
 //! Shape → [`Solid`] in scene coordinates, with its mass properties at unit density.
 
-use super::{blocks::Place, check, prism};
+use super::{check, place::Place, prism};
 use crate::{
     assembly::{MassProperties, Mend, Polyhedron, Solid, clump},
     error::{InputError, JsonPath},

@@ -4,10 +4,7 @@ mod verify;
 
 pub(super) use verify::verify;
 
-use super::{
-    answer::Answer,
-    result::{Certificate, ResultFile},
-};
+use super::{answer::Answer, certificate::Certificate, result::ResultFile};
 use crate::{
     terms::{Law, Method},
     tolerance,

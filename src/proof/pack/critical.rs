@@ -10,8 +10,9 @@ use crate::{
     interface::Model,
     proof::{
         answer::Answer,
+        certificate::Certificate,
         critical::{CriticalResult, FlipResult, ScanPoint, Side, is_narrow, middle},
-        result::{Certificate, QuestionKind, ResultFile},
+        result::{QuestionKind, ResultFile},
     },
     scene::Scene,
     terms::Method,

@@ -14,10 +14,9 @@ mod thrust;
 
 use super::{
     answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
+    certificate::{Certificate, DryResult},
     member::lines,
-    result::{
-        Certificate, CoulombState, Direction, DryResult, MechanismWords, QuestionKind, ResultFile,
-    },
+    result::{CoulombState, Direction, MechanismWords, QuestionKind, ResultFile},
 };
 use crate::{
     analysis::{

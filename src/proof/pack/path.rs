@@ -10,11 +10,12 @@ use crate::{
     path::{Carried, Drive, saved::write_poses},
     proof::{
         answer::Answer,
+        certificate::Certificate,
         path::{
             Bracketed, DrivenBy, MovingSupport, PathAnswer, PathEvent, PathEventKind, PathPoint,
             PathResult, PathStatus, Reaction, hinges, is_good, slips,
         },
-        result::{Certificate, QuestionKind, ResultFile},
+        result::{QuestionKind, ResultFile},
     },
     scene::Scene,
     verdict::{

@@ -7,7 +7,8 @@ use crate::{
     interface::Model,
     proof::{
         answer::Answer,
-        result::{Certificate, QuestionKind, ResultFile},
+        certificate::Certificate,
+        result::{QuestionKind, ResultFile},
         simulation::{BlockMotion, FrameResult, PairForce, Simulation},
     },
     scene::Scene,

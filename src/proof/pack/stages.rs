@@ -11,7 +11,8 @@ use crate::{
     interface::Model,
     proof::{
         answer::Answer,
-        result::{Certificate, QuestionKind, ResultFile},
+        certificate::Certificate,
+        result::{QuestionKind, ResultFile},
         stages::{HeldForce, StageProof, StageResult, StagesResult, reactions_of, weight_along},
     },
     scene::Scene,

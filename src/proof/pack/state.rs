@@ -6,7 +6,8 @@ use crate::{
     interface::Model,
     proof::{
         answer::{Answer, LimitAnswer, LoadFactorAnswer},
-        result::{Certificate, Direction, QuestionKind, ResultFile},
+        certificate::Certificate,
+        result::{Direction, QuestionKind, ResultFile},
         state::{Given, StateAnswer, StateResult, StepResult, displacements},
     },
     scene::Scene,

@@ -9,8 +9,9 @@ use crate::{
     interface::Model,
     proof::{
         answer::Answer,
+        certificate::Certificate,
         critical::Side,
-        result::{Certificate, MechanismWords, QuestionKind, ResultFile},
+        result::{MechanismWords, QuestionKind, ResultFile},
         thrust::{ThrustAnswer, ThrustResult, factor, table},
     },
     scene::Scene,

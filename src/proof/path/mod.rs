@@ -4,7 +4,7 @@ mod verify;
 
 pub(super) use verify::{curve, verify};
 
-use super::result::Certificate;
+use super::certificate::Certificate;
 use crate::{path::Carried, path::saved::SavedPose, tolerance, verdict::check::Claim};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

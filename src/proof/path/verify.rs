@@ -6,7 +6,8 @@ use crate::{
     interface::Model,
     path::{Carried, Drive, Move, Moves, reaction, saved::read_poses},
     proof::{
-        result::{Certificate, QuestionKind, ResultFile},
+        certificate::Certificate,
+        result::{QuestionKind, ResultFile},
         verify::{Verification, failure, require},
     },
     tolerance,

@@ -5,7 +5,7 @@ mod verify;
 
 pub(super) use verify::verify;
 
-use super::result::Certificate;
+use super::certificate::Certificate;
 use crate::{rocking::RockOptions, terms::Bound, verdict::exact::Grade};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

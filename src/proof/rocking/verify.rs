@@ -8,8 +8,9 @@ use crate::{
     kinematic::quake,
     proof::{
         answer::Answer,
+        certificate::Certificate,
         kinematic::differs,
-        result::{Certificate, ResultFile},
+        result::ResultFile,
         verify::{
             Verification, bound_says, failure, is_no_better, mechanism_words, members, require,
             states,

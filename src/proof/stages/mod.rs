@@ -10,10 +10,9 @@ pub(super) use verify::{reactions_of, weight_along};
 
 use super::{
     answer::{Answer, FactorStatus, LoadFactorAnswer, TiltAnswer},
+    certificate::{Certificate, DryResult},
     member::MemberLine,
-    result::{
-        Certificate, CoulombState, Direction, DryResult, MechanismWords, QuestionKind, ResultFile,
-    },
+    result::{CoulombState, Direction, MechanismWords, QuestionKind, ResultFile},
 };
 use crate::{
     assembly::AskedStages,

@@ -7,7 +7,8 @@ use crate::{
     interface::{Model, at_stage},
     path::reaction,
     proof::{
-        result::{Certificate, QuestionKind, ResultFile},
+        certificate::Certificate,
+        result::{QuestionKind, ResultFile},
         verify::{Verification, failure, require, states, verify_model},
     },
     scene::Scene,

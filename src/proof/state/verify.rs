@@ -6,7 +6,8 @@ use crate::{
     interface::Model,
     proof::{
         answer::Answer,
-        result::{Certificate, QuestionKind, ResultFile},
+        certificate::Certificate,
+        result::{QuestionKind, ResultFile},
         verify::{Verification, answer, failure, is_no_better, require},
     },
     terms::{Bound, Outcome},

@@ -5,7 +5,7 @@ mod verify;
 
 pub(super) use verify::verify;
 
-use super::{critical::Side, result::Certificate};
+use super::{certificate::Certificate, critical::Side};
 use crate::{
     interface::Model,
     terms::Bound,

@@ -5,7 +5,8 @@ use super::{ThrustSection, factor, table};
 use crate::{
     interface::Model,
     proof::{
-        result::{Certificate, QuestionKind, ResultFile},
+        certificate::Certificate,
+        result::{QuestionKind, ResultFile},
         verify::{Verification, answer, failure, mechanism_words, require},
     },
     terms::{Bound, Outcome},

@@ -11,7 +11,7 @@ use crate::{
     interface::{Model, is_forest},
     proof::{
         answer::Answer,
-        result::{Certificate, DryResult},
+        certificate::{Certificate, DryResult},
     },
     terms::{Found, Law, Outcome, StateMotion, resolution},
     tolerance,

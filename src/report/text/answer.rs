@@ -10,10 +10,10 @@ use crate::{
     number::{bracketed, decimals, ends, fixed, point, short},
     proof::{
         answer::Answer,
-        result::{DryResult, QuestionKind, ResultFile},
+        certificate::DryResult,
+        result::{QuestionKind, ResultFile},
     },
     terms::ClosedAnswer,
-    tolerance,
     verdict::{Verdict, check::Claim},
 };
 
@@ -216,7 +216,7 @@ fn closed_words(file: &ResultFile, closed: Closed) -> String {
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
     match file.question {
         QuestionKind::Assess => {
-            verdict(page, file);
+            super::verdict::verdict(page, file);
             return simulation::why(page, file);
         }
         QuestionKind::Simulate => return simulation::why(page, file),
@@ -276,57 +276,6 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     }
     dry(page, file);
     dead_load(page, file);
-}
-
-pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
-    let answer = &file.answer;
-    let (lower, upper) =
-        answer.as_verdict().map_or((0.0, f64::NAN), |a| (a.unbalance.lower, a.unbalance.upper));
-    match answer.verdict() {
-        Some(Verdict::Stable) => {
-            page.paragraph(&format!(
-                "Contact forces inside every friction cone balance every block, up to {upper:.1e} of its weight."
-            ));
-            page.paragraph(&settled(file));
-        }
-        Some(Verdict::Conditional) => {
-            page.paragraph(&format!(
-                "Contact forces inside every friction cone balance every block, up to {upper:.1e} of its weight, but the loads do not produce them: they need a pre-stress that nobody applied."
-            ));
-            let left = file.coulomb_state.as_ref().and_then(|s| s.steps.last()).map_or(f64::NAN, |s| s.acceleration);
-            page.paragraph(&format!(
-                "Without it the motion below starts, with {left:.2} g on some block, and obeys Coulomb's law. It is not safe."
-            ));
-        }
-        Some(Verdict::Unstable) => page.paragraph(&format!(
-            "No contact forces inside the friction cones balance the loads: whatever they are, some block is left with at least {lower:.1e} of its weight. The mechanism below moves by itself, which proves it."
-        )),
-        Some(Verdict::Undecided) if file.coulomb_state.is_some() && upper <= tolerance::UNBALANCE => page.paragraph(
-            "Admissible contact forces exist, but whether the loads produce them did not come out: the state under dry friction neither came to rest nor to a motion.",
-        ),
-        Some(Verdict::Undecided) | None => page.paragraph(&format!(
-            "The least part of its weight with which some block is left lies between {lower:.1e} and {upper:.1e}; it is too close to the line between standing and falling, or the solver lost its way."
-        )),
-    }
-}
-
-/// What makes admissible forces count.
-fn settled(file: &ResultFile) -> String {
-    match &file.coulomb_state {
-        Some(state) => {
-            let step = state.steps.last();
-            format!(
-                "The loads produce such forces by themselves: with dry friction, on contacts that yield a little, the blocks come to rest (what is left, {:.0e} g, falls with the compliance).",
-                step.map_or(f64::NAN, |s| s.acceleration)
-            )
-        }
-        None if file.left_out.iter().any(|l| l.starts_with("the state under dry friction")) => {
-            "No pre-stress is possible: contacts form no closed chain.".into()
-        }
-        None => {
-            "This says that the joints can carry the load; it does not exclude that they need a pre-stress which nobody applied.".into()
-        }
-    }
 }
 
 /// What λ multiplies.

@@ -17,6 +17,7 @@ mod stages;
 pub(super) mod state;
 mod template;
 mod thrust;
+mod verdict;
 
 pub use answer::left_out;
 pub use check::{inspection, verification};

@@ -72,7 +72,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
 
 /// The sentences below it.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
-    let Some(t) = file.answer.thrust() else { return super::answer::verdict(page, file) };
+    let Some(t) = file.answer.thrust() else { return super::verdict::verdict(page, file) };
     match (&t.support, t.direction, &t.member) {
         (Some(id), Some(direction), None) => page.paragraph(&format!(
             "The thrust is the horizontal force of the blocks on {id} towards {}. Contact forces inside the friction cones reach its least value when the support yields and its greatest when it is pushed in; the mechanisms of the two movements prove that no others go further.",

@@ -13,7 +13,7 @@ use super::{Body, ViewPart};
 use crate::{
     analysis::coulomb::Found,
     interface::Model,
-    proof::result::{Certificate, ResultFile},
+    proof::{certificate::Certificate, result::ResultFile},
     report::view::ViewShape,
     verdict::{
         Rate,

@@ -4,7 +4,10 @@ use crate::{
     analysis::{Outcome, coulomb::Found},
     interface::Model,
     number::short,
-    proof::result::{Certificate, QuestionKind, ResultFile},
+    proof::{
+        certificate::Certificate,
+        result::{QuestionKind, ResultFile},
+    },
     scene::Friction,
     tolerance,
     verdict::{

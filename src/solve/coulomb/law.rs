@@ -10,7 +10,7 @@
 //! 1944). It settles where the iteration on the limits goes round in circles, and gains all digits
 //! at once; from afar it does not get there, and is tried only beside that iteration.
 
-use super::fixed_point::FixedPoint;
+use super::point::FixedPoint;
 use crate::{
     deadline::Deadline,
     program::{

@@ -11,9 +11,11 @@ mod exact;
 mod fixed_point;
 mod law;
 mod newton;
+mod point;
 
 pub use anderson::Anderson;
 pub use exact::Exact;
-pub use fixed_point::{FixedPoint, Solvers, StoppingCriterion, iterate};
+pub use fixed_point::{Solvers, StoppingCriterion, iterate};
 pub use law::Law;
 pub use newton::{Newton, Solved};
+pub use point::FixedPoint;

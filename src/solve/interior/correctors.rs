@@ -4,7 +4,7 @@
 
 use super::{
     newton::{Newton, Point, ROUGH},
-    path::{TO_THE_BOUNDARY, add, slack, steps},
+    step::{TO_THE_BOUNDARY, add, slack, steps},
 };
 
 /// Further correctors towards products of one size (Gondzio 1996). Fewer: more factorisations.

@@ -8,12 +8,14 @@
 //!
 //! Like every engine it is believed in nothing: forces and rates are recomputed from the scene.
 
+mod columns;
 mod cones;
 mod correctors;
 mod newton;
 mod panels;
 mod path;
 mod reduced;
+mod step;
 mod structure;
 
 use self::{newton::Point, path::Data, reduced::Reduced, structure::Structure};

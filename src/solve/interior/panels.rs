@@ -1,7 +1,7 @@
 //! Equality rows of the local variables in dense panels: the forces of neighbouring contacts act on
 //! the same two blocks.
 
-use super::structure::{Block, Columns};
+use super::columns::{Block, Columns};
 use std::ops::Range;
 
 /// Blocks of variables on the same equality rows.

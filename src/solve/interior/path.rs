@@ -5,13 +5,11 @@ use super::{
     correctors::further,
     newton::{EXACT, Newton, Point, ROUGH},
     reduced::Reduced,
+    step::{TO_THE_BOUNDARY, add, slack, steps},
     structure::Structure,
 };
 use crate::solve::{Iteration, Settings, Status};
 use std::time::Instant;
-
-/// How far a step goes towards the boundary. Nearer: the next steps are short. Farther: more steps.
-pub(super) const TO_THE_BOUNDARY: f64 = 0.995;
 
 /// A point within this × the tolerance is almost a solution: rounding may allow no more. Larger:
 /// poor points pass where no later attempt would be better. Smaller: sequences of programs leave
@@ -83,10 +81,6 @@ fn residual(st: &Structure, data: &Data, p: &Point, s: &[f64]) -> Point {
 fn minus(p: &Point) -> Point {
     let minus = |v: &[f64]| v.iter().map(|v| -v).collect();
     Point { x: minus(&p.x), t: minus(&p.t), y: minus(&p.y), z: minus(&p.z) }
-}
-
-pub(super) fn add(to: &mut [f64], by: f64, d: &[f64]) {
-    to.iter_mut().zip(d).for_each(|(t, d)| *t += by * d);
 }
 
 /// The point that balances at least cost and the one that is admissible at least cost, brought
@@ -240,24 +234,4 @@ pub(super) fn follow(
         add(&mut p.z, ad, &d.z);
     }
     give(best, Status::Limit)
-}
-
-/// `ds = −r_z − G dx`.
-pub(super) fn slack(st: &Structure, d: &Point, r: &Point) -> Vec<f64> {
-    let mut ds: Vec<f64> = r.z.iter().map(|v| -v).collect();
-    st.g.add(-1.0, &d.x, &mut ds);
-    st.g_border.add(-1.0, &d.t, &mut ds);
-    ds
-}
-
-/// How far both sides may go; equally far where a quadratic part ties them together.
-pub(super) fn steps(
-    cones: &Cones,
-    st: &Structure,
-    (s, ds): (&[f64], &[f64]),
-    (z, dz): (&[f64], &[f64]),
-    share: f64,
-) -> (f64, f64) {
-    let (ap, ad) = ((share * cones.step(s, ds)).min(1.0), (share * cones.step(z, dz)).min(1.0));
-    if st.quadratic.is_empty() { (ap, ad) } else { (ap.min(ad), ap.min(ad)) }
 }

@@ -2,7 +2,7 @@
 
 use super::{Forgery, Honest};
 use crate::{
-    proof::{answer::LoadFactorAnswer, result::DryResult},
+    proof::{answer::LoadFactorAnswer, certificate::DryResult},
     terms::Bound,
     verdict::{
         Forces, Rate, certificate,

@@ -1,0 +1,87 @@
+//! Points, events and ends of a path.
+
+#[cfg(doc)]
+use crate::path::Carried;
+use crate::{
+    assembly::Pose,
+    verdict::{Forces, Rate},
+};
+use nalgebra::Vector3;
+
+/// A point of a path.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// The parameter.
+    pub value: f64,
+    /// The pose of every block.
+    pub poses: Vec<Pose>,
+    /// The corners that are closed and stay so, joint by joint at the start.
+    pub closed: Vec<Vec<usize>>,
+    /// The load factor; 0 where none is asked for.
+    pub load_factor: f64,
+    /// Contact forces at the closed corners ([`Carried::touching`]).
+    pub forces: Forces,
+    /// The room that they have.
+    pub room: f64,
+    /// The mechanism that lets it fall; none where it stands.
+    pub rates: Vec<Rate>,
+    /// After sliding: the joint at the start of every contact, and where it touches; the forces are
+    /// those of these contacts ([`Carried::displaced`]).
+    pub touch: Option<Vec<(usize, Vec<Vector3<f64>>)>>,
+}
+
+/// What happens on the way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    /// A joint opens beside the others: motion goes on steadily.
+    Opens,
+    /// A joint closes.
+    Closes,
+    /// The motion turns back: at the same parameter it goes on elsewhere, by a jump.
+    Jumps,
+    /// It falls as these joints open.
+    Falls,
+    /// A member yields from here on, or goes slack.
+    Yields,
+    /// Joints slide from here on.
+    Slides,
+    /// Joints that slid stick from here on.
+    Sticks,
+}
+
+/// Something that happens on the way.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// The parameter: the last at which the linkage before was seen to hold.
+    pub value: f64,
+    /// The first at which it was seen not to hold.
+    pub beyond: f64,
+    /// What.
+    pub kind: EventKind,
+    /// Joints that open, as interfaces at the start.
+    pub opens: Vec<usize>,
+    /// Joints that close.
+    pub closes: Vec<usize>,
+    /// How far a block moves by the jump at most, m.
+    pub jump: f64,
+    /// Members that yield.
+    pub yields: Vec<usize>,
+    /// Joints that begin to slide, or stick again.
+    pub slides: Vec<usize>,
+}
+
+/// How a path ends.
+#[derive(Clone, Debug)]
+pub enum End {
+    /// All of it was followed.
+    Reached,
+    /// It falls: the last value at which it stands and the first at which it falls, with both
+    /// poses.
+    Falls(Box<[Point; 2]>),
+    /// The load factor vanishes here.
+    Vanishes,
+    /// A joint slides from here on.
+    Slides(usize),
+    /// It could not be followed any further, and why.
+    Stuck(String),
+}
