@@ -276,6 +276,20 @@ fn links_inside_the_repository_lead_somewhere() {
 }
 
 #[test]
+fn the_book_holds_every_page() {
+    let docs = root().join("docs");
+    let summary = std::fs::read_to_string(docs.join("SUMMARY.md")).unwrap();
+    let held: Vec<PathBuf> = targets(&summary).iter().map(|t| docs.join(t)).collect();
+    let mut list = Vec::new();
+    pages(&docs, &mut list);
+    for page in
+        list.iter().filter(|p| !p.ends_with("SUMMARY.md") && !p.starts_with(docs.join("peers")))
+    {
+        assert_eq!(held.iter().filter(|h| *h == page).count(), 1, "{}", page.display());
+    }
+}
+
+#[test]
 fn what_is_cited_is_this_version() {
     let text = std::fs::read_to_string(root().join("CITATION.cff")).unwrap();
     let value = |key: &str| {
