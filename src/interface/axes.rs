@@ -8,7 +8,10 @@
 //! straight down.
 
 use super::{Interface, Model};
-use crate::error::{Finding, FindingCode};
+use crate::{
+    assembly::{Block, Polyhedron, Solid},
+    error::{Finding, FindingCode},
+};
 use nalgebra::Vector3;
 
 /// Supports face sideways when their mean push has less than this upwards, of at most 1. Larger: a
@@ -34,6 +37,10 @@ const DOWN: f64 = 0.8;
 /// Larger: walls of tall thin slabs are reported. Smaller: prisms that lie on their side are seen
 /// only where they are drawn exactly.
 const CARRIES: f64 = 0.02;
+
+/// Faces within this × their block's size of the lowest point are in one plane. Larger: joints of
+/// thin courses count. Smaller: drawings rounded to three digits have no footing.
+const FOOTING: f64 = 1e-2;
 
 /// Joints enough to tell that none of them carries weight. More: short columns on their side are
 /// not seen. Fewer: a block squeezed between two walls is reported.
@@ -73,7 +80,7 @@ pub fn mistake(model: &Model) -> Option<Finding> {
 }
 
 /// What looks like a mistake of axes although supports do not tell: no joint is inclined so that it
-/// could carry weight.
+/// could carry weight, or there is no footing below but one on another side.
 pub fn on_its_side(model: &Model) -> Option<Finding> {
     let Model { assembly, interfaces, .. } = model;
     let up = -assembly.gravity.normalize();
@@ -81,10 +88,56 @@ pub fn on_its_side(model: &Model) -> Option<Finding> {
     let total: f64 = weights.iter().sum();
     let carried: f64 =
         interfaces.list.iter().zip(&weights).map(|(f, w)| w * f.frame.n.dot(&up).abs()).sum();
-    (interfaces.list.len() >= FEW && carried < CARRIES * total).then(|| {
-        let text = "All joints stand upright: no block rests on another, so that everything lies on its side. Drawings often have y up: import with --up y";
-        Finding::new(FindingCode::Axes, text)
-    })
+    let text = if interfaces.list.len() >= FEW && carried < CARRIES * total {
+        "All joints stand upright: no block rests on another, so that everything lies on its side. Drawings often have y up: import with --up y".into()
+    } else {
+        let other = footed(model, up)?;
+        format!(
+            "Nothing has a face to stand on below, towards {}, but {} blocks have one in a common plane towards {}: everything lies on its side. \
+             If {} points up in the drawing: import with --up {}",
+            direction(-up),
+            other.1,
+            direction(-other.0),
+            axis(other.0),
+            axis(other.0)
+        )
+    };
+    Some(Finding::new(FindingCode::Axes, text))
+}
+
+/// The way up for which several blocks have faces in one plane below, with their number, where the
+/// given one has none: a dome or vault on its side. A free face on which nothing could stand, as
+/// the top of a wall, is no better than none the other way round, so that only ways up whose
+/// opposite has no such plane either count.
+fn footed(model: &Model, up: Vector3<f64>) -> Option<(Vector3<f64>, usize)> {
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let feet = |up: &Vector3<f64>| feet(model, up);
+    if feet(&up) > 0 {
+        return None;
+    }
+    let ways = axes.into_iter().flat_map(|a| [a, -a]).map(|way| (way, feet(&way), feet(&-way)));
+    let mut footed = ways.filter(|&(_, below, above)| below >= FEW && above == 0);
+    // Of two such ways neither is the one.
+    footed.next().map(|way| (way.0, way.1)).filter(|_| footed.next().is_none())
+}
+
+/// How many blocks have a face that looks down and lies in the lowest plane of all.
+fn feet(model: &Model, up: &Vector3<f64>) -> usize {
+    let blocks = &model.assembly.blocks;
+    let solids = || {
+        blocks.iter().filter_map(|b| match &b.solid {
+            Solid::Polyhedron(p) => Some((b, p)),
+            Solid::Sphere { .. } | Solid::Clump { .. } => None,
+        })
+    };
+    let lowest =
+        solids().flat_map(|(_, p)| &p.vertices).map(|v| v.dot(up)).fold(f64::INFINITY, f64::min);
+    let stands = |(b, p): &(&Block, &Polyhedron)| {
+        p.facets
+            .iter()
+            .any(|f| f.normal.dot(up) < -ALONG && (f.offset + lowest).abs() <= FOOTING * b.size)
+    };
+    solids().filter(stands).count()
 }
 
 /// The mean direction in which supports push free blocks, of length 1 where all their contacts face

@@ -52,18 +52,24 @@ fn densities(assembly: &Assembly) -> Option<String> {
     ))
 }
 
-/// Everything in millimetres.
+/// Everything in millimetres, centimetres or inches.
 fn large(assembly: &Assembly) -> Option<String> {
     let many = free(assembly).count() >= bounds::MANY;
     let size = median(free(assembly).map(|b| b.size))?;
-    let mistake = size > if many { bounds::LARGE_OF_MANY } else { bounds::LARGE };
-    if !mistake || !bounds::SIZE.contains(&size) {
+    let beyond = size > if many { bounds::LARGE_OF_MANY } else { bounds::LARGE };
+    let unit = if many && bounds::CENTIMETRES.contains(&size) {
+        "centimetres (--scale 0.01) or inches (--scale 0.0254)"
+    } else if !beyond || !bounds::SIZE.contains(&size) {
         return None;
-    }
+    } else if size <= bounds::LARGE_IN_CENTIMETRES {
+        "millimetres (--scale 0.001) or centimetres (--scale 0.01)"
+    } else {
+        "millimetres (--scale 0.001)"
+    };
     let (block, value, others) = first(free(assembly), |b| b.size, |s| s >= size)?;
     Some(format!(
-        "Block {:?}{others} measures {} m across, where stones have 0.1 to 10. It looks like millimetres: lengths are in m; import with \
-         --scale 0.001, or give a mesh \"scale\": 0.001",
+        "Block {:?}{others} measures {} m across, where stones have 0.1 to 10. It looks like {unit}: lengths are in m; \
+         import with that scale, or give a mesh that \"scale\"",
         block.id,
         short(value)
     ))

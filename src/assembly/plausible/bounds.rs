@@ -94,6 +94,15 @@ pub const LARGE: f64 = 200.0;
 /// millimetres pass. Smaller: jointed slopes are reported.
 pub const LARGE_OF_MANY: f64 = 60.0;
 
+/// The median free block of [`MANY`] or more measures this, m, where lengths are in centimetres or
+/// inches: stones of 0.12 to 0.5 m in the one, of 0.3 to 1.3 m in the other. Lower: megaliths and
+/// rockfill are reported. Higher: a published vault in units of its own is.
+pub const CENTIMETRES: RangeInclusive<f64> = 12.0..=50.0;
+
+/// What is too large to be in metres may be in centimetres up to this, m. Larger: stones of more
+/// than 3 m. Smaller: large stones in centimetres are taken for small bricks in millimetres.
+pub const LARGE_IN_CENTIMETRES: f64 = 300.0;
+
 /// So many free blocks are many. Fewer: a few huge rocks are reported. More: small arches pass.
 pub const MANY: usize = 8;
 
