@@ -7,7 +7,7 @@ use super::{
 };
 use voussoir::{
     proof::result,
-    report::{inspection, json},
+    report::{inspection, json, keys},
     scene, sweep,
 };
 
@@ -18,6 +18,10 @@ pub fn run(args: &Schema) -> anyhow::Result<Exit> {
         FileFormat::Result => result::schema(),
         FileFormat::Model => inspection::schema(),
     };
-    terminal::print(&json::pretty(&schema)?)?;
+    let text = match args.markdown {
+        true => keys::page(&schema),
+        false => json::pretty(&schema)?,
+    };
+    terminal::print(&text)?;
     Ok(Exit::Yes)
 }

@@ -9,6 +9,7 @@ pub mod heaps;
 pub mod imported;
 pub mod inspection;
 pub mod json;
+pub mod keys;
 pub mod kinematic;
 pub mod moving;
 pub mod obj;

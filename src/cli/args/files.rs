@@ -25,6 +25,9 @@ pub struct Schema {
     /// SCENE --json` gives).
     #[arg(value_enum, default_value_t = FileFormat::Scene, hide_possible_values = true)]
     pub of: FileFormat,
+    /// Print tables of its keys for people (Markdown) instead.
+    #[arg(long)]
+    pub markdown: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
