@@ -6,13 +6,13 @@
 //! answer; a verdict as it was asked in scenes of few contacts, else whether forces exist.
 
 use super::{
-    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, MovingOptions, Question,
-    TiltOptions, ask,
+    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, LoadFactor, MovingOptions,
+    Question, TiltOptions, ask,
 };
 use crate::{
     interface::{self, Model},
     scene::Scene,
-    terms::{Closed, ClosedAnswer, Law, LeftOutContacts, Outcome},
+    terms::{Closed, ClosedAnswer, Law, LeftOutContacts},
 };
 
 /// With more contact points than this the question is not put again: it would take longer than
@@ -24,28 +24,13 @@ const MOST_POINTS_DRY: usize = 600;
 /// An answer as far as it can be compared: of a load factor the bound, of tilts the least. With
 /// `law` associative a verdict is whether forces exist.
 fn compared(answer: &Answer, law: Law) -> Option<ClosedAnswer> {
-    let factor = |status: Outcome, value: f64| ClosedAnswer::LoadFactor {
-        status,
-        value: (status == Outcome::Found).then_some(value),
-    };
+    let factor = |l: &LoadFactor| ClosedAnswer::LoadFactor { status: l.outcome, value: l.found() };
     match answer {
         Answer::Assess(a) => Some(ClosedAnswer::verdict(a.verdict, law)),
-        Answer::Limit(l) => Some(factor(l.bound.outcome, l.bound.value)),
-        Answer::Tilt(t) => t
-            .directions
-            .iter()
-            .map(|d| factor(d.load_factor.outcome, d.load_factor.value))
-            .min_by(|a, b| a.height().total_cmp(&b.height())),
-        Answer::Moving(m) => m
-            .positions
-            .iter()
-            .map(|s| factor(s.bound.outcome, s.bound.value))
-            .min_by(|a, b| a.height().total_cmp(&b.height())),
-        Answer::Kinematic(k) => k
-            .directions
-            .iter()
-            .map(|d| factor(d.bound.outcome, d.bound.value))
-            .min_by(|a, b| a.height().total_cmp(&b.height())),
+        Answer::Limit(l) => Some(factor(&l.bound)),
+        Answer::Tilt(t) => ClosedAnswer::least(t.directions.iter().map(|d| factor(&d.load_factor))),
+        Answer::Moving(m) => ClosedAnswer::least(m.positions.iter().map(|s| factor(&s.bound))),
+        Answer::Kinematic(k) => ClosedAnswer::least(k.directions.iter().map(|d| factor(&d.bound))),
         _ => None,
     }
 }

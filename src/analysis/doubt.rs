@@ -160,11 +160,8 @@ impl About<'_> {
         if let Some(why) = dry.findings().fails.first() {
             return Self::refused(why);
         }
-        let rests = if dry.rests_at > 0.0 {
-            format!("; at rest up to {}", short(dry.rests_at))
-        } else {
-            String::new()
-        };
+        let rests = dry.rests_at.filter(|&r| r > 0.0);
+        let rests = rests.map(|r| format!("; at rest up to {}", short(r))).unwrap_or_default();
         let programs = count(dry.solves, "program");
         Doubt::new(
             DoubtCause::DryFriction,

@@ -57,7 +57,7 @@ pub struct Quaked {
 impl Quaked {
     /// α0: the one to use, where it is found.
     pub fn alpha0(&self) -> Option<f64> {
-        let bound = (self.bound.outcome == Outcome::Found).then_some(self.bound.value);
+        let bound = self.bound.found();
         self.dry.as_ref().map_or(bound, |dry| dry.to_use(bound))
     }
 

@@ -37,8 +37,8 @@ use crate::{
 pub struct LoadFactor {
     /// What became of it.
     pub outcome: Outcome,
-    /// The load factor (of the forces); NaN where there is none.
-    pub value: f64,
+    /// The load factor (of the forces), where there is one.
+    pub value: Option<f64>,
     /// Its bracket; infinite ends where nothing is known.
     pub bracket: Bracket,
     /// The part that decides, where there are several.
@@ -59,6 +59,13 @@ pub struct LoadFactor {
     /// The answers of the parts, in their order and their own units; `None` where no live load
     /// acts.
     pub(super) parts: Vec<Option<LoadFactor>>,
+}
+
+impl LoadFactor {
+    /// The load factor, where it was found.
+    pub fn found(&self) -> Option<f64> {
+        self.value.filter(|_| self.outcome == Outcome::Found)
+    }
 }
 
 /// Best first; measured on the reference cases and on walls pushed in and out of their plane. Beside
@@ -157,7 +164,8 @@ pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
             break;
         }
         climb(model, &mut statics, step, scale, control.deadline, &mut answer);
-        let value = answer.value.abs();
+        // Without a value the bracket is as wide as can be.
+        let value = answer.value.map_or(0.0, f64::abs);
         if answer.bracket.is_narrow(
             tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural,
         ) {
@@ -169,7 +177,7 @@ pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
             }
         }
         // Once its size is known, scale the live load so that the factor is near one.
-        if value.is_finite() && value > 1e-6 * natural {
+        if value > 1e-6 * natural {
             scale = value;
         }
     }
@@ -177,8 +185,7 @@ pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
         answer.mechanism = Some(mechanism::read(model, &answer.rates));
     } else if answer.bracket.width() < 0.0 {
         // Ends that cross enclose nothing: the first-order allowances did not hold.
-        answer.bracket = Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
-        answer.value = f64::NAN;
+        (answer.value, answer.bracket) = (None, Bracket::UNKNOWN);
     }
     answer
 }
@@ -201,16 +208,16 @@ fn prove(
     inside: &mut Option<(f64, Forces)>,
 ) -> bool {
     let Model { assembly, interfaces, .. } = model;
+    let Some(value) = answer.value else { return false };
     let k = certificate::kinematics(model, &answer.rates, &answer.forces);
-    let width =
-        tolerance::LOAD_FACTOR_WIDTH * answer.value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
+    let width = tolerance::LOAD_FACTOR_WIDTH * value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
     let mut moved = motion::motion(model, &answer.rates);
     let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
     if !moved.as_ref().is_some_and(is_proof)
         && let Some(mended) = mend::admissible(
             model,
             &answer.rates,
-            (answer.value, 0.1 * width * k.live_power),
+            (value, 0.1 * width * k.live_power),
             control.deadline,
         )
     {
@@ -223,7 +230,7 @@ fn prove(
         check::upper_bound(moved, || certificate::kinematics(model, rates, forces).upper())
     };
     answer.bracket.upper = upper(&answer.forces, &answer.rates);
-    let start = answer.value.min(answer.bracket.upper);
+    let start = value.min(answer.bracket.upper);
     let mut best: Option<(f64, f64, Forces)> = None;
     let mut proved = false;
     for share in INWARDS {
@@ -267,7 +274,7 @@ fn prove(
         answer.bracket.upper = upper(&answer.forces, &answer.rates);
     }
     answer.value =
-        answer.value.clamp(answer.bracket.lower, answer.bracket.upper.max(answer.bracket.lower));
+        Some(value.clamp(answer.bracket.lower, answer.bracket.upper.max(answer.bracket.lower)));
     proved
 }
 
@@ -288,8 +295,8 @@ fn unknown(model: &Model, left_out: Vec<String>) -> LoadFactor {
     let Model { assembly, interfaces, .. } = model;
     LoadFactor {
         outcome: Outcome::Undecided,
-        value: f64::NAN,
-        bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
+        value: None,
+        bracket: Bracket::UNKNOWN,
         part: None,
         forces: no_forces(interfaces),
         base: None,
@@ -342,7 +349,7 @@ fn climb(
             }
         }
         if lower > answer.bracket.lower {
-            (answer.bracket.lower, answer.value, answer.forces) = (lower, lambda, c.forces);
+            (answer.bracket.lower, answer.value, answer.forces) = (lower, Some(lambda), c.forces);
         }
         if upper < answer.bracket.upper {
             (answer.bracket.upper, answer.rates) = (upper, c.rates);
@@ -369,9 +376,7 @@ fn climb(
 /// the forces of a poor attempt may seem to fall below the limit.
 fn pair(model: &Model, answer: &mut LoadFactor) {
     let assembly = &model.assembly;
-    if !answer.bracket.width().is_finite() {
-        return;
-    }
+    let Some(value) = answer.value.filter(|_| answer.bracket.width().is_finite()) else { return };
     let k = certificate::kinematics(model, &answer.rates, &answer.forces);
     let lower = |value: f64| {
         let s = certificate::statics(model, &answer.forces, value);
@@ -381,12 +386,12 @@ fn pair(model: &Model, answer: &mut LoadFactor) {
             .sum();
         value - hidden / k.live_power
     };
-    let mut bracket = Bracket { lower: lower(answer.value), upper: k.upper() };
+    let mut bracket = Bracket { lower: lower(value), upper: k.upper() };
     // The engine's load factor may pass what the mechanism proves by a last digit; its forces are
     // then those of the end itself. Ends that cross are left as they are: they prove nothing.
-    if bracket.lower <= bracket.upper && bracket.upper < answer.value {
+    if bracket.lower <= bracket.upper && bracket.upper < value {
         bracket.lower = lower(bracket.upper);
-        answer.value = bracket.upper;
+        answer.value = Some(bracket.upper);
     }
     answer.bracket = bracket;
 }
@@ -406,7 +411,7 @@ pub fn attempt(model: &Model, way: &Formulation) -> LoadFactor {
         Deadline::NEVER,
         &mut answer,
     );
-    let value = answer.value.abs();
+    let value = answer.value.map_or(0.0, f64::abs);
     if answer.bracket.is_narrow(
         tolerance::LOAD_FACTOR_WIDTH * value
             + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly),
@@ -461,7 +466,7 @@ fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
     answer.attempts.extend(wedge.attempts.iter().cloned());
     if wedge.verdict == Verdict::Stable && any.verdict == Verdict::Stable {
         answer.outcome = Outcome::Unbounded;
-        answer.value = f64::NAN;
+        answer.value = None;
         answer.bracket = Bracket { lower: f64::INFINITY, upper: f64::INFINITY };
         answer.base = Some((any.load_factor, any.forces));
         answer.forces = no_forces(interfaces);

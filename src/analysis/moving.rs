@@ -4,7 +4,7 @@
 //! Between neighbouring positions nothing is proved: the steps say how finely it was looked.
 
 use super::{
-    Assessment, Control, LoadFactor, MovingOptions, Outcome, Proved, assess, coulomb,
+    Assessment, Control, LoadFactor, MovingOptions, Proved, assess, coulomb,
     coulomb::DryLoadFactor, limit,
 };
 use crate::{
@@ -42,7 +42,7 @@ pub struct Stood {
 impl Stood {
     /// The load factor to use; nothing where there is none, or no limit.
     pub fn value(&self) -> Option<f64> {
-        let bound = (self.bound.outcome == Outcome::Found).then_some(self.bound.value);
+        let bound = self.bound.found();
         self.dry.as_ref().map_or(bound, |dry| dry.to_use(bound))
     }
 }

@@ -134,11 +134,10 @@ impl Assessment {
 impl Claims for LoadFactor {
     fn claim(&self) -> Option<Claim> {
         match self.outcome {
-            Outcome::Found => Some(Claim::LoadFactor {
-                value: self.value,
-                lower: self.bracket.lower,
-                upper: self.bracket.upper,
-            }),
+            Outcome::Found => {
+                let Bracket { lower, upper } = self.bracket;
+                self.value.map(|value| Claim::LoadFactor { value, lower, upper })
+            }
             Outcome::Unbounded => {
                 self.base.as_ref().map(|(standing, _)| Claim::Unbounded { standing: *standing })
             }
@@ -164,7 +163,8 @@ impl Claims for DryLoadFactor {
     /// What is seen of states is computed, not proved: it is no claim.
     fn claim(&self) -> Option<Claim> {
         matches!(self.found, Found::NothingSlides | Found::FixedPoint)
-            .then_some(Claim::DryLoadFactor { value: self.value })
+            .then_some(self.value)?
+            .map(|value| Claim::DryLoadFactor { value })
     }
 
     fn evidence(&self) -> Evidence<'_> {
@@ -172,7 +172,7 @@ impl Claims for DryLoadFactor {
     }
 
     fn withdraw(&mut self) {
-        (self.found, self.value) = (Found::Undecided, f64::NAN);
+        (self.found, self.value) = (Found::Undecided, None);
     }
 }
 
@@ -182,11 +182,10 @@ impl Claims for ThrustEnd {
         let Bracket { lower, upper } = self.bracket;
         match (self.outcome, at) {
             (Outcome::Found, Sought::Thrust(at)) => {
-                Some(Claim::Thrust { at, extreme, value, lower, upper })
+                value.map(|value| Claim::Thrust { at, extreme, value, lower, upper })
             }
-            (Outcome::Found, Sought::Member(MemberAt { member, along })) => {
-                Some(Claim::MemberForce { member, along, extreme, value, lower, upper })
-            }
+            (Outcome::Found, Sought::Member(MemberAt { member, along })) => value
+                .map(|value| Claim::MemberForce { member, along, extreme, value, lower, upper }),
             (Outcome::Unbounded, Sought::Thrust(at)) => Some(Claim::EndlessThrust { at, extreme }),
             (Outcome::Unbounded, Sought::Member(MemberAt { member, along })) => {
                 Some(Claim::EndlessMemberForce { member, along, extreme })

@@ -305,7 +305,7 @@ pub fn margin(heap: &Heap, control: &Control) -> Result<Margin, InputError> {
 impl Margin {
     /// Degrees, where found; negative where the heap as it lies has no admissible forces.
     pub fn degrees(&self) -> Option<f64> {
-        (self.tilt.load_factor.outcome == Outcome::Found).then(|| self.tilt.angle_deg())
+        self.tilt.angle_deg().filter(|_| self.tilt.load_factor.outcome == Outcome::Found)
     }
 }
 

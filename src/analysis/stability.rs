@@ -150,9 +150,8 @@ impl Bounds {
         // A round that stayed open ends the search, and is the answer then; only what fell after
         // others is none of its own.
         let height = |r: &Round| match r.tilt.load_factor.outcome {
-            Outcome::Undecided => f64::INFINITY,
             Outcome::Impossible => f64::NEG_INFINITY,
-            Outcome::Found | Outcome::Unbounded => r.tilt.angle_deg(),
+            _ => r.tilt.angle_deg().unwrap_or(f64::INFINITY),
         };
         let answer = (0..rounds.len())
             .max_by(|&i, &j| height(&rounds[i]).total_cmp(&height(&rounds[j])).then(j.cmp(&i)))

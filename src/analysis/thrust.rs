@@ -37,8 +37,8 @@ pub struct ThrustEnd {
     pub extreme: Extreme,
     /// What became of it ([`Outcome::Impossible`] does not occur).
     pub outcome: Outcome,
-    /// The thrust of the forces, N; NaN where there is none.
-    pub value: f64,
+    /// The thrust of the forces, N, where there is one.
+    pub value: Option<f64>,
     /// Its bracket, N.
     pub bracket: Bracket,
     /// Found: forces at `value`. Unbounded: forces that push without any load.
@@ -263,8 +263,8 @@ pub(super) fn of_part(
         at: *at,
         extreme,
         outcome: Outcome::Undecided,
-        value: f64::NAN,
-        bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
+        value: None,
+        bracket: Bracket::UNKNOWN,
         forces: standing.clone(),
         base: None,
         rates: vec![Rate::zero(); assembly.blocks.len()],
@@ -278,7 +278,7 @@ pub(super) fn of_part(
             break;
         }
         problem.climb(&mut base, step, control.deadline, &mut answer);
-        if answer.bracket.width() <= width(assembly, answer.value) {
+        if answer.value.is_some_and(|v| answer.bracket.width() <= width(assembly, v)) {
             answer.outcome = Outcome::Found;
             break;
         }
@@ -291,7 +291,7 @@ pub(super) fn of_part(
             )
         {
             answer.outcome = Outcome::Unbounded;
-            answer.value = f64::NAN;
+            answer.value = None;
             let end = -extreme.sigma() * f64::INFINITY;
             answer.bracket = Bracket { lower: end, upper: end };
             answer.base = Some(standing.clone());
@@ -361,7 +361,7 @@ impl Problem<'_> {
                 b.upper = ends[1];
             }
             if better[reached] {
-                (answer.value, answer.forces) = (p.value, forces);
+                (answer.value, answer.forces) = (Some(p.value), forces);
             }
             if better[bound] {
                 answer.rates = rates;

@@ -46,13 +46,13 @@ pub struct DryTilt {
 }
 
 impl Tilt {
-    /// The angle in degrees; 90 where the scene is wedged and stands at every tilt below, NaN where
-    /// there is none.
-    pub fn angle_deg(&self) -> f64 {
+    /// The angle in degrees, where there is one; 90 where the scene is wedged and stands at every
+    /// tilt below.
+    pub fn angle_deg(&self) -> Option<f64> {
         match self.load_factor.outcome {
-            Outcome::Found => self.load_factor.value.atan().to_degrees(),
-            Outcome::Unbounded => 90.0,
-            Outcome::Impossible | Outcome::Undecided => f64::NAN,
+            Outcome::Found => self.load_factor.value.map(|v| v.atan().to_degrees()),
+            Outcome::Unbounded => Some(90.0),
+            Outcome::Impossible | Outcome::Undecided => None,
         }
     }
 }
@@ -91,13 +91,12 @@ fn tilted_under(part: &Part, tilt: f64) -> Model {
 /// The tilt at which a part falls whose joints have strengths, as a load factor in its own units.
 fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
     let at = |tilt: f64| limit::of_part(&tilted_joints(part, tilt), control);
-    let found =
-        |l: &LoadFactor| (l.outcome == Outcome::Found).then(|| part.units.load_factor(l.value));
+    let found = |l: &LoadFactor| l.found().map(|v| part.units.load_factor(v));
     match own_answer(0.0, at, found) {
         // Joints at the tilt itself differ by what is left of the search from those that it was
         // found with.
         Ok(mut answer) => {
-            answer.bracket.upper += 2.0 * OWN_ANSWER * answer.value.abs();
+            answer.bracket.upper += 2.0 * OWN_ANSWER * answer.value.map_or(0.0, f64::abs);
             answer
         }
         // What has no limit at one tilt may have one at another, where the joints are weaker beside
@@ -105,8 +104,8 @@ fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
         Err(answer) if answer.outcome == Outcome::Impossible => answer,
         Err(answer) => LoadFactor {
             outcome: Outcome::Undecided,
-            bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
-            value: f64::NAN,
+            bracket: Bracket::UNKNOWN,
+            value: None,
             mechanism: None,
             ..answer
         },
@@ -144,7 +143,7 @@ fn dry(
     level: Option<Verdict>,
     control: &Control,
 ) -> Result<DryLoadFactor, InputError> {
-    let (associative, turned) = (&tilt.load_factor, tilted(model, tilt.toward, 0.0)?);
+    let (associative, turned) = (&tilt.load_factor, tilted(model, tilt.toward, None)?);
     if are_dry(&turned.interfaces) {
         return Ok(parts::dry::unproved(&turned, associative, level, control));
     }
@@ -155,11 +154,11 @@ fn dry(
         let bound = match bound {
             Some(bound) => bound,
             None => {
-                computed = own(associative.value);
+                computed = own(associative.value.unwrap_or(0.0));
                 &computed
             }
         };
-        let start = part.units.load_factor(bound.value);
+        let start = part.units.load_factor(bound.value.unwrap_or(0.0));
         // At the bound's own tilt it is the bound that is asked about, not another solve of it that
         // differs in the last digits.
         let at = |tilt: f64| {
@@ -169,11 +168,10 @@ fn dry(
                 false => coulomb::complementary(&joints, &own(tilt), control),
             }
         };
-        let value =
-            |d: &DryLoadFactor| d.value.is_finite().then(|| part.units.load_factor(d.value));
+        let value = |d: &DryLoadFactor| d.value.map(|v| part.units.load_factor(v));
         let answer = match own_answer(start, at, value) {
             Ok(answer) => answer,
-            Err(answer) => DryLoadFactor { found: Found::Undecided, value: f64::NAN, ..answer },
+            Err(answer) => DryLoadFactor { found: Found::Undecided, value: None, ..answer },
         };
         let at = |lambda: f64| tilted_under(part, part.units.load_factor(lambda));
         coulomb::up_to_rest(answer, &part.model.assembly, bound, dead, &at, control)

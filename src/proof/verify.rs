@@ -273,7 +273,7 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
     for (index, direction) in list.iter().enumerate() {
         let toward = direction.answer.toward().unwrap_or_default();
         let title = format!("tilt towards {}", crate::number::point(toward));
-        let load_factor = direction.answer.bound().and_then(|b| b.value).unwrap_or(0.0);
+        let load_factor = direction.answer.bound().and_then(|b| b.value);
         match tilted(model, Vector3::from(toward), load_factor) {
             Err(e) => all.part(title.clone(), failure(e.to_string())),
             Ok(turned) => {
@@ -293,7 +293,7 @@ fn tilts(all: &mut Verification, file: &ResultFile, model: &Model) {
             }
         }
         if let Some(dry) = &direction.dry {
-            let at = |tilt: f64| tilted(model, Vector3::from(toward), tilt);
+            let at = |tilt: f64| tilted(model, Vector3::from(toward), Some(tilt));
             let findings = again::dry_friction(
                 &at,
                 (&direction.answer, &direction.certificate),

@@ -358,11 +358,11 @@ impl Cell {
             CellQuestion::LoadFactor(truth) => {
                 let l = limit(model, &control);
                 found.iterations = l.attempts.iter().map(|a| a.iterations).sum();
-                if l.value.is_finite() {
+                if let Some(value) = l.value {
                     let inside = l.bracket.lower <= truth * (1.0 + ROUNDING)
                         && truth * (1.0 - ROUNDING) <= l.bracket.upper;
-                    found.value = Some(l.value);
-                    found.error = Some((l.value - truth).abs() / truth);
+                    found.value = Some(value);
+                    found.error = Some((value - truth).abs() / truth);
                     found.bracket = Some(l.bracket.width() / truth).filter(|b| b.is_finite());
                     found.inside = Some(inside);
                 }

@@ -126,7 +126,7 @@ impl StudyMethod {
             Self::Ladder => {
                 let l =
                     limit::limit(model, &Control { law: Law::Associative, ..Control::default() });
-                Measurement { value: Some(l.value), ..Measurement::from(&*l) }
+                Measurement { value: l.value, ..Measurement::from(&*l) }
             }
             Self::Forces => once(tolerance(Formulation::usual(Unknowns::Forces))),
             Self::Rates => once(tolerance(Formulation::usual(Unknowns::Rates))),
@@ -148,7 +148,7 @@ impl StudyMethod {
             Self::DryFriction => {
                 let l = limit::limit(model, &Control::default());
                 let d = coulomb::load_factor(model, &l, &Control::default());
-                Measurement { value: Some(d.value), iterations: d.solves, ..Measurement::default() }
+                Measurement { value: d.value, iterations: d.solves, ..Measurement::default() }
             }
             Self::Simulation => simulated(
                 model,

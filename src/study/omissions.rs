@@ -59,7 +59,7 @@ pub fn omissions(
                     let start = Instant::now();
                     let answer = limit(&model, &control);
                     times.push(start.elapsed().as_secs_f64());
-                    one.values[k] = Some(answer.value).filter(|v| v.is_finite());
+                    one.values[k] = answer.value;
                     one.unknowns[k] = answer.attempts.iter().map(|a| a.size[0]).max().unwrap_or(0);
                     if !keep_all {
                         one.left_out.clone_from(&answer.left_out);

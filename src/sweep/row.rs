@@ -339,7 +339,7 @@ impl RowAnswer {
         scale: fn(f64) -> f64,
     ) -> Self {
         let answer = Self {
-            value: (bound.outcome == Outcome::Found).then(|| scale(bound.value)),
+            value: bound.found().map(scale),
             lower: finite(bound.bracket.lower).map(scale),
             upper: finite(bound.bracket.upper).map(scale),
             ..Self::of(bound.outcome.into())
@@ -348,7 +348,7 @@ impl RowAnswer {
         // A value is one only up to which the state was seen at rest.
         let claims = matches!(dry.found, Found::NothingSlides | Found::FixedPoint);
         let found = if claims && !dry.is_reached() { Found::Undecided } else { dry.found };
-        let value = Some(scale(dry.value));
+        let value = dry.value.map(scale);
         match found {
             // The bound itself is the answer, with its bracket.
             Found::NothingSlides | Found::Unlimited => Self { dry: Some(found), ..answer },
@@ -358,7 +358,7 @@ impl RowAnswer {
             Found::Rests | Found::RestsBelow => Self {
                 status: RowStatus::Found,
                 value,
-                lower: Some(scale(dry.rests_at)),
+                lower: dry.rests_at.map(scale),
                 dry: Some(found),
                 ..answer
             },
@@ -403,7 +403,7 @@ impl RowAnswer {
     fn of_thrust(end: &Proved<ThrustEnd>) -> Self {
         match end.outcome {
             Outcome::Found => Self {
-                value: Some(end.value),
+                value: end.value,
                 lower: finite(end.bracket.lower),
                 upper: finite(end.bracket.upper),
                 ..Self::of(RowStatus::Found)

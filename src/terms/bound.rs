@@ -24,11 +24,11 @@ pub struct Bound {
 
 impl Bound {
     /// The value, where it was found, with the ends that are known.
-    pub fn new(status: Outcome, value: f64, bracket: Bracket) -> Self {
+    pub fn new(status: Outcome, value: Option<f64>, bracket: Bracket) -> Self {
         let finite = |v: f64| v.is_finite().then_some(v);
         Self {
             status,
-            value: (status == Outcome::Found).then_some(value),
+            value: value.filter(|_| status == Outcome::Found),
             lower: finite(bracket.lower),
             upper: finite(bracket.upper),
         }

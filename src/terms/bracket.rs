@@ -17,6 +17,9 @@ pub struct Bracket {
 }
 
 impl Bracket {
+    /// Nothing is known.
+    pub const UNKNOWN: Self = Self { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
+
     /// Upper minus lower end.
     pub fn width(&self) -> f64 {
         self.upper - self.lower

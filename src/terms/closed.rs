@@ -69,32 +69,40 @@ impl ClosedAnswer {
         })
     }
 
-    /// The higher, the safer; not a number where it is undecided.
-    pub fn height(self) -> f64 {
+    /// The higher, the safer; nothing where it is undecided.
+    pub fn height(self) -> Option<f64> {
         match self {
-            Self::Verdict(Verdict::Stable) => 2.0,
-            Self::Verdict(Verdict::Conditional) => 1.0,
-            Self::Verdict(Verdict::Unstable) => 0.0,
-            Self::LoadFactor { status: Outcome::Found, value } => value.unwrap_or(f64::NAN),
-            Self::LoadFactor { status: Outcome::Unbounded, .. } => f64::INFINITY,
-            Self::LoadFactor { status: Outcome::Impossible, .. } => f64::NEG_INFINITY,
+            Self::Verdict(Verdict::Stable) => Some(2.0),
+            Self::Verdict(Verdict::Conditional) => Some(1.0),
+            Self::Verdict(Verdict::Unstable) => Some(0.0),
+            Self::LoadFactor { status: Outcome::Found, value } => value,
+            Self::LoadFactor { status: Outcome::Unbounded, .. } => Some(f64::INFINITY),
+            Self::LoadFactor { status: Outcome::Impossible, .. } => Some(f64::NEG_INFINITY),
             Self::Verdict(Verdict::Undecided)
-            | Self::LoadFactor { status: Outcome::Undecided, .. } => f64::NAN,
+            | Self::LoadFactor { status: Outcome::Undecided, .. } => None,
         }
+    }
+
+    /// The lowest of those that are decided; an undecided one where none is.
+    pub fn least(answers: impl Iterator<Item = Self>) -> Option<Self> {
+        let key = |a: &Self| (a.height().is_none(), a.height().unwrap_or_default());
+        let order = |a: (bool, f64), b: (bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
+        answers.min_by(|a, b| order(key(a), key(b)))
     }
 
     /// How this one differs from that of the scene as it is.
     pub fn beside(self, given: Self) -> Difference {
-        let (here, there) = (self.height(), given.height());
+        let (Some(here), Some(there)) = (self.height(), given.height()) else {
+            return Difference::Unknown;
+        };
         let close = here == there
             || here.is_finite()
                 && there.is_finite()
                 && (here - there).abs() <= tolerance::CLOSED_CONTACTS * here.abs().max(there.abs());
-        match (here.is_nan() || there.is_nan(), close) {
-            (true, _) => Difference::Unknown,
-            (_, true) => Difference::None,
-            (_, false) if here > there => Difference::Stronger,
-            (_, false) => Difference::Weaker,
+        match close {
+            true => Difference::None,
+            false if here > there => Difference::Stronger,
+            false => Difference::Weaker,
         }
     }
 }

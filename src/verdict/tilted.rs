@@ -64,23 +64,27 @@ pub fn turned(
     Ok((turned, d))
 }
 
-/// The model as it is at the tilt `tan θ = load_factor` (level where that is not a number): its
-/// live load turns it further, and its forces are divided by cos θ.
+/// The model as it is at the tilt `tan θ = load_factor` (level where there is none): its live load
+/// turns it further, and its forces are divided by cos θ.
 ///
 /// # Errors
 /// As [`turned`].
-pub fn tilted(model: &Model, toward: Vector3<f64>, load_factor: f64) -> Result<Model, InputError> {
+pub fn tilted(
+    model: &Model,
+    toward: Vector3<f64>,
+    load_factor: Option<f64>,
+) -> Result<Model, InputError> {
     let (assembly, _) = turned(&model.assembly, toward)?;
     Ok(Model {
         assembly,
-        interfaces: stressed(&model.interfaces, load_factor),
+        interfaces: stressed(&model.interfaces, load_factor.unwrap_or(0.0)),
         timings: model.timings,
     })
 }
 
 /// The joints where all forces are divided by cos θ.
 pub(crate) fn stressed(interfaces: &Interfaces, load_factor: f64) -> Interfaces {
-    let by = 1f64.hypot(if load_factor.is_finite() { load_factor } else { 0.0 });
+    let by = 1f64.hypot(load_factor);
     if are_dry(interfaces) { interfaces.clone() } else { with_stresses(interfaces, by) }
 }
 
@@ -95,5 +99,5 @@ pub fn no_tilt(model: &Model) -> Option<String> {
     let across = [Vector3::x(), Vector3::y()].map(|axis| axis - down * down.dot(&axis));
     let [x, y] = across;
     let toward = if x.norm() > y.norm() { x } else { y };
-    tilted(model, toward.normalize(), 0.0).err().map(|e| e.message)
+    tilted(model, toward.normalize(), None).err().map(|e| e.message)
 }

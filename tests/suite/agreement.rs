@@ -256,10 +256,10 @@ fn simulations_of_the_reference_cases_agree_with_their_verdicts() {
         let m = model(&scene);
         let limit = voussoir::analysis::limit(&m, &Control::default());
         let dry = voussoir::analysis::coulomb::load_factor(&m, &limit, &Control::default()).value;
-        if dry.is_nan() || dry <= 0.0 || m.assembly.blocks.len() > 80 {
+        let Some(dry) = dry.filter(|&v| v > 0.0 && m.assembly.blocks.len() <= 80) else {
             println!("{id}: no load factor with dry friction, or too large");
             continue;
-        }
+        };
         for share in [0.95, 1.05] {
             let mut scene = scene.clone();
             scene.loads = scene.loads.fixed(share * dry);

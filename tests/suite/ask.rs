@@ -156,7 +156,7 @@ fn answer(scene: &Scene) -> Proved<LoadFactor> {
 }
 
 /// What becomes of the load factor, with its value where there is one, with proof.
-pub fn outcome(scene: &Scene) -> (Outcome, f64) {
+pub fn outcome(scene: &Scene) -> (Outcome, Option<f64>) {
     let answer = answer(scene);
     (answer.outcome, answer.value)
 }
@@ -165,7 +165,7 @@ pub fn outcome(scene: &Scene) -> (Outcome, f64) {
 pub fn load_factor(scene: &Scene) -> f64 {
     let (outcome, value) = outcome(scene);
     assert_eq!(outcome, Outcome::Found, "{}", scene.name);
-    value
+    value.expect("a value")
 }
 
 /// The least load factor of the train, with proof of every position.
@@ -186,7 +186,7 @@ pub fn bracketed(what: &str, scene: &Scene, want: f64, tolerance: f64, rounding:
     let answer = answer(scene);
     let LoadFactor { outcome, value, bracket, .. } = *answer;
     assert_eq!(outcome, Outcome::Found, "{what}");
-    close(what, value, want, tolerance);
+    close(what, value.expect("a value"), want, tolerance);
     let slack = rounding * want.abs();
     assert!(
         bracket.lower - slack <= want && want <= bracket.upper + slack,
@@ -207,15 +207,15 @@ pub fn exact(what: &str, scene: &Scene, want: f64, tolerance: f64) {
 pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
     let model = model(scene);
     let answer = tilt(&model, toward.into(), &Control::default()).expect("a tilt");
-    let angle = answer.angle_deg();
+    let angle = answer.angle_deg().expect("an angle");
     let tilted = Tilted { directions: vec![answer], level: None };
     prove(scene, &ResultFile::tilt(scene, &model, &tilted).expect("a direction"));
     angle
 }
 
-/// The load factor with dry friction, the associative one (NaN where there is no limit) and the
-/// number of convex programs, with proof.
-pub fn dry(scene: &Scene) -> (f64, f64, usize) {
+/// The load factor with dry friction, the associative one (where there is a limit) and the number
+/// of convex programs, with proof.
+pub fn dry(scene: &Scene) -> (f64, Option<f64>, usize) {
     let model = model(scene);
     let l = limit(&model, &Control::default());
     let d = coulomb::load_factor(&model, &l, &Control::default());
@@ -224,19 +224,19 @@ pub fn dry(scene: &Scene) -> (f64, f64, usize) {
     prove(scene, &file);
     assert_eq!(
         file.dry.and_then(|d| d.value),
-        Some(d.value),
+        d.value,
         "{}: natural map {:.1e}",
         scene.name,
         d.natural_map
     );
+    let value = d.value.unwrap_or_else(|| panic!("{}: {:?}", scene.name, d.found));
     assert!(
-        l.value.is_nan() || d.value <= l.bracket.upper + 1e-6 * l.value.abs(),
-        "{}: {} above {}",
+        l.value.is_none_or(|bound| value <= l.bracket.upper + 1e-6 * bound.abs()),
+        "{}: {value} above {:?}",
         scene.name,
-        d.value,
         l.value
     );
-    (d.value, l.value, d.solves)
+    (value, l.value, d.solves)
 }
 
 /// `got` is `want` within a relative tolerance.

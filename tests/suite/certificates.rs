@@ -139,7 +139,7 @@ fn load_factors_need_both_sides() {
     let l = limit(&m, &Control::default());
     assert_eq!(l.outcome, Outcome::Found);
     let claim = |value: f64, lower: f64, upper: f64| Claim::LoadFactor { value, lower, upper };
-    let (v, b) = (l.value, l.bracket);
+    let (v, b) = (l.found().unwrap(), l.bracket);
     assert!(proved(&m, claim(v, b.lower, b.upper), &l.forces, None, &l.rates));
     for wrong in [
         claim(v + 1e-5, b.lower + 1e-5, b.upper + 1e-5),
@@ -323,7 +323,7 @@ proptest! {
 fn a_load_factor_in_a_wide_bracket_is_not_found() {
     let m = model(&arch(0.15));
     let l = limit(&m, &Control::default());
-    let half = 0.5 * l.value;
+    let half = 0.5 * l.found().unwrap();
     let mut at_half = m.clone();
     for i in 0..at_half.assembly.blocks.len() {
         let live = at_half.assembly.live[i];
@@ -340,7 +340,7 @@ fn a_load_factor_in_a_wide_bracket_is_not_found() {
             Evidence::new(&a.forces, &l.rates),
         );
         println!("{lower} {upper}: {got:?}");
-        assert!(!got.proved(), "[{lower}, {upper}] passes for {half}; the limit is {}", l.value);
+        assert!(!got.proved(), "[{lower}, {upper}] passes for {half}; the limit is {:?}", l.value);
     }
 }
 

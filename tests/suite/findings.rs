@@ -43,7 +43,7 @@ fn limits(name: &str) -> (Proved<LoadFactor>, ResultFile) {
     let dry = has_dry.then(|| coulomb::load_factor(&model, &bound, &Control::default()));
     let file = ResultFile::load_factor(&scene, &model, &Limited { dry, ..bound.clone().into() });
     println!(
-        "{name}: {:?} {} in {:?}, dry {:?}",
+        "{name}: {:?} {:?} in {:?}, dry {:?}",
         bound.outcome,
         bound.value,
         bound.bracket,

@@ -34,7 +34,7 @@ fn falls_at(scene: &Scene, toward: [f64; 3]) -> (f64, usize) {
     let model = model(scene);
     let answer = stability(&model, &[], toward.into(), 0.0, &associative()).expect("a direction");
     let round = answer.rounds.into_iter().next_back().expect("a round");
-    let angle = round.tilt.angle_deg();
+    let angle = round.tilt.angle_deg().expect("an angle");
     let rest = without(scene, &round.gone).expect("a scene");
     let tilted = Tilted { directions: vec![round.tilt], level: None };
     prove(&rest, &ResultFile::tilt(&rest, &model, &tilted).expect("a direction"));
@@ -235,9 +235,9 @@ fn loose_grains_are_taken_away_until_enough_moves() {
     let ball = (0.2f64 / (0.49f64 - 0.04).sqrt()).atan().to_degrees();
     assert!(first.reached && first.rounds.len() == 1);
     assert!(
-        (first.rounds[0].tilt.angle_deg() - ball).abs() < 1e-6,
+        (first.rounds[0].tilt.angle_deg().unwrap() - ball).abs() < 1e-6,
         "{} and not {ball}",
-        first.rounds[0].tilt.angle_deg()
+        first.rounds[0].tilt.angle_deg().unwrap()
     );
     assert_eq!(first.rounds[0].moving, ["ball"]);
     let half = stability(&model, &[], toward, 0.5, &associative()).unwrap();
@@ -249,9 +249,9 @@ fn loose_grains_are_taken_away_until_enough_moves() {
         half.rounds.iter().map(|r| &r.moving).collect::<Vec<_>>()
     );
     assert!(
-        (last.tilt.angle_deg() - 0.5f64.atan().to_degrees()).abs() < 1e-6,
+        (last.tilt.angle_deg().unwrap() - 0.5f64.atan().to_degrees()).abs() < 1e-6,
         "{}",
-        last.tilt.angle_deg()
+        last.tilt.angle_deg().unwrap()
     );
     assert_eq!(last.gone, ["ball"], "what fell is gone");
     assert!(last.tilt.model.assembly.find("ball").is_none());

@@ -227,7 +227,7 @@ fn answers(scene: &Scene, keep_all: bool) -> Answers {
     Answers {
         verdict: a.verdict,
         outcome: l.outcome,
-        value: l.value,
+        value: l.value.unwrap_or(f64::NAN),
         interfaces: m.interfaces.list.len(),
         area: m.interfaces.list.iter().map(|f| f.area).sum(),
     }

@@ -160,7 +160,7 @@ fn names() -> std::collections::BTreeMap<String, Vec<String>> {
 #[test]
 fn no_two_files_need_each_other() {
     let names = names();
-    assert!(names["verdict::check::exists"].is_empty() || names.len() > 300, "{}", names.len());
+    assert!(names.len() > 300, "only {} files", names.len());
     for (start, first) in &names {
         let mut open: Vec<Vec<&String>> = first.iter().map(|t| vec![t]).collect();
         let mut seen = std::collections::BTreeSet::new();

@@ -46,7 +46,7 @@ fn pushed(scene: &Scene, direction: [f64; 3]) -> f64 {
     let m = ready(&scene);
     let l = limit(&m, &Control::default());
     assert_eq!(l.outcome, Outcome::Found, "{:?}", l.bracket);
-    l.value
+    l.value.unwrap()
 }
 
 fn admissible(m: &Model) -> Verdict {

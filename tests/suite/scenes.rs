@@ -61,7 +61,7 @@ fn load_factors_are_those_expected_and_proved() {
                 assert_eq!(outcome, Outcome::Found, "{file}");
                 close(
                     file,
-                    value,
+                    value.unwrap(),
                     entry["expect"]["load_factor"].as_f64().expect("a number"),
                     tolerance(entry),
                 );

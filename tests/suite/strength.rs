@@ -228,7 +228,7 @@ fn crushing_ends_wedging() {
     let m = model(&under_roof(json!({ "friction": 0.0, "cohesion": 0.1 })));
     let l = limit(&m, &Control::default());
     assert_eq!(l.outcome, Outcome::Found);
-    near(l.value, 0.2 / 0.5, 1e-6);
+    near(l.value.unwrap(), 0.2 / 0.5, 1e-6);
 }
 
 /// A wedge with cohesion that nothing presses: shear alone holds it.

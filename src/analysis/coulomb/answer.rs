@@ -4,7 +4,7 @@
 use crate::verdict::law;
 use crate::{
     analysis::Deciding,
-    terms::Found,
+    terms::{Found, is_reached},
     verdict::{Forces, Rate},
 };
 
@@ -13,14 +13,14 @@ use crate::{
 pub struct DryLoadFactor {
     /// How it was found.
     pub found: Found,
-    /// The value; NaN where there is none.
-    pub value: f64,
+    /// The value, where there is one.
+    pub value: Option<f64>,
     /// The greatest load factor at which the state under dry friction was seen at rest; it rested
-    /// at all smaller ones that were asked, from the dead load on. NaN where it was not asked, or
-    /// did not come out.
-    pub rests_at: f64,
-    /// The least load factor at which it was seen to move; NaN where it never was.
-    pub moves_at: f64,
+    /// at all smaller ones that were asked, from the dead load on. Nothing where it was not asked,
+    /// or did not come out.
+    pub rests_at: Option<f64>,
+    /// The least load factor at which it was seen to move, if ever.
+    pub moves_at: Option<f64>,
     /// The part that decides, where there are several.
     pub part: Option<Deciding>,
     /// How far forces and mechanism are from Coulomb's law ([`law::natural_map`]).
@@ -39,7 +39,7 @@ pub struct DryLoadFactor {
 impl DryLoadFactor {
     /// Whether the state was seen at rest just below the value.
     pub fn is_reached(&self) -> bool {
-        crate::terms::is_reached(self.rests_at, self.value)
+        self.rests_at.zip(self.value).is_some_and(|(rests_at, value)| is_reached(rests_at, value))
     }
 
     /// The load factor to use, beside the `bound` where that was found; nothing where there is
@@ -48,7 +48,7 @@ impl DryLoadFactor {
         match self.found {
             _ if !self.is_reached() => None,
             Found::NothingSlides => bound,
-            Found::FixedPoint | Found::Rests | Found::RestsBelow => Some(self.value),
+            Found::FixedPoint | Found::Rests | Found::RestsBelow => self.value,
             Found::Unlimited | Found::NotAtRest | Found::Undecided => None,
         }
     }

@@ -81,9 +81,9 @@ pub(in crate::analysis) fn complementary(
     };
     let mut answer = DryLoadFactor {
         found: Found::Undecided,
-        value: f64::NAN,
-        rests_at: f64::NAN,
-        moves_at: f64::NAN,
+        value: None,
+        rests_at: None,
+        moves_at: None,
         part: None,
         natural_map: f64::INFINITY,
         natural_map_in_loads: f64::INFINITY,
@@ -231,7 +231,7 @@ fn accept(
     let obeys = natural_map <= tolerance::DRY_LAW && natural_map_in_loads <= tolerance::NATURAL_MAP;
     let found = obeys && s.is_within_strength() && s.unbalance <= tolerance::DRY_BALANCE;
     if found {
-        (answer.found, answer.value) = (Found::FixedPoint, lambda);
+        (answer.found, answer.value) = (Found::FixedPoint, Some(lambda));
     }
     (answer.forces, answer.rates) = (forces, rates);
     (answer.natural_map, answer.natural_map_in_loads) = (natural_map, natural_map_in_loads);
@@ -256,10 +256,10 @@ fn lower_end(
             assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
         if driven > 0.0 { hidden / driven } else { 0.0 }
     };
-    if associative.outcome != Outcome::Found {
-        return lambda - hidden(rates);
+    match associative.value.filter(|_| associative.outcome == Outcome::Found) {
+        Some(bound) => (lambda - hidden(rates).max(hidden(&associative.rates))).min(bound),
+        None => lambda - hidden(rates),
     }
-    (lambda - hidden(rates).max(hidden(&associative.rates))).min(associative.value)
 }
 
 /// Whether the live load alone, on joints without any strength, produces the forces that balance

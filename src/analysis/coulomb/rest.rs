@@ -171,10 +171,10 @@ pub(in crate::analysis) fn up_to_rest(
     at: &(dyn Fn(f64) -> Model + Sync),
     control: &Control,
 ) -> DryLoadFactor {
-    let is_bounded = associative.outcome == Outcome::Found;
+    let bound = associative.value.filter(|_| associative.outcome == Outcome::Found);
     // Where contacts form no closed chain there is nothing that could be wedged, and below zero the
     // dead load falls by itself.
-    let negative = answer.value < 0.0 || (is_bounded && associative.value <= 0.0);
+    let negative = answer.value.is_some_and(|v| v < 0.0) || bound.is_some_and(|b| b <= 0.0);
     if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded)
         || control.deadline.is_over()
     {
@@ -195,13 +195,13 @@ pub(in crate::analysis) fn up_to_rest(
         None => probe.ask(0.0),
     };
     match rests {
-        Some(StateMotion::Rests) => answer.rests_at = 0.0,
+        Some(StateMotion::Rests) => answer.rests_at = Some(0.0),
         Some(StateMotion::Moves) => {
-            (answer.found, answer.value, answer.moves_at) = (Found::NotAtRest, f64::NAN, 0.0)
+            (answer.found, answer.value, answer.moves_at) = (Found::NotAtRest, None, Some(0.0))
         }
         // What is not known at the dead load is not known above it.
         Some(StateMotion::Undecided) | None => {
-            (answer.found, answer.value) = (Found::Undecided, f64::NAN)
+            (answer.found, answer.value) = (Found::Undecided, None)
         }
     }
     if rests == Some(StateMotion::Rests) {
@@ -224,14 +224,14 @@ fn climb(
         _ => (MOST, &ON_THE_WAY_OF_FEW[..]),
     };
     // A value, or where none was found the bound above all values.
-    let goal = [answer.value, associative.value].into_iter().find(|v| v.is_finite());
+    let goal = answer.value.or(associative.value);
     match goal {
         Some(goal) => {
             probe.climb(on_the_way, goal);
             let halfway = probe.rests_at();
             // Without a value, what does not come out far below the bound does not next to it.
             let hopeless =
-                answer.value.is_nan() && halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal;
+                answer.value.is_none() && halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal;
             for share in BELOW.into_iter().filter(|_| !hopeless) {
                 let lambda = (1.0 - share) * goal;
                 if probe.moves().is_some()
@@ -249,7 +249,7 @@ fn climb(
         }
     }
     // Where nothing else is known, the bracket from below is what there is to say.
-    let above = probe.moves().map(|m| m.0).or(goal.filter(|_| answer.value.is_nan()));
+    let above = probe.moves().map(|m| m.0).or(goal.filter(|_| answer.value.is_none()));
     let mut narrow = above.is_none_or(|above| probe.halve(above, most));
     // On the way to what came out of halving it is asked once more, until no motion refutes it.
     while let Some(moves) =
@@ -262,25 +262,26 @@ fn climb(
             _ => break,
         }
     }
-    answer.rests_at = probe.rests_at();
+    let rests_at = probe.rests_at();
+    answer.rests_at = Some(rests_at);
     let Some((moves_at, moving)) = probe.moves() else {
         // What lies above is little, and the bound is proved: the safe end is a value.
         let is_near = associative.outcome == Outcome::Found
-            && answer.rests_at >= (1.0 - tolerance::REST_WITHIN) * associative.value;
+            && associative.value.is_some_and(|b| rests_at >= (1.0 - tolerance::REST_WITHIN) * b);
         let is_open = answer.found == Found::Undecided;
         if let Some((rests_at, state)) = probe.rests().filter(|_| is_near && is_open) {
-            (answer.found, answer.value) = (Found::RestsBelow, *rests_at);
+            (answer.found, answer.value) = (Found::RestsBelow, Some(*rests_at));
             answer.forces.clone_from(&state.forces);
             (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
         }
         return;
     };
-    answer.moves_at = *moves_at;
+    answer.moves_at = Some(*moves_at);
     if !narrow {
-        (answer.found, answer.value) = (Found::Undecided, f64::NAN);
+        (answer.found, answer.value) = (Found::Undecided, None);
         return;
     }
-    (answer.found, answer.value) = (Found::Rests, answer.rests_at);
+    (answer.found, answer.value) = (Found::Rests, Some(rests_at));
     // The evidence is that of the states on both sides.
     if let Some((_, state)) = probe.rests() {
         answer.forces.clone_from(&state.forces);

@@ -365,7 +365,7 @@ fn dry_proof(
     let (model, value) = (&found.model, point.load_factor);
     let width = tolerance::LOAD_FACTOR_WIDTH * value.abs()
         + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(&model.assembly);
-    if bound.claim().is_some() && (bound.value - value).abs() <= width {
+    if bound.claim().is_some() && bound.value.is_some_and(|b| (b - value).abs() <= width) {
         return PointProof::of(model, bound);
     }
     let forces = slid_forces(carried, found, point, touch);

@@ -233,7 +233,7 @@ fn bears(rest: &Model, own: &Model, control: &Control) -> bool {
     let factor = |model: &Model| {
         let l = limit(model, control);
         match l.outcome {
-            Outcome::Found => Some(l.value),
+            Outcome::Found => l.value,
             Outcome::Unbounded => Some(f64::INFINITY),
             Outcome::Impossible | Outcome::Undecided => None,
         }

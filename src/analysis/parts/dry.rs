@@ -113,8 +113,8 @@ struct Scene<'a> {
 impl Scene<'_> {
     /// The value of a part, as one of the scene.
     fn value(&self, k: usize) -> Option<f64> {
-        let own = self.own[k].as_ref().filter(|a| !open(a.found) && a.value.is_finite())?;
-        Some(self.parts[k].units.load_factor(own.value))
+        let own = self.own[k].as_ref().filter(|a| !open(a.found))?;
+        own.value.map(|v| self.parts[k].units.load_factor(v))
     }
 
     fn answer(
@@ -155,9 +155,9 @@ impl Scene<'_> {
                 self.parts,
                 refused.filter(|_| found != own.found).unwrap_or(decides),
             ),
-            value: lambda.filter(|_| !open(found)).unwrap_or(f64::NAN),
-            rests_at: if refused.is_some() { f64::NAN } else { scene(own.rests_at) },
-            moves_at: scene(own.moves_at),
+            value: lambda.filter(|_| !open(found)),
+            rests_at: own.rests_at.filter(|_| refused.is_none()).map(scene),
+            moves_at: own.moves_at.map(scene),
             natural_map: own.natural_map,
             natural_map_in_loads: own.natural_map_in_loads,
             solves: self.own.iter().flatten().map(|a| a.solves).sum(),

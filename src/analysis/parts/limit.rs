@@ -116,7 +116,7 @@ impl Scene<'_> {
         }
         let value = |k: usize| match &self.asked[k] {
             Asked::Driven(l) if l.outcome == Outcome::Found => {
-                Some(self.parts[k].units.load_factor(l.value))
+                l.value.map(|v| self.parts[k].units.load_factor(v))
             }
             _ => None,
         };
@@ -154,8 +154,8 @@ impl Scene<'_> {
         });
         LoadFactor {
             outcome: Outcome::Undecided,
-            value: f64::NAN,
-            bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
+            value: None,
+            bracket: Bracket::UNKNOWN,
             part: Deciding::new(self.parts, decides),
             forces: scene_forces(
                 &self.model.interfaces,
@@ -188,7 +188,7 @@ impl Scene<'_> {
     fn as_impossible(&self, answer: LoadFactor) -> LoadFactor {
         LoadFactor {
             outcome: Outcome::Impossible,
-            value: f64::NAN,
+            value: None,
             bracket: Bracket { lower: f64::NEG_INFINITY, upper: f64::NEG_INFINITY },
             mechanism: Some(mechanism::read(self.model, &answer.rates)),
             ..answer
@@ -216,7 +216,7 @@ impl Scene<'_> {
             }
         }
         if let Asked::Driven(l) = &self.asked[decides] {
-            answer.value = self.parts[decides].units.load_factor(l.value);
+            answer.value = l.value.map(|v| self.parts[decides].units.load_factor(v));
         }
         answer
     }
@@ -305,7 +305,7 @@ impl Scene<'_> {
         }
         let bracket = [own.bracket.lower, own.bracket.upper].map(|v| part.units.load_factor(v));
         answer.bracket = Bracket { lower: bracket[0], upper: bracket[1] };
-        answer.value = value;
+        answer.value = Some(value);
         if let Some((&k, _)) =
             others.iter().zip(&standing).find(|(_, a)| a.verdict != Verdict::Stable)
         {

@@ -50,9 +50,10 @@ pub fn thrust(
         .find(|&o| any(o))
         .unwrap_or(Outcome::Found);
     let pushed = || touching.iter().map(|t| t.0).zip(&ends);
-    let sum = |number: fn(&ThrustEnd) -> f64| {
-        pushed().map(|(p, e)| number(e) * p.units.force).sum::<f64>()
+    let sum = |number: fn(&ThrustEnd) -> f64| -> f64 {
+        pushed().map(|(p, e)| number(e) * p.units.force).sum()
     };
+    let value = || pushed().map(|(p, e)| e.value.map(|v| v * p.units.force)).sum::<Option<f64>>();
     let mut rates = vec![Rate::zero(); assembly.blocks.len()];
     pushed().for_each(|(part, e)| put_rates(part, &e.rates, 1.0, &mut rates));
     let forces = if outcome == Outcome::Unbounded {
@@ -95,7 +96,7 @@ pub fn thrust(
         at: *at,
         extreme,
         outcome,
-        value: if outcome == Outcome::Unbounded { f64::NAN } else { sum(|e| e.value) },
+        value: if outcome == Outcome::Unbounded { None } else { value() },
         bracket,
         forces,
         base: (outcome == Outcome::Unbounded).then(|| standing.clone()),

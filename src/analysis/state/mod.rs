@@ -122,7 +122,7 @@ pub(super) fn state(
         let associative = Control { law: Law::Associative, ..*control };
         let asked = limit(model, &associative);
         let top = match asked.outcome {
-            Outcome::Found => Some(asked.value),
+            Outcome::Found => asked.value,
             Outcome::Unbounded => Some(WITHOUT_END * both_weigh(model, &joints)),
             Outcome::Impossible | Outcome::Undecided => None,
         };

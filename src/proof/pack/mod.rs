@@ -220,9 +220,9 @@ fn finite(v: f64) -> Option<f64> {
 fn dry_result(model: &Model, d: &Proved<DryLoadFactor>) -> DryResult {
     DryResult {
         found: d.found,
-        value: finite(d.value),
-        rests_at: finite(d.rests_at),
-        moves_at: finite(d.moves_at),
+        value: d.value,
+        rests_at: d.rests_at,
+        moves_at: d.moves_at,
         part: d.part.clone(),
         natural_map: finite(d.natural_map),
         solves: d.solves,

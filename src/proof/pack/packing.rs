@@ -43,7 +43,7 @@ impl PackingFile {
                     warnings.push(warning);
                 }
             }
-            let tilt_deg = |r: &Round| Some(r.tilt.angle_deg()).filter(|a| a.is_finite());
+            let tilt_deg = |r: &Round| r.tilt.angle_deg();
             let removed = if rounds.len() > 1 {
                 rounds
                     .iter()

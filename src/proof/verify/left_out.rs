@@ -32,14 +32,13 @@ pub(super) fn left_out(file: &ResultFile, scene: &Scene, model: &Model) -> Findi
         (QuestionKind::Limit, _, Some(b)) => {
             Some(ClosedAnswer::LoadFactor { status: b.status, value: b.value })
         }
-        (QuestionKind::Tilt | QuestionKind::Kinematic | QuestionKind::Moving, ..) => file
-            .directions
-            .iter()
-            .map(|d| &d.answer)
-            .chain([&file.answer])
-            .filter_map(Answer::bound)
-            .map(|b| ClosedAnswer::LoadFactor { status: b.status, value: b.value })
-            .min_by(|a, b| a.height().total_cmp(&b.height())),
+        (QuestionKind::Tilt | QuestionKind::Kinematic | QuestionKind::Moving, ..) => {
+            let all = file.directions.iter().map(|d| &d.answer).chain([&file.answer]);
+            let bounds = all.filter_map(Answer::bound);
+            ClosedAnswer::least(
+                bounds.map(|b| ClosedAnswer::LoadFactor { status: b.status, value: b.value }),
+            )
+        }
         (QuestionKind::Assess | QuestionKind::Limit, ..) => None,
         _ => return failure("the question is not one that is asked again with contacts closed"),
     };

@@ -106,11 +106,12 @@ impl Rocked<'_> {
         let factors = self.built.proofs.iter().enumerate().map(|(k, (_, l))| {
             let sense = ["towards", "against"][k];
             let d: [f64; 3] = self.built.toward.into();
-            if l.value.is_finite() {
-                let number = bracketed(l.value, l.bracket.lower, l.bracket.upper);
-                format!("{sense} {}: moves beyond {number} g (proved)", point(d))
-            } else {
-                format!("{sense} {}: nothing moves (proved)", point(d))
+            match l.value {
+                Some(value) => {
+                    let number = bracketed(value, l.bracket.lower, l.bracket.upper);
+                    format!("{sense} {}: moves beyond {number} g (proved)", point(d))
+                }
+                None => format!("{sense} {}: nothing moves (proved)", point(d)),
             }
         });
         page.row("load factor", factors);
@@ -221,7 +222,7 @@ impl Rocked<'_> {
             let (sense, proof) = (self.built.machine.senses[k].as_ref(), &self.built.proofs[k].1);
             let number = |v: f64| v.is_finite().then_some(v);
             json!({
-                "load_factor": number(proof.value), "lower": number(proof.bracket.lower),
+                "load_factor": proof.value, "lower": number(proof.bracket.lower),
                 "upper": number(proof.bracket.upper),
                 "frequency": sense.and_then(Sense::frequency),
                 "unstable": sense.and_then(|s| s.unstable),

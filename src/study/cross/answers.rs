@@ -66,8 +66,8 @@ impl Answers {
         Ok(Self {
             verdict: dead.map_or_else(|| verdict(scene, model), |d| d.verdict),
             outcome: bound.outcome,
-            bound: (bound.outcome == Outcome::Found).then_some([bound.value, bound.bracket.upper]),
-            dry: dry.as_ref().filter(|d| is_known(d)).map(|d| d.value),
+            bound: bound.found().map(|value| [value, bound.bracket.upper]),
+            dry: dry.as_ref().filter(|d| is_known(d)).and_then(|d| d.value),
             is_unlimited: dry.is_some_and(|d| d.found == Found::Unlimited),
         })
     }

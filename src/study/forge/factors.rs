@@ -3,7 +3,7 @@
 
 use super::{Forgery, Honest, edit::Draft};
 use crate::{
-    analysis::{Limited, Outcome},
+    analysis::Limited,
     assembly::Wrench,
     study::random::Random,
     verdict::{Forces, Rate, Verdict},
@@ -23,9 +23,9 @@ pub(super) fn forge(honest: &Honest, random: &mut Random) -> Vec<Forgery> {
     let mut made: Vec<Option<Forgery>> = Vec::new();
     let dead = matches!(honest.standing.verdict, Verdict::Stable | Verdict::Conditional)
         .then_some(&honest.standing.forces);
-    if bound.outcome == Outcome::Found && bound.value.abs() > NONE {
+    if let Some(factor) = bound.found().filter(|v| v.abs() > NONE) {
         for share in LESS.into_iter().chain(MORE) {
-            let value = share * bound.value;
+            let value = share * factor;
             // Admissible forces balance on the way from the dead load to the bound.
             let forces = match dead {
                 Some(dead) if share < 1.0 => between(dead, &bound.forces, share),
@@ -43,12 +43,13 @@ pub(super) fn forge(honest: &Honest, random: &mut Random) -> Vec<Forgery> {
                 ));
             }
         }
-        made.extend(brackets(honest, bound.value));
-        made.extend(ends(honest, dead, bound.value));
+        made.extend(brackets(honest, factor));
+        made.extend(ends(honest, dead, factor));
     }
-    if let Some(dry) = dry.as_ref().filter(|d| d.value.is_finite() && d.value.abs() > NONE) {
+    let dry = dry.as_ref().and_then(|d| Some((d, d.value.filter(|v| v.abs() > NONE)?)));
+    if let Some((dry, factor)) = dry {
         for share in LESS.into_iter().chain(MORE) {
-            let value = share * dry.value;
+            let value = share * factor;
             let forces = match dead {
                 Some(dead) if share < 1.0 => between(dead, &dry.forces, share),
                 _ => dry.forces.clone(),

@@ -26,7 +26,7 @@ fn number(row: &Row, key: &str) -> f64 {
 #[test]
 fn forces_in_the_table_balance_every_block() {
     let (m, view) = limited(&arch(0.15, 1.0, serde_json::json!({})));
-    let lambda = limit(&m, &super::control()).value;
+    let lambda = limit(&m, &super::control()).value.unwrap();
     let (joints, blocks) =
         (rows(&table::joints(&view).unwrap()), rows(&table::blocks(&view).unwrap()));
     assert_eq!((joints.len(), blocks.len()), (m.interfaces.list.len(), m.assembly.blocks.len()));

@@ -133,7 +133,7 @@ fn forces_in_the_file_balance_every_block() {
     let file = File(parsed(&text));
     is_sound(&file, &view);
     surfaces_are_closed(&file, &m, 1.0);
-    let lambda = voussoir::analysis::limit(&m, &super::control()).value;
+    let lambda = voussoir::analysis::limit(&m, &super::control()).value.unwrap();
     forces_balance(&file, &view, |i| m.assembly.dead[i].force + m.assembly.live[i].force * lambda);
     let way =
         file.vectors("PointData", "displacement").iter().map(|v| v.norm()).fold(0.0, f64::max);

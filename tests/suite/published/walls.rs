@@ -102,7 +102,7 @@ fn walls_of_ferris_and_tin_loi() {
 #[test]
 fn a_wall_that_slides_without_opening() {
     let (value, bound, solves) = dry(&wall(&WALL_1, 1.75, 0.65, 1.0));
-    println!("D01: {value:.7} (associative {bound:.7}), {solves} convex programs");
+    println!("D01: {value:.7} (associative {bound:.7?}), {solves} convex programs");
     assert!(
         (0.6293971061945..=0.6428590033139121 * (1.0 + 1e-6)).contains(&value) && solves <= 30,
         "{value} after {solves}"

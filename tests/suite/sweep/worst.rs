@@ -29,7 +29,7 @@ fn ask(value: &Value, ranges: &[&str], of: Question) -> Result<Worst, String> {
 
 fn factor(scene: &Scene) -> f64 {
     let model = prepare(scene).unwrap();
-    limit(&model, &Control::default()).value
+    limit(&model, &Control::default()).value.unwrap()
 }
 
 #[test]

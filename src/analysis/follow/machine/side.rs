@@ -106,10 +106,12 @@ impl<'a> Side<'a> {
             r.spin *= sign / fastest;
         });
         let own = -power(&rates, false) / power(&rates, true);
-        if (own - proof.value).abs() > SAME * proof.value.abs() {
+        let Some(value) = proof.value else {
+            return Err(refuse(format!("{sense} no load factor was found")));
+        };
+        if (own - value).abs() > SAME * value.abs() {
             return Err(refuse(format!(
-                "{sense} the linkage has the load factor {own:.9}, the proved one is {:.9}",
-                proof.value
+                "{sense} the linkage has the load factor {own:.9}, the proved one is {value:.9}"
             )));
         }
         let axis = rates[lead].spin;
