@@ -305,6 +305,14 @@ pub const SKIN_OF_THICKNESS: f64 = 0.01;
 /// falling.
 pub const FALLEN: f64 = 0.05;
 
+/// On ground that moves a block has overturned when it has turned by more than this, rad. Larger:
+/// blocks that lean on others after their fall pass for rocking. Smaller: squat blocks rock as far.
+pub const OVERTURNED: f64 = std::f64::consts::FRAC_PI_4;
+
+/// On ground that moves a block has fallen when it sank by more than this × its thickness. Larger:
+/// voussoirs that drop onto others pass. Smaller: stones that slide down a slope a little are fallen.
+pub const SUNK: f64 = 1.0;
+
 /// A block is where it was in the dynamics when it moved by less than this × the least block
 /// thickness. Larger: the first degrees of a slow collapse pass for rest. Smaller: tall columns,
 /// which settle on soft contacts, are never at rest.

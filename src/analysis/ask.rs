@@ -11,13 +11,12 @@ use super::{
         answer::Followed,
         machine::{Built, MachineOptions, machine},
     },
-    in_time,
+    in_time::{self, Asked},
     kinematic::{self, Kinematic},
     limit,
     moving::{self, Moving},
     question::{
-        CriticalOptions, LimitOptions, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
-        directions,
+        CriticalOptions, LimitOptions, ReposeOptions, ThrustOptions, TiltOptions, directions,
     },
     reuse::{Keys, Reuse},
     rocking::{self, Rocking},
@@ -69,6 +68,9 @@ pub enum Answer {
     /// What happens in time?
     #[cfg(feature = "dynamics")]
     Simulate(Box<SimulationOutcome>),
+    /// On ground that moves: what do all blocks do?
+    #[cfg(feature = "dynamics")]
+    Shake(Box<in_time::ShakenScene>),
 }
 
 /// The answer about a live load.
@@ -109,9 +111,9 @@ pub fn ask(
     model: &Model,
     control: &Control,
 ) -> Result<Answer, InputError> {
-    let simulate = &mut |o: &SimulateOptions| in_time::unwatched(o, scene, model);
+    let in_time = &mut |asked: &Asked| in_time::unwatched(asked, scene, model);
     let machine = &|o: &MachineOptions| Ok(Arc::new(machine(scene, model, o, control)?));
-    answer(question, scene, model, control, Means { simulate, machine })
+    answer(question, scene, model, control, Means { in_time, machine })
 }
 
 /// The same for one of many scenes; what it shares with others by its `keys` is computed once.
@@ -125,15 +127,15 @@ pub fn ask_among(
     control: &Control,
     (reuse, keys): (&Reuse, &Keys),
 ) -> Result<Answer, InputError> {
-    let simulate = &mut |o: &SimulateOptions| in_time::unwatched(o, scene, model);
+    let in_time = &mut |asked: &Asked| in_time::unwatched(asked, scene, model);
     let machine =
         &|o: &MachineOptions| reuse.machine(keys, o, || machine(scene, model, o, control));
-    answer(question, scene, model, control, Means { simulate, machine })
+    answer(question, scene, model, control, Means { in_time, machine })
 }
 
 /// How the parts of an answer are made that somebody watches or others share.
 struct Means<'a> {
-    simulate: &'a mut dyn FnMut(&SimulateOptions) -> Result<Answer, InputError>,
+    in_time: &'a mut dyn FnMut(&Asked) -> Result<Answer, InputError>,
     machine: &'a dyn Fn(&MachineOptions) -> Result<Arc<Built>, InputError>,
 }
 
@@ -150,12 +152,12 @@ pub fn ask_watched(
     watch: in_time::Watch,
 ) -> Result<Answer, InputError> {
     let mut watch = Some(watch);
-    let simulate = &mut |o: &SimulateOptions| match watch.take() {
-        Some(watch) => in_time::watched(o, scene, model, watch),
-        None => in_time::unwatched(o, scene, model),
+    let in_time = &mut |asked: &Asked| match watch.take() {
+        Some(watch) => in_time::watched(asked, scene, model, watch),
+        None => in_time::unwatched(asked, scene, model),
     };
     let machine = &|o: &MachineOptions| Ok(Arc::new(machine(scene, model, o, control)?));
-    answer(question, scene, model, control, Means { simulate, machine })
+    answer(question, scene, model, control, Means { in_time, machine })
 }
 
 fn answer(
@@ -202,7 +204,8 @@ fn answer(
         }
         Question::State(options) => Answer::State(Box::new(state::state(options, model, control)?)),
         Question::Rock(options) => Answer::Rock(Box::new(rocking::rock(options, means.machine)?)),
-        Question::Simulate(options) => (means.simulate)(options)?,
+        Question::Simulate(options) => (means.in_time)(&Asked::Simulate(options))?,
+        Question::Shake(options) => (means.in_time)(&Asked::Shake(options))?,
     })
 }
 

@@ -85,6 +85,9 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
         Answer::Path(_) | Answer::Rock(_) => None,
         #[cfg(feature = "dynamics")]
         Answer::Simulate(outcome) => in_time(outcome),
+        // Single histories are no verdicts.
+        #[cfg(feature = "dynamics")]
+        Answer::Shake(_) => None,
     }
 }
 

@@ -1,15 +1,39 @@
 //! The door to the dynamics, where this build has any.
 
 use super::{Answer, question::SimulateOptions};
-use crate::{error::InputError, interface::Model, scene::Scene};
+use crate::{error::InputError, ground::ShakeOptions, interface::Model, scene::Scene};
 
 #[cfg(feature = "dynamics")]
 use crate::{
-    dynamics::{self, Fidelity, Progress, SimulationSettings},
+    dynamics::{self, Fidelity, Progress, Shaken, Shaking, SimulationSettings},
+    error::JsonPath,
     interface::prepare,
+    kinematic::quake,
 };
 #[cfg(feature = "dynamics")]
+use nalgebra::Vector3;
+#[cfg(feature = "dynamics")]
 use std::ops::ControlFlow;
+
+/// What is asked of all blocks in time.
+pub(super) enum Asked<'a> {
+    /// What becomes of it under its loads.
+    Simulate(&'a SimulateOptions),
+    /// What the ground does to it.
+    Shake(&'a ShakeOptions),
+}
+
+/// All blocks of a scene on ground that moved.
+#[cfg(feature = "dynamics")]
+#[derive(Clone, Debug)]
+pub struct ShakenScene {
+    /// What was asked.
+    pub options: ShakeOptions,
+    /// Unit axes of the motion: the direction, to its left, up.
+    pub axes: [Vector3<f64>; 3],
+    /// What they did.
+    pub shaken: Shaken,
+}
 
 /// How a simulation is shown while it runs; none of it changes an answer.
 #[cfg(feature = "dynamics")]
@@ -28,20 +52,16 @@ pub struct Watch<'a> {
 
 /// What happens in time, shown to nobody.
 #[cfg(feature = "dynamics")]
-pub(super) fn unwatched(
-    options: &SimulateOptions,
-    scene: &Scene,
-    model: &Model,
-) -> Result<Answer, InputError> {
+pub(super) fn unwatched(asked: &Asked, scene: &Scene, model: &Model) -> Result<Answer, InputError> {
     let mut each = |_: &Progress| ControlFlow::Continue(());
     let watch =
         Watch { threads: 1, frames: 0, keep_frames: false, every_step: false, each: &mut each };
-    watched(options, scene, model, watch)
+    watched(asked, scene, model, watch)
 }
 
 /// What happens in time, which nothing here can tell.
 #[cfg(not(feature = "dynamics"))]
-pub(super) fn unwatched(_: &SimulateOptions, _: &Scene, _: &Model) -> Result<Answer, InputError> {
+pub(super) fn unwatched(_: &Asked, _: &Scene, _: &Model) -> Result<Answer, InputError> {
     let error = InputError::at(Default::default(), "this build cannot simulate");
     Err(error.hint("build it with the feature `dynamics`"))
 }
@@ -49,6 +69,39 @@ pub(super) fn unwatched(_: &SimulateOptions, _: &Scene, _: &Model) -> Result<Ans
 /// What happens in time, shown while it does.
 #[cfg(feature = "dynamics")]
 pub(super) fn watched(
+    asked: &Asked,
+    scene: &Scene,
+    model: &Model,
+    watch: Watch,
+) -> Result<Answer, InputError> {
+    match asked {
+        Asked::Simulate(options) => simulate(options, scene, model, watch),
+        Asked::Shake(options) => shake(options, scene, model, watch),
+    }
+}
+
+#[cfg(feature = "dynamics")]
+impl Watch<'_> {
+    fn settings(
+        &self,
+        fidelity: Option<Fidelity>,
+        seconds: Option<f64>,
+        to_the_end: bool,
+    ) -> SimulationSettings {
+        SimulationSettings {
+            fidelity,
+            seconds,
+            threads: self.threads,
+            frames: self.frames,
+            keep_frames: self.keep_frames,
+            to_the_end,
+            every_step: self.every_step,
+        }
+    }
+}
+
+#[cfg(feature = "dynamics")]
+fn simulate(
     options: &SimulateOptions,
     scene: &Scene,
     model: &Model,
@@ -61,18 +114,26 @@ pub(super) fn watched(
         }
         _ => model,
     };
-    let settings = SimulationSettings {
-        fidelity: if options.fast {
-            Some(Fidelity::Fast)
-        } else {
-            options.fine.then_some(Fidelity::Fine)
-        },
-        seconds: options.seconds,
-        threads: watch.threads,
-        frames: watch.frames,
-        keep_frames: watch.keep_frames,
-        to_the_end: options.to_the_end,
-        every_step: watch.every_step,
-    };
+    let fidelity =
+        if options.fast { Some(Fidelity::Fast) } else { options.fine.then_some(Fidelity::Fine) };
+    let settings = watch.settings(fidelity, options.seconds, options.to_the_end);
     Ok(Answer::Simulate(Box::new(dynamics::simulate(loaded, &settings, watch.each)?)))
+}
+
+#[cfg(feature = "dynamics")]
+fn shake(
+    options: &ShakeOptions,
+    scene: &Scene,
+    model: &Model,
+    watch: Watch,
+) -> Result<Answer, InputError> {
+    let under = JsonPath::root().key("shake");
+    let axes = options.axes(model.assembly.gravity).map_err(|e| e.under(&under))?;
+    let motion = options.ground.motion().map_err(|e| e.under(&under.key("ground")))?;
+    let masses = quake(scene, model, axes[0])?.masses;
+    let fidelity = if options.fast { Fidelity::Fast } else { Fidelity::Fine };
+    let settings = watch.settings(Some(fidelity), options.seconds, options.to_the_end);
+    let ground = Shaking { motion: &motion, axes: &axes, masses: &masses };
+    let shaken = dynamics::shake(model, ground, &settings, watch.each)?;
+    Ok(Answer::Shake(Box::new(ShakenScene { options: options.clone(), axes, shaken })))
 }

@@ -37,10 +37,12 @@ pub struct Kinematic {
     pub curve: Option<Followed>,
     /// The scene that the curve is of.
     pub curve_model: Model,
-    /// The curve is that of the scene without its members.
+    /// The curve is that of the scene without its members: what lasts.
     pub without_members: bool,
     /// Why there is no curve.
     pub why: Option<String>,
+    /// Where the scene has members: the curve with them, as long as they hold, or why there is none.
+    pub with_members: Option<Result<Followed, String>>,
 }
 
 /// An earthquake towards one direction.
@@ -129,6 +131,7 @@ pub(super) fn kinematic(
         curve_model: worst.quake.model.clone(),
         without_members: false,
         why: None,
+        with_members: None,
         dead,
         directions: Vec::new(),
     };
@@ -139,6 +142,16 @@ pub(super) fn kinematic(
                 (answer.curve_model, answer.without_members) = (model, without);
             }
             Err(why) => answer.why = Some(why),
+        }
+        let has_members = !worst.quake.model.interfaces.members.is_empty();
+        if let Some(point) = point.filter(|_| has_members) {
+            // With points at the limit states of what lasts, to be held beside them.
+            let at: Vec<f64> = answer.curve.iter().flat_map(limit_states).collect();
+            let at = [&at[..], &options.at].concat();
+            answer.with_members = Some(
+                ways(worst, point)
+                    .and_then(|()| pushed(worst, &worst.quake.model, point, at, control)),
+            );
         }
     }
     answer.directions = directions;
@@ -166,6 +179,47 @@ pub(super) fn control_of(
 /// Points of the curve between which the limit states lie, beside its own: even shares of d0.
 const SHARES: [f64; 2] = [kinematic::SLV, kinematic::SLC];
 
+/// Ways of the control point at which the limit states of a curve lie, where it vanishes.
+fn limit_states(curve: &Followed) -> Vec<f64> {
+    let end = curve.path.points.last().map(|p| p.value);
+    let d0 = end.filter(|_| matches!(curve.path.end, End::Vanishes));
+    d0.map_or_else(Vec::new, |d0| SHARES.iter().map(|s| s * d0).collect())
+}
+
+/// Requires that the control point goes towards the earthquake.
+fn ways(worst: &Quaked, (block, point): (usize, Vector3<f64>)) -> Result<(), String> {
+    let own = way_of(&worst.quake, worst.rates(), block, &point);
+    match own.is_none_or(|d| d <= kinematic::STILL) {
+        true => {
+            Err("the control point does not go towards the earthquake in this mechanism".into())
+        }
+        false => Ok(()),
+    }
+}
+
+/// The curve of a scene under the pushes of the earthquake, with points at these ways of the control
+/// point.
+fn pushed(
+    worst: &Quaked,
+    model: &Model,
+    (block, point): (usize, Vector3<f64>),
+    mut at: Vec<f64>,
+    control: &Control,
+) -> Result<Followed, String> {
+    at.sort_by(f64::total_cmp);
+    let options = PushOptions {
+        control: ControlPoint {
+            block: model.assembly.blocks[block].id.clone(),
+            point: point.into(),
+        },
+        toward: worst.quake.toward.into(),
+        at,
+        from: Vec::new(),
+    };
+    let control = Control { law: Law::Associative, ..*control };
+    push(model, &options, &control).map_err(|e| e.message)
+}
+
 /// The curve of a mechanism, with points at both limit states; `Err` says why there is none.
 fn curve(
     worst: &Quaked,
@@ -174,38 +228,21 @@ fn curve(
     control: &Control,
 ) -> Result<(Followed, Model, bool), String> {
     worst.alpha0().ok_or("α0 was not found")?;
-    let (block, point) = point.ok_or("no block that moves goes towards the earthquake")?;
-    let own = way_of(&worst.quake, worst.rates(), block, &point);
-    if own.is_none_or(|d| d <= kinematic::STILL) {
-        return Err("the control point does not go towards the earthquake in this mechanism".into());
-    }
+    let point = point.ok_or("no block that moves goes towards the earthquake")?;
+    ways(worst, point)?;
     let model = &worst.quake.model;
     let bare = kinematic::without_members(model);
     let has_members = bare.interfaces.members.len() < model.interfaces.members.len();
     if has_members {
         same_without(worst, &bare, control)?;
     }
-    let ask = |at: &[f64]| {
-        let options = PushOptions {
-            control: ControlPoint {
-                block: model.assembly.blocks[block].id.clone(),
-                point: point.into(),
-            },
-            toward: worst.quake.toward.into(),
-            at: at.to_vec(),
-            from: Vec::new(),
-        };
-        let control = Control { law: Law::Associative, ..*control };
-        push(&bare, &options, &control).map_err(|e| e.message)
-    };
-    let first = ask(&options.at)?;
-    let end = first.path.points.last().map(|p| p.value);
-    let Some(d0) = end.filter(|_| matches!(first.path.end, End::Vanishes)) else {
+    let first = pushed(worst, &bare, point, options.at.clone(), control)?;
+    let states = limit_states(&first);
+    if states.is_empty() {
         return Ok((first, bare, has_members));
-    };
-    let mut at: Vec<f64> = SHARES.iter().map(|s| s * d0).chain(options.at.clone()).collect();
-    at.sort_by(f64::total_cmp);
-    Ok((ask(&at)?, bare, has_members))
+    }
+    let at = [&states[..], &options.at].concat();
+    Ok((pushed(worst, &bare, point, at, control)?, bare, has_members))
 }
 
 /// Requires that the mechanism is the same without members: only then is the curve without them one

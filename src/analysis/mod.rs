@@ -33,6 +33,7 @@ pub mod state;
 pub mod thrust;
 pub mod tilt;
 
+pub use crate::ground::ShakeOptions;
 pub use crate::rocking::{RockOptions, RockPoint};
 pub use crate::terms::{Closed, Difference, Doubt, DoubtCause, LeftOutContacts};
 pub use crate::{
@@ -62,4 +63,7 @@ pub use stages::{Stages, StagesOptions, stages};
 pub use state::StateOptions;
 pub use tilt::{Tilt, tilt};
 #[cfg(feature = "dynamics")]
-pub use {ask::ask_watched, in_time::Watch};
+pub use {
+    ask::ask_watched,
+    in_time::{ShakenScene, Watch},
+};

@@ -4,6 +4,7 @@
 use super::{Control, Law, StagesOptions, StateOptions};
 use crate::{
     error::{InputError, JsonPath},
+    ground::ShakeOptions,
     path::saved::SavedPose,
     rocking::RockOptions,
 };
@@ -46,6 +47,8 @@ pub enum Question {
     /// What does its mechanism do on ground that moves? Computed from where it starts, which is
     /// proved.
     Rock(RockOptions),
+    /// What do all its blocks do on ground that moves, by the rigid-body engine? Not a proof.
+    Shake(ShakeOptions),
 }
 
 /// Options of `assess`.
@@ -347,6 +350,7 @@ impl Question {
             }
             Self::State(_) => Ok(()),
             Self::Rock(o) => o.check().map_err(|e| e.under(&path)),
+            Self::Shake(o) => o.check().map_err(|e| e.under(&path)),
         }
     }
 
@@ -418,6 +422,7 @@ impl Question {
             Self::Kinematic(_) => "kinematic",
             Self::Stages(_) => "stages",
             Self::Rock(_) => "rock",
+            Self::Shake(_) => "shake",
             Self::State(_) => "state",
         }
     }
@@ -435,7 +440,7 @@ impl Question {
             Self::Kinematic(o) => o.law,
             Self::Stages(o) => o.law,
             // What slides in time does not open.
-            Self::Simulate(_) | Self::State(_) => Law::Coulomb,
+            Self::Simulate(_) | Self::Shake(_) | Self::State(_) => Law::Coulomb,
             // Hinges alone are followed, which are the same for both.
             Self::Settle(_) | Self::Push(_) | Self::Rock(_) => Law::Associative,
         }
@@ -451,7 +456,8 @@ impl Question {
             | Self::Settle(_)
             | Self::Push(_)
             | Self::Stages(_)
-            | Self::Rock(_) => None,
+            | Self::Rock(_)
+            | Self::Shake(_) => None,
             Self::Limit(o) => o.require,
             Self::Moving(o) => o.require,
             Self::Tilt(o) => o.require,
@@ -467,7 +473,7 @@ impl Question {
             Self::Rock(RockOptions { scan: Some(_), .. }) => {
                 Some("least scale at which it overturns")
             }
-            Self::Assess(_) | Self::Simulate(_) | Self::Rock(_) => None,
+            Self::Assess(_) | Self::Simulate(_) | Self::Rock(_) | Self::Shake(_) => None,
             Self::Thrust(ThrustOptions { member: Some(_), greatest, .. }) => {
                 Some(if *greatest { "greatest force in N" } else { "least force in N" })
             }

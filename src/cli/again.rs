@@ -1,7 +1,7 @@
 //! The options that would have to be given again for the same answer, as typed.
 
 use super::args::{
-    Assess, Common, Critical, Curve, DIRECTIONS, Kinematic, Law, Push, Quadrature, Settle,
+    Assess, Common, Critical, Curve, DIRECTIONS, Ground, Kinematic, Law, Push, Quadrature, Settle,
     Simulate, Stages, State, Thrust, Tilt,
 };
 use voussoir::sweep::Between;
@@ -170,7 +170,23 @@ impl Simulate {
         let words = given.iter().filter(|(given, _)| *given).map(|(_, word)| word.to_string());
         let seconds = self.seconds.map(|s| format!("--seconds {s}"));
         let load = (self.load_factor != 0.0).then(|| format!("--load-factor {}", self.load_factor));
-        words.chain(seconds).chain(load).collect()
+        let toward = self.toward.map(|d| format!("--toward {}", list(&d)));
+        let ground = self.ground.options();
+        ground.into_iter().chain(toward).chain(words).chain(seconds).chain(load).collect()
+    }
+}
+
+impl Ground {
+    /// The options that change the answer, as typed.
+    pub fn options(&self) -> Vec<String> {
+        let file = |p: &std::path::PathBuf| {
+            format!("--ground {}", super::question::quoted(&p.to_string_lossy()))
+        };
+        let pulse = self.pulse.as_ref().map(|(text, _)| format!("--pulse {text}"));
+        let units =
+            self.units.map(|u| format!("--units {}", super::question::quoted(&u.to_string())));
+        let scale = self.scale.map(|k| format!("--scale {k}"));
+        self.ground.iter().map(file).chain([pulse, units, scale].into_iter().flatten()).collect()
     }
 }
 

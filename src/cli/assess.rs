@@ -25,9 +25,10 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     let mut film = Vec::new();
     if let (true, Answer::Assess(assessment)) = (args.simulate || (args.thorough && doubt), &answer)
     {
+        let asked = Question::Simulate(SimulateOptions::default());
         let mut camera = Camera::new(&session, args.threads, session.report().is_some());
         if let Answer::Simulate(outcome) =
-            camera.ask(&session, SimulateOptions::default(), &mut |_| ControlFlow::Continue(()))?
+            camera.ask(&session, &asked, &mut |_| ControlFlow::Continue(()))?
         {
             file = file.with_simulation(&session.model, Some(assessment), &outcome);
         }

@@ -6,23 +6,23 @@ use super::{
     claim,
     exit::Exit,
     output::Sink,
-    progress::Bar,
-    question::Session,
+    question::{Seen, Session},
     report,
+    simulate::Camera,
     terminal::{self, Terminal},
 };
 use anyhow::bail;
-use nalgebra::Vector3;
 use std::{ops::ControlFlow, path::Path};
 use voussoir::{
-    analysis::{Answer, Question, RockOptions, RockPoint, Rocking},
-    dynamics::{Fidelity, Progress, ShakenFate, SimulationSettings, shake},
+    analysis::{Answer, Question, RockOptions, RockPoint, Rocking, ShakeOptions},
+    dynamics::Frame,
     ground::{Formula, Given, Motion, Record, Recorded, Series},
+    proof::shaken::ShakenWord,
     report::{
-        ground::{Rocked, ShakenReport, Shaking},
+        ground::{Rocked, ShakenReport, Shaking, page_charts},
         json, page,
         text::{Layout, Page, TextOptions},
-        view::{Film, View},
+        view::View,
     },
     rocking::Fate,
 };
@@ -110,7 +110,7 @@ pub fn rock(
         svg.write(&rocked.chart()?)?;
     }
     let text = |layout: Layout<'_>, options| rocked.text(layout, options);
-    show(session, common, terminal, &text, &rocked.json(), Vec::new())?;
+    show(session, common, terminal, &text, &rocked.json())?;
     Ok(match history.fate {
         Fate::Overturns { .. } => Exit::No,
         Fate::Rests => Exit::Yes,
@@ -120,7 +120,6 @@ pub fn rock(
 
 /// Runs all blocks of a scene in time.
 pub fn simulate(args: &Simulate, session: &Session, terminal: &Terminal) -> anyhow::Result<Exit> {
-    refuse_save(session)?;
     if args.skip_verdict {
         bail!("--skip-verdict: on ground that moves no verdict is asked for");
     }
@@ -128,65 +127,46 @@ pub fn simulate(args: &Simulate, session: &Session, terminal: &Terminal) -> anyh
         path.as_deref().map(|p| Sink::open(Some(p))).transpose()
     };
     let (csv, chart) = (open(&args.csv)?, open(&args.chart)?);
-    let shaking = shaking(&args.ground)?;
-    let assembly = &session.model.assembly;
-    let up = -assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
-    let toward = Vector3::from(args.toward.unwrap_or([1.0, 0.0, 0.0]));
-    let across = toward - up * up.dot(&toward);
-    if across.norm() <= 1e-9 * toward.norm() {
-        bail!("--toward is along gravity; hint: give a direction across it, such as 1,0");
-    }
-    let axes = [across.normalize(), up.cross(&across.normalize()), up];
-    let kept = csv.is_some() || chart.is_some();
-    let mut film = session.is_filmed().then(|| Film::fitting(assembly.blocks.len()));
-    let settings = SimulationSettings {
-        fidelity: Some(if args.fast { Fidelity::Fast } else { Fidelity::Fine }),
+    let Shaking { record, scale, motion, .. } = shaking(&args.ground)?;
+    let question = Question::Shake(ShakeOptions {
+        toward: args.toward.unwrap_or([1.0, 0.0, 0.0]),
+        ground: Given {
+            pulse: args.ground.pulse.as_ref().map(|(_, pulse)| Formula::from(*pulse)),
+            record: record.as_ref().map(|r| Recorded::Read(Series::of(r))),
+            scale,
+        },
+        fast: args.fast,
         seconds: args.seconds,
-        threads: super::terminal::threads(args.threads),
-        frames: args.frames.map_or(if kept { FRAMES } else { 0 }, |n| n as usize),
-        keep_frames: true,
         to_the_end: args.to_the_end,
-        every_step: film.is_some(),
-    };
-    let bar = Bar::new(session.shows_progress());
-    let deadline = session.control().deadline;
-    let mut watch = |progress: &Progress| {
-        bar.show(progress);
-        report::see(&mut film, progress.moment);
-        if deadline.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    };
-    let shaken = shake(&session.model, &shaking.motion, &axes, &settings, &mut watch)
-        .map_err(|e| session.refuse(e))?;
-    let told = ShakenReport {
-        name: &session.scene.name,
-        model: &session.model,
-        shaking: &shaking,
-        shaken: &shaken,
-    };
+    });
+    let told = csv.is_some() || chart.is_some() || session.report().is_some();
+    let frames = args.frames.map_or(if told { FRAMES } else { 0 }, |n| n as usize);
+    let mut camera = Camera::new(session, args.threads, session.is_filmed()).keeping(frames);
+    let mut keep = |_: &Frame| ControlFlow::Continue(());
+    let mut answer = camera.ask(session, &question, &mut keep)?;
+    let Answer::Shake(shaken) = &mut answer else { bail!("there is no simulation") };
+    let report =
+        ShakenReport { name: &session.scene.name, model: &session.model, motion: &motion, shaken };
     if let Some(csv) = &csv {
-        csv.write(&told.csv()?)?;
+        csv.write(&report.csv()?)?;
     }
     if let Some(chart) = &chart {
-        chart.write(&told.chart()?)?;
+        chart.write(&report.chart()?)?;
     }
-    let frames = film.map(Film::frames).unwrap_or_default();
-    let text = |layout: Layout<'_>, options| told.text(layout, options);
-    show(session, &args.common, terminal, &text, &told.json(), frames)?;
-    Ok(match shaken.fate {
-        ShakenFate::Overturned { .. } => Exit::No,
-        ShakenFate::Rests => Exit::Yes,
-        ShakenFate::Moves => Exit::Undecided,
+    let charts = if session.report().is_some() { page_charts(&report) } else { Vec::new() };
+    if args.frames.is_none() {
+        // What was kept for tables and charts was not asked for in the result.
+        shaken.shaken.frames.clear();
+    }
+    let mut file = session.result(&question, &answer)?;
+    file.warnings.extend(record.into_iter().flat_map(|r| r.findings));
+    let seen = Seen::Charted(camera.frames(), charts);
+    let file = session.answer_seen(terminal, &args.options(), seen, file)?;
+    Ok(match file.answer.shaken().map(|a| a.fate) {
+        Some(ShakenWord::Overturns) => Exit::No,
+        Some(ShakenWord::Rests) => Exit::Yes,
+        Some(ShakenWord::Moves) | None => Exit::Undecided,
     })
-}
-
-/// A history of all blocks is computed: there is no proof to save.
-fn refuse_save(session: &Session) -> anyhow::Result<()> {
-    if session.save().is_some() {
-        bail!(
-            "--save keeps proofs, and a history of all blocks has none; hint: --json prints it, and `kinematic --ground` has one where it starts"
-        );
-    }
-    Ok(())
 }
 
 type Text<'a> = dyn Fn(Layout<'_>, TextOptions) -> Page + 'a;
@@ -197,13 +177,11 @@ fn show(
     terminal: &Terminal,
     text: &Text,
     answer: &serde_json::Value,
-    film: Vec<voussoir::dynamics::Frame>,
 ) -> anyhow::Result<()> {
     let layout = terminal.layout(&common.scene);
     if session.is_filmed() {
         let mut view = View::bare(&session.model);
         view.name.clone_from(&session.scene.name);
-        view.film = film;
         if let Some(sink) = session.report() {
             let page = text(report::layout(layout), report::EVERYTHING);
             sink.write(&page::page(&page, &view, &[])?)?;

@@ -143,9 +143,9 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     if let (Some(report), Some(view)) = (report, views.iter().flatten().next()) {
         let words = text::heaps(&file, report::EVERYTHING, report::layout(layout));
-        let drawing =
-            Record { drawing: drawing::printed(view, pictures.aspect()), ..Record::default() };
-        report.write(&page::filed(&words, view, page::heaps(&file).as_slice(), &drawing)?)?;
+        let drawing = drawing::printed(view, pictures.aspect());
+        let record = Record::of_heaps(&file, drawing, report::now());
+        report.write(&page::filed(&words, view, page::heaps(&file).as_slice(), &record)?)?;
     }
     if args.common.json {
         terminal::print(&text)?;

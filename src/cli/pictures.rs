@@ -140,6 +140,12 @@ impl Pictures {
 
     /// Writes them.
     pub fn write(&self, view: &View) -> anyhow::Result<()> {
+        self.write_model(view)?;
+        self.write_still(view)
+    }
+
+    /// Writes the model that moves.
+    pub fn write_model(&self, view: &View) -> anyhow::Result<()> {
         let hidden = self.hides.then(|| View { hides_supports: true, ..view.clone() });
         let view = hidden.as_ref().unwrap_or(view);
         match &self.gltf {
@@ -147,6 +153,13 @@ impl Pictures {
             Some((sink, false)) => sink.write(&gltf::text(view)?)?,
             None => {}
         }
+        Ok(())
+    }
+
+    /// Writes all the others.
+    pub fn write_still(&self, view: &View) -> anyhow::Result<()> {
+        let hidden = self.hides.then(|| View { hides_supports: true, ..view.clone() });
+        let view = hidden.as_ref().unwrap_or(view);
         if let Some(sink) = &self.obj {
             sink.write(&obj::obj(view))?;
         }

@@ -38,6 +38,8 @@ use voussoir::{
 pub enum Seen {
     /// The scene with the evidence of the answer, and what was filmed of a simulation.
     Scene(Vec<Frame>),
+    /// The same, with charts of what was filmed.
+    Charted(Vec<Frame>, Vec<page::Chart>),
     /// Something else.
     Other(Box<View>),
     /// The scene with the evidence of the answer on a page, and this in pictures.
@@ -227,6 +229,11 @@ impl<'a> Session<'a> {
         if error.path.0.is_empty() { error.into() } else { error.located(&self.source).into() }
     }
 
+    /// What was read of the scene.
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+
     /// Where the page goes, where there is to be one.
     pub fn report(&self) -> Option<&Sink> {
         self.report.as_ref()
@@ -265,8 +272,9 @@ impl<'a> Session<'a> {
         seen: Seen,
         mut file: ResultFile,
     ) -> anyhow::Result<ResultFile> {
-        file.timings.simulate =
-            file.simulation.iter().flat_map(|s| &s.runs).map(|r| r.seconds).sum();
+        if let Some(s) = &file.simulation {
+            file.timings.simulate = s.runs.iter().map(|r| r.seconds).sum();
+        }
         file.timings.solve =
             (self.start.elapsed().as_secs_f64() - file.timings.simulate - file.timings.check)
                 .max(0.0);
@@ -286,7 +294,12 @@ impl<'a> Session<'a> {
             save.write(&json::pretty(&file)?)?;
         }
         if self.is_filmed() {
+            let mut charts = Vec::new();
             let (mut view, drawn) = match seen {
+                Seen::Charted(film, own) => {
+                    charts = own;
+                    (View::new(&self.model, &file, film)?, None)
+                }
                 Seen::Scene(film) => (View::new(&self.model, &file, film)?, None),
                 Seen::Other(view) => (*view, None),
                 Seen::Drawn(view) => (View::new(&self.model, &file, Vec::new())?, Some(*view)),
@@ -294,28 +307,36 @@ impl<'a> Session<'a> {
             view.hides_supports = self.pictures.hides_supports();
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
-                let charts: Vec<_> = [
+                let told = [
                     kinematic::page_chart(&file),
                     stages::page_chart(&file),
                     state::page_chart(&file),
                     moving::page_chart(&file),
                     page::curve(&file),
                     page::attempts(&file),
-                ]
-                .into_iter()
-                .flatten()
-                .collect();
+                ];
+                charts.extend(told.into_iter().flatten());
                 let command = text::command(&file, asked);
-                let origin = report::origin(&self.common.scene, command);
+                let origin = report::origin(&self.common.scene, &self.source.text, command);
                 let from = self.pictures.aspect();
                 let record = Record::new(&file, &self.model, &view, from, &origin);
                 report.write(&page::filed(&text, &view, &charts, &record)?)?;
             }
-            if !matches!(file.question, Kind::Simulate | Kind::Settle | Kind::Push) {
+            // Stages are one film, and drawn by the worst of them.
+            let staged = file.question == Kind::Stages;
+            if staged {
+                self.pictures.write_model(&view)?;
+            }
+            let films = [Kind::Simulate, Kind::Shake, Kind::Settle, Kind::Push];
+            if !films.contains(&file.question) {
                 // A verdict is drawn with its mechanism, whatever else was seen.
                 view.film.clear();
             }
-            self.pictures.write(drawn.as_ref().unwrap_or(&view))?;
+            let still = drawn.as_ref().unwrap_or(&view);
+            if !staged {
+                self.pictures.write_model(still)?;
+            }
+            self.pictures.write_still(still)?;
         }
         if self.common.json {
             terminal::print(&json::pretty(&file)?)?;

@@ -7,7 +7,7 @@ use std::{
 use voussoir::{
     dynamics::Frame,
     report::{
-        record::{Origin, date},
+        record::{Origin, date, digest},
         text::{Layout, TextOptions},
         view::Film,
     },
@@ -33,14 +33,36 @@ pub fn see(film: &mut Option<Film>, moment: Option<&Frame>) {
     }
 }
 
-/// Where a record comes from.
-pub fn origin(scene: &Path, command: String) -> Origin {
+/// The digest of the file of a scene, if it still holds the text that was read.
+fn digest_of(scene: &Path, text: &str) -> String {
+    if scene.as_os_str() == "-" {
+        return digest(text.as_bytes());
+    }
+    match std::fs::read(scene) {
+        // A byte order mark is none of the text.
+        Ok(bytes)
+            if bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes) == text.as_bytes() =>
+        {
+            digest(&bytes)
+        }
+        _ => "none: the file has changed since it was read".into(),
+    }
+}
+
+/// When a record is made.
+pub fn now() -> String {
+    since(SystemTime::now()).map(date).unwrap_or_default()
+}
+
+/// Where a record comes from; `text` is what was read of the scene.
+pub fn origin(scene: &Path, text: &str, command: String) -> Origin {
     let changed = std::fs::metadata(scene).and_then(|m| m.modified()).ok().and_then(since);
     let name = if scene.as_os_str() == "-" { String::new() } else { scene.display().to_string() };
     let written = changed.map(|s| format!(", as written on {}", date(s))).unwrap_or_default();
     Origin {
         file: if name.is_empty() { name } else { format!("{name}{written}") },
-        made: since(SystemTime::now()).map(date).unwrap_or_default(),
+        digest: digest_of(scene, text),
+        made: now(),
         command,
     }
 }

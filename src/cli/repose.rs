@@ -100,7 +100,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if let (Some(report), Some(view)) = (session.report(), &seen) {
         let words = text::packing(&file, report::EVERYTHING, report::layout(layout));
         let command = format!("voussoir repose {}", quoted(&args.common.scene.to_string_lossy()));
-        let origin = report::origin(&args.common.scene, command);
+        let origin = report::origin(&args.common.scene, session.text(), command);
         let model = prepare(&proof.scene.input)?;
         let record = Record::new(&proof, &model, view, session.pictures().aspect(), &origin);
         let charts = page::attempts(&proof);

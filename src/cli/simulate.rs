@@ -57,9 +57,8 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     };
     let frames = args.frames.map_or(if csv.is_some() { FRAMES } else { 0 }, |n| n as usize);
     let mut camera = Camera {
-        frames,
         keep_frames: args.frames.is_some(),
-        ..Camera::new(&session, args.threads, session.is_filmed())
+        ..Camera::new(&session, args.threads, session.is_filmed()).keeping(frames)
     };
     let mut failure = None;
     let mut keep =
@@ -77,7 +76,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         to_the_end: args.to_the_end,
         load_factor: None,
     };
-    let answer = camera.ask(&session, options, &mut keep)?;
+    let answer = camera.ask(&session, &Question::Simulate(options), &mut keep)?;
     let film = camera.frames();
     if let (Some(e), Some(path)) = (failure, &args.csv) {
         return Err(e).with_context(|| written(path));
@@ -120,11 +119,16 @@ impl Camera {
         Self { threads, frames: 0, keep_frames: true, film }
     }
 
-    /// Runs the scene in time; `keep` hears of every frame.
+    /// Takes so many frames, which the answer keeps.
+    pub fn keeping(self, frames: usize) -> Self {
+        Self { frames, ..self }
+    }
+
+    /// Asks a question of the scene in time; `keep` hears of every frame.
     pub fn ask(
         &mut self,
         session: &Session,
-        options: SimulateOptions,
+        question: &Question,
         keep: &mut dyn FnMut(&Frame) -> ControlFlow<()>,
     ) -> anyhow::Result<Answer> {
         let bar = Bar::new(session.shows_progress());
@@ -146,7 +150,7 @@ impl Camera {
             every_step,
             each: &mut each,
         };
-        session.ask_watched(&Question::Simulate(options), watch)
+        session.ask_watched(question, watch)
     }
 
     /// What was filmed.

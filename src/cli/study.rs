@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{io::IsTerminal, path::Path};
 use voussoir::{
     report::{json, page, study as report},
-    study::{self, Known, cross, extreme, forge, soak},
+    study::{self, Known, cross, extreme, forge, rocking, soak},
 };
 
 pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -138,6 +138,25 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
             terminal.page(&report::soak_text(&list, args.seed, args.verbose, layout))?;
         }
         return Ok(if list.iter().any(soak::Soaked::is_wrong) { Exit::No } else { Exit::Yes });
+    }
+    if args.rocking {
+        let cases = rocking::cases();
+        bar.set_length(rocking::count(&cases) as u64);
+        let points = rocking::rocking(&cases, |_| bar.inc(1))?;
+        bar.finish_and_clear();
+        if let Some(csv) = csv {
+            csv.write(&report::rocking_csv(&points)?)?;
+        }
+        if let Some(folder) = &args.svg {
+            Sink::open(Some(&folder.join("rocking.svg")))?
+                .write(&report::rocking_chart(&points)?)?;
+        }
+        if args.json {
+            terminal::print(&json::pretty(&points)?)?;
+        } else {
+            terminal.page(&report::rocking_text(&points, layout))?;
+        }
+        return Ok(Exit::Yes);
     }
     let scenes = chosen(&args.scenes)?;
     if args.omissions {

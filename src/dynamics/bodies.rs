@@ -15,14 +15,18 @@ use crate::{
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use std::collections::{HashMap, HashSet, hash_map::Entry};
 
-/// A block as the engine sees it; coordinates about its centre of mass, axes those of the scene at
-/// the start.
+/// A block as the engine sees it; coordinates about its own centre of mass, axes those of the scene
+/// at the start.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub support: bool,
     pub center: Vector3<f64>,
+    /// With what the block carries.
     pub mass: f64,
+    /// About the centre of all that mass.
     pub inertia: Matrix3<f64>,
+    /// The centre of all that mass; at the origin where the block carries nothing.
+    pub com: Vector3<f64>,
     pub shapes: Vec<Shape>,
     /// Least distance between two parallel planes that hold the block between them, one of them a
     /// facet's.
@@ -30,6 +34,20 @@ pub(super) struct Body {
     /// Farthest point from the centre of mass; 0 for a sphere about its centre, which looks the
     /// same however it turns.
     pub reach: f64,
+}
+
+impl Body {
+    /// Adds a mass at a point that goes with the block.
+    pub fn carry(&mut self, mass: f64, at: Vector3<f64>) {
+        let whole = self.mass + mass;
+        let way = at - self.com;
+        // Two masses about their common centre (Steiner).
+        let reduced = self.mass * mass / whole;
+        self.inertia +=
+            (Matrix3::identity() * way.norm_squared() - way * way.transpose()) * reduced;
+        self.com += way * (mass / whole);
+        self.mass = whole;
+    }
 }
 
 /// A convex shape, already smaller by its skin.
@@ -108,6 +126,7 @@ fn body(block: &Block, units: &Units, skin: f64) -> Result<Body, InputError> {
         center,
         mass: block.mass / units.mass,
         inertia: block.inertia / units.inertia(),
+        com: Vector3::zeros(),
         shapes,
         thickness,
         reach,

@@ -91,6 +91,8 @@ pub(super) struct World<'a> {
     soft_bodies: SoftBodySet,
     ccd: CCDSolver,
     handles: Vec<RigidBodyHandle>,
+    /// By body: its centre of mass ([`Body::com`]).
+    coms: Vec<Vector3<f64>>,
     /// Last poses of bodies that were taken away.
     gone: BTreeMap<usize, Pose>,
     healthy: bool,
@@ -144,6 +146,7 @@ impl<'a> World<'a> {
             soft_bodies: SoftBodySet::new(),
             ccd: CCDSolver::new(),
             handles: Vec::with_capacity(list.len()),
+            coms: list.iter().map(|body| body.com).collect(),
             gone: BTreeMap::new(),
             healthy: true,
         };
@@ -158,7 +161,7 @@ impl<'a> World<'a> {
         let builder =
             if body.support { RigidBodyBuilder::fixed() } else { RigidBodyBuilder::dynamic() };
         let inertia = rapier3d::math::Matrix::from_cols_array_2d(&body.inertia.data.0);
-        let mass = MassProperties::with_inertia_matrix(Vector::ZERO, body.mass, inertia);
+        let mass = MassProperties::with_inertia_matrix(vector(body.com), body.mass, inertia);
         let handle = self
             .bodies
             .insert(builder.pose(pose).can_sleep(false).additional_mass_properties(mass));
@@ -195,13 +198,23 @@ impl<'a> World<'a> {
         Ok(())
     }
 
-    /// Sets force and torque about the centre of mass of a body until they are set again.
+    /// Sets force and torque about the centre of a body until they are set again.
     pub fn load(&mut self, body: usize, force: Vector3<f64>, torque: Vector3<f64>) {
+        let torque = torque - self.arm(body).cross(&force);
         if let Some(body) = self.bodies.get_mut(self.handles[body]) {
             body.reset_forces(false);
             body.reset_torques(false);
             body.add_force(vector(force), true);
             body.add_torque(vector(torque), true);
+        }
+    }
+
+    /// From the centre of a body to its centre of mass, which is another one where it carries
+    /// something.
+    fn arm(&self, body: usize) -> Vector3<f64> {
+        match self.coms[body] {
+            com if com == Vector3::zeros() => com,
+            com => self.pose(body).1 * com,
         }
     }
 
@@ -280,7 +293,7 @@ impl<'a> World<'a> {
         self.healthy
     }
 
-    /// Centre of mass and orientation of a body.
+    /// Centre and orientation of a body.
     pub fn pose(&self, body: usize) -> (Vector3<f64>, UnitQuaternion<f64>) {
         let there = self.bodies.get(self.handles[body]).map(|b| *b.position());
         let pose = there.or_else(|| self.gone.get(&body).copied()).unwrap_or(Pose::IDENTITY);
@@ -288,10 +301,11 @@ impl<'a> World<'a> {
         (back(pose.translation), UnitQuaternion::new_normalize(Quaternion::new(r.w, r.x, r.y, r.z)))
     }
 
-    /// Velocity of the centre of mass and spin of a body.
+    /// Velocity of the centre and spin of a body.
     pub fn velocity(&self, body: usize) -> (Vector3<f64>, Vector3<f64>) {
-        let body = &self.bodies[self.handles[body]];
-        (back(body.linvel()), back(body.angvel()))
+        let there = &self.bodies[self.handles[body]];
+        let (velocity, spin) = (back(there.linvel()), back(there.angvel()));
+        (velocity - spin.cross(&self.arm(body)), spin)
     }
 
     /// Forces of all contact patches that carry any, in the order of the colliders.

@@ -5,6 +5,7 @@ use crate::error::{InputError, JsonPath};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// How the ground moves: by a pulse or by a record, times a scale; at rest where neither is given.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -116,6 +117,26 @@ impl Formula {
     }
 }
 
+/// As `--pulse` takes it.
+impl fmt::Display for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self.pulse() {
+            Ok(Pulse::Rectangle { acceleration, duration }) => {
+                write!(f, "rectangle:{acceleration},{duration}")
+            }
+            Ok(Pulse::HalfSine { acceleration, duration }) => {
+                write!(f, "half-sine:{acceleration},{duration}")
+            }
+            Ok(Pulse::Sine { acceleration, duration }) => {
+                write!(f, "sine:{acceleration},{duration}")
+            }
+            Ok(Pulse::Jump { velocity }) => write!(f, "jump:{velocity}"),
+            Ok(Pulse::DoubleJump { velocity }) => write!(f, "double-jump:{velocity}"),
+            Err(e) => f.write_str(&e),
+        }
+    }
+}
+
 impl From<Pulse> for Formula {
     fn from(pulse: Pulse) -> Self {
         let wave = |acceleration, duration| Wave {
@@ -196,6 +217,17 @@ impl Given {
     /// Whether the ground moves at all.
     pub fn moves(&self) -> bool {
         self.pulse.is_some() || self.record.is_some()
+    }
+
+    /// Refuses what means nothing; a record that is only named is not looked into.
+    ///
+    /// # Errors
+    /// As [`Self::unscaled`].
+    pub fn check(&self) -> Result<(), InputError> {
+        match (&self.pulse, &self.record) {
+            (None, Some(Recorded::Named(_))) => Ok(()),
+            _ => self.unscaled().map(drop),
+        }
     }
 
     /// The motion as its formula or record has it, without the scale.

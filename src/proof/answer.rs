@@ -3,8 +3,8 @@
 
 use super::{
     certificate::DryResult, critical::CriticalValue, kinematic::KinematicAnswer,
-    moving::MovingAnswer, path::PathAnswer, rocking::RockingAnswer, stages::StagesAnswer,
-    state::StateAnswer, thrust::ThrustAnswer,
+    moving::MovingAnswer, path::PathAnswer, rocking::RockingAnswer, shaken::ShakenAnswer,
+    stages::StagesAnswer, state::StateAnswer, thrust::ThrustAnswer,
 };
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
@@ -39,6 +39,8 @@ pub enum Answer {
     State(Box<StateAnswer>),
     /// On ground that moves: what its mechanism does.
     Rocking(Box<RockingAnswer>),
+    /// On ground that moves: what all its blocks do.
+    Shaken(Box<ShakenAnswer>),
     /// What became of it in time, beside the verdict where that was asked.
     Simulation(Fate, Option<VerdictAnswer>),
 }
@@ -212,6 +214,7 @@ impl Answer {
             | Self::Thrust(_)
             | Self::Path(_)
             | Self::Rocking(_)
+            | Self::Shaken(_)
             | Self::Simulation(_, None) => None,
         }
     }
@@ -372,6 +375,9 @@ pub(super) struct Flat {
     /// What a mechanism does on ground that moves.
     #[serde(skip_serializing_if = "Option::is_none")]
     rocking: Option<Box<RockingAnswer>>,
+    /// What all blocks do on ground that moves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shaken: Option<Box<ShakenAnswer>>,
     /// One position of a train.
     #[serde(skip_serializing_if = "Option::is_none")]
     moving: Option<Box<MovingAnswer>>,
@@ -421,6 +427,7 @@ impl From<Answer> for Flat {
             Answer::Stages(a) => Self { stages: Some(a), ..Self::default() },
             Answer::State(a) => Self { state: Some(a), ..Self::default() },
             Answer::Rocking(a) => Self { rocking: Some(a), ..Self::default() },
+            Answer::Shaken(a) => Self { shaken: Some(a), ..Self::default() },
             Answer::Moving(a) => Self { moving: Some(a), ..Self::default() },
         }
     }
@@ -450,6 +457,7 @@ impl TryFrom<Flat> for Answer {
             stages,
             state,
             rocking,
+            shaken,
             moving,
         } = flat;
         let alone_in_all = verdict.is_none()
@@ -470,6 +478,7 @@ impl TryFrom<Flat> for Answer {
             stages.map(Self::Stages),
             state.map(Self::State),
             rocking.map(Self::Rocking),
+            shaken.map(Self::Shaken),
             moving.map(Self::Moving),
         ]
         .into_iter()

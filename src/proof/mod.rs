@@ -15,6 +15,7 @@ pub mod path;
 pub mod read;
 pub mod result;
 pub mod rocking;
+pub mod shaken;
 pub mod simulation;
 pub mod stages;
 pub mod state;

@@ -9,6 +9,7 @@ use super::{
     member::{MemberLine, MemberWords},
     path::PathResult,
     rocking::RockingResult,
+    shaken::ShakenResult,
     simulation::Simulation,
     stages::StagesResult,
     state::StateResult,
@@ -71,6 +72,9 @@ pub struct ResultFile {
     /// Settle, push and kinematic: the curve, every point with its evidence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<PathResult>,
+    /// Kinematic: the curve with members, every point with its evidence.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path_with_members: Option<PathResult>,
     /// Stages: every one with its evidence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stages: Option<StagesResult>,
@@ -80,6 +84,9 @@ pub struct ResultFile {
     /// Rock: the evidence against the direction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rocking: Option<RockingResult>,
+    /// Shake: where every block was, where times were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shaken: Option<ShakenResult>,
     /// What happened in time, where it was simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub simulation: Option<Simulation>,
@@ -141,9 +148,11 @@ impl ResultFile {
             critical: None,
             thrust: None,
             path: None,
+            path_with_members: None,
             stages: None,
             state: None,
             rocking: None,
+            shaken: None,
             simulation: None,
             mechanism: None,
             members: Vec::new(),
@@ -192,6 +201,8 @@ pub enum QuestionKind {
     State,
     /// What does its mechanism do on ground that moves?
     Rock,
+    /// What do all its blocks do on ground that moves?
+    Shake,
 }
 
 /// The scene a result is about.

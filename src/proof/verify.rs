@@ -11,7 +11,7 @@ use super::{
     certificate::{Certificate, DryResult},
     critical, kinematic, member, moving, part, path,
     result::{Direction, JointWords, MechanismWords, QuestionKind},
-    rocking, stages, state, thrust,
+    rocking, shaken, stages, state, thrust,
 };
 use crate::{
     error::{Finding, FindingCode, InputError},
@@ -117,6 +117,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         QuestionKind::Stages => stages::verify(&mut all, file, scene, model),
         QuestionKind::State => state::verify(&mut all, file, model),
         QuestionKind::Rock => rocking::verify(&mut all, file, scene, model),
+        QuestionKind::Shake => shaken::verify(&mut all, file, scene, model),
         QuestionKind::Moving => moving::verify(&mut all, file, scene, model),
     }
     let strangers = [
@@ -125,6 +126,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
         file.question != QuestionKind::Stages && file.stages.is_some(),
         file.question != QuestionKind::State && file.state.is_some(),
         file.question != QuestionKind::Rock && file.rocking.is_some(),
+        file.question != QuestionKind::Shake && file.shaken.is_some(),
         !matches!(
             file.question,
             QuestionKind::Settle | QuestionKind::Push | QuestionKind::Kinematic
@@ -165,6 +167,7 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             | QuestionKind::Stages
             | QuestionKind::State
             | QuestionKind::Rock
+            | QuestionKind::Shake
             | QuestionKind::Push => failure("the file holds a load factor that was not asked for"),
             _ => again::dry_friction(
                 &|_| Ok(model.clone()),

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     kinematic::{Capacity, States},
     number::short,
-    proof::{ResultFile, kinematic::KinematicAnswer},
+    proof::{ResultFile, kinematic::KinematicAnswer, path::PathResult},
     verdict::check::Claim,
 };
 use plotters::{
@@ -33,9 +33,19 @@ struct Point {
     factor: [f64; 3],
 }
 
+/// Of the curve from which limit states are read.
 fn points(file: &ResultFile, a: &KinematicAnswer) -> Vec<Point> {
+    points_of(file, a, file.path.as_ref())
+}
+
+/// Of the curve with members, as long as they hold.
+fn points_with_members(file: &ResultFile, a: &KinematicAnswer) -> Vec<Point> {
+    points_of(file, a, file.path_with_members.as_ref())
+}
+
+fn points_of(file: &ResultFile, a: &KinematicAnswer, path: Option<&PathResult>) -> Vec<Point> {
     let gravity = file.scene.input.gravity.iter().map(|c| c * c).sum::<f64>().sqrt();
-    let (Some(path), Some(p)) = (&file.path, &a.numbers.participation) else { return Vec::new() };
+    let (Some(path), Some(p)) = (path, &a.numbers.participation) else { return Vec::new() };
     let point = |point: &crate::proof::path::PathPoint| match point.certificate.claim {
         Some(Claim::LoadFactor { value, lower, upper }) => Some(Point {
             way: point.value,
@@ -89,11 +99,13 @@ pub fn csv(file: &ResultFile) -> Result<String, CurveError> {
         )?;
     }
     let ratio = a.numbers.capacity.map(|c| c.d_over_control);
-    for p in points(file, a) {
+    let own = points(file, a).into_iter().map(|p| ("curve", p));
+    let tied = points_with_members(file, a).into_iter().map(|p| ("curve with members", p));
+    for (what, p) in own.chain(tied) {
         let [value, lower, upper] = p.factor.map(Some);
         let d = ratio.map(|r| r * p.way);
         row(
-            "curve",
+            what,
             a.toward,
             [value, lower, upper, Some(p.acceleration), None, None, Some(p.way), d, None],
         )?;
@@ -125,8 +137,8 @@ fn straight(c: &Capacity) -> Vec<(f64, f64)> {
 /// The curve as a chart of a page.
 pub fn page_chart(file: &ResultFile) -> Option<Chart> {
     let a = file.answer.kinematic()?;
-    let list = points(file, a);
-    if list.len() < 2 {
+    let (list, tied) = (points(file, a), points_with_members(file, a));
+    if list.len().max(tied.len()) < 2 {
         return None;
     }
     let ratio = a.numbers.capacity.map(|c| c.d_over_control);
@@ -138,8 +150,17 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
         hints: points.iter().map(|p| hint(p.0, p.1)).collect(),
         ..Series::default()
     };
-    let exact = list.iter().map(|p| (ratio.unwrap_or(1.0) * p.way, p.acceleration)).collect();
-    let mut all = vec![series("exact curve, every point proved", true, exact)];
+    let drawn = |list: &[Point]| {
+        list.iter().map(|p| (ratio.unwrap_or(1.0) * p.way, p.acceleration)).collect()
+    };
+    let mut all = Vec::new();
+    for (name, list) in
+        [("exact curve, every point proved", &list), ("the same with members", &tied)]
+    {
+        if list.len() > 1 {
+            all.push(series(name, true, drawn(list)));
+        }
+    }
     if let Some(c) = &a.numbers.capacity {
         all.push(series("straight line from a0 to d0", true, straight(c)));
         let marks = c.exact.iter().flat_map(states).chain(states(&c.straight)).collect();
@@ -161,6 +182,7 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
 
 const EXACT: RGBColor = plot::BLUE;
 const STRAIGHT: RGBColor = plot::RED;
+const TIED: RGBColor = plot::GREEN;
 
 /// The curve as SVG: acceleration against equivalent displacement, exact and straight, SLV and SLC.
 ///
@@ -168,12 +190,14 @@ const STRAIGHT: RGBColor = plot::RED;
 /// The result holds no curve, or none of two points.
 pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
     let a = said(file)?;
-    let list = points(file, a);
     let ratio = a.numbers.capacity.map(|c| c.d_over_control);
-    let exact: Vec<(f64, f64)> =
-        list.iter().map(|p| (ratio.unwrap_or(1.0) * p.way, p.acceleration)).collect();
-    let end = exact.iter().map(|p| p.0).fold(0.0, f64::max);
-    let high = exact.iter().map(|p| p.1).fold(0.0, f64::max);
+    let drawn = |list: Vec<Point>| -> Vec<(f64, f64)> {
+        list.iter().map(|p| (ratio.unwrap_or(1.0) * p.way, p.acceleration)).collect()
+    };
+    let (exact, tied) = (drawn(points(file, a)), drawn(points_with_members(file, a)));
+    let both = || exact.iter().chain(&tied);
+    let end = both().map(|p| p.0).fold(0.0, f64::max);
+    let high = both().map(|p| p.1).fold(0.0, f64::max);
     if end <= 0.0 || high <= 0.0 {
         return Err(CurveError::new("there are not two points to draw a line through"));
     }
@@ -190,14 +214,21 @@ pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
         legend: Some(SeriesLabelPosition::UpperRight),
     };
     plot.svg(|chart| {
-        chart
-            .draw_series([PathElement::new(exact.clone(), EXACT.stroke_width(2))])
-            .map_err(refused)?
-            .label("exact, every point proved")
-            .legend(plot::sample(EXACT));
-        chart
-            .draw_series(exact.into_iter().map(|p| Circle::new(p, 2, EXACT.filled())))
-            .map_err(refused)?;
+        for (name, line, colour) in
+            [("exact, every point proved", exact, EXACT), ("with members", tied, TIED)]
+        {
+            if line.is_empty() {
+                continue;
+            }
+            chart
+                .draw_series([PathElement::new(line.clone(), colour.stroke_width(2))])
+                .map_err(refused)?
+                .label(name)
+                .legend(plot::sample(colour));
+            chart
+                .draw_series(line.into_iter().map(|p| Circle::new(p, 2, colour.filled())))
+                .map_err(refused)?;
+        }
         if let Some(c) = &a.numbers.capacity {
             chart
                 .draw_series([PathElement::new(straight(c), STRAIGHT.stroke_width(1))])

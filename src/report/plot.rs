@@ -16,6 +16,8 @@ use std::ops::Range;
 pub(super) const BLUE: RGBColor = RGBColor(0, 114, 178);
 /// The other one.
 pub(super) const RED: RGBColor = RGBColor(213, 94, 0);
+/// A third line.
+pub(super) const GREEN: RGBColor = RGBColor(0, 158, 115);
 
 /// A curve that cannot be written or drawn.
 #[derive(Debug, thiserror::Error)]

@@ -75,7 +75,6 @@ impl RockOptions {
     /// # Errors
     /// The first option that means nothing, with its place.
     pub fn check(&self) -> Result<(), InputError> {
-        use crate::ground::Recorded;
         let refuse = |key: &str, text: &str| Err(InputError::at(JsonPath::root().key(key), text));
         if !self.toward.iter().all(|v| v.is_finite()) || self.toward == [0.0; 3] {
             return refuse("toward", "the direction has no length");
@@ -83,9 +82,7 @@ impl RockOptions {
         if !self.ground.moves() && self.from == 0.0 {
             return refuse("ground", "nothing moves: give a pulse, a record or \"from\"");
         }
-        if !matches!(self.ground.record, Some(Recorded::Named(_))) || self.ground.pulse.is_some() {
-            self.ground.unscaled().map_err(|e| e.under(&JsonPath::root().key("ground")))?;
-        }
+        self.ground.check().map_err(|e| e.under(&JsonPath::root().key("ground")))?;
         if self.restitution.is_some_and(|e| !(0.0..=1.0).contains(&e)) {
             return refuse("restitution", "must be between 0 and 1");
         }

@@ -5,7 +5,8 @@
 //! about it. [`extreme`] asks some thousand stiff scenes with closed forms and counts what is
 //! wrong, undecided or loosely bracketed; [`soak`] asks thousands of random ones and looks for
 //! contradictions, and [`cross`] asks each of as many in several ways that must give one answer;
-//! [`forge`] changes their results into false ones, all of which must be refused.
+//! [`forge`] changes their results into false ones, all of which must be refused. [`rocking`] has
+//! blocks on ground that moves.
 
 pub mod cross;
 pub mod extreme;
@@ -14,11 +15,13 @@ mod known;
 mod method;
 mod omissions;
 pub(crate) mod random;
+pub mod rocking;
 pub mod soak;
 
 pub use known::{Known, known};
 pub use method::StudyMethod;
 pub use omissions::{Omission, omissions};
+pub use rocking::{RockingCase, RockingMethod, RockingPoint, RockingQuantity};
 
 use crate::{error::InputError, solve::Status};
 use serde::{Deserialize, Serialize};

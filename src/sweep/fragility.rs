@@ -4,7 +4,7 @@
 use super::{
     Header, LognormalFit, Plan, Row, RowAnswer, RowStatus, Sampling,
     influence::{groups, same},
-    records::RECORD,
+    records,
 };
 use crate::analysis::Question;
 use serde::Serialize;
@@ -64,14 +64,17 @@ pub struct Fragility {
 /// Whether rows are a sample of something: those of a grid are none, unless records of ground motion
 /// vary in it, which are a sample of earthquakes.
 pub fn is_sample(plan: &Plan) -> bool {
-    !matches!(plan.sampling, Sampling::Grid {}) || plan.vary.iter().any(|v| v.pointer == RECORD)
+    !matches!(plan.sampling, Sampling::Grid {})
+        || plan.vary.iter().any(|v| records::is_record(&v.pointer))
 }
 
 /// The number that says how strong the ground moves, where one varies.
 fn intensity(plan: &Plan) -> Option<usize> {
     const ENDS: [&str; 3] = ["/scale", "/acceleration", "/velocity"];
     plan.vary.iter().position(|v| {
-        let ground = v.pointer.starts_with("/question/rock/ground/");
+        let ground = ["/question/rock/ground/", "/question/shake/ground/"]
+            .iter()
+            .any(|g| v.pointer.starts_with(g));
         ground && ENDS.iter().any(|end| v.pointer.ends_with(end))
     })
 }
@@ -105,11 +108,11 @@ pub(super) fn fragility(header: &Header, rows: &[Row], parameter: usize) -> Opti
     }
     match (header.plan.question.quantity(), header.plan.question.require()) {
         (Some(quantity), None) => {
-            let rocks = matches!(header.plan.question, Question::Rock(_));
+            let rocks = matches!(header.plan.question, Question::Rock(_) | Question::Shake(_));
             against_demand(quantity, rows, rocks)
         }
         _ => {
-            let rocks = matches!(header.plan.question, Question::Rock(_));
+            let rocks = matches!(header.plan.question, Question::Rock(_) | Question::Shake(_));
             let grid = matches!(header.plan.sampling, Sampling::Grid {});
             let shakes = intensity(&header.plan).filter(|_| rocks);
             if grid && shakes.is_none() {

@@ -4,12 +4,26 @@ use super::{Parameter, Plan};
 use crate::{
     analysis::Question,
     error::{InputError, JsonPath},
-    ground::{Record, Recorded, Series},
+    ground::{Given, Record, Recorded, Series},
 };
 use std::{fs, path::Path};
 
-/// Where a question names its record.
-pub(super) const RECORD: &str = "/question/rock/ground/record";
+/// Where questions name their record.
+const RECORDS: [&str; 2] = ["/question/rock/ground/record", "/question/shake/ground/record"];
+
+/// Whether a pointer is that of a record.
+pub(super) fn is_record(pointer: &str) -> bool {
+    RECORDS.contains(&pointer)
+}
+
+/// How the ground moves in a question, where it does.
+fn ground(question: &mut Question) -> Option<&mut Given> {
+    match question {
+        Question::Rock(o) => Some(&mut o.ground),
+        Question::Shake(o) => Some(&mut o.ground),
+        _ => None,
+    }
+}
 
 /// Puts every record of a folder among the values, then reads all records that are named.
 ///
@@ -18,18 +32,16 @@ pub(super) const RECORD: &str = "/question/rock/ground/record";
 pub(super) fn read(plan: &mut Plan, folder: &Path) -> Result<(), InputError> {
     let root = JsonPath::root();
     let mut wanted: Vec<(JsonPath, String)> = Vec::new();
-    if let Question::Rock(o) = &plan.question
-        && let Some(Recorded::Named(name)) = &o.ground.record
-    {
+    if let Some(Given { record: Some(Recorded::Named(name)), .. }) = ground(&mut plan.question) {
         wanted.push((root.key("question"), name.clone()));
     }
     for (k, vary) in plan.vary.iter_mut().enumerate() {
         let path = root.key("vary").index(k);
         if let Some(name) = &vary.folder {
             let at = path.key("folder");
-            if vary.pointer != RECORD {
+            if !is_record(&vary.pointer) {
                 return Err(InputError::at(at, "only records are taken from a folder")
-                    .hint(format!("its pointer is {RECORD:?}")));
+                    .hint(format!("its pointer is {:?} or {:?}", RECORDS[0], RECORDS[1])));
             }
             if vary.values.is_some() {
                 return Err(InputError::at(at, "a folder and values are both given"));
@@ -44,7 +56,7 @@ pub(super) fn read(plan: &mut Plan, folder: &Path) -> Result<(), InputError> {
             vary.values = Some(named.collect());
             vary.folder = None;
         }
-        if vary.pointer == RECORD {
+        if is_record(&vary.pointer) {
             let words = vary.values.iter().flatten().filter_map(|v| match v {
                 Parameter::Word(word) => Some(word.clone()),
                 Parameter::Number(_) => None,
@@ -88,15 +100,16 @@ fn files(folder: &Path) -> std::io::Result<Vec<String>> {
 /// # Errors
 /// The plan has no such record.
 pub(super) fn with_record(plan: &Plan, mut question: Question) -> Result<Question, InputError> {
-    if let Question::Rock(o) = &mut question
-        && let Some(Recorded::Named(name)) = &o.ground.record
+    let word = question.word();
+    if let Some(given) = ground(&mut question)
+        && let Some(Recorded::Named(name)) = &given.record
     {
         let Some(series) = plan.records.iter().find(|r| r.name == *name) else {
             let text = format!("there is no record {name:?}");
-            let path = JsonPath::root().key("rock").key("ground").key("record");
+            let path = JsonPath::root().key(word).key("ground").key("record");
             return Err(InputError::at(path, text));
         };
-        o.ground.record = Some(Recorded::Read(series.clone()));
+        given.record = Some(Recorded::Read(series.clone()));
     }
     Ok(question)
 }

@@ -13,7 +13,7 @@ use crate::{
         state::Stated,
         thrust::ThrustEnd,
     },
-    dynamics::Fate,
+    dynamics::{Fate, ShakenFate},
     proof::critical::FlipResult,
     rocking,
     verdict::{Rate, Verdict},
@@ -216,6 +216,11 @@ impl RowAnswer {
                 Fate::Stands => RowStatus::Stable,
                 Fate::Falls => RowStatus::Unstable,
                 Fate::Undecided => RowStatus::Undecided,
+            }),
+            Answer::Shake(s) => Self::of(match s.shaken.fate {
+                ShakenFate::Rests => RowStatus::Stable,
+                ShakenFate::Overturned { .. } => RowStatus::Unstable,
+                ShakenFate::Moves => RowStatus::Undecided,
             }),
         }
     }

@@ -7,7 +7,10 @@ use std::process::{Command, Output};
 use voussoir::{
     analysis::{Control, ControlPoint, KinematicOptions, Law, PushOptions, Question, ask},
     kinematic::Unique,
-    proof::{self, Answer, ResultFile, answer::FactorStatus, kinematic::KinematicAnswer},
+    proof::{
+        self, Answer, ResultFile, answer::FactorStatus, kinematic::KinematicAnswer,
+        path::PathStatus,
+    },
     scene::Scene,
 };
 
@@ -141,6 +144,20 @@ fn a_wall_with_an_eccentric_floor() {
     }
 }
 
+/// α of the wall with its floor and its tie of 15 kN, when the top of its outer face has gone this
+/// far: it turns about its toe at the origin.
+fn alpha_with_tie(way: f64) -> f64 {
+    let turn = (way / 6.0).asin();
+    let place = |x: f64, z: f64| [x * turn.cos() + z * turn.sin(), z * turn.cos() - x * turn.sin()];
+    let ([wx, wz], [fx, fz]) = (place(-0.3, 3.0), place(-0.4, 6.0));
+    let [tx, tz] = place(-0.6, 5.5);
+    let (dx, dz) = (-5.6 - tx, 5.5 - tz);
+    let tie = 15e3 / dx.hypot(dz);
+    // Moments about the toe that turn it back.
+    let back = -68.4e3 * wx - 40e3 * fx - tie * (tz * dx - tx * dz);
+    back / (68.4e3 * wz + 40e3 * fz)
+}
+
 /// A tie of 15 kN/m yields at 5.5 m: it holds the start, and nothing that lasts.
 #[test]
 fn a_wall_with_a_tie() {
@@ -159,6 +176,16 @@ fn a_wall_with_a_tie() {
     let c = a.numbers.capacity.expect("a curve of what lasts");
     close(c.d0, 0.3774876734, 1e-8);
     close(c.a0, 0.6701444604, 1e-8);
+    // The curve with the tie: 15 kN at 5.5 m while the wall turns about its toe, the tie along the
+    // line from where it is fastened to where that point of the wall has gone.
+    let with_tie = file.path_with_members.as_ref().expect("a curve with the tie");
+    // It goes on holding: as far as a wall is followed at all.
+    assert_eq!(a.curve_with_members.as_ref().map(|c| c.status), Some(PathStatus::Reached));
+    assert!(with_tie.points.len() > 4, "{}", with_tie.points.len());
+    for p in &with_tie.points {
+        let (here, exact) = (p.load_factor.expect("a load factor"), alpha_with_tie(p.value));
+        assert!((here - exact).abs() < 1e-8, "{}: {here} instead of {exact}", p.value);
+    }
     // With a strong tie it slides out below instead: the curve without the tie is not one of that.
     let strong = with(200e3);
     let a = said(&strong);

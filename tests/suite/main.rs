@@ -52,6 +52,7 @@ mod rocking;
 mod same;
 mod scenes;
 mod schema;
+mod shaken;
 mod stage_order;
 mod stages;
 mod state;

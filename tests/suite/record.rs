@@ -56,6 +56,44 @@ fn joints_are_used_as_statics_says() {
     assert_eq!(joints[0][5..], ["20.0 %", "26.7 %"]);
 }
 
+/// The digest is that of the file, byte by byte: of FIPS 180-4 for a known text, and another one for
+/// a file that differs by a blank.
+#[test]
+fn the_file_of_the_scene_has_its_digest() {
+    let digest = |text: &str| {
+        let desk = tempfile::tempdir().unwrap();
+        let file = desk.path().join("scene.json");
+        fs::write(&file, text).unwrap();
+        let page = report(&["assess", file.to_str().unwrap()], &desk.path().join("page.html"));
+        let said = voussoir::report::record::digest(text.as_bytes());
+        assert!(page.contains(&said), "no digest {said}");
+        said
+    };
+    let text = pressed().to_string();
+    assert_ne!(digest(&text), digest(&format!("{text} ")));
+    // With a byte order mark it is still that of the file.
+    digest(&format!("\u{feff}{text}"));
+}
+
+/// Heaps have a record of their own: a row each, and how they were made.
+#[test]
+fn heaps_are_listed() {
+    let desk = tempfile::tempdir().unwrap();
+    let page = report(
+        &["repose", "drain", "grains=60", "size=[6,4]", "--question", "repose", "--seeds", "2"],
+        &desk.path().join("page.html"),
+    );
+    let heaps = table(&page, "seed");
+    assert_eq!(heaps.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(), ["1", "2"]);
+    for row in heaps {
+        let grains = row[2].parse::<usize>().unwrap() + row[3].parse::<usize>().unwrap();
+        assert!(row[1] == "at rest" && grains == 60, "{row:?}");
+        // Too few to have an angle: the reason stands there.
+        assert!(row[4] == "–" && !row[9].is_empty(), "{row:?}");
+    }
+    assert!(page.contains("How they were made") && page.contains("At what slope"));
+}
+
 /// What it was asked of: all that the scene says, with units.
 #[test]
 fn a_record_says_of_what_it_was_asked() {

@@ -220,7 +220,7 @@ mod engine {
     use crate::ask::model;
     use nalgebra::Vector3;
     use voussoir::{
-        dynamics::{Fidelity, Shaken, ShakenFate, SimulationSettings, shake},
+        dynamics::{Fidelity, Shaken, ShakenFate, Shaking, SimulationSettings, shake},
         ground::{Motion, Pulse},
         scene::Scene,
     };
@@ -230,7 +230,8 @@ mod engine {
     fn shaken(scene: &Scene, motion: &Motion, more: SimulationSettings) -> Shaken {
         let settings = SimulationSettings { fidelity: Some(Fidelity::Fine), ..more };
         let mut watch = |_: &voussoir::dynamics::Progress| std::ops::ControlFlow::Continue(());
-        shake(&model(scene), motion, &AXES(), &settings, &mut watch).expect("an outcome")
+        let ground = Shaking { motion, axes: &AXES(), masses: &[] };
+        shake(&model(scene), ground, &settings, &mut watch).expect("an outcome")
     }
 
     fn overturns(scene: &Scene, motion: &Motion) -> bool {
@@ -288,8 +289,8 @@ mod engine {
                 std::ops::ControlFlow::Continue(())
             };
             let motion = Pulse::Jump { velocity }.motion();
-            shake(&model(&block(b, 1.0)), &motion, &AXES(), &settings, &mut watch)
-                .expect("an outcome");
+            let ground = Shaking { motion: &motion, axes: &AXES(), masses: &[] };
+            shake(&model(&block(b, 1.0)), ground, &settings, &mut watch).expect("an outcome");
             // The ground goes to +x, the block leans to −x, comes back, and leans to +x.
             let first = angles.iter().copied().fold(0.0, f64::min);
             let lowest = angles.iter().position(|a| *a == first).expect("an angle");

@@ -1,7 +1,8 @@
 //! A scene on ground that moves: in the frame of the ground every block gets −m a.
 //!
 //! Full dead load acts from the start, at rest: it is put on before the ground moves, and
-//! displacements count from there. An impulse of the ground enters a step with its mean over the
+//! displacements count from there. Masses of loads go with their blocks, as in `kinematic`: they
+//! add to the block's own mass and inertia, and move its centre of mass. An impulse of the ground enters a step with its mean over the
 //! step, so that records may be finer or coarser than steps. Impacts lose what contacts without
 //! restitution lose: of a block 5 times as high as wide 0.9404 to 0.9411 of the speed is left with
 //! fine steps, where conservation of angular momentum says 0.9423.
@@ -21,7 +22,8 @@ use crate::{
     error::{Finding, FindingCode, InputError, JsonPath},
     ground::{Motion, When},
     interface::Model,
-    tolerance::{REST_ENERGY, REST_TIME, SKIN},
+    kinematic::{Mass, MassKind},
+    tolerance::{ALONG, OVERTURNED, REST_ENERGY, REST_TIME, SKIN, SUNK},
 };
 use nalgebra::Vector3;
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
@@ -30,13 +32,6 @@ use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 const BEFORE: f64 = 4.0;
 /// After the ground has come to rest the scene is watched this many times as long as a fall takes.
 const AFTER: f64 = 4.0;
-/// A block that has turned by more than this has overturned, rad. Larger: blocks that lean on others
-/// after their fall pass for rocking. Smaller: squat blocks rock as far.
-const OVERTURNED: f64 = std::f64::consts::FRAC_PI_4;
-/// A block that sank by more than this × its thickness has fallen. Larger: voussoirs that drop onto
-/// others pass. Smaller: stones that slide down a slope a little are fallen.
-const SUNK: f64 = 1.0;
-
 /// What became of a scene on ground that moves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ShakenFate {
@@ -95,16 +90,27 @@ pub struct Shaken {
     pub findings: Vec<Finding>,
 }
 
-/// Runs a scene on ground that moves, along these unit axes. By default with fine steps, until
-/// something overturns or everything is at rest after the ground is.
+/// How the ground moves.
+#[derive(Clone, Copy, Debug)]
+pub struct Shaking<'a> {
+    /// The motion along its axes.
+    pub motion: &'a Motion,
+    /// Unit axes: the direction of the motion, the horizontal one to its left, up.
+    pub axes: &'a [Vector3<f64>; 3],
+    /// The masses that it pushes; those of loads ([`MassKind::Rests`], [`MassKind::Pushes`]) go with
+    /// their blocks.
+    pub masses: &'a [Mass],
+}
+
+/// Runs a scene on ground that moves. By default with fine steps, until something overturns or
+/// everything is at rest after the ground is.
 ///
 /// # Errors
-/// A block that the engine cannot take; members, which it does not have; a jump that waits for a
+/// A block that the engine cannot take; members that it does not have; a jump that waits for a
 /// landing.
 pub fn shake(
     model: &Model,
-    motion: &Motion,
-    axes: &[Vector3<f64>; 3],
+    ground: Shaking,
     settings: &SimulationSettings,
     watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Shaken, InputError> {
@@ -113,33 +119,45 @@ pub fn shake(
     if let Some(finding) = unknown_members(interfaces) {
         return Err(refuse(finding.text));
     }
-    if motion.jumps.iter().any(|j| j.when == When::FirstLanding) {
+    if ground.motion.jumps.iter().any(|j| j.when == When::FirstLanding) {
         return Err(refuse("a jump that waits for a landing is known to mechanisms only".into())
             .hint("`voussoir kinematic` takes it"));
     }
     let loads = Loads::of(model);
     let units = Units::of(assembly, &loads.total)
         .ok_or_else(|| refuse("nothing in this scene is free to move".into()))?;
-    let bodies = bodies(model, &units, SKIN)?;
+    let mut bodies = bodies(model, &units, SKIN)?;
+    let loaded = ground.masses.iter().filter(|m| m.kind != MassKind::Block);
+    for m in loaded.clone() {
+        let mass = m.weight / assembly.gravity.norm();
+        bodies[m.block].carry(mass / units.mass, m.arm / units.length);
+    }
     let frictions = Frictions::new(model, &units);
     let scene =
         Stage { model, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
-    let mut shaken = scene.shake(motion, axes, watch)?;
+    let mut shaken = scene.shake(&ground, watch)?;
     shaken.findings.extend(strengths(interfaces));
-    shaken.findings.extend(massless(model));
+    shaken.findings.extend(massless(model, ground.masses));
     Ok(shaken)
 }
 
-/// Loads beside the weight of the blocks: forces here, whose masses the ground does not push.
-fn massless(model: &Model) -> Option<Finding> {
+/// Dead loads that are no weights, or are said to have no mass: forces, which nothing pushes.
+fn massless(model: &Model, masses: &[Mass]) -> Option<Finding> {
     let assembly = &model.assembly;
+    let down = assembly.gravity.try_normalize(0.0).unwrap_or_default();
+    let mut rests: BTreeMap<usize, f64> = BTreeMap::new();
+    for m in masses.iter().filter(|m| m.kind == MassKind::Rests) {
+        *rests.entry(m.block).or_default() += m.weight;
+    }
     let loaded = |&i: &usize| {
         let own = assembly.self_weight(i).force;
-        (assembly.dead[i].force - own).norm() > 1e-9 * own.norm()
+        let weighs = down * rests.get(&i).copied().unwrap_or_default();
+        let left = (assembly.dead[i].force - own - weighs).norm();
+        left > ALONG * (own.norm() + weighs.norm())
     };
     let count = assembly.free().filter(loaded).count();
     let text = format!(
-        "{count} blocks carry dead loads: they act as forces, and the ground does not push their masses here (`voussoir kinematic` does)"
+        "{count} blocks carry dead loads that are no weights: they act as forces, and the ground pushes no masses of theirs"
     );
     (count > 0).then(|| Finding::new(FindingCode::LeftOut, text))
 }
@@ -147,8 +165,7 @@ fn massless(model: &Model) -> Option<Finding> {
 impl Stage<'_> {
     fn shake(
         &self,
-        motion: &Motion,
-        axes: &[Vector3<f64>; 3],
+        &Shaking { motion, axes, .. }: &Shaking,
         watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
     ) -> Result<Shaken, InputError> {
         let begin = Instant::now();
@@ -298,7 +315,10 @@ impl Stage<'_> {
             let crate::assembly::Wrench { force, moment } = self.loads.total[i];
             let moment = moment + moments.get(&i).copied().unwrap_or_default();
             let couple = couples.get(&i).copied().unwrap_or_default();
-            let force = force - ground * self.model.assembly.blocks[i].mass;
+            let body = &self.bodies[i];
+            let pushed = ground * (body.mass * self.units.mass);
+            let arm = world.pose(i).1 * body.com * self.units.length;
+            let (force, moment) = (force - pushed, moment - arm.cross(&pushed));
             let (pull, torque) = pulls.get(&i).copied().unwrap_or_default();
             world.load(
                 i,

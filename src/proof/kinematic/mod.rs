@@ -49,6 +49,13 @@ pub struct KinematicAnswer {
     /// The curve is that of the scene without its members: what lasts once these yield.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub without_members: bool,
+    /// How far the curve with members was followed, where the scene has any: they hold up to their
+    /// strength, however far it has moved. Limit states are those of `curve`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub curve_with_members: Option<PathAnswer>,
+    /// Why there is no curve with members.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_curve_with_members: Option<String>,
     /// Why there is no curve, where one was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_curve: Option<String>,

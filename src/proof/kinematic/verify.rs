@@ -7,7 +7,7 @@ use crate::{
     kinematic::{Quake, quake, without_members},
     proof::{
         answer::Answer,
-        path::{self, DrivenBy},
+        path::{self, DrivenBy, PathResult},
         result::{Direction, QuestionKind, ResultFile},
         verify::{
             Verification, again, answer, failure, follows, mechanism_words, members, require,
@@ -99,12 +99,18 @@ pub(in crate::proof) fn verify(
         };
         arithmetic(&mut f, &said.numbers, &given.numbers());
         all.part(format!("{title}, numbers"), f);
+        let driven = |path: &PathResult| {
+            matches!((&path.driven_by, &said.control),
+                (DrivenBy::Control { block, point, toward }, Some(c))
+                    if *block == c.block && *point == c.point && *toward == said.toward)
+        };
         if let Some((answer, path)) = curve {
             let mut f = Findings::default();
-            let same = matches!((&path.driven_by, &said.control),
-                (DrivenBy::Control { block, point, toward }, Some(c))
-                    if *block == c.block && *point == c.point && *toward == said.toward);
-            require(&mut f, same, "the curve is that of the control point and the direction");
+            require(
+                &mut f,
+                driven(path),
+                "the curve is that of the control point and the direction",
+            );
             let bare = without_members(&quake.model);
             let has = bare.interfaces.members.len() < quake.model.interfaces.members.len();
             require(
@@ -114,6 +120,18 @@ pub(in crate::proof) fn verify(
             );
             all.part("curve", f);
             path::curve(all, answer, path, &bare, QuestionKind::Kinematic);
+        }
+        let tied = (index == 0).then_some(file).and_then(|f| f.path_with_members.as_ref());
+        if tied.is_some() || said.curve_with_members.is_some() {
+            let mut f = Findings::default();
+            let both = tied.zip(said.curve_with_members.as_ref());
+            let there = both.is_some_and(|(path, _)| driven(path))
+                && !quake.model.interfaces.members.is_empty();
+            require(&mut f, there, "the curve with members is that of the control point");
+            all.part("curve with members", f);
+            if let Some((path, answer)) = both {
+                path::curve(all, answer, path, &quake.model, QuestionKind::Kinematic);
+            }
         }
     }
     all.claimed = file.certificate.claim.is_some();

@@ -21,25 +21,30 @@ use crate::{
 impl ResultFile {
     /// The result of `kinematic`, the worst direction first; it is the answer.
     pub fn kinematic(scene: &Scene, model: &Model, asked: &Kinematic) -> Option<Self> {
+        let worst = asked.directions.first()?;
+        let under = &worst.quake.model;
         let level = asked.dead.as_ref().map(|a| a.verdict);
         let mut followed = asked.curve.as_ref().map(|c| Self::path(scene, &asked.curve_model, c));
         let path = followed.as_mut().and_then(|f| f.path.take());
         let curve = followed.as_ref().and_then(|f| f.answer.path());
+        let tied = asked.with_members.as_ref().and_then(|t| t.as_ref().ok());
+        let mut tied = tied.map(|t| Self::path(scene, under, t));
+        let held = tied.as_ref().and_then(|t| t.answer.path()).cloned();
         let list: Vec<Direction> = asked
             .directions
             .iter()
             .enumerate()
             .map(|(k, d)| {
                 let curve = (k == 0).then_some(curve.zip(path.as_ref())).flatten();
-                direction(scene, asked, d, (k == 0, level), curve)
+                direction(scene, asked, d, (k == 0, level), (curve, held.as_ref()))
             })
             .collect();
-        let (worst, first) = (asked.directions.first()?, list.first()?.clone());
-        let under = &worst.quake.model;
+        let first = list.first()?.clone();
         let mut file =
             Self::new(QuestionKind::Kinematic, scene, under, first.answer, first.certificate);
         file.dry = first.dry;
         file.path = path;
+        file.path_with_members = tied.as_mut().and_then(|t| t.path.take());
         file.mechanism = worst.bound.mechanism.as_ref().map(|m| MechanismWords::new(under, m));
         file.members = lines(under, worst.bound.evidence().forces);
         file.left_out.clone_from(&worst.bound.left_out);
@@ -49,7 +54,7 @@ impl ResultFile {
             file.warn(&d.bound);
             d.dry.iter().for_each(|dry| file.warn(dry));
         }
-        let refused = followed.into_iter().flat_map(|f| f.warnings);
+        let refused = followed.into_iter().chain(tied).flat_map(|f| f.warnings);
         let known = file.warnings.clone();
         file.warnings.extend(refused.filter(|w| !known.contains(w)));
         if !scene.loads.live.is_empty() {
@@ -75,7 +80,7 @@ fn direction(
     asked: &Kinematic,
     d: &Quaked,
     (worst, level): (bool, Option<Verdict>),
-    curve: Option<(&PathAnswer, &PathResult)>,
+    (curve, held): (Option<(&PathAnswer, &PathResult)>, Option<&PathAnswer>),
 ) -> Direction {
     let model = &d.quake.model;
     let dry = d.dry.as_ref().map(|dry| dry_result(model, dry));
@@ -94,6 +99,7 @@ fn direction(
         curve,
     }
     .numbers();
+    let tied = asked.with_members.as_ref().filter(|_| worst);
     let answer = KinematicAnswer {
         toward: d.quake.toward.into(),
         alpha0,
@@ -104,6 +110,8 @@ fn direction(
         control,
         curve: curve.map(|c| c.0.clone()),
         without_members: worst && asked.without_members,
+        curve_with_members: held.filter(|_| worst).cloned(),
+        no_curve_with_members: tied.and_then(|t| t.as_ref().err()).cloned(),
         no_curve: asked.why.clone().filter(|_| worst),
         numbers,
     };

@@ -7,6 +7,8 @@ mod packing;
 mod path;
 mod rocking;
 #[cfg(feature = "dynamics")]
+mod shaken;
+#[cfg(feature = "dynamics")]
 mod simulation;
 mod stages;
 mod state;
@@ -63,6 +65,8 @@ impl ResultFile {
             Answered::Stages(s) => Self::stages(scene, model, s),
             #[cfg(feature = "dynamics")]
             Answered::Simulate(outcome) => Self::simulated(scene, model, None, outcome),
+            #[cfg(feature = "dynamics")]
+            Answered::Shake(s) => Self::shaken(scene, model, s),
             Answered::Rock(r) => Self::rocking(scene, model, r),
             Answered::State(s) => Self::state(scene, model, s),
             Answered::Repose(_) => return None,

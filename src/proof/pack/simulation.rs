@@ -88,7 +88,8 @@ impl Simulation {
     }
 }
 
-fn frame(frame: &Frame, runs: &[Run]) -> FrameResult {
+/// A moment; `runs` are those it may belong to.
+pub(super) fn frame(frame: &Frame, runs: &[Run]) -> FrameResult {
     let row = |p: &Pose| {
         let (c, q) = (p.center, p.turn);
         [c.x, c.y, c.z, q.w, q.i, q.j, q.k]

@@ -4,12 +4,21 @@
 use crate::{
     error::InputError,
     interface::Model,
-    proof::{result::QuestionKind, rocking::RockingAnswer},
+    proof::{result::QuestionKind, rocking::RockingAnswer, shaken::ShakenAnswer},
     rocking::RockOptions,
     scene::Scene,
     terms::{ClosedAnswer, Law, Order, StateMotion},
     verdict::Verdict,
 };
+
+#[cfg(feature = "dynamics")]
+use crate::{
+    analysis::{Watch, ask_watched},
+    dynamics::Progress,
+    terms::Stop,
+};
+#[cfg(feature = "dynamics")]
+use std::ops::ControlFlow;
 
 #[cfg(feature = "solve")]
 use crate::analysis::{
@@ -78,6 +87,36 @@ pub fn rocking(
         Ok(_) => None,
         Err(e) => Some(Err(e)),
     }
+}
+
+/// What all blocks do on ground that moves, run again for as many steps as it is said to have taken.
+#[cfg(feature = "dynamics")]
+pub fn shaken(
+    said: &ShakenAnswer,
+    scene: &Scene,
+    model: &Model,
+) -> Option<Result<ShakenAnswer, InputError>> {
+    // What ended by itself has to do so again, at the same step.
+    let most = said.steps.saturating_add(usize::from(said.stop != Stop::Stopped));
+    let mut steps = 0;
+    let mut each = |_: &Progress| {
+        steps += 1;
+        if steps >= most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let watch =
+        Watch { threads: 1, frames: 0, keep_frames: false, every_step: true, each: &mut each };
+    let question = Question::Shake(said.asked.clone());
+    match ask_watched(&question, scene, model, &Control::default(), watch) {
+        Ok(Answer::Shake(s)) => Some(Ok(ShakenAnswer::new(model, &s))),
+        Ok(_) => None,
+        Err(e) => Some(Err(e)),
+    }
+}
+
+/// Nothing here runs in time.
+#[cfg(not(feature = "dynamics"))]
+pub fn shaken(_: &ShakenAnswer, _: &Scene, _: &Model) -> Option<Result<ShakenAnswer, InputError>> {
+    None
 }
 
 /// The number of held blocks below which a search finds no order like this one.

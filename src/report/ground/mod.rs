@@ -5,10 +5,10 @@ mod rocking;
 mod shaken;
 
 pub use rocking::Rocked;
-pub use shaken::ShakenReport;
+pub use shaken::{ShakenReport, page_charts};
 
 use crate::{
-    ground::{Motion, Record, STANDARD_GRAVITY},
+    ground::{Given, Motion, Record, Recorded, STANDARD_GRAVITY},
     number::{count, short},
 };
 use serde_json::{Value, json};
@@ -37,31 +37,54 @@ pub struct Shaking {
     pub given: Motion,
 }
 
+/// What is known of a record: samples, seconds between them, components.
+type Counted = (usize, f64, usize);
+
+/// How the ground moves, in a line.
+pub(in crate::report) fn words(given: &Given) -> String {
+    let motion = given.motion().unwrap_or_default();
+    match (&given.pulse, &given.record) {
+        (Some(pulse), _) => described(&pulse.to_string(), None, given.scale, &motion),
+        (None, Some(Recorded::Read(s))) => {
+            let samples = s.components.first().map_or(0, Vec::len);
+            let counted = (samples, s.step, s.components.len());
+            described(&s.name, Some(counted), given.scale, &motion)
+        }
+        (None, Some(Recorded::Named(name))) => name.clone(),
+        (None, None) => described("", None, given.scale, &motion),
+    }
+}
+
+fn described(source: &str, counted: Option<Counted>, scale: f64, motion: &Motion) -> String {
+    if *motion == Motion::default() {
+        return "at rest".into();
+    }
+    let peak = motion.peak();
+    let mut text = source.to_string();
+    if let Some((samples, step, components)) = counted {
+        text += &format!(
+            " ({}, {} s apart, {})",
+            count(samples, "sample"),
+            short(step),
+            count(components, "component"),
+        );
+    }
+    if scale != 1.0 {
+        text += &format!(", × {}", short(scale));
+    }
+    if peak > 0.0 {
+        text += &format!("; peak {} m/s² ({} g)", short(peak), short(peak / STANDARD_GRAVITY));
+    }
+    if motion.pieces.is_empty() {
+        return text;
+    }
+    format!("{text}; {} s", short(motion.end()))
+}
+
 impl Shaking {
     fn words(&self) -> String {
-        if self.motion == Motion::default() {
-            return "at rest".into();
-        }
-        let peak = self.motion.peak();
-        let mut text = self.source.clone();
-        if let Some(r) = &self.record {
-            text += &format!(
-                " ({}, {} s apart, {})",
-                count(r.samples.len(), "sample"),
-                short(r.step),
-                count(r.components, "component"),
-            );
-        }
-        if self.scale != 1.0 {
-            text += &format!(", × {}", short(self.scale));
-        }
-        if peak > 0.0 {
-            text += &format!("; peak {} m/s² ({} g)", short(peak), short(peak / STANDARD_GRAVITY));
-        }
-        if self.motion.pieces.is_empty() {
-            return text;
-        }
-        format!("{text}; {} s", short(self.motion.end()))
+        let counted = self.record.as_ref().map(|r| (r.samples.len(), r.step, r.components));
+        described(&self.source, counted, self.scale, &self.motion)
     }
 
     fn json(&self) -> Value {

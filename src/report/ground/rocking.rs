@@ -7,6 +7,7 @@ use super::{
 };
 use crate::{
     analysis::follow::machine::{Built, Exactness},
+    ground::Motion,
     number::{bracketed, count, fixed, point, short},
     report::{
         cells::{Cell, Table},
@@ -292,7 +293,7 @@ impl Rocked<'_> {
             .iter()
             .map(|s| (s.time, self.way(s) / self.built.thickness))
             .collect();
-        let ground: Vec<(f64, f64)> = ground(self.shaking, own.last().map_or(0.0, |p| p.0));
+        let ground: Vec<(f64, f64)> = ground(&self.shaking.motion, own.last().map_or(0.0, |p| p.0));
         let upper = Panel { y: "displacement / thickness", lines: &[own] };
         let lower = Panel { y: "ground, m/s²", lines: &[ground] };
         chart(self.name, upper, lower)
@@ -300,11 +301,11 @@ impl Rocked<'_> {
 }
 
 /// The acceleration of the ground along the direction, for a chart up to this time.
-pub(super) fn ground(shaking: &Shaking, end: f64) -> Vec<(f64, f64)> {
+pub(super) fn ground(motion: &Motion, end: f64) -> Vec<(f64, f64)> {
     const FINE: usize = 24;
     let mut line = vec![(0.0, 0.0)];
-    for p in shaking.motion.pieces.iter().filter(|p| p.start < end) {
-        let steps = if shaking.motion.pieces.len() > 100 { 1 } else { FINE };
+    for p in motion.pieces.iter().filter(|p| p.start < end) {
+        let steps = if motion.pieces.len() > 100 { 1 } else { FINE };
         line.extend((0..=steps).map(|k| {
             let t = (p.end - p.start) * k as f64 / steps as f64;
             (p.start + t, p.at(t).x)

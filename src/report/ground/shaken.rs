@@ -1,36 +1,35 @@
-//! What all blocks of a scene do on ground that moves.
+//! What all blocks of a scene do on ground that moves: tables and charts of their histories.
 
 use super::{
-    GroundError, Shaking,
+    GroundError,
     chart::{Panel, chart},
     refused, rocking,
 };
 use crate::{
-    dynamics::{Shaken, ShakenFate, Stop},
+    analysis::ShakenScene,
+    dynamics::Frame,
+    ground::Motion,
     interface::Model,
-    number::{fixed, seconds, short},
+    number::short,
     report::{
         cells::{Cell, Table},
-        text::{Layout, Page, Role, TextOptions},
+        page::{Axis, Chart, Series},
     },
 };
-use serde_json::{Value, json};
 
-/// So many blocks are listed.
-const FEW: usize = 5;
 /// So many lines are drawn.
 const LINES: usize = 5;
 
-/// An outcome with all that it is about.
+/// A history with all that it is about.
 pub struct ShakenReport<'a> {
     /// The scene's name.
     pub name: &'a str,
     /// The scene.
     pub model: &'a Model,
     /// The ground.
-    pub shaking: &'a Shaking,
-    /// What became of it.
-    pub shaken: &'a Shaken,
+    pub motion: &'a Motion,
+    /// What the blocks did, with frames.
+    pub shaken: &'a ShakenScene,
 }
 
 impl ShakenReport<'_> {
@@ -38,134 +37,25 @@ impl ShakenReport<'_> {
         &self.model.assembly.blocks[block].id
     }
 
+    fn frames(&self) -> &[Frame] {
+        &self.shaken.shaken.frames
+    }
+
     /// Free blocks, those that went farthest first.
     fn order(&self) -> Vec<usize> {
         let mut order: Vec<usize> = self.model.assembly.free().collect();
-        let far = |i: usize| self.shaken.blocks[i].greatest;
+        let far = |i: usize| self.shaken.shaken.blocks[i].greatest;
         order.sort_by(|&a, &b| far(b).total_cmp(&far(a)));
         order
     }
 
-    fn residual(&self) -> f64 {
-        let own = self.model.assembly.free().map(|i| self.shaken.blocks[i].residual);
-        own.fold(0.0, f64::max)
-    }
-
-    fn title(&self) -> (String, Role) {
-        let greatest = self.order().first().map_or(0.0, |&i| self.shaken.blocks[i].greatest);
-        match self.shaken.fate {
-            ShakenFate::Overturned { block, time } => {
-                (format!("{} overturns at {} s", self.id(block), fixed(time, 3)), Role::Bad)
-            }
-            ShakenFate::Rests => (
-                format!(
-                    "moves by up to {} of a thickness, {} is left at the end",
-                    short(greatest),
-                    short(self.residual())
-                ),
-                Role::Good,
-            ),
-            ShakenFate::Moves => (
-                format!("still moves at the end, by up to {} of a thickness", short(greatest)),
-                Role::Unsure,
-            ),
-        }
-    }
-
-    /// The answer for people.
-    pub fn text(&self, layout: Layout, options: TextOptions) -> Page {
-        let mut page = Page::new(layout);
-        let (title, role) = self.title();
-        page.title(self.name, title, role);
-        if options.brief {
-            return page;
-        }
-        let s = self.shaken;
-        page.blank();
-        page.paragraph(
-            "One history, computed and not proved: in the frame of the ground every block gets minus the acceleration of the ground, its full dead load from the start, at rest. Single histories of rocking hardly repeat; a share over many records says more.",
-        );
-        page.blank();
-        page.row("ground", [self.shaking.words()]);
-        let all = self.order();
-        let shown = if options.verbose { all.len() } else { FEW };
-        page.row(
-            "farthest",
-            all.iter().take(shown).map(|&i| {
-                let b = &s.blocks[i];
-                format!(
-                    "{}: {} of its thickness of {} m at {} s, {} left; turned by up to {}°",
-                    self.id(i),
-                    short(b.greatest),
-                    short(b.thickness),
-                    fixed(b.at, 3),
-                    short(b.residual),
-                    short(b.turn.to_degrees())
-                )
-            }),
-        );
-        let stop = match s.stop {
-            Stop::Horizon => "to the end of its time",
-            Stop::Rest => "until everything was at rest",
-            Stop::Fallen => "until something overturned",
-            Stop::Stopped => "until it was stopped",
-            Stop::Broken => "until its numbers were no longer finite",
-        };
-        page.row(
-            "steps",
-            [format!(
-                "{} {:?} steps of {}, {} substeps each, {stop} ({} s)",
-                s.steps,
-                s.fidelity,
-                seconds(s.step),
-                s.substeps,
-                short(s.time)
-            )
-            .to_lowercase()],
-        );
-        page.row("note", s.findings.iter().map(|f| f.text.clone()));
-        if let Some(record) = &self.shaking.record {
-            page.row("record", record.findings.iter().map(|f| f.text.clone()));
-        }
-        page.row("time", [seconds(s.seconds)]);
-        page
-    }
-
-    /// The answer for programs.
-    pub fn json(&self) -> Value {
-        let s = self.shaken;
-        let (fate, block, time) = match s.fate {
-            ShakenFate::Overturned { block, time } => {
-                ("overturns", Some(self.id(block)), Some(time))
-            }
-            ShakenFate::Rests => ("rests", None, None),
-            ShakenFate::Moves => ("moves", None, None),
-        };
-        let blocks: Vec<Value> = self
-            .model
-            .assembly
-            .free()
-            .map(|i| {
-                let b = &s.blocks[i];
-                json!({
-                    "block": self.id(i), "greatest_over_thickness": b.greatest, "at": b.at,
-                    "residual_over_thickness": b.residual, "greatest_turn_deg": b.turn.to_degrees(),
-                    "thickness": b.thickness,
-                })
-            })
-            .collect();
-        json!({
-            "format": "voussoir-shaken/1", "scene": self.name, "ground": self.shaking.json(),
-            "proved": [], "fate": fate, "overturned": block, "overturned_at": time,
-            "residual_over_thickness": self.residual(), "blocks": blocks,
-            "step": s.step, "substeps": s.substeps, "steps": s.steps, "time": s.time,
-            "findings": s.findings,
-        })
-    }
-
-    fn over_thickness(&self, frame: &crate::dynamics::Frame, block: usize) -> f64 {
+    fn over_thickness(&self, frame: &Frame, block: usize) -> f64 {
         let way = frame.blocks[block].center - self.model.assembly.blocks[block].centroid;
-        way.norm() / self.shaken.blocks[block].thickness
+        way.norm() / self.shaken.shaken.blocks[block].thickness
+    }
+
+    fn end(&self) -> f64 {
+        self.frames().last().map_or(0.0, |f| f.time)
     }
 
     /// A row a frame: time (s), the ground along its three axes (m/s²), and the way of every free
@@ -179,8 +69,8 @@ impl ShakenReport<'_> {
         let head = ["time", "ground_toward", "ground_left", "ground_up"].map(String::from);
         let ids = free.iter().map(|&i| self.id(i).to_string());
         table.write_record(head.into_iter().chain(ids)).map_err(refused)?;
-        for frame in &self.shaken.frames {
-            let ground = self.shaking.motion.at(frame.time);
+        for frame in self.frames() {
+            let ground = self.motion.at(frame.time);
             let mut row = vec![frame.time, ground.x, ground.y, ground.z];
             row.extend(free.iter().map(|&i| self.over_thickness(frame, i)));
             table.write_record(row.into_iter().map(Cell::from)).map_err(refused)?;
@@ -188,22 +78,60 @@ impl ShakenReport<'_> {
         table.end().map_err(refused)
     }
 
+    /// Way over thickness against time of the blocks that went farthest.
+    fn lines(&self) -> Vec<(&str, Vec<(f64, f64)>)> {
+        let line = |i: usize| {
+            let points = self.frames().iter().map(|f| (f.time, self.over_thickness(f, i)));
+            (self.id(i), points.collect())
+        };
+        self.order().into_iter().take(LINES).map(line).collect()
+    }
+
     /// Way over thickness of the blocks that went farthest, and the ground below, as SVG.
     ///
     /// # Errors
     /// No frames were kept.
     pub fn chart(&self) -> Result<String, GroundError> {
-        let lines: Vec<Vec<(f64, f64)>> = self
-            .order()
-            .into_iter()
-            .take(LINES)
-            .map(|i| {
-                self.shaken.frames.iter().map(|f| (f.time, self.over_thickness(f, i))).collect()
-            })
-            .collect();
-        let end = self.shaken.frames.last().map_or(0.0, |f| f.time);
-        let ground = rocking::ground(self.shaking, end);
+        let lines: Vec<Vec<(f64, f64)>> = self.lines().into_iter().map(|l| l.1).collect();
+        let ground = rocking::ground(self.motion, self.end());
         let upper = Panel { y: "displacement / thickness", lines: &lines };
         chart(self.name, upper, Panel { y: "ground, m/s²", lines: &[ground] })
     }
+}
+
+/// The same for a page: the blocks above, the ground below.
+pub fn page_charts(report: &ShakenReport) -> Vec<Chart> {
+    let series = |name: &str, points: &[(f64, f64)], unit: &str| Series {
+        name: name.into(),
+        line: true,
+        points: points.iter().map(|&(x, y)| [Some(x), Some(y)]).collect(),
+        hints: points
+            .iter()
+            .map(|&(x, y)| format!("{name}: {}{unit} at {} s", short(y), short(x)))
+            .collect(),
+        ..Series::default()
+    };
+    let lines = report.lines();
+    if lines.iter().all(|l| l.1.len() < 2) {
+        return Vec::new();
+    }
+    let ground = rocking::ground(report.motion, report.end());
+    vec![
+        Chart {
+            title: "Ways of the blocks that went farthest".into(),
+            x: Axis::new("time, s", false),
+            y: Axis::new("displacement / thickness", false),
+            series: lines.iter().map(|(id, points)| series(id, points, "")).collect(),
+            film: true,
+            ..Chart::default()
+        },
+        Chart {
+            title: "The ground".into(),
+            x: Axis::new("time, s", false),
+            y: Axis::new("acceleration, m/s²", false),
+            series: vec![series("ground", &ground, " m/s²")],
+            film: true,
+            ..Chart::default()
+        },
+    ]
 }

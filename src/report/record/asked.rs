@@ -165,6 +165,11 @@ fn words(kind: Kind) -> (&'static str, &'static str) {
             "What does its mechanism do on ground that moves?",
             "Integrated as a machine of one degree of freedom from the mechanism that is proved.",
         ),
+        Kind::Shake => (
+            "What do all its blocks do on ground that moves?",
+            "One history of a rigid-body simulation, not proved: ways of the centres of mass over the \
+             thickness of their blocks.",
+        ),
     }
 }
 

@@ -4,13 +4,17 @@
 
 mod asked;
 mod date;
+mod digest;
+mod heaps;
 mod joints;
 mod laws;
 mod loads;
+mod moved;
 mod pieces;
 mod proof;
 
 pub use date::date;
+pub use digest::digest;
 
 use super::view::View;
 use crate::{
@@ -62,6 +66,8 @@ pub enum Part {
 pub struct Origin {
     /// The file of the scene, as it was typed.
     pub file: String,
+    /// The SHA-256 digest of that file, or why there is none.
+    pub digest: String,
     /// When the record was made.
     pub made: String,
     /// The command that asks the same again.
@@ -77,7 +83,8 @@ impl Record {
         let mut asked = asked::facts(file);
         asked.extend(at.facts());
         record.asked = asked;
-        record.sections.splice(0..0, joints::sections(model, view));
+        let first = joints::sections(model, view).into_iter().chain(moved::sections(file));
+        record.sections.splice(0..0, first);
         record.sections.extend(laws::tolerances(file, model));
         record.sections.extend(proof::sections(file));
         record
@@ -93,11 +100,16 @@ impl Record {
 
 impl Origin {
     fn facts(&self) -> Vec<[String; 2]> {
-        [("scene", &self.file), ("asked as", &self.command), ("made", &self.made)]
-            .into_iter()
-            .filter(|(_, text)| !text.is_empty())
-            .map(|(name, text)| [name.into(), text.clone()])
-            .collect()
+        [
+            ("scene", &self.file),
+            ("SHA-256", &self.digest),
+            ("asked as", &self.command),
+            ("made", &self.made),
+        ]
+        .into_iter()
+        .filter(|(_, text)| !text.is_empty())
+        .map(|(name, text)| [name.into(), text.clone()])
+        .collect()
     }
 }
 

@@ -14,9 +14,9 @@ use plotters::{
 #[error("no chart: {0}")]
 pub struct StudyChartError(String);
 
-const SIZE: (u32, u32) = (680, 420);
+pub(super) const SIZE: (u32, u32) = (680, 420);
 /// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008), and two more.
-const COLOURS: [RGBColor; 10] = [
+pub(super) const COLOURS: [RGBColor; 10] = [
     RGBColor(0, 0, 0),
     RGBColor(0, 114, 178),
     RGBColor(230, 159, 0),
@@ -29,9 +29,9 @@ const COLOURS: [RGBColor; 10] = [
     RGBColor(140, 86, 75),
 ];
 /// Errors below this are drawn here: rounding.
-const FLOOR: f64 = 1e-15;
+pub(super) const FLOOR: f64 = 1e-15;
 
-fn refused(e: impl std::fmt::Display) -> StudyChartError {
+pub(super) fn refused(e: impl std::fmt::Display) -> StudyChartError {
     StudyChartError(e.to_string())
 }
 
@@ -149,7 +149,7 @@ type Chart<'a, 'b, X, Y> = plotters::chart::ChartContext<
     plotters::coord::cartesian::Cartesian2d<X, Y>,
 >;
 
-fn legend<'a, X, Y>(chart: &mut Chart<'a, 'a, X, Y>) -> Result<(), StudyChartError>
+pub(super) fn legend<'a, X, Y>(chart: &mut Chart<'a, 'a, X, Y>) -> Result<(), StudyChartError>
 where
     X: plotters::coord::ranged1d::Ranged<ValueType = f64>,
     Y: plotters::coord::ranged1d::Ranged<ValueType = f64>,

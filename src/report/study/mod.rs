@@ -3,11 +3,13 @@
 mod chart;
 mod cross;
 mod forge;
+mod rocking;
 mod soak;
 
 pub use chart::{StudyChartError, errors, profiles};
 pub use cross::{cross_csv, cross_text};
 pub use forge::{forge_csv, forge_text};
+pub use rocking::{rocking_chart, rocking_csv, rocking_text};
 pub use soak::{soak_csv, soak_text};
 
 use super::{

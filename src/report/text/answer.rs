@@ -116,6 +116,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         QuestionKind::Stages => super::stages::title(file),
         QuestionKind::State => super::state::title(file),
         QuestionKind::Rock => super::rocking::title(file),
+        QuestionKind::Shake => super::shaken::title(file),
     };
     let text = match super::moving::place(file) {
         Some(place) => text + &place,
@@ -164,7 +165,7 @@ fn without_live_load(file: &ResultFile) -> Option<String> {
 pub fn left_out(file: &ResultFile) -> Option<String> {
     let said = file.left_out_contacts?;
     // Time runs with the shapes themselves, not with these contacts.
-    if file.question == QuestionKind::Simulate {
+    if matches!(file.question, QuestionKind::Simulate | QuestionKind::Shake) {
         return None;
     }
     let other = match said.closed {
@@ -226,6 +227,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         QuestionKind::Stages => return super::stages::why(page, file),
         QuestionKind::State => return super::state::why(page, file),
         QuestionKind::Rock => return super::rocking::why(page, file),
+        QuestionKind::Shake => return super::shaken::why(page, file),
         QuestionKind::Kinematic => {
             super::kinematic::why(page, file);
             dry(page, file);

@@ -18,6 +18,14 @@ pub fn verification(file: &ResultFile, verification: &Verification, layout: Layo
     let (text, role) = match (verification.refuted(), verification.claimed) {
         (true, _) => ("refuted", Role::Bad),
         (false, true) => ("proved", Role::Good),
+        (false, false) if file.answer.shaken().is_some() => {
+            let again = verification.unchecked().next().is_none();
+            let words = [
+                "not confirmed: run again, the engine does something else, or was not run",
+                "confirmed, not proved: run again, the engine does the same",
+            ];
+            (words[usize::from(again)], Role::Unsure)
+        }
         (false, false) => ("claims nothing", Role::Unsure),
     };
     let text = if verification.refuted() || !verification.claimed {
@@ -32,7 +40,7 @@ pub fn verification(file: &ResultFile, verification: &Verification, layout: Layo
         _ if verification.computed() && file.answer.rocking().is_some() => {
             format!("where it starts is {text}; its history is computed, not proved")
         }
-        _ if verification.computed() => {
+        _ if verification.computed() && file.answer.shaken().is_none() => {
             format!("{text}; that states under dry friction rest or move is computed, not proved")
         }
         _ => text,
@@ -43,6 +51,7 @@ pub fn verification(file: &ResultFile, verification: &Verification, layout: Layo
         page.paragraph(title);
         page.row("fails", findings.fails.iter().cloned());
         page.row("holds", findings.holds.iter().cloned());
+        page.row("open", findings.unchecked.iter().cloned());
     }
     if !verification.scene.is_empty() {
         page.blank();

@@ -134,6 +134,21 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     if a.without_members {
         page.paragraph("The curve, d0 and the displacements are those of the scene without its members: once they yield they are not counted on. The mechanism is the same without them.");
     }
+    if let Some(curve) = &a.curve_with_members {
+        let way = curve.value.map_or("nowhere".into(), |v| format!("{} m", short(v)));
+        let end = match (curve.status, &curve.why) {
+            (PathStatus::Vanishes, _) => "where it vanishes".to_string(),
+            (PathStatus::Reached, _) => "it was followed no farther".into(),
+            (_, Some(text)) => text.clone(),
+            _ => "where it ends".into(),
+        };
+        page.paragraph(&format!(
+            "With its members there is a curve of its own, every point proved, up to a way of the control point of {way} ({end}). They hold up to their strength there, however far they have stretched: no limit state is read off it."
+        ));
+    }
+    if let Some(text) = &a.no_curve_with_members {
+        page.paragraph(&format!("There is no curve with members: {text}."));
+    }
     if let Some(text) = &a.no_curve {
         page.paragraph(&format!("There is no curve: {text}. No line is drawn in its place."));
     } else if let (Some(curve), None) = (&a.curve, &a.numbers.capacity) {

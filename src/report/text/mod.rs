@@ -12,6 +12,7 @@ mod packing;
 mod page;
 mod path;
 mod rocking;
+mod shaken;
 mod simulation;
 mod stages;
 pub(super) mod state;
@@ -81,6 +82,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     stages::rows(&mut page, file, options);
     state::rows(&mut page, file, options);
     moving::rows(&mut page, file, options);
+    shaken::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);
     page.row("proof", file.certificate.verified.iter().cloned());
     let s = &file.scene;
@@ -194,7 +196,7 @@ pub fn command(file: &ResultFile, asked: Asked) -> String {
         QuestionKind::Tilt => "tilt",
         QuestionKind::Critical => "critical",
         QuestionKind::Thrust => "thrust",
-        QuestionKind::Simulate => "simulate",
+        QuestionKind::Simulate | QuestionKind::Shake => "simulate",
         QuestionKind::Settle => "settle",
         QuestionKind::Push => "push",
         QuestionKind::Kinematic | QuestionKind::Rock => "kinematic",
@@ -217,6 +219,9 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         || file.answer.path().is_some_and(|a| a.value.is_some());
     if file.question == QuestionKind::Simulate {
         return page.commands("next", &simulation::next(file, scene, &again));
+    }
+    if file.question == QuestionKind::Shake {
+        return page.commands("next", &shaken::next(&again));
     }
     if file.certificate.claim.is_none() && !elsewhere {
         return page

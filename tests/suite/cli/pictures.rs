@@ -75,6 +75,36 @@ fn pictures_and_tables_are_written_beside_the_answer() {
     );
 }
 
+/// One model of all stages, whose animation goes through them: what comes later has no size before.
+#[test]
+fn a_model_goes_through_the_stages() {
+    let desk = Desk::new();
+    let cube = |id: &str, z: f64, support: bool| {
+        json!({
+            "id": id, "density": 1000, "support": support, "at": [0, 0, z],
+            "shape": { "box": { "size": [1, 1, 1] } },
+        })
+    };
+    let scene = json!({
+        "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.6 } },
+        "blocks": [cube("ground", 0.0, true), cube("first", 1.0, false), cube("second", 2.0, false)],
+        "stages": [
+            { "name": "one", "add": ["ground", "first"] }, { "name": "two", "add": ["second"] }
+        ],
+    });
+    fs::write(desk.path("staged.json"), scene.to_string()).unwrap();
+    let [scene, model] = ["staged.json", "staged.gltf"].map(|n| desk.at(n));
+    expect(YES, voussoir(&["stages", &scene, "--skip-margin", "-q", "--gltf", &model]));
+    let json: Value = serde_json::from_slice(&fs::read(desk.path("staged.gltf")).unwrap()).unwrap();
+    let animations = json["animations"].as_array().unwrap();
+    assert_eq!((animations.len(), &animations[0]["name"]), (1, &json!("stage by stage")));
+    let channels = animations[0]["channels"].as_array().unwrap();
+    assert_eq!(channels.len(), 1, "{channels:?}");
+    let target = &channels[0]["target"];
+    let node = &json["nodes"][target["node"].as_u64().unwrap() as usize];
+    assert_eq!((&target["path"], &node["name"]), (&json!("scale"), &json!("second")));
+}
+
 /// Models beside the answer, by their endings; supports are left out of something or refused.
 #[test]
 fn models_are_written_beside_the_answer() {

@@ -1,0 +1,108 @@
+//! Heaps that came to rest, one a seed.
+
+use super::{Part, Record, Section};
+use crate::{
+    number::{count, short},
+    proof::result::Versions,
+    report::heaps::{HeapResult, ReposeFile},
+    terms::Outcome,
+};
+use serde_json::Value;
+
+impl Record {
+    /// The record of heaps: how they were made, what came of each, and the drawing of the first.
+    pub fn of_heaps(file: &ReposeFile, drawing: String, made: String) -> Self {
+        let asked = vec![
+            ["question".into(), "At what slope do grains come to rest?".into()],
+            ["answer".into(), answer(file)],
+            [
+                "meaning".into(),
+                "Slope of the line through the mean surface of a heap at rest, observed in the \
+                 engine; the margin beside it is proved for the heap as it lies."
+                    .into(),
+            ],
+            ["made".into(), made],
+        ];
+        let sections = vec![
+            Section::new("The heaps", vec![table(&file.heaps)]),
+            Section::new("How they were made", vec![Part::Facts(protocol(file))]),
+            Section::new("Versions", vec![Part::Facts(versions(&file.versions))]),
+        ];
+        Self { asked, drawing, sections }
+    }
+}
+
+fn answer(file: &ReposeFile) -> String {
+    match (file.angle_deg, file.spread_deg) {
+        (Some(angle), Some([low, high])) => format!(
+            "angle of repose {}° ({} to {}°), the mean of {}",
+            short(angle),
+            short(low),
+            short(high),
+            count(file.heaps.len(), "heap")
+        ),
+        _ => format!("no angle: {}", file.no_angle.as_deref().unwrap_or("not measured")),
+    }
+}
+
+fn versions(v: &Versions) -> Vec<[String; 2]> {
+    vec![
+        ["voussoir".into(), v.voussoir.clone()],
+        ["format of results".into(), "voussoir-repose/1".into()],
+    ]
+}
+
+/// The protocol, key by key as it is written.
+fn protocol(file: &ReposeFile) -> Vec<[String; 2]> {
+    let value = serde_json::to_value(&file.protocol).unwrap_or_default();
+    let words = |v: &Value| match v {
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    };
+    let own = value.as_object().into_iter().flatten();
+    let own = own.filter(|(_, v)| !v.is_null()).map(|(k, v)| [k.replace('_', " "), words(v)]);
+    let hidden = [("restitution", file.restitution), ("damping", file.damping)];
+    own.chain(hidden.map(|(k, v)| [k.into(), short(v)])).collect()
+}
+
+fn table(heaps: &[HeapResult]) -> Part {
+    let number = |v: Option<f64>| v.map_or("–".into(), |v| format!("{v:.2}"));
+    let row = |h: &HeapResult| {
+        let margin = h.margin.as_ref().map_or("–".into(), |m| match m.status {
+            Outcome::Found => number(m.margin_deg),
+            Outcome::Unbounded => "wedged".into(),
+            Outcome::Impossible | Outcome::Undecided => "none".into(),
+        });
+        vec![
+            h.seed.to_string(),
+            if h.rested { "at rest" } else { "moves" }.into(),
+            h.grains.to_string(),
+            h.discarded.to_string(),
+            number(h.angle_deg),
+            h.r_squared.map_or("–".into(), |r| format!("{r:.4}")),
+            h.cells.to_string(),
+            h.parts_deg.iter().map(|a| format!("{a:.1}")).collect::<Vec<_>>().join(", "),
+            margin,
+            h.no_angle.join("; "),
+        ]
+    };
+    let columns = [
+        "seed",
+        "state",
+        "#grains",
+        "#fell off",
+        "#angle, °",
+        "#R²",
+        "#cells",
+        "parts, °",
+        "#margin, °",
+        "why no angle",
+    ];
+    Part::table(
+        &columns,
+        heaps.iter().map(row).collect(),
+        "Angle and R² of the line through the cells of the mean surface; parts: strips or sectors of \
+         the same heap. Margin: the tilt downhill that the heap as it lies still bears, with joints \
+         that open as they slide: a bound.",
+    )
+}

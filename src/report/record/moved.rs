@@ -1,0 +1,51 @@
+//! How far blocks moved on ground that moved.
+
+use super::{Part, Section, listed};
+use crate::{
+    number::{fixed, short},
+    proof::result::ResultFile,
+    report::ground,
+};
+
+/// Blocks that are listed.
+const MOST: usize = 24;
+
+/// The ground, and a table of the blocks, those that went farthest first.
+pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
+    let Some(a) = file.answer.shaken() else { return Vec::new() };
+    let facts = vec![
+        ["motion".into(), ground::words(&a.asked.ground)],
+        ["towards".into(), crate::number::point(a.toward)],
+        [
+            "steps".into(),
+            format!("{} of {} s, {} substeps each", a.steps, short(a.step), a.substeps),
+        ],
+    ];
+    let row = |b: &crate::proof::shaken::ShakenBlock| {
+        vec![
+            b.block.clone(),
+            short(b.thickness),
+            short(b.greatest_over_thickness * b.thickness),
+            format!("{:.4}", b.greatest_over_thickness),
+            fixed(b.at, 3),
+            format!("{:.4}", b.residual_over_thickness),
+            format!("{:.2}", b.greatest_turn_deg),
+        ]
+    };
+    let rows = a.by_way().into_iter().map(row).collect();
+    let columns = [
+        "block",
+        "#thickness, m",
+        "#greatest way, m",
+        "#over thickness",
+        "#at, s",
+        "#left over thickness",
+        "#greatest turn, °",
+    ];
+    let note = "Ways of centres of mass relative to the ground, in one history: observed in the \
+                engine, not proved. Other records and other scales have other histories.";
+    vec![
+        Section::new("The ground", vec![Part::Facts(facts)]),
+        Section::new("How far blocks moved", vec![Part::table(&columns, listed(rows, MOST), note)]),
+    ]
+}

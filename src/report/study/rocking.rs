@@ -1,0 +1,155 @@
+//! The study of rocking as a table, a chart and a page of text.
+
+use super::{
+    super::{
+        cells::{Table, row},
+        text::{Layout, Page, Role},
+    },
+    chart::{COLOURS, FLOOR, SIZE, StudyChartError, legend, refused},
+};
+use crate::{
+    number::seconds,
+    study::{RockingMethod, RockingPoint},
+};
+use plotters::{
+    prelude::{
+        ChartBuilder, Circle, EmptyElement, IntoDrawingArea, IntoLogRange, SVGBackend, WHITE,
+    },
+    style::Color,
+};
+
+/// A table of every point.
+///
+/// # Errors
+/// The writer's, which has no reason to fail in memory.
+pub fn rocking_csv(points: &[RockingPoint]) -> Result<String, csv::Error> {
+    let mut out = Table::with_head([
+        "case",
+        "method",
+        "step_error",
+        "value",
+        "exact",
+        "relative_error",
+        "histories",
+        "seconds_a_history",
+    ])?;
+    for p in points {
+        let knob = (p.knob > 0.0).then_some(p.knob);
+        out.write_record(row![
+            p.case.clone(),
+            p.method.label(),
+            knob,
+            p.value,
+            p.truth,
+            p.error,
+            p.histories,
+            p.seconds,
+        ])?;
+    }
+    out.end()
+}
+
+/// Points of a method with one setting of its knob.
+fn settings(points: &[RockingPoint]) -> Vec<(RockingMethod, f64)> {
+    let mut list: Vec<(RockingMethod, f64)> = Vec::new();
+    for p in points {
+        if !list.contains(&(p.method, p.knob)) {
+            list.push((p.method, p.knob));
+        }
+    }
+    list
+}
+
+fn name(method: RockingMethod, knob: f64) -> String {
+    match knob > 0.0 {
+        true => format!("{}, steps to {knob:.0e}", method.label()),
+        false => method.label().into(),
+    }
+}
+
+/// What came out by method, then by case.
+pub fn rocking_text(points: &[RockingPoint], layout: Layout) -> Page {
+    let mut page = Page::new(layout);
+    let missed = points.iter().filter(|p| p.value.is_none()).count();
+    let title = format!("{} values, {missed} farther than 10 % from the exact one", points.len());
+    page.title("Rocking: error against run time", title, Role::Value);
+    page.blank();
+    let impact = |p: &RockingPoint| p.case.starts_with("impact");
+    for (kind, of) in [("amplitudes", false), ("impacts", true)] {
+        let line = |&(method, knob): &(RockingMethod, f64)| {
+            let own: Vec<&RockingPoint> = points
+                .iter()
+                .filter(|p| p.method == method && p.knob == knob && impact(p) == of)
+                .collect();
+            let mut times: Vec<f64> = own.iter().map(|p| p.seconds).collect();
+            times.sort_by(f64::total_cmp);
+            let time = times.get(times.len() / 2).copied()?;
+            let worst = own.iter().map(|p| p.error.unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
+            let error = if worst.is_finite() { format!("{worst:.1e}") } else { "over 10 %".into() };
+            Some(format!(
+                "{:<44} greatest error {error:>9}, {} a history",
+                name(method, knob),
+                if time < 1e-3 { format!("{:.0} µs", 1e6 * time) } else { seconds(time) }
+            ))
+        };
+        page.row(kind, settings(points).iter().filter_map(line));
+    }
+    page
+}
+
+/// Error against the time of a history, a colour for each method.
+///
+/// # Errors
+/// Nothing has an error.
+pub fn rocking_chart(points: &[RockingPoint]) -> Result<String, StudyChartError> {
+    let own: Vec<&RockingPoint> =
+        points.iter().filter(|p| p.error.is_some() && p.seconds > 0.0).collect();
+    let times = own
+        .iter()
+        .map(|p| p.seconds)
+        .fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(t), h.max(t)));
+    if own.is_empty() {
+        return Err(refused("no method gave a value"));
+    }
+    let y = |p: &RockingPoint| p.error.unwrap_or(1.0).clamp(FLOOR, 1.0);
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        area.fill(&WHITE).map_err(refused)?;
+        let mut chart = ChartBuilder::on(&area)
+            .margin(12)
+            .caption("rocking blocks with exact values", ("sans-serif", 18))
+            .x_label_area_size(42)
+            .y_label_area_size(70)
+            .build_cartesian_2d(
+                (0.5 * times.0..2.0 * times.1).log_scale(),
+                (1e-12..1.0).log_scale(),
+            )
+            .map_err(refused)?;
+        chart
+            .configure_mesh()
+            .label_style(("sans-serif", 14))
+            .x_desc("seconds a history")
+            .y_desc("relative error")
+            .x_label_formatter(&|v| format!("{v:.0e}"))
+            .y_label_formatter(&|v| format!("{v:.0e}"))
+            .light_line_style(WHITE.mix(0.0))
+            .draw()
+            .map_err(refused)?;
+        for (k, (method, knob)) in settings(points).into_iter().enumerate() {
+            let colour = COLOURS[k % COLOURS.len()];
+            let dots = own
+                .iter()
+                .filter(|p| p.method == method && p.knob == knob)
+                .map(|p| Circle::new((p.seconds, y(p).max(1e-12)), 3, colour.filled()));
+            chart
+                .draw_series(dots)
+                .map_err(refused)?
+                .label(name(method, knob))
+                .legend(move |at| EmptyElement::at(at) + Circle::new((8, 0), 3, colour.filled()));
+        }
+        legend(&mut chart)?;
+        area.present().map_err(refused)?;
+    }
+    Ok(text)
+}
