@@ -143,7 +143,7 @@ fn answer(
     let file = match question {
         Question::Simulate(options) => {
             let options = SimulateOptions { load_factor: None, ..options.clone() };
-            let outcome = session.simulate(options, &mut film)?;
+            let outcome = session.in_time(Question::Simulate(options), &mut film)?;
             let verdict =
                 manner.verdict.map(|law| session.ask(&Question::Assess(AssessOptions { law })));
             let verdict = verdict.transpose()?;
@@ -155,6 +155,10 @@ fn answer(
             let mut file = ResultFile::simulated(&ready.scene, &model, assessment, seen);
             file.doubt = doubt(&outcome, &model, &control);
             file
+        }
+        Question::Shake(_) => {
+            let found = session.in_time(question.clone(), &mut film)?;
+            ResultFile::of(&ready.scene, &model, &found).ok_or_else(none)?
         }
         Question::Repose(options) => {
             let found = session.ask(question)?;
@@ -180,7 +184,7 @@ fn answer(
                 && (manner.simulate == Beside::Always
                     || (manner.simulate == Beside::InDoubt && doubt))
                 && let Found::Simulate(outcome) =
-                    session.simulate(SimulateOptions::default(), &mut film)?
+                    session.in_time(Question::Simulate(SimulateOptions::default()), &mut film)?
             {
                 file = file.with_simulation(&model, Some(assessment), &outcome);
             }
@@ -188,7 +192,9 @@ fn answer(
         }
     };
     let mut file = file;
-    file.timings.simulate = file.simulation.iter().flat_map(|s| &s.runs).map(|r| r.seconds).sum();
+    if let Some(s) = &file.simulation {
+        file.timings.simulate = s.runs.iter().map(|r| r.seconds).sum();
+    }
     file.timings.solve =
         (begin.elapsed().as_secs_f64() - file.timings.simulate - file.timings.check).max(0.0);
     file.work = Some(Work::of(&file, &model));
@@ -237,9 +243,9 @@ impl Session<'_> {
             .map_err(|e| self.ready.located(e))
     }
 
-    fn simulate(
+    fn in_time(
         &self,
-        options: SimulateOptions,
+        question: Question,
         frames: &mut Vec<voussoir::dynamics::Frame>,
     ) -> Result<Found, Trouble> {
         let Manner { threads, frames: wanted, film, .. } = *self.manner;
@@ -265,7 +271,6 @@ impl Session<'_> {
             every_step,
             each: &mut each,
         };
-        let question = Question::Simulate(options);
         let found =
             analysis::ask_watched(&question, &self.ready.scene, self.model, self.control, watch)
                 .map_err(|e| self.ready.located(e));

@@ -243,6 +243,23 @@ def test_film() -> None:
     assert asked.fate == "stands" and asked.verdict and asked.frames[1].shape[1:] == (2, 7)
 
 
+def test_blocks_on_ground_that_moves() -> None:
+    still = voussoir.shake(table(), pulse={"jump": {"velocity": 0.05}}, fast=True, seconds=0.5)
+    assert still.fate in ("rests", "moves") and still.overturned is None
+    frame = still.to_pandas()
+    assert list(frame["block"]) == ["block"] and (frame["greatest_over_thickness"] > 0).all()
+    times, poses = still.film
+    assert poses.shape == (len(times), 2, 7)
+    rows = np.array([[0.0, 0.0], [1.0, 0.5], [0.0, 0.0]])
+    asked = voussoir.shake(
+        table(), accelerations=rows, step=0.1, scale=0.5, fast=True, seconds=0.3, film=False
+    )
+    record = asked.to_dict()["answer"]["shaken"]["asked"]["ground"]["record"]
+    assert record["components"] == [[0.0, 1.0, 0.0], [0.0, 0.5, 0.0]] and record["step"] == 0.1
+    with pytest.raises(voussoir.InputError):
+        voussoir.shake(table())
+
+
 def test_contacts_and_members_of_scenes_in_code(structures: Path) -> None:
     apart = table()
     apart.box("upper", (0.4, 0.4, 1), (0, 0, 1.505))

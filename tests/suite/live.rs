@@ -16,7 +16,7 @@ use std::{
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A program that serves a scene; it ends with this.
-struct Open {
+pub struct Open {
     child: Child,
     host: String,
     token: String,
@@ -30,7 +30,12 @@ impl Drop for Open {
 }
 
 impl Open {
-    fn new(scene: &Path) -> Self {
+    /// The address of its page.
+    pub fn address(&self) -> String {
+        format!("http://{}/{}/", self.host, self.token)
+    }
+
+    pub fn new(scene: &Path) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_voussoir"))
             .args(["open", scene.to_str().unwrap()])
             .stdin(Stdio::null())

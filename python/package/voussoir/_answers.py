@@ -998,6 +998,42 @@ class Simulation(Answer):
         return times, poses.reshape(len(times), -1, 7)
 
 
+class Shaken(Answer):
+    """What do all blocks do on ground that moves? One history, not a proof."""
+
+    question = "shake"
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        own: dict[str, Any] = self._answer["shaken"]
+        return own
+
+    @property
+    def fate(self) -> str:
+        """``rests``, ``moves``, ``overturns``: observed, not proved."""
+        return str(self._own["fate"])
+
+    @property
+    def overturned(self) -> tuple[str, float] | None:
+        """The first block that overturned or fell, and when, s."""
+        block = self._own.get("overturned")
+        return None if block is None else (str(block), float(self._own["overturned_at"]))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The free blocks, a row each: thickness (m), greatest way and what is left over it, when
+        (s), greatest turn (degrees)."""
+        import pandas
+
+        return pandas.DataFrame(self._own["blocks"])
+
+    @cached_property
+    def film(self) -> tuple[Array, Array]:
+        """Times, s, shape (frames,), and poses, shape (frames, blocks, 7): centre of mass (m), then
+        the rotation from the start as a quaternion w, x, y, z."""
+        times, poses = self._core.film()
+        return times, poses.reshape(len(times), -1, 7)
+
+
 class Packing(Answer):
     """How steep may a packing of grains be?"""
 
@@ -1041,6 +1077,7 @@ _KINDS: dict[str, type[Answer]] = {
     "kinematic": Kinematic,
     "stages": Stages,
     "simulate": Simulation,
+    "shake": Shaken,
     "state": State,
 }
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _core
 from ._answers import (
@@ -18,6 +19,7 @@ from ._answers import (
     Moving,
     Packing,
     Path,
+    Shaken,
     Simulation,
     Stages,
     State,
@@ -540,6 +542,77 @@ def simulate(
         progress=progress,
     )
     return Simulation(answer)
+
+
+def shake(
+    scene: SceneLike,
+    *,
+    pulse: Mapping[str, Any] | None = None,
+    accelerations: ArrayLike | None = None,
+    step: float | None = None,
+    name: str = "record",
+    scale: float = 1.0,
+    toward: Vector = (1.0, 0.0, 0.0),
+    fast: bool = False,
+    seconds: float | None = None,
+    to_the_end: bool = False,
+    frames: int = 0,
+    film: bool = True,
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    threads: int = 1,
+    progress: Progress = False,
+) -> Shaken:
+    """What do all blocks do on ground that moves? One history, not a proof.
+
+    Parameters
+    ----------
+    pulse : mapping, optional
+        A formula: ``{"half_sine": {"acceleration": 3, "duration": 0.5}}`` (m/s², s), ``sine`` and
+        ``rectangle`` alike, ``{"jump": {"velocity": 0.5}}`` (m/s).
+    accelerations : array, optional
+        A record in its place: samples in m/s², shape (n,) or (n, 1 to 3): towards ``toward``, to the
+        left of it, up.
+    step : float
+        Seconds between two samples.
+    scale : float
+        The motion is multiplied by this.
+    fast : bool
+        Fast steps.
+    seconds : float, optional
+        Time to simulate at most, s.
+    frames : int
+        So many times are kept in the result.
+    """
+    ground: dict[str, Any] = {"scale": float(scale)}
+    if pulse is not None:
+        ground["pulse"] = dict(pulse)
+    if accelerations is not None:
+        samples = np.atleast_2d(np.asarray(accelerations, dtype=np.float64).T)
+        ground["record"] = {
+            "name": name,
+            "step": float(step if step is not None else 0.0),
+            "components": samples.tolist(),
+        }
+    options: dict[str, Any] = {
+        "ground": ground,
+        "toward": _three(toward),
+        "fast": fast,
+        "to_the_end": to_the_end,
+    }
+    if seconds is not None:
+        options["seconds"] = seconds
+    answer = _ask(
+        scene,
+        {"shake": options},
+        frames=frames,
+        film=film,
+        keep_all=keep_all,
+        time_limit=time_limit,
+        threads=threads,
+        progress=progress,
+    )
+    return Shaken(answer)
 
 
 def repose(

@@ -3,6 +3,7 @@
 //! Skipped, with a word, where there is no Chromium.
 
 mod driver;
+mod live;
 
 use crate::page::{HOSTILE, hostile, report};
 use driver::Browser;
