@@ -2,9 +2,9 @@
 
 use super::{
     args::Assess,
+    camera::Camera,
     exit::Exit,
     question::{Seen, Session, unless_weaker, verdict},
-    simulate::Camera,
     terminal::Terminal,
 };
 use std::ops::ControlFlow;

@@ -3,12 +3,12 @@
 use super::{
     args,
     args::Simulate,
+    camera::Camera,
     claim,
     exit::Exit,
     output::Sink,
     question::{Seen, Session},
     report,
-    simulate::Camera,
     terminal::{self, Terminal},
 };
 use anyhow::bail;
@@ -141,7 +141,7 @@ pub fn simulate(args: &Simulate, session: &Session, terminal: &Terminal) -> anyh
     });
     let told = csv.is_some() || chart.is_some() || session.report().is_some();
     let frames = args.frames.map_or(if told { FRAMES } else { 0 }, |n| n as usize);
-    let mut camera = Camera::new(session, args.threads, session.is_filmed()).keeping(frames);
+    let mut camera = Camera::new(session, args.threads, session.is_filmed()).taking(frames, true);
     let mut keep = |_: &Frame| ControlFlow::Continue(());
     let mut answer = camera.ask(session, &question, &mut keep)?;
     let Answer::Shake(shaken) = &mut answer else { bail!("there is no simulation") };

@@ -5,6 +5,7 @@
 pub mod again;
 pub mod args;
 pub mod assess;
+mod camera;
 pub mod check;
 mod claim;
 pub mod completions;

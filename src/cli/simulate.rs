@@ -2,21 +2,20 @@
 
 use super::{
     args::Simulate,
+    camera::Camera,
     claim,
     exit::Exit,
     ground,
-    progress::Bar,
     question::{Seen, Session},
-    report,
     terminal::Terminal,
 };
 use anyhow::{Context, bail};
 use std::{fs::File, ops::ControlFlow};
 use voussoir::{
-    analysis::{Answer, AssessOptions, Question, SimulateOptions, Watch, doubt},
-    dynamics::{Fate, Frame, Progress},
+    analysis::{Answer, AssessOptions, Question, SimulateOptions, doubt},
+    dynamics::{Fate, Frame},
     proof::ResultFile,
-    report::{trajectory::TrajectoryWriter, view::Film},
+    report::trajectory::TrajectoryWriter,
     verdict::Verdict,
 };
 
@@ -56,10 +55,8 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         None => None,
     };
     let frames = args.frames.map_or(if csv.is_some() { FRAMES } else { 0 }, |n| n as usize);
-    let mut camera = Camera {
-        keep_frames: args.frames.is_some(),
-        ..Camera::new(&session, args.threads, session.is_filmed()).keeping(frames)
-    };
+    let mut camera = Camera::new(&session, args.threads, session.is_filmed())
+        .taking(frames, args.frames.is_some());
     let mut failure = None;
     let mut keep =
         |frame: &Frame| match csv.as_mut().map(|csv| csv.frame(&session.model.assembly, frame)) {
@@ -101,60 +98,4 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         Some(Fate::Stands) => Exit::Yes,
         Some(Fate::Undecided) | None => Exit::Undecided,
     })
-}
-
-/// Who watches a simulation: under a bar, until the time limit, with a film where there is to be
-/// one.
-pub struct Camera {
-    threads: usize,
-    frames: usize,
-    keep_frames: bool,
-    film: Option<Film>,
-}
-
-impl Camera {
-    pub fn new(session: &Session, threads: u16, is_filmed: bool) -> Self {
-        let threads = super::terminal::threads(threads);
-        let film = is_filmed.then(|| Film::fitting(session.model.assembly.blocks.len()));
-        Self { threads, frames: 0, keep_frames: true, film }
-    }
-
-    /// Takes so many frames, which the answer keeps.
-    pub fn keeping(self, frames: usize) -> Self {
-        Self { frames, ..self }
-    }
-
-    /// Asks a question of the scene in time; `keep` hears of every frame.
-    pub fn ask(
-        &mut self,
-        session: &Session,
-        question: &Question,
-        keep: &mut dyn FnMut(&Frame) -> ControlFlow<()>,
-    ) -> anyhow::Result<Answer> {
-        let bar = Bar::new(session.shows_progress());
-        let deadline = session.control().deadline;
-        let Self { threads, frames, keep_frames, film } = self;
-        let every_step = film.is_some();
-        let mut each = |progress: &Progress| {
-            bar.show(progress);
-            report::see(film, progress.moment);
-            if deadline.is_over() {
-                return ControlFlow::Break(());
-            }
-            progress.frame.map_or(ControlFlow::Continue(()), &mut *keep)
-        };
-        let watch = Watch {
-            threads: *threads,
-            frames: *frames,
-            keep_frames: *keep_frames,
-            every_step,
-            each: &mut each,
-        };
-        session.ask_watched(question, watch)
-    }
-
-    /// What was filmed.
-    pub fn frames(&mut self) -> Vec<Frame> {
-        self.film.take().map(Film::frames).unwrap_or_default()
-    }
 }

@@ -9,6 +9,10 @@ use crate::{
 };
 use serde_json::Value;
 
+/// Of the values of a protocol.
+const UNITS: &str = "Diameter in m, density in kg/m³; size and rolling arm in mean diameters; rate in \
+                     √(g d), of a bed that is tilted in degrees per √(d/g).";
+
 impl Record {
     /// The record of heaps: how they were made, what came of each, and the drawing of the first.
     pub fn of_heaps(file: &ReposeFile, drawing: String, made: String) -> Self {
@@ -25,7 +29,10 @@ impl Record {
         ];
         let sections = vec![
             Section::new("The heaps", vec![table(&file.heaps)]),
-            Section::new("How they were made", vec![Part::Facts(protocol(file))]),
+            Section::new(
+                "How they were made",
+                vec![Part::Facts(protocol(file)), Part::Text(UNITS.into())],
+            ),
             Section::new("Versions", vec![Part::Facts(versions(&file.versions))]),
         ];
         Self { asked, drawing, sections }
