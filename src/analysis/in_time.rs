@@ -5,10 +5,10 @@ use crate::{error::InputError, ground::ShakeOptions, interface::Model, scene::Sc
 
 #[cfg(feature = "dynamics")]
 use crate::{
-    dynamics::{self, Fidelity, Progress, Shaken, Shaking, SimulationSettings},
+    dynamics::{self, Burden, Fidelity, Progress, Shaken, Shaking, SimulationSettings},
     error::JsonPath,
     interface::prepare,
-    kinematic::quake,
+    kinematic::{MassKind, quake},
 };
 #[cfg(feature = "dynamics")]
 use nalgebra::Vector3;
@@ -130,10 +130,32 @@ fn shake(
     let under = JsonPath::root().key("shake");
     let axes = options.axes(model.assembly.gravity).map_err(|e| e.under(&under))?;
     let motion = options.ground.motion().map_err(|e| e.under(&under.key("ground")))?;
-    let masses = quake(scene, model, axes[0])?.masses;
+    let burdens = burdens(scene, model, axes[0])?;
     let fidelity = if options.fast { Fidelity::Fast } else { Fidelity::Fine };
     let settings = watch.settings(Some(fidelity), options.seconds, options.to_the_end);
-    let ground = Shaking { motion: &motion, axes: &axes, masses: &masses };
+    let ground = Shaking { motion: &motion, axes: &axes, burdens: &burdens };
     let shaken = dynamics::shake(model, ground, &settings, watch.each)?;
     Ok(Answer::Shake(Box::new(ShakenScene { options: options.clone(), axes, shaken })))
+}
+
+/// The masses of loads, which go with their blocks as in `kinematic`.
+///
+/// # Errors
+/// The direction is along gravity.
+#[cfg(feature = "dynamics")]
+pub fn burdens(
+    scene: &Scene,
+    model: &Model,
+    toward: Vector3<f64>,
+) -> Result<Vec<Burden>, InputError> {
+    let gravity = model.assembly.gravity.norm();
+    let masses = quake(scene, model, toward)?.masses;
+    let loads = masses.iter().filter(|m| m.kind != MassKind::Block);
+    let burden = |m: &crate::kinematic::Mass| Burden {
+        block: m.block,
+        arm: m.arm,
+        mass: m.weight / gravity,
+        rests: if m.kind == MassKind::Rests { m.weight } else { 0.0 },
+    };
+    Ok(loads.map(burden).collect())
 }

@@ -65,5 +65,5 @@ pub use tilt::{Tilt, tilt};
 #[cfg(feature = "dynamics")]
 pub use {
     ask::ask_watched,
-    in_time::{ShakenScene, Watch},
+    in_time::{ShakenScene, Watch, burdens},
 };

@@ -6,6 +6,7 @@ use std::{
 };
 use voussoir::{
     dynamics::Frame,
+    limits,
     report::{
         record::{Origin, date, digest},
         text::{Layout, TextOptions},
@@ -38,7 +39,7 @@ fn digest_of(scene: &Path, text: &str) -> String {
     if scene.as_os_str() == "-" {
         return digest(text.as_bytes());
     }
-    match std::fs::read(scene) {
+    match limits::read_file(scene, limits::PER_BYTE) {
         // A byte order mark is none of the text.
         Ok(bytes)
             if bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes) == text.as_bytes() =>

@@ -2,7 +2,7 @@
 
 mod shaken;
 
-pub use shaken::{BlockMotion, Shaken, ShakenFate, Shaking, shake};
+pub use shaken::{BlockMotion, Burden, Shaken, ShakenFate, Shaking, shake};
 
 use super::{
     FIRST_MOTION, Fate, Fidelity, FirstMotion, Frame, MeanContact, Pose, Progress, Run,

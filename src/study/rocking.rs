@@ -327,7 +327,7 @@ impl Runner<'_> {
             ControlFlow::Continue(())
         };
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let ground = Shaking { motion, axes: &axes, masses: &[] };
+        let ground = Shaking { motion, axes: &axes, burdens: &[] };
         let shaken = shake(self.model, ground, &settings, &mut watch)?;
         Ok((shaken.fate, angles))
     }

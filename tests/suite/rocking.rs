@@ -230,7 +230,7 @@ mod engine {
     fn shaken(scene: &Scene, motion: &Motion, more: SimulationSettings) -> Shaken {
         let settings = SimulationSettings { fidelity: Some(Fidelity::Fine), ..more };
         let mut watch = |_: &voussoir::dynamics::Progress| std::ops::ControlFlow::Continue(());
-        let ground = Shaking { motion, axes: &AXES(), masses: &[] };
+        let ground = Shaking { motion, axes: &AXES(), burdens: &[] };
         shake(&model(scene), ground, &settings, &mut watch).expect("an outcome")
     }
 
@@ -289,7 +289,7 @@ mod engine {
                 std::ops::ControlFlow::Continue(())
             };
             let motion = Pulse::Jump { velocity }.motion();
-            let ground = Shaking { motion: &motion, axes: &AXES(), masses: &[] };
+            let ground = Shaking { motion: &motion, axes: &AXES(), burdens: &[] };
             shake(&model(&block(b, 1.0)), ground, &settings, &mut watch).expect("an outcome");
             // The ground goes to +x, the block leans to −x, comes back, and leans to +x.
             let first = angles.iter().copied().fold(0.0, f64::min);

@@ -7,12 +7,11 @@ use serde_json::{Value, json};
 use std::{ops::ControlFlow, path::Path};
 use voussoir::{
     analysis::{
-        Answer, Control, Question, ask,
+        Answer, Control, Question, ask, burdens,
         follow::machine::{MachineOptions, machine},
     },
     dynamics::{Progress, Shaken, ShakenFate, Shaking, SimulationSettings, shake},
     ground::Pulse,
-    kinematic::quake,
     proof::{ResultFile, shaken::ShakenWord, verify},
     rocking::{RunSettings, Search, scan},
     scene::Scene,
@@ -166,10 +165,10 @@ fn masses_of_loads_go_with_their_blocks() {
         let found = scan(&built.machine, &jump, &RunSettings::default(), &search);
         let least = found.flips[0].overturns_at();
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let masses = quake(&scene, &model, Vector3::x()).expect("masses").masses;
+        let burdens = burdens(&scene, &model, Vector3::x()).expect("masses");
         let shaken = |scale: f64| -> Shaken {
             let motion = jump.scaled(scale * least);
-            let ground = Shaking { motion: &motion, axes: &axes, masses: &masses };
+            let ground = Shaking { motion: &motion, axes: &axes, burdens: &burdens };
             let mut watch = |_: &Progress| ControlFlow::Continue(());
             let settings = SimulationSettings { seconds: Some(12.0), ..Default::default() };
             shake(&model, ground, &settings, &mut watch).expect("a history")

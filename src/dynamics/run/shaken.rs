@@ -22,7 +22,6 @@ use crate::{
     error::{Finding, FindingCode, InputError, JsonPath},
     ground::{Motion, When},
     interface::Model,
-    kinematic::{Mass, MassKind},
     tolerance::{ALONG, OVERTURNED, REST_ENERGY, REST_TIME, SKIN, SUNK},
 };
 use nalgebra::Vector3;
@@ -97,9 +96,21 @@ pub struct Shaking<'a> {
     pub motion: &'a Motion,
     /// Unit axes: the direction of the motion, the horizontal one to its left, up.
     pub axes: &'a [Vector3<f64>; 3],
-    /// The masses that it pushes; those of loads ([`MassKind::Rests`], [`MassKind::Pushes`]) go with
-    /// their blocks.
-    pub masses: &'a [Mass],
+    /// Masses that it pushes beside those of the blocks, with which they go.
+    pub burdens: &'a [Burden],
+}
+
+/// A mass that goes with a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Burden {
+    /// The block.
+    pub block: usize,
+    /// From the block's centre of mass to where it acts, m.
+    pub arm: Vector3<f64>,
+    /// kg.
+    pub mass: f64,
+    /// Its weight, N, where that is among the dead loads; 0 where it rests elsewhere.
+    pub rests: f64,
 }
 
 /// Runs a scene on ground that moves. By default with fine steps, until something overturns or
@@ -127,27 +138,25 @@ pub fn shake(
     let units = Units::of(assembly, &loads.total)
         .ok_or_else(|| refuse("nothing in this scene is free to move".into()))?;
     let mut bodies = bodies(model, &units, SKIN)?;
-    let loaded = ground.masses.iter().filter(|m| m.kind != MassKind::Block);
-    for m in loaded.clone() {
-        let mass = m.weight / assembly.gravity.norm();
-        bodies[m.block].carry(mass / units.mass, m.arm / units.length);
+    for b in ground.burdens {
+        bodies[b.block].carry(b.mass / units.mass, b.arm / units.length);
     }
     let frictions = Frictions::new(model, &units);
     let scene =
         Stage { model, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
     let mut shaken = scene.shake(&ground, watch)?;
     shaken.findings.extend(strengths(interfaces));
-    shaken.findings.extend(massless(model, ground.masses));
+    shaken.findings.extend(massless(model, ground.burdens));
     Ok(shaken)
 }
 
 /// Dead loads that are no weights, or are said to have no mass: forces, which nothing pushes.
-fn massless(model: &Model, masses: &[Mass]) -> Option<Finding> {
+fn massless(model: &Model, burdens: &[Burden]) -> Option<Finding> {
     let assembly = &model.assembly;
     let down = assembly.gravity.try_normalize(0.0).unwrap_or_default();
     let mut rests: BTreeMap<usize, f64> = BTreeMap::new();
-    for m in masses.iter().filter(|m| m.kind == MassKind::Rests) {
-        *rests.entry(m.block).or_default() += m.weight;
+    for b in burdens {
+        *rests.entry(b.block).or_default() += b.rests;
     }
     let loaded = |&i: &usize| {
         let own = assembly.self_weight(i).force;
