@@ -257,13 +257,12 @@ fn mistakes_are_named() {
 
 /// A ring that slides on another: with dry friction less than the bound.
 fn two_rings(friction: f64) -> Value {
-    let mut value = bridge(9, cart([-2.4, 2.4]));
+    let mut value = bridge(7, axle([1.6, 2.4], 0.8));
     let own = &mut value["templates"][0]["bridge"];
     own["at"] = json!([0, 0, 0]);
     own["spans"][0]["rings"] = json!(2);
     own["spans"][0]["thickness"] = json!(0.5);
     value["joints"]["default"]["friction"] = json!(friction);
-    value["train"]["step"] = json!(0.8);
     value
 }
 
@@ -286,7 +285,8 @@ fn other_positions_than_the_worst_bear_what_it_does() {
     let bound = worst.load_factor.associative.value.expect("a bound");
     assert!(v < 0.99 * bound, "{v} {bound}: something slides");
     let of_all = value(said(&every));
-    assert!(v <= of_all * (1.0 + 1e-6), "{v} {of_all}");
+    // One that is less by no more than others are asked below the value may pass for no less.
+    assert!(v <= of_all * (1.0 + 1.1e-3), "{v} {of_all}");
     let is_at_least = |a: &MovingAnswer| a.load_factor.status == FactorStatus::AtLeast;
     let list = all(&least);
     assert!(list.iter().filter(|a| is_at_least(a)).count() > list.len() / 2);
