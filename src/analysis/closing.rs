@@ -65,7 +65,7 @@ pub fn again(
             Question::Tilt(TiltOptions { law, require: None, skip_dead: true, ..o.clone() })
         }
         Question::Moving(_) => {
-            Question::Moving(MovingOptions { law, require: None, skip_dead: true })
+            Question::Moving(MovingOptions { law, skip_dead: true, ..MovingOptions::default() })
         }
         Question::Kinematic(o) => Question::Kinematic(KinematicOptions {
             law,

@@ -1,20 +1,29 @@
 //! How heavy may a train be that drives over the scene? A load factor for every position of it,
 //! each proved as one of a scene of its own, and more positions around the least.
 //!
+//! With dry friction the bounds say where to look: the position with the least is asked for its
+//! value, and every other only whether it rests at what that one is known to bear
+//! ([`coulomb::at_least`]). One that does not is asked for its own value, the least bound first.
+//!
 //! Between neighbouring positions nothing is proved: the steps say how finely it was looked.
 
+mod search;
+
 use super::{
-    Assessment, Control, LoadFactor, MovingOptions, Proved, assess, coulomb,
-    coulomb::DryLoadFactor, limit,
+    Assessment, Control, Law, LoadFactor, MovingOptions, Proved, assess, coulomb,
+    coulomb::{DryLoadFactor, Found},
+    limit,
 };
 use crate::{
     error::{InputError, JsonPath},
     interface::Model,
     parallel,
     scene::Scene,
-    train::{self, Position, Standing, Way},
+    tolerance,
+    train::{self, Loaded, Position, Standing, Way},
     verdict::Verdict,
 };
+use search::{Dip, Step, dips, golden_section};
 
 /// The answer about a train.
 #[derive(Clone, Debug)]
@@ -40,22 +49,27 @@ pub struct Stood {
 }
 
 impl Stood {
-    /// The load factor to use; nothing where there is none, or no limit.
+    /// Whether only the least of all positions was asked for here, which it bears.
+    pub fn is_at_least(&self) -> bool {
+        self.dry.as_ref().is_some_and(|dry| dry.found == Found::AtLeast)
+    }
+
+    /// The load factor to use; nothing where there is none, or no limit, or only the least of all
+    /// positions was asked for.
     pub fn value(&self) -> Option<f64> {
         let bound = self.bound.found();
         self.dry.as_ref().map_or(bound, |dry| dry.to_use(bound))
     }
 }
 
-/// Positions around a least one are sought until they are this share of a step apart. Larger: the
+/// Positions around a least bound are sought until they are this share of a step apart. Larger: the
 /// load factor there may be some 1e-5 of it too high. Smaller: it changes by less than its bracket is
 /// wide.
 const FINEST: f64 = 1e-3;
-/// Other dips of the steps than the lowest are followed where they are no higher than so many times it.
-/// Smaller: the lowest of two alike may be missed. Larger: time for nothing.
-const DIPS: f64 = 1.1;
-/// Dips that are followed at most, the lowest first.
-const MOST_DIPS: usize = 4;
+/// Where something slides at the worst position, so often the way to both its neighbours is halved.
+/// More: a state differs by less from one position to the next than it is asked below a value.
+/// Fewer: the least may lie between.
+const HALVINGS: usize = 3;
 /// Positions that are asked at once: a sweep runs several of these.
 const THREADS: usize = 2;
 
@@ -71,131 +85,157 @@ pub(super) fn moving(
             .hint("add \"train\": { \"axles\": [ { \"at\": 0, \"force\": 100000 } ], \"path\": [-3, 3], \"step\": 0.1 } to the scene, or ask `limit` about its live load"));
     };
     let dead = (!options.skip_dead).then(|| assess(model, control));
-    let verdict = dead.as_ref().map(|d| d.verdict);
-    let asked = |position: &Position| at(&way, *position, verdict, control);
-    let mut positions = each(&train::positions(train), &asked)?;
-    let dips = dips(&positions);
-    let found = each_dip(&dips, &|&dip| follow(dip, FINEST * train.step, &asked))?;
-    positions.extend(found.into_iter().flatten());
-    positions.sort_by(|a, b| {
-        let key = |s: &Stood| s.position;
-        let (a, b) = (key(a), key(b));
-        (a.travel as u8).cmp(&(b.travel as u8)).then(a.x.total_cmp(&b.x))
-    });
-    positions.dedup_by(|a, b| a.position == b.position);
+    let asked = Asked { way: &way, dead: dead.as_ref().map(|d| d.verdict), control };
+    let mut positions = asked.bounds(&train::positions(train))?;
+    let steps: Vec<Step> = positions
+        .iter()
+        .map(|s| (s.position.travel as u8, s.position.x, s.bound.found().unwrap_or(f64::INFINITY)))
+        .collect();
+    let follow = |dip: &Dip| {
+        let mut list = Vec::new();
+        golden_section(dip.between, FINEST * train.step, |x| {
+            let stood = asked.bound(&Position { x, ..positions[dip.step].position })?;
+            let value = stood.as_ref().and_then(|s| s.bound.found()).unwrap_or(f64::INFINITY);
+            list.extend(stood);
+            Ok::<f64, InputError>(value)
+        })?;
+        Ok(list)
+    };
+    let found: Vec<Stood> = each(&dips(&steps), follow)?.into_iter().flatten().collect();
+    put(&mut positions, found);
     if positions.is_empty() {
         let path = JsonPath::root().key("train").key("path");
         return Err(InputError::at(path, "at no position an axle stands on a span")
             .hint("make the steps smaller, or move the path"));
     }
+    match (control.law, options.every_value) {
+        (Law::Associative, _) => {}
+        (Law::Coulomb, true) => {
+            let values = each(&positions, |s| asked.dry(s))?;
+            positions.iter_mut().zip(values).for_each(|(s, dry)| s.dry = dry);
+        }
+        (Law::Coulomb, false) => asked.least(&mut positions)?,
+    }
     Ok(Moving { positions, dead })
 }
 
-/// One position; nothing where no axle stands on a span.
-fn at(way: &Way, position: Position, dead: Option<Verdict>, control: &Control) -> Asked {
-    let Some(train::Loaded { model, axles }) = way.at(position)? else { return Ok(None) };
-    let bound = limit(&model, control);
-    let dry = coulomb::beside(&model, &bound, dead, control);
-    Ok(Some(Stood { position, axles, bound, dry }))
+/// Adds positions in their places.
+fn put(positions: &mut Vec<Stood>, more: Vec<Stood>) {
+    positions.extend(more);
+    positions.sort_by(|a, b| {
+        let (a, b) = (a.position, b.position);
+        (a.travel as u8).cmp(&(b.travel as u8)).then(a.x.total_cmp(&b.x))
+    });
+    positions.dedup_by(|a, b| a.position == b.position);
 }
 
-/// What comes of a position.
-type Asked = Result<Option<Stood>, InputError>;
-
-/// All positions, in their order, on more than one thread where there can be one: what is asked of
-/// each does not depend on that.
-fn each(
-    list: &[Position],
-    asked: &(impl Fn(&Position) -> Asked + Sync),
-) -> Result<Vec<Stood>, InputError> {
-    let done = match parallel::map(THREADS, list, asked) {
-        Ok(done) => done,
-        Err(_) => list.iter().map(asked).collect(),
-    };
-    done.into_iter().filter_map(Result::transpose).collect()
-}
-
-/// A dip of the steps: the positions on both sides of one that is no higher than they are, and its
-/// value.
-#[derive(Clone, Copy)]
-struct Dip {
-    between: [f64; 2],
-    lowest: (Position, f64),
-}
-
-/// The dips of the steps that may hold the least load factor, the lowest first.
-fn dips(positions: &[Stood]) -> Vec<Dip> {
-    let value = |s: &Stood| s.value().unwrap_or(f64::INFINITY);
-    let same = |k: usize, other: usize| {
-        positions.get(other).filter(|s| s.position.travel == positions[k].position.travel)
-    };
-    let dip = |k: usize| {
-        let here = value(&positions[k]);
-        let (before, after) = (k.checked_sub(1).and_then(|j| same(k, j)), same(k, k + 1));
-        // Of two alike the first.
-        let is_low =
-            before.is_none_or(|s| here < value(s)) && after.is_none_or(|s| here <= value(s));
-        let x = positions[k].position.x;
-        let end = |s: Option<&Stood>| s.map_or(x, |s| s.position.x);
-        (here.is_finite() && is_low).then(|| Dip {
-            between: [end(before), end(after)],
-            lowest: (positions[k].position, here),
-        })
-    };
-    let mut list: Vec<Dip> = (0..positions.len()).filter_map(dip).collect();
-    list.sort_by(|a, b| a.lowest.1.total_cmp(&b.lowest.1));
-    let least = list.first().map_or(f64::NAN, |d| d.lowest.1);
-    // Below zero the scene does not stand without the train: there is nothing to search for.
-    list.retain(|d| least > 0.0 && d.lowest.1 <= DIPS * least);
-    list.truncate(MOST_DIPS);
-    list
-}
-
-fn each_dip(
-    dips: &[Dip],
-    follow: &(impl Fn(&Dip) -> Result<Vec<Stood>, InputError> + Sync),
-) -> Result<Vec<Vec<Stood>>, InputError> {
-    match parallel::map(THREADS, dips, follow) {
+/// The answers about a list, in its order, on more than one thread where there can be one: what is
+/// asked of each does not depend on that.
+fn each<T: Sync, R: Send>(
+    list: &[T],
+    ask: impl Fn(&T) -> Result<R, InputError> + Sync,
+) -> Result<Vec<R>, InputError> {
+    match parallel::map(THREADS, list, &ask) {
         Ok(done) => done.into_iter().collect(),
-        Err(_) => dips.iter().map(follow).collect(),
+        Err(_) => list.iter().map(ask).collect(),
     }
 }
 
-/// Golden section on the load factors of a dip (J. Kiefer, *Sequential minimax search for a
-/// maximum*, Proc. AMS 4, 1953): every position on the way, each with its own proof. A position
-/// without a value counts as high; it is kept, and governs.
-fn follow(
-    dip: Dip,
-    finest: f64,
-    asked: &impl Fn(&Position) -> Asked,
-) -> Result<Vec<Stood>, InputError> {
-    let share = 0.5 * (5f64.sqrt() - 1.0);
-    let [mut low, mut high] = dip.between;
-    let mut list = Vec::new();
-    let mut ask = |x: f64| {
-        let stood = asked(&Position { x, ..dip.lowest.0 })?;
-        let value = stood.as_ref().and_then(Stood::value).unwrap_or(f64::INFINITY);
-        list.extend(stood);
-        Ok::<f64, InputError>(value)
-    };
-    let inner = |low: f64, high: f64| (high - share * (high - low), low + share * (high - low));
-    let (mut a, mut b) = inner(low, high);
-    let (mut at_a, mut at_b) = (f64::NAN, f64::NAN);
-    while high - low > finest {
-        // The width falls by a constant share, so that this ends.
-        if at_a.is_nan() {
-            at_a = ask(a)?;
-        }
-        if at_b.is_nan() {
-            at_b = ask(b)?;
-        }
-        if at_a <= at_b {
-            (high, b, at_b) = (b, a, at_a);
-            (a, at_a) = (inner(low, high).0, f64::NAN);
-        } else {
-            (low, a, at_a) = (a, b, at_b);
-            (b, at_b) = (inner(low, high).1, f64::NAN);
-        }
+/// What is asked of positions.
+struct Asked<'a> {
+    way: &'a Way<'a>,
+    /// The verdict under the dead load alone, where it is known.
+    dead: Option<Verdict>,
+    control: &'a Control,
+}
+
+impl Asked<'_> {
+    /// The bound at a position; nothing where no axle stands on a span.
+    fn bound(&self, position: &Position) -> Result<Option<Stood>, InputError> {
+        let Some(Loaded { model, axles }) = self.way.at(*position)? else { return Ok(None) };
+        let bound = limit(&model, self.control);
+        Ok(Some(Stood { position: *position, axles, bound, dry: None }))
     }
-    Ok(list)
+
+    fn bounds(&self, list: &[Position]) -> Result<Vec<Stood>, InputError> {
+        Ok(each(list, |p| self.bound(p))?.into_iter().flatten().collect())
+    }
+
+    /// The value with dry friction, as far as the bound leaves something to ask.
+    fn dry(&self, stood: &Stood) -> Result<Option<Proved<DryLoadFactor>>, InputError> {
+        let loaded = self.way.at(stood.position)?;
+        Ok(loaded.and_then(|l| coulomb::beside(&l.model, &stood.bound, self.dead, self.control)))
+    }
+
+    /// Finds the least value with dry friction, and of every other position that it is not below.
+    fn least(&self, positions: &mut Vec<Stood>) -> Result<(), InputError> {
+        let mut floor = None;
+        self.down(positions, &mut floor)?;
+        for _ in 0..HALVINGS {
+            let Some(list) = beside_the_worst(positions) else { break };
+            let mut more = self.bounds(&list)?;
+            self.down(&mut more, &mut floor)?;
+            put(positions, more);
+        }
+        Ok(())
+    }
+
+    /// Asks positions whether they rest at the `floor`, the least load factor that those asked for
+    /// their value are known to bear; those that do not for their own, the least bound first.
+    fn down(&self, positions: &mut [Stood], floor: &mut Option<f64>) -> Result<(), InputError> {
+        let height = |s: &Stood| s.bound.found().unwrap_or(f64::INFINITY);
+        let mut open: Vec<usize> = (0..positions.len()).collect();
+        open.sort_by(|&a, &b| height(&positions[a]).total_cmp(&height(&positions[b])));
+        let mut asked_at = None;
+        while !open.is_empty() {
+            if let Some(at) = *floor
+                && asked_at != *floor
+            {
+                asked_at = *floor;
+                let rests = |&k: &usize| -> Result<_, InputError> {
+                    let loaded = self.way.at(positions[k].position)?;
+                    let ask = |l: Loaded| {
+                        coulomb::at_least(&l.model, &positions[k].bound, at, self.control)
+                    };
+                    Ok(loaded.and_then(ask))
+                };
+                let rests = each(&open, rests)?;
+                open.iter().zip(rests).for_each(|(&k, dry)| positions[k].dry = dry);
+                open.retain(|&k| positions[k].dry.is_none());
+                if open.is_empty() {
+                    break;
+                }
+            }
+            let k = open.remove(0);
+            let dry = self.dry(&positions[k])?;
+            let bears = dry.as_ref().and_then(|dry| bears(dry)).filter(|at| *at > 0.0);
+            *floor = [*floor, bears].into_iter().flatten().reduce(f64::min);
+            positions[k].dry = dry;
+        }
+        Ok(())
+    }
+}
+
+/// What others are asked whether they bear it: a position as good as the same rests somewhat below
+/// this value, and not at it.
+fn bears(dry: &DryLoadFactor) -> Option<f64> {
+    let below = dry.value.map(|v| v - tolerance::REST_BELOW * v.abs());
+    // Without a value, what it was seen to rest at.
+    Some(dry.rests_at?.min(below.unwrap_or(f64::INFINITY)))
+}
+
+/// Half-way to both neighbours of the position with the least value, where dry friction made it less
+/// than the bound, around which more positions were asked already.
+fn beside_the_worst(positions: &[Stood]) -> Option<Vec<Position>> {
+    let valued = positions.iter().enumerate().filter_map(|(k, s)| Some((k, s.value()?)));
+    let (k, value) = valued.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let worst = &positions[k];
+    let slides = value < (1.0 - tolerance::REST_BELOW) * worst.bound.found()?;
+    let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
+    let middle = |other: usize| {
+        let Position { travel, x } = positions.get(other)?.position;
+        let here = worst.position;
+        (travel == here.travel).then(|| Position { x: 0.5 * (x + here.x), ..here })
+    };
+    slides.then(|| beside.filter_map(middle).collect())
 }

@@ -87,6 +87,10 @@ pub struct MovingOptions {
     /// dry friction only: a plan has no such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub skip_dead: bool,
+    /// With dry friction: the value at every position, and not at the others than the worst only that
+    /// it is not less.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub every_value: bool,
 }
 
 /// Options of `tilt`.

@@ -29,11 +29,14 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
         law: session.law(),
         require: args.require,
         skip_dead: args.skip_dead,
+        every_value: args.every_value,
     });
     let answer = session.ask(&question)?;
     let file = session.result(&question, &answer)?;
     let film = if session.is_filmed() { positions(&session.model, &file) } else { Vec::new() };
-    let own = [vec!["--moving".to_string()], skip_dead(args.skip_dead)].concat();
+    let every = args.every_value.then(|| "--every-value".to_string());
+    let own = [vec!["--moving".to_string()], Vec::from_iter(every), skip_dead(args.skip_dead)];
+    let own = own.concat();
     let file = session.answer_seen(terminal, &own, Seen::Scene(film), file)?;
     if let Some(csv) = csv {
         csv.write(&moving::csv(&file)?)?;
@@ -47,7 +50,10 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
 
 /// The first option that says nothing without `--moving`.
 pub fn idle(args: &Limit) -> Option<&'static str> {
-    [(args.chart.is_some(), "--chart"), (args.positions.is_some(), "--positions")]
-        .into_iter()
-        .find_map(|(given, name)| given.then_some(name))
+    let given = [
+        (args.chart.is_some(), "--chart"),
+        (args.positions.is_some(), "--positions"),
+        (args.every_value, "--every-value"),
+    ];
+    given.into_iter().find_map(|(given, name)| given.then_some(name))
 }

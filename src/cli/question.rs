@@ -410,6 +410,8 @@ pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f6
                 Exit::Yes
             }
         }
-        (FactorStatus::Found | FactorStatus::Undecided, _) => Exit::Undecided,
+        (FactorStatus::Found | FactorStatus::AtLeast | FactorStatus::Undecided, _) => {
+            Exit::Undecided
+        }
     }
 }

@@ -197,9 +197,42 @@ fn ring(
     let ends = between(1.0);
     let thickness = ends[1] - ends[0];
     let joints: Vec<Joint> = (0..=n).map(|j| midline.joint_between(j, n, &between)).collect();
+    unfolded(place, &joints, thickness)?;
+    let springing = joints[n];
+    let right = match *midline {
+        Midline::Circular { half_deg, .. } => {
+            // One more voussoir, or half of what is left of the circle.
+            let angle = half_deg + (2.0 * half_deg / n as f64).min((180.0 - half_deg) / 2.0);
+            continued(*midline, angle, ends, springing)
+        }
+        _ => beyond([joints[n - 1], springing], thickness),
+    };
+    Ok(Section {
+        voussoirs: joints.windows(2).map(|p| quad(p[0], p[1])).collect(),
+        springers: both(right),
+        springing,
+    })
+}
+
+/// A ring between joints of one's own, from left to right, at least two.
+pub fn ring_between(place: &Place, joints: &[Joint]) -> Result<Section, InputError> {
+    let thickness = |[b, c]: Joint| (c[0] - b[0]).hypot(c[1] - b[1]);
+    let n = joints.len() - 1;
+    unfolded(place, joints, joints.iter().map(|j| thickness(*j)).fold(0.0, f64::max))?;
+    let [left, right] = [[joints[1], joints[0]].map(|j| j.map(mirror)), [joints[n - 1], joints[n]]]
+        .map(|last| beyond(last, thickness(last[1])));
+    Ok(Section {
+        voussoirs: joints.windows(2).map(|p| quad(p[0], p[1])).collect(),
+        springers: [reflect(&left), right],
+        springing: joints[n],
+    })
+}
+
+/// Refuses joints between which the intrados would run backwards, for the thickness reaches past the
+/// centre of curvature.
+fn unfolded(place: &Place, joints: &[Joint], thickness: f64) -> Result<(), InputError> {
     for pair in joints.windows(2) {
         let [[a, d], [b, c]] = [pair[0], pair[1]];
-        // Where the thickness reaches past the centre of curvature, the intrados runs backwards.
         let chord = [b[0] + c[0] - a[0] - d[0], b[1] + c[1] - a[1] - d[1]];
         if (b[0] - a[0]) * chord[0] + (b[1] - a[1]) * chord[1] <= 0.0 {
             return Err(place.error(
@@ -209,28 +242,16 @@ fn ring(
             ));
         }
     }
-    let springing = joints[n];
-    let right = match *midline {
-        Midline::Circular { half_deg, .. } => {
-            // One more voussoir, or half of what is left of the circle.
-            let angle = half_deg + (2.0 * half_deg / n as f64).min((180.0 - half_deg) / 2.0);
-            continued(*midline, angle, ends, springing)
-        }
-        _ => {
-            let [[a, d], [b, c]] = [joints[n - 1], springing];
-            let length =
-                ((b[0] + c[0] - a[0] - d[0]) / 2.0).hypot((b[1] + c[1] - a[1] - d[1]) / 2.0);
-            // The joint runs outwards; turned clockwise it points away from the arch.
-            let out = [(c[0] - b[0]) / thickness, (c[1] - b[1]) / thickness];
-            let back = |p: Point| [p[0] + length * out[1], p[1] - length * out[0]];
-            vec![b, back(b), back(c), c]
-        }
-    };
-    Ok(Section {
-        voussoirs: joints.windows(2).map(|p| quad(p[0], p[1])).collect(),
-        springers: both(right),
-        springing,
-    })
+    Ok(())
+}
+
+/// The support beyond the last of two joints, as long as the voussoir between them.
+fn beyond([[a, d], [b, c]]: [Joint; 2], thickness: f64) -> Vec<Point> {
+    let length = ((b[0] + c[0] - a[0] - d[0]) / 2.0).hypot((b[1] + c[1] - a[1] - d[1]) / 2.0);
+    // The joint runs outwards; turned clockwise it points away from the arch.
+    let out = [(c[0] - b[0]) / thickness, (c[1] - b[1]) / thickness];
+    let back = |p: Point| [p[0] + length * out[1], p[1] - length * out[0]];
+    vec![b, back(b), back(c), c]
 }
 
 /// Joints vertical, intrados and extrados the mid-line moved down and up by half the thickness.

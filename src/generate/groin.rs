@@ -72,16 +72,14 @@ pub fn blocks(groin: &Groin) -> Result<Vec<BlockSpec>, InputError> {
             blocks.push(BlockSpec::new(format!("{web}_{}", numbered("v", i, n)), shape));
         }
     }
-    if groin.springers {
-        let (size, height) = (half - inner[0], groin.thickness);
-        let middle = 0.5 * (half + inner[0]);
-        let corners =
-            [("ne", [1.0, 1.0]), ("nw", [-1.0, 1.0]), ("se", [1.0, -1.0]), ("sw", [-1.0, -1.0])];
-        for (corner, [x, y]) in corners {
-            let shape = Shape::Cuboid { size: [size, size, height] };
-            let at = [x * middle, y * middle, inner[1] - 0.5 * height];
-            blocks.push(BlockSpec { at, ..support(format!("springer_{corner}"), shape) });
-        }
+    let (size, height) = (half - inner[0], groin.thickness);
+    let middle = 0.5 * (half + inner[0]);
+    let corners =
+        [("ne", [1.0, 1.0]), ("nw", [-1.0, 1.0]), ("se", [1.0, -1.0]), ("sw", [-1.0, -1.0])];
+    for (corner, [x, y]) in corners {
+        let shape = Shape::Cuboid { size: [size, size, height] };
+        let at = [x * middle, y * middle, inner[1] - 0.5 * height];
+        blocks.push(BlockSpec { at, ..support(format!("springer_{corner}"), shape) });
     }
     Ok(blocks)
 }

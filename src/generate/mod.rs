@@ -24,6 +24,7 @@ mod midline;
 mod portal;
 mod random;
 mod stack;
+mod surveyed;
 mod tower;
 mod wall;
 
@@ -62,6 +63,7 @@ pub fn expand(template: &Template) -> Result<Vec<BlockSpec>, InputError> {
         Template::Tower(t) => (tower::blocks(t)?, &t.prefix, t.at, &t.material),
         Template::Wall(t) => (wall::blocks(t)?, &t.prefix, t.at, &t.material),
     };
+    blocks.retain(|b| template.has_supports() || !b.support);
     let root = JsonPath::root().key(template.name());
     if at.iter().any(|c| !c.is_finite()) {
         return Err(InputError::at(
@@ -145,7 +147,6 @@ pub fn examples() -> Vec<Template> {
                 cover: 0.3,
                 unit_weight: 18e3,
                 friction_deg: Some(30.0),
-                dispersal: 0.5,
                 ..Default::default()
             }),
             ..Default::default()
@@ -176,7 +177,6 @@ pub fn examples() -> Vec<Template> {
             thickness: 0.4,
             side: 5.0,
             voussoirs: 16,
-            springers: true,
             ..Default::default()
         }),
         Template::Lattice(template::Lattice { radius: 0.01, layers: 4, ..Default::default() }),

@@ -127,6 +127,9 @@ pub enum FactorStatus {
     Unbounded,
     /// No load factor lets the scene stand.
     Impossible,
+    /// It is not less than `lower`, which another answer is known to bear; how much more was not
+    /// asked.
+    AtLeast,
     /// Under the dead load alone it does not come to rest: there is no value with dry friction.
     NotAtRest,
     /// It did not come out.
@@ -166,6 +169,7 @@ impl LoadFactorAnswer {
             Found::NothingSlides if dry.is_reached() => same,
             Found::Unlimited => same,
             Found::NotAtRest => none(FactorStatus::NotAtRest),
+            Found::AtLeast => Self { lower: dry.rests_at, upper, ..none(FactorStatus::AtLeast) },
             // A value is one only up to which the state was seen at rest.
             Found::FixedPoint | Found::Rests | Found::RestsBelow if dry.is_reached() => {
                 let upper = dry.moves_at.filter(|_| dry.found == Found::Rests).or(upper);

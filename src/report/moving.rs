@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     number::short,
-    proof::{ResultFile, moving::MovingAnswer},
+    proof::{ResultFile, answer::FactorStatus, moving::MovingAnswer},
     train::{Travel, is_symmetric},
 };
 use plotters::{
@@ -63,15 +63,26 @@ const HIGH: f64 = 6.0;
 
 /// A direction of travel in words, and its points: place and load factor, none where the line is
 /// broken, for positions without a load factor, or with one too high to be drawn, lie there.
-type Line = (&'static str, Vec<(f64, Option<f64>)>);
+type Line = (String, Vec<(f64, Option<f64>)>);
 
 /// What the line of a train is called that is the same from both ends.
 const BOTH: &str = "both directions of travel";
 
+/// Whether positions were asked only whether they bear what the worst one does: then the lines are
+/// those of the bounds, which all have.
+fn has_bounds_only(list: &[&MovingAnswer]) -> bool {
+    list.iter().any(|a| a.load_factor.status == FactorStatus::AtLeast)
+}
+
 /// The line of each direction of travel, where it is not above [`HIGH`] × the least.
 fn lines(file: &ResultFile, list: &[&MovingAnswer]) -> Vec<Line> {
     let symmetric = file.scene.input.train.as_ref().is_some_and(is_symmetric);
-    let value = |a: &MovingAnswer| a.load_factor.value.filter(|v| v.is_finite());
+    let bounds = has_bounds_only(list);
+    let value = |a: &MovingAnswer| {
+        let l = &a.load_factor;
+        let value = if bounds { l.associative.value } else { l.value };
+        value.filter(|v| v.is_finite())
+    };
     let least = list.iter().filter_map(|a| value(a)).fold(f64::INFINITY, f64::min);
     let step = file.scene.input.train.as_ref().map_or(f64::INFINITY, |t| t.step);
     let line = |travel: Travel| {
@@ -85,7 +96,8 @@ fn lines(file: &ResultFile, list: &[&MovingAnswer]) -> Vec<Line> {
             }
             points.push((a.x, value(a).filter(|y| *y <= HIGH * least.abs())));
         }
-        (if symmetric { BOTH } else { travel.words() }, points)
+        let words = if symmetric { BOTH } else { travel.words() };
+        (if bounds { format!("{words}, at most") } else { words.into() }, points)
     };
     [Travel::Forward, Travel::Backward]
         .into_iter()
@@ -99,6 +111,15 @@ fn worst(file: &ResultFile) -> Option<(f64, f64)> {
     let a = file.answer.moving()?;
     Some((a.x, a.load_factor.value?))
 }
+
+/// Positions with a value of their own, where the lines are bounds, the least among them.
+fn valued(list: &[&MovingAnswer]) -> Vec<(f64, f64)> {
+    let value = |a: &&&MovingAnswer| Some((a.x, a.load_factor.value?));
+    list.iter().filter(|_| has_bounds_only(list)).filter_map(|a| value(&a)).collect()
+}
+
+/// What such positions are called.
+const VALUED: &str = "with dry friction, where asked";
 
 const X: &str = "place of the train's origin, m";
 const Y: &str = "load factor λ";
@@ -122,6 +143,8 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
     if all.iter().all(|s| drawn(s) < 2) {
         return None;
     }
+    let dry: Vec<_> = valued(&list).into_iter().map(|(x, y)| (x, Some(y))).collect();
+    all.extend((!dry.is_empty()).then(|| series(VALUED, false, &dry)));
     all.extend(worst(file).map(|p| series("the least", false, &[(p.0, Some(p.1))])));
     Some(Chart {
         title: "Load factor where the train stands".into(),
@@ -136,6 +159,7 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
 
 const COLOURS: [RGBColor; 2] = [plot::BLUE, plot::RED];
 const WORST: RGBColor = RGBColor(0, 0, 0);
+const DRY: RGBColor = RGBColor(0, 0, 0);
 
 /// The chart as SVG: load factor against the place of the train, a line for each direction of travel.
 ///
@@ -145,7 +169,8 @@ pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
     let list = said(file)?;
     let lines = lines(file, &list);
     let runs: Vec<Vec<Vec<(f64, f64)>>> = lines.iter().map(|l| runs(&l.1)).collect();
-    let all = || runs.iter().flatten().flatten();
+    let dry = valued(&list);
+    let all = || runs.iter().flatten().flatten().chain(&dry);
     let ends = |of: fn(&(f64, f64)) -> f64| {
         all().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)))
     };
@@ -168,12 +193,19 @@ pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
                     runs.iter().map(|run| PathElement::new(run.clone(), colour.stroke_width(2))),
                 )
                 .map_err(refused)?
-                .label(*name)
+                .label(name.as_str())
                 .legend(plot::sample(colour));
             let points = runs.iter().flatten();
             chart
                 .draw_series(points.map(|p| Circle::new(*p, 2, colour.filled())))
                 .map_err(refused)?;
+        }
+        if !dry.is_empty() {
+            chart
+                .draw_series(dry.iter().map(|p| Circle::new(*p, 3, DRY.filled())))
+                .map_err(refused)?
+                .label(VALUED)
+                .legend(|(x, y)| Circle::new((x + 8, y), 3, DRY.filled()));
         }
         if let Some(point) = worst(file) {
             chart

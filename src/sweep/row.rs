@@ -188,10 +188,12 @@ impl RowAnswer {
         match answer {
             Answer::Assess(a) => Self::of_assessment(a),
             Answer::Limit(l) => Self::of_load_factor(&l.bound, l.dry.as_ref(), |lambda| lambda),
-            Answer::Moving(m) => least(&mut m.positions.iter().map(|s| Self {
-                x: Some(s.position.x),
-                ..Self::of_load_factor(&s.bound, s.dry.as_ref(), |lambda| lambda)
-            })),
+            Answer::Moving(m) => {
+                least(&mut m.positions.iter().filter(|s| !s.is_at_least()).map(|s| Self {
+                    x: Some(s.position.x),
+                    ..Self::of_load_factor(&s.bound, s.dry.as_ref(), |lambda| lambda)
+                }))
+            }
             Answer::Tilt(t) => least(&mut t.directions.iter().map(tilt)),
             Answer::Repose(p) => least(
                 &mut p
@@ -368,10 +370,10 @@ impl RowAnswer {
                 ..answer
             },
             Found::NotAtRest => Self { dry: Some(found), ..Self::of(RowStatus::Conditional) },
-            Found::Undecided => Self {
+            Found::AtLeast | Found::Undecided => Self {
                 status: RowStatus::Undecided,
                 value: None,
-                lower: None,
+                lower: dry.rests_at.filter(|_| found == Found::AtLeast).map(scale),
                 dry: Some(found),
                 ..answer
             },

@@ -21,6 +21,9 @@ pub enum Found {
     /// little more ([`REST_WITHIN`](crate::tolerance::REST_WITHIN)), did not come out. Computed, not
     /// proved.
     RestsBelow,
+    /// The state under dry friction rests at a load factor that was asked for, because another
+    /// answer is no higher: there is no value, only that it is not less. Computed, not proved.
+    AtLeast,
     /// Already under the dead load the state does not rest: it needs a pre-stress, or falls. There
     /// is no value.
     NotAtRest,

@@ -6,7 +6,7 @@ use crate::ask::{close, load_factor, model};
 use serde_json::{Value, json};
 use voussoir::{
     assembly::MemberKind,
-    scene::{Scene, read_str},
+    scene::{OnRoad, Scene, read_str},
 };
 
 /// Clear span, rise, ring, width, cover, m.
@@ -71,6 +71,112 @@ fn the_worst_position_of_an_axle() {
     for (x, wanted) in wanted {
         let s = read(&scene(PRESTWOOD, Some(1.5), x));
         close(&format!("{x}"), load_factor(&s), wanted, 1e-4);
+    }
+}
+
+/// An angle of dispersal is its tangent; the width that carries a load is what it reaches across, at
+/// most the bridge's.
+#[test]
+fn loads_spread_at_an_angle_and_across() {
+    let with = |key: &str, value: f64, across: Option<f64>| {
+        let mut scene = scene([6.0, 1.5, 0.4, 3.0, 0.8], None, 1.5);
+        scene["templates"][0]["bridge"]["fill"][key] = json!(value);
+        if let Some(across) = across {
+            scene["loads"]["live"][0]["road"]["across"] = json!(across);
+        }
+        scene
+    };
+    let factor = |value: &Value| load_factor(&read(value));
+    let by_tangent = factor(&with("dispersal", 30f64.to_radians().tan(), None));
+    close("30°", factor(&with("dispersal_deg", 30.0, None)), by_tangent, 1e-9);
+    assert!((factor(&with("dispersal_deg", 45.0, None)) / by_tangent - 1.0).abs() > 0.02);
+    let mut both = with("dispersal_deg", 30.0, None);
+    both["templates"][0]["bridge"]["fill"]["dispersal"] = json!(0.5);
+    let told = |value: &Value| match voussoir::interface::prepare(&read(value)) {
+        Ok(_) => panic!("no mistake: {value}"),
+        Err(e) => format!("{}: {}", e.path, e.message),
+    };
+    assert!(told(&both).contains("fill.dispersal_deg: excludes dispersal"));
+    assert!(told(&with("dispersal_deg", 90.0, None)).contains("between 0 and 90"));
+    let width = |across: Option<f64>| {
+        let scene = read(&with("dispersal_deg", 45.0, across));
+        let on = OnRoad { x: 0.0, patch: 0.3, across };
+        let force = [0.0, 0.0, -1.0];
+        voussoir::generate::on_road(&scene.templates[0], on, force).expect("a road").width
+    };
+    // A joint lies at the crown, where the fill is as thick as the cover.
+    close("crown", width(Some(1.0)), 1.0 + 2.0 * 0.8, 1e-9);
+    assert_eq!((width(None), width(Some(2.9))), (3.0, 3.0));
+    // What is carried by less of the bridge counts for more.
+    let narrow = factor(&with("dispersal", 0.0, Some(1.5)));
+    close("half of it", narrow, 0.5 * factor(&with("dispersal", 0.0, None)), 1e-7);
+}
+
+/// The intrados by points: on a circle, one for each joint, the ring is that of the circle; with fewer
+/// points nearly so; a bridge that is not its own mirror image has the mirrored load factors of its
+/// image.
+#[test]
+fn an_intrados_by_points() {
+    let [span, rise, ..] = PRESTWOOD;
+    let radius = (0.25 * span * span / rise + rise) / 2.0;
+    let half = (0.5 * span / radius).asin();
+    let circle = |n: usize| -> Vec<[f64; 2]> {
+        let angle = |k: usize| half * (2.0 * k as f64 / n as f64 - 1.0);
+        // A survey has an origin of its own.
+        let point = |a: f64| [17.0 + radius * a.sin(), 3.0 + radius * a.cos()];
+        (0..=n).map(|k| point(angle(k))).collect()
+    };
+    let by = |points: Vec<[f64; 2]>, x: f64| {
+        let mut value = scene(PRESTWOOD, Some(1.5), x);
+        value["templates"][0]["bridge"]["spans"] =
+            json!([{ "intrados": points, "thickness": 0.22, "voussoirs": 40 }]);
+        value
+    };
+    let wanted = load_factor(&read(&scene(PRESTWOOD, Some(1.5), 1.6)));
+    close("joints", load_factor(&read(&by(circle(40), 1.6))), wanted, 1e-6);
+    close("12 points", load_factor(&read(&by(circle(12), 1.6))), wanted, 1e-3);
+    // A crown to the left of the middle.
+    let foot = circle(12)[0];
+    let skewed: Vec<[f64; 2]> = circle(12)
+        .iter()
+        .map(|p| [p[0] - foot[0] - 0.2 * (p[1] - foot[1]), p[1] - foot[1]])
+        .collect();
+    let mirrored: Vec<[f64; 2]> = skewed.iter().rev().map(|p| [span - p[0], p[1]]).collect();
+    let (left, right) = (by(skewed.clone(), 1.6), by(mirrored, span - 1.6));
+    let m = model(&read(&left));
+    let told: Vec<&str> = m.findings().map(|f| f.text.as_str()).collect();
+    assert!(m.interfaces.left_out.is_none() && told.is_empty(), "{told:?}");
+    close("mirrored", load_factor(&read(&left)), load_factor(&read(&right)), 1e-6);
+    // Beside another span, on a pier.
+    let mut two = left.clone();
+    let bridge = &mut two["templates"][0]["bridge"];
+    let other = json!({ "clear_span": 5, "rise": 1.2, "thickness": 0.22, "voussoirs": 30 });
+    bridge["spans"].as_array_mut().expect("spans").push(other);
+    bridge["piers"] = json!([{ "width": 1.2, "height": 2 }]);
+    two["loads"]["live"][0]["road"]["x"] = json!(-4.0);
+    let m = model(&read(&two));
+    let told: Vec<&str> = m.findings().map(|f| f.text.as_str()).collect();
+    assert!(m.interfaces.left_out.is_none() && told.is_empty(), "{told:?}");
+    assert!(load_factor(&read(&two)) > 0.0);
+    let mistake = |points: Value, more: Value| {
+        let mut value = by(Vec::new(), 1.6);
+        let span = value["templates"][0]["bridge"]["spans"][0].as_object_mut().expect("a span");
+        span.insert("intrados".into(), points);
+        span.extend(more.as_object().expect("an object").clone());
+        match voussoir::interface::prepare(&read(&value)) {
+            Ok(_) => panic!("no mistake: {value}"),
+            Err(e) => format!("{}: {}", e.path, e.message),
+        }
+    };
+    for (text, wanted) in [
+        (mistake(json!(skewed), json!({ "rise": 1.5 })), "spans[0].rise: is that of an intrados"),
+        (mistake(json!([[0, 0], [1, 1]]), json!({})), "intrados[0]: 2 points give no curve"),
+        (mistake(json!([[0, 0], [1, 1], [1, 1], [2, 0]]), json!({})), "intrados[2]: is the point"),
+        (mistake(json!([[2, 0], [1, 1], [0, 0]]), json!({})), "intrados[0]: the points run"),
+        (mistake(json!([[0, 0], [1, 1], [2, 0.2]]), json!({})), "intrados[2]: one springing"),
+        (mistake(json!([[0, 0], [1, -1], [2, 0]]), json!({})), "intrados[1]: lies no higher"),
+    ] {
+        assert!(text.contains(wanted), "{text}: {wanted}");
     }
 }
 

@@ -105,6 +105,41 @@ fn a_vault_without_springers_is_held_by_what_is_there() {
     assert_eq!(on.count(), 8);
 }
 
+/// Whatever stands on supports of its own stands on others in their place.
+#[test]
+fn supports_may_be_left_out() {
+    let dome = json!({ "radius": 3, "thickness": 0.5, "rings": 4, "segments": 8 });
+    let span = json!([{ "clear_span": 4, "rise": 1, "thickness": 0.4, "voussoirs": 9 }]);
+    let arch = json!({ "radius": 2, "thickness": 0.5, "depth": 1, "voussoirs": 9 });
+    let barrel = json!({ "radius": 2, "thickness": 0.5, "depth": 2, "voussoirs": 8, "courses": 2 });
+    let tower = json!({ "size": [3, 2], "thickness": 0.5, "course": 0.5, "courses": 4 });
+    let leaves = json!({ "size": [0.6, 0.25, 0.3], "hollow": 0.2, "courses": 4, "blocks": 3 });
+    for (name, key, own) in [
+        ("arch", "springers", arch),
+        ("barrel", "springers", barrel),
+        ("bridge", "springers", json!({ "spans": span, "width": 3 })),
+        ("dome", "springers", dome),
+        ("groin", "springers", groin(8)["groin"].clone()),
+        ("leaves", "base", leaves),
+        ("portal", "base", portal(1.2)["portal"].clone()),
+        ("tower", "base", tower),
+    ] {
+        let with = |there: bool| {
+            let mut own = own.clone();
+            own[key] = json!(there);
+            let ground = json!({ "id": "ground", "support": true, "at": [0, 0, -90],
+                "shape": { "box": { "size": [9, 9, 1] } } });
+            model(&read(&json!({ name: own }), &json!({ "blocks": [ground] })))
+        };
+        let count = |m: &Model, support: bool| {
+            m.assembly.blocks.iter().filter(|b| b.support == support).count()
+        };
+        let (own, other) = (with(true), with(false));
+        assert!(count(&own, true) > 1, "{name}");
+        assert_eq!((count(&other, true), count(&other, false)), (1, count(&own, false)), "{name}");
+    }
+}
+
 fn portal(pier: f64) -> Value {
     json!({ "portal": { "clear_span": 3, "rise": 1.5, "thickness": 0.4, "depth": 1, "voussoirs": 15,
         "pier": { "width": pier, "height": 3, "courses": 6 } } })

@@ -5,7 +5,7 @@ use crate::ask::{close, model, prove};
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Law, MovingOptions, Question, ask},
-    proof::{self, Answer, ResultFile, moving::MovingAnswer},
+    proof::{self, Answer, ResultFile, answer::FactorStatus, moving::MovingAnswer},
     report::moving,
     scene::{Scene, read_str},
     train::Travel,
@@ -253,4 +253,73 @@ fn mistakes_are_named() {
     let scene = read(&bridge(12, axle([0.8, 2.0], 0.4)));
     let text = asked(&scene, Question::Limit(voussoir::analysis::LimitOptions::default()));
     assert!(text.contains("--moving"), "{text}");
+}
+
+/// A ring that slides on another: with dry friction less than the bound.
+fn two_rings(friction: f64) -> Value {
+    let mut value = bridge(7, axle([1.6, 2.4], 0.8));
+    let own = &mut value["templates"][0]["bridge"];
+    own["at"] = json!([0, 0, 0]);
+    own["spans"][0]["rings"] = json!(2);
+    own["spans"][0]["thickness"] = json!(0.5);
+    value["joints"]["default"]["friction"] = json!(friction);
+    value
+}
+
+fn dry_file(scene: &Scene, every_value: bool) -> ResultFile {
+    let question = Question::Moving(MovingOptions { every_value, ..MovingOptions::default() });
+    let model = model(scene);
+    let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
+    ResultFile::of(scene, &model, &answer).expect("a result")
+}
+
+/// With dry friction the worst position has its value, and of every other one it is only known that
+/// it is not less: as asking all of them for their values says.
+#[test]
+fn other_positions_than_the_worst_bear_what_it_does() {
+    let scene = read(&two_rings(0.4));
+    let (least, every) = (dry_file(&scene, false), dry_file(&scene, true));
+    prove(&scene, &least);
+    let worst = said(&least);
+    let v = value(worst);
+    let bound = worst.load_factor.associative.value.expect("a bound");
+    assert!(v < 0.99 * bound, "{v} {bound}: something slides");
+    let of_all = value(said(&every));
+    // One that is less by no more than others are asked below the value may pass for no less.
+    assert!(v <= of_all * (1.0 + 1.1e-3), "{v} {of_all}");
+    let is_at_least = |a: &MovingAnswer| a.load_factor.status == FactorStatus::AtLeast;
+    let list = all(&least);
+    assert!(list.iter().filter(|a| is_at_least(a)).count() > list.len() / 2);
+    for a in list.iter().filter(|a| is_at_least(a)) {
+        let floor = a.load_factor.lower.expect("a least value");
+        assert!(floor >= (1.0 - 2e-3) * v && a.load_factor.value.is_none());
+        let there = all(&every).into_iter().find(|e| e.position() == a.position());
+        let Some(own) = there.and_then(|e| e.load_factor.value) else { continue };
+        assert!(floor <= own * (1.0 + 1e-6), "x = {}: {floor} {own}", a.x);
+    }
+    let forge = |what: &str, by: f64| {
+        let mut file = least.clone();
+        let k = file.directions.iter().position(|d| d.answer.moving().is_some_and(is_at_least));
+        let d = &mut file.directions[k.expect("a position")];
+        let dry = d.dry.as_mut().expect("dry friction");
+        dry.rests_at = dry.rests_at.map(|at| by * at);
+        if let Answer::Moving(a) = &mut d.answer {
+            a.load_factor.lower = dry.rests_at;
+        }
+        let found = proof::verify(&file, &scene).expect("a scene");
+        assert!(found.refuted() && !found.proved(), "{what} is called proved");
+    };
+    forge("a position that bears less than the worst", 0.5);
+    forge("a position that bears more than it does", 50.0);
+    let mut file = least.clone();
+    let k = file.directions.iter().position(|d| d.answer.moving().is_some_and(is_at_least));
+    let other = file.directions[k.expect("a position")].clone();
+    (file.answer, file.certificate, file.dry) = (other.answer, other.certificate, other.dry);
+    let found = proof::verify(&file, &scene).expect("a scene");
+    assert!(found.refuted(), "an answer without a value is called the least");
+    // Tables and charts have the bound where there is no value.
+    let chart = moving::chart(&least).expect("a chart");
+    assert!(chart.contains("at most") && chart.contains("with dry friction"));
+    let table = moving::csv(&least).expect("a table");
+    assert_eq!(table.lines().count(), list.len() + 1);
 }

@@ -72,7 +72,7 @@ class LoadFactor:
     """A load factor, or a tilt: its tangent or its angle in degrees."""
 
     status: str
-    """``found``, ``unbounded``, ``impossible``, ``not_at_rest``, ``undecided``."""
+    """``found``, ``unbounded``, ``impossible``, ``at_least``, ``not_at_rest``, ``undecided``."""
     law: str
     """The law of sliding that ``value`` holds for: ``coulomb`` is dry friction."""
     value: float | None

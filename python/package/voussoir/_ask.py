@@ -138,6 +138,7 @@ def moving(
     *,
     law: Law = "coulomb",
     skip_dead: bool = False,
+    every_value: bool = False,
     keep_all: bool = False,
     time_limit: float | None = None,
     progress: Progress = False,
@@ -145,9 +146,10 @@ def moving(
     """How heavy may the train of the scene be that drives over it?
 
     Every position of it is asked, in both directions of travel, and more around the least, which
-    is the answer. Parameters are those of :func:`limit`.
+    is the answer. With dry friction all but the worst are asked only whether they bear the same,
+    unless ``every_value`` is set. Other parameters are those of :func:`limit`.
     """
-    options: dict[str, Any] = {"law": law, "skip_dead": skip_dead}
+    options: dict[str, Any] = {"law": law, "skip_dead": skip_dead, "every_value": every_value}
     return Moving(
         _ask(
             scene,

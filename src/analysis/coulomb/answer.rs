@@ -49,7 +49,7 @@ impl DryLoadFactor {
             _ if !self.is_reached() => None,
             Found::NothingSlides => bound,
             Found::FixedPoint | Found::Rests | Found::RestsBelow => self.value,
-            Found::Unlimited | Found::NotAtRest | Found::Undecided => None,
+            Found::Unlimited | Found::AtLeast | Found::NotAtRest | Found::Undecided => None,
         }
     }
 }

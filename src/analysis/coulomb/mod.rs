@@ -5,7 +5,7 @@ use super::{Control, LoadFactor, Proved};
 use crate::{
     interface::Model,
     terms::{Law, Outcome},
-    verdict::Verdict,
+    verdict::{Rate, Verdict, no_forces},
 };
 
 mod answer;
@@ -35,4 +35,35 @@ pub(super) fn beside(
     let leaves_something = matches!(bound.outcome, Outcome::Found | Outcome::Unbounded);
     (control.law == Law::Coulomb && leaves_something)
         .then(|| load_factor_from(model, bound, level, control))
+}
+
+/// That the load factor is not less than `floor`, where the state rests there and that leaves
+/// something to ask: one state in place of a value. Whether it rests on the way there is not asked.
+pub(super) fn at_least(
+    model: &Model,
+    bound: &Proved<LoadFactor>,
+    floor: f64,
+    control: &Control,
+) -> Option<Proved<DryLoadFactor>> {
+    let bears = match bound.outcome {
+        Outcome::Found => bound.bracket.lower >= floor,
+        Outcome::Unbounded => true,
+        Outcome::Impossible | Outcome::Undecided => false,
+    };
+    let rests = || motion(&model.at_load_factor(floor), control) == StateMotion::Rests;
+    (bears && rests()).then(|| {
+        let answer = DryLoadFactor {
+            found: Found::AtLeast,
+            value: None,
+            rests_at: Some(floor),
+            moves_at: None,
+            part: None,
+            natural_map: f64::INFINITY,
+            natural_map_in_loads: f64::INFINITY,
+            solves: 0,
+            forces: no_forces(&model.interfaces),
+            rates: vec![Rate::zero(); model.assembly.blocks.len()],
+        };
+        Proved::new(model, answer)
+    })
 }

@@ -283,6 +283,10 @@ pub struct Limit {
     /// With --moving: write every position with its load factor to this file, comma-separated.
     #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
     pub positions: Option<PathBuf>,
+    /// With --moving: with dry friction the value at every position, and not at all but the worst
+    /// only that it is not less.
+    #[arg(long)]
+    pub every_value: bool,
     /// Do not ask as well whether it stands without its live load.
     #[arg(long)]
     pub skip_dead: bool,

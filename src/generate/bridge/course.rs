@@ -45,7 +45,8 @@ pub(super) fn chords(bridge: &Bridge, plan: &Plan) -> Vec<Chord> {
             let placed = span.placed(polygon);
             let [.., to, from] = placed[..] else { continue };
             let rise = to[1] - from[1];
-            let towards = if 2 * v + 1 == n { 0.0 } else { rise.signum() };
+            let is_level = rise.abs() <= crate::tolerance::GRID_SNAP * (to[0] - from[0]).abs();
+            let towards = if is_level { 0.0 } else { rise.signum() };
             list.push(Chord { block: voussoir(bridge, s, last, v, n), from, to, towards });
         }
         let Some(pier) = plan.piers.get(s) else { continue };
@@ -70,8 +71,7 @@ pub(super) fn pier(
     place.length("height", pier.height)?;
     let foot = pier.foot.unwrap_or(pier.width);
     place.length("foot", foot)?;
-    let joint = spans.map(SpanPlan::springing);
-    let reach = joint.map(|[inner, outer]| [outer[0] - inner[0], outer[1] - inner[1]]);
+    let reach = [spans[0].springing(1), spans[1].springing(0)];
     if reach[0][0] + reach[1][0] > pier.width {
         return Err(place.error(
             "width",

@@ -3,11 +3,11 @@
 //! *Weight.* The strip of fill above a chord, a trapezoid, acts at its centroid. *Resistance.* A
 //! horizontal force on every chord towards the span, between nothing and `k γ z Δy × width`, z the depth
 //! of the chord's middle (a member `soil`). *Spread.* A load on a length w of the road spreads to either
-//! side by `dispersal` × depth, down to the extrados below its middle, and presses evenly on the length
-//! it has there; on a chord that it covers in part it acts at the middle of that part (Melbourne &
-//! Gilbert 1995 spread alike, 1 horizontally to 2 vertically); or it presses as in an elastic half-space
-//! (`pressure`). *Backing.* Below its height the strip has the backing's weight, and chords whose
-//! middle lies there its resistance.
+//! side by `dispersal` (or the tangent of `dispersal_deg`) × depth, down to the extrados below its
+//! middle, and presses evenly on the length it has there; on a chord that it covers in part it acts at
+//! the middle of that part (Melbourne & Gilbert 1995 spread alike, 1 horizontally to 2 vertically); or
+//! it presses as in an elastic half-space (`pressure`). *Backing.* Below its height the strip has the
+//! backing's weight, and chords whose middle lies there its resistance.
 
 use super::{
     Plan,
@@ -37,7 +37,7 @@ impl Road {
             .spans
             .iter()
             .zip(&plan.spans)
-            .map(|(s, p)| (s.rise + s.thickness, p.center))
+            .map(|(s, p)| (p.crown[1] + s.thickness, p.center + p.crown[0]))
             .fold((f64::NEG_INFINITY, 0.0), |a, b| if b.0 > a.0 { b } else { a });
         Self { level: crown.0 + fill.cover - fill.gradient * crown.1, gradient: fill.gradient }
     }
@@ -60,22 +60,29 @@ pub(super) fn check(bridge: &Bridge, plan: &Plan) -> Result<(), InputError> {
         Err(place.error(field, format!("must be at least 0, got {value}"), hint))
     };
     at_least("cover", fill.cover, "a length in m")?;
-    at_least("dispersal", fill.dispersal, "metres to either side per metre of depth: 0.5")?;
+    let hint = "metres to either side per metre of depth: 0.5";
+    at_least("dispersal", fill.dispersal.unwrap_or(0.0), hint)?;
     at_least("parapets", fill.parapets, "in N per metre of the bridge")?;
     at_least("passive", fill.passive.unwrap_or(0.0), "half of tan²(45° + φ/2): 1.5 for 30°")?;
-    if fill.passive.is_some() && fill.friction_deg.is_some() {
-        return Err(place.error(
-            "friction_deg",
-            "excludes passive, which it would give",
-            "leave one of them out",
-        ));
-    }
-    if let Some(angle) = fill.friction_deg.filter(|a| !(0.0..90.0).contains(a)) {
-        return Err(place.error(
-            "friction_deg",
-            format!("must lie between 0 and 90, got {angle}"),
-            "in degrees",
-        ));
+    let angles = [
+        ("friction_deg", fill.friction_deg, "passive", fill.passive),
+        ("dispersal_deg", fill.dispersal_deg, "dispersal", fill.dispersal),
+    ];
+    for (field, angle, other, given) in angles {
+        if given.is_some() && angle.is_some() {
+            return Err(place.error(
+                field,
+                format!("excludes {other}, which it would give"),
+                "leave one of them out",
+            ));
+        }
+        if let Some(angle) = angle.filter(|a| !(0.0..90.0).contains(a)) {
+            return Err(place.error(
+                field,
+                format!("must lie between 0 and 90, got {angle}"),
+                "in degrees",
+            ));
+        }
     }
     if let Some(backing) = &fill.backing {
         let place = Place(place.0.key("backing"));
@@ -177,6 +184,18 @@ pub(super) fn resistance(fill: &Fill) -> f64 {
     }
 }
 
+/// How far a load spreads to either side per metre of depth, m.
+pub(super) fn dispersal(fill: &Fill) -> f64 {
+    match (fill.dispersal, fill.dispersal_deg) {
+        (Some(share), _) => share,
+        (None, Some(angle)) => angle.to_radians().tan(),
+        (None, None) => USUAL_DISPERSAL,
+    }
+}
+
+/// 1 horizontally to 2 vertically.
+const USUAL_DISPERSAL: f64 = 0.5;
+
 /// The members that stand for the resistance of the fill, names and places as in the template.
 pub fn soil(bridge: &Bridge) -> Vec<Member> {
     let (Some(fill), Ok(plan)) = (&bridge.fill, Plan::of(bridge)) else { return Vec::new() };
@@ -210,6 +229,8 @@ pub struct Spread {
     pub loads: Vec<Load>,
     /// Which share of it presses on springers and beyond.
     pub beside: f64,
+    /// The width of the bridge that carries it, m.
+    pub width: f64,
 }
 
 /// The upper surface of a bridge and what lies on it, made ready for any number of loads.
@@ -224,7 +245,7 @@ impl Surface {
     /// Nothing where the bridge has a mistake.
     pub fn of(bridge: &Bridge) -> Option<Self> {
         let plan = Plan::of(bridge).ok()?;
-        let road = |f: &Fill| (Road::of(bridge, f, &plan), f.dispersal, f.distribution);
+        let road = |f: &Fill| (Road::of(bridge, f, &plan), dispersal(f), f.distribution);
         Some(Self {
             chords: chords(bridge, &plan),
             fill: bridge.fill.as_ref().map(road),
@@ -266,6 +287,6 @@ impl Surface {
                 ..Load::default()
             });
         }
-        Spread { loads, beside: beside.max(0.0) }
+        Spread { loads, beside: beside.max(0.0), width: carries }
     }
 }

@@ -10,16 +10,17 @@ pub use fill::{Spread, Surface, loads, soil};
 pub use said::said;
 
 use super::{
-    arch::{Section, radial_rings},
+    arch::{Section, radial_rings, ring_between},
     check::Place,
-    midline::{Fields, Point},
+    midline::{Fields, Point, mirror},
     numbered, support,
+    surveyed::Surveyed,
 };
 use crate::{
     error::InputError,
     scene::{
         BlockSpec, Shape,
-        template::{Bridge, BridgeSpan},
+        template::{Bridge, BridgeSpan, Profile},
     },
 };
 
@@ -36,6 +37,10 @@ struct SpanPlan {
     center: f64,
     /// How far the sections are moved up.
     up: f64,
+    /// Distance between the springings of the intrados, m.
+    clear_span: f64,
+    /// The crown of the intrados: x from the middle between the springings, height over them, m.
+    crown: Point,
 }
 
 struct PierPlan {
@@ -89,27 +94,62 @@ impl SpanPlan {
     fn of(place: &Place, span: &BridgeSpan) -> Result<Self, InputError> {
         place.length("thickness", span.thickness)?;
         place.count("rings", span.rings, 1)?;
+        let springing = span.springing_thickness.unwrap_or(span.thickness);
+        place.length("springing_thickness", springing)?;
+        if !span.intrados.is_empty() {
+            return Self::surveyed(place, span, springing);
+        }
         place.length("clear_span", span.clear_span)?;
         place.length("rise", span.rise)?;
         let fields =
             Fields::of_intrados_alone(span.profile, [span.clear_span, span.rise], span.thickness);
-        let springing = span.springing_thickness.unwrap_or(span.thickness);
-        place.length("springing_thickness", springing)?;
         let rings = radial_rings(place, &fields, span.voussoirs, span.rings, springing)?;
         let up = -rings[0].springing[0][1];
-        Ok(Self { rings, center: 0.0, up })
+        let crown = [0.0, span.rise];
+        Ok(Self { rings, center: 0.0, up, clear_span: span.clear_span, crown })
+    }
+
+    /// With an intrados by points.
+    fn surveyed(place: &Place, span: &BridgeSpan, springing: f64) -> Result<Self, InputError> {
+        let given = [
+            ("clear_span", span.clear_span != 0.0),
+            ("rise", span.rise != 0.0),
+            ("profile", span.profile != Profile::default()),
+        ];
+        if let Some((field, _)) = given.into_iter().find(|(_, given)| *given) {
+            return Err(place.error(
+                field,
+                "is that of an intrados by dimensions, which its points already give",
+                format!("leave {field} out, or intrados"),
+            ));
+        }
+        place.count("voussoirs", span.voussoirs, 2)?;
+        let curve = Surveyed::new(place, &span.intrados)?;
+        let (crown, n) = (span.thickness, span.rings as f64);
+        let ring = |r: usize| {
+            let of = |u: f64| (crown + (springing - crown) * u) / n;
+            let joints = curve.joints(span.voussoirs, |u| [r, r + 1].map(|k| of(u) * k as f64));
+            ring_between(place, &joints)
+        };
+        let rings = (0..span.rings).map(ring).collect::<Result<_, _>>()?;
+        let (clear_span, crown) = (curve.clear_span(), curve.crown());
+        Ok(Self { rings, center: 0.0, up: 0.0, clear_span, crown })
     }
 
     fn placed(&self, polygon: &[Point]) -> Vec<Point> {
         polygon.iter().map(|p| [p[0] + self.center, p[1] + self.up]).collect()
     }
 
-    /// The right springing joint: where the intrados of the innermost and the extrados of the
-    /// outermost ring end, from the centre of the span.
-    fn springing(&self) -> [Point; 2] {
+    /// How far the springing joint on the left (0) or the right (1) reaches out over what it stands
+    /// on, and up, from the end of the intrados to that of the outermost extrados, m.
+    fn springing(&self, side: usize) -> Point {
         let [first, last] = [&self.rings[0], &self.rings[self.rings.len() - 1]];
-        let up = |p: Point| [p[0], p[1] + self.up];
-        [up(first.springing[0]), up(last.springing[1])]
+        let joint = match side {
+            0 => [first.voussoirs[0][0], last.voussoirs[0][3]].map(mirror),
+            _ => [first.springing[0], last.springing[1]],
+        };
+        let [inner, outer] = joint.map(|p| [p[0], p[1] + self.up]);
+        [outer[0] - inner[0], outer[1] - inner[1]]
     }
 }
 
@@ -139,12 +179,12 @@ impl Plan {
         for (k, span) in bridge.spans.iter().enumerate() {
             spans.push(SpanPlan::of(&Place(place.0.key("spans").index(k)), span)?);
         }
-        let clear: f64 = bridge.spans.iter().map(|s| s.clear_span).sum();
+        let clear: f64 = spans.iter().map(|s: &SpanPlan| s.clear_span).sum();
         let total = clear + bridge.piers.iter().map(|p| p.width).sum::<f64>();
         let mut edge = -0.5 * total;
         let mut piers = Vec::new();
         for k in 0..spans.len() {
-            let half = 0.5 * bridge.spans[k].clear_span;
+            let half = 0.5 * spans[k].clear_span;
             spans[k].center = edge + half;
             edge += 2.0 * half;
             let Some(pier) = bridge.piers.get(k) else { break };

@@ -1,6 +1,6 @@
 //! What a bridge is computed with beside its blocks, in words.
 
-use super::fill::resistance;
+use super::fill::{dispersal, resistance};
 use crate::{
     number::short,
     scene::template::{Bridge, Distribution},
@@ -23,12 +23,13 @@ pub fn said(bridge: &Bridge) -> Vec<String> {
         Distribution::Even => "evenly",
         Distribution::Boussinesq => "as in an elastic half-space (Boussinesq), cut off there",
     };
-    lines.push(match fill.dispersal > 0.0 {
-        true => format!(
-            "loads spread by {} m per metre of depth to either side, {over}",
-            short(fill.dispersal)
-        ),
-        false => "loads do not spread in the fill (dispersal 0)".into(),
+    lines.push(match (dispersal(fill), fill.dispersal_deg) {
+        (0.0, _) => "loads do not spread in the fill (dispersal 0)".into(),
+        (share, angle) => {
+            let angle = angle.map_or_else(String::new, |a| format!(" ({}°)", short(a)));
+            let share = short(share);
+            format!("loads spread by {share} m per metre of depth{angle} to either side, {over}")
+        }
     });
     lines.push(match resistance(fill) {
         k if k > 0.0 => {

@@ -8,6 +8,7 @@ pub(super) use verify::verify;
 use super::answer::{Answer, FactorStatus, LoadFactorAnswer};
 use crate::{
     terms::Deciding,
+    tolerance,
     train::{Position, Standing, Travel},
     verdict::{Verdict, exact::Grade},
 };
@@ -44,14 +45,22 @@ impl MovingAnswer {
     }
 
     /// What orders positions: one without an answer governs, for it must not hide behind the others;
-    /// of these the least bound comes first.
+    /// of these the least bound comes first. Of which it is only known that they bear what another
+    /// one does, they come last.
     pub(super) fn governing(&self) -> (f64, f64) {
         let l = &self.load_factor;
         let value = match l.status {
-            FactorStatus::Unbounded => f64::INFINITY,
+            FactorStatus::Unbounded | FactorStatus::AtLeast => f64::INFINITY,
             _ => l.value.unwrap_or(f64::NEG_INFINITY),
         };
         (value, l.associative.value.unwrap_or(f64::INFINITY))
+    }
+
+    /// Whether it is not below this one, as far as values are: up to where that was seen at rest.
+    fn bears(&self, least: &Self) -> bool {
+        let (own, other) = (&self.load_factor, &least.load_factor);
+        let floor = other.value.map(|v| v - 1.01 * tolerance::REST_BELOW * v.abs()).or(other.lower);
+        own.status != FactorStatus::AtLeast || own.lower.zip(floor).is_some_and(|(l, f)| l >= f)
     }
 }
 

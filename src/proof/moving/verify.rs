@@ -41,6 +41,14 @@ pub(in crate::proof) fn verify(
         main == list[least],
         format!("the answer is the least of {} positions, with its evidence", list.len()),
     );
+    let bears = |d: &Direction| {
+        d.answer.moving().zip(file.answer.moving()).is_some_and(|(a, least)| a.bears(least))
+    };
+    require(
+        &mut f,
+        list.iter().all(bears),
+        "positions without a value of their own bear what the least one does",
+    );
     let [from, to] = train.path;
     let travels = train::travels(train);
     let at = |d: &Direction| d.answer.moving().map(|a| a.position());

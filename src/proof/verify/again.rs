@@ -56,6 +56,9 @@ pub(in crate::proof) fn dry_friction(
         {
             Findings::default()
         }
+        (None, None) if dry.found == Found::AtLeast && dry.rests_at.is_some() => {
+            Findings::default()
+        }
         (None, Some(_))
             if matches!(dry.found, Found::Rests | Found::RestsBelow)
                 && dry.rests_at == dry.value =>

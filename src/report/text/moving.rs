@@ -8,6 +8,8 @@ use crate::{
         moving::MovingAnswer,
         result::{Direction, ResultFile},
     },
+    terms::Found,
+    tolerance,
     train::{self, Position},
 };
 
@@ -49,6 +51,15 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         short(train.step),
         if more > 0 { format!(", and {more} around the least by golden section") } else { String::new() },
     ));
+    let only = |d: &&Direction| d.dry.as_ref().is_some_and(|dry| dry.found == Found::AtLeast);
+    let at_least = file.directions.iter().filter(only).count();
+    if at_least > 0 {
+        page.paragraph(&format!(
+            "With dry friction {} asked for a value, where the bound is least; of the {at_least} others only that the blocks come to rest at what these bear, up to {} of it (computed, not proved). --every-value asks for all.",
+            if file.directions.len() - at_least == 1 { "one position was".into() } else { format!("{} positions were", file.directions.len() - at_least) },
+            1.0 - tolerance::REST_BELOW,
+        ));
+    }
 }
 
 /// The axles where the answer is, and the load factors of other positions.
@@ -79,6 +90,11 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             (FactorStatus::Found, Some(v), _) => format!("λ = {v:.5} with dry friction"),
             (FactorStatus::Unbounded, ..) => "no limit".into(),
             (FactorStatus::Impossible, ..) => "falls, whatever the train".into(),
+            (FactorStatus::AtLeast, _, bound) => {
+                let most = bound.map(|(v, ..)| format!(", at most {}", short(v)));
+                let least = l.lower.map(short).unwrap_or_default();
+                format!("λ at least {least} with dry friction{}", most.unwrap_or_default())
+            }
             (FactorStatus::NotAtRest, ..) => "not at rest without the train".into(),
             (_, _, Some((v, lower, upper))) => {
                 format!("λ at most {}, with dry friction undecided", bracketed(v, lower, upper))

@@ -70,6 +70,10 @@ pub struct Arch {
     /// Free blocks under the springings in place of the springers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub buttresses: Option<Buttresses>,
+    /// Whether it has springers of its own, yes where absent; without them it stands on what else the
+    /// scene has there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springers: Option<bool>,
 }
 
 /// Shape of an arch's mid-line.

@@ -61,4 +61,8 @@ pub struct Barrel {
     pub voussoirs: usize,
     /// Number of whole blocks along y.
     pub courses: usize,
+    /// Whether it has springers of its own, yes where absent; without them it stands on what else the
+    /// scene has there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springers: Option<bool>,
 }

@@ -39,6 +39,10 @@ pub struct Bridge {
     /// What lies on the arches.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<Fill>,
+    /// Whether it has springers of its own, yes where absent; without them it stands on what else the
+    /// scene has there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springers: Option<bool>,
 }
 
 /// A span of a bridge.
@@ -48,10 +52,18 @@ pub struct BridgeSpan {
     /// Shape of the intrados.
     #[serde(default, skip_serializing_if = "super::is_default")]
     pub profile: Profile,
-    /// Clear span: distance between the ends of the intrados, m.
+    /// Clear span: distance between the ends of the intrados, m. Needed unless `intrados` is given.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
     pub clear_span: f64,
-    /// Clear rise: height of the crown of the intrados above the springings, m.
+    /// Clear rise: height of the crown of the intrados above the springings, m. Needed unless
+    /// `intrados` is given.
+    #[serde(default, skip_serializing_if = "super::is_zero")]
     pub rise: f64,
+    /// Points of the intrados as surveyed (x, z in m, from any origin), from the left springing to the
+    /// right one, which lie level, in place of profile, clear span and rise. Joints lie at the points
+    /// where there are as many, one more than voussoirs, else evenly along the curve through them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub intrados: Vec<[f64; 2]>,
     /// Thickness of all rings together, m; at the crown where they are thicker at the springings.
     pub thickness: f64,
     /// Thickness of all rings together at the springings, m, normal to the intrados; between crown
@@ -99,9 +111,14 @@ pub struct Fill {
     /// the whole of it needs more movement than arches make.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_deg: Option<f64>,
-    /// How far a load spreads on either side per metre of depth, m; 0.5 where absent.
-    #[serde(default = "half", skip_serializing_if = "is_half")]
-    pub dispersal: f64,
+    /// How far a load spreads on either side per metre of depth, m; 0.5, 1 horizontally to 2
+    /// vertically, where neither this nor `dispersal_deg` is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dispersal: Option<f64>,
+    /// The angle from the vertical at which a load spreads, degrees, in place of `dispersal`, which is
+    /// its tangent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dispersal_deg: Option<f64>,
     /// How it is distributed over the length that it spreads to.
     #[serde(default, skip_serializing_if = "super::is_default")]
     pub distribution: Distribution,
@@ -146,13 +163,4 @@ fn one() -> usize {
 
 fn is_one(n: &usize) -> bool {
     *n == 1
-}
-
-/// The usual spread, 1 horizontally to 2 vertically.
-fn half() -> f64 {
-    0.5
-}
-
-fn is_half(x: &f64) -> bool {
-    *x == half()
 }

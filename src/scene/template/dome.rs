@@ -47,6 +47,10 @@ pub struct Dome {
     /// A drum with a slab upon the edge of the oculus (with `oculus_deg`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lantern: Option<Lantern>,
+    /// Whether it has springers of its own, yes where absent; without them it stands on what else the
+    /// scene has there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springers: Option<bool>,
 }
 
 /// An opening in a dome: some segments of some rings.

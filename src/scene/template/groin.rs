@@ -39,15 +39,8 @@ pub struct Groin {
     pub side: f64,
     /// Number of strips of a web from springing to springing, even.
     pub voussoirs: usize,
-    /// Whether it has supports of its own; without them it rests on what else the scene has there.
-    #[serde(default = "yes", skip_serializing_if = "is_yes")]
-    pub springers: bool,
-}
-
-fn yes() -> bool {
-    true
-}
-
-fn is_yes(x: &bool) -> bool {
-    *x
+    /// Whether it has springers of its own, yes where absent; without them it stands on what else the
+    /// scene has there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springers: Option<bool>,
 }

@@ -36,4 +36,8 @@ pub struct Leaves {
     /// are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub through_every: Option<usize>,
+    /// Whether it has a support of its own, yes where absent; without it stands on what else the scene
+    /// has there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<bool>,
 }

@@ -108,6 +108,26 @@ impl Template {
         }
     }
 
+    /// Whether the supports that it stands on are its own.
+    pub fn has_supports(&self) -> bool {
+        let own = match self {
+            Template::Arch(t) => t.springers,
+            Template::Barrel(t) => t.springers,
+            Template::Bridge(t) => t.springers,
+            Template::Dome(t) => t.springers,
+            Template::Groin(t) => t.springers,
+            Template::Leaves(t) => t.base,
+            Template::Portal(t) => t.base,
+            Template::Tower(t) => t.base,
+            Template::Column(_)
+            | Template::FlatArch(_)
+            | Template::Lattice(_)
+            | Template::Stack(_)
+            | Template::Wall(_) => None,
+        };
+        own != Some(false)
+    }
+
     /// The key of this template in a scene file.
     pub fn name(&self) -> &'static str {
         match self {

@@ -44,6 +44,10 @@ pub struct Portal {
     /// contact and friction between them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub buttress: Option<Pier>,
+    /// Whether it has a support of its own, yes where absent; without it stands on what else the scene
+    /// has there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<bool>,
 }
 
 /// A pier: equal boxes upon each other.

@@ -34,6 +34,10 @@ pub struct Tower {
     /// Number of blocks of a wall in a course; 1 where absent.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub blocks: usize,
+    /// Whether it has a support of its own, yes where absent; without it stands on what else the scene
+    /// has there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<bool>,
 }
 
 fn one() -> usize {

@@ -61,7 +61,7 @@ impl Answers {
         let is_known = |d: &DryLoadFactor| match d.found {
             Found::NothingSlides | Found::FixedPoint => d.is_reached(),
             Found::Rests | Found::RestsBelow => true,
-            Found::Unlimited | Found::NotAtRest | Found::Undecided => false,
+            Found::Unlimited | Found::AtLeast | Found::NotAtRest | Found::Undecided => false,
         };
         Ok(Self {
             verdict: dead.map_or_else(|| verdict(scene, model), |d| d.verdict),
