@@ -1,6 +1,7 @@
 //! Solving a conic program. What comes back is a candidate, never an answer: every verdict is
 //! recomputed from the scene.
 
+mod blocks;
 mod clarabel;
 pub(crate) mod coulomb;
 mod engine;
@@ -9,6 +10,7 @@ mod lu;
 mod watched;
 
 pub use self::{
+    blocks::Blocks,
     lu::Lu,
     watched::{Session, solve},
 };

@@ -6,6 +6,7 @@
 //! analysis steps halve what is left. Where no displacements balance the loads any more, the path
 //! has ended.
 
+mod flow;
 mod newton;
 mod options;
 
@@ -73,14 +74,20 @@ impl Claims for Rest {
     }
 }
 
-/// Load factors are followed up to this share of the bound. More: contacts shrink to nothing, which
-/// rounding cannot follow. Less: the load factor has fewer digits.
+/// Load factors are followed up to this share of the bound where nothing slides, and the bound is the
+/// load factor of the path. More: contacts shrink to nothing, which rounding cannot follow. Less: what
+/// slides last goes unseen.
 const UP_TO: f64 = 1.0 - 1e-3;
+/// Where anything slides they are followed on, up to this share. More: as above. Less: the load factor
+/// of a path that ends at its bound has fewer digits.
+const UP_TO_SLIDING: f64 = 1.0 - 5e-7;
 /// Steps along the live load at least, in shares of the bound.
 const STEP: f64 = 0.05;
-/// Steps shorter than this share of the bound end the path. More: the load factor has fewer digits.
-/// Less: minutes at its end.
+/// Steps shorter than this share of the load factor end the path; of one that is small beside the
+/// bound, of that share of the bound. More: the load factor has fewer digits. Less: minutes at its
+/// end.
 const LEAST: f64 = 1e-7;
+const SMALL: f64 = 1e-2;
 /// Events are found to this share of the bound.
 const EVENT: f64 = 1e-7;
 /// Multiples of the last step at which a search may begin.
@@ -109,8 +116,7 @@ pub(super) fn state(
     let start = State::start(model, &joints);
     let system = System::new(model, &joints);
     let mut newton = Newton::new(&system);
-    let guess = newton.guess(&start, &model.assembly.dead, control);
-    let found = newton.balance(&start, &model.assembly.dead, &guess, control);
+    let found = at_rest(&mut newton, &start, &model.assembly.dead, control);
     let mut track = found.map(|displaced| Track::start(model, &joints, displaced));
     let forces = track.as_ref().map_or_else(|| no_forces(&model.interfaces), |t| t.forces.clone());
     let rest = Proved::new(model, Rest { forces, found: track.is_some() });
@@ -130,7 +136,11 @@ pub(super) fn state(
             Some(top) if top > 0.0 => {
                 let last = if asked.outcome == Outcome::Found { UP_TO * top } else { top };
                 let mut walk = Walk { model, joints: &joints, newton: &mut newton, control, top };
-                let end = walk.along(track, last, &options.at);
+                let mut end = walk.along(track, last, &options.at);
+                let found = asked.outcome == Outcome::Found;
+                if end == PathEnd::Bound && found && track.slides(&joints) {
+                    end = walk.along(track, UP_TO_SLIDING * top, &options.at);
+                }
                 match (end, asked.outcome) {
                     (PathEnd::Bound, Outcome::Unbounded) => PathEnd::Unbounded,
                     (end, _) => end,
@@ -154,6 +164,28 @@ pub(super) fn state(
         end,
         steps,
     })
+}
+
+/// Free blocks of scenes whose direct factors still fit, where contacts are many. More: memory of
+/// gigabytes. Fewer: heaps are given up.
+const FACTORED: usize = 2000;
+
+/// Displacements under the dead load.
+fn at_rest(
+    newton: &mut Newton,
+    start: &State,
+    dead: &[Wrench],
+    control: &Control,
+) -> Option<Vec<Rate>> {
+    let is_dense = flow::is_dense(newton.system);
+    if let Some(found) = is_dense.then(|| flow::flow(newton, start, dead, control)).flatten() {
+        return Some(found);
+    }
+    if is_dense && newton.system.free.len() > FACTORED {
+        return None;
+    }
+    let guess = newton.guess(start, dead, control);
+    newton.balance(start, dead, &guess, control)
 }
 
 /// The load factor at which live and dead load weigh the same, on the structures that the live load
@@ -237,7 +269,7 @@ impl Walk<'_, '_, '_> {
             let goal = (lambda + step).min(half).min(ahead);
             let Some(displaced) = self.at(track, goal) else {
                 step = 0.5 * (goal - lambda);
-                if step < LEAST * self.top {
+                if step < LEAST * lambda.max(SMALL * self.top) {
                     return PathEnd::NoBalance;
                 }
                 continue;
