@@ -21,6 +21,9 @@ pub const COUNT: usize = 12;
 const DENSE: usize = 300;
 /// Structures of more unknowns have none. More: minutes, and gigabytes of heaps in space.
 const MOST: usize = 12_000;
+/// And structures whose factor has more entries: heaps in space, of which so many motions are nearly
+/// equally fast that the iteration does not settle. More: minutes for nothing.
+const FILL: usize = 2_000_000;
 /// Vectors of the iteration beside those that are given.
 const SPARE: usize = 8;
 /// Most rounds of it.
@@ -31,7 +34,7 @@ const SETTLED: f64 = 1e-12;
 const FREE: f64 = 1e-12;
 
 /// The lowest frequencies, Hz, ascending; 0 of motions that nothing resists. None where a large
-/// structure did not settle, or has more than 2,000 blocks.
+/// structure did not settle, or is too large.
 ///
 /// Structures that do not touch are decomposed by themselves: what is rounding beside a stiff one
 /// is a frequency of a soft one.
@@ -127,7 +130,7 @@ impl Piece {
             }
         }
         let mut factors = Cholesky::new(pattern.clone())?;
-        if !factors.factorize(&values) {
+        if factors.fill() > FILL || !factors.factorize(&values) {
             return None;
         }
         let times = |x: &DMatrix<f64>| {
