@@ -22,7 +22,7 @@ use crate::{
     interface::Model,
     terms::Bound,
     verdict::{Evidence, Forces, Rate, Verdict, check, check::Claim, no_forces},
-    yielding::{Joints, State, System, Track, events},
+    yielding::{Joints, State, Step, System, Track, events},
 };
 use nalgebra::Vector3;
 use newton::Newton;
@@ -78,9 +78,13 @@ impl Claims for Rest {
 /// load factor of the path. More: contacts shrink to nothing, which rounding cannot follow. Less: what
 /// slides last goes unseen.
 const UP_TO: f64 = 1.0 - 1e-3;
-/// Where anything slides they are followed on, up to this share. More: as above. Less: the load factor
-/// of a path that ends at its bound has fewer digits.
+/// Where anything slides, and displacements do not grow without end, they are followed on, up to this
+/// share. More: as above. Less: the load factor of a path that ends at its bound has fewer digits.
 const UP_TO_SLIDING: f64 = 1.0 - 5e-7;
+/// Displacements that grow with less than this power of the distance from the bound do not grow
+/// without end: of what tips it is 2, of what slides 0. More: minutes, and rounding, on what tips.
+/// Less: what slides is not followed.
+const GROWS: f64 = 0.5;
 /// Steps along the live load at least, in shares of the bound.
 const STEP: f64 = 0.05;
 /// Steps shorter than this share of the load factor end the path; of one that is small beside the
@@ -138,7 +142,7 @@ pub(super) fn state(
                 let mut walk = Walk { model, joints: &joints, newton: &mut newton, control, top };
                 let mut end = walk.along(track, last, &options.at);
                 let found = asked.outcome == Outcome::Found;
-                if end == PathEnd::Bound && found && track.slides(&joints) {
+                if end == PathEnd::Bound && found && track.slides(&joints) && settles(track, top) {
                     end = walk.along(track, UP_TO_SLIDING * top, &options.at);
                 }
                 match (end, asked.outcome) {
@@ -164,6 +168,14 @@ pub(super) fn state(
         end,
         steps,
     })
+}
+
+/// Whether displacements do not grow without end towards the bound, by the last two states.
+fn settles(track: &Track, top: f64) -> bool {
+    let [.., a, b] = &track.steps[..] else { return false };
+    let far = |s: &Step| s.displaced.iter().map(|q| q.velocity.norm()).fold(0.0, f64::max);
+    let nearer = (top - a.load_factor) / (top - b.load_factor);
+    far(b) <= far(a) * nearer.powf(GROWS)
 }
 
 /// Free blocks of scenes whose direct factors still fit, where contacts are many. More: memory of

@@ -85,7 +85,8 @@ fn path(l: &PathFactor) -> String {
             l.associative.value.map_or(String::new(), |v| fixed(v, 6))
         ),
         PathEnd::Bound => format!(
-            "States were found up to a millionth below the bound although joints slide; {bound}."
+            "States were found up to λ = {} although joints slide; {bound}.",
+            fixed(l.reached, 6)
         ),
         PathEnd::NoBalance if l.associative.value.is_some_and(|v| l.reached > NEAR * v) => format!(
             "Beyond λ = {} no displacements were found that balance the loads; {bound}.",
