@@ -1,7 +1,6 @@
 //! Solving a conic program. What comes back is a candidate, never an answer: every verdict is
 //! recomputed from the scene.
 
-mod blocks;
 mod clarabel;
 pub(crate) mod coulomb;
 mod engine;
@@ -10,7 +9,6 @@ mod lu;
 mod watched;
 
 pub use self::{
-    blocks::Blocks,
     lu::Lu,
     watched::{Session, solve},
 };

@@ -112,41 +112,6 @@ impl<'a> System<'a> {
             .map(|list| list.iter().flat_map(|v| v.iter().copied().collect::<Vec<_>>()).collect())
     }
 
-    /// How many pairs of free blocks joints join.
-    pub fn pair_count(&self) -> usize {
-        self.pairs.len()
-    }
-
-    /// For each free block, in the order of rows, those that it is joined with and itself, ascending.
-    pub fn rows(&self) -> Vec<Vec<usize>> {
-        let mut rows: Vec<Vec<usize>> = (0..self.free.len()).map(|k| vec![k]).collect();
-        for &(lower, upper) in self.pairs.keys() {
-            rows[lower].push(upper);
-            rows[upper].push(lower);
-        }
-        rows.iter_mut().for_each(|row| row.sort_unstable());
-        rows
-    }
-
-    /// The tangent's blocks in the order of [`Self::rows`], rows and columns divided by `unit`, with
-    /// `shift` added on the diagonal.
-    pub fn entries(&self, tangent: &Tangent, unit: &[f64], shift: f64) -> Vec<Matrix6<f64>> {
-        let scaled = |m: &Matrix6<f64>, row: usize, column: usize| {
-            Matrix6::from_fn(|r, c| m[(r, c)] / (unit[6 * row + r] * unit[6 * column + c]))
-        };
-        let mut list = Vec::new();
-        for (k, row) in self.rows().iter().enumerate() {
-            list.extend(row.iter().map(|&j| {
-                if j == k {
-                    return scaled(&tangent.own[k], k, k) + Matrix6::identity() * shift;
-                }
-                let place = self.pairs[&(k.max(j), k.min(j))];
-                scaled(&tangent.pairs[place][usize::from(j > k)], k, j)
-            }));
-        }
-        list
-    }
-
     /// For each free block, in the order of rows, the first row of the structure that it belongs to:
     /// of blocks that joints join.
     pub fn parts(&self) -> Vec<usize> {

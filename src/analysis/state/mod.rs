@@ -6,7 +6,6 @@
 //! analysis steps halve what is left. Where no displacements balance the loads any more, the path
 //! has ended.
 
-mod flow;
 mod newton;
 mod options;
 
@@ -120,7 +119,8 @@ pub(super) fn state(
     let start = State::start(model, &joints);
     let system = System::new(model, &joints);
     let mut newton = Newton::new(&system);
-    let found = at_rest(&mut newton, &start, &model.assembly.dead, control);
+    let guess = newton.guess(&start, &model.assembly.dead, control);
+    let found = newton.balance(&start, &model.assembly.dead, &guess, control);
     let mut track = found.map(|displaced| Track::start(model, &joints, displaced));
     let forces = track.as_ref().map_or_else(|| no_forces(&model.interfaces), |t| t.forces.clone());
     let rest = Proved::new(model, Rest { forces, found: track.is_some() });
@@ -176,28 +176,6 @@ fn settles(track: &Track, top: f64) -> bool {
     let far = |s: &Step| s.displaced.iter().map(|q| q.velocity.norm()).fold(0.0, f64::max);
     let nearer = (top - a.load_factor) / (top - b.load_factor);
     far(b) <= far(a) * nearer.powf(GROWS)
-}
-
-/// Free blocks of scenes whose direct factors still fit, where contacts are many. More: memory of
-/// gigabytes. Fewer: heaps are given up.
-const FACTORED: usize = 2000;
-
-/// Displacements under the dead load.
-fn at_rest(
-    newton: &mut Newton,
-    start: &State,
-    dead: &[Wrench],
-    control: &Control,
-) -> Option<Vec<Rate>> {
-    let is_dense = flow::is_dense(newton.system);
-    if let Some(found) = is_dense.then(|| flow::flow(newton, start, dead, control)).flatten() {
-        return Some(found);
-    }
-    if is_dense && newton.system.free.len() > FACTORED {
-        return None;
-    }
-    let guess = newton.guess(start, dead, control);
-    newton.balance(start, dead, &guess, control)
 }
 
 /// The load factor at which live and dead load weigh the same, on the structures that the live load

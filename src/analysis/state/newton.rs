@@ -18,9 +18,9 @@ use nalgebra::Vector3;
 
 /// Balance that is reached, by the measure of the joints' stiffness. Less: rounding of displacements
 /// keeps tall scenes from it. More: forces have fewer digits than their check asks for.
-pub(super) const BALANCED: f64 = 1e-13;
+const BALANCED: f64 = 1e-13;
 /// Balance that is good enough where rounding keeps from more. More: the check of the forces fails.
-pub(super) const GOOD: f64 = 1e-9;
+const GOOD: f64 = 1e-9;
 /// Most steps of one search. Fewer: joints that open one by one are given up. More: minutes where
 /// there is nothing to find.
 const STEPS: usize = 60;
@@ -42,7 +42,7 @@ const GLUE: [f64; 9] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5];
 
 /// What solves the equations of a model.
 pub struct Newton<'a> {
-    pub(super) system: &'a System<'a>,
+    system: &'a System<'a>,
     /// For each free block the structure that it belongs to.
     part: Vec<usize>,
     lu: Option<Lu>,
@@ -168,7 +168,7 @@ impl<'a> Newton<'a> {
     /// What is left of the loads, and its size: by the displacement that it makes, in multiples of
     /// that of all that acts, of every structure by itself. So a heavy one beside it lets no other
     /// off.
-    pub(super) fn residual(
+    fn residual(
         &self,
         state: &State,
         loads: &[Wrench],
@@ -186,7 +186,7 @@ impl<'a> Newton<'a> {
         (left, size)
     }
 
-    pub(super) fn moved(&self, displaced: &[Rate], way: &[f64], share: f64) -> Vec<Rate> {
+    fn moved(&self, displaced: &[Rate], way: &[f64], share: f64) -> Vec<Rate> {
         let mut next = displaced.to_vec();
         for (row, &i) in self.system.free.iter().enumerate() {
             let w = &way[6 * row..6 * row + 6];
