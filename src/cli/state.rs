@@ -1,12 +1,13 @@
 //! `voussoir state`
 
 use super::{
-    args::State as Arguments,
+    args::{Law, State as Arguments},
     exit::Exit,
     output::Sink,
     question::{Session, verdict},
     terminal::Terminal,
 };
+use anyhow::bail;
 use voussoir::{
     analysis::{ControlPoint, Question, StateOptions},
     proof::state::StateAnswer,
@@ -16,6 +17,11 @@ use voussoir::{
 };
 
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
+    if args.common.law == Law::Associative {
+        bail!(
+            "--law associative: joints that yield slide by Coulomb's law, and the bound stands beside the path; leave it out"
+        );
+    }
     let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
     let open = |path: &Option<std::path::PathBuf>| {
         path.as_deref().map(|p| Sink::open(Some(p))).transpose()

@@ -66,12 +66,16 @@ fn moved<'a>(view: &'a View) -> (String, Box<dyn Fn(usize) -> ViewPose + 'a>) {
     match of(ViewPart::Dry).or(of(ViewPart::Answer)).or(view.motions.first()) {
         Some(motion) => {
             let far = sized(view, motion);
-            let words = format!(
-                "{}: rates times {}, chosen so that the fastest corner goes {} m; a mechanism has no size of its own",
-                motion.name,
-                short(far / motion.reach),
-                short(far)
-            );
+            let words = if motion.is_displacement {
+                format!("{}, magnified {} times", motion.name, short(far / motion.reach))
+            } else {
+                format!(
+                    "{}: rates times {}, chosen so that the fastest corner goes {} m; a mechanism has no size of its own",
+                    motion.name,
+                    short(far / motion.reach),
+                    short(far)
+                )
+            };
             (words, Box::new(move |i| motion.pose(i, far)))
         }
         None => ("where they are: nothing moves".into(), Box::new(move |_| still)),

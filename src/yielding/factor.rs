@@ -30,7 +30,8 @@ pub enum PathEnd {
     /// There is no live load, or it was not asked about.
     #[default]
     None,
-    /// A thousandth below the bound of limit analysis.
+    /// A thousandth below the bound of limit analysis; where anything slides, and displacements do not
+    /// grow without end, a millionth.
     Bound,
     /// There is no bound: at ten times the load factor at which live and dead load weigh the same.
     Unbounded,

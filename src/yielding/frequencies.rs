@@ -19,6 +19,11 @@ pub const COUNT: usize = 12;
 /// Up to so many unknowns all are computed at once. More: seconds. Fewer: the iteration is used
 /// where it is not needed.
 const DENSE: usize = 300;
+/// Structures of more unknowns have none. More: minutes, and gigabytes of heaps in space.
+const MOST: usize = 12_000;
+/// And structures whose factor has more entries: heaps in space, of which so many motions are nearly
+/// equally fast that the iteration does not settle. More: minutes for nothing.
+const FILL: usize = 2_000_000;
 /// Vectors of the iteration beside those that are given.
 const SPARE: usize = 8;
 /// Most rounds of it.
@@ -29,7 +34,7 @@ const SETTLED: f64 = 1e-12;
 const FREE: f64 = 1e-12;
 
 /// The lowest frequencies, Hz, ascending; 0 of motions that nothing resists. None where a large
-/// structure did not settle.
+/// structure did not settle, or is too large.
 ///
 /// Structures that do not touch are decomposed by themselves: what is rounding beside a stiff one
 /// is a frequency of a soft one.
@@ -45,7 +50,11 @@ pub fn frequencies(system: &System, state: &State, displaced: &[Rate]) -> Vec<f6
     let mut squares = Vec::new();
     for rows in parts.values() {
         let piece = Piece::new(system, &values, &masses, rows);
-        let own = if piece.size() <= DENSE { piece.dense() } else { piece.iterated() };
+        let own = match piece.size() {
+            0..=DENSE => piece.dense(),
+            n if n <= MOST => piece.iterated(),
+            _ => None,
+        };
         match own {
             Some(own) => squares.extend(own),
             None => return Vec::new(),
@@ -121,7 +130,7 @@ impl Piece {
             }
         }
         let mut factors = Cholesky::new(pattern.clone())?;
-        if !factors.factorize(&values) {
+        if factors.fill() > FILL || !factors.factorize(&values) {
             return None;
         }
         let times = |x: &DMatrix<f64>| {

@@ -39,6 +39,10 @@ pub struct Past {
     pub stretch: Vec<(f64, [f64; 2])>,
 }
 
+/// Springs that slide by less than this share of the greatest stretch stick. More: what hardly slides
+/// goes unseen. Less: rounding of stretches at their limit slides.
+const ROUNDING: f64 = 1e-12;
+
 /// A corner of a piecewise linear stretch.
 type Corner<S> = (S, [S; 2]);
 
@@ -75,15 +79,8 @@ impl Grain {
     /// The point of contact with its force.
     pub fn spot(&self, past: &Past, motion: &[f64; 6]) -> (Spot, Past) {
         let (all, corners) = self.respond(past, motion, Friction::Follows);
-        // How far it slid is what its inmost spring did not follow.
-        let way = [motion[0] - past.motion[0], motion[1] - past.motion[1]];
         let inner = corners.first().map_or([0.0; 2], |c| c.1);
-        let before = past.stretch.first().map_or([0.0; 2], |c| c.1);
-        let slip = if corners.is_empty() {
-            [0.0; 2]
-        } else {
-            std::array::from_fn(|i| way[i] - (inner[i] - before[i]))
-        };
+        let slip = if corners.is_empty() { [0.0; 2] } else { self.slip(past, motion) };
         let spot = Spot {
             at: [0.0; 2],
             area: 0.0,
@@ -94,6 +91,25 @@ impl Grain {
             slip,
         };
         (spot, Past { motion: [motion[0], motion[1], motion[2]], stretch: tidy(corners) })
+    }
+
+    /// How far the spring slides that slides farthest: of a contact that slides in part one of the ring
+    /// at its rim.
+    fn slip(&self, past: &Past, motion: &[f64; 6]) -> [f64; 2] {
+        let depth = -motion[2];
+        if self.mu == 0.0 {
+            return [motion[0] - past.motion[0], motion[1] - past.motion[1]];
+        }
+        if self.mu.is_infinite() {
+            return [0.0; 2];
+        }
+        let least = ROUNDING * self.slope() * depth;
+        let slides = past.tried(motion, depth).into_iter().filter_map(|(at, e)| {
+            let left = cut(e, (depth - at) * self.slope(), Friction::Follows)?;
+            let slip: [f64; 2] = std::array::from_fn(|i| e[i] - left[i]);
+            Some((slip[0].hypot(slip[1]), slip)).filter(|s| s.0 > least)
+        });
+        slides.max_by(|a, b| a.0.total_cmp(&b.0)).map_or([0.0; 2], |s| s.1)
     }
 
     /// Greatest stretch by depth: `μ E* / 4 G*`.

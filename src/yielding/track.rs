@@ -177,12 +177,15 @@ pub fn conditions(joints: &Joints, states: &[JointState]) -> Vec<Condition> {
                 JointKind::Bed(bed) => bed.mu,
                 JointKind::Grain(grain) => grain.mu,
             };
-            let slides = |s: &&super::law::Spot| {
-                s.slip != [0.0; 2] && s.shear[0].hypot(s.shear[1]) >= AT_LIMIT * mu * s.normal
-            };
+            let moves = |s: &&super::law::Spot| s.slip != [0.0; 2];
+            let limit =
+                |s: &&super::law::Spot| s.shear[0].hypot(s.shear[1]) >= AT_LIMIT * mu * s.normal;
             let all = s.spots.iter().filter(|s| s.normal > 0.0);
-            let grip = match (all.clone().filter(slides).count(), all.count()) {
-                (0, _) => Grip::Sticks,
+            let slide = all.clone().filter(moves).filter(limit).count();
+            // Of spheres the rim slides before all does.
+            let rim = matches!(joint.kind, JointKind::Grain(_)) && all.clone().any(|s| moves(&s));
+            let grip = match (slide, all.count()) {
+                (0, _) if !rim => Grip::Sticks,
                 (some, all) if some == all => Grip::Slides,
                 _ => Grip::Slips,
             };

@@ -77,22 +77,28 @@ const STOP: StoppingCriterion = StoppingCriterion { change: 1e-5, solves: 25 };
 /// Computes the state; of a symmetric scene from one part of it, and where that leaves it open from
 /// the whole.
 pub fn state(model: &Model, control: &Control) -> State {
+    refined(model, control, f64::INFINITY)
+}
+
+/// The same, followed on where it rests down to this ε: contacts then yield as springs beside which
+/// nothing else does.
+pub fn refined(model: &Model, control: &Control, epsilon: f64) -> State {
     let options =
         StaticsOptions { keep_all: control.keep_all, symmetry: true, ..StaticsOptions::default() };
     let contacts = Contacts::new(model, options);
     let is_part = contacts.statics.is_part();
-    let part = continued(model, contacts, control);
+    let part = continued(model, contacts, control, epsilon);
     if part.motion != StateMotion::Undecided || !is_part {
         return part;
     }
     let whole = Contacts::new(model, StaticsOptions { symmetry: false, ..options });
-    let mut answer = continued(model, whole, control);
+    let mut answer = continued(model, whole, control, epsilon);
     answer.steps.splice(0..0, part.steps);
     answer
 }
 
 /// The continuation in ε.
-fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State {
+fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f64) -> State {
     let interfaces = &model.interfaces;
     let settings = Settings { tolerance: 1e-10, deadline: control.deadline, ..Settings::default() };
     let mut answer =
@@ -172,6 +178,8 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
         trail.push((epsilon, point.rates.clone()));
         last = Some(point);
         match (answer.motion, decided) {
+            // Rest once told is followed to its limit.
+            (StateMotion::Rests, _) => answer.forces = forces,
             // A motion once told is followed while it obeys the law more and more exactly.
             (StateMotion::Moves, decided)
                 if decided != StateMotion::Moves || moved.natural_map_in_loads >= exact =>
@@ -191,7 +199,7 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control) -> State 
             0
         };
         if hopeless == HOPELESS.1
-            || answer.motion == StateMotion::Rests
+            || (answer.motion == StateMotion::Rests && epsilon <= least)
             || (answer.motion == StateMotion::Moves && exact <= tolerance::NATURAL_MAP)
         {
             break;

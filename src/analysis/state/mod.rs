@@ -21,7 +21,7 @@ use crate::{
     interface::Model,
     terms::Bound,
     verdict::{Evidence, Forces, Rate, Verdict, check, check::Claim, no_forces},
-    yielding::{Joints, State, System, Track, events},
+    yielding::{Joints, State, Step, System, Track, events},
 };
 use nalgebra::Vector3;
 use newton::Newton;
@@ -73,14 +73,24 @@ impl Claims for Rest {
     }
 }
 
-/// Load factors are followed up to this share of the bound. More: contacts shrink to nothing, which
-/// rounding cannot follow. Less: the load factor has fewer digits.
+/// Load factors are followed up to this share of the bound where nothing slides, and the bound is the
+/// load factor of the path. More: contacts shrink to nothing, which rounding cannot follow. Less: what
+/// slides last goes unseen.
 const UP_TO: f64 = 1.0 - 1e-3;
+/// Where anything slides, and displacements do not grow without end, they are followed on, up to this
+/// share. More: as above. Less: the load factor of a path that ends at its bound has fewer digits.
+const UP_TO_SLIDING: f64 = 1.0 - 5e-7;
+/// Displacements that grow with less than this power of the distance from the bound do not grow
+/// without end: of what tips it is 2, of what slides 0. More: minutes, and rounding, on what tips.
+/// Less: what slides is not followed.
+const GROWS: f64 = 0.5;
 /// Steps along the live load at least, in shares of the bound.
 const STEP: f64 = 0.05;
-/// Steps shorter than this share of the bound end the path. More: the load factor has fewer digits.
-/// Less: minutes at its end.
+/// Steps shorter than this share of the load factor end the path; of one that is small beside the
+/// bound, of that share of the bound. More: the load factor has fewer digits. Less: minutes at its
+/// end.
 const LEAST: f64 = 1e-7;
+const SMALL: f64 = 1e-2;
 /// Events are found to this share of the bound.
 const EVENT: f64 = 1e-7;
 /// Multiples of the last step at which a search may begin.
@@ -130,7 +140,11 @@ pub(super) fn state(
             Some(top) if top > 0.0 => {
                 let last = if asked.outcome == Outcome::Found { UP_TO * top } else { top };
                 let mut walk = Walk { model, joints: &joints, newton: &mut newton, control, top };
-                let end = walk.along(track, last, &options.at);
+                let mut end = walk.along(track, last, &options.at);
+                let found = asked.outcome == Outcome::Found;
+                if end == PathEnd::Bound && found && track.slides(&joints) && settles(track, top) {
+                    end = walk.along(track, UP_TO_SLIDING * top, &options.at);
+                }
                 match (end, asked.outcome) {
                     (PathEnd::Bound, Outcome::Unbounded) => PathEnd::Unbounded,
                     (end, _) => end,
@@ -154,6 +168,14 @@ pub(super) fn state(
         end,
         steps,
     })
+}
+
+/// Whether displacements do not grow without end towards the bound, by the last two states.
+fn settles(track: &Track, top: f64) -> bool {
+    let [.., a, b] = &track.steps[..] else { return false };
+    let far = |s: &Step| s.displaced.iter().map(|q| q.velocity.norm()).fold(0.0, f64::max);
+    let nearer = (top - a.load_factor) / (top - b.load_factor);
+    far(b) <= far(a) * nearer.powf(GROWS)
 }
 
 /// The load factor at which live and dead load weigh the same, on the structures that the live load
@@ -237,7 +259,7 @@ impl Walk<'_, '_, '_> {
             let goal = (lambda + step).min(half).min(ahead);
             let Some(displaced) = self.at(track, goal) else {
                 step = 0.5 * (goal - lambda);
-                if step < LEAST * self.top {
+                if step < LEAST * lambda.max(SMALL * self.top) {
                     return PathEnd::NoBalance;
                 }
                 continue;

@@ -2,6 +2,7 @@
 
 use super::body::{Displacement, Solid, posed};
 use crate::{
+    number::short,
     report::view::{Body, Mark, View, ViewMotion, ViewPart, ViewPose, ViewShape, ViewState},
     tolerance::MECHANISM_REST,
 };
@@ -52,7 +53,14 @@ pub fn sized(view: &View, motion: &ViewMotion) -> f64 {
         .zip(&motion.rates)
         .filter(|(b, _)| !matches!(b.shape, ViewShape::Sphere(_)));
     let spin = angular.map(|(_, r)| r.spin.norm()).fold(0.0, f64::max);
-    (WAY * view.size()).min(TURN * motion.reach / spin).max(LEAST_WAY * view.size())
+    let far = (WAY * view.size()).min(TURN * motion.reach / spin).max(LEAST_WAY * view.size());
+    if motion.is_displacement { round(far / motion.reach) * motion.reach } else { far }
+}
+
+/// The next 1, 2 or 5 × a power of ten below.
+fn round(by: f64) -> f64 {
+    let ten = 10f64.powf(by.log10().floor());
+    ten * [5.0, 2.0].into_iter().find(|k| k * ten <= by).unwrap_or(1.0)
 }
 
 impl<'a> Choice<'a> {
@@ -103,7 +111,11 @@ impl Movement {
             .collect();
         let speeds = motion.rates.iter().map(|r| r.velocity).collect();
         Some(Self {
-            name: motion.name.clone(),
+            name: if motion.is_displacement {
+                format!("{} × {}", motion.name, short(by))
+            } else {
+                motion.name.clone()
+            },
             displacements,
             moves,
             marks: motion.marks.clone(),

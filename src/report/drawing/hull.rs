@@ -69,7 +69,7 @@ impl Hull {
 }
 
 /// Corners of the convex hull.
-fn outline(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub(super) fn outline(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let flat: Vec<P2> = points.iter().map(|&p| p.into()).collect();
     polygon::corners(&flat).into_iter().map(|i| points[i]).collect()
 }

@@ -16,6 +16,7 @@ mod legend;
 mod marks;
 mod members;
 mod order;
+mod pressure;
 mod projection;
 mod sheet;
 mod slope;
@@ -89,6 +90,7 @@ fn draw(view: &View, aspect: Aspect, attributes: &str, styled: impl Fn(&str) -> 
         (view.values.is_some(), sheet::VALUES),
         (paper.glass, sheet::GLASS),
         (view.slope.is_some(), slope::STYLE),
+        (!view.pressures.is_empty(), pressure::STYLE),
     ] {
         if there {
             styles.push_str(&styled(style));
@@ -147,6 +149,7 @@ fn statics(
         }
     }
     marks::joints(&mut sheet, view, paper);
+    pressure::draw(&mut sheet, view, paper, legend);
     for (class, state) in ["one", "two"].into_iter().zip(&choice.states) {
         forces::line(&mut sheet, paper, state, class);
     }

@@ -32,10 +32,17 @@ pub(super) fn animations(
             |i: usize| motion.rates[i].velocity.norm() > 0.0 || motion.rates[i].spin.norm() > 0.0;
         let times: Vec<f64> = moments.iter().map(|m| m * SECONDS).collect();
         list.push(Clip { name: &motion.name, times }.write(view, shapes, buffer, moves, pose));
-        told.push(json!({
-            "name": motion.name, "kind": "mechanism", "fastest_corner_m": far,
-            "seconds": SECONDS, "note": "the size of the motion is chosen, not computed",
-        }));
+        told.push(if motion.is_displacement {
+            json!({
+                "name": motion.name, "kind": "displacement", "magnified": far / motion.reach,
+                "seconds": SECONDS,
+            })
+        } else {
+            json!({
+                "name": motion.name, "kind": "mechanism", "fastest_corner_m": far,
+                "seconds": SECONDS, "note": "the size of the motion is chosen, not computed",
+            })
+        });
     }
     if view.film.len() > 1 {
         let first = view.film[0].time;

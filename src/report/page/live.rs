@@ -76,6 +76,7 @@ fn nothing() -> View {
         members: Vec::new(),
         states: Vec::new(),
         motions: Vec::new(),
+        pressures: Vec::new(),
         film: Vec::new(),
         course: Course::default(),
         values: None,

@@ -272,7 +272,7 @@ fn motion(m: &ViewMotion, units: &Units) -> Value {
         Kind::Crush => "crushes",
     };
     json!({
-        "name": m.name,
+        "name": if m.is_displacement { format!("{}, magnified", m.name) } else { m.name.clone() },
         "velocity": singles(m.rates.iter().flat_map(|r| (r.velocity / m.reach).iter().copied().collect::<Vec<_>>())),
         "spin": singles(m.rates.iter().flat_map(|r| (r.spin * (units.length / m.reach)).iter().copied().collect::<Vec<_>>())),
         "markJoint": wholes(m.marks.iter().map(|k| k.joint)),

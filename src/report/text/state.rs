@@ -17,6 +17,8 @@ use crate::{
 /// Rotations (rad) of blocks of any size below this multiple of their displacement (m), and shear forces
 /// below this share of the normal force, are rounding.
 const ROUNDING: f64 = 1e-9;
+/// Of paths that end above this share of the bound nobody can say that they do not reach it.
+const NEAR: f64 = 1.0 - 1e-3;
 /// So many joints, blocks and events are listed.
 const LISTED: usize = 12;
 
@@ -83,7 +85,12 @@ fn path(l: &PathFactor) -> String {
             l.associative.value.map_or(String::new(), |v| fixed(v, 6))
         ),
         PathEnd::Bound => format!(
-            "States were found up to a thousandth below the bound although joints slide; {bound}."
+            "States were found up to λ = {} although joints slide; {bound}.",
+            fixed(l.reached, 6)
+        ),
+        PathEnd::NoBalance if l.associative.value.is_some_and(|v| l.reached > NEAR * v) => format!(
+            "Beyond λ = {} no displacements were found that balance the loads; {bound}.",
+            fixed(l.reached, 6)
         ),
         PathEnd::NoBalance => format!(
             "Beyond λ = {} no displacements balance the loads (computed, not proved); {bound}, which joints that slide do not reach.",
@@ -138,6 +145,11 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     if !a.frequencies.is_empty() {
         let list: Vec<String> = a.frequencies.iter().map(|f| short(*f)).collect();
         page.row("frequencies", [format!("{} Hz", list.join(", "))]);
+    } else if a.greatest.is_some() {
+        page.row(
+            "frequencies",
+            ["not found: the structure is too large, or they did not settle".to_string()],
+        );
     }
     if let Some(c) = &a.control {
         page.row("control", [format!("{} at {}", crate::plain::cell(&c.block), point(c.point))]);

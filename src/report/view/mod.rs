@@ -9,6 +9,7 @@ mod course;
 mod film;
 mod member;
 mod motion;
+mod pressure;
 mod slope;
 mod stages;
 mod state;
@@ -19,6 +20,7 @@ pub use course::{Course, frames};
 pub use film::Film;
 pub use member::ViewMember;
 pub use motion::{Mark, ViewMotion, ViewPose};
+pub use pressure::ViewPressure;
 pub use slope::ViewSlope;
 pub use stages::ViewValues;
 pub use state::{Resultant, Segment, ViewPart, ViewState};
@@ -69,7 +71,9 @@ pub struct View {
     pub members: Vec<ViewMember>,
     /// Systems of contact forces; the first one goes with the answer.
     pub states: Vec<ViewState>,
-    /// Mechanisms; the first one goes with the answer.
+    /// Pressure in joints that yield.
+    pub pressures: Vec<ViewPressure>,
+    /// Mechanisms, or displacements; the first one goes with the answer.
     pub motions: Vec<ViewMotion>,
     /// What happened in time, evenly spread, or on a path point by point.
     pub film: Vec<Frame>,
@@ -162,6 +166,9 @@ impl View {
         member::forces(&mut view.members, file);
         view.states = state::of(model, file).map_err(ViewError)?;
         view.motions = motion::of(model, file, &view.bodies).map_err(ViewError)?;
+        if let Some(state) = file.answer.state() {
+            view.pressures = pressure::of(model, state);
+        }
         view.film = film;
         if let Some(path) = &file.path {
             view.course = Course::of(path);
@@ -213,6 +220,7 @@ impl View {
             loads: loads(model),
             members: member::of(model),
             states: Vec::new(),
+            pressures: Vec::new(),
             motions: Vec::new(),
             film: Vec::new(),
             course: Course::default(),

@@ -1,4 +1,4 @@
-//! Mechanisms as motions that can be followed.
+//! Mechanisms and displacements as motions that can be followed.
 //!
 //! The rates of a mechanism say how a motion begins. A block with velocity `v` of its centre of
 //! mass and spin `ω` is followed along the screw that they span, the exponential of its twist:
@@ -9,7 +9,7 @@
 //!
 //! R. S. Ball, *A Treatise on the Theory of Screws*, Cambridge 1900.
 
-use super::{Body, ViewPart};
+use super::{Body, ViewPart, pressure};
 use crate::{
     analysis::coulomb::Found,
     interface::Model,
@@ -38,6 +38,8 @@ pub struct ViewMotion {
     pub reach: f64,
     /// Joints that move.
     pub marks: Vec<Mark>,
+    /// Whether the rates are displacements, m and rad: of a scale of their own, and shown magnified.
+    pub is_displacement: bool,
 }
 
 /// A joint that moves.
@@ -78,7 +80,20 @@ impl ViewMotion {
             .iter()
             .map(|j| Mark { joint: j.interface, kind: j.motion, at: j.at })
             .collect();
-        Some(Self { part, name: name.into(), rates, reach, marks })
+        Some(Self { part, name: name.into(), rates, reach, marks, is_displacement: false })
+    }
+
+    /// Small displacements, of joints that yield.
+    fn displacements(rates: Vec<Rate>, bodies: &[Body]) -> Option<Self> {
+        let reach = bodies.iter().zip(&rates).map(|(b, r)| speed(b, r)).fold(0.0, f64::max);
+        (reach.is_finite() && reach > 0.0).then(|| Self {
+            part: ViewPart::Answer,
+            name: "displacements under the dead load".into(),
+            rates,
+            reach,
+            marks: Vec::new(),
+            is_displacement: true,
+        })
     }
 
     /// Where a block is when the corner that moves fastest would have gone `way` m straight on.
@@ -145,6 +160,10 @@ pub(super) fn of(
         }
         motions.extend(ViewMotion::new(model, part, name, rates, bodies));
     }
+    if let Some(state) = file.answer.state() {
+        let rates = pressure::displaced(model, state);
+        motions.extend(ViewMotion::displacements(rates, bodies));
+    }
     Ok(motions)
 }
 
@@ -159,6 +178,7 @@ mod tests {
             rates: vec![Rate { velocity: velocity.into(), spin: spin.into() }],
             reach: 1.0,
             marks: Vec::new(),
+            is_displacement: false,
         }
     }
 

@@ -156,7 +156,7 @@ fn point_data(xml: &mut Xml, view: &View, mesh: &Mesh) {
         xml.vectors("load", mesh.points.iter().map(load));
     }
     for motion in &view.motions {
-        let by = sized(view, motion) / motion.reach;
+        let by = if motion.is_displacement { 1.0 } else { sized(view, motion) / motion.reach };
         let way = |p: &mesh::Point| match p.block {
             Some(i) => {
                 (motion.rates[i].velocity
