@@ -203,7 +203,10 @@ fn curve(
     let Some(d0) = end.filter(|_| matches!(first.path.end, End::Vanishes)) else {
         return Ok((first, bare, has_members));
     };
-    let mut at: Vec<f64> = SHARES.iter().map(|s| s * d0).chain(options.at.clone()).collect();
+    // The points where it bends, and those of the limit states.
+    let happens = |v: f64| first.path.events.iter().any(|e| (e.value..=e.beyond).contains(&v));
+    let bends = first.path.points.iter().map(|p| p.value).filter(|&v| v < d0 && !happens(v));
+    let mut at: Vec<f64> = SHARES.iter().map(|s| s * d0).chain(bends).collect();
     at.sort_by(f64::total_cmp);
     Ok((ask(&at)?, bare, has_members))
 }
