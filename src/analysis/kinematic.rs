@@ -147,11 +147,12 @@ pub(super) fn kinematic(
         if let Some(point) = point.filter(|_| has_members) {
             // With points at the limit states of what lasts, to be held beside them.
             let at: Vec<f64> = answer.curve.iter().flat_map(limit_states).collect();
-            let at = [&at[..], &options.at].concat();
-            answer.with_members = Some(
-                ways(worst, point)
-                    .and_then(|()| pushed(worst, &worst.quake.model, point, at, control)),
-            );
+            let model = &worst.quake.model;
+            let also = |_: &Followed| at.clone();
+            answer.with_members =
+                Some(ways(worst, point).and_then(|()| {
+                    pushed_also(worst, model, point, (&options.at, &also), control)
+                }));
         }
     }
     answer.directions = directions;
@@ -236,13 +237,29 @@ fn curve(
     if has_members {
         same_without(worst, &bare, control)?;
     }
-    let first = pushed(worst, &bare, point, options.at.clone(), control)?;
-    let states = limit_states(&first);
-    if states.is_empty() {
-        return Ok((first, bare, has_members));
+    let followed = pushed_also(worst, &bare, point, (&options.at, &limit_states), control)?;
+    Ok((followed, bare, has_members))
+}
+
+/// The same with points at these ways, or where none are given where it bends; and with points at
+/// what the curve itself tells.
+fn pushed_also(
+    worst: &Quaked,
+    model: &Model,
+    point: (usize, Vector3<f64>),
+    (at, also): (&[f64], &dyn Fn(&Followed) -> Vec<f64>),
+    control: &Control,
+) -> Result<Followed, String> {
+    let first = pushed(worst, model, point, at.to_vec(), control)?;
+    let more = also(&first);
+    if more.is_empty() {
+        return Ok(first);
     }
-    let at = [&states[..], &options.at].concat();
-    Ok((pushed(worst, &bare, point, at, control)?, bare, has_members))
+    // The points where it bends, the asked ones among them, but not its events and its end.
+    let happens = |v: f64| first.path.events.iter().any(|e| (e.value..=e.beyond).contains(&v));
+    let last = first.path.points.len().saturating_sub(1);
+    let bends = first.path.points[..last].iter().map(|p| p.value).filter(|&v| !happens(v));
+    pushed(worst, model, point, more.into_iter().chain(bends).collect(), control)
 }
 
 /// Requires that the mechanism is the same without members: only then is the curve without them one

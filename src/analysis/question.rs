@@ -235,7 +235,8 @@ pub struct PushOptions {
     pub control: ControlPoint,
     /// The direction in which its way is measured.
     pub toward: [f64; 3],
-    /// Values of the parameter that become points of the curve, beside others, m.
+    /// Values of the parameter that become the points of the curve, beside its start, its events and
+    /// its end, m; empty: where it bends.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub at: Vec<f64>,
     /// Poses to begin at, as a result of the same scene has them; empty: the start.

@@ -50,7 +50,7 @@ pub fn margin(
 }
 
 /// The columns that press every contact point with the mean load of one.
-fn pressed(statics: &Statics, interfaces: &Interfaces) -> Vec<f64> {
+pub fn pressed(statics: &Statics, interfaces: &Interfaces) -> Vec<f64> {
     let mean = statics.total_load() / statics.bearings.len().max(1) as f64;
     let mut columns = vec![0.0; statics.matrix.columns];
     for bearing in &statics.bearings {

@@ -35,7 +35,7 @@ pub use bearing::{Bearing, BearingCone, Disc, Limits};
 pub use conic::{Cone, ConicProgram, Sparse};
 pub use crushing::CrushingJoint;
 pub use load_factor::load_factor;
-pub use margin::margin;
+pub use margin::{margin, pressed};
 pub use member::{MemberColumns, MemberSet};
 pub use opening::opening;
 pub use options::{Pyramid, StaticsOptions};

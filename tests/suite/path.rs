@@ -196,6 +196,44 @@ fn a_barrel_in_running_bond_goes_as_its_section() {
     close(thrust(&scene, last), 0.2236377617, 1e-8);
 }
 
+/// A dome whose ring of supports spreads: every slice between two meridians goes as the next one,
+/// and the supports take up the power that the dome loses as it sinks.
+#[test]
+fn a_dome_on_a_ring_that_spreads_pushes_all_of_it_alike() {
+    let dome = json!({
+        "radius": 5, "thickness": 0.6, "rings": 4, "segments": 8, "springing_deg": 80,
+        "oculus_deg": 20,
+    });
+    let scene = template(0.7, json!({ "dome": dome }), json!({}));
+    let outwards = |k: usize| {
+        let (y, x) = (std::f64::consts::TAU * (k as f64 + 0.5) / 8.0).sin_cos();
+        to(&format!("springer_{k:02}"), [0.2 * x, 0.2 * y, 0.0])
+    };
+    let moves: Vec<SupportMove> = (0..8).map(outwards).collect();
+    let ways: Vec<Vector3<f64>> = moves.iter().map(|m| Vector3::from(m.way)).collect();
+    let question = Question::Settle(SettleOptions { moves, ..Default::default() });
+    let file = followed(&scene, &question);
+    assert_eq!(file.answer.path().unwrap().status, PathStatus::Reached);
+    let assembly = model(&scene).assembly;
+    let height = |p: &PathPoint| -> f64 {
+        let poses = read_poses(&assembly, &p.poses).unwrap();
+        assembly.free().map(|i| assembly.weight(i) * poses[i].shift.z).sum()
+    };
+    let push = |p: &PathPoint| -> f64 {
+        let each: Vec<f64> =
+            p.reactions.iter().zip(&ways).map(|(r, way)| Vector3::from(r.force).dot(way)).collect();
+        each.iter().for_each(|power| close(*power, each[0], 1e-6));
+        each.iter().sum()
+    };
+    let points = &path(&file).points;
+    close(push(&points[0]), file.answer.path().unwrap().least_reaction.unwrap().value, 1e-6);
+    for pair in points.windows(2) {
+        let lost = height(&pair[0]) - height(&pair[1]);
+        let mean = 0.5 * (push(&pair[0]) + push(&pair[1]));
+        close(mean * (pair[1].value - pair[0].value), lost, 1e-3);
+    }
+}
+
 /// Voussoirs 0 to 2 turn about the intrados of the left springing, with hinges at the extrados of
 /// joint 3, the intrados of joint 5 and the extrados of the right springing: a four-bar linkage.
 fn capacity(at: &[f64]) -> (Scene, ResultFile) {
@@ -244,6 +282,62 @@ fn the_capacity_curve_of_an_arch_is_that_of_its_linkage() {
     let said = file.answer.path().unwrap();
     assert_eq!(said.status, PathStatus::Vanishes, "{said:?}");
     close(said.value.unwrap(), 0.044874067, 1e-7);
+}
+
+/// A column of three blocks that is pushed by its weight turns about its toe as one: at a turn `θ`
+/// its load factor is `tan(α − θ)`, `α` the angle between its diagonal and the vertical.
+#[test]
+fn a_column_turns_about_its_toe_and_only_what_is_asked_for_becomes_a_point() {
+    let mut blocks = vec![fixed(cuboid("ground", [4.0, 1.0, 0.5], [0.0, 0.0, -0.5]))];
+    for k in 0..3 {
+        blocks.push(cuboid(&format!("b{k}"), [0.6, 1.0, 0.5], [0.0, 0.0, 0.5 * f64::from(k)]));
+    }
+    let scene = scene(NO_SLIDING, json!(blocks), push([1.0, 0.0, 0.0]));
+    let pushed = |at: &[f64]| {
+        let control = ControlPoint { block: "b2".into(), point: [0.0, 0.0, 1.25] };
+        let toward = [1.0, 0.0, 0.0];
+        let options = PushOptions { control, toward, at: at.to_vec(), from: Vec::new() };
+        followed(&scene, &Question::Push(options))
+    };
+    // The control point is 0.3 behind the toe and 1.25 above it.
+    let way = |turn: f64| 0.3 - 0.3 * turn.cos() + 1.25 * turn.sin();
+    let most = (0.3_f64 / 0.75).atan();
+    let exact = |p: &PathPoint| {
+        let assembly = model(&scene).assembly;
+        let turn = read_poses(&assembly, &p.poses).unwrap()[assembly.find("b2").unwrap()].turn;
+        let turn = turn.angle();
+        assert!((way(turn) - p.value).abs() < 1e-12, "{turn} at {}", p.value);
+        (most - turn).tan()
+    };
+    let ways = [0.1, 0.2, 0.3].map(way);
+    for at in [&ways[..], &[]] {
+        let file = pushed(at);
+        let said = file.answer.path().expect("a path");
+        assert_eq!(said.status, PathStatus::Vanishes, "{said:?}");
+        close(said.value.expect("a value"), way(most), 1e-9);
+        let points = &path(&file).points;
+        for p in points {
+            let off = (p.load_factor.expect("a value") - exact(p)).abs();
+            assert!(off < 1e-9, "{off} at {}", p.value);
+        }
+        // Between them it was followed all the same.
+        let (between, own) = (path(&file).between, points.len());
+        assert!(between + own > 120, "{between} {own}");
+        if at.is_empty() {
+            assert!((10..60).contains(&own), "{own}");
+            // A straight line between two of them misses the curve by a thousandth.
+            for pair in points.windows(2) {
+                let [a, b] = [exact(&pair[0]), exact(&pair[1])];
+                let turn = 0.5 * ((most - a.atan()) + (most - b.atan()));
+                let line =
+                    a + (b - a) * (way(turn) - pair[0].value) / (pair[1].value - pair[0].value);
+                assert!((line - (most - turn).tan()).abs() < 2e-3 * 0.4, "{line} at {turn}");
+            }
+        } else {
+            let values: Vec<f64> = points.iter().map(|p| p.value).collect();
+            assert_eq!((own, &values[1..4]), (5, at));
+        }
+    }
 }
 
 /// Six courses of a wall of 6 on a base of two halves, the right one of which sinks: linear

@@ -21,13 +21,13 @@ use crate::{
     terms::Law,
     tolerance,
     verdict::{
-        Evidence, Forces, Rate,
+        Evidence, Forces, Rate, certificate,
         check::{self, Claim, Findings},
-        exact::existence,
+        exact::{existence, motion},
     },
 };
 use nalgebra::Vector3;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// A path with its proofs.
 #[derive(Clone, Debug)]
@@ -299,6 +299,9 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
     let found = carried.displaced(&poses);
     let model = &found.model;
     if how.drive.is_push() {
+        if let Some(own) = linkage_proof(carried, &found, point, &poses) {
+            return own;
+        }
         let l = limit(model, &Control { law: Law::Associative, ..*control });
         return match &point.touch {
             None => PointProof::of(model, &l),
@@ -308,8 +311,14 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
     if let Some(touch) = &point.touch {
         return slid_proof(carried, &found, point, touch);
     }
-    // Corners that touch again without having to are among the contacts, and carry nothing.
-    let touching = carried.touching(&poses, &point.closed);
+    stands_or_falls(model, carried_forces(carried, &found, point, &poses), &point.rates)
+}
+
+/// The forces of a point at the contacts that its poses have; corners that touch again without
+/// having to are among the contacts, and carry nothing.
+fn carried_forces(carried: &Carried, found: &Displaced, point: &Point, poses: &[Pose]) -> Forces {
+    let model = &found.model;
+    let touching = carried.touching(poses, &point.closed);
     let mut forces = crate::verdict::no_forces(&model.interfaces);
     let joints = touching.model.interfaces.list.len();
     for (own, given) in forces[model.interfaces.list.len()..]
@@ -318,9 +327,12 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
     {
         own.clone_from(given);
     }
+    // Of several contacts of a joint the first.
+    let places = found.from.iter().enumerate().rev();
+    let first: HashMap<usize, usize> = places.map(|(c, &k)| (k, c)).collect();
     for (c, given) in point.forces.iter().take(joints).enumerate() {
         let (k, from) = (touching.from[c], &touching.model.interfaces.list[c]);
-        let Some(to) = found.from.iter().position(|&f| f == k) else { continue };
+        let Some(&to) = first.get(&k) else { continue };
         for (p, w) in from.points.iter().zip(given) {
             let near = |q: &&Vector3<f64>| (**q - p).norm() <= 1e-7 * carried.size(k);
             if let Some(at) = model.interfaces.list[to].points.iter().position(|q| near(&q)) {
@@ -328,7 +340,33 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
             }
         }
     }
-    stands_or_falls(model, forces, &point.rates)
+    forces
+}
+
+/// Proves a load factor by what the linkage has: the forces that balance it, and its motion, which
+/// closes no joint. Nothing where that is refused, and at the start, where all joints are closed: a
+/// program finds forces with room there, which prove it exactly.
+fn linkage_proof(
+    carried: &Carried,
+    found: &Displaced,
+    point: &Point,
+    poses: &[Pose],
+) -> Option<PointProof> {
+    let start = poses.iter().all(|p| *p == Pose::start());
+    if start || point.touch.is_some() || point.rates.is_empty() {
+        return None;
+    }
+    let model = &found.model;
+    let mut forces = carried_forces(carried, found, point, poses);
+    mend::cut(&model.interfaces, &mut forces);
+    let rates = point.rates.clone();
+    let upper = check::upper_bound(motion::motion(model, &rates), || {
+        certificate::kinematics(model, &rates, &forces).upper()
+    });
+    let lower = point.load_factor.min(upper);
+    let claim = Some(Claim::LoadFactor { value: lower, lower, upper });
+    let proof = PointProof::of(model, &Proved::new(model, Side { claim, forces, rates }));
+    proof.claim.is_some().then_some(proof)
 }
 
 /// Proves that a displaced scene stands with these forces, or falls by these rates.

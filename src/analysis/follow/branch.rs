@@ -3,6 +3,7 @@
 use super::{
     drop::{self, Landing, Turn},
     linkage::Linkage,
+    passed::Passed,
     point::{End, Event, EventKind, Point},
     program::{self, Hold, Margin},
     root::narrow,
@@ -47,6 +48,9 @@ pub struct Path {
     pub end: End,
     /// At the start: the forces and rates of the first mechanism, supports among them.
     pub first: Option<(Forces, Vec<Rate>)>,
+    /// How many poses were looked at beside the points: whether joints that are to be closed are,
+    /// whether blocks overlap, whether forces inside the cones balance the loads.
+    pub between: usize,
 }
 
 /// Gaps below this × the size of the smaller block overlap. Nearer to zero: rounding of the poses is
@@ -79,7 +83,8 @@ pub(super) fn follow(
         None => (0.0, vec![Pose::start(); blocks.len()], all()),
         Some((value, poses)) => (*value, poses.clone(), carried.closed(poses)),
     };
-    let mut path = Path { points: Vec::new(), events: Vec::new(), end: End::Reached, first: None };
+    let mut path =
+        Path { points: Vec::new(), events: Vec::new(), end: End::Reached, first: None, between: 0 };
     // The first mechanism says what members do.
     let holds = vec![Hold::Idle; start.interfaces.members.len()];
     let mut state = State { value, poses, closed, holds };
@@ -180,13 +185,36 @@ impl Tracker<'_> {
         if path.points.is_empty()
             || path.points.last().is_some_and(|p| p.value < value || p.closed != closed)
         {
-            path.points.push(self.point(value, &at, &closed, &margin));
+            path.points.push(self.point(value, (&linkage, &at), &closed, &margin));
         }
         if how.drive.is_push() && at.load_factor <= 0.0 {
             return Err(End::Vanishes);
         }
         let mut here = (value, Trial { at, margin: Some(margin) });
+        let next = self.along(how, &linkage, &mut here, &closed, path);
+        // Where it is not followed any further the last pose is a point, wanted or not.
+        if let (Err(End::Stuck(_)), Some(m)) = (&next, &here.1.margin)
+            && path.points.last().is_none_or(|p| p.value < here.0)
+        {
+            path.points.push(self.point(here.0, (&linkage, &here.1.at), &closed, m));
+            path.between = path.between.saturating_sub(1);
+        }
+        next
+    }
+
+    /// The same from `here`, which is left at the last pose at which nothing had happened.
+    fn along(
+        &self,
+        how: &Follow,
+        linkage: &Linkage,
+        here: &mut (f64, Trial),
+        closed: &[Vec<usize>],
+        path: &mut Path,
+    ) -> Result<State, End> {
+        let stuck = |text: &str| End::Stuck(text.to_string());
+        let holds = &linkage.holds;
         let mut step = how.step;
+        let mut passed = Passed::new(here.0, here.1.at.load_factor);
         loop {
             if here.0 >= how.until {
                 return Err(End::Reached);
@@ -200,26 +228,28 @@ impl Tracker<'_> {
             // A step that all but reaches its aim reaches it.
             let aim = stop.min(grid);
             let value = if here.0 + 1.000_001 * step >= aim { aim } else { here.0 + step };
-            let Some(at) = self.at(&linkage, &here.1.at.place, value) else {
+            let Some(at) = self.at(linkage, &here.1.at.place, value) else {
                 step *= 0.25;
                 if step < 1e-9 * how.step {
                     return Err(stuck("the linkage does not go on"));
                 }
                 continue;
             };
-            let trial = Trial { margin: self.margin(&at.place.poses, &closed, &linkage.holds), at };
-            let overlaps = self.deepest(&trial.at.place.poses, &closed).filter(|c| c.gap < OVERLAP);
-            if let Some(text) = self.turns(&holds, &here.1.at.place.poses, &trial.at.place.poses) {
+            let margin = self.margin_near(&at, closed, holds, here.1.margin.as_ref());
+            let trial = Trial { margin, at };
+            let overlaps = self.deepest(&trial.at.place.poses, closed).filter(|c| c.gap < OVERLAP);
+            if let Some(text) = self.turns(holds, &here.1.at.place.poses, &trial.at.place.poses) {
                 return Err(End::Stuck(text));
             }
             let room = trial.margin.as_ref().map(|m| m.room);
             let lacks = room.is_some_and(|r| r < ROOM);
             if (room.is_none() || lacks)
                 && overlaps.is_none()
-                && let Some(excess) = self.excess(&linkage, &trial.at.place.poses, &closed)
+                && let Some(excess) = self.excess(linkage, &trial.at.place.poses, closed)
                 && excess.by > 0.0
             {
-                return self.yields(how, &linkage, here, (value, trial, excess), &closed, path);
+                let there = (value, trial, excess);
+                return self.yields(how, linkage, here.clone(), there, closed, path);
             }
             if room.is_none() {
                 step *= 0.25;
@@ -228,21 +258,34 @@ impl Tracker<'_> {
                 }
                 continue;
             }
-            if overlaps.is_none() && !lacks {
-                if how.drive.is_push() && trial.at.load_factor <= 0.0 {
-                    return Err(self.vanishes(&linkage, here, (value, trial), &closed, path));
-                }
-                if let Some(text) = (self.meets)(&trial.at.place.poses, false) {
-                    return Err(End::Stuck(text));
-                }
-                if let Some(m) = trial.margin.as_ref().filter(|_| value == aim) {
-                    path.points.push(self.point(value, &trial.at, &closed, m));
-                }
-                here = (value, trial);
-                step = how.step;
-                continue;
+            if overlaps.is_some() || lacks {
+                return self.event(how, linkage, here.clone(), (value, trial), closed, path);
             }
-            return self.event(how, &linkage, here, (value, trial), &closed, path);
+            if how.drive.is_push() && trial.at.load_factor <= 0.0 {
+                return Err(self.vanishes(linkage, here.clone(), (value, trial), closed, path));
+            }
+            if let Some(text) = (self.meets)(&trial.at.place.poses, false) {
+                return Err(End::Stuck(text));
+            }
+            let point = |at: &(f64, Trial)| {
+                let margin = at.1.margin.as_ref()?;
+                Some(self.point(at.0, (linkage, &at.1.at), closed, margin))
+            };
+            let there = (value, trial);
+            let load_factor = there.1.at.load_factor;
+            let wanted = how.at.contains(&value) || value == how.until;
+            if how.drive.is_push() && how.at.is_empty() && passed.go(value, load_factor) {
+                path.points.extend(point(here));
+                path.between -= 1;
+            }
+            if wanted || (!how.drive.is_push() && value == aim) {
+                path.points.extend(point(&there));
+                passed = Passed::new(value, load_factor);
+            } else {
+                path.between += 1;
+            }
+            *here = there;
+            step = how.step;
         }
     }
 
@@ -263,7 +306,7 @@ impl Tracker<'_> {
         if let Some([low, _]) = ends
             && let Some(margin) = self.margin(&low.2.place.poses, closed, &linkage.holds)
         {
-            path.points.push(self.point(low.0, &low.2, closed, &margin));
+            path.points.push(self.point(low.0, (linkage, &low.2), closed, &margin));
             return End::Vanishes;
         }
         End::Stuck("the place where the load factor vanishes was not found".into())
@@ -325,7 +368,7 @@ impl Tracker<'_> {
             slides: Vec::new(),
         });
         if let Some(m) = self.margin(&low.2.place.poses, closed, &linkage.holds) {
-            path.points.push(self.point(low.0, &low.2, closed, &m));
+            path.points.push(self.point(low.0, (linkage, &low.2), closed, &m));
         }
         let holds = linkage.holds.clone();
         Ok(State { value: low.0, poses: low.2.place.poses, closed: now, holds })
@@ -343,7 +386,7 @@ impl Tracker<'_> {
     ) -> Result<State, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
         if let Some(m) = &low.1.margin {
-            path.points.push(self.point(low.0, &low.1.at, closed, m));
+            path.points.push(self.point(low.0, (old, &low.1.at), closed, m));
         }
         let poses = &beyond.1.at.place.poses;
         let lost = beyond.1.margin.as_ref().map_or_else(Vec::new, |m| self.lost(poses, closed, m));

@@ -98,7 +98,7 @@ impl Tracker<'_> {
         let at = low.2.0;
         let margin = self.margin(&at.place.poses, closed, &linkage.holds);
         if let Some(m) = &margin {
-            path.points.push(self.point(low.0, &at, closed, m));
+            path.points.push(self.point(low.0, (linkage, &at), closed, m));
         }
         path.events.push(Event {
             value: low.0,

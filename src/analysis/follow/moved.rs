@@ -134,6 +134,7 @@ impl<'a> Moved<'a> {
             events: own.events.into_iter().map(event).collect(),
             end,
             first,
+            between: own.between,
         }
     }
 

@@ -23,7 +23,7 @@ pub struct Point {
     pub forces: Forces,
     /// The room that they have.
     pub room: f64,
-    /// The mechanism that lets it fall; none where it stands.
+    /// The mechanism that lets it fall, or that the live load drives; none where it stands.
     pub rates: Vec<Rate>,
     /// After sliding: the joint at the start of every contact, and where it touches; the forces are
     /// those of these contacts ([`Carried::displaced`]).

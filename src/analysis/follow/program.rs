@@ -20,6 +20,8 @@ pub struct Margin {
     pub forces: Forces,
     /// The part of them that lies on the edge of what joints carry at the points that decide.
     pub bare: Forces,
+    /// The forces as columns of [`Statics`].
+    pub columns: Vec<f64>,
 }
 
 /// Settings tried one after the other.
@@ -41,6 +43,7 @@ pub fn margin(model: &Model, live: bool) -> Option<Margin> {
         room,
         forces: statics.forces(&model.interfaces, &all),
         bare: statics.forces(&model.interfaces, x),
+        columns: all,
     })
 }
 

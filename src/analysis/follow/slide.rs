@@ -143,6 +143,8 @@ impl Tracker<'_> {
             }
             if changed || next.value == aim {
                 path.points.push(self.slid_point(&next));
+            } else {
+                path.between += 1;
             }
             if fails.is_none() {
                 step = (2.0 * step).min(how.step);

@@ -5,6 +5,7 @@ use super::{
     linkage::{Linkage, Place},
     point::{End, Point},
     program::{self, Hold, Margin},
+    rebalance::rebalanced,
 };
 use crate::{
     analysis::{Control, assess},
@@ -13,7 +14,7 @@ use crate::{
     interface::{Interface, Model, detect},
     path::{Carried, Corner, Drive, member},
     terms::Law,
-    verdict::Verdict,
+    verdict::{Rate, Verdict},
 };
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::HashSet;
@@ -148,6 +149,24 @@ impl<'a> Tracker<'a> {
         Some(margin)
     }
 
+    /// The same by forces of a pose near by, where these are soon in balance; of a program otherwise.
+    /// Where supports move, and what they carry is asked of every point, of a program always.
+    pub fn margin_near(
+        &self,
+        at: &At,
+        closed: &[Vec<usize>],
+        holds: &[Hold],
+        near: Option<&Margin>,
+    ) -> Option<Margin> {
+        let poses = &at.place.poses;
+        near.filter(|_| self.drive.is_push())
+            .and_then(|near| {
+                let model = self.carried.touching(poses, closed).model;
+                rebalanced(&model, near, Some(at.load_factor))
+            })
+            .or_else(|| self.margin(poses, closed, holds))
+    }
+
     /// The corner that is open and has sunk deepest.
     pub fn deepest(&self, poses: &[Pose], closed: &[Vec<usize>]) -> Option<Corner> {
         self.open(poses, closed).into_iter().min_by(|a, b| a.gap.total_cmp(&b.gap))
@@ -160,7 +179,25 @@ impl<'a> Tracker<'a> {
             .collect()
     }
 
-    pub fn point(&self, value: f64, at: &At, closed: &[Vec<usize>], margin: &Margin) -> Point {
+    /// How the blocks of a linkage that is pushed move there.
+    fn mechanism(&self, linkage: &Linkage, place: &Place) -> Vec<Rate> {
+        if !self.drive.is_push() {
+            return Vec::new();
+        }
+        let free = linkage.free(place, None);
+        let [_, live] = self.loads(linkage, &place.poses);
+        // Of several motions the dead load has the same power against the live load in each.
+        let power = linkage.power(place, &live, &free);
+        linkage.rates(place, &(free * power))
+    }
+
+    pub fn point(
+        &self,
+        value: f64,
+        (linkage, at): (&Linkage, &At),
+        closed: &[Vec<usize>],
+        margin: &Margin,
+    ) -> Point {
         Point {
             value,
             poses: at.place.poses.clone(),
@@ -168,7 +205,7 @@ impl<'a> Tracker<'a> {
             load_factor: if self.drive.is_push() { at.load_factor } else { 0.0 },
             forces: margin.forces.clone(),
             room: margin.room,
-            rates: Vec::new(),
+            rates: self.mechanism(linkage, &at.place),
             touch: None,
         }
     }

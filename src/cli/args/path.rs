@@ -38,7 +38,8 @@ pub struct Push {
     /// The direction in which its way is measured.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub toward: [f64; 3],
-    /// Ways of the control point, m, that become points of the curve, beside others.
+    /// Ways of the control point, m, that become the points of the curve, beside its start, its events
+    /// and its end; without them the points follow its bends.
     #[arg(long, value_name = "V1,V2,…", value_delimiter = ',', value_parser = finite)]
     pub at: Vec<f64>,
     #[command(flatten)]

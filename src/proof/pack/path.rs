@@ -94,7 +94,8 @@ impl ResultFile {
             }
         });
         let answer = answer(model, followed, &points, &ends);
-        let result = PathResult { driven_by, points, events, ends, least };
+        let between = path.between;
+        let result = PathResult { driven_by, points, events, ends, between, least };
         let mut file =
             Self::new(question, scene, model, Answer::Path(Box::new(answer)), Certificate::none());
         let refused = followed.proofs.iter().chain(&followed.ends).flat_map(|p| &p.findings.fails);

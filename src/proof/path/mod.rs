@@ -75,6 +75,11 @@ pub struct PathResult {
     /// same linkage.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ends: Vec<PathPoint>,
+    /// Through how many poses the way was followed beside these points: there joints that are to be
+    /// closed were, no blocks overlapped and forces inside the cones were found. Computed, not
+    /// proved, and not saved.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub between: usize,
     /// Settle: evidence for the least reaction at the start; its rates are of the free blocks, and
     /// the supports' are those of the movement.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -274,4 +279,8 @@ pub(super) fn slips(carried: &Carried, poses: &[crate::assembly::Pose]) -> Vec<S
 /// Whether a point with this claim is one of the curve that is proved.
 pub(super) fn is_good(claim: &Claim) -> bool {
     matches!(claim, Claim::Stable | Claim::LoadFactor { .. } | Claim::DryLoadFactor { .. })
+}
+
+fn is_zero(n: &usize) -> bool {
+    *n == 0
 }

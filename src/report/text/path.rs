@@ -162,6 +162,10 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             count(path.points.len(), "point")
         )],
     );
+    if path.between > 0 {
+        let text = "between the points, where closed joints stayed closed, no blocks overlapped and forces inside the cones were found; computed, no load factor is proved there";
+        page.row("looked at", [format!("{} {text}", count(path.between, "pose"))]);
+    }
 }
 
 /// All points where there is room for them, else as many, evenly spread.
