@@ -146,13 +146,13 @@ pub(super) fn kinematic(
         let has_members = !worst.quake.model.interfaces.members.is_empty();
         if let Some(point) = point.filter(|_| has_members) {
             // With points at the limit states of what lasts, to be held beside them.
-            let at: Vec<f64> = answer.curve.iter().flat_map(limit_states).collect();
+            let states: Vec<f64> = answer.curve.iter().flat_map(limit_states).collect();
             let model = &worst.quake.model;
-            let also = |_: &Followed| at.clone();
-            answer.with_members =
-                Some(ways(worst, point).and_then(|()| {
-                    pushed_also(worst, model, point, (&options.at, &also), control)
-                }));
+            answer.with_members = Some(
+                ways(worst, point)
+                    .and_then(|()| pushed(worst, model, point, options.at.clone(), control))
+                    .and_then(|first| and_at(worst, model, point, (first, states), control)),
+            );
         }
     }
     answer.directions = directions;
@@ -237,21 +237,19 @@ fn curve(
     if has_members {
         same_without(worst, &bare, control)?;
     }
-    let followed = pushed_also(worst, &bare, point, (&options.at, &limit_states), control)?;
-    Ok((followed, bare, has_members))
+    let first = pushed(worst, &bare, point, options.at.clone(), control)?;
+    let states = limit_states(&first);
+    Ok((and_at(worst, &bare, point, (first, states), control)?, bare, has_members))
 }
 
-/// The same with points at these ways, or where none are given where it bends; and with points at
-/// what the curve itself tells.
-fn pushed_also(
+/// A curve with points at these ways as well, where there are any.
+fn and_at(
     worst: &Quaked,
     model: &Model,
     point: (usize, Vector3<f64>),
-    (at, also): (&[f64], &dyn Fn(&Followed) -> Vec<f64>),
+    (first, more): (Followed, Vec<f64>),
     control: &Control,
 ) -> Result<Followed, String> {
-    let first = pushed(worst, model, point, at.to_vec(), control)?;
-    let more = also(&first);
     if more.is_empty() {
         return Ok(first);
     }

@@ -235,7 +235,7 @@ fn beside_the_worst(positions: &[Stood]) -> Option<Vec<Position>> {
     let middle = |other: usize| {
         let Position { travel, x } = positions.get(other)?.position;
         let here = worst.position;
-        (travel == here.travel).then(|| Position { x: 0.5 * (x + here.x), ..here })
+        (travel == here.travel).then_some(Position { x: 0.5 * (x + here.x), ..here })
     };
     slides.then(|| beside.filter_map(middle).collect())
 }

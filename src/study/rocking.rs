@@ -347,7 +347,7 @@ mod tests {
             let options = MachineOptions { toward: Vector3::x(), control: None, restitution: None };
             let built = machine(&scene, &model, &options, &Control::default()).unwrap();
             let method = RockingMethod::Integrator;
-            let mut error = |knob: f64| {
+            let error = |knob: f64| {
                 let mut runner =
                     Runner { model: &model, built: &built, method, knob, histories: 0 };
                 let value = runner.value(&case).unwrap();

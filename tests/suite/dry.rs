@@ -205,7 +205,7 @@ fn the_load_factor_is_one_up_to_which_all_of_the_scene_rests() {
     let mut bound = tilt(&model, toward, &Control::default()).unwrap();
     bound.add_dry(&model, None, &Control::default()).unwrap();
     let value = bound.dry.unwrap().load_factor.value.unwrap();
-    assert!(value <= GROOVE * (1.0 + 1e-6) && value >= GROOVE * (1.0 - 1e-3), "{value}");
+    assert!((GROOVE * (1.0 - 1e-3)..=GROOVE * (1.0 + 1e-6)).contains(&value), "{value}");
 }
 
 #[test]
