@@ -276,6 +276,27 @@ fn links_inside_the_repository_lead_somewhere() {
 }
 
 #[test]
+fn the_keys_are_those_of_the_schema() {
+    let page = std::fs::read_to_string(root().join("docs/guide/keys.md")).unwrap();
+    let printed = run("voussoir schema scene --markdown", root());
+    assert!(
+        printed.lines().count() > 500 && printed.contains("| `thickness` | number | required |")
+    );
+    assert!(
+        page.ends_with(&printed),
+        "docs/guide/keys.md does not end with what `voussoir schema scene --markdown` prints"
+    );
+    let anchors: Vec<String> = printed
+        .lines()
+        .filter_map(|l| l.strip_prefix("## ").or(l.strip_prefix("### ")))
+        .map(|t| t.trim_matches('`').to_lowercase())
+        .collect();
+    for target in targets(&page).iter().filter_map(|t| t.strip_prefix('#')) {
+        assert!(anchors.iter().any(|a| a == target), "no section {target}");
+    }
+}
+
+#[test]
 fn the_book_holds_every_page() {
     let docs = root().join("docs");
     let summary = std::fs::read_to_string(docs.join("SUMMARY.md")).unwrap();
