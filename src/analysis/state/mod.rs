@@ -170,12 +170,16 @@ pub(super) fn state(
     })
 }
 
-/// Whether displacements do not grow without end towards the bound, by the last two states.
+/// Whether displacements do not grow without end towards the bound, by the last state and the last
+/// one at least twice as far from it: block by block, so that what is displaced more beside hides
+/// none that tips.
 fn settles(track: &Track, top: f64) -> bool {
-    let [.., a, b] = &track.steps[..] else { return false };
-    let far = |s: &Step| s.displaced.iter().map(|q| q.velocity.norm()).fold(0.0, f64::max);
-    let nearer = (top - a.load_factor) / (top - b.load_factor);
-    far(b) <= far(a) * nearer.powf(GROWS)
+    let Some(b) = track.steps.last() else { return false };
+    let far_off = |s: &&Step| top - s.load_factor >= 2.0 * (top - b.load_factor);
+    let Some(a) = track.steps.iter().rev().find(far_off) else { return false };
+    let grows = ((top - a.load_factor) / (top - b.load_factor)).powf(GROWS);
+    let far = |s: &Step, i: usize| s.displaced[i].velocity.norm();
+    (0..b.displaced.len()).all(|i| far(b, i) <= far(a, i) * grows)
 }
 
 /// The load factor at which live and dead load weigh the same, on the structures that the live load
