@@ -3,7 +3,7 @@
 //!
 //! With dry friction the bounds say where to look: the position with the least is asked for its
 //! value, and every other only whether it rests at what that one is known to bear
-//! ([`coulomb::at_least`]). One that does not is asked for its own value, the least bound first.
+//! (`coulomb::at_least`). One that does not is asked for its own value, the least bound first.
 //!
 //! Between neighbouring positions nothing is proved: the steps say how finely it was looked.
 

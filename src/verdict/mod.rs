@@ -1,4 +1,4 @@
-//! Verdicts and the evidence for them, recomputed from [`Assembly`](crate::assembly::Assembly) and
+//! Verdicts and the evidence for them, recomputed from [`Assembly`] and
 //! [`Interfaces`] alone. Nothing here knows the program or the solver. What joints carry beside
 //! friction is derived here a second time ([`joint`]), all but the bound on crushing.
 

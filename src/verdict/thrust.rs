@@ -11,7 +11,7 @@
 //! The force `T` in a member is bounded in the same way by rates of the scene without it. A dowel
 //! holds a shear `a`, ‖a‖ ≤ R, with a component `T` along a direction `w` of the joint: for rates with
 //! the power `u` per amount and any `s > 0`, `−a·u = σ T s + a·p` with `p = −u − σ s w`, hence `σ T ≥
-//! (w·q − D − Σ e f_n − R ‖p‖) / s`, and the best `s` solves a quadratic ([`shear`]).
+//! (w·q − D − Σ e f_n − R ‖p‖) / s`, and the best `s` solves a quadratic (`shear`).
 
 use super::{Forces, Rate, certificate, findings::Findings, joint::water, member, no_forces};
 use crate::{
