@@ -140,6 +140,12 @@ impl Joints {
         Ok(Self { list, loaded, findings: told.findings() })
     }
 
+    /// The free blocks of the structures that a live load acts on.
+    pub fn reached(&self) -> BTreeSet<usize> {
+        let loaded = self.list.iter().zip(&self.loaded).filter(|(_, loaded)| **loaded);
+        loaded.flat_map(|(joint, _)| joint.free.iter().copied()).collect()
+    }
+
     /// For every joint the greatest of a number (>= 0, one a joint) among the joints of its free
     /// blocks: what is small beside it is small there. What acts on other blocks excuses nothing.
     pub fn greatest_near(&self, of: impl Fn(usize) -> f64) -> Vec<f64> {

@@ -59,7 +59,7 @@ fn bed(normal: f64, shear: f64, loads: Value) -> Value {
 const N: f64 = 2000.0 * 2.0 * 9.81;
 
 /// Winkler foundation without tension: M = k b³ θ / 12 up to θ = 2 N / (k b²), then M = N (b/2 − ⅓ √(2 N
-/// / (k θ))); the issue asks for 1e-6.
+/// / (k θ))); to 1e-6.
 #[test]
 fn a_block_on_a_bed_turns_by_the_closed_form() {
     let k = 1e9;
@@ -443,14 +443,21 @@ fn at_corners_it_is_the_state_under_dry_friction() {
 }
 
 /// What slides on the way to its bound is followed to it: a block pushed at its centre of mass slides in
-/// part first, and has μ for its load factor; a sphere whose rim slides first has it, too.
+/// part first, and has μ for its load factor, whatever hardly moves beside it; a sphere whose rim slides
+/// first has it, too.
 #[test]
 fn a_path_that_slides_ends_at_its_dry_load_factor() {
     let push = json!({ "live": [{ "block": "block", "force": [N, 0, 0] }] });
     let mut block = bed(1e9, 4e8, push);
     block["joints"]["default"]["friction"] = json!(0.3);
+    let mut beside = block.clone();
+    beside["materials"]["light"] = json!({ "density": 2e-6 });
+    beside["blocks"].as_array_mut().unwrap().push(json!({
+        "id": "feather", "shape": { "box": { "size": [1, 1, 1] } }, "at": [1.5, 1.5, 0.5],
+        "material": "light"
+    }));
     let (value, force) = spheres(100.0, [0.0; 2], 1.0);
-    for (value, exact) in [(block, 0.3), (value, 0.3 * force)] {
+    for (value, exact) in [(block, 0.3), (beside, 0.3), (value, 0.3 * force)] {
         let a = state(value);
         let l = a.load_factor.unwrap();
         assert!(l.slides && l.value == Some(l.reached), "{l:?}");

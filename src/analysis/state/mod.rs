@@ -25,7 +25,6 @@ use crate::{
 };
 use nalgebra::Vector3;
 use newton::Newton;
-use std::collections::BTreeSet;
 
 /// The answer of `state`.
 #[derive(Clone, Debug)]
@@ -142,7 +141,11 @@ pub(super) fn state(
                 let mut walk = Walk { model, joints: &joints, newton: &mut newton, control, top };
                 let mut end = walk.along(track, last, &options.at);
                 let found = asked.outcome == Outcome::Found;
-                if end == PathEnd::Bound && found && track.slides(&joints) && settles(track, top) {
+                if end == PathEnd::Bound
+                    && found
+                    && track.slides(&joints)
+                    && settles(track, &joints, top)
+                {
                     end = walk.along(track, UP_TO_SLIDING * top, &options.at);
                 }
                 match (end, asked.outcome) {
@@ -171,23 +174,22 @@ pub(super) fn state(
 }
 
 /// Whether displacements do not grow without end towards the bound, by the last state and the last
-/// one at least twice as far from it: block by block, so that what is displaced more beside hides
-/// none that tips.
-fn settles(track: &Track, top: f64) -> bool {
+/// one at least twice as far from it: block by block of what the live load reaches, so that nothing
+/// beside hides one that tips, or seems to tip itself.
+fn settles(track: &Track, joints: &Joints, top: f64) -> bool {
     let Some(b) = track.steps.last() else { return false };
     let far_off = |s: &&Step| top - s.load_factor >= 2.0 * (top - b.load_factor);
     let Some(a) = track.steps.iter().rev().find(far_off) else { return false };
     let grows = ((top - a.load_factor) / (top - b.load_factor)).powf(GROWS);
     let far = |s: &Step, i: usize| s.displaced[i].velocity.norm();
-    (0..b.displaced.len()).all(|i| far(b, i) <= far(a, i) * grows)
+    joints.reached().into_iter().all(|i| far(b, i) <= far(a, i) * grows)
 }
 
 /// The load factor at which live and dead load weigh the same, on the structures that the live load
 /// acts on.
 fn both_weigh(model: &Model, joints: &Joints) -> f64 {
     let mut assembly = model.assembly.clone();
-    let loaded = joints.list.iter().zip(&joints.loaded).filter(|(_, loaded)| **loaded);
-    let there: BTreeSet<usize> = loaded.flat_map(|(joint, _)| joint.free.clone()).collect();
+    let there = joints.reached();
     let beside = |i: &usize| !there.contains(i);
     (0..assembly.dead.len()).filter(beside).for_each(|i| assembly.dead[i] = Wrench::zero());
     check::natural_factor(&assembly)
