@@ -102,6 +102,11 @@ pub const SPANS: f64 = 1e-3;
 /// pass. Smaller: rounding of another machine's arithmetic is taken for tampering.
 pub const SAVED: f64 = 1e-6;
 
+/// Loads on a block are a mixture of those of two other scenes when they differ by no more than this ×
+/// the greatest of the three: worth the check that decides whether their forces hold it. Larger:
+/// checks in vain. Smaller: rounding hides a mixture.
+pub const MIXED_LOADS: f64 = 1e-9;
+
 /// A mechanism proves instability when only contact forces above this × the total load could make
 /// up for its inadmissibility. Larger: correct mechanisms close to the limit are refused (1e-8
 /// below the least thickness the solver reaches about 13). Smaller: a mechanism that

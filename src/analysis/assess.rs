@@ -124,7 +124,7 @@ fn holds(model: &Model, forces: &Forces) -> bool {
 }
 
 /// An answer that says nothing yet but these forces and the ends of the least unbalance.
-fn from_forces(model: &Model, forces: Forces, [lower, upper]: [f64; 2]) -> Assessment {
+pub(super) fn from_forces(model: &Model, forces: Forces, [lower, upper]: [f64; 2]) -> Assessment {
     Assessment {
         verdict: Verdict::Undecided,
         unbalance: Bracket { lower, upper },

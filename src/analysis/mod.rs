@@ -30,6 +30,7 @@ pub mod rocking;
 pub mod stability;
 pub mod stages;
 pub mod state;
+pub mod still;
 pub mod thrust;
 pub mod tilt;
 

@@ -3,7 +3,7 @@
 use super::{
     args::Critical as Arguments,
     exit::Exit,
-    question::{Seen, Session},
+    question::{Seen, Session, unless_weaker},
     terminal::Terminal,
 };
 use anyhow::bail;
@@ -54,11 +54,12 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         seen,
         session.result(&question, &answer)?,
     )?;
-    Ok(match file.answer.critical() {
+    let exit = match file.answer.critical() {
         Some(values) if !values.is_empty() => Exit::Yes,
         _ if exhausted(&file).is_some() => Exit::No,
         _ => Exit::Undecided,
-    })
+    };
+    Ok(unless_weaker(&file, exit))
 }
 
 /// The scene beside the first flip, on the side where it falls; as it is where there is none.

@@ -362,11 +362,13 @@ pub fn quoted(word: &str) -> String {
 }
 
 /// An exit code that says yes says so no more where the answer is weaker with contacts that were
-/// left out: which of the two the scene is nobody knows.
+/// left out, nor is it yes or no where it is other numbers: which of the two the scene is nobody
+/// knows.
 pub fn unless_weaker(file: &ResultFile, exit: Exit) -> Exit {
     let closed = file.left_out_contacts.and_then(|l| l.closed);
     match closed.map(|c| c.difference) {
         Some(Difference::Weaker) if exit == Exit::Yes => Exit::Undecided,
+        Some(Difference::Another) => Exit::Undecided,
         _ => exit,
     }
 }

@@ -3,7 +3,7 @@
 use super::{
     args::Thrust,
     exit::Exit,
-    question::{Session, verdict},
+    question::{Session, unless_weaker, verdict},
     terminal::Terminal,
 };
 use voussoir::analysis::{Outcome, Question, ThrustOptions};
@@ -23,5 +23,5 @@ pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
     let file = session.answer(terminal, &args.options(), session.result(&question, &answer)?)?;
     let Some(found) = file.answer.thrust() else { return Ok(verdict(file.answer.verdict())) };
     let open = [found.least.status, found.greatest.status].contains(&Outcome::Undecided);
-    Ok(if open { Exit::Undecided } else { Exit::Yes })
+    Ok(unless_weaker(&file, if open { Exit::Undecided } else { Exit::Yes }))
 }

@@ -2,7 +2,7 @@
 
 use super::{desk::Job, error, follow::File, knobs};
 use crate::{
-    analysis::{Control, Law, Question, ask},
+    analysis::{Answer, Control, Law, Question},
     deadline::Deadline,
     error::InputError,
     interface::Model,
@@ -68,28 +68,27 @@ pub struct Ready<'a> {
     pub start: Instant,
 }
 
-/// The answer to one question under one law of sliding; nothing where it was cancelled.
+/// What was found about one question under one law of sliding in so many seconds; nothing where it
+/// was cancelled.
 ///
 /// # Errors
-/// The question has no meaning for this scene.
+/// It cannot be written down or drawn.
 pub fn answer(
     job: &Job,
     ready: &Ready,
-    question: &Question,
-    law: Option<Law>,
+    (question, law): (&Question, Option<Law>),
+    (found, seconds): (&Answer, f64),
     deadline: Deadline,
 ) -> Result<Option<String>, InputError> {
     let (scene, model) = (ready.scene, ready.model);
     let control = Control { deadline, ..Control::default() };
-    let start = Instant::now();
-    let found = ask(question, scene, model, &control)?;
-    let packed = ResultFile::of_question(question, scene, model, &found, &control);
+    let packed = ResultFile::of_question(question, scene, model, found, &control);
     if deadline.is_over() {
         return Ok(None);
     }
     let refuse = |why: String| InputError::at(crate::error::JsonPath::root(), why);
     let mut result = packed.ok_or_else(|| refuse("there is no answer to write down".into()))?;
-    result.timings.solve = (start.elapsed().as_secs_f64() - result.timings.check).max(0.0);
+    result.timings.solve = (seconds - result.timings.check).max(0.0);
     result.work = Some(Work::of(&result, model));
     let path = matches!(result.question, Kind::Settle);
     let film = if path { frames(model, &result) } else { Vec::new() };

@@ -1,4 +1,8 @@
 //! Asks what is wanted: coarse first, then fine, and gives up as soon as something else is wanted.
+//!
+//! Where a verdict is asked and loads or joints alone have changed, what was found before is tried
+//! first ([`Still`]): while a number is drawn along, most verdicts are proved by what proved those
+//! beside them, before any program is solved.
 
 use super::{
     desk::{Desk, Job, News},
@@ -9,8 +13,9 @@ use super::{
 };
 use crate::{
     analysis::{
-        Law, Question,
+        Answer, Control, KinematicOptions, Law, Question, ask,
         reuse::{Keys, Reuse},
+        still::Still,
     },
     deadline::Deadline,
     error::{InputError, JsonPath},
@@ -26,16 +31,26 @@ use std::{
     time::Instant,
 };
 
+/// What lasts from one job to the next.
+#[derive(Default)]
+struct Known {
+    /// The file as it was read when its numbers were last shown.
+    shown: u64,
+    /// The shapes that `still` is about.
+    shapes: Vec<u64>,
+    still: Still,
+}
+
 /// Asks for good.
 pub fn run(file: &File, desk: &Desk) {
     let reuse = Reuse::default();
-    let mut shown = 0;
+    let mut known = Known::default();
     loop {
         let job = desk.next();
         let deadline = Deadline::NEVER.or_when(desk.cancel());
         desk.say(job.revision, News::Status, reply::asking(&job, None));
         let asked = catch_unwind(AssertUnwindSafe(|| {
-            answer(file, desk, &job, deadline, &reuse, &mut shown)
+            answer(file, desk, &job, deadline, &reuse, &mut known)
         }));
         let error = match asked {
             Ok(Ok(())) => continue,
@@ -58,22 +73,42 @@ fn answer(
     job: &Job,
     deadline: Deadline,
     reuse: &Reuse,
-    shown: &mut u64,
+    known: &mut Known,
 ) -> Result<(), InputError> {
     let start = Instant::now();
     let bytes = job.file.as_ref().as_ref().map_err(Clone::clone)?;
     let (scene, value) = scene(file, job, bytes)?;
-    let model = reuse.prepare(&scene, &keys(job, &value), &|| deadline.is_over())?;
+    let keys = keys(job, &value);
+    let model = reuse.prepare(&scene, &keys, &|| deadline.is_over())?;
+    if known.shapes != keys.shapes {
+        (known.shapes, known.still) = (keys.shapes, Still::default());
+    }
     let points = model.contact_points() as u64;
     limits::afford("solving for the contact points", points, limits::PER_CONTACT_POINT)?;
-    if *shown != job.epoch && desk.say(job.revision, News::Scene, reply::scene(job, &value, &model))
-    {
-        *shown = job.epoch;
+    let said = known.shown == job.epoch
+        || desk.say(job.revision, News::Scene, reply::scene(job, &value, &model));
+    if said {
+        known.shown = job.epoch;
     }
     let ready = Ready { file, scene: &scene, model: &model, start };
     for (question, law) in stages(&job.question) {
+        let asked = (&question, law);
+        let first = matches!(asked, (Question::Assess(_), Some(Law::Associative)));
+        let begun = Instant::now();
+        if let (true, Some(still)) = (first, known.still.verdict(&model)) {
+            let still = (&Answer::Assess(still), begun.elapsed().as_secs_f64());
+            if let Some(text) = reply::answer(job, &ready, asked, still, deadline)? {
+                desk.say(job.revision, News::Answer, text);
+            }
+        }
         desk.say(job.revision, News::Status, reply::asking(job, law));
-        let Some(text) = reply::answer(job, &ready, &question, law, deadline)? else {
+        let begun = Instant::now();
+        let found = ask(&question, &scene, &model, &Control { deadline, ..Control::default() })?;
+        let seconds = begun.elapsed().as_secs_f64();
+        if let (true, Answer::Assess(a)) = (first, &found) {
+            known.still.keep(&model, a);
+        }
+        let Some(text) = reply::answer(job, &ready, asked, (&found, seconds), deadline)? else {
             return Ok(());
         };
         desk.say(job.revision, News::Answer, text);
@@ -117,7 +152,7 @@ fn keys(job: &Job, scene: &Value) -> Keys {
 }
 
 /// A question under joints that open as they slide, then with dry friction, where it tells them
-/// apart.
+/// apart; of a mechanism under an earthquake its start before its curve.
 fn stages(question: &Question) -> Vec<(Question, Option<Law>)> {
     let with = |law: Law| {
         let mut question = question.clone();
@@ -132,5 +167,15 @@ fn stages(question: &Question) -> Vec<(Question, Option<Law>)> {
         Some((question, Some(law)))
     };
     let both: Vec<_> = [Law::Associative, Law::Coulomb].into_iter().filter_map(with).collect();
-    if both.is_empty() { vec![(question.clone(), None)] } else { both }
+    let start = match question {
+        Question::Kinematic(o) if !o.linear => {
+            let o = KinematicOptions { law: Law::Associative, linear: true, ..o.clone() };
+            Some((Question::Kinematic(o), Some(Law::Associative)))
+        }
+        _ => None,
+    };
+    match both.is_empty() {
+        true => vec![(question.clone(), None)],
+        false => start.into_iter().chain(both).collect(),
+    }
 }

@@ -12,8 +12,7 @@ pub struct LeftOutContacts {
     /// How many, and how far apart.
     pub contacts: LeftOut,
     /// The answer with those closed that can be closed; absent where it was not asked: the scene is
-    /// large, no tolerance closes them, time was up, or the question is another than `assess`,
-    /// `limit` and `tilt`.
+    /// large, no tolerance closes them, time was up, or the question is none that is put again.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closed: Option<Closed>,
 }
@@ -44,6 +43,34 @@ pub enum ClosedAnswer {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         value: Option<f64>,
     },
+    /// The range of a thrust on a support or of a force in a member.
+    Thrust {
+        /// Its least value.
+        least: ClosedEnd,
+        /// Its greatest.
+        greatest: ClosedEnd,
+    },
+    /// The flips of a verdict over a range.
+    Flips {
+        /// How many.
+        count: usize,
+        /// The first, as the scan goes.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        first: Option<f64>,
+        /// The verdict where the scan starts.
+        start: Verdict,
+    },
+}
+
+/// An end of a range.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ClosedEnd {
+    /// What became of it.
+    pub status: Outcome,
+    /// Its value, N, where found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
 }
 
 /// How an answer with contacts closed differs from that of the scene as it is.
@@ -56,6 +83,8 @@ pub enum Difference {
     Stronger,
     /// With them closed it does not stand, or carries less.
     Weaker,
+    /// With them closed the numbers are others, and neither are the safe ones.
+    Another,
     /// One of the two is undecided.
     Unknown,
 }
@@ -78,6 +107,8 @@ impl ClosedAnswer {
             Self::LoadFactor { status: Outcome::Found, value } => value,
             Self::LoadFactor { status: Outcome::Unbounded, .. } => Some(f64::INFINITY),
             Self::LoadFactor { status: Outcome::Impossible, .. } => Some(f64::NEG_INFINITY),
+            Self::Thrust { .. } => Self::Verdict(Verdict::Stable).height(),
+            Self::Flips { start, .. } => Self::Verdict(start).height(),
             Self::Verdict(Verdict::Undecided)
             | Self::LoadFactor { status: Outcome::Undecided, .. } => None,
         }
@@ -95,16 +126,44 @@ impl ClosedAnswer {
         let (Some(here), Some(there)) = (self.height(), given.height()) else {
             return Difference::Unknown;
         };
-        let close = here == there
-            || here.is_finite()
-                && there.is_finite()
-                && (here - there).abs() <= tolerance::CLOSED_CONTACTS * here.abs().max(there.abs());
-        match close {
-            true => Difference::None,
+        match close(here, there) {
+            true => self.numbers_beside(given),
             false if here > there => Difference::Stronger,
             false => Difference::Weaker,
         }
     }
+
+    /// How the numbers of two that are as high as each other differ.
+    fn numbers_beside(self, given: Self) -> Difference {
+        let same = match (self, given) {
+            (Self::Thrust { least: a, greatest: b }, Self::Thrust { least: c, greatest: d }) => {
+                match a.is(c).zip(b.is(d)) {
+                    Some((least, greatest)) => least && greatest,
+                    None => return Difference::Unknown,
+                }
+            }
+            (Self::Flips { count: n, first: a, .. }, Self::Flips { count: m, first: b, .. }) => {
+                n == m && a.zip(b).is_none_or(|(a, b)| close(a, b))
+            }
+            _ => true,
+        };
+        if same { Difference::None } else { Difference::Another }
+    }
+}
+
+impl ClosedEnd {
+    /// Whether it is this one; nothing where either is undecided.
+    fn is(self, other: Self) -> Option<bool> {
+        let decided = self.status != Outcome::Undecided && other.status != Outcome::Undecided;
+        let near = self.value.zip(other.value).is_none_or(|(a, b)| close(a, b));
+        decided.then_some(self.status == other.status && near)
+    }
+}
+
+/// Whether two numbers are one, as far as it matters here.
+fn close(a: f64, b: f64) -> bool {
+    let near = || (a - b).abs() <= tolerance::CLOSED_CONTACTS * a.abs().max(b.abs());
+    a == b || a.is_finite() && b.is_finite() && near()
 }
 
 #[cfg(test)]
@@ -117,6 +176,10 @@ mod tests {
         let verdict = ClosedAnswer::Verdict;
         let factor = |v: f64| ClosedAnswer::LoadFactor { status: Outcome::Found, value: Some(v) };
         let word = |status| ClosedAnswer::LoadFactor { status, value: None };
+        let end = |value| ClosedEnd { status: Outcome::Found, value: Some(value) };
+        let thrust = |a, b| ClosedAnswer::Thrust { least: end(a), greatest: end(b) };
+        let open = ClosedEnd { status: Outcome::Undecided, value: None };
+        let flips = |count, first, start| ClosedAnswer::Flips { count, first, start };
         for (closed, given, wanted) in [
             (verdict(Stable), verdict(Stable), Difference::None),
             (verdict(Stable), verdict(Unstable), Difference::Stronger),
@@ -129,6 +192,20 @@ mod tests {
             (word(Outcome::Unbounded), word(Outcome::Unbounded), Difference::None),
             (factor(0.3), word(Outcome::Impossible), Difference::Stronger),
             (word(Outcome::Undecided), factor(0.3), Difference::Unknown),
+            (thrust(2.0, 3.0), thrust(2.0, 3.0 * (1.0 - 1e-6)), Difference::None),
+            (thrust(2.0, 3.0), thrust(2.0, 3.1), Difference::Another),
+            (thrust(2.0, 3.0), verdict(Unstable), Difference::Stronger),
+            (verdict(Unstable), thrust(2.0, 3.0), Difference::Weaker),
+            (
+                ClosedAnswer::Thrust { least: end(2.0), greatest: open },
+                thrust(2.0, 3.0),
+                Difference::Unknown,
+            ),
+            (flips(1, Some(0.4), Stable), flips(1, Some(0.4), Stable), Difference::None),
+            (flips(1, Some(0.4), Stable), flips(1, Some(0.5), Stable), Difference::Another),
+            (flips(0, None, Stable), flips(1, Some(0.5), Stable), Difference::Another),
+            (flips(0, None, Unstable), flips(1, Some(0.5), Stable), Difference::Weaker),
+            (flips(0, None, Undecided), flips(1, Some(0.5), Stable), Difference::Unknown),
         ] {
             assert_eq!(closed.beside(given), wanted, "{closed:?} beside {given:?}");
         }

@@ -20,7 +20,7 @@ pub use agreement::{Agreement, ForceAgreement, agree};
 pub use attempt::{Attempt, Engine, Status};
 pub use bound::Bound;
 pub use bracket::Bracket;
-pub use closed::{Closed, ClosedAnswer, Difference, LeftOutContacts};
+pub use closed::{Closed, ClosedAnswer, ClosedEnd, Difference, LeftOutContacts};
 pub use deciding::Deciding;
 pub use doubt::{Doubt, DoubtCause};
 pub(crate) use friction::MANY;

@@ -9,9 +9,9 @@ use crate::{
         result::{QuestionKind, ResultFile},
     },
     scene::Scene,
-    terms::{ClosedAnswer, Difference},
+    terms::{Bound, ClosedAnswer, ClosedEnd, Difference},
     tolerance,
-    verdict::check::Findings,
+    verdict::{Verdict, check::Findings},
 };
 
 /// The numbers of what was left out are those of the scene; the answer with it is asked again.
@@ -39,12 +39,18 @@ pub(super) fn left_out(file: &ResultFile, scene: &Scene, model: &Model) -> Findi
                 bounds.map(|b| ClosedAnswer::LoadFactor { status: b.status, value: b.value }),
             )
         }
+        (QuestionKind::Thrust, Some(verdict), _) => {
+            Some(ClosedAnswer::verdict(verdict, closed.law))
+        }
+        (QuestionKind::Thrust, ..) => file.answer.thrust().map(|t| {
+            let end = |b: &Bound| ClosedEnd { status: b.status, value: b.value };
+            ClosedAnswer::Thrust { least: end(&t.least), greatest: end(&t.greatest) }
+        }),
+        (QuestionKind::Critical, ..) => flips(file),
         (QuestionKind::Assess | QuestionKind::Limit, ..) => None,
         _ => return failure("the question is not one that is asked again with contacts closed"),
     };
-    let all = file.directions.iter().map(|d| &d.answer).chain([&file.answer]);
-    let toward = all.filter_map(Answer::toward).collect();
-    let again = states::closed(file.question, (closed.law, toward), scene, model);
+    let again = states::closed(file, closed.law, scene, model);
     let ok = again.map(|again| {
         again.is_some_and(|(law, answer)| {
             law == closed.law
@@ -55,6 +61,14 @@ pub(super) fn left_out(file: &ResultFile, scene: &Scene, model: &Model) -> Findi
     computed(&mut f, ok, "the answer with contacts closed that were left out".into());
     require(&mut f, follows, "how it differs follows from the two");
     f
+}
+
+/// The flips that a file claims.
+fn flips(file: &ResultFile) -> Option<ClosedAnswer> {
+    let (found, c) = (file.answer.critical()?, file.critical.as_ref()?);
+    let start = c.scan.first().and_then(|s| s.verdict).unwrap_or(Verdict::Undecided);
+    let first = found.first().map(|f| f.value);
+    Some(ClosedAnswer::Flips { count: found.len(), first, start })
 }
 
 /// Counts alike, lengths up to the digits that a file keeps.

@@ -4,7 +4,12 @@
 use crate::{
     error::InputError,
     interface::Model,
-    proof::{result::QuestionKind, rocking::RockingAnswer, shaken::ShakenAnswer},
+    proof::{
+        self,
+        result::{QuestionKind, ResultFile},
+        rocking::RockingAnswer,
+        shaken::ShakenAnswer,
+    },
     rocking::RockOptions,
     scene::Scene,
     terms::{ClosedAnswer, Law, Order, StateMotion},
@@ -22,8 +27,8 @@ use std::ops::ControlFlow;
 
 #[cfg(feature = "solve")]
 use crate::analysis::{
-    Answer, AssessOptions, Control, KinematicOptions, LimitOptions, MovingOptions, Question,
-    TiltOptions, ask, closing, coulomb, critical::probe, stages,
+    Answer, AssessOptions, Control, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
+    Question, ThrustOptions, TiltOptions, ask, closing, coulomb, critical::probe, stages,
 };
 
 /// What the scene does under its dead load with dry friction.
@@ -52,23 +57,41 @@ pub fn with_value(
     Some(probe.map(|p| (p.assessment.verdict, p.unbalance())))
 }
 
-/// The question asked again with contacts closed that were left out, a tilt in these directions;
-/// the law by which joints slide there, and the answer, where it is asked at all.
+/// The question of a result asked again with contacts closed that were left out: the law by which
+/// joints slide there, and the answer, where it is asked at all.
 #[cfg(feature = "solve")]
 pub fn closed(
-    question: QuestionKind,
-    (law, toward): (Law, Vec<[f64; 3]>),
+    file: &ResultFile,
+    law: Law,
     scene: &Scene,
     model: &Model,
 ) -> Option<Option<(Law, ClosedAnswer)>> {
-    let question = match question {
-        QuestionKind::Assess => Question::Assess(AssessOptions { law }),
-        QuestionKind::Limit => Question::Limit(LimitOptions::default()),
-        QuestionKind::Tilt => Question::Tilt(TiltOptions { toward, ..TiltOptions::default() }),
-        QuestionKind::Moving => Question::Moving(MovingOptions::default()),
-        QuestionKind::Kinematic => {
+    let all = file.directions.iter().map(|d| &d.answer).chain([&file.answer]);
+    let toward = all.filter_map(proof::Answer::toward).collect();
+    let question = match (file.question, &file.answer, &file.critical) {
+        (QuestionKind::Assess, ..) | (QuestionKind::Thrust, proof::Answer::Verdict(_), _) => {
+            Question::Assess(AssessOptions { law })
+        }
+        (QuestionKind::Limit, ..) => Question::Limit(LimitOptions::default()),
+        (QuestionKind::Tilt, ..) => {
+            Question::Tilt(TiltOptions { toward, ..TiltOptions::default() })
+        }
+        (QuestionKind::Moving, ..) => Question::Moving(MovingOptions::default()),
+        (QuestionKind::Kinematic, ..) => {
             Question::Kinematic(KinematicOptions { toward, ..KinematicOptions::default() })
         }
+        (QuestionKind::Thrust, proof::Answer::Thrust(t), _) => Question::Thrust(ThrustOptions {
+            support: t.support.clone(),
+            member: t.member.clone(),
+            direction: t.direction,
+            ..ThrustOptions::default()
+        }),
+        (QuestionKind::Critical, _, Some(c)) => Question::Critical(CriticalOptions {
+            law,
+            vary: c.vary.clone(),
+            between: c.between,
+            scan: Some(c.scan.len()),
+        }),
         _ => return Some(None),
     };
     Some(closing::again(&question, scene, model, &Control::default()))
@@ -142,8 +165,8 @@ mod none {
     }
 
     pub fn closed(
-        _: QuestionKind,
-        _: (Law, Vec<[f64; 3]>),
+        _: &ResultFile,
+        _: Law,
         _: &Scene,
         _: &Model,
     ) -> Option<Option<(Law, ClosedAnswer)>> {

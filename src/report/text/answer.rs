@@ -13,7 +13,7 @@ use crate::{
         certificate::DryResult,
         result::{QuestionKind, ResultFile},
     },
-    terms::ClosedAnswer,
+    terms::{ClosedAnswer, ClosedEnd},
     verdict::{Verdict, check::Claim},
 };
 
@@ -193,7 +193,35 @@ fn closed_words(file: &ResultFile, closed: Closed) -> String {
         QuestionKind::Tilt => format!("it falls at {:.4}°", v.atan().to_degrees()),
         _ => format!("λ = {}", fixed(v, 6)),
     };
+    let end = |e: ClosedEnd, none: &str| match e {
+        ClosedEnd { status: Outcome::Found, value: Some(v) } => format!("{} N", short(v)),
+        ClosedEnd { status: Outcome::Unbounded, .. } => none.into(),
+        _ => "undecided".into(),
+    };
     let text = match closed.answer {
+        ClosedAnswer::Thrust { least, greatest } => {
+            let what = if file.answer.thrust().is_some_and(|t| t.member.is_some()) {
+                "force"
+            } else {
+                "thrust"
+            };
+            format!(
+                "the least {what} is {}, the greatest {}",
+                end(least, "without end"),
+                end(greatest, "without end")
+            )
+        }
+        ClosedAnswer::Flips { count: 0, start, .. } => {
+            return closed_words(file, Closed { answer: ClosedAnswer::Verdict(start), ..closed })
+                + " throughout";
+        }
+        ClosedAnswer::Flips { count, first, .. } => {
+            let first = short(first.unwrap_or(f64::NAN));
+            match count {
+                1 => format!("it flips at {first}"),
+                n => format!("it flips {n} times, first at {first}"),
+            }
+        }
         ClosedAnswer::Verdict(Verdict::Stable) => "it stands".into(),
         ClosedAnswer::Verdict(Verdict::Conditional) => "it stands only with a pre-stress".into(),
         ClosedAnswer::Verdict(Verdict::Unstable) => "it falls".into(),

@@ -96,6 +96,48 @@ fn what_falls_for_a_joint_that_overlaps_says_that_it_stands_with_it() {
     assert!(line.contains("overlap by up to 0.3 m; with them it may be another one"), "{line}");
 }
 
+/// A thrust and a critical value are asked again, too: other numbers are no yes any more, and a file
+/// that says otherwise is refused.
+#[test]
+fn thrusts_and_flips_are_asked_again_with_contacts_closed() {
+    let desk = Desk::new();
+    let mut closed = rings();
+    let given = desk.write("rings.json", &closed);
+    let check = desk.saved(YES, &["limit", &given, "--law", "associative", "--skip-dead"]);
+    let contacts = &check["left_out_contacts"]["contacts"];
+    closed["contact"] =
+        json!({ "gap": contacts["closing_gap"], "angle_deg": contacts["closing_angle_deg"] });
+    let closed = desk.write("closed.json", &closed);
+
+    let line = out(&expect(UNDECIDED, voussoir(&["thrust", &given, "-q"])));
+    assert!(line.contains("with them closed the least thrust is "), "{line}");
+    let saved = desk.saved(UNDECIDED, &["thrust", &given]);
+    let there = desk.saved(YES, &["thrust", &closed]);
+    let said = &saved["left_out_contacts"]["closed"];
+    assert_eq!(said["difference"], "another");
+    for end in ["least", "greatest"] {
+        let (a, b) = (&said["answer"]["thrust"][end], &there["answer"]["thrust"][end]);
+        let (a, b) = (a["value"].as_f64().unwrap(), b["value"].as_f64().unwrap());
+        assert!((a - b).abs() < 1e-6 * b, "{end}: {a}, {b}");
+    }
+    desk.checked(YES, &saved);
+    let mut forged = saved;
+    forged["left_out_contacts"]["closed"]["answer"]["thrust"]["least"]["value"] = json!(1.0);
+    desk.checked(NO, &forged);
+
+    let flip = ["--vary", "/joints/default/friction", "--between", "0.1", "0.9", "--scan", "9"];
+    let ask = |scene| [&["critical", scene][..], &flip].concat();
+    let (here, there) = (ask(given.as_str()), ask(closed.as_str()));
+    let saved = desk.saved(UNDECIDED, &here);
+    let there = desk.saved(YES, &there);
+    let said = &saved["left_out_contacts"]["closed"];
+    assert_eq!(said["difference"], "another");
+    let first = said["answer"]["flips"]["first"].as_f64().unwrap();
+    let alone = there["answer"]["critical"][0]["value"].as_f64().unwrap();
+    assert!((first - alone).abs() < 1e-5 * alone, "{first}, {alone}");
+    desk.checked(YES, &saved);
+}
+
 /// A near miss that carries nothing either way is not on the line.
 #[test]
 fn contacts_that_change_nothing_are_not_said() {
