@@ -80,18 +80,14 @@ pub fn detect_until(
     }
     take_apart(&mut pairs, &mut tally, assembly);
 
-    let mut points = 0;
+    let (mut points, mut apart) = (0, Vec::new());
     for Pair { a, b, limits, meeting } in pairs {
         if assembly.blocks[a].support && assembly.blocks[b].support {
             interfaces.support_pairs += usize::from(!meeting.contacts.is_empty());
             continue;
         }
         if let Some(near) = meeting.near {
-            let grains = [a, b].iter().all(|&i| assembly.blocks[i].solid.is_round());
-            match grains {
-                true => tally.neighbours(near.closing, a, b),
-                false => tally.near(near.closing, &limits, a, b),
-            }
+            apart.push((near.closing, limits, a, b));
         }
         if let Some(overlap) = meeting.overlap {
             tally.overlap(overlap.depth, overlap.closing, &limits, a, b);
@@ -126,6 +122,18 @@ pub fn detect_until(
                 gap: contact.gap.mean,
                 law,
             });
+        }
+    }
+    let mut touches = vec![0_usize; assembly.blocks.len()];
+    interfaces.list.iter().for_each(|f| [f.a, f.b].into_iter().for_each(|i| touches[i] += 1));
+    // Neighbours in a packing and no joint that was missed: round blocks, or one that rests on
+    // others beside a wall.
+    let round = |i: usize| assembly.blocks[i].solid.is_round();
+    let rests = |i: usize| round(i) && !assembly.blocks[i].support && touches[i] >= 2;
+    for (closing, limits, a, b) in apart {
+        match round(a) && round(b) || rests(a) || rests(b) {
+            true => tally.neighbours(closing, a, b),
+            false => tally.near(closing, &limits, a, b),
         }
     }
     interfaces.list.sort_by(|x, y| {

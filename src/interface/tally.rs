@@ -17,7 +17,8 @@ pub(super) struct Tally {
     pressed: Extreme,
     small: Extreme,
     near: Vec<(Apart, usize, usize)>,
-    /// Round blocks near each other: neighbours in a packing, not faces that fail to meet.
+    /// Round blocks near each other or near a wall: neighbours in a packing, not faces that fail to
+    /// meet.
     neighbours: Vec<(f64, usize, usize)>,
     /// `(depth, what would close it, a, b)`
     overlaps: Vec<(f64, Option<Apart>, usize, usize)>,
@@ -172,7 +173,7 @@ impl Tally {
             let (nearest, farthest) =
                 (self.neighbours[0], self.neighbours[self.neighbours.len() - 1]);
             let text = format!(
-                "{} of round blocks lie next to each other without touching, as grains do: gaps from {} to {} m, more than contact.gap ({tolerance} × the smaller block's size); nearest: {}",
+                "{} of round blocks, or of one and a wall, lie next to each other without touching, as grains do: gaps from {} to {} m, more than contact.gap ({tolerance} × the smaller block's size); nearest: {}",
                 pairs(self.neighbours.len()),
                 short(nearest.0),
                 short(farthest.0),

@@ -412,10 +412,17 @@ fn neighbours_in_a_packing_are_no_near_misses() {
     let balls = model(&scene(0.5, json!([ground, ball("a", 0.0), ball("b", 1.01)]), json!({})));
     let text: Vec<String> = balls.findings().map(|f| f.text.clone()).collect();
     assert!(
-        text.iter()
-            .any(|t| t.contains("1 pair of round blocks lie") && t.contains("nearest: a and b")),
+        text.iter().any(|t| t.contains("1 pair of round blocks, or of one and a wall, lie")
+            && t.contains("nearest: a and b")),
         "{text:?}"
     );
     assert!(!text.iter().any(|t| t.contains("raise")), "{text:?}");
     assert_eq!(balls.interfaces.left_out, None);
+    // Nor is a wall beside a grain that rests on others; beside one that hardly touches anything it is.
+    let wall = json!({ "id": "wall", "shape": { "box": { "size": [1, 4, 4] } }, "at": [2.01, 0, 2], "support": true });
+    for (other, misses) in [(0.0, 0), (-0.2, 1)] {
+        let blocks = json!([ground, wall, ball("a", other), ball("b", 1.0)]);
+        let left_out = model(&scene(0.5, blocks, json!({}))).interfaces.left_out;
+        assert_eq!(left_out.map_or(0, |l| l.near_misses), misses, "{other}");
+    }
 }
