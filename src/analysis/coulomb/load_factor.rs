@@ -23,7 +23,7 @@ use crate::{
         coulomb::{FixedPoint, Law, Solvers, StoppingCriterion, iterate},
     },
     strength::laws::unlimited,
-    terms::{Found, MANY, StateMotion},
+    terms::{Found, StateMotion},
     tolerance,
     verdict::{Forces, Rate, Verdict, certificate, check, law},
 };
@@ -156,32 +156,24 @@ fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mu
     };
     answer.solves += from.solves;
     let mut law = Law::new(&contacts, scale);
-    let is_large = assembly.free().count() > MANY;
     for (stage, (delta, stop)) in STAGES.into_iter().enumerate() {
         if control.deadline.is_over() {
             break;
         }
         let settings =
             Settings { tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
-        // Where the law itself was left behind once, it is followed or nothing.
-        let pushed = law.as_mut().filter(|_| is_large && stage > 0).map(|law| {
-            let point = law.on(&contacts, delta, control.deadline)?;
-            Some(FixedPoint { lambda: scale * point.lambda, ..point })
+        let point = within_strength(&mut contacts, interfaces, |c| {
+            let solvers = Solvers { law: law.as_mut(), ..engine(&settings) };
+            iterate(
+                c,
+                Objective::LoadFactor(delta, scale),
+                HeldQuantity::Limits,
+                c.limits(&from.forces),
+                stop,
+                solvers,
+            )
         });
-        let programs = || {
-            within_strength(&mut contacts, interfaces, |c| {
-                let solvers = Solvers { law: law.as_mut(), ..engine(&settings) };
-                iterate(
-                    c,
-                    Objective::LoadFactor(delta, scale),
-                    HeldQuantity::Limits,
-                    c.limits(&from.forces),
-                    stop,
-                    solvers,
-                )
-            })
-        };
-        let Some(point) = pushed.unwrap_or_else(programs) else { break };
+        let Some(point) = point else { break };
         answer.solves += point.solves;
         if stage + 1 >= LEAST_STAGES && accept(scene, &contacts, &point, answer) {
             break;
