@@ -247,10 +247,12 @@ pub const REST_BELOW: f64 = 1e-3;
 /// open is little.
 pub const REST_WITHIN: f64 = 0.1;
 
-/// A state without pre-stress moves when some block is left with at least this much of its load.
+/// A state without pre-stress moves when some block is left with at least this much of its load,
+/// and rests only where no more than this is left of its acceleration beside what falls with ε.
 /// Larger: slow slides at the edge of friction are refused (a rock wedge 1e-3 beyond its factor of
-/// safety is left with 5e-4). Smaller: what the regularisation leaves at rest on tall, soft
-/// structures could be taken for motion, if it obeyed the law.
+/// safety is left with 5e-4), or pass for rest (a flat arch that moves by 6e-4 sinks ten times as
+/// much at ε = 1e-4). Smaller: what the regularisation leaves at rest on tall, soft structures could
+/// be taken for motion, if it obeyed the law.
 pub const LEAST_MOTION: f64 = 1e-4;
 
 /// Where a joint of a mechanism closes by more than this × the speed of its two blocks, that is no

@@ -3,8 +3,9 @@
 //! variant of [`Question`] and one of [`Answer`].
 
 use super::{
-    Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt, assess,
-    coulomb,
+    Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt,
+    alike::Tilts,
+    assess, coulomb,
     coulomb::DryLoadFactor,
     critical, follow,
     follow::{
@@ -26,7 +27,6 @@ use super::{
     state::{self, Stated},
     thrust,
     thrust::Thrust,
-    tilt,
 };
 #[cfg(feature = "dynamics")]
 use crate::dynamics::SimulationOutcome;
@@ -236,11 +236,11 @@ fn limited(
 fn tilted(options: &TiltOptions, model: &Model, control: &Control) -> Result<Tilted, InputError> {
     let toward = directions(model.assembly.gravity, &options.toward, options.all);
     // All bounds before the first answer with dry friction: where time is short they are worth most.
-    let tilts = toward.into_iter().map(|d| tilt::tilt(model, d, control));
-    let mut directions = tilts.collect::<Result<Vec<_>, InputError>>()?;
+    let tilts = Tilts::of(model, control);
+    let mut directions = tilts.bounds(&toward)?;
     let level = (!options.skip_dead).then(|| assess(model, control));
     let verdict = level.as_ref().map(|l| l.verdict);
-    directions.iter_mut().try_for_each(|tilt| tilt.add_dry(model, verdict, control))?;
+    tilts.add_dry(&mut directions, verdict)?;
     Ok(Tilted { directions, level })
 }
 

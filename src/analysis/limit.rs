@@ -278,6 +278,27 @@ fn prove(
     proved
 }
 
+/// An answer whose evidence was carried over from the same scene in another place, made as exact as
+/// it can be there; `None` where its bracket is no longer narrow.
+pub(super) fn carried(
+    model: &Model,
+    mut answer: LoadFactor,
+    control: &Control,
+) -> Option<LoadFactor> {
+    if answer.outcome == Outcome::Found {
+        let natural = check::natural_factor(&model.assembly);
+        let proved = prove(model, control, &mut answer, natural, &mut None);
+        let value = answer.value.map_or(0.0, f64::abs);
+        let width = tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural;
+        if !proved || !answer.bracket.is_narrow(width) {
+            return None;
+        }
+    }
+    let moves = answer.mechanism.is_some();
+    answer.mechanism = moves.then(|| mechanism::read(model, &answer.rates));
+    Some(answer)
+}
+
 /// A load factor at which the scene stands with room, and forces that hold it there: without the
 /// live load where it stands without; no forces where none are found.
 fn elsewhere(model: &Model, control: &Control) -> (f64, Forces) {

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "dynamics")]
 pub mod agreement;
+mod alike;
 pub mod ask;
 pub mod assess;
 mod attempt;

@@ -41,6 +41,7 @@ pub use opening::opening;
 pub use options::{Pyramid, StaticsOptions};
 pub use planar::Plane;
 pub use statics::{FreeBlock, Statics};
+pub use symmetry::{Isometries, Isometry};
 pub use thrust::{
     closing, endless_thrust, member_columns, pushed, reaction_columns, thrust, thrust_columns,
 };

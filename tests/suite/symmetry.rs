@@ -4,7 +4,9 @@
 use crate::ask::{self, close, cuboid, dry, fixed, ground, model, push, scene, sphere, template};
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, Outcome, assess, coulomb, limit},
+    analysis::{
+        Answer, Control, Law, Outcome, Question, TiltOptions, assess, coulomb, limit, tilt,
+    },
     assembly::Wrench,
     program::{Statics, StaticsOptions},
     scene::Scene,
@@ -384,4 +386,66 @@ fn scenes_that_are_not_quite_symmetric_are_solved_whole() {
     let m = model(&wall_pushed([1.0, 0.0, 0.0]));
     assert_eq!(line(&limit(&m, &Control::default()).left_out), None);
     assert!(line(&assess(&m, &Control::default()).left_out).is_some());
+}
+
+/// A dome with twelve equal parts is its own image under a quarter of a turn and not under half of
+/// one: of eight directions two are solved.
+#[test]
+fn directions_that_are_images_of_each_other_are_solved_once() {
+    let carried = |left_out: &[String]| left_out.iter().any(|l| l.contains("carries the answer"));
+    let question =
+        |law| Question::Tilt(TiltOptions { law, all: Some(8), ..TiltOptions::default() });
+    let tilts = |scene: &Scene, law, control: &Control| match voussoir::analysis::ask(
+        &question(law),
+        scene,
+        &model(scene),
+        control,
+    )
+    .unwrap()
+    {
+        Answer::Tilt(tilted) => tilted.directions,
+        _ => panic!("not a tilt"),
+    };
+    let own = dome(0.3, json!({}));
+    let whole = model(&own);
+    let all = tilts(&own, Law::Associative, &Control::default());
+    let solved: Vec<usize> = (0..8).filter(|&k| !carried(&all[k].load_factor.left_out)).collect();
+    assert_eq!(solved, [0, 1]);
+    for direction in &all {
+        assert!(direction.load_factor.grade().is_some(), "{:?}", direction.toward);
+        let alone = tilt(&whole, direction.toward, &Control::default()).unwrap();
+        let (got, want) = (direction.load_factor.value.unwrap(), alone.load_factor.value.unwrap());
+        close("the tangent of the tilt", got, want, 1e-6);
+        let moving =
+            |t: &voussoir::analysis::Tilt| t.load_factor.mechanism.as_ref().unwrap().moving.len();
+        assert_eq!(moving(direction), moving(&alone));
+    }
+    ask::asked(&own, &question(Law::Associative));
+    let kept = tilts(&own, Law::Associative, &keep_all());
+    assert!(kept.iter().all(|d| !carried(&d.load_factor.left_out)));
+}
+
+/// The same with dry friction: two square blocks slide at their friction towards every side.
+#[test]
+fn images_of_a_direction_have_its_dry_value() {
+    let blocks = json!([
+        ground(),
+        cuboid("low", [1.0, 1.0, 1.0], [0.0, 0.0, 0.0]),
+        cuboid("high", [0.8, 0.8, 0.6], [0.0, 0.0, 1.0]),
+    ]);
+    let scene = scene(0.3, blocks, json!({}));
+    let question = Question::Tilt(TiltOptions { all: Some(4), ..TiltOptions::default() });
+    let model = model(&scene);
+    let Answer::Tilt(tilted) =
+        voussoir::analysis::ask(&question, &scene, &model, &Control::default()).unwrap()
+    else {
+        panic!("not a tilt")
+    };
+    assert!(tilted.directions[3].load_factor.attempts.is_empty());
+    for direction in &tilted.directions {
+        let dry = &direction.dry.as_ref().unwrap().load_factor;
+        assert!(dry.claim().is_some());
+        close("the tangent of the tilt", dry.value.unwrap(), 0.3, 1e-6);
+    }
+    ask::asked(&scene, &question);
 }

@@ -20,10 +20,12 @@
 //! isometry, so that turns are about it and mirrors contain it.
 
 mod find;
+mod images;
 mod matching;
 mod members;
 mod orbits;
 
+pub use images::{Isometries, Isometry};
 pub use orbits::{BlockOrbit, MemberOrbit, Orbits, Part};
 
 use super::{Bearing, Plane};

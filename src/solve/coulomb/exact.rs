@@ -44,6 +44,25 @@ const LEAST_FALL: f64 = 0.9;
 /// Most pushes on the way to one ε. Fewer: such states go back. More: time lost.
 const PUSHES: usize = 40;
 
+/// The drag at the start, as an ε: that of rates as large as forces make the joints yield by. More:
+/// steps for nothing. Less: the first one fails.
+const DRAG: f64 = 1.0;
+/// The drag after a step, and after one that failed, over the one before. Falling faster: every
+/// other step fails (twice as many factorisations on a dome of 19 blocks). Slower: more steps.
+const FREER: f64 = 0.5;
+const HELD: f64 = 5.0;
+/// The greatest drag. More: steps that hardly move.
+const MOST_DRAG: f64 = 1e3;
+/// A step against a drag is done when this × the imbalance at its start is left. Larger: what moves
+/// loses its way. Smaller: factorisations for nothing.
+const DRAGGED: f64 = 1e-2;
+/// Most of Newton's steps to one of them. More: steps that fail take longer.
+const DRAGS: usize = 6;
+/// Most factorisations. Fewer: walls of 16 blocks (264) do not get there.
+const FACTORS: usize = 300;
+/// Most rows. More: minutes for structures in space that do not settle at all.
+const MOST_RELAXED_ROWS: usize = 1_500;
+
 /// Coulomb's law for the states of one set of contacts.
 pub struct Exact {
     response: Response,
@@ -78,21 +97,14 @@ impl Exact {
         let mut spring = 0.0;
         for _ in 0..STEPS {
             let size = self.size(&imbalance);
-            let allowed = EXACT * epsilon + ROUNDING * q.iter().map(|q| q * q).sum::<f64>().sqrt();
+            let allowed = allowed(epsilon, &q);
             if size <= allowed {
                 return Some((Solved { forces, rates: q }, size));
             }
             if !size.is_finite() || end.is_over() {
                 return None;
             }
-            let [lower, upper] = [false, true].map(|mirrored| {
-                let resists = epsilon + spring;
-                self.response.derivative(contacts, resists, FrictionLimits::Law, &q, mirrored)
-            });
-            let mut step: Vec<f64> = imbalance.iter().map(|g| -g).collect();
-            if !self.lu.solve(&lower, &upper, &mut step) {
-                return None;
-            }
+            let step = self.step(contacts, epsilon + spring, &q, &imbalance)?;
             let mut share = 1.0;
             let better = (0..SHARES).find_map(|_| {
                 let next: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + share * s).collect();
@@ -114,6 +126,95 @@ impl Exact {
             }
         }
         None
+    }
+
+    /// The same from afar: the way of blocks that start where they touch and move against a drag,
+    /// which falls as long as they can be followed (implicit Euler steps of `drag q′ = −g(q)`).
+    /// States to which no descent of the imbalance leads are reached where such a motion comes to
+    /// rest; `None` also where there are too many blocks for that.
+    pub fn relaxed(
+        &mut self,
+        contacts: &Contacts,
+        epsilon: f64,
+        end: Deadline,
+    ) -> Option<(Solved, f64)> {
+        let rows = contacts.statics.matrix.rows;
+        if rows > MOST_RELAXED_ROWS {
+            return None;
+        }
+        let mut q = vec![0.0; rows];
+        let mut drag = DRAG;
+        let mut left = FACTORS;
+        loop {
+            let (forces, imbalance) =
+                self.response.forces(contacts, epsilon, FrictionLimits::Law, &q);
+            let size = self.size(&imbalance);
+            let allowed = allowed(epsilon, &q);
+            if size <= allowed {
+                return Some((Solved { forces, rates: q }, size));
+            }
+            if !size.is_finite() || end.is_over() {
+                return None;
+            }
+            let enough = (0.1 * allowed).max(DRAGGED * size);
+            match self.dragged(contacts, (epsilon, drag), &q, enough, &mut left) {
+                Some(next) => (q, drag) = (next, FREER * drag),
+                None if left > 0 && drag < MOST_DRAG => drag *= HELD,
+                None => return None,
+            }
+        }
+    }
+
+    /// Where blocks that start at the rates `from` are after one implicit step against a drag, up to
+    /// an imbalance that is `enough`; `left` counts the factorisations that are left.
+    fn dragged(
+        &mut self,
+        contacts: &Contacts,
+        (epsilon, drag): (f64, f64),
+        from: &[f64],
+        enough: f64,
+        left: &mut usize,
+    ) -> Option<Vec<f64>> {
+        let mut q = from.to_vec();
+        let look = |this: &Self, q: &[f64]| {
+            let (_, mut g) = this.response.forces(contacts, epsilon, FrictionLimits::Law, q);
+            g.iter_mut().zip(q.iter().zip(from)).for_each(|(g, (q, from))| *g += drag * (q - from));
+            let size = this.size(&g);
+            (g, size)
+        };
+        let (mut imbalance, mut size) = look(self, &q);
+        for _ in 0..DRAGS {
+            if size <= enough {
+                return Some(q);
+            }
+            *left = left.checked_sub(1)?;
+            let step = self.step(contacts, epsilon + drag, &q, &imbalance)?;
+            let mut share = 1.0;
+            let better = (0..SHARES).find_map(|_| {
+                let next: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + share * s).collect();
+                let (g, left) = look(self, &next);
+                let falls = left < (1.0 - 0.1 * share) * size;
+                share *= 0.5;
+                falls.then_some((next, g, left))
+            });
+            (q, imbalance, size) = better?;
+        }
+        None
+    }
+
+    /// The step of Newton's method that leaves no imbalance, where blocks resist their rates.
+    fn step(
+        &mut self,
+        contacts: &Contacts,
+        resists: f64,
+        rates: &[f64],
+        imbalance: &[f64],
+    ) -> Option<Vec<f64>> {
+        let [lower, upper] = [false, true].map(|mirrored| {
+            self.response.derivative(contacts, resists, FrictionLimits::Law, rates, mirrored)
+        });
+        let mut step: Vec<f64> = imbalance.iter().map(|g| -g).collect();
+        self.lu.solve(&lower, &upper, &mut step).then_some(step)
     }
 
     /// The state at a smaller ε than that of the last of `trail` (ε and rates, the last improved),
@@ -154,6 +255,11 @@ impl Exact {
     fn size(&self, imbalance: &[f64]) -> f64 {
         imbalance.iter().zip(&self.carried).map(|(g, c)| (g / c).powi(2)).sum::<f64>().sqrt()
     }
+}
+
+/// The imbalance that is none.
+fn allowed(epsilon: f64, rates: &[f64]) -> f64 {
+    EXACT * epsilon + ROUNDING * rates.iter().map(|q| q * q).sum::<f64>().sqrt()
 }
 
 /// The rates at ε on the line through the last two, by ε; with one before, that one in proportion.
