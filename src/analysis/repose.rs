@@ -286,7 +286,7 @@ impl Heap {
             let say = |text: &String| Finding::new(FindingCode::Numerics, text.clone());
             self.findings = reasons.iter().map(say).collect();
             self.refused =
-                (!reasons.is_empty()).then(|| Refused { reasons, cells: 0, r_squared: None });
+                (!reasons.is_empty()).then_some(Refused { reasons, cells: 0, r_squared: None });
             return Ok(());
         }
         let reading = surface::of(protocol, &assembly::resolve(&self.scene)?);
