@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use voussoir::{
     analysis::{
         Control, Law,
-        repose::{Heap, heap, margin},
+        repose::{Heap, grown, margin},
     },
     error::{InputError, JsonPath},
     parallel,
@@ -46,7 +46,7 @@ pub fn heaps(
     let protocol = read.map_err(|e| {
         let error = InputError::at(JsonPath::root().key("protocol"), e.to_string());
         Trouble::from(error.hint(
-            "drain, funnel, cylinder or tilt, with grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, density, size, rate",
+            "drain, funnel, cylinder, tilt, drum, hopper or shear, with grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, restitution, density, size, rate, pressure",
         ))
         .raise(py)
     })?;
@@ -65,7 +65,9 @@ fn made(
     keep_all: bool,
     watch: &Watch,
 ) -> Result<(HeapResult, Heap), Trouble> {
-    let heap = heap(protocol, seed, &mut |flow| {
+    let control = Control { law: Law::Associative, keep_all, deadline: watch.deadline(None) };
+    let statics = (!skip_margin).then_some(&control);
+    let heap = grown(protocol, None, seed, statics, &mut |flow| {
         watch.tell(flow.time, 0.0, || {
             format!(
                 "seed {seed}, stage {}: {:.0} √(d/g), {:.1e} m g d a grain",
@@ -76,8 +78,8 @@ fn made(
         });
         if watch.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
-    let control = Control { law: Law::Associative, keep_all, deadline: watch.deadline(None) };
-    let margin = (heap.rested && !skip_margin).then(|| margin(&heap, &control)).transpose()?;
+    let asked = heap.rested && !skip_margin && protocol.kind.leaves_a_slope();
+    let margin = asked.then(|| margin(&heap, &control)).transpose()?;
     Ok((HeapResult::new(&heap, margin.as_ref().map(MarginResult::from)), heap))
 }
 

@@ -8,7 +8,9 @@
 //! still bears, is asked for as a cross-check by a method that shares nothing with the dynamics but
 //! the places of the grains.
 
+pub mod confirm;
 pub mod judge;
+pub mod seen;
 mod surface;
 
 use super::{
@@ -18,19 +20,27 @@ use super::{
 };
 use crate::{
     assembly,
-    dynamics::granular::{Disturbance, Flow, Rest, flow},
+    dynamics::granular::{Course, Disturbance, Flow, Moment, Poses, flow},
     error::{Finding, FindingCode, InputError},
-    generate::{Deposit, deposit},
+    generate::{Deposit, deposit, filled},
     interface::prepare,
     scene::{BlockSpec, Protocol, ProtocolKind, Rotation, Scene},
     tolerance::GRAIN_GAP,
 };
+use confirm::Confirmed;
 use nalgebra::{Unit, UnitQuaternion, Vector3};
+use seen::{Recorder, Seen};
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
 /// A stage may take so many √(d/g) to come to rest.
 const HORIZON: f64 = 400.0;
+/// A drum turns by so much before it is measured, and by so much while it is; degrees.
+const DRUM_STARTS: f64 = 90.0;
+const DRUM_TURNS: f64 = 270.0;
+/// A shear box is pushed by this share of its length. More: less than four fifths of the halves lie
+/// over each other. Less: the residual resistance is not reached.
+const SHEARED: f64 = 0.2;
 /// √(d/g) between two layers that are poured: a grain falls 3 d in the meantime.
 const POUR: f64 = 2.5;
 /// Rounds in which grains that nothing balances are left out. More: a heap that really falls is
@@ -85,6 +95,12 @@ pub struct Heap {
     pub refused: Option<Refused>,
     /// Tilt: the angle at which the bed began to flow, degrees.
     pub avalanche_deg: Option<f64>,
+    /// What statics says of it, where that was asked.
+    #[serde(default)]
+    pub statics: Option<Confirmed>,
+    /// What a protocol shows that leaves no slope.
+    #[serde(default)]
+    pub seen: Option<Seen>,
     /// Why there is something to doubt.
     pub findings: Vec<Finding>,
 }
@@ -125,7 +141,27 @@ pub fn heap(
     seed: u64,
     watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>,
 ) -> Result<Heap, InputError> {
-    let Deposit { scene, gates, layers } = deposit(protocol, seed)?;
+    grown(protocol, None, seed, None, watch)
+}
+
+/// The same with grains of one's own, which begin where they lie, and a word of statics: with
+/// `statics` a heap at rest is asked whether forces exist that hold it as it lies, and where there
+/// are none it settles on with finer steps.
+///
+/// # Errors
+/// As [`heap`]; a grain lies outside what holds it.
+pub fn grown(
+    protocol: &Protocol,
+    own: Option<&[BlockSpec]>,
+    seed: u64,
+    statics: Option<&Control>,
+    watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>,
+) -> Result<Heap, InputError> {
+    let deposit = match own {
+        Some(own) => filled(protocol, own, seed)?,
+        None => deposit(protocol, seed)?,
+    };
+    let Deposit { scene, gates, lid, layers, lost } = deposit;
     let assembly = assembly::resolve(&scene)?;
     let index: BTreeMap<&str, usize> =
         assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
@@ -135,30 +171,67 @@ pub fn heap(
     let d = protocol.diameter;
     let g = assembly.gravity.norm();
     let natural = (d / g).sqrt();
+    let (rate, speed) = (protocol.rate().to_radians() / natural, protocol.rate() * (g * d).sqrt());
+    let gates = find(&gates);
+    let lid = lid.and_then(|id| index.get(id.as_str()).copied());
+    let mut recorder = Recorder::new(protocol, &assembly, &gates, lid);
     let stages = match protocol.kind {
-        ProtocolKind::Drain => vec![Disturbance::Settle, Disturbance::Remove(find(&gates))],
+        ProtocolKind::Drain | ProtocolKind::Hopper => {
+            vec![Disturbance::Settle, Disturbance::Remove(gates)]
+        }
         ProtocolKind::Funnel => {
             vec![Disturbance::Pour(layers.iter().map(|l| find(l)).collect(), POUR * natural)]
         }
         ProtocolKind::Cylinder => {
             let height = 3.0 * d * (protocol.grains as f64).cbrt();
-            vec![
-                Disturbance::Settle,
-                Disturbance::Lift(find(&gates), protocol.rate * (g * d).sqrt(), height),
-            ]
+            vec![Disturbance::Settle, Disturbance::Lift(gates, speed, height)]
         }
         // Towards the gate, which goes as soon as the bed has settled.
         ProtocolKind::Tilt => {
-            let rate = protocol.rate.to_radians() / natural;
             vec![Disturbance::Settle, Disturbance::Turn(Unit::new_unchecked(-Vector3::y()), rate)]
         }
+        ProtocolKind::Drum => {
+            let (axis, most) = (Vector3::y_axis(), DRUM_TURNS.to_radians());
+            vec![Disturbance::Settle, Disturbance::Spin(axis, rate, most)]
+        }
+        ProtocolKind::Shear => {
+            let way = SHEARED * protocol.size()[0] * d;
+            vec![Disturbance::Settle, Disturbance::Shear(gates, speed, way)]
+        }
     };
-    let rest = flow(&assembly, &stages, d, HORIZON, watch)?;
-    let free = assembly.free().count();
+    let finer =
+        if protocol.kind == ProtocolKind::Shear { (1.0 + protocol.pressure).sqrt() } else { 1.0 };
+    let course = Course {
+        stages,
+        diameter: d,
+        horizon: HORIZON,
+        lost,
+        restitution: protocol.restitution,
+        lid,
+        finer,
+        settled: protocol.kind.leaves_a_slope(),
+    };
+    let mut look = |moment: &Moment| {
+        recorder.look(moment);
+        if recorder.is_complete() { ControlFlow::Break(()) } else { watch(&moment.flow) }
+    };
+    let lies = |poses: &Poses| settled(&scene, &assembly, poses, &index, d);
+    let mut creeping = None;
+    let rest = flow(&assembly, &course, &mut look, &mut |poses: &Poses| {
+        creeping = statics.and_then(|control| confirm::creeping(&lies(poses), control));
+        creeping.as_ref().is_none_or(Vec::is_empty)
+    })?;
+    let mut lies = lies(&rest.poses);
+    lies.gravity = rest.gravity.into();
+    // Turned, as the last look at it was not.
+    if rest.turned.is_some() && rest.rested {
+        creeping = statics.and_then(|control| confirm::creeping(&lies, control));
+    }
+    let free = assembly.free().filter(|i| Some(*i) != lid).count();
     let mut heap = Heap {
         seed,
-        scene: settled(&scene, &assembly, &rest, &index),
-        rested: rest.rested,
+        scene: lies,
+        rested: rest.rested || recorder.is_complete(),
         energy: rest.energy,
         time: rest.time / natural,
         seconds: rest.seconds,
@@ -166,6 +239,12 @@ pub fn heap(
         slope: None,
         parts: Vec::new(),
         avalanche_deg: rest.turned.map(f64::to_degrees),
+        seen: recorder.seen(),
+        statics: creeping.filter(|_| rest.rested).map(|creeping| Confirmed {
+            rounds: rest.rounds,
+            admissible: creeping.is_empty(),
+            creeping,
+        }),
         refused: None,
         findings: Vec::new(),
     };
@@ -189,6 +268,27 @@ impl Heap {
     /// # Errors
     /// The scene cannot be resolved.
     pub fn measure(&mut self, protocol: &Protocol) -> Result<(), InputError> {
+        if !protocol.kind.leaves_a_slope() {
+            let mut reasons = match &self.seen {
+                Some(seen) => seen.doubts(),
+                None if protocol.kind == ProtocolKind::Hopper => {
+                    let [stayed, gone] = self.grains;
+                    vec![format!(
+                        "too little ran out to measure, {gone} of {} grains: the hole is clogged, or small for them",
+                        stayed + gone
+                    )]
+                }
+                None => vec!["nothing was measured: it did not come so far".into()],
+            };
+            if !self.rested {
+                reasons.insert(0, "cut off before its end".into());
+            }
+            let say = |text: &String| Finding::new(FindingCode::Numerics, text.clone());
+            self.findings = reasons.iter().map(say).collect();
+            self.refused =
+                (!reasons.is_empty()).then_some(Refused { reasons, cells: 0, r_squared: None });
+            return Ok(());
+        }
         let reading = surface::of(protocol, &assembly::resolve(&self.scene)?);
         let mut reasons = judge::refuse(protocol, &reading, self.grains[1]);
         if !self.rested {
@@ -200,6 +300,8 @@ impl Heap {
         let fit = reading.mean.as_ref().map(|f| f.slope);
         let say = |text: &String| Finding::new(FindingCode::Numerics, text.clone());
         self.findings = reasons.iter().map(say).collect();
+        let creep = self.statics.iter().filter_map(Confirmed::says);
+        self.findings.extend(creep.map(|text| say(&text)));
         self.slope = fit.filter(|_| reasons.is_empty());
         self.parts = match self.slope {
             Some(_) => reading.parts.iter().map(|f| f.slope).collect(),
@@ -214,24 +316,26 @@ impl Heap {
     }
 }
 
+/// Supports that moved by more than this × d were pushed. Smaller: rounding. Larger: a box that was
+/// hardly sheared lies where it was.
+const MOVED: f64 = 1e-6;
+
 /// The heap as a scene: what stayed, where it lies.
 fn settled(
     scene: &Scene,
     assembly: &assembly::Assembly,
-    rest: &Rest,
+    poses: &Poses,
     index: &BTreeMap<&str, usize>,
+    d: f64,
 ) -> Scene {
     let mut heap = scene.clone();
     heap.contact.gap = GRAIN_GAP;
-    if let Some(turned) = rest.turned {
-        let (sin, cos) = turned.sin_cos();
-        let g = assembly.gravity.norm();
-        heap.gravity = [g * sin, 0.0, -g * cos];
-    }
     heap.blocks.retain_mut(|block| {
         let Some(&i) = index.get(block.id.as_str()) else { return false };
-        let Some((center, turn)) = rest.poses.get(i).copied().flatten() else { return false };
-        if !block.support {
+        let Some((center, turn)) = poses.get(i).copied().flatten() else { return false };
+        // Supports that were pushed lie elsewhere, too.
+        let moved = (center - assembly.blocks[i].centroid).norm() > MOVED * d;
+        if !block.support || moved {
             lay(block, &assembly.blocks[i], center, turn);
         }
         true

@@ -12,23 +12,32 @@ use std::ops::ControlFlow;
 use voussoir::{
     analysis::{
         Control, Law, Tilted,
-        repose::{Heap, Margin, heap, margin, profile},
+        repose::{Heap, Margin, grown, margin, profile},
     },
     deadline::Deadline,
+    dynamics::granular::Flow,
+    import::{ImportOptions, import_files},
     interface::prepare,
     keep::Kept,
-    parallel,
+    limits, parallel,
     proof::ResultFile,
     report::{
         drawing,
+        grains::{self, GrainFormat},
         heaps::{HeapResult, MarginResult, ReposeFile},
         json, page,
         record::Record,
         text::{self, TextOptions},
         view::View,
     },
-    scene::Protocol,
+    scene::{self, BlockSpec, Protocol, Sizes},
 };
+
+/// What is written of one heap.
+struct Outputs {
+    scene: Option<Sink>,
+    list: Option<Sink>,
+}
 
 /// What `--keep` keeps.
 #[derive(Serialize, Deserialize)]
@@ -42,6 +51,7 @@ enum Piece {
 
 pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let protocol = protocol(args)?;
+    let own = args.start.as_deref().map(start).transpose()?;
     args.keep.as_deref().map_or(Ok(()), claim::written)?;
     let save = args.common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     if args.csv.is_some() {
@@ -49,16 +59,23 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
             "--csv writes the contact forces of a packing as it lies: keep the heaps with --heaps, and ask `voussoir repose` about one of them"
         );
     }
+    let format = GrainFormat::of(args.grains.as_deref());
     let pictures = Pictures::open(&args.pictures, None)?;
     pictures.hides_something(args.common.report.is_some())?;
     let report = args.common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
-    let outputs: Vec<Option<Sink>> = (0..u64::from(args.seeds))
+    // The seed goes before the ending.
+    let seeded = |p: &std::path::Path, k: u64, ending: &str| {
+        Sink::open(Some(&p.with_extension(format!("{}.{ending}", args.seed + k))))
+    };
+    let outputs: Vec<Outputs> = (0..u64::from(args.seeds))
         .map(|k| {
-            let path = |p: &std::path::PathBuf| p.with_extension(format!("{}.json", args.seed + k));
-            args.heaps.as_ref().map(|p| Sink::open(Some(&path(p)))).transpose()
+            let scene = args.heaps.as_ref().map(|p| seeded(p, k, "json")).transpose()?;
+            let list = args.grains.as_ref().map(|p| seeded(p, k, format.ending())).transpose()?;
+            Ok(Outputs { scene, list })
         })
         .collect::<anyhow::Result<_>>()?;
-    let kept = args.keep.as_deref().map(|path| kept(path, &protocol, args)).transpose()?;
+    let made = json!({ "protocol": protocol, "start": own });
+    let kept = args.keep.as_deref().map(|path| kept(path, made, args)).transpose()?;
     let there = || kept.iter().flat_map(|k| &k.there);
     let keep = |piece: &Piece| kept.as_ref().map_or(Ok(()), |k| k.append(piece));
     let target =
@@ -71,8 +88,9 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     // Cut off by the time limit, a heap or a margin is an answer, but not the one that the next run
     // wants.
     let in_time = || !deadline.is_over();
-    let one = |(k, output): &(usize, Option<Sink>)| -> anyhow::Result<(HeapResult, Option<View>)> {
+    let one = |(k, outputs): &(usize, Outputs)| -> anyhow::Result<(HeapResult, Option<View>)> {
         let seed = args.seed + *k as u64;
+        let control = Control { law: Law::Associative, keep_all: args.common.keep_all, deadline };
         let old = there().find_map(|p| match p {
             Piece::Heap(heap) if heap.seed == seed => Some(&**heap),
             _ => None,
@@ -82,7 +100,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
             heap.measure(&protocol)?;
             heap
         } else {
-            let heap = heap(&protocol, seed, &mut |flow| {
+            let mut watch = |flow: &Flow| {
                 bar.set_message(format!(
                     "seed {seed}, stage {}: {:.0} √(d/g), {:.1e} m g d a grain",
                     flow.stage + 1,
@@ -91,19 +109,24 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
                 ));
                 bar.tick();
                 if in_time() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            })?;
+            };
+            let statics = (!args.skip_margin).then_some(&control);
+            let heap = grown(&protocol, own.as_deref(), seed, statics, &mut watch)?;
             if kept.is_some() && in_time() {
                 keep(&Piece::Heap(Box::new(heap.clone())))?;
             }
             heap
         };
         // Written at once: what follows may take long.
-        if let Some(output) = output {
+        if let Some(output) = &outputs.scene {
             output.write(&json::pretty(&heap.scene)?)?;
+        }
+        if let Some(output) = &outputs.list {
+            output.write(&grains::written(&heap.scene, format)?)?;
         }
         // Page and pictures show the first heap.
         let shown = *k == 0 && (report.is_some() || pictures.wanted());
-        let wanted = heap.rested && !args.skip_margin;
+        let wanted = heap.rested && !args.skip_margin && protocol.kind.leaves_a_slope();
         let known = there().find_map(|p| match p {
             Piece::Margin { seed: of, keep_all, margin }
                 if (*of, *keep_all) == (seed, args.common.keep_all) =>
@@ -112,7 +135,6 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
             }
             _ => None,
         });
-        let control = Control { law: Law::Associative, keep_all: args.common.keep_all, deadline };
         let fresh =
             (wanted && (shown || known.is_none())).then(|| margin(&heap, &control)).transpose()?;
         let result =
@@ -128,7 +150,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         Ok((HeapResult::new(&heap, result), view))
     };
-    let outputs: Vec<(usize, Option<Sink>)> = outputs.into_iter().enumerate().collect();
+    let outputs: Vec<(usize, Outputs)> = outputs.into_iter().enumerate().collect();
     let heaps = parallel::try_map(args.threads.into(), &outputs, one).context("no threads")??;
     bar.finish_and_clear();
     let (heaps, views): (Vec<_>, Vec<_>) = heaps.into_iter().unzip();
@@ -153,12 +175,12 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         let options = TextOptions { verbose: args.common.verbose, brief: args.common.quiet };
         terminal.page(&text::heaps(&file, options, layout))?;
     }
-    Ok(if file.angle_deg.is_some() { Exit::Yes } else { Exit::Undecided })
+    Ok(if file.is_answered() { Exit::Yes } else { Exit::Undecided })
 }
 
 /// The file of `--keep`, and a word about what is in it.
-fn kept(path: &std::path::Path, protocol: &Protocol, args: &Repose) -> anyhow::Result<Kept<Piece>> {
-    let kept = Kept::open(path, "voussoir-heaps/1", json!({ "protocol": protocol }))?;
+fn kept(path: &std::path::Path, made: Value, args: &Repose) -> anyhow::Result<Kept<Piece>> {
+    let kept = Kept::open(path, "voussoir-heaps/1", made)?;
     let seeds = args.seed..args.seed + u64::from(args.seeds);
     let count = kept
         .there
@@ -196,16 +218,49 @@ fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
     let mut value = serde_json::to_value(Protocol::default())?;
     value["kind"] = Value::from(name.as_ref());
     for (key, text) in &args.set {
+        match key.as_str() {
+            "rolling_friction" => {
+                let share: f64 = text.parse().with_context(|| format!("{key}: not a number"))?;
+                value["rolling_arm"] = Value::from(0.5 * share);
+                continue;
+            }
+            // A grading curve from a file, whose median is the unit of length.
+            "sizes" if text.parse::<f64>().is_err() && !text.starts_with('[') => {
+                if args.set.iter().any(|(key, _)| key == "diameter") {
+                    bail!("sizes: {text} has diameters in m: leave diameter=… away");
+                }
+                let path = std::path::Path::new(text);
+                claim::read(path)?;
+                let bytes = limits::read_file(path, limits::PER_BYTE)?;
+                let sizes = Sizes::read(text, &String::from_utf8_lossy(&bytes))?;
+                value["diameter"] = sizes.median().into();
+                value["sizes"] = serde_json::to_value(sizes)?;
+                continue;
+            }
+            _ => {}
+        }
         let Some(place) = value.get_mut(key).filter(|_| key != "kind") else {
             bail!(
-                "{key}: no value of a protocol; there are grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, density, size, rate"
+                "{key}: no value of a protocol; there are grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, rolling_friction, restitution, density, size, rate, pressure"
             );
         };
         *place = serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str()));
     }
     let protocol: Protocol = serde_json::from_value(value).with_context(|| {
-        format!("`{name}` with these values is no protocol: drain, funnel, cylinder or tilt, with grain=sphere, clump or hull")
+        format!("`{name}` with these values is no protocol: drain, funnel, cylinder, tilt, drum, hopper or shear, with grain=sphere, clump or hull")
     })?;
     // What is kept and reported is the box that was used.
     Ok(protocol.sized())
+}
+
+/// The grains of --start: the free blocks of a scene, or what `voussoir import` reads.
+fn start(path: &std::path::Path) -> anyhow::Result<Vec<BlockSpec>> {
+    claim::read(path)?;
+    let is_scene = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
+    let scene = if is_scene {
+        scene::read_file(path)?.0
+    } else {
+        import_files(&[path], &ImportOptions::default())?.scene
+    };
+    Ok(scene.blocks.into_iter().filter(|b| !b.support).collect())
 }

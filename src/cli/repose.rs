@@ -17,7 +17,9 @@ use voussoir::{
     interface::{Model, prepare},
     proof::packing::PackingFile,
     report::{
-        contacts, json, page,
+        contacts,
+        grains::{self, GrainFormat},
+        json, page,
         record::Record,
         text::{self, TextOptions},
         view::View,
@@ -26,7 +28,7 @@ use voussoir::{
 };
 
 /// What --question repose takes in place of a scene.
-const PROTOCOLS: [&str; 4] = ["drain", "funnel", "cylinder", "tilt"];
+const PROTOCOLS: [&str; 7] = ["drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear"];
 
 pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.question == Asked::Repose {
@@ -50,12 +52,13 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if let Some((key, _)) = args.set.first() {
         bail!("{key}=…: only the protocols of --question repose take values");
     }
-    if args.keep.is_some() || args.heaps.is_some() || args.skip_margin {
+    if args.keep.is_some() || args.heaps.is_some() || args.skip_margin || args.start.is_some() {
         bail!(
-            "--keep, --heaps and --skip-margin are about heaps in time: they go with --question repose"
+            "--keep, --heaps, --start and --skip-margin are about heaps in time: they go with --question repose"
         );
     }
     let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+    let grains = args.grains.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
     let question = Question::Repose(ReposeOptions {
         law: session.law(),
@@ -64,6 +67,11 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         all: args.toward.is_empty().then_some(args.all),
         moving_mass: args.moving_mass,
     });
+    // As they lie, whatever the answer will be.
+    if let Some(grains) = &grains {
+        let format = GrainFormat::of(args.grains.as_deref());
+        grains.write(&self::grains::written(&session.scene, format)?)?;
+    }
     let start = Instant::now();
     let answer = session.ask(&question)?;
     let Answer::Repose(packing) = &answer else { bail!("there is no packing") };

@@ -2,11 +2,14 @@
 //!
 //! The same engine as [`simulate`](super::simulate()), run stage by stage: walls are taken away or
 //! lifted, grains are poured, gravity is turned; at the end they settle once more with finer steps.
-//! Grains that fall below the floor are discarded. Restitution is 0 and nothing else damps:
-//! contacts are overdamped springs of natural frequency 0.1 / substep, friction is Coulomb's. A
-//! stage ends when the mean kinetic energy of a grain (of a sphere without its spin: nothing ever
+//! Grains that fall below the floor are discarded. Restitution is what is given and nothing else
+//! damps: contacts are overdamped springs of natural frequency 0.1 / substep, friction is Coulomb's.
+//! A drum is seen from itself: gravity turns about it, and what a turning frame adds is added
+//! ([`turning`]). A stage that settles ends when the mean kinetic energy of a grain (of a sphere without its spin: nothing ever
 //! stops a ball that spins between two smooth walls) stays below [`GRAIN_REST_ENERGY`] × m g d for
 //! [`GRAIN_REST_TIME`] √(d/g), never after a fixed time; where it does not, that is said.
+
+mod turning;
 
 use super::{
     bodies::{Frictions, bodies},
@@ -36,10 +39,12 @@ const PREDICTION_FACES: f64 = 0.02;
 /// touch overlap by a sixth of what they did: the statics takes them as they lie. Smaller: contacts
 /// are lost in the overlaps. Larger: time.
 const FINER: f64 = 2.4;
+/// So many times steps are made finer while statics finds no forces that hold the grains at rest.
+/// More: time (each takes 2.4 times as long as the one before). Fewer: grains that creep too slowly
+/// for the engine to call it motion are left so.
+pub const ROUNDS: usize = 3;
 /// Steps between two looks at the grains.
 const LOOK: usize = 10;
-/// Grains this far below the lowest support's top, in d, are gone.
-const BELOW: f64 = 3.0;
 /// A bed flows when a hundredth of the grains moved by d.
 const FLOWING: f64 = 0.01;
 
@@ -56,6 +61,64 @@ pub enum Disturbance {
     Pour(Vec<Vec<usize>>, f64),
     /// Gravity turns about this axis at this rate, radians per s, until the grains flow.
     Turn(Unit<Vector3<f64>>, f64),
+    /// The supports turn about this axis through the origin at this rate, radians per s, by so many
+    /// radians, and the grains are seen from them.
+    Spin(Unit<Vector3<f64>>, f64, f64),
+    /// These supports, and the lid, move along x at this speed, m/s, so far, m.
+    Shear(Vec<usize>, f64, f64),
+}
+
+/// What is to happen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course {
+    /// What is done, one after the other.
+    pub stages: Vec<Disturbance>,
+    /// Mean diameter d of the grains, m.
+    pub diameter: f64,
+    /// The longest that a stage may take to come to rest after its change, √(d/g).
+    pub horizon: f64,
+    /// Grains below this height are gone, m.
+    pub lost: f64,
+    /// Coefficient of restitution of every contact.
+    pub restitution: f64,
+    /// A free block that loads the grains: it moves along z alone, and with what is sheared.
+    pub lid: Option<usize>,
+    /// Steps are shorter by this factor: where grains bear more than their weight, contacts have to
+    /// be stiffer.
+    pub finer: f64,
+    /// Whether grains settle once more with finer steps at the end.
+    pub settled: bool,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self {
+            stages: Vec::new(),
+            diameter: 0.01,
+            horizon: 400.0,
+            lost: f64::NEG_INFINITY,
+            restitution: 0.0,
+            lid: None,
+            finer: 1.0,
+            settled: true,
+        }
+    }
+}
+
+/// What whoever watches may look at.
+pub struct Moment<'a> {
+    /// How far it is.
+    pub flow: Flow,
+    /// Angle by which gravity or the supports have turned in this stage, radians.
+    pub turned: f64,
+    /// Way by which supports were sheared in this stage, m.
+    pub way: f64,
+    /// By block: whether it is there.
+    pub there: &'a [bool],
+    /// Centre of mass of a block, m.
+    pub center: &'a dyn Fn(usize) -> Vector3<f64>,
+    /// The sum of the contact forces on these blocks by others, N.
+    pub force: &'a dyn Fn(&[usize]) -> Vector3<f64>,
 }
 
 /// Where the grains came to rest.
@@ -63,7 +126,7 @@ pub enum Disturbance {
 pub struct Rest {
     /// Centre of mass, and turn from the orientation at the start, by block; `None` where a grain
     /// is gone or a wall was taken away.
-    pub poses: Vec<Option<(Vector3<f64>, UnitQuaternion<f64>)>>,
+    pub poses: Poses,
     /// Whether every stage came to rest.
     pub rested: bool,
     /// Mean kinetic energy of a grain at the end, over m g d.
@@ -73,6 +136,10 @@ pub struct Rest {
     /// Angle by which gravity had turned when the grains began to flow, radians; `None` where it
     /// did not turn, or they never flowed.
     pub turned: Option<f64>,
+    /// Gravity at the end, m/s², as the supports see it.
+    pub gravity: Vector3<f64>,
+    /// How often it settled with finer steps.
+    pub rounds: usize,
     /// Time simulated, s.
     pub time: f64,
     /// Steps taken.
@@ -93,18 +160,22 @@ pub struct Flow {
     pub energy: f64,
 }
 
-/// Runs the stages; `diameter` is d, `horizon` the longest a stage may take to come to rest after
-/// its change, √(d/g).
+/// Where everything is, by block ([`Rest::poses`]).
+pub type Poses = Vec<Option<(Vector3<f64>, UnitQuaternion<f64>)>>;
+
+/// Runs a course. Grains at rest are shown to `holds` with finer and finer steps, until it says that
+/// they hold or [`ROUNDS`] of them have passed.
 ///
 /// # Errors
 /// A block that the engine cannot take.
 pub fn flow(
     assembly: &Assembly,
-    stages: &[Disturbance],
-    diameter: f64,
-    horizon: f64,
-    watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>,
+    course: &Course,
+    watch: &mut dyn FnMut(&Moment) -> ControlFlow<()>,
+    holds: &mut dyn FnMut(&Poses) -> bool,
 ) -> Result<Rest, InputError> {
+    let Course { stages, diameter, horizon, .. } = course;
+    let (diameter, horizon) = (*diameter, *horizon);
     let begin = Instant::now();
     let refuse = |text: &str| {
         InputError::at(Default::default(), text.to_string())
@@ -121,19 +192,14 @@ pub fn flow(
     let bodies = bodies(&model, &units, GRAIN_SKIN)?;
     let frictions = Frictions::new(&model, &units);
     let natural = (diameter / g).sqrt();
-    let dt = natural / STEPS / units.time;
+    let dt = natural / STEPS / course.finer / units.time;
     let round = assembly.free().all(|i| assembly.blocks[i].solid.is_round());
     let prediction = if round { PREDICTION } else { PREDICTION_FACES } * diameter / units.length;
-    let step = Step { dt, iterations: SUBSTEPS, threads: 1, prediction };
-    let world = World::new(&bodies, &frictions, step)
+    let step =
+        Step { dt, iterations: SUBSTEPS, threads: 1, prediction, restitution: course.restitution };
+    let mut world = World::new(&bodies, &frictions, step)
         .map_err(|text| InputError::at(Default::default(), text))?;
-    let floor = assembly
-        .blocks
-        .iter()
-        .filter(|b| b.support)
-        .map(|b| b.centroid.z)
-        .fold(f64::NEG_INFINITY, f64::max)
-        .min(0.0);
+    course.lid.into_iter().for_each(|lid| world.guide(lid));
     let free: Vec<usize> = assembly.free().collect();
     let mut run =
         Flowing {
@@ -144,12 +210,13 @@ pub fn flow(
             free,
             gravity: assembly.gravity,
             diameter,
-            floor,
+            lost: course.lost,
+            lid: course.lid,
             steps: 0,
             elapsed: 0.0,
             resting: 0.0,
             energy: 0.0,
-            dt: natural / STEPS,
+            dt: natural / STEPS / course.finer,
             natural,
             rolling: Rolling::default(),
             frictions: &frictions,
@@ -167,27 +234,27 @@ pub fn flow(
         };
     let (mut rested, mut turned) = (true, None);
     for (stage, change) in stages.iter().enumerate() {
-        let mut watch =
-            |time: f64, energy: f64| watch(&Flow { stage, time: time / natural, energy });
-        let (came, angle) = run.stage(change, horizon * natural, &mut watch);
+        let (came, angle) = run.stage(stage, change, horizon * natural, watch);
         rested &= came;
         turned = angle.or(turned);
         if !came {
             break;
         }
     }
-    if rested {
-        run.world.refine(Step { dt: dt / FINER, ..step });
+    let mut rounds = 0;
+    let mut finer = dt;
+    while rested && course.settled && rounds < ROUNDS {
+        rounds += 1;
+        finer /= FINER;
+        run.world.refine(Step { dt: finer, ..step });
         run.dt /= FINER;
-        let mut watch = |time: f64, energy: f64| {
-            watch(&Flow { stage: stages.len(), time: time / natural, energy })
-        };
-        rested = run.stage(&Disturbance::Settle, horizon * natural, &mut watch).0;
+        rested = run.stage(stages.len(), &Disturbance::Settle, horizon * natural, watch).0;
+        if rested && holds(&run.poses()) {
+            break;
+        }
     }
-    let gone = run.free.iter().filter(|&&i| !run.there[i]).count();
-    let poses = (0..assembly.blocks.len())
-        .map(|i| run.there[i].then(|| (run.center(i), run.world.pose(i).1)))
-        .collect();
+    let gone = run.free.iter().filter(|&&i| !run.there[i] && course.lid != Some(i)).count();
+    let poses = run.poses();
     let time = run.elapsed;
     Ok(Rest {
         poses,
@@ -195,6 +262,8 @@ pub fn flow(
         energy: run.energy,
         gone,
         turned,
+        gravity: run.gravity,
+        rounds,
         time,
         steps: run.steps,
         seconds: begin.elapsed().as_secs_f64(),
@@ -210,7 +279,8 @@ struct Flowing<'a> {
     free: Vec<usize>,
     gravity: Vector3<f64>,
     diameter: f64,
-    floor: f64,
+    lost: f64,
+    lid: Option<usize>,
     steps: usize,
     /// s.
     elapsed: f64,
@@ -228,17 +298,23 @@ struct Flowing<'a> {
 }
 
 impl Flowing<'_> {
+    fn poses(&self) -> Poses {
+        let pose = |i: usize| self.there[i].then(|| (self.center(i), self.world.pose(i).1));
+        (0..self.there.len()).map(pose).collect()
+    }
+
     fn center(&self, i: usize) -> Vector3<f64> {
         self.world.pose(i).0 * self.units.length + self.units.origin
     }
 
-    /// One stage; whether it came to rest, and by how much gravity had turned when the grains began
-    /// to flow.
+    /// One stage; whether it came to its end, and by how much gravity had turned when the grains
+    /// began to flow.
     fn stage(
         &mut self,
+        index: usize,
         change: &Disturbance,
         horizon: f64,
-        watch: &mut dyn FnMut(f64, f64) -> ControlFlow<()>,
+        watch: &mut dyn FnMut(&Moment) -> ControlFlow<()>,
     ) -> (bool, Option<f64>) {
         let start: Vec<Vector3<f64>> = (0..self.there.len()).map(|i| self.center(i)).collect();
         let (mut lifted, mut waiting) = (Vec::new(), Vec::new());
@@ -252,13 +328,17 @@ impl Flowing<'_> {
                     self.park(i, k);
                 }
             }
-            Disturbance::Settle | Disturbance::Turn(..) => {}
+            Disturbance::Shear(blocks, speed, _) => {
+                let velocity = Vector3::x() * (speed * self.units.time / self.units.length);
+                blocks.iter().chain(&self.lid).for_each(|&i| self.world.push(i, velocity));
+            }
+            Disturbance::Settle | Disturbance::Turn(..) | Disturbance::Spin(..) => {}
         }
         waiting.reverse();
         let mut parked: std::collections::BTreeSet<usize> =
             waiting.iter().flatten().copied().collect();
-        let (mut time, mut poured, mut angle, mut flowing) =
-            (0.0, f64::NEG_INFINITY, 0.0, !matches!(change, Disturbance::Turn(..)));
+        let (mut time, mut poured, mut angle, mut way, mut flowing) =
+            (0.0, f64::NEG_INFINITY, 0.0, 0.0, !matches!(change, Disturbance::Turn(..)));
         let mut still_since = 0.0;
         self.resting = 0.0;
         self.load(&BTreeMap::new(), &parked);
@@ -299,6 +379,12 @@ impl Flowing<'_> {
                 self.gravity = Rotation3::from_axis_angle(axis, angle) * self.assembly.gravity;
                 loads = true;
             }
+            if let Disturbance::Spin(axis, rate, _) = change {
+                // Seen from the supports everything else turns the other way.
+                angle += rate * self.dt;
+                let back = Rotation3::from_axis_angle(axis, -angle);
+                self.gravity = back * self.assembly.gravity;
+            }
             let couples = if self.frictions.resist_rolling() {
                 self.rolling.torques(
                     self.bodies,
@@ -311,6 +397,14 @@ impl Flowing<'_> {
             };
             if loads || self.frictions.resist_rolling() {
                 self.load(&couples, &parked);
+            }
+            if let Disturbance::Spin(axis, rate, _) = change {
+                self.load_turning(axis.into_inner() * *rate, &couples);
+            }
+            if let Disturbance::Shear(_, speed, _) = change {
+                way += speed * self.dt;
+                let velocity = Vector3::x() * (speed * self.units.time / self.units.length);
+                self.lid.into_iter().for_each(|i| self.world.push(i, velocity));
             }
             self.world.step();
             self.steps += 1;
@@ -342,8 +436,23 @@ impl Flowing<'_> {
                 still_since = time;
                 self.resting = 0.0;
             }
-            if watch(time, self.energy).is_break() {
+            let flow = Flow { stage: index, time: time / self.natural, energy: self.energy };
+            let moment = Moment {
+                flow,
+                turned: angle,
+                way,
+                there: &self.there,
+                center: &|i| self.center(i),
+                force: &|blocks| self.force(blocks),
+            };
+            if watch(&moment).is_break() {
                 return (false, None);
+            }
+            match change {
+                Disturbance::Spin(_, _, most) if angle >= *most => return (true, None),
+                Disturbance::Shear(_, _, most) if way >= *most => return (true, None),
+                Disturbance::Spin(..) | Disturbance::Shear(..) => continue,
+                _ => {}
             }
             let turned = matches!(change, Disturbance::Turn(..)).then_some(angle);
             if self.resting >= GRAIN_REST_TIME * self.natural && !changing {
@@ -353,6 +462,13 @@ impl Flowing<'_> {
                 return (false, turned);
             }
         }
+    }
+
+    fn force(&self, blocks: &[usize]) -> Vector3<f64> {
+        let patches = self.world.patches();
+        let on = |i: usize| f64::from(u8::from(blocks.contains(&i)));
+        let sum: Vector3<f64> = patches.iter().map(|p| p.force * (on(p.b) - on(p.a))).sum();
+        sum * self.units.force()
     }
 
     fn remove(&mut self, i: usize) {
@@ -390,10 +506,9 @@ impl Flowing<'_> {
 
     /// Discards what fell, and sees whether the rest rests.
     fn look(&mut self, parked: &std::collections::BTreeSet<usize>) {
-        let lowest = self.floor - BELOW * self.diameter;
         for k in 0..self.free.len() {
             let i = self.free[k];
-            if self.there[i] && self.center(i).z < lowest {
+            if self.there[i] && self.center(i).z < self.lost {
                 self.remove(i);
             }
         }

@@ -61,6 +61,8 @@ pub(super) struct Step {
     pub threads: usize,
     /// Contacts are prepared up to this distance, in the engine's unit of length.
     pub prediction: f64,
+    /// Coefficient of restitution of every contact.
+    pub restitution: f64,
 }
 
 /// A force of one contact patch.
@@ -151,12 +153,12 @@ impl<'a> World<'a> {
             healthy: true,
         };
         for (index, body) in list.iter().enumerate() {
-            world.insert(index, body)?;
+            world.insert(index, body, step.restitution)?;
         }
         Ok(world)
     }
 
-    fn insert(&mut self, index: usize, body: &Body) -> Result<(), String> {
+    fn insert(&mut self, index: usize, body: &Body, restitution: f64) -> Result<(), String> {
         let pose = Pose::from_parts(vector(body.center), Rotation::IDENTITY);
         let builder =
             if body.support { RigidBodyBuilder::fixed() } else { RigidBodyBuilder::dynamic() };
@@ -185,7 +187,7 @@ impl<'a> World<'a> {
             let hooks = ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS;
             let collider = collider
                 .density(0.0)
-                .restitution(0.0)
+                .restitution(restitution)
                 .friction(0.0)
                 .contact_skin(shape.skin)
                 .active_hooks(hooks)
@@ -245,6 +247,29 @@ impl<'a> World<'a> {
     pub fn place(&mut self, body: usize, center: Vector3<f64>) {
         if let Some(body) = self.bodies.get_mut(self.handles[body]) {
             body.set_translation(vector(center), true);
+        }
+    }
+
+    /// Lets a body move along z alone, and along the others with the velocity that it is given.
+    pub fn guide(&mut self, body: usize) {
+        let held = LockedAxes::ROTATION_LOCKED
+            | LockedAxes::TRANSLATION_LOCKED_X
+            | LockedAxes::TRANSLATION_LOCKED_Y;
+        if let Some(body) = self.bodies.get_mut(self.handles[body]) {
+            body.set_locked_axes(held, true);
+        }
+    }
+
+    /// Moves a support at this velocity from now on, or a guided body along x and y.
+    pub fn push(&mut self, body: usize, velocity: Vector3<f64>) {
+        if let Some(body) = self.bodies.get_mut(self.handles[body]) {
+            let mut velocity = vector(velocity);
+            if body.is_dynamic() {
+                velocity.z = body.linvel().z;
+            } else {
+                body.set_body_type(RigidBodyType::KinematicVelocityBased, true);
+            }
+            body.set_linvel(velocity, true);
         }
     }
 

@@ -224,8 +224,13 @@ impl Stage<'_> {
         let begin = Instant::now();
         let (per_unit, iterations) = fidelity.fineness();
         let dt = 1.0 / per_unit;
-        let step =
-            Step { dt, iterations, threads: self.settings.threads.max(1), prediction: PREDICTION };
+        let step = Step {
+            dt,
+            iterations,
+            threads: self.settings.threads.max(1),
+            prediction: PREDICTION,
+            restitution: 0.0,
+        };
         let mut world = World::new(self.bodies, self.frictions, step).map_err(|text| {
             InputError::at(Default::default(), text).hint("ask `voussoir assess` instead")
         })?;

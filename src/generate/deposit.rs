@@ -2,54 +2,66 @@
 //!
 //! Everything follows from the seed ([`random`](super::random)).
 
-use super::{check::Place, grain::Grain, numbered, random::Random, support};
+mod vessel;
+
+use super::{check::Place, grain::Grain, numbered, random::Random};
 use crate::{
     error::InputError,
     scene::{
         BlockSpec, Friction, GrainKind, JointOverride, JointSpec, Material, Protocol, ProtocolKind,
-        Scene, Shape,
+        Scene,
     },
 };
 use rand_pcg::{Pcg64, rand_core::SeedableRng};
+use vessel::Vessel;
+pub use vessel::bed_split;
 
 /// Grains and what holds them, before anything moves.
 #[derive(Clone, Debug)]
 pub struct Deposit {
     /// The scene: floor and walls are supports.
     pub scene: Scene,
-    /// Ids of the walls that are taken away or lifted.
+    /// Ids of the walls that are taken away, lifted or pushed.
     pub gates: Vec<String>,
+    /// The lid of a shear box, a free block.
+    pub lid: Option<String>,
     /// Grains by layers, from below.
     pub layers: Vec<Vec<String>>,
+    /// Grains below this height have fallen out, m.
+    pub lost: f64,
 }
 
 /// Most grains of one heap: more would take days.
 const MOST: usize = 200_000;
-/// Most that radii may differ from the mean.
-const WIDEST: f64 = 0.9;
 /// Distance of grains in the loose layers over the greatest diameter.
 const LOOSE: f64 = 1.05;
-/// Tries to place a fixed grain on the floor, per d² of floor. Fewer: holes in which a grain lies
-/// on the flat ground and rolls at once.
-const TRIES: f64 = 80.0;
-/// Least distance of fixed grains, in d; they may overlap. Larger: the same holes.
-const APART: f64 = 0.7;
-/// Walls are so thick, in d: more than a grain passes in a step.
-const WALL: f64 = 4.0;
 /// Corners that a hull may have. More: contacts of hulls cost time.
 const CORNERS: std::ops::RangeInclusive<usize> = 6..=100;
 /// The stream of random numbers for shapes, so that places and sizes of grains do not depend on
 /// their shapes.
 const SHAPES: u128 = 1;
-/// Sides of the hollow cylinder.
-const SIDES: usize = 16;
 
 /// The grains of a protocol before they fall.
 ///
 /// # Errors
-/// A value is out of its range.
+/// A value is out of its range; the grains do not fit into the drum.
 pub fn deposit(protocol: &Protocol, seed: u64) -> Result<Deposit, InputError> {
-    let p = protocol;
+    check(protocol)?;
+    build(protocol, None, seed)
+}
+
+/// Grains of one's own in what the protocol holds them with: these lie where they lie, whatever the
+/// protocol says of their number, sizes and shapes.
+///
+/// # Errors
+/// As [`deposit`]; a grain lies outside.
+pub fn filled(protocol: &Protocol, own: &[BlockSpec], seed: u64) -> Result<Deposit, InputError> {
+    check(protocol)?;
+    build(protocol, Some(own), seed)
+}
+
+/// Refuses values out of their range.
+fn check(p: &Protocol) -> Result<(), InputError> {
     let place = Place::template("repose");
     place.count("grains", p.grains, 1)?;
     if p.grains > MOST {
@@ -61,7 +73,7 @@ pub fn deposit(protocol: &Protocol, seed: u64) -> Result<Deposit, InputError> {
     }
     place.length("diameter", p.diameter)?;
     place.length("density", p.density)?;
-    place.length("rate", p.rate)?;
+    place.length("rate", p.rate())?;
     let between = |field: &str, value: f64, most: f64| {
         let hint = "see `voussoir repose --help`";
         if (0.0..=most).contains(&value) {
@@ -70,7 +82,7 @@ pub fn deposit(protocol: &Protocol, seed: u64) -> Result<Deposit, InputError> {
             Err(place.error(field, format!("must be from 0 to {most}, got {value}"), hint))
         }
     };
-    between("sizes", p.sizes, WIDEST)?;
+    p.sizes.check().map_err(|e| e.under(&place.0))?;
     let longest = if p.grain == GrainKind::Clump { 2.0 } else { 4.0 };
     if !(1.0..=longest).contains(&p.elongation) {
         return Err(place.error(
@@ -87,6 +99,8 @@ pub fn deposit(protocol: &Protocol, seed: u64) -> Result<Deposit, InputError> {
     between("friction", p.friction, 1e3)?;
     between("wall_friction", p.wall_friction, 1e3)?;
     between("rolling_arm", p.rolling_arm, 1e3)?;
+    between("restitution", p.restitution, 1.0)?;
+    between("pressure", p.pressure, 1e3)?;
     if p.grain == GrainKind::Hull && p.rolling_arm > 0.0 {
         let text = format!("must be 0 for hulls, got {}", p.rolling_arm);
         return Err(place.error(
@@ -104,113 +118,28 @@ pub fn deposit(protocol: &Protocol, seed: u64) -> Result<Deposit, InputError> {
             .hint("in grain diameters"));
         }
     }
-    Ok(build(p, &mut Random(Pcg64::seed_from_u64(seed)), seed))
+    if p.kind == ProtocolKind::Hopper && p.size()[1] >= p.size()[0] {
+        let [bin, orifice] = p.size();
+        let text = format!("the orifice must be smaller than the bin, got {orifice} of {bin}");
+        return Err(place.error("size", text, "[diameter of the bin, of the orifice], in d"));
+    }
+    Ok(())
 }
 
-fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
-    let d = p.diameter;
-    let [length, width] = p.size();
-    let mut forms = Random(Pcg64::new(seed.into(), SHAPES));
-    let grains: Vec<Grain> = (0..p.grains).map(|_| Grain::new(p, &mut forms)).collect();
-    let pitch = LOOSE * (1.0 + p.sizes) * grains.iter().map(|g| g.reach).fold(1.0, f64::max);
-    // In diameters: the cell that the loose layers fill, and the floor.
-    let heap = 2.0 * (p.grains as f64).cbrt().max(4.0) + 4.0;
-    let (cell, floor) = match p.kind {
-        ProtocolKind::Drain | ProtocolKind::Tilt => {
-            ([0.0, length, -width / 2.0, width / 2.0], [0.0, length, -width / 2.0, width / 2.0])
-        }
-        ProtocolKind::Funnel | ProtocolKind::Cylinder => {
-            let r = length / 4.0;
-            ([-r, r, -r, r], [-heap, heap, -heap, heap])
-        }
+fn build(p: &Protocol, own: Option<&[BlockSpec]>, seed: u64) -> Result<Deposit, InputError> {
+    let random = &mut Random(Pcg64::seed_from_u64(seed));
+    let vessel = Vessel::new(p, random);
+    let mut blocks = vessel.below.clone();
+    let (layers, top) = match own {
+        Some(own) => lie(p, &vessel, own, &mut blocks)?,
+        None => loose(p, &vessel, seed, random, &mut blocks)?,
     };
-    let wall = |id: String, low: [f64; 3], high: [f64; 3]| {
-        let size = [0, 1, 2].map(|k| (high[k] - low[k]) * d);
-        let at = [0, 1, 2].map(|k| 0.5 * (high[k] + low[k]) * d);
-        BlockSpec { at, material: Some("wall".into()), ..support(id, Shape::Cuboid { size }) }
-    };
-    let mut blocks = Vec::new();
-    // It ends before the outermost fixed grains do: over the edge nothing lies on it.
-    let slab =
-        wall("floor".into(), [floor[0], floor[2], -0.5 - WALL], [floor[1] - 0.5, floor[3], -0.5]);
-    blocks.push(BlockSpec { material: Some("grain".into()), ..slab });
-    let spots = rough(floor, random);
-    let fixed = spots.iter().enumerate().map(|(i, at)| BlockSpec {
-        at: [at[0] * d, at[1] * d, 0.0],
-        material: Some("grain".into()),
-        ..support(numbered("f", i, spots.len()), Shape::Sphere { radius: 0.5 * d })
-    });
-    blocks.extend(fixed);
-
-    let count = |low: f64, high: f64| (((high - low) / pitch).floor() as usize).max(1);
-    let [nx, ny] = [count(cell[0], cell[1]), count(cell[2], cell[3])];
-    let round = matches!(p.kind, ProtocolKind::Funnel | ProtocolKind::Cylinder);
-    let (mut layers, mut placed, mut level) = (Vec::new(), 0, 0usize);
-    while placed < p.grains {
-        let mut layer = Vec::new();
-        for (i, j) in (0..nx).flat_map(|i| (0..ny).map(move |j| (i, j))) {
-            let spread = |n: usize, k: usize, low: f64, high: f64| {
-                low + (high - low) * (k as f64 + 0.5) / n as f64
-            };
-            let (x, y) = (spread(nx, i, cell[0], cell[1]), spread(ny, j, cell[2], cell[3]));
-            if placed == p.grains || (round && x.hypot(y) > cell[1] - 0.5 * pitch) {
-                continue;
-            }
-            let radius = 0.5 * (1.0 + p.sizes * random.between(-1.0, 1.0));
-            let grain = &grains[placed];
-            let room = 0.5 * pitch - radius * grain.reach;
-            let mut near = |c: f64| (c + random.between(-room, room)) * d;
-            let at = [near(x), near(y), near(0.5 + pitch * (level as f64 + 0.6))];
-            let id = numbered("g", placed, p.grains);
-            layer.push(id.clone());
-            let (shape, rotation_deg) = grain.of_radius(radius * d);
-            blocks.push(BlockSpec {
-                at,
-                rotation_deg,
-                material: Some("grain".into()),
-                ..BlockSpec::new(id, shape)
-            });
-            placed += 1;
-        }
-        layers.push(layer);
-        level += 1;
-    }
-    let top = 2.0 + pitch * (level as f64 + 2.0);
-    let mut gates = Vec::new();
-    match p.kind {
-        ProtocolKind::Drain | ProtocolKind::Tilt => {
-            let (h, w) = (width / 2.0, WALL);
-            // Beyond the edge the side walls go on, so that what flows over it stays between them.
-            blocks.push(wall("back".into(), [-w, -h - w, -1.0], [0.0, h + w, top]));
-            blocks.push(wall("right".into(), [-w, -h - w, -1.0], [length + w, -h, top]));
-            blocks.push(wall("left".into(), [-w, h, -1.0], [length + w, h + w, top]));
-            blocks.push(wall("gate".into(), [length, -h - w, -1.0], [length + w, h + w, top]));
-            if p.kind == ProtocolKind::Drain {
-                gates.push("gate".into());
-            }
-        }
-        ProtocolKind::Cylinder => {
-            let (r, step) = (cell[1], std::f64::consts::TAU / SIDES as f64);
-            for k in 0..SIDES {
-                let half = (r + WALL) * (0.5 * step).tan();
-                let mut side =
-                    wall(numbered("cylinder", k, SIDES), [r, -half, 0.6], [r + WALL, half, top]);
-                let angle = step * k as f64;
-                let (sin, cos) = angle.sin_cos();
-                side.at = [side.at[0] * cos, side.at[0] * sin, side.at[2]];
-                side.rotation_deg = Some(crate::scene::Rotation {
-                    axis: [0.0, 0.0, 1.0],
-                    angle: angle.to_degrees(),
-                });
-                gates.push(side.id.clone());
-                blocks.push(side);
-            }
-        }
-        ProtocolKind::Funnel => {}
-    }
+    let (walls, gates, lid) = vessel.walls(p, top, random);
+    blocks.extend(walls);
+    let kind = serde_json::to_value(p.kind).ok().and_then(|v| v.as_str().map(str::to_string));
+    let count = layers.iter().map(Vec::len).sum::<usize>();
     let mut scene = Scene {
-        name: format!("{:?} of {} {}, seed {seed}", p.kind, p.grains, p.grain.plural())
-            .to_lowercase(),
+        name: format!("{} of {count} {}, seed {seed}", kind.unwrap_or_default(), p.grain.plural()),
         blocks,
         ..Scene::default()
     };
@@ -218,7 +147,7 @@ fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
     for name in ["grain", "wall"] {
         scene.materials.insert(name.into(), Material::of_density(p.density));
     }
-    let arm = (p.rolling_arm > 0.0).then_some(p.rolling_arm * d);
+    let arm = (p.rolling_arm > 0.0).then_some(p.rolling_arm * p.diameter);
     scene.joints.default = JointSpec {
         friction: Some(Friction::Coefficient(p.friction)),
         rolling_arm: arm,
@@ -237,27 +166,100 @@ fn build(p: &Protocol, random: &mut Random, seed: u64) -> Deposit {
         normal_stiffness: None,
         shear_stiffness: None,
     });
-    Deposit { scene, gates, layers }
+    Ok(Deposit { scene, gates, lid, layers, lost: vessel.lost * p.diameter })
 }
 
-/// Places of fixed grains on the floor, at random and at least [`APART`] from each other: a lattice
-/// would make the heap crystallise.
-fn rough([x0, x1, y0, y1]: [f64; 4], random: &mut Random) -> Vec<[f64; 2]> {
-    let tries = (TRIES * (x1 - x0) * (y1 - y0)) as usize;
-    let mut cells: std::collections::HashMap<(i64, i64), Vec<[f64; 2]>> = Default::default();
-    let key = |p: [f64; 2]| ((p[0] / APART).floor() as i64, (p[1] / APART).floor() as i64);
-    let mut list = Vec::new();
-    for _ in 0..tries {
-        let p = [random.between(x0 + 0.5, x1 - 0.5), random.between(y0 + 0.5, y1 - 0.5)];
-        let (i, j) = key(p);
-        let near = (-1..=1)
-            .flat_map(|a| (-1..=1).map(move |b| (i + a, j + b)))
-            .filter_map(|k| cells.get(&k))
-            .flatten();
-        if near.into_iter().all(|q| (p[0] - q[0]).hypot(p[1] - q[1]) >= APART) {
-            cells.entry((i, j)).or_default().push(p);
-            list.push(p);
+/// Loose layers of grains, and the height that they need, d.
+fn loose(
+    p: &Protocol,
+    vessel: &Vessel,
+    seed: u64,
+    random: &mut Random,
+    blocks: &mut Vec<BlockSpec>,
+) -> Result<(Vec<Vec<String>>, f64), InputError> {
+    let d = p.diameter;
+    let mut forms = Random(Pcg64::new(seed.into(), SHAPES));
+    let grains: Vec<Grain> = (0..p.grains).map(|_| Grain::new(p, &mut forms)).collect();
+    let reach = grains.iter().map(|g| g.reach).fold(1.0, f64::max);
+    let pitch = LOOSE * p.sizes.greatest(d) * reach;
+    let count = |low: f64, high: f64| (((high - low) / pitch).floor() as usize).max(1);
+    let [x0, x1, y0, y1] = vessel.cell;
+    let [nx, ny] = [count(x0, x1), count(y0, y1)];
+    let (mut layers, mut placed, mut level) = (Vec::new(), 0, 0usize);
+    while placed < p.grains {
+        let z = vessel.base + pitch * (level as f64 + 0.6);
+        if z > vessel.ceiling - 0.5 * pitch {
+            return Err(vessel.full(p, placed));
         }
+        let mut layer = Vec::new();
+        for (i, j) in (0..nx).flat_map(|i| (0..ny).map(move |j| (i, j))) {
+            let spread = |n: usize, k: usize, low: f64, high: f64| {
+                low + (high - low) * (k as f64 + 0.5) / n as f64
+            };
+            let (x, y) = (spread(nx, i, x0, x1), spread(ny, j, y0, y1));
+            if placed == p.grains || !vessel.holds([x, y, z], 0.5 * pitch) {
+                continue;
+            }
+            let radius = 0.5 * p.sizes.diameter(d, random.unit());
+            let grain = &grains[placed];
+            let room = 0.5 * pitch - radius * grain.reach;
+            let mut near = |c: f64| (c + random.between(-room, room)) * d;
+            let at = [near(x), near(y), near(z)];
+            let id = numbered("g", placed, p.grains);
+            layer.push(id.clone());
+            let (shape, rotation_deg) = grain.of_radius(radius * d);
+            blocks.push(BlockSpec {
+                at,
+                rotation_deg,
+                material: Some("grain".into()),
+                ..BlockSpec::new(id, shape)
+            });
+            placed += 1;
+        }
+        layers.push(layer);
+        level += 1;
     }
-    list
+    Ok((layers, 2.0 + pitch * (level as f64 + 2.0)))
+}
+
+/// Grains of one's own as one layer, and the height that they need, d.
+fn lie(
+    p: &Protocol,
+    vessel: &Vessel,
+    own: &[BlockSpec],
+    blocks: &mut Vec<BlockSpec>,
+) -> Result<(Vec<Vec<String>>, f64), InputError> {
+    if own.is_empty() {
+        return Err(InputError::at(Default::default(), "there is no free grain to start with")
+            .hint("supports of the scene are left out: the protocol brings its own"));
+    }
+    let (mut layer, mut top) = (Vec::with_capacity(own.len()), 0.0_f64);
+    for block in own {
+        let at = block.at.map(|c| c / p.diameter);
+        if !vessel.holds(at, 0.0) {
+            let [x, y, z] = block.at;
+            return Err(InputError::at(
+                Default::default(),
+                format!("grain {:?} at ({x}, {y}, {z}) lies outside {}", block.id, vessel.says(p)),
+            )
+            .hint("give size=[…], in d, or move the grains"));
+        }
+        top = top.max(at[2]);
+        // Supports are named f…, wall and the like.
+        let id = if blocks.iter().any(|b| b.id == block.id) {
+            format!("own-{}", block.id)
+        } else {
+            block.id.clone()
+        };
+        layer.push(id.clone());
+        blocks.push(BlockSpec {
+            id,
+            support: false,
+            material: Some("grain".into()),
+            density: None,
+            mass: None,
+            ..block.clone()
+        });
+    }
+    Ok((vec![layer], top + 5.0))
 }

@@ -29,7 +29,7 @@ mod tower;
 mod wall;
 
 pub use bridge::Spread;
-pub use deposit::{Deposit, deposit};
+pub use deposit::{Deposit, bed_split, deposit, filled};
 pub use load::{Road, loads, on_road, said};
 pub use member::members;
 

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     error::{Finding, FindingCode, InputError, JsonPath},
-    scene::{BlockSpec, Material, Scene, Shape},
+    scene::{Ball, BlockSpec, Material, Scene, Shape},
     tolerance,
 };
 use std::collections::{BTreeMap, HashSet};
@@ -43,6 +43,18 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
                 ..BlockSpec::new(block.id, shape)
             });
         }
+        for grain in file.grains {
+            let mut centers: Vec<[f64; 3]> = grain.spheres.iter().map(|s| s.0).collect();
+            place(&mut centers, options)
+                .map_err(|v| beyond(&file.origin, &grain.id, v, options))?;
+            let radii = grain.spheres.iter().map(|s| s.1 * options.scale);
+            origins.push(Origin {
+                file: file.name.clone(),
+                line: Some(grain.line),
+                lines: Vec::new(),
+            });
+            scene.blocks.push(spheres(grain.id, grain.support, centers.into_iter().zip(radii)));
+        }
         if !options.stored_interfaces {
             unwanted += file.interfaces.len();
             continue;
@@ -71,6 +83,23 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
     Ok(Imported { scene, findings, origins })
 }
 
+/// A sphere, or a clump about its first sphere's centre.
+fn spheres(id: String, support: bool, list: impl Iterator<Item = ([f64; 3], f64)>) -> BlockSpec {
+    let list: Vec<_> = list.collect();
+    let at = list.first().map_or([0.0; 3], |s| s.0);
+    let shape = match list[..] {
+        [(_, radius)] => Shape::Sphere { radius },
+        _ => {
+            let ball = |(c, radius): &([f64; 3], f64)| Ball {
+                at: std::array::from_fn(|k| c[k] - at[k]),
+                radius: *radius,
+            };
+            Shape::Clump { spheres: list.iter().map(ball).collect() }
+        }
+    };
+    BlockSpec { at, support, ..BlockSpec::new(id, shape) }
+}
+
 /// Puts the file's name before its ids where two files use the same one.
 fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
     let Some(clash) = clash(files) else { return Ok(Vec::new()) };
@@ -86,6 +115,7 @@ fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
         let rename =
             |id: &str| if id == file.stem { prefix.clone() } else { format!("{prefix}-{id}") };
         file.blocks.iter_mut().for_each(|b| b.id = rename(&b.id));
+        file.grains.iter_mut().for_each(|g| g.id = rename(&g.id));
         for end in file.interfaces.iter_mut().flat_map(|i| &mut i.between) {
             *end = rename(end);
         }
@@ -108,7 +138,10 @@ fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
 /// An id that is used twice.
 fn clash(files: &[Raw]) -> Option<String> {
     let mut ids = HashSet::new();
-    files.iter().flat_map(|f| &f.blocks).find(|b| !ids.insert(b.id.as_str())).map(|b| b.id.clone())
+    let of = |f: &'_ Raw| -> Vec<String> {
+        f.blocks.iter().map(|b| &b.id).chain(f.grains.iter().map(|g| &g.id)).cloned().collect()
+    };
+    files.iter().flat_map(of).find(|id| !ids.insert(id.clone()))
 }
 
 /// Renames materials that have the same name but another density than in a file before.
@@ -188,7 +221,7 @@ fn supports(
     let lows: Vec<f64> = scene
         .blocks
         .iter()
-        .map(|b| corners(&b.shape).map(|p| p[2]).fold(f64::INFINITY, f64::min))
+        .map(|b| corners(b).into_iter().map(|p| p[2]).fold(f64::INFINITY, f64::min))
         .collect();
     if let Some(height) = options.support_below {
         let mut count = 0;
@@ -264,7 +297,7 @@ fn propose(scene: &Scene, lows: &[f64]) -> String {
     let highest = scene
         .blocks
         .iter()
-        .flat_map(|b| corners(&b.shape).map(|p| p[2]))
+        .flat_map(|b| corners(b).into_iter().map(|p| p[2]))
         .fold(f64::NEG_INFINITY, f64::max);
     let band = lowest + tolerance::LOWEST_BAND * (highest - lowest);
     // Few digits to type, where they select the same blocks.
@@ -288,11 +321,16 @@ fn propose(scene: &Scene, lows: &[f64]) -> String {
     }
 }
 
-fn corners(shape: &Shape) -> impl Iterator<Item = [f64; 3]> + '_ {
-    let vertices: &[[f64; 3]] = match shape {
-        Shape::Polyhedron { vertices, .. } => vertices,
-        // Importers make polyhedra only.
-        _ => &[],
+/// Corners of a block in the scene; of spheres their lowest and highest points.
+fn corners(block: &BlockSpec) -> Vec<[f64; 3]> {
+    let poles = |at: [f64; 3], r: f64| {
+        [-r, r].map(|z| [block.at[0] + at[0], block.at[1] + at[1], block.at[2] + at[2] + z])
     };
-    vertices.iter().copied()
+    match &block.shape {
+        Shape::Polyhedron { vertices, .. } => vertices.clone(),
+        Shape::Sphere { radius } => poles([0.0; 3], *radius).to_vec(),
+        Shape::Clump { spheres } => spheres.iter().flat_map(|s| poles(s.at, s.radius)).collect(),
+        // Importers make no others.
+        _ => Vec::new(),
+    }
 }

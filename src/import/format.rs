@@ -18,6 +18,8 @@ pub enum Format {
     Ply,
     /// Stereolithography.
     Stl,
+    /// Spheres, as a table or as a dump of LIGGGHTS or LAMMPS.
+    Grains,
 }
 
 impl fmt::Display for Format {
@@ -27,6 +29,7 @@ impl fmt::Display for Format {
             Format::Obj => "OBJ",
             Format::Ply => "PLY",
             Format::Stl => "STL",
+            Format::Grains => "grains",
         })
     }
 }
@@ -45,12 +48,13 @@ impl Format {
                 Some("obj") => Some(Format::Obj),
                 Some("ply") => Some(Format::Ply),
                 Some("stl") => Some(Format::Stl),
+                Some("csv" | "dump" | "liggghts" | "lammpstrj") => Some(Format::Grains),
                 _ => None,
             })
             .or_else(|| Format::by_content(bytes))
             .ok_or_else(|| {
                 InputError::at(JsonPath::root(), "neither the extension nor the content tells the format")
-                    .hint("known formats are COMPAS JSON, OBJ, PLY and STL; name the file .json, .obj, .ply or .stl")
+                    .hint("known formats are COMPAS JSON, OBJ, PLY, STL, and tables or dumps of grains; name the file .json, .obj, .ply, .stl, .csv or .dump")
             })
     }
 
@@ -59,7 +63,9 @@ impl Format {
         let statement = |line: &[u8]| {
             [&b"v "[..], b"o ", b"g ", b"f ", b"mtllib "].iter().any(|s| line.starts_with(s))
         };
-        if text.starts_with(b"{") || text.starts_with(b"[") {
+        if text.starts_with(b"ITEM:") {
+            Some(Format::Grains)
+        } else if text.starts_with(b"{") || text.starts_with(b"[") {
             Some(Format::Compas)
         } else if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {
             Some(Format::Ply)

@@ -6,6 +6,7 @@
 //! | OBJ | polygons as they are, objects and groups | an object, else a group, else a connected part |
 //! | PLY | ASCII and binary, both byte orders | a file |
 //! | STL | ASCII and binary | a `solid`, a binary file |
+//! | grains | tables (CSV), dumps of LIGGGHTS and LAMMPS | a sphere, a clump of them |
 //!
 //! Importers say what the file says: faces keep their corners and their order, nothing is welded,
 //! turned or closed. Whether a block is a proper solid is judged later, by
@@ -21,6 +22,7 @@
 mod compas;
 mod finish;
 mod format;
+mod grains;
 mod mesh;
 mod obj;
 mod options;
@@ -149,13 +151,14 @@ fn read(
             Format::Obj => obj::read(bytes, &stem),
             Format::Ply => ply::read(bytes, &stem),
             Format::Stl => stl::read(bytes, &stem),
+            Format::Grains => grains::read(bytes),
         }?;
-        if raw.blocks.is_empty() {
+        if raw.blocks.is_empty() && raw.grains.is_empty() {
             return Err(InputError::at(
                 JsonPath::root(),
                 format!("no blocks found in this {format} file"),
             )
-            .hint("export the blocks as closed meshes, and check that this is the right file"));
+            .hint("export the blocks as closed meshes, or grains as rows, and check that this is the right file"));
         }
         raw.stem = stem;
         raw.name = name.into();
@@ -164,6 +167,7 @@ fn read(
             path.file_name().map_or_else(|| name.into(), |f| f.to_string_lossy())
         );
         raw.blocks.iter_mut().for_each(|b| b.support |= is_support);
+        raw.grains.iter_mut().for_each(|g| g.support |= is_support);
         Ok(raw)
     });
     result.map_err(|e| InputError { file: Some(name.into()), ..e })

@@ -17,6 +17,7 @@ pub(super) struct Raw {
     /// File name and format, for `source`.
     pub origin: String,
     pub blocks: Vec<Solid>,
+    pub grains: Vec<Grain>,
     pub interfaces: Vec<InterfaceSpec>,
     /// How many of them hold solved forces, which are not read.
     pub with_forces: usize,
@@ -36,6 +37,16 @@ pub(super) struct Solid {
     pub line: Option<usize>,
     /// The line of each face, where faces have lines.
     pub lines: Vec<usize>,
+}
+
+/// Spheres of one block: centres and radii.
+#[derive(Debug)]
+pub(super) struct Grain {
+    pub id: String,
+    pub spheres: Vec<([f64; 3], f64)>,
+    pub support: bool,
+    /// Where it begins in the file: a line, counted from 1.
+    pub line: usize,
 }
 
 impl Raw {

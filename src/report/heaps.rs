@@ -4,7 +4,7 @@ use crate::proof::result::Versions;
 use crate::{
     analysis::{
         Outcome,
-        repose::{Heap, Margin, Slope},
+        repose::{Heap, Margin, Slope, confirm::Confirmed, seen::Seen},
     },
     error::Finding,
     scene::Protocol,
@@ -28,6 +28,10 @@ pub struct ReposeFile {
     pub format: HeapsFormat,
     /// How the heaps were made.
     pub protocol: Protocol,
+    /// The rolling arm over the mean radius, as the literature has it
+    /// ([`Protocol::rolling_friction`]).
+    #[serde(default)]
+    pub rolling_friction: f64,
     /// Restitution of the contacts, and damping beside them: none is hidden.
     pub restitution: f64,
     /// See `restitution`.
@@ -42,15 +46,30 @@ pub struct ReposeFile {
     /// Least and greatest angle over the seeds, degrees; with `angle_deg`.
     #[serde(default)]
     pub spread_deg: Option<[f64; 2]>,
+    /// What drum, hopper and shear box show, over the seeds; none where any of them has a doubt.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub figures: Vec<Figure>,
     /// Heaps that came to rest.
     pub at_rest: usize,
-    /// Heaps that have an angle of repose.
+    /// Heaps that have an angle of repose, or a figure without doubt.
     #[serde(default)]
     pub measured: usize,
     /// One heap a seed.
     pub heaps: Vec<HeapResult>,
     /// Versions.
     pub versions: Versions,
+}
+
+/// A figure over all seeds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Figure {
+    /// Its name, with the unit where it has one.
+    pub name: String,
+    /// Mean over the seeds.
+    pub mean: f64,
+    /// Least and greatest.
+    pub spread: [f64; 2],
 }
 
 /// One heap.
@@ -86,6 +105,12 @@ pub struct HeapResult {
     /// Tilt: the angle at which the bed began to flow, degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub avalanche_deg: Option<f64>,
+    /// What statics says of the heap at rest, where it was asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub statics: Option<Confirmed>,
+    /// What a drum, a hopper or a shear box shows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seen: Option<Seen>,
     /// The static margin, where it was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub margin: Option<MarginResult>,
@@ -144,6 +169,8 @@ impl HeapResult {
             cells: slope.map(|s| s.cells).or(refused.map(|r| r.cells)).unwrap_or(0),
             parts_deg: heap.parts.iter().map(|s: &Slope| s.angle_deg).collect(),
             avalanche_deg: heap.avalanche_deg,
+            seen: heap.seen.clone(),
+            statics: heap.statics.clone(),
             margin,
             seconds: heap.seconds,
             warnings: heap.findings.clone(),
@@ -155,6 +182,9 @@ impl ReposeFile {
     /// The answer over all heaps: a mean only where every one of them has an angle.
     pub fn new(protocol: &Protocol, heaps: Vec<HeapResult>) -> Self {
         let angles: Vec<f64> = heaps.iter().filter_map(|h| h.angle_deg).collect();
+        let slopes = protocol.kind.leaves_a_slope();
+        let sure = heaps.iter().filter(|h| h.seen.is_some() && h.no_angle.is_empty()).count();
+        let sound = if slopes { angles.len() } else { sure } == heaps.len() && !heaps.is_empty();
         let whole = !angles.is_empty() && angles.len() == heaps.len();
         let mean = angles.iter().sum::<f64>() / angles.len().max(1) as f64;
         let ends = [
@@ -164,22 +194,55 @@ impl ReposeFile {
         Self {
             format: HeapsFormat::V1,
             protocol: protocol.sized(),
-            restitution: 0.0,
+            rolling_friction: protocol.rolling_friction(),
+            restitution: protocol.restitution,
             damping: 0.0,
             angle_deg: whole.then_some(mean),
-            no_angle: (!whole).then(|| reason(&heaps)),
+            no_angle: (!sound).then(|| reason(&heaps)),
             spread_deg: whole.then_some(ends),
             at_rest: heaps.iter().filter(|h| h.rested).count(),
-            measured: angles.len(),
+            figures: if sound && !slopes { figures(&heaps) } else { Vec::new() },
+            measured: if slopes { angles.len() } else { sure },
             heaps,
             versions: Versions::default(),
         }
     }
 }
 
+/// What was seen, over all heaps.
+fn figures(heaps: &[HeapResult]) -> Vec<Figure> {
+    let seen: Vec<Vec<(&str, f64)>> =
+        heaps.iter().filter_map(|h| h.seen.as_ref()).map(Seen::figures).collect();
+    let names = seen.first().map(|f| f.iter().map(|(name, _)| *name)).into_iter().flatten();
+    let figure = |(k, name): (usize, &str)| {
+        let values: Vec<f64> = seen.iter().map(|f| f[k].1).collect();
+        let end = |f: fn(f64, f64) -> f64, from: f64| values.iter().copied().fold(from, f);
+        Figure {
+            name: name.into(),
+            mean: values.iter().sum::<f64>() / values.len() as f64,
+            spread: [end(f64::min, f64::INFINITY), end(f64::max, f64::NEG_INFINITY)],
+        }
+    };
+    names.enumerate().map(figure).collect()
+}
+
+impl ReposeFile {
+    /// Grains of one heap: those of one's own, or as many as the protocol has.
+    pub fn grains(&self) -> usize {
+        self.heaps.first().map_or(self.protocol.grains, |h| h.grains + h.discarded)
+    }
+
+    /// Whether what was asked has an answer.
+    pub fn is_answered(&self) -> bool {
+        self.no_angle.is_none()
+    }
+}
+
 /// Why a row of heaps has no angle: the reason of the first that has none.
 fn reason(heaps: &[HeapResult]) -> String {
-    let mut without = heaps.iter().filter(|h| h.angle_deg.is_none());
+    let open =
+        |h: &&HeapResult| h.angle_deg.is_none() && (h.seen.is_none() || !h.no_angle.is_empty());
+    let mut without = heaps.iter().filter(open);
     let Some(first) = without.next() else { return "there is no heap".into() };
     let more = match without.count() {
         0 => String::new(),

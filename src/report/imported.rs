@@ -53,21 +53,31 @@ pub fn examine(imported: &Imported, options: &ImportOptions) -> Examined {
 
 /// The volume of a block, m³.
 fn solid(block: &BlockSpec) -> Result<f64, ShapeError> {
-    // Importers make polyhedra only.
-    let Shape::Polyhedron { vertices, faces } = &block.shape else { return Ok(0.0) };
+    let ball = |r: f64| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3);
+    let (vertices, faces) = match &block.shape {
+        Shape::Polyhedron { vertices, faces } => (vertices, faces),
+        Shape::Sphere { radius } => return Ok(ball(*radius)),
+        // With what they overlap: a figure for people.
+        Shape::Clump { spheres } => return Ok(spheres.iter().map(|s| ball(s.radius)).sum()),
+        _ => return Ok(0.0),
+    };
     let (solid, _) = Polyhedron::from_faces(vertices.iter().map(|&v| v.into()).collect(), faces)?;
     Ok(solid.mass_properties().volume)
 }
 
-fn corners(block: &BlockSpec) -> &[[f64; 3]] {
+fn corners(block: &BlockSpec) -> Vec<[f64; 3]> {
+    let ends =
+        |at: [f64; 3], r: f64| [-r, r].map(|r| std::array::from_fn(|k| block.at[k] + at[k] + r));
     match &block.shape {
-        Shape::Polyhedron { vertices, .. } => vertices,
-        _ => &[],
+        Shape::Polyhedron { vertices, .. } => vertices.clone(),
+        Shape::Sphere { radius } => ends([0.0; 3], *radius).to_vec(),
+        Shape::Clump { spheres } => spheres.iter().flat_map(|s| ends(s.at, s.radius)).collect(),
+        _ => Vec::new(),
     }
 }
 
 fn summary(scene: &Scene, volume: f64) -> String {
-    let mut all = scene.blocks.iter().flat_map(corners).map(|&v| Vector3::from(v));
+    let mut all = scene.blocks.iter().flat_map(corners).map(Vector3::from);
     let Some(first) = all.next() else { return String::new() };
     let (low, high) = all.fold((first, first), |(l, h), p| (l.inf(&p), h.sup(&p)));
     let list = |v: Vector3<f64>| v.iter().map(|c| short(*c)).collect::<Vec<_>>();

@@ -4,6 +4,7 @@ mod cells;
 pub mod contacts;
 pub mod drawing;
 pub mod gltf;
+pub mod grains;
 pub mod ground;
 pub mod heaps;
 pub mod imported;

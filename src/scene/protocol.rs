@@ -1,5 +1,6 @@
 //! How a heap is made whose angle of repose is asked for.
 
+use super::Sizes;
 use serde::{Deserialize, Serialize};
 
 /// A protocol and its numbers. The defaults make the box drain of 2,000 grains.
@@ -19,23 +20,31 @@ pub struct Protocol {
     /// Mean diameter d, m: of the spheres, and of spheres of the same volume as the clumps or
     /// hulls.
     pub diameter: f64,
-    /// Radii are spread evenly over the mean × (1 ± this).
-    pub sizes: f64,
+    /// How large the grains are.
+    pub sizes: Sizes,
     /// Friction between grains, and of grains on the floor.
     pub friction: f64,
     /// Friction of grains on walls.
     pub wall_friction: f64,
-    /// Rolling arm of grains on grains and on the floor, in mean diameters.
+    /// Rolling arm of grains on grains and on the floor, in mean diameters; its share of the mean
+    /// radius is [`Protocol::rolling_friction`].
     pub rolling_arm: f64,
+    /// Coefficient of normal restitution e of all contacts: speed apart over speed together of two
+    /// grains that meet.
+    pub restitution: f64,
     /// Density, kg/m³.
     pub density: f64,
-    /// Length and width of the box (drain, tilt), or twice the diameter of the cylinder or of the
-    /// stream of the funnel and nothing, in mean diameters. Where it is not given it follows the
+    /// Length and width of the box (drain, tilt, shear), twice the diameter of the cylinder or of the
+    /// stream of the funnel and nothing, diameter and length of the drum, or diameters of the bin
+    /// and of its orifice (hopper), in mean diameters. Where it is not given it follows the
     /// number of grains: see [`Protocol::size`].
     pub size: Option<[f64; 2]>,
-    /// Speed at which the cylinder is lifted, √(g d), or rate at which the bed is tilted, degrees
-    /// per √(d/g).
-    pub rate: f64,
+    /// Speed at which the cylinder is lifted or the box is sheared, √(g d), or rate at which the bed
+    /// is tilted or the drum turns, degrees per √(d/g). Where it is not given it follows the kind:
+    /// see [`Protocol::rate`].
+    pub rate: Option<f64>,
+    /// Pressure of the lid of the shear box, ρ g d.
+    pub pressure: f64,
 }
 
 /// The shape of the grains.
@@ -75,6 +84,31 @@ pub enum ProtocolKind {
     Cylinder,
     /// A bed in a closed box is tilted slowly until its surface flows, and left at that tilt.
     Tilt,
+    /// A drum, partly filled, turns about its level axis: the angle at which its surface flows.
+    Drum,
+    /// The round hole in the flat floor of a bin is opened: how much runs out in a time.
+    Hopper,
+    /// The upper half of a box is pushed over the lower one under a lid (direct shear): how much it
+    /// resists, and how the grains rise.
+    Shear,
+}
+
+impl ProtocolKind {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Drain,
+        Self::Funnel,
+        Self::Cylinder,
+        Self::Tilt,
+        Self::Drum,
+        Self::Hopper,
+        Self::Shear,
+    ];
+
+    /// Whether it leaves a heap behind that has a slope.
+    pub fn leaves_a_slope(self) -> bool {
+        !matches!(self, Self::Drum | Self::Hopper | Self::Shear)
+    }
 }
 
 impl Default for Protocol {
@@ -86,19 +120,25 @@ impl Default for Protocol {
             corners: 16,
             grains: 2000,
             diameter: 0.01,
-            sizes: 0.2,
+            sizes: Sizes::Even(0.2),
             friction: 0.5,
             wall_friction: 0.0,
             rolling_arm: 0.0,
+            restitution: 0.0,
             density: 2500.0,
             size: None,
-            rate: 0.1,
+            rate: None,
+            pressure: 10.0,
         }
     }
 }
 
 /// Length and width of the box of [`SIZED`] grains, mean diameters.
 const SIZE: [f64; 2] = [16.0, 10.0];
+/// Diameter and length of the drum that they fill to a third, diameters of bin and orifice; mean
+/// diameters.
+const DRUM: [f64; 2] = [28.0, 6.4];
+const HOPPER: [f64; 2] = [14.0, 5.0];
 /// Grains of the box of [`SIZE`].
 const SIZED: f64 = 2000.0;
 /// Least length and width of a box, mean diameters: less, and grains bridge it.
@@ -110,11 +150,38 @@ impl Protocol {
     /// for all, few grains cover the floor and many fill a tower.
     pub fn size(&self) -> [f64; 2] {
         let scale = (self.grains as f64 / SIZED).cbrt();
-        self.size.unwrap_or_else(|| SIZE.map(|s| (s * scale).max(LEAST)))
+        let size = match self.kind {
+            ProtocolKind::Drum => DRUM,
+            ProtocolKind::Hopper => HOPPER,
+            _ => SIZE,
+        };
+        self.size.unwrap_or_else(|| size.map(|s| (s * scale).max(LEAST)))
     }
 
-    /// The same with its size written out.
+    /// The rate as given, or such that what is measured hardly depends on it.
+    pub fn rate(&self) -> f64 {
+        self.rate.unwrap_or(match self.kind {
+            ProtocolKind::Drum => 1.0,
+            ProtocolKind::Shear => 0.05,
+            _ => 0.1,
+        })
+    }
+
+    /// The rolling arm over the mean radius, as the literature has it: the coefficient μ_r of a
+    /// couple `μ_r R f_n` (Zhou et al. 1999). Codes that count it by the reduced radius
+    /// `R₁ R₂ / (R₁ + R₂)` of two grains (Ai et al. 2011), half as large for equal ones, say twice
+    /// this.
+    ///
+    /// * Y. C. Zhou, B. D. Wright, R. Y. Yang, B. H. Xu, A. B. Yu, *Rolling friction in the dynamic
+    ///   simulation of sandpile formation*, Physica A 269 (1999) 536.
+    /// * J. Ai, J.-F. Chen, J. M. Rotter, J. Y. Ooi, *Assessment of rolling resistance models in
+    ///   discrete element simulations*, Powder Technology 206 (2011) 269.
+    pub fn rolling_friction(&self) -> f64 {
+        2.0 * self.rolling_arm
+    }
+
+    /// The same with its size and rate written out.
     pub fn sized(&self) -> Self {
-        Self { size: Some(self.size()), ..self.clone() }
+        Self { size: Some(self.size()), rate: Some(self.rate()), ..self.clone() }
     }
 }

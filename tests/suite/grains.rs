@@ -14,7 +14,7 @@ use voussoir::{
     generate::deposit,
     proof::{ResultFile, packing::PackingFile},
     report::json as text,
-    scene::{GrainKind, Protocol, ProtocolKind, Scene, read_str},
+    scene::{GrainKind, Protocol, ProtocolKind, Scene, Sizes, read_str},
 };
 
 fn pile(packing: &str, layers: usize, friction: f64) -> Scene {
@@ -129,8 +129,12 @@ fn clumps_that_cannot_be_are_refused_with_their_place() {
 #[test]
 fn grains_of_every_shape_have_the_volume_of_their_sphere() {
     for grain in [GrainKind::Sphere, GrainKind::Clump, GrainKind::Hull] {
-        let protocol =
-            Protocol { grain, sizes: 0.0, elongation: 1.7, ..small(ProtocolKind::Drain) };
+        let protocol = Protocol {
+            grain,
+            sizes: Sizes::Even(0.0),
+            elongation: 1.7,
+            ..small(ProtocolKind::Drain)
+        };
         let deposit = deposit(&protocol, 3).unwrap();
         let model = model(&deposit.scene);
         let want = protocol.density * std::f64::consts::PI / 6.0 * protocol.diameter.powi(3);
@@ -319,7 +323,7 @@ fn the_averages_of_one_sphere_in_a_pocket() {
 
 /// A drain small enough for a test.
 fn small(kind: ProtocolKind) -> Protocol {
-    Protocol { kind, grains: 40, size: Some([6.0, 4.0]), rate: 2.0, ..Protocol::default() }
+    Protocol { kind, grains: 40, size: Some([6.0, 4.0]), rate: Some(2.0), ..Protocol::default() }
 }
 
 #[test]
@@ -337,7 +341,8 @@ fn nothing_overlaps_before_it_falls() {
     for kind in
         [ProtocolKind::Drain, ProtocolKind::Funnel, ProtocolKind::Cylinder, ProtocolKind::Tilt]
     {
-        let deposit = deposit(&Protocol { grains: 300, sizes: 0.5, ..small(kind) }, 1).unwrap();
+        let deposit =
+            deposit(&Protocol { grains: 300, sizes: Sizes::Even(0.5), ..small(kind) }, 1).unwrap();
         let spheres: Vec<(Vector3<f64>, f64, bool)> = (deposit.scene.blocks.iter())
             .filter_map(|b| match b.shape {
                 voussoir::scene::Shape::Sphere { radius } => {
@@ -369,7 +374,7 @@ fn values_out_of_range_are_refused_with_their_place() {
     assert!(bad(|p| p.grains = 0).contains("grains"));
     assert!(bad(|p| p.grains = usize::MAX).contains("at most"));
     assert!(bad(|p| p.diameter = f64::NAN).contains("diameter"));
-    assert!(bad(|p| p.sizes = 1.0).contains("sizes"));
+    assert!(bad(|p| p.sizes = Sizes::Even(1.0)).contains("sizes"));
     assert!(bad(|p| p.friction = -0.1).contains("friction"));
     assert!(bad(|p| p.size = Some([6.0, 0.0])).contains("size[1]"));
     assert!(bad(|p| (p.grain, p.elongation) = (GrainKind::Clump, 2.5)).contains("elongation"));

@@ -23,6 +23,7 @@ mod extreme;
 #[cfg(target_os = "linux")]
 mod faults;
 mod findings;
+mod flows;
 mod gallery;
 mod grains;
 mod granular;

@@ -280,6 +280,11 @@ class Heaps:
         return None if spread is None else (spread[0], spread[1])
 
     @property
+    def figures(self) -> dict[str, float]:
+        """Means over the seeds of what a drum, a hopper or a shear box shows, by name."""
+        return {figure["name"]: figure["mean"] for figure in self._data.get("figures", [])}
+
+    @property
     def margins_deg(self) -> Array:
         """The tilt downhill that each heap at rest still bears, degrees; NaN where none was found."""
         margins = [(h.get("margin") or {}).get("margin_deg") for h in self._data["heaps"]]
@@ -319,7 +324,7 @@ class Heaps:
 
 
 def heaps(
-    protocol: Literal["drain", "funnel", "cylinder", "tilt"],
+    protocol: Literal["drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear"],
     *,
     seeds: int | Sequence[int] = 1,
     skip_margin: bool = False,
@@ -328,7 +333,8 @@ def heaps(
     progress: Progress = False,
     **values: Any,
 ) -> Heaps:
-    """Make heaps of grains and measure their angle of repose: what the command does with
+    """Make heaps of grains and measure their angle of repose, or what a drum, a hopper or a shear
+    box shows: what the command does with
     ``repose PROTOCOL --question repose``.
 
     Parameters
@@ -339,7 +345,9 @@ def heaps(
         Do not ask for the static margin of the heaps at rest.
     values
         ``grains=400``, ``grain="clump"``, ``elongation``, ``corners``, ``diameter`` (m), ``sizes``,
-        ``friction``, ``wall_friction``, ``rolling_arm``, ``density``, ``size``, ``rate``.
+        ``friction``, ``wall_friction``, ``rolling_arm``, ``restitution``, ``density``, ``size``,
+        ``rate``, ``pressure``. A grading curve is ``sizes=[[0.002, 0], [0.004, 0.4], [0.008, 1]]``
+        with ``diameter`` the unit of lengths.
     """
     listed = list(range(seeds)) if isinstance(seeds, int) else [int(s) for s in seeds]
     with shown(progress) as tell:

@@ -62,8 +62,8 @@ pub(super) fn refuse(protocol: &Protocol, reading: &Reading, gone: usize) -> Vec
     }
     reasons.extend(cut(protocol, fit, gone));
     let sides = match protocol.kind {
-        ProtocolKind::Drain | ProtocolKind::Tilt => "strips",
         ProtocolKind::Funnel | ProtocolKind::Cylinder => "sectors",
+        _ => "strips",
     };
     reasons.extend(differ(sides, reading.parts.iter(), d, MOST_SPREADS));
     if cells >= FEWEST_CELLS {
@@ -94,16 +94,16 @@ fn cut(protocol: &Protocol, fit: &Fit, gone: usize) -> Option<String> {
         }
         ProtocolKind::Funnel | ProtocolKind::Cylinder => (gone > 0)
             .then(|| format!("cut by the edge of the floor, over which {gone} grains fell")),
-        // Closed: it begins and ends at a wall, whose cells are left out.
-        ProtocolKind::Tilt => None,
+        // Closed: it begins and ends at a wall, whose cells are left out. Others leave no slope.
+        _ => None,
     }
 }
 
 /// Least height of the bed before its wall is taken away, d.
 fn filled(protocol: &Protocol) -> f64 {
     let [length, width] = protocol.size();
-    // The mean of (1 + s u)³ over u from -1 to 1; grains of every kind have the volume of a sphere.
-    let volume = std::f64::consts::PI / 6.0 * (1.0 + protocol.sizes.powi(2));
+    // Grains of every kind have the volume of a sphere.
+    let volume = std::f64::consts::PI / 6.0 * protocol.sizes.mean_volume(protocol.diameter);
     let densest = match protocol.grain {
         GrainKind::Sphere => DENSEST,
         // Grains that are longer than wide lie closer (Donev et al. 2004 have 0.735 at most).

@@ -14,7 +14,7 @@ use std::{collections::BTreeMap, f64::consts::TAU};
 
 /// Length of a cell along the slope, d. Shorter: cells whose highest grain is one of the layer
 /// below. Longer: 2,000 grains make six cells, through which any line fits.
-const CELL: f64 = 1.5;
+pub(super) const CELL: f64 = 1.5;
 /// Width of a strip across the slope, d; a box is divided evenly into about such strips.
 const STRIP: f64 = 2.0;
 /// Sectors around a heap in the open.
@@ -174,7 +174,7 @@ pub(super) fn of(protocol: &Protocol, heap: &assembly::Assembly) -> Reading {
     // How far the bed of a tilt has been turned shows in the gravity that its heap is left with.
     let turned = match protocol.kind {
         ProtocolKind::Tilt => heap.gravity.x.atan2(-heap.gravity.z),
-        ProtocolKind::Drain | ProtocolKind::Funnel | ProtocolKind::Cylinder => 0.0,
+        _ => 0.0,
     };
     read(protocol, &spots, turned)
 }

@@ -22,6 +22,8 @@ pub enum Written {
     Gltf,
     /// Meshes of blocks.
     Obj,
+    /// Grains as a table, points or a dump.
+    Grains,
     /// A folder of several files.
     Folder,
 }
@@ -38,6 +40,7 @@ impl Written {
             Self::Vtk => "a file for ParaView (VTK XML)",
             Self::Gltf => "a model for architects' programs (glTF)",
             Self::Obj => "a mesh (OBJ)",
+            Self::Grains => "grains as a table (CSV), points (VTK XML) or a dump of LIGGGHTS",
             Self::Folder => "several files into a folder",
         }
     }
@@ -53,6 +56,7 @@ impl Written {
             Self::Vtk => &["vtp", "pvd"],
             Self::Gltf => &["gltf", "glb"],
             Self::Obj => &["obj"],
+            Self::Grains => &["csv", "vtp", "dump", "liggghts", "lammpstrj"],
             Self::Folder => &[],
         }
     }

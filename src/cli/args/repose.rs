@@ -22,14 +22,15 @@ pub struct Repose {
     pub pictures: Pictures,
     /// Values of the protocol that differ from the defaults (--question repose): grain=sphere (or
     /// clump, hull) elongation=1.5 (of clumps and hulls) corners=16 (of hulls) grains=2000
-    /// diameter=0.01 (of spheres of the same volume) sizes=0.2 friction=0.5 wall_friction=0
-    /// rolling_arm=0 (in d) density=2500 rate=0.1 size=[16,10] (in d; where not given it follows
-    /// the cube root of the number of grains).
+    /// diameter=0.01 (of spheres of the same volume) sizes=0.2 (or a file: diameter in m and share
+    /// finer) friction=0.5 wall_friction=0 rolling_arm=0 (in d; rolling_friction in R)
+    /// restitution=0 density=2500 rate=0.1 (drum 1, shear 0.05) pressure=10 (of the lid of shear, ρ
+    /// g d) size=[16,10] (in d; where not given it follows the cube root of the number of grains).
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
     /// `stability`: the greatest tilt of the packing SCENE as it lies; `repose`: the slope that a
-    /// heap leaves behind which flowed, SCENE then being the protocol: drain, funnel, cylinder or
-    /// tilt.
+    /// heap leaves behind which flowed, SCENE then being the protocol: drain, funnel, cylinder,
+    /// tilt, drum, hopper or shear.
     #[arg(long, value_enum, value_name = "QUESTION", default_value_t = Asked::Stability, hide_possible_values = true)]
     pub question: Asked,
     /// So many heaps, each from a seed of its own (--question repose).
@@ -53,6 +54,14 @@ pub struct Repose {
     /// repose).
     #[arg(long, value_name = "FILE", value_parser = output(Written::Json))]
     pub heaps: Option<PathBuf>,
+    /// Begin with the grains of this file where they lie, in place of loose layers: the free blocks
+    /// of a scene (.json), or a table of grains (.csv, .dump) (--question repose).
+    #[arg(long, value_name = "FILE")]
+    pub start: Option<PathBuf>,
+    /// Write the grains as they lie: a table (.csv), points for ParaView (.vtp), or a dump of
+    /// LIGGGHTS (.dump); of heaps FILE with the seed before its ending.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Grains))]
+    pub grains: Option<PathBuf>,
     /// Tip towards this direction (its part across gravity); may be given several times.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub toward: Vec<[f64; 3]>,

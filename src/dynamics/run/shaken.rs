@@ -182,7 +182,8 @@ impl Stage<'_> {
         let (per_unit, substeps) = fidelity.fineness();
         let (dt, unit) = (1.0 / per_unit, self.units.time);
         let threads = self.settings.threads.max(1);
-        let step = Step { dt, iterations: substeps, threads, prediction: PREDICTION };
+        let step =
+            Step { dt, iterations: substeps, threads, prediction: PREDICTION, restitution: 0.0 };
         let mut world = World::new(self.bodies, self.frictions, step).map_err(|text| {
             InputError::at(JsonPath::root(), text).hint("give the block a simpler shape")
         })?;

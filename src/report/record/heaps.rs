@@ -4,7 +4,8 @@ use super::{Part, Record, Section};
 use crate::{
     number::{count, short},
     proof::result::Versions,
-    report::heaps::{HeapResult, ReposeFile},
+    report::heaps::{Figure, HeapResult, ReposeFile},
+    scene::ProtocolKind,
     terms::Outcome,
 };
 use serde_json::Value;
@@ -17,14 +18,9 @@ impl Record {
     /// The record of heaps: how they were made, what came of each, and the drawing of the first.
     pub fn of_heaps(file: &ReposeFile, drawing: String, made: String) -> Self {
         let asked = vec![
-            ["question".into(), "At what slope do grains come to rest?".into()],
+            ["question".into(), question(file.protocol.kind).into()],
             ["answer".into(), answer(file)],
-            [
-                "meaning".into(),
-                "Slope of the line through the mean surface of a heap at rest, observed in the \
-                 engine; the margin beside it is proved for the heap as it lies."
-                    .into(),
-            ],
+            ["meaning".into(), meaning(file.protocol.kind).into()],
             ["made".into(), made],
         ];
         let sections = vec![
@@ -39,6 +35,24 @@ impl Record {
     }
 }
 
+fn meaning(kind: ProtocolKind) -> &'static str {
+    if kind.leaves_a_slope() {
+        "Slope of the line through the mean surface of a heap at rest, observed in the engine; the \
+         margin beside it is proved for the heap as it lies."
+    } else {
+        "Observed in the engine, not proved; docs/grains.md says how it is measured."
+    }
+}
+
+fn question(kind: ProtocolKind) -> &'static str {
+    match kind {
+        ProtocolKind::Drum => "At what slope do grains flow in a drum that turns?",
+        ProtocolKind::Hopper => "How fast do grains run out of a hole?",
+        ProtocolKind::Shear => "How much do grains resist shear?",
+        _ => "At what slope do grains come to rest?",
+    }
+}
+
 fn answer(file: &ReposeFile) -> String {
     match (file.angle_deg, file.spread_deg) {
         (Some(angle), Some([low, high])) => format!(
@@ -48,7 +62,14 @@ fn answer(file: &ReposeFile) -> String {
             short(high),
             count(file.heaps.len(), "heap")
         ),
-        _ => format!("no angle: {}", file.no_angle.as_deref().unwrap_or("not measured")),
+        _ if !file.figures.is_empty() => {
+            let one = |f: &Figure| {
+                let [low, high] = f.spread.map(short);
+                format!("{} {} ({low} to {high})", f.name.replace('_', " "), short(f.mean))
+            };
+            file.figures.iter().map(one).collect::<Vec<_>>().join("; ")
+        }
+        _ => format!("no figure: {}", file.no_angle.as_deref().unwrap_or("not measured")),
     }
 }
 
@@ -68,7 +89,7 @@ fn protocol(file: &ReposeFile) -> Vec<[String; 2]> {
     };
     let own = value.as_object().into_iter().flatten();
     let own = own.filter(|(_, v)| !v.is_null()).map(|(k, v)| [k.replace('_', " "), words(v)]);
-    let hidden = [("restitution", file.restitution), ("damping", file.damping)];
+    let hidden = [("rolling friction (of R)", file.rolling_friction), ("damping", file.damping)];
     own.chain(hidden.map(|(k, v)| [k.into(), short(v)])).collect()
 }
 

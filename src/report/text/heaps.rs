@@ -2,8 +2,10 @@
 
 use super::{Layout, Page, TextOptions, page::Role};
 use crate::{
+    analysis::repose::seen::{Seen, Steady},
     number::{count, seconds, short},
-    report::heaps::{HeapResult, ReposeFile},
+    report::heaps::{Figure, HeapResult, ReposeFile},
+    scene::ProtocolKind,
 };
 
 /// The answer about heaps as a page.
@@ -13,7 +15,7 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
     let name = format!(
         "{:?} of {} {}, friction {}",
         p.kind,
-        p.grains,
+        file.grains(),
         p.grain.plural(),
         short(p.friction)
     );
@@ -26,18 +28,44 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
                 Role::Value,
             );
         }
+        _ if !file.figures.is_empty() => {
+            let over = count(file.measured, "run");
+            let one = |f: &Figure| {
+                let [low, high] = f.spread.map(short);
+                format!("{} {} ({low} to {high})", named(&f.name), short(f.mean))
+            };
+            let list: Vec<String> = file.figures.iter().take(2).map(one).collect();
+            page.title(&name, format!("{} over {over}", list.join(", ")), Role::Value);
+        }
         _ => {
             let why = file.no_angle.as_deref().unwrap_or("not measured");
-            page.title(&name, format!("no angle of repose: {why}"), Role::Unsure);
+            let what = if p.kind.leaves_a_slope() { "no angle of repose" } else { "no figure" };
+            page.title(&name, format!("{what}: {why}"), Role::Unsure);
         }
     }
     if options.brief {
         return page;
     }
     page.blank();
-    page.paragraph("Seen in time, not proved: the slope that flowing grains left behind, a straight line through the highest grains.");
+    let seen = match p.kind {
+        ProtocolKind::Drum => "the slope of the middle half of its surface as it turns",
+        ProtocolKind::Hopper => {
+            "what ran out of the hole between 0.1 and 0.5 of what was filled in, beside Beverloo's 0.58 ρ √g (D − 1.4 d)^2.5"
+        }
+        ProtocolKind::Shear => {
+            "shear over normal force on the plane between the halves, and how the lid rises"
+        }
+        _ => {
+            "the slope that flowing grains left behind, a straight line through the highest grains"
+        }
+    };
+    page.paragraph(&format!("Seen in time, not proved: {seen}."));
     page.blank();
-    page.row("heaps", file.heaps.iter().map(row));
+    if p.kind.leaves_a_slope() {
+        page.row("heaps", file.heaps.iter().map(row));
+    } else {
+        page.row("runs", file.heaps.iter().flat_map(run));
+    }
     page.row("margin", file.heaps.iter().filter_map(margin));
     let [length, width] = p.size().map(short);
     page.row("size", [format!("{length} × {width} d, d = {} m", short(p.diameter))]);
@@ -51,7 +79,77 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
         "contacts",
         [format!("restitution {}, no damping beside the contacts'", short(file.restitution))],
     );
+    page.row(
+        "rolling",
+        (p.rolling_arm > 0.0).then(|| {
+            format!(
+                "arm {} d: coefficient {} of the radius R, {} of the reduced radius of two equal grains",
+                short(p.rolling_arm),
+                short(file.rolling_friction),
+                short(2.0 * file.rolling_friction)
+            )
+        }),
+    );
     page
+}
+
+/// The name of a figure in words.
+fn named(name: &str) -> String {
+    match name {
+        "dynamic_angle_deg" => "dynamic angle, °,".into(),
+        "by_centre_deg" => "by the centre of mass, °,".into(),
+        "rate_kg_per_s" => "discharge, kg/s,".into(),
+        "rate_over_beverloo" => "over Beverloo's".into(),
+        other => other.replace('_', " "),
+    }
+}
+
+/// What one run showed.
+fn run(h: &HeapResult) -> Vec<String> {
+    let with = |s: &Steady| format!("{} ± {}", short(s.mean), short(s.error));
+    let what = match &h.seen {
+        None => vec!["nothing".into()],
+        Some(Seen::Drum { angle_deg, by_centre_deg, wavers_deg, froude, .. }) => vec![
+            format!("dynamic angle {}°, wavers by {}°", with(angle_deg), short(*wavers_deg)),
+            format!(
+                "by the centre of mass {}°; ω² R / g = {}",
+                with(by_centre_deg),
+                short(*froude)
+            ),
+        ],
+        Some(Seen::Hopper { rate, bulk_density, beverloo, .. }) => vec![
+            format!("{} kg/s, Beverloo {} kg/s", with(rate), short(*beverloo)),
+            format!("bulk {} kg/m³", short(*bulk_density)),
+        ],
+        Some(Seen::Shear {
+            peak, peak_at, residual, dilatancy_deg, rise, normal_stress, ..
+        }) => vec![
+            format!(
+                "residual {}, peak {} after {} m",
+                with(residual),
+                short(*peak),
+                short(*peak_at)
+            ),
+            format!(
+                "dilatancy {}°, rise {} m, normal stress {} Pa",
+                short(*dilatancy_deg),
+                short(*rise),
+                short(*normal_stress)
+            ),
+        ],
+    };
+    let last = format!(
+        "{:.0} √(d/g); {} grains stayed, {} fell out; {}",
+        h.time,
+        h.grains,
+        h.discarded,
+        seconds(h.seconds)
+    );
+    let lines = what.into_iter().chain([last]);
+    lines
+        .enumerate()
+        .map(|(k, t)| if k == 0 { format!("seed {}: {t}", h.seed) } else { format!("  {t}") })
+        .collect()
 }
 
 fn row(h: &HeapResult) -> String {

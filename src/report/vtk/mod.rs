@@ -17,6 +17,7 @@
 //! formats of VTK, <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 
 mod ball;
+pub mod grains;
 mod mesh;
 mod xml;
 

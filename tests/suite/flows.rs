@@ -1,0 +1,290 @@
+//! Grains that flow: what is measured of drums, hoppers and shear boxes, the engine against exact
+//! motions, and grains as files.
+
+use crate::ask::{cuboid, fixed, model, scene, sphere};
+use nalgebra::{Rotation3, Vector3};
+use serde_json::json;
+use std::ops::ControlFlow;
+use voussoir::{
+    analysis::{
+        Control, Law, assess,
+        repose::{self, Heap, seen::Seen},
+        stability::held,
+    },
+    assembly::{self, Solid},
+    dynamics::granular::{Course, Disturbance, Moment, ROUNDS, flow},
+    import::{ImportOptions, import_bytes},
+    report::grains::{GrainFormat, rows, written},
+    scene::{GrainKind, Protocol, ProtocolKind, Scene, Sizes},
+    verdict::Verdict,
+};
+
+fn run(protocol: &Protocol, seed: u64) -> Heap {
+    repose::heap(protocol, seed, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+/// Height of the centre of the only free block over the time, and where it is.
+fn watched(scene: &Scene, course: &Course) -> Vec<(f64, Vector3<f64>)> {
+    let assembly = model(scene).assembly;
+    let ball = assembly.free().next().unwrap();
+    let natural = (course.diameter / assembly.gravity.norm()).sqrt();
+    let mut seen = Vec::new();
+    let mut look = |m: &Moment| {
+        seen.push((m.flow.time * natural, (m.center)(ball)));
+        ControlFlow::Continue(())
+    };
+    flow(&assembly, course, &mut look, &mut |_| true).unwrap();
+    seen
+}
+
+/// A ball that nothing touches falls along a parabola, whatever turns around it; seen from supports
+/// that turn it does not, and turned back it does again.
+#[test]
+fn a_ball_in_free_flight_is_the_same_from_a_turning_drum() {
+    let far = fixed(cuboid("far", [1.0, 1.0, 1.0], [0.0, 0.0, 900.0]));
+    let start = Vector3::new(3.0, 1.0, 2.0);
+    let scene = scene(0.5, json!([far, sphere("ball", 0.5, start.into())]), json!({}));
+    let axis = Vector3::y_axis();
+    // Two thirds of a turn while it falls some 100 d (gravity is 1 in these scenes).
+    let rate = 0.3;
+    let course = Course {
+        stages: vec![Disturbance::Spin(axis, rate, 4.2)],
+        diameter: 1.0,
+        finer: 4.0,
+        settled: false,
+        ..Course::default()
+    };
+    let thrown = (axis.into_inner() * rate).cross(&start);
+    let path = watched(&scene, &course);
+    assert!(path.len() > 30);
+    for (time, there) in path {
+        let seen = Rotation3::from_axis_angle(&axis, rate * time) * there;
+        let fell = Vector3::z() * (-0.5 * time * time);
+        let want = start + thrown * time + fell;
+        // What the frame adds is added from step to step: good to the angle of a step, 1 / 400.
+        assert!(
+            (seen - want).norm() < 0.01 * (1.0 + (want - start).norm()),
+            "{time}: {seen} {want}"
+        );
+    }
+}
+
+/// A ball that falls from h comes back to e² h.
+#[test]
+fn restitution_is_speed_apart_over_speed_together() {
+    let floor = fixed(cuboid("floor", [20.0, 20.0, 1.0], [0.0, 0.0, -1.0]));
+    let scene = scene(0.5, json!([floor, sphere("ball", 0.5, [0.0, 0.0, 4.5])]), json!({}));
+    for e in [0.0, 0.3, 0.6, 0.9] {
+        let course = Course {
+            stages: vec![Disturbance::Settle],
+            diameter: 1.0,
+            restitution: e,
+            settled: false,
+            horizon: 60.0,
+            ..Course::default()
+        };
+        let path = watched(&scene, &course);
+        let heights: Vec<f64> = path.iter().map(|(_, c)| c.z - 0.5).collect();
+        let low = heights.windows(2).position(|w| w[1] > w[0] || w[1] < 0.02).unwrap();
+        let back = heights[low + 1..].iter().copied().fold(0.0, f64::max);
+        assert!((back - e * e * 4.0).abs() < 0.25, "e = {e}: {back}");
+    }
+}
+
+/// What grains weigh, where they are and how large: written, and read back.
+#[test]
+fn grains_are_written_and_read_back() {
+    for grain in [GrainKind::Sphere, GrainKind::Clump] {
+        let protocol =
+            Protocol { grain, grains: 30, size: Some([5.0, 4.0]), ..Protocol::default() };
+        let scene = voussoir::generate::deposit(&protocol, 3).unwrap().scene;
+        let want = rows(&scene).unwrap();
+        assert_eq!(
+            want.iter()
+                .filter(|r| !r.fixed)
+                .map(|r| &r.id)
+                .collect::<std::collections::BTreeSet<_>>()
+                .len(),
+            30
+        );
+        for (format, name) in [(GrainFormat::Csv, "g.csv"), (GrainFormat::Dump, "g.dump")] {
+            let text = written(&scene, format).unwrap();
+            let options = ImportOptions {
+                density: Some(protocol.density),
+                friction: Some(voussoir::scene::Friction::Coefficient(0.5)),
+                ..ImportOptions::default()
+            };
+            let read = import_bytes(name, text.as_bytes(), &options).unwrap().scene;
+            let found = rows(&read).unwrap();
+            assert_eq!(found.len(), want.len(), "{name}");
+            for (a, b) in found.iter().zip(&want) {
+                assert!((a.center - b.center).norm() < 1e-15 && a.fixed == b.fixed, "{name}");
+                assert!((a.radius - b.radius).abs() < 1e-15 && a.grain == b.grain, "{name}");
+                assert!((a.mass / b.mass - 1.0).abs() < 1e-9, "{name}: {} {}", a.mass, b.mass);
+            }
+        }
+        let points = written(&scene, GrainFormat::Vtk).unwrap();
+        let xml = roxmltree::Document::parse(&points).unwrap();
+        let piece = xml.descendants().find(|n| n.has_tag_name("Piece")).unwrap();
+        assert_eq!(piece.attribute("NumberOfPoints"), Some(want.len().to_string().as_str()));
+    }
+}
+
+#[test]
+fn tables_of_grains_that_are_none_are_refused_with_their_line() {
+    let said = |name: &str, text: &str| {
+        import_bytes(name, text.as_bytes(), &ImportOptions::default()).unwrap_err().to_string()
+    };
+    assert!(said("g.csv", "a,b\n1,2\n").starts_with("g.csv:1:1: no column \"x\""));
+    assert!(
+        said("g.csv", "x,y,z,radius\n0,0,0,1\n0,0,nan,1\n").starts_with("g.csv:3:1: z: expected")
+    );
+    assert!(said("g.csv", "x,y,z,radius\n0,0,0,-1\n").contains("must be > 0"));
+    assert!(said("g.csv", "x,y,z,radius\n0,0\n").contains("expected a finite number, got \"\""));
+    assert!(said("g.dump", "ITEM: TIMESTEP\n0\nITEM: ATOMS id type\n1 1\n").contains("no column"));
+    assert!(said("g.csv", "").contains("no blocks found"));
+}
+
+/// Grains that begin where a heap came to rest stay there; what lies outside is refused.
+#[test]
+fn a_packing_of_ones_own_is_where_it_starts() {
+    let protocol =
+        Protocol { grains: 40, size: Some([6.0, 4.0]), rate: Some(2.0), ..Protocol::default() };
+    let heap = run(&protocol, 3);
+    let own: Vec<_> = heap.scene.blocks.iter().filter(|b| !b.support).cloned().collect();
+    let mut go_on = |_: &_| ControlFlow::Continue(());
+    let again = repose::grown(&protocol, Some(&own), 3, None, &mut go_on).unwrap();
+    assert!(again.rested && again.grains == [own.len(), 0], "{:?}", again.grains);
+    let [before, after] = [&heap, &again].map(|h| assembly::resolve(&h.scene).unwrap());
+    for i in before.free() {
+        let now = after.find(&before.blocks[i].id).unwrap();
+        let way = (after.blocks[now].centroid - before.blocks[i].centroid).norm();
+        assert!(way < 0.05 * protocol.diameter, "{}: {way}", before.blocks[i].id);
+    }
+    let mut outside = own.clone();
+    outside[0].at[0] = 1.0;
+    let said =
+        repose::grown(&protocol, Some(&outside), 3, None, &mut go_on).unwrap_err().to_string();
+    assert!(said.contains("lies outside the box"), "{said}");
+    assert!(repose::grown(&protocol, Some(&[]), 3, None, &mut go_on).is_err());
+}
+
+/// A grading curve gives the masses that it says, and the box knows how high they fill it.
+#[test]
+fn grains_follow_a_grading_curve() {
+    let curve = vec![[0.006, 0.0], [0.01, 0.5], [0.02, 1.0]];
+    let sizes = Sizes::Curve(curve.clone());
+    let diameter = sizes.median().unwrap();
+    assert!((diameter - 0.01).abs() < 1e-15);
+    let protocol = Protocol { grains: 3000, diameter, sizes, ..Protocol::default() };
+    let deposit = voussoir::generate::deposit(&protocol, 1).unwrap();
+    let assembly = assembly::resolve(&deposit.scene).unwrap();
+    let grains: Vec<(f64, f64)> = assembly
+        .free()
+        .filter_map(|i| match &assembly.blocks[i].solid {
+            Solid::Sphere { radius, .. } => Some((2.0 * radius, assembly.blocks[i].mass)),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(grains.len(), 3000);
+    let all: f64 = grains.iter().map(|g| g.1).sum();
+    let finer = grains.iter().filter(|g| g.0 <= 0.01).map(|g| g.1).sum::<f64>() / all;
+    assert!((finer - 0.5).abs() < 0.03, "{finer}");
+    assert!(grains.iter().all(|g| (0.006..=0.02).contains(&g.0)));
+}
+
+/// Beverloo's discharge, coarsely: few grains. The figures of large bins are in docs/grains.md.
+#[test]
+fn a_hopper_runs_out_as_beverloo_has_it() {
+    let protocol = Protocol {
+        kind: ProtocolKind::Hopper,
+        grains: 450,
+        size: Some([9.0, 4.5]),
+        ..Protocol::default()
+    };
+    let heap = run(&protocol, 1);
+    let Some(Seen::Hopper { rate, beverloo, bulk_density, course }) = &heap.seen else {
+        panic!("{:?}", heap.refused)
+    };
+    let share = bulk_density / protocol.density;
+    assert!((0.5..0.66).contains(&share), "{share}");
+    assert!((rate.mean / beverloo - 1.0).abs() < 0.25, "{rate:?} and not {beverloo}");
+    assert!(course.windows(2).all(|w| w[1][1] >= w[0][1]), "nothing runs back");
+    assert!(heap.grains[1] > 200 && heap.slope.is_none());
+}
+
+#[test]
+fn a_drum_carries_its_grains_up_to_a_slope() {
+    let protocol = Protocol {
+        kind: ProtocolKind::Drum,
+        grains: 300,
+        size: Some([18.0, 4.0]),
+        rate: Some(2.0),
+        ..Protocol::default()
+    };
+    let heap = run(&protocol, 1);
+    let Some(Seen::Drum { angle_deg, by_centre_deg, froude, .. }) = &heap.seen else {
+        panic!("{:?}", heap.refused)
+    };
+    assert!((18.0..40.0).contains(&angle_deg.mean), "{angle_deg:?}");
+    // Two methods: the surface, and the place of all grains.
+    assert!((angle_deg.mean - by_centre_deg.mean).abs() < 5.0, "{angle_deg:?} {by_centre_deg:?}");
+    assert!((froude / (9.0 * 2f64.to_radians().powi(2)) - 1.0).abs() < 1e-9, "{froude}");
+    assert_eq!(heap.grains, [300, 0], "nothing leaves a drum");
+    let crowded = Protocol { grains: 3000, ..protocol };
+    let said = repose::heap(&crowded, 1, &mut |_| ControlFlow::Break(())).unwrap_err().to_string();
+    assert!(said.contains("larger drum"), "{said}");
+}
+
+/// Grains without friction resist shear far less than those with it, and the lid bears what it is
+/// told to.
+#[test]
+fn a_shear_box_tells_friction() {
+    let of = |friction: f64| {
+        let protocol = Protocol {
+            kind: ProtocolKind::Shear,
+            grains: 250,
+            size: Some([9.0, 5.0]),
+            rate: Some(0.2),
+            friction,
+            ..Protocol::default()
+        };
+        let heap = run(&protocol, 1);
+        match heap.seen.clone() {
+            Some(Seen::Shear { residual, peak, normal_stress, .. }) => {
+                let lid = protocol.pressure * protocol.density * 9.81 * protocol.diameter;
+                assert!(normal_stress > lid && normal_stress < 1.5 * lid, "{normal_stress} {lid}");
+                assert!(peak >= residual.mean);
+                residual.mean
+            }
+            other => panic!("{other:?}: {:?}", heap.refused),
+        }
+    };
+    let (smooth, rough) = (of(0.0), of(0.5));
+    assert!((0.0..0.25).contains(&smooth), "{smooth}");
+    assert!(rough > smooth + 0.1 && rough < 0.8, "{smooth} {rough}");
+}
+
+/// What a heap at rest is asked by statics: whether forces hold it. Where they do not, the run went
+/// on, and the grains that creep have names.
+#[test]
+fn a_heap_at_rest_is_confirmed_by_statics() {
+    for grain in [GrainKind::Sphere, GrainKind::Clump, GrainKind::Hull] {
+        let protocol =
+            Protocol { grain, grains: 40, size: Some([6.0, 4.0]), ..Protocol::default() };
+        let control = Control { law: Law::Associative, ..Control::default() };
+        let mut go_on = |_: &_| ControlFlow::Continue(());
+        let heap = repose::grown(&protocol, None, 3, Some(&control), &mut go_on).unwrap();
+        let statics = heap.statics.clone().expect("asked");
+        assert!((1..=ROUNDS).contains(&statics.rounds));
+        let (model, _) = held(&model(&heap.scene));
+        let verdict = assess(&model, &control).verdict;
+        let stands = matches!(verdict, Verdict::Stable | Verdict::Conditional);
+        assert_eq!(statics.admissible, stands, "{grain:?}: what is said holds of what is given");
+        assert_eq!(statics.creeping.is_empty(), statics.admissible, "{statics:?}");
+        assert!(statics.creeping.iter().all(|id| model.assembly.find(id).is_some()));
+        if grain != GrainKind::Hull {
+            assert!(statics.admissible, "{statics:?}");
+        }
+    }
+}
