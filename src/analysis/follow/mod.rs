@@ -1,6 +1,7 @@
 //! Following the motion: poses as functions of one parameter that only grows.
 
 mod advance;
+mod anchor;
 pub mod answer;
 mod branch;
 mod control;
