@@ -11,8 +11,8 @@
 
 use super::{
     advance::Rested,
-    branch::{Follow, Path, ROOM, State, WIDTH},
-    point::{End, Event, EventKind, Point},
+    branch::{Follow, ROOM, State, WIDTH},
+    point::{End, Event, EventKind, Path, Point},
     program::{self, Hold},
     root::narrow,
     tracker::Tracker,
@@ -184,19 +184,19 @@ impl Tracker<'_> {
         path: &mut Path,
     ) -> Option<End> {
         let short = beyond - here.value;
-        let (room, low) = self.held(here, here.value)?;
+        let (room, low) = self.held_on(here, here.value)?;
         let (value, turn) = if room >= ROOM {
             // A step went over that place.
             (here.value, low)
         } else {
             let ends = BEYOND.into_iter().map(|by| here.value + by * short);
             let (high, over, turn) = ends.into_iter().find_map(|v| {
-                let (over, turn) = self.held(here, v)?;
+                let (over, turn) = self.held_on(here, v)?;
                 (over > 0.0).then_some((v, over, turn))
             })?;
             let [_, (value, _, turn)] =
                 narrow((here.value, -room, low), (high, -over, turn), WIDTH * high, |v, _| {
-                    self.held(here, v).map(|(room, turn)| (-room, turn))
+                    self.held_on(here, v).map(|(room, turn)| (-room, turn))
                 })?;
             (value, turn)
         };
@@ -232,10 +232,23 @@ impl Tracker<'_> {
         Some(path.end.clone())
     }
 
-    /// The room of the forces of the mechanism that there is where a motion has come to, straight on
-    /// from a pose near by, with the joints that slide held; nothing where it has none that only
-    /// turns.
-    fn held(&self, here: &Rested, value: f64) -> Option<(f64, Turn)> {
+    /// Follows from poses where joints have slid: as a linkage where these stick, else as what slides.
+    pub(super) fn from_slid(&self, how: &Follow, value: f64, poses: Vec<Pose>) -> Path {
+        let slid: Vec<bool> = (0..self.carried.joints.len())
+            .map(|k| self.carried.slid(&poses, k).is_some())
+            .collect();
+        let held = self.held(value, poses.clone(), &|k| slid[k]);
+        let held = held.filter(|(room, _)| *room >= ROOM).map(|(_, turn)| turn.closed);
+        let anchor = Anchor::new(self.carried, value, poses);
+        let begin = |tracker: &Tracker, how: &Follow, state: State, path: &mut Path| match held {
+            Some(closed) => tracker.run(how, State { closed, ..state }, path),
+            None => tracker.leg(how, state, path, true),
+        };
+        anchor.follow(self, how, (&|path| path, begin))
+    }
+
+    /// The same straight on from a pose near by, with the joints held that slide there.
+    fn held_on(&self, here: &Rested, value: f64) -> Option<(f64, Turn)> {
         let blocks = &self.start().blocks;
         let by = value - here.value;
         let poses: Vec<Pose> = (0..blocks.len())
@@ -248,11 +261,22 @@ impl Tracker<'_> {
                 Pose { shift: pose.shift + rate.velocity * by, turn }
             })
             .collect();
+        self.held(value, poses, &|k| here.joints[k].1)
+    }
+
+    /// The room of the forces of the mechanism that there is at a pose with some joints held; nothing
+    /// where it has none that only turns.
+    fn held(
+        &self,
+        value: f64,
+        poses: Vec<Pose>,
+        holds: &dyn Fn(usize) -> bool,
+    ) -> Option<(f64, Turn)> {
         let anchor = Anchor::new(self.carried, value, poses);
-        let start = vec![Pose::start(); blocks.len()];
+        let start = vec![Pose::start(); anchor.poses.len()];
         let mut sticky: Model = anchor.here.model.clone();
         for (c, face) in sticky.interfaces.list.iter_mut().enumerate() {
-            if here.joints[anchor.here.from[c]].1 {
+            if holds(anchor.here.from[c]) {
                 face.law.friction = Friction::Infinite;
             }
         }

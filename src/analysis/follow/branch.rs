@@ -1,11 +1,10 @@
 //! One linkage after the other, from event to event.
 
 use super::{
-    anchor::Anchor,
     drop::{self, Landing, Turn},
     linkage::Linkage,
     passed::Passed,
-    point::{End, Event, EventKind, Point},
+    point::{End, Event, EventKind, Path, Point},
     program::{self, Hold, Margin},
     root::narrow,
     tracker::{At, Tracker, size},
@@ -17,7 +16,7 @@ use crate::{
     interface::{Interface, Model},
     path::{Carried, Demand, Drive},
     terms::Law,
-    verdict::{Forces, Rate, Verdict},
+    verdict::{Rate, Verdict},
 };
 use nalgebra::Vector3;
 
@@ -36,37 +35,6 @@ pub struct Follow {
     pub from: Option<(f64, Vec<Pose>)>,
     /// What a live load pushes is followed where it slides, under dry friction.
     pub dry: bool,
-}
-
-/// A path.
-#[derive(Clone, Debug)]
-pub struct Path {
-    /// The points.
-    pub points: Vec<Point>,
-    /// The events.
-    pub events: Vec<Event>,
-    /// How it ends.
-    pub end: End,
-    /// At the start: the forces and rates of the first mechanism, supports among them.
-    pub first: Option<(Forces, Vec<Rate>)>,
-    /// How many poses were looked at beside the points: whether joints that are to be closed are,
-    /// whether blocks overlap, whether forces inside the cones balance the loads.
-    pub between: usize,
-}
-
-impl Path {
-    /// Nothing yet.
-    pub(super) fn new() -> Self {
-        Self { points: Vec::new(), events: Vec::new(), end: End::Reached, first: None, between: 0 }
-    }
-
-    /// This one, and what follows.
-    pub(super) fn and(mut self, next: Self) -> Self {
-        self.points.extend(next.points);
-        self.events.extend(next.events);
-        self.between += next.between;
-        Self { end: next.end, ..self }
-    }
 }
 
 /// Gaps below this × the size of the smaller block overlap. Nearer to zero: rounding of the poses is
@@ -101,11 +69,7 @@ pub(super) fn follow(
         Some((value, poses)) => (*value, poses.clone(), carried.closed(poses)),
     };
     if (0..carried.joints.len()).any(|k| carried.slid(&poses, k).is_some()) {
-        let anchor = Anchor::new(&carried, value, poses);
-        let first = |t: &Tracker, how: &Follow, state: State, path: &mut Path| {
-            t.leg(how, state, path, true)
-        };
-        return anchor.follow(&tracker, how, (&|path| path, first));
+        return tracker.from_slid(how, value, poses);
     }
     let mut path = Path::new();
     // The first mechanism says what members do.

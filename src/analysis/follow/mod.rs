@@ -19,5 +19,5 @@ mod root;
 mod slide;
 mod tracker;
 
-pub use branch::{Follow, Path};
-pub use point::{End, Event, EventKind, Point};
+pub use branch::Follow;
+pub use point::{End, Event, EventKind, Path, Point};

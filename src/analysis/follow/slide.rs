@@ -2,10 +2,10 @@
 
 use super::{
     advance::{Joint, Rested, live_power},
-    branch::{Follow, Path, Trial, WIDTH},
+    branch::{Follow, Trial, WIDTH},
     linkage::Linkage,
     passed::Passed,
-    point::{End, Event, EventKind, Point},
+    point::{End, Event, EventKind, Path, Point},
     root::narrow,
     tracker::Tracker,
 };

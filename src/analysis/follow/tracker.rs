@@ -2,9 +2,8 @@
 //! and what forces leave.
 
 use super::{
-    branch::Path,
     linkage::{Linkage, Place},
-    point::{End, Point},
+    point::{End, Path, Point},
     program::{self, Hold, Margin},
     rebalance::rebalanced,
 };
