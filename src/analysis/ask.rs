@@ -9,7 +9,7 @@ use super::{
     coulomb::DryLoadFactor,
     critical, follow,
     follow::{
-        answer::Followed,
+        answer::{Followed, GoesOn},
         machine::{Built, MachineOptions, machine},
     },
     in_time::{self, Asked},
@@ -113,7 +113,7 @@ pub fn ask(
 ) -> Result<Answer, InputError> {
     let in_time = &mut |asked: &Asked| in_time::unwatched(asked, scene, model);
     let machine = &|o: &MachineOptions| Ok(Arc::new(machine(scene, model, o, control)?));
-    answer(question, scene, model, control, Means { in_time, machine })
+    answer(question, scene, model, control, Means { in_time, machine, path: None })
 }
 
 /// The same for one of many scenes; what it shares with others by its `keys` is computed once.
@@ -130,13 +130,31 @@ pub fn ask_among(
     let in_time = &mut |asked: &Asked| in_time::unwatched(asked, scene, model);
     let machine =
         &|o: &MachineOptions| reuse.machine(keys, o, || machine(scene, model, o, control));
-    answer(question, scene, model, control, Means { in_time, machine })
+    answer(question, scene, model, control, Means { in_time, machine, path: None })
+}
+
+/// The same, of a path that goes on from where it was followed to before, with somebody who hears of
+/// its points as they are found. Other questions are asked as they are.
+///
+/// # Errors
+/// As [`ask`].
+pub fn ask_on(
+    question: &Question,
+    scene: &Scene,
+    model: &Model,
+    control: &Control,
+    path: GoesOn<'_>,
+) -> Result<Answer, InputError> {
+    let in_time = &mut |asked: &Asked| in_time::unwatched(asked, scene, model);
+    let machine = &|o: &MachineOptions| Ok(Arc::new(machine(scene, model, o, control)?));
+    answer(question, scene, model, control, Means { in_time, machine, path: Some(path) })
 }
 
 /// How the parts of an answer are made that somebody watches or others share.
-struct Means<'a> {
+struct Means<'a, 'b> {
     in_time: &'a mut dyn FnMut(&Asked) -> Result<Answer, InputError>,
     machine: &'a dyn Fn(&MachineOptions) -> Result<Arc<Built>, InputError>,
+    path: Option<GoesOn<'b>>,
 }
 
 /// The same, with somebody who watches what happens in time.
@@ -157,7 +175,7 @@ pub fn ask_watched(
         None => in_time::unwatched(asked, scene, model),
     };
     let machine = &|o: &MachineOptions| Ok(Arc::new(machine(scene, model, o, control)?));
-    answer(question, scene, model, control, Means { in_time, machine })
+    answer(question, scene, model, control, Means { in_time, machine, path: None })
 }
 
 fn answer(
@@ -165,7 +183,7 @@ fn answer(
     scene: &Scene,
     model: &Model,
     control: &Control,
-    means: Means<'_>,
+    means: Means<'_, '_>,
 ) -> Result<Answer, InputError> {
     question.check()?;
     let control = &question.control(control);
@@ -189,12 +207,12 @@ fn answer(
             Answer::Repose(stability::packing(model, &toward, *moving_mass, control)?)
         }
         Question::Settle(options) => {
-            Answer::Path(Box::new(follow::answer::settle(model, options, control)?))
+            Answer::Path(Box::new(follow::answer::settle(model, options, control, means.path)?))
         }
         Question::Push(options) => {
             // Where it slides it is followed under dry friction, whatever the points are proved by.
             let control = Control { law: Law::Coulomb, ..*control };
-            Answer::Path(Box::new(follow::answer::push(model, options, &control)?))
+            Answer::Path(Box::new(follow::answer::push(model, options, &control, means.path)?))
         }
         Question::Kinematic(options) => {
             Answer::Kinematic(Box::new(kinematic::kinematic(options, scene, model, control)?))

@@ -218,7 +218,7 @@ fn pushed(
         from: Vec::new(),
     };
     let control = Control { law: Law::Associative, ..*control };
-    push(model, &options, &control).map_err(|e| e.message)
+    push(model, &options, &control, None).map_err(|e| e.message)
 }
 
 /// The curve of a mechanism, with points at both limit states; `Err` says why there is none.

@@ -44,7 +44,7 @@ pub use crate::{
 };
 #[cfg(feature = "dynamics")]
 pub use agreement::agreement;
-pub use ask::{Answer, Limited, Tilted, ask, ask_among};
+pub use ask::{Answer, Limited, Tilted, ask, ask_among, ask_on};
 pub use assess::{Assessment, assess};
 pub use attempt::Control;
 pub use closing::left_out;

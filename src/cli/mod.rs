@@ -18,6 +18,7 @@ mod ground;
 mod heap;
 pub mod import;
 mod input;
+mod kept;
 pub mod kinematic;
 pub mod limit;
 pub mod man;

@@ -4,6 +4,7 @@ use super::{
     args::{Curve, Push, Settle},
     cracks,
     exit::Exit,
+    kept,
     output::Sink,
     question::{Seen, Session},
     terminal::Terminal,
@@ -69,8 +70,10 @@ fn run(
         path.as_deref().map(|p| Sink::open(Some(p))).transpose()
     };
     let (csv, chart) = (open(&curve.csv)?, open(&curve.chart)?);
-    let answer = session.ask(question)?;
-    let file = session.result(question, &answer)?;
+    let file = match &curve.keep {
+        Some(keep) => kept::ask(session, question, keep)?,
+        None => session.result(question, &session.ask(question)?)?,
+    };
     let film = if session.is_filmed() { frames(&session.model, &file) } else { Vec::new() };
     let file = session.answer_seen(terminal, own, Seen::Scene(film), file)?;
     if let Some(csv) = csv {

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     analysis::{
-        Claims, Control, LoadFactor, Proved, coulomb, limit, mend,
+        Claims, Control, LoadFactor, Proved, assess, coulomb, limit, mend,
         question::{PushOptions, SettleOptions},
     },
     assembly::{Member, Pose, Solid, Wrench},
@@ -21,13 +21,16 @@ use crate::{
     terms::Law,
     tolerance,
     verdict::{
-        Evidence, Forces, Rate, certificate,
+        Evidence, Forces, Rate, Verdict, certificate,
         check::{self, Claim, Findings},
         exact::{existence, motion},
     },
 };
 use nalgebra::Vector3;
-use std::collections::{HashMap, HashSet};
+use std::{
+    cell::RefCell,
+    collections::{HashMap, HashSet},
+};
 
 /// A path with its proofs.
 #[derive(Clone, Debug)]
@@ -61,6 +64,15 @@ pub struct PointProof {
     pub bound: Option<Box<PointProof>>,
 }
 
+/// A path that was followed before, and who hears of what comes.
+pub struct GoesOn<'a> {
+    /// The last pose that is known; none: the start.
+    pub from: &'a [SavedPose],
+    /// Hears of points with their proofs as they are found, of each once, with the events up to
+    /// there. What it has heard of last is a pose from which the path goes on as it would have.
+    pub hears: &'a mut dyn FnMut(&Followed),
+}
+
 /// Steps of the curve, over the size of the scene.
 const STEP: f64 = 2e-3;
 
@@ -72,6 +84,7 @@ pub fn settle(
     model: &Model,
     options: &SettleOptions,
     control: &Control,
+    goes_on: Option<GoesOn>,
 ) -> Result<Followed, InputError> {
     let error = |text: String| InputError::at(JsonPath::root(), text);
     followable(model)?;
@@ -108,7 +121,8 @@ pub fn settle(
         return Err(error("no support that moves touches a free block".into()));
     }
     let drive = Drive::Settle(Moves(moves));
-    let from = begin(model, &drive, &options.from)?;
+    let begun = begin(model, &drive, &options.from)?;
+    let from = later(model, &drive, goes_on.as_ref(), begun.clone())?;
     let how = |size: f64| Follow {
         drive: drive.clone(),
         until: 1.0,
@@ -117,7 +131,7 @@ pub fn settle(
         from: from.clone(),
         dry: false,
     };
-    Ok(answer(model, &how, control))
+    Ok(answer(model, &how, control, goes_on))
 }
 
 /// Follows a scene under its live load, a point of it pushed along.
@@ -128,6 +142,7 @@ pub fn push(
     model: &Model,
     options: &PushOptions,
     control: &Control,
+    goes_on: Option<GoesOn>,
 ) -> Result<Followed, InputError> {
     let error = |text: String| InputError::at(JsonPath::root(), text);
     followable(model)?;
@@ -149,16 +164,17 @@ pub fn push(
     }
     let toward = Vector3::from(options.toward).normalize();
     let drive = Drive::Push { block, point, toward };
-    let from = begin(model, &drive, &options.from)?;
+    let begun = begin(model, &drive, &options.from)?;
+    let from = later(model, &drive, goes_on.as_ref(), begun.clone())?;
     let how = |size: f64| Follow {
         drive: drive.clone(),
-        until: size + from.as_ref().map_or(0.0, |f| f.0),
+        until: size + begun.as_ref().map_or(0.0, |f| f.0),
         at: options.at.clone(),
         step: STEP * size,
         from: from.clone(),
         dry: control.law == Law::Coulomb,
     };
-    Ok(answer(model, &how, control))
+    Ok(answer(model, &how, control, goes_on))
 }
 
 /// The parameter at saved poses, and they; nothing where there are none.
@@ -211,6 +227,19 @@ fn begin(
     Ok(Some((value, poses)))
 }
 
+/// Where it was followed to before; else where it was to begin.
+fn later(
+    model: &Model,
+    drive: &Drive,
+    goes_on: Option<&GoesOn>,
+    begun: Option<(f64, Vec<Pose>)>,
+) -> Result<Option<(f64, Vec<Pose>)>, InputError> {
+    match goes_on {
+        Some(known) if !known.from.is_empty() => begin(model, drive, known.from),
+        _ => Ok(begun),
+    }
+}
+
 /// What cannot be followed.
 pub(super) fn followable(model: &Model) -> Result<(), InputError> {
     let refuse = |text: String, hint: &str| {
@@ -251,9 +280,40 @@ pub(super) fn followable(model: &Model) -> Result<(), InputError> {
 }
 
 /// `how` to follow what has this size, m.
-fn answer(model: &Model, how: &dyn Fn(f64) -> Follow, control: &Control) -> Followed {
+fn answer(
+    model: &Model,
+    how: &dyn Fn(f64) -> Follow,
+    control: &Control,
+    goes_on: Option<GoesOn>,
+) -> Followed {
     let moved = Moved::of(model, &how(1.0).drive, control);
     let how = &how(size(moved.as_ref().map_or(model, |m| &m.own)));
+    let carried = Carried::new(model);
+    let prove = |point: &Point| proof(&carried, how, point, control);
+    // What supports carry as they begin to move is said of the start.
+    let asked = !how.drive.is_push() && how.from.is_none();
+    let least = |path: &Path| {
+        path.first.as_ref().filter(|_| asked).map(|(forces, rates)| {
+            (reaction::least(model, forces, rates), forces.clone(), rates.clone())
+        })
+    };
+    let heard = RefCell::new((Heard::default(), goes_on));
+    let hears = |path: &dyn Fn() -> Path| {
+        let (heard, goes_on) = &mut *heard.borrow_mut();
+        let Some(goes_on) = goes_on else { return };
+        let mut new = path();
+        let between = new.between.saturating_sub(heard.between);
+        let points = new.points.split_off(heard.proofs.len().min(new.points.len()));
+        let events = new.events.split_off(heard.events.min(new.events.len()));
+        let proofs: Vec<PointProof> = points.iter().map(prove).collect();
+        heard.events += events.len();
+        heard.between += between;
+        heard.proofs.extend(points.iter().map(|p| p.value).zip(proofs.clone()));
+        let least = least(&new).filter(|_| heard.proofs.len() == proofs.len());
+        let path = Path { points, events, between, ..new };
+        let drive = how.drive.clone();
+        (goes_on.hears)(&Followed { drive, path, proofs, ends: Vec::new(), least });
+    };
     let none = HashSet::new();
     let path = match &moved {
         None => {
@@ -262,7 +322,7 @@ fn answer(model: &Model, how: &dyn Fn(f64) -> Follow, control: &Control) -> Foll
             let meets = |poses: &[Pose], known: bool| {
                 meets(model, if known { &joined } else { &none }, poses)
             };
-            follow(model, how, control.deadline, &meets)
+            follow(model, how, control.deadline, (&meets, &hears))
         }
         Some(moved) => {
             let from = how.from.as_ref().map(|(value, poses)| (*value, moved.own_poses(poses)));
@@ -272,22 +332,29 @@ fn answer(model: &Model, how: &dyn Fn(f64) -> Follow, control: &Control) -> Foll
             let meets = |poses: &[Pose], known: bool| {
                 meets(model, if known { &joined } else { &none }, &moved.poses(poses))
             };
-            moved.path(follow(&moved.own, &own, control.deadline, &meets))
+            let hears = |path: &dyn Fn() -> Path| hears(&|| moved.path(path()));
+            moved.path(follow(&moved.own, &own, control.deadline, (&meets, &hears)))
         }
     };
-    let carried = Carried::new(model);
-    let prove = |point: &Point| proof(&carried, how, point, control);
-    let proofs = path.points.iter().map(prove).collect();
+    let mut known = heard.into_inner().0.proofs.into_iter().peekable();
+    let mut known =
+        |point: &Point| known.next_if(|(value, _)| *value == point.value).map(|(_, proof)| proof);
+    let proofs = path.points.iter().map(|p| known(p).unwrap_or_else(|| prove(p))).collect();
     let ends = match &path.end {
         End::Falls(ends) => ends.iter().map(prove).collect(),
         _ => Vec::new(),
     };
-    // What supports carry as they begin to move is said of the start.
-    let asked = !how.drive.is_push() && how.from.is_none();
-    let least = path.first.as_ref().filter(|_| asked).map(|(forces, rates)| {
-        (reaction::least(model, forces, rates), forces.clone(), rates.clone())
-    });
+    let least = least(&path);
     Followed { drive: how.drive.clone(), path, proofs, ends, least }
+}
+
+/// What of a path somebody has heard of.
+#[derive(Default)]
+struct Heard {
+    /// Of each point its parameter and what proves it.
+    proofs: Vec<(f64, PointProof)>,
+    events: usize,
+    between: usize,
 }
 
 /// Proves a point from its poses, as anybody who reads them can.
@@ -309,9 +376,11 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
         };
     }
     if let Some(touch) = &point.touch {
-        return slid_proof(carried, &found, point, touch);
+        let forces = slid_forces(carried, &found, point, touch);
+        return stands_or_falls(model, forces, &point.rates, control);
     }
-    stands_or_falls(model, carried_forces(carried, &found, point, &poses), &point.rates)
+    let forces = carried_forces(carried, &found, point, &poses);
+    stands_or_falls(model, forces, &point.rates, control)
 }
 
 /// The forces of a point at the contacts that its poses have; corners that touch again without
@@ -370,7 +439,7 @@ fn linkage_proof(
 }
 
 /// Proves that a displaced scene stands with these forces, or falls by these rates.
-fn stands_or_falls(model: &Model, forces: Forces, rates: &[Rate]) -> PointProof {
+fn stands_or_falls(model: &Model, forces: Forces, rates: &[Rate], control: &Control) -> PointProof {
     let rest = || vec![Rate::zero(); model.assembly.blocks.len()];
     let proved = |claim: Claim, forces: Forces, rates: Vec<Rate>| {
         PointProof::of(model, &Proved::new(model, Side { claim: Some(claim), forces, rates }))
@@ -378,10 +447,18 @@ fn stands_or_falls(model: &Model, forces: Forces, rates: &[Rate]) -> PointProof 
     let stands = |forces: Forces| {
         let stands = proved(Claim::Stable, forces.clone(), rest());
         // What a program leaves is more than what counts as balance in large scenes.
-        match existence::improved(model, &forces, 0.0).filter(|_| stands.claim.is_none()) {
-            Some(better) => proved(Claim::Stable, better, rest()),
-            None => stands,
+        if stands.claim.is_some() {
+            return stands;
         }
+        if let Some(better) = existence::improved(model, &forces, 0.0) {
+            return proved(Claim::Stable, better, rest());
+        }
+        // The least forces leave no room to improve them; others do.
+        let any = assess(model, &Control { law: Law::Associative, ..*control });
+        if any.verdict == Verdict::Stable {
+            return proved(Claim::Stable, any.forces.clone(), rest());
+        }
+        stands
     };
     if rates.iter().all(|r| *r == Rate::zero()) {
         return stands(forces);
@@ -420,11 +497,6 @@ fn dry_proof(
     }
     proof.bound = bound.claim().is_some().then(|| Box::new(PointProof::of(model, bound)));
     proof
-}
-
-/// Proves a point after sliding: the forces of dry friction, at the contacts that its poses have.
-fn slid_proof(carried: &Carried, found: &Displaced, point: &Point, touch: &Touch) -> PointProof {
-    stands_or_falls(&found.model, slid_forces(carried, found, point, touch), &point.rates)
 }
 
 /// The joint at the start of every contact, and where it touches.

@@ -4,7 +4,7 @@ use super::{
     drop::{self, Landing, Turn},
     linkage::Linkage,
     passed::Passed,
-    point::{End, Event, EventKind, Point},
+    point::{End, Event, EventKind, Path, Point},
     program::{self, Hold, Margin},
     root::narrow,
     tracker::{At, Tracker, size},
@@ -16,7 +16,7 @@ use crate::{
     interface::{Interface, Model},
     path::{Carried, Demand, Drive},
     terms::Law,
-    verdict::{Forces, Rate, Verdict},
+    verdict::{Rate, Verdict},
 };
 use nalgebra::Vector3;
 
@@ -37,22 +37,6 @@ pub struct Follow {
     pub dry: bool,
 }
 
-/// A path.
-#[derive(Clone, Debug)]
-pub struct Path {
-    /// The points.
-    pub points: Vec<Point>,
-    /// The events.
-    pub events: Vec<Event>,
-    /// How it ends.
-    pub end: End,
-    /// At the start: the forces and rates of the first mechanism, supports among them.
-    pub first: Option<(Forces, Vec<Rate>)>,
-    /// How many poses were looked at beside the points: whether joints that are to be closed are,
-    /// whether blocks overlap, whether forces inside the cones balance the loads.
-    pub between: usize,
-}
-
 /// Gaps below this × the size of the smaller block overlap. Nearer to zero: rounding of the poses is
 /// taken for a joint that closes. Farther: joints sink in before they are seen to close, up to
 /// [`tolerance::JOINT_CLOSED`](crate::tolerance::JOINT_CLOSED), where they are no pose any more.
@@ -67,40 +51,36 @@ pub(super) const ROOM: f64 = -1e-9;
 /// Follows the motion of a scene from where it is.
 ///
 /// `meets` says which blocks touch at some poses and did not at the start; with `true` but for those
-/// whose faces are known to be near ([`Carried::joints`]).
+/// whose faces are known to be near ([`Carried::joints`]). `hears` is called where a path may be
+/// taken up again: its last point lies within a leg.
 pub(super) fn follow(
     start: &Model,
     how: &Follow,
     deadline: Deadline,
-    meets: &dyn Fn(&[Pose], bool) -> Option<String>,
+    (meets, hears): (&dyn Fn(&[Pose], bool) -> Option<String>, &dyn Fn(&dyn Fn() -> Path)),
 ) -> Path {
     let carried = Carried::new(start);
     let blocks = &start.assembly.blocks;
     let tracker =
-        Tracker { carried: &carried, drive: &how.drive, size: size(start), deadline, meets };
+        Tracker { carried: &carried, drive: &how.drive, size: size(start), deadline, meets, hears };
     let all = || start.interfaces.list.iter().map(|f| (0..f.points.len()).collect()).collect();
     let (value, poses, closed): (f64, Vec<Pose>, Vec<Vec<usize>>) = match &how.from {
         None => (0.0, vec![Pose::start(); blocks.len()], all()),
         Some((value, poses)) => (*value, poses.clone(), carried.closed(poses)),
     };
-    let mut path =
-        Path { points: Vec::new(), events: Vec::new(), end: End::Reached, first: None, between: 0 };
+    if (0..carried.joints.len()).any(|k| carried.slid(&poses, k).is_some()) {
+        return tracker.from_slid(how, value, poses);
+    }
+    let mut path = Path::new();
     // The first mechanism says what members do.
     let holds = vec![Hold::Idle; start.interfaces.members.len()];
-    let mut state = State { value, poses, closed, holds };
-    // So many mechanisms: more is no path but a fall.
-    for round in 0..200 {
-        match tracker.leg(how, state, &mut path, round == 0) {
-            Ok(next) => state = next,
-            Err(end) => {
-                path.end = end;
-                return path;
-            }
-        }
-    }
-    path.end = End::Stuck("it changes its mechanism again and again".into());
+    let first = tracker.leg(how, State { value, poses, closed, holds }, &mut path, true);
+    path.end = tracker.goes_on(how, first, &mut path);
     path
 }
+
+/// So many mechanisms at most: more is no path but a fall.
+const LEGS: usize = 200;
 
 /// A pose at which a mechanism is to be found.
 pub(super) struct State {
@@ -117,8 +97,26 @@ pub(super) struct Trial {
 }
 
 impl Tracker<'_> {
+    /// From the end of one leg to the end of the path.
+    pub(super) fn goes_on(&self, how: &Follow, first: Result<State, End>, path: &mut Path) -> End {
+        let mut next = first;
+        for _ in 0..LEGS {
+            match next {
+                Ok(state) => next = self.leg(how, state, path, false),
+                Err(end) => return end,
+            }
+        }
+        End::Stuck("it changes its mechanism again and again".into())
+    }
+
     /// From one change of the mechanism to the next.
-    fn leg(&self, how: &Follow, state: State, path: &mut Path, first: bool) -> Result<State, End> {
+    pub(super) fn leg(
+        &self,
+        how: &Follow,
+        state: State,
+        path: &mut Path,
+        first: bool,
+    ) -> Result<State, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
         let next = program::next(self.carried, &state.poses, &state.closed, self.drive)
             .ok_or_else(|| {
@@ -277,10 +275,12 @@ impl Tracker<'_> {
             if how.drive.is_push() && how.at.is_empty() && passed.go(value, load_factor) {
                 path.points.extend(point(here));
                 path.between -= 1;
+                (self.hears)(&|| path.clone());
             }
             if wanted || (!how.drive.is_push() && value == aim) {
                 path.points.extend(point(&there));
                 passed = Passed::new(value, load_factor);
+                (self.hears)(&|| path.clone());
             } else {
                 path.between += 1;
             }

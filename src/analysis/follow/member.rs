@@ -1,9 +1,9 @@
 //! Members on the way: they keep their length until they yield.
 
 use super::{
-    branch::{Follow, Path, ROOM, State, Trial, WIDTH},
+    branch::{Follow, ROOM, State, Trial, WIDTH},
     linkage::{Linkage, Place},
-    point::{End, Event, EventKind},
+    point::{End, Event, EventKind, Path},
     program::{self, Hold},
     root::narrow,
     tracker::{Tracker, pin},

@@ -1,6 +1,7 @@
 //! Following the motion: poses as functions of one parameter that only grows.
 
 mod advance;
+mod anchor;
 pub mod answer;
 mod branch;
 mod control;
@@ -18,5 +19,5 @@ mod root;
 mod slide;
 mod tracker;
 
-pub use branch::{Follow, Path};
-pub use point::{End, Event, EventKind, Point};
+pub use branch::Follow;
+pub use point::{End, Event, EventKind, Path, Point};

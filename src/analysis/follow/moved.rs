@@ -1,10 +1,7 @@
 //! The part of a scene that moves. What nothing that moves touches stays where it is, and none of
 //! its quantities bears on how the rest is followed: not its weight, its size, nor its place.
 
-use super::{
-    branch::Path,
-    point::{End, Event, Point},
-};
+use super::point::{End, Event, Path, Point};
 use crate::{
     analysis::{Control, assess, limit},
     assembly::Pose,

@@ -85,3 +85,34 @@ pub enum End {
     /// It could not be followed any further, and why.
     Stuck(String),
 }
+
+/// A path.
+#[derive(Clone, Debug)]
+pub struct Path {
+    /// The points.
+    pub points: Vec<Point>,
+    /// The events.
+    pub events: Vec<Event>,
+    /// How it ends.
+    pub end: End,
+    /// At the start: the forces and rates of the first mechanism, supports among them.
+    pub first: Option<(Forces, Vec<Rate>)>,
+    /// How many poses were looked at beside the points: whether joints that are to be closed are,
+    /// whether blocks overlap, whether forces inside the cones balance the loads.
+    pub between: usize,
+}
+
+impl Path {
+    /// Nothing yet.
+    pub(super) fn new() -> Self {
+        Self { points: Vec::new(), events: Vec::new(), end: End::Reached, first: None, between: 0 }
+    }
+
+    /// This one, and what follows.
+    pub(super) fn and(mut self, next: Self) -> Self {
+        self.points.extend(next.points);
+        self.events.extend(next.events);
+        self.between += next.between;
+        Self { end: next.end, ..self }
+    }
+}

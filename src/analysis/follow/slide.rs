@@ -2,9 +2,10 @@
 
 use super::{
     advance::{Joint, Rested, live_power},
-    branch::{Follow, Path, Trial, WIDTH},
+    branch::{Follow, Trial, WIDTH},
     linkage::Linkage,
-    point::{End, Event, EventKind, Point},
+    passed::Passed,
+    point::{End, Event, EventKind, Path, Point},
     root::narrow,
     tracker::Tracker,
 };
@@ -90,6 +91,8 @@ impl Tracker<'_> {
         };
         self.tell(&here, &next, path);
         here = next;
+        path.between += 1;
+        let mut passed = Passed::new(here.value, here.load_factor);
         let mut before: Option<Rested> = None;
         let mut fails: Option<f64> = None;
         let mut step = how.step;
@@ -115,6 +118,9 @@ impl Tracker<'_> {
                 in_a_row += 1;
                 all += 1;
                 if step <= SHORTEST * how.step || in_a_row >= FAILS || all >= ALL_FAILS {
+                    if let Some(end) = self.turns_on(how, &here, value, path) {
+                        return Ok(end);
+                    }
                     return Ok(self.ceases(&here, before.as_ref(), value, path));
                 }
                 continue;
@@ -141,10 +147,22 @@ impl Tracker<'_> {
             if let Some(text) = (self.meets)(&next.poses, true) {
                 return Ok(End::Stuck(text));
             }
-            if changed || next.value == aim {
+            let (is_push, asked, points) = (how.drive.is_push(), &how.at, path.points.len());
+            if is_push && asked.is_empty() && passed.go(next.value, next.load_factor) {
+                let last = path.points.last();
+                if last.is_none_or(|p| p.value < here.value) {
+                    path.points.push(self.slid_point(&here));
+                    path.between -= 1;
+                }
+            }
+            if changed || (!is_push && next.value == aim) || next.value == stop {
                 path.points.push(self.slid_point(&next));
+                passed = Passed::new(next.value, next.load_factor);
             } else {
                 path.between += 1;
+            }
+            if !changed && path.points.len() > points {
+                (self.hears)(&|| path.clone());
             }
             if fails.is_none() {
                 step = (2.0 * step).min(how.step);

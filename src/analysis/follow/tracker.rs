@@ -3,7 +3,7 @@
 
 use super::{
     linkage::{Linkage, Place},
-    point::{End, Point},
+    point::{End, Path, Point},
     program::{self, Hold, Margin},
     rebalance::rebalanced,
 };
@@ -29,6 +29,8 @@ pub(super) struct Tracker<'a> {
     /// Blocks that touch at these poses and did not at the start, in words ([`meets`]); whether it
     /// is known of those that may come to touch where they do.
     pub meets: &'a dyn Fn(&[Pose], bool) -> Option<String>,
+    /// Hears of what there is of the path, made where that is wanted, as it grows.
+    pub hears: &'a dyn Fn(&dyn Fn() -> Path),
 }
 
 /// Where a linkage is at a value of the parameter.

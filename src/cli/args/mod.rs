@@ -131,8 +131,8 @@ pub enum Verb {
     /// Supports move along given ways, slowly, and yield: at the start the blocks push them with
     /// the least force that there can be. The motion is followed with finite rotations from hinge to
     /// hinge; every point of the curve is a scene of its own with a proof that it stands, and where
-    /// it falls one pose is proved to stand and the next to fall. Joints that slide are said and not
-    /// followed. Exit code 0 if it stands through the whole movement, 1 if it falls, 3 if that stays
+    /// it falls one pose is proved to stand and the next to fall. Joints that slide go on under dry
+    /// friction. Exit code 0 if it stands through the whole movement, 1 if it falls, 3 if that stays
     /// open.
     Settle(Settle),
     /// How does the load factor fall as it moves?
@@ -140,7 +140,7 @@ pub enum Verb {
     /// The live load pushes the structure over, and the way of a point of it is the parameter: at
     /// each value the load factor is that of the displaced scene, in a bracket (the capacity curve),
     /// down to where it vanishes. Where the motion turns back it says so, and goes on at the same
-    /// value. Joints that slide are said and not followed. Exit code 0 if the load factor vanishes
+    /// value. Joints that slide go on under dry friction. Exit code 0 if the load factor vanishes
     /// on the way, 1 if it falls before, 3 if that stays open.
     Push(Push),
     /// Under an earthquake: at what acceleration does it start to move, and what then?

@@ -19,7 +19,7 @@ pub struct Settle {
     /// The other way round: which movement of which support explains these cracks, in a file like
     /// { "cracks": [ { "between": ["v03", "v04"], "side": "intrados", "width": 0.004 } ] }. Sides are
     /// "intrados", "extrados" or a point near them; widths, m, may be left out.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["moves", "at", "csv", "chart", "from", "svg", "vtk", "save", "report"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["moves", "at", "csv", "chart", "from", "keep", "svg", "vtk", "save", "report"])]
     pub cracks: Option<PathBuf>,
     /// Shares of the movement that become points of the curve, beside others.
     #[arg(long, value_name = "S1,S2,…", value_delimiter = ',', value_parser = finite)]
@@ -59,6 +59,10 @@ pub struct Curve {
     /// further it goes.
     #[arg(long, value_name = "RESULT")]
     pub from: Option<PathBuf>,
+    /// Keep every point in this file as soon as it is proved; the same command takes it up again
+    /// after a kill at any point.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Lines))]
+    pub keep: Option<PathBuf>,
     #[command(flatten)]
     pub pictures: Pictures,
 }

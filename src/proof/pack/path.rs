@@ -106,6 +106,14 @@ impl ResultFile {
         file.path = Some(result);
         file
     }
+
+    /// Puts what was known of a path before this one.
+    pub fn goes_on(&mut self, before: PathResult, least_reaction: Option<Bracketed>) {
+        self.path = self.path.take().map(|own| before.and(own));
+        if let Answer::Path(said) = &mut self.answer {
+            said.least_reaction = least_reaction;
+        }
+    }
 }
 
 fn point(carried: &Carried, followed: &Followed, p: &Point, proof: &PointProof) -> PathPoint {

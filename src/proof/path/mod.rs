@@ -86,6 +86,19 @@ pub struct PathResult {
     pub least: Option<Certificate>,
 }
 
+impl PathResult {
+    /// This one, and what follows from its last point.
+    #[must_use]
+    pub fn and(mut self, next: Self) -> Self {
+        let last = self.points.last().map_or(f64::NEG_INFINITY, |p| p.value);
+        self.points.extend(next.points.into_iter().filter(|p| p.value > last));
+        // What slides there slid before.
+        self.events.extend(next.events.into_iter().filter(|e| e.value > last));
+        self.between += next.between;
+        Self { ends: next.ends, ..self }
+    }
+}
+
 /// What moves a structure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

@@ -78,3 +78,66 @@ fn closed_pipe() -> Stdio {
     drop(reader);
     writer.into()
 }
+
+/// `settle` and `push` keep what is proved: cut anywhere, the same command ends at the same answer.
+#[test]
+fn paths_are_taken_up_where_they_were_cut() {
+    let folder = TempDir::new().unwrap();
+    let table = json!({
+        "format": "voussoir-scene/1", "gravity": [0, 0, -1], "materials": { "u": { "density": 1 } },
+        "joints": { "default": { "friction": 0.3 } },
+        "blocks": [
+            { "id": "table", "support": true, "material": "u", "shape": { "box": { "size": [4, 1, 0.5] } }, "at": [0, 0, -0.25] },
+            { "id": "block", "material": "u", "shape": { "box": { "size": [1, 1, 0.5] } }, "at": [1, 0, 0.25] }
+        ],
+        "loads": { "live": [{ "weight": [1, 0, 0] }] }
+    });
+    let scene = folder.path().join("table.json");
+    fs::write(&scene, table.to_string()).unwrap();
+    let scene = scene.to_str().unwrap();
+    let arch = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/spreading-arch.json");
+    let block = ["push", scene, "--control", "block=1,0,0.25", "--toward", "1,0,0"];
+    let spread = ["settle", arch, "--move", "springer_right=0.12,0,0"];
+    for (name, asked) in [("slides", &block[..]), ("hinges", &spread[..])] {
+        let kept = folder.path().join(format!("{name}.jsonl"));
+        let ask = || {
+            let own = ["--keep", kept.to_str().unwrap(), "-q", "--json"];
+            let output = voussoir(&[asked, &own[..]].concat());
+            let file: Value = serde_json::from_str(&out(&output)).unwrap();
+            (output.status.code(), file)
+        };
+        let (code, whole) = ask();
+        let result = folder.path().join("result.json");
+        let values = |file: &Value| -> Vec<f64> {
+            let points = file["path"]["points"].as_array().unwrap();
+            points.iter().map(|p| p["value"].as_f64().unwrap()).collect()
+        };
+        let text = fs::read_to_string(&kept).unwrap();
+        let lines = text.lines().count();
+        assert!(lines > 4, "{lines}");
+        for part in [1, lines / 2, lines] {
+            let cut: String = text.lines().take(part).map(|l| format!("{l}\n")).collect();
+            // A line that was being written.
+            fs::write(&kept, cut + "{\"path\":").unwrap();
+            let (again, file) = ask();
+            assert_eq!(again, code);
+            let ends = |file: &Value| file["answer"]["path"]["value"].as_f64().unwrap();
+            assert!((ends(&file) - ends(&whole)).abs() < 1e-9, "{name} {part}");
+            let (a, b) = (values(&file), values(&whole));
+            let last = text.lines().take(part).count();
+            assert!(a.len().abs_diff(b.len()) <= 2, "{name} {last}: {} of {}", a.len(), b.len());
+            assert_eq!(file["answer"]["path"]["status"], whole["answer"]["path"]["status"]);
+            let kinds = |f: &Value| -> Vec<Value> {
+                let events = f["path"]["events"].as_array().unwrap();
+                events.iter().map(|e| e["kind"].clone()).collect()
+            };
+            assert_eq!(kinds(&file), kinds(&whole), "{name} {part}");
+            fs::write(&result, file.to_string()).unwrap();
+            let scene = asked[1];
+            expect(YES, voussoir(&["check", result.to_str().unwrap(), "--scene", scene]));
+        }
+        // Another question does not go on from it.
+        let other = ["--keep", kept.to_str().unwrap(), "-q", "--at", "0.5"];
+        expect(USAGE, voussoir(&[asked, &other[..]].concat()));
+    }
+}
