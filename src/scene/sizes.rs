@@ -91,11 +91,12 @@ impl Sizes {
                 if let Some(w) = c.windows(2).find(|w| falls(w)) {
                     return refuse(format!("{:?} comes after {:?}", w[1], w[0]), hint);
                 }
-                let range = last[0] / first[0];
+                // To three decimals, as it is said.
+                let range = (last[0] / first[0] * 1e3).round() / 1e3;
                 if range > RANGE {
                     return refuse(
                         format!(
-                            "the largest grain is {range:.3} times the smallest, at most {RANGE} are possible"
+                            "the largest grain is {range} times the smallest, at most {RANGE} are possible"
                         ),
                         "leave the finest and the coarsest out",
                     );
