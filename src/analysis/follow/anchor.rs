@@ -233,7 +233,7 @@ impl Tracker<'_> {
     }
 
     /// Follows from poses where joints have slid: as a linkage where these stick, else as what slides.
-    pub(super) fn from_slid(&self, how: &Follow, value: f64, poses: Vec<Pose>) -> Path {
+    pub(super) fn follow_slid(&self, how: &Follow, value: f64, poses: Vec<Pose>) -> Path {
         let slid: Vec<bool> = (0..self.carried.joints.len())
             .map(|k| self.carried.slid(&poses, k).is_some())
             .collect();

@@ -48,6 +48,11 @@ pub(super) const WIDTH: f64 = 1e-13;
 /// noise of the engine ends a leg. Farther: forces that pull are taken for none.
 pub(super) const ROOM: f64 = -1e-9;
 
+/// What says which blocks touch at some poses and did not at the start.
+type Meets<'a> = &'a dyn Fn(&[Pose], bool) -> Option<String>;
+/// What hears of a path that may be taken up again.
+type Hears<'a> = &'a dyn Fn(&dyn Fn() -> Path);
+
 /// Follows the motion of a scene from where it is.
 ///
 /// `meets` says which blocks touch at some poses and did not at the start; with `true` but for those
@@ -57,7 +62,7 @@ pub(super) fn follow(
     start: &Model,
     how: &Follow,
     deadline: Deadline,
-    (meets, hears): (&dyn Fn(&[Pose], bool) -> Option<String>, &dyn Fn(&dyn Fn() -> Path)),
+    (meets, hears): (Meets<'_>, Hears<'_>),
 ) -> Path {
     let carried = Carried::new(start);
     let blocks = &start.assembly.blocks;
@@ -69,7 +74,7 @@ pub(super) fn follow(
         Some((value, poses)) => (*value, poses.clone(), carried.closed(poses)),
     };
     if (0..carried.joints.len()).any(|k| carried.slid(&poses, k).is_some()) {
-        return tracker.from_slid(how, value, poses);
+        return tracker.follow_slid(how, value, poses);
     }
     let mut path = Path::new();
     // The first mechanism says what members do.
