@@ -368,3 +368,42 @@ fn under_growing_load_no_verdict_of_fifty_scenes_goes_back() {
     }
     assert!(backwards.is_empty(), "{backwards:?}");
 }
+
+/// Stones over windows of one segment lean on their neighbours; over windows of two they hang between
+/// upright joints, and only friction that carries them at once holds them. Whoever asks for the load
+/// factor is told the same as who asks whether it stands, on one line too.
+#[test]
+fn verbs_agree_about_domes_with_windows() {
+    let folder = tempfile::tempdir().unwrap();
+    for (segments, friction, wanted) in [
+        (1, 0.5, Verdict::Stable),
+        (1, 0.7, Verdict::Stable),
+        (1, 1.2, Verdict::Stable),
+        (2, 0.5, Verdict::Conditional),
+        (2, 0.7, Verdict::Conditional),
+        (2, 0.9, Verdict::Conditional),
+        (2, 1.2, Verdict::Stable),
+    ] {
+        let window = |s: u32| json!({ "rings": [2, 4], "segments": [s, s + segments - 1] });
+        let openings: Vec<Value> = [0, 6, 12, 18].into_iter().map(window).collect();
+        let dome = json!({ "dome": {
+            "radius": 5, "thickness": 0.5, "rings": 8, "segments": 24, "oculus_deg": 10, "openings": openings
+        } });
+        let scene = ask::template(friction, dome.clone(), ask::push([1.0, 0.0, 0.0]));
+        assert_eq!(ask::verdict(&scene, Law::Coulomb), wanted, "{segments}, {friction}");
+        if wanted == Verdict::Stable {
+            continue;
+        }
+        let file = ask::asked(&scene, &Question::Limit(LimitOptions::default()));
+        assert_eq!(file.answer.verdict(), Some(Verdict::Conditional), "{segments}, {friction}");
+        let path = folder.path().join("dome.json");
+        std::fs::write(&path, serde_json::to_string(&scene).unwrap()).unwrap();
+        let out = Command::new(env!("CARGO_BIN_EXE_voussoir"))
+            .args(["limit", path.to_str().unwrap(), "-q"])
+            .output()
+            .unwrap();
+        let line = String::from_utf8(out.stdout).unwrap();
+        let words = "no λ with dry friction: not at rest under the dead load";
+        assert!(line.contains(words) && out.status.code() == Some(1), "{line}: {:?}", out.status);
+    }
+}
