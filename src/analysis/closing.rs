@@ -53,8 +53,7 @@ fn thrust(t: &Thrust, law: Law) -> ClosedAnswer {
 fn flips(c: &Critical) -> ClosedAnswer {
     let start = c.scan.first().and_then(|s| s.outcome.as_ref().ok());
     ClosedAnswer::Flips {
-        count: c.changes.len(),
-        first: c.changes.first().map(|f| f.value),
+        values: c.changes.iter().map(|f| f.value).collect(),
         start: start.map_or(Verdict::Undecided, |(verdict, _)| *verdict),
     }
 }
@@ -142,9 +141,11 @@ pub fn left_out(
     let contacts = model.interfaces.left_out?;
     let placed = placed(question, model, answer);
     let question = placed.as_ref().unwrap_or(question);
-    let closed = again(question, scene, model, control).and_then(|(law, closed)| {
+    // What time cut short is no answer to compare with.
+    let closed = again(question, scene, model, control).filter(|_| !control.deadline.is_over());
+    let closed = closed.and_then(|(law, closed)| {
         let given = compared(answer, law)?;
-        Some(Closed { law, answer: closed, difference: closed.beside(given) })
+        Some(Closed { law, difference: closed.beside(&given), answer: closed })
     });
     Some(LeftOutContacts { contacts, closed })
 }

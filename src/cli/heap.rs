@@ -19,7 +19,9 @@ use voussoir::{
     import::{ImportOptions, import_files},
     interface::prepare,
     keep::Kept,
-    limits, parallel,
+    limits,
+    number::count,
+    parallel,
     proof::ResultFile,
     report::{
         drawing,
@@ -208,7 +210,7 @@ fn picture(heap: &Heap, margin: Option<&Margin>) -> anyhow::Result<View> {
     };
     let tipped =
         if view.caption.is_empty() { String::new() } else { format!(", {}", view.caption) };
-    view.caption = format!("the heap of seed {}{tipped}", heap.seed);
+    view.caption = format!("the grains of seed {}{tipped}", heap.seed);
     Ok(view)
 }
 
@@ -262,5 +264,13 @@ fn start(path: &std::path::Path) -> anyhow::Result<Vec<BlockSpec>> {
     } else {
         import_files(&[path], &ImportOptions::default())?.scene
     };
-    Ok(scene.blocks.into_iter().filter(|b| !b.support).collect())
+    let (held, free): (Vec<_>, Vec<_>) = scene.blocks.into_iter().partition(|b| b.support);
+    if !held.is_empty() {
+        let name = path.display();
+        super::terminal::say(&format!(
+            "note: {} of {name} are left out: the protocol brings its own",
+            count(held.len(), "support")
+        ));
+    }
+    Ok(free)
 }

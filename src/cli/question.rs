@@ -372,7 +372,7 @@ pub fn quoted(word: &str) -> String {
 /// left out, nor is it yes or no where it is other numbers: which of the two the scene is nobody
 /// knows.
 pub fn unless_weaker(file: &ResultFile, exit: Exit) -> Exit {
-    let closed = file.left_out_contacts.and_then(|l| l.closed);
+    let closed = file.left_out_contacts.as_ref().and_then(|l| l.closed.as_ref());
     match closed.map(|c| c.difference) {
         Some(Difference::Weaker) if exit == Exit::Yes => Exit::Undecided,
         Some(Difference::Another) => Exit::Undecided,

@@ -5,9 +5,10 @@
 //! Grains that fall below the floor are discarded. Restitution is what is given and nothing else
 //! damps: contacts are overdamped springs of natural frequency 0.1 / substep, friction is Coulomb's.
 //! A drum is seen from itself: gravity turns about it, and what a turning frame adds is added
-//! ([`turning`]). A stage that settles ends when the mean kinetic energy of a grain (of a sphere without its spin: nothing ever
-//! stops a ball that spins between two smooth walls) stays below [`GRAIN_REST_ENERGY`] × m g d for
-//! [`GRAIN_REST_TIME`] √(d/g), never after a fixed time; where it does not, that is said.
+//! (`turning`). A stage that settles ends when the mean kinetic energy of a grain (of a sphere
+//! without its spin: nothing ever stops a ball that spins between two smooth walls) stays below
+//! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), never after a fixed time; where it
+//! does not, that is said.
 
 mod turning;
 

@@ -1,9 +1,9 @@
 //! Spheres of a table (CSV) or of a dump of LIGGGHTS or LAMMPS: columns by their names, in any order.
 //!
 //! `x`, `y`, `z` and `radius` (or `diameter`) are needed. `fixed` other than 0, and type 2 where
-//! there is no such column, make a support; `id` names a grain. Of a table all other columns are
-//! left out. Spheres that share their `mol` (`grain` in a table) are a clump. Of a dump of several
-//! times the last one is read.
+//! there is no such column, make a support; `id` names a grain. Scaled coordinates (`xs`) are no
+//! lengths, and no substitute for `x`. Of a table all other columns are left out. Spheres that share
+//! their `mol` (`grain` in a table) are a clump. Of a dump of several times the last one is read.
 
 use super::{
     raw::{Grain, Raw, tally},
@@ -14,9 +14,9 @@ use std::collections::BTreeMap;
 
 /// Columns that are known and their other names.
 const NAMES: [(&str, &[&str]); 8] = [
-    ("x", &["xu", "xs"]),
-    ("y", &["yu", "ys"]),
-    ("z", &["zu", "zs"]),
+    ("x", &["xu"]),
+    ("y", &["yu"]),
+    ("z", &["zu"]),
     ("radius", &["r"]),
     ("diameter", &["d"]),
     ("fixed", &["support"]),
@@ -52,7 +52,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
     let needed = |name: &str| {
         column(name).ok_or_else(|| {
             error(head.0, format!("no column {name:?} among {:?}", shorten(&titles.join(", "))))
-                .hint("grains need columns x, y, z and radius, named in the first line")
+                .hint("grains need columns x, y, z (xs, ys, zs are shares of the box, no lengths) and radius, named in the first line")
         })
     };
     let place = [needed("x")?, needed("y")?, needed("z")?];
@@ -63,6 +63,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
     let mut raw = Raw::default();
     let mut parts: BTreeMap<String, Vec<Grain>> = BTreeMap::new();
     let mut order: Vec<String> = Vec::new();
+    let mut by_type = 0;
     for (line, text) in body {
         if text.starts_with("ITEM:") {
             break;
@@ -85,7 +86,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
         }
         let support = match (column("fixed"), column("type")) {
             (Some(k), _) => number(k)? != 0.0,
-            (None, Some(k)) if is_dump => number(k)? == 2.0,
+            (None, Some(k)) if is_dump => {
+                let is_second = number(k)? == 2.0;
+                by_type += usize::from(is_second);
+                is_second
+            }
             _ => false,
         };
         let id = column("id").and_then(|k| words.get(k)).cloned().unwrap_or_default();
@@ -128,6 +133,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
         raw.say(
             FindingCode::Converted,
             format!("grains of the same name, renamed by their line: {}", tally(&renamed)),
+        );
+    }
+    if by_type > 0 {
+        raw.say(
+            FindingCode::Converted,
+            format!(
+                "spheres of type 2, read as supports: {by_type}; a column `fixed` says otherwise"
+            ),
         );
     }
     if clumps > 0 {

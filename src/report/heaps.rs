@@ -7,6 +7,7 @@ use crate::{
         repose::{Heap, Margin, Slope, confirm::Confirmed, seen::Seen},
     },
     error::Finding,
+    number::short,
     scene::Protocol,
 };
 use serde::{Deserialize, Serialize};
@@ -70,6 +71,24 @@ pub struct Figure {
     pub mean: f64,
     /// Least and greatest.
     pub spread: [f64; 2],
+}
+
+impl Figure {
+    /// In words; over several runs with its spread.
+    pub fn says(&self, runs: usize) -> String {
+        let (name, unit) = match self.name.as_str() {
+            "dynamic_angle_deg" => ("dynamic angle", "°"),
+            "by_centre_deg" => ("by the centre of mass", "°"),
+            "dilatancy_deg" => ("dilatancy", "°"),
+            "rate_kg_per_s" => ("discharge", " kg/s"),
+            "bulk_density" => ("bulk density", " kg/m³"),
+            "rate_over_beverloo" => ("over Beverloo's", ""),
+            other => (other, ""),
+        };
+        let [low, high] = self.spread.map(short);
+        let spread = if runs > 1 { format!(" ({low} to {high}{unit})") } else { String::new() };
+        format!("{} {}{unit}{spread}", name.replace('_', " "), short(self.mean))
+    }
 }
 
 /// One heap.

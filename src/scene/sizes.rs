@@ -91,9 +91,9 @@ impl Sizes {
                 if let Some(w) = c.windows(2).find(|w| falls(w)) {
                     return refuse(format!("{:?} comes after {:?}", w[1], w[0]), hint);
                 }
-                // To three decimals, as it is said.
-                let range = (last[0] / first[0] * 1e3).round() / 1e3;
+                let range = last[0] / first[0];
                 if range > RANGE {
+                    let range = (range * 1e3).round() / 1e3;
                     return refuse(
                         format!(
                             "the largest grain is {range} times the smallest, at most {RANGE} are possible"

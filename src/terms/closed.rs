@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Contacts that were left out, and what the answer is with them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LeftOutContacts {
     /// How many, and how far apart.
@@ -18,7 +18,7 @@ pub struct LeftOutContacts {
 }
 
 /// The answer with contacts closed that were left out.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Closed {
     /// How joints slide in it.
@@ -29,8 +29,8 @@ pub struct Closed {
     pub difference: Difference,
 }
 
-/// An answer in a word or a number.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// An answer in a word or a number, or few.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ClosedAnswer {
     /// Does it stand?
@@ -52,11 +52,8 @@ pub enum ClosedAnswer {
     },
     /// The flips of a verdict over a range.
     Flips {
-        /// How many.
-        count: usize,
-        /// The first, as the scan goes.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        first: Option<f64>,
+        /// Where they are, as the scan goes.
+        values: Vec<f64>,
         /// The verdict where the scan starts.
         start: Verdict,
     },
@@ -99,8 +96,8 @@ impl ClosedAnswer {
     }
 
     /// The higher, the safer; nothing where it is undecided.
-    pub fn height(self) -> Option<f64> {
-        match self {
+    pub fn height(&self) -> Option<f64> {
+        match *self {
             Self::Verdict(Verdict::Stable) => Some(2.0),
             Self::Verdict(Verdict::Conditional) => Some(1.0),
             Self::Verdict(Verdict::Unstable) => Some(0.0),
@@ -122,7 +119,7 @@ impl ClosedAnswer {
     }
 
     /// How this one differs from that of the scene as it is.
-    pub fn beside(self, given: Self) -> Difference {
+    pub fn beside(&self, given: &Self) -> Difference {
         let (Some(here), Some(there)) = (self.height(), given.height()) else {
             return Difference::Unknown;
         };
@@ -133,19 +130,22 @@ impl ClosedAnswer {
         }
     }
 
-    /// How the numbers of two that are as high as each other differ.
-    fn numbers_beside(self, given: Self) -> Difference {
+    /// How the numbers of two that are as high as each other differ; of two that are of different
+    /// kinds that is not known.
+    fn numbers_beside(&self, given: &Self) -> Difference {
         let same = match (self, given) {
             (Self::Thrust { least: a, greatest: b }, Self::Thrust { least: c, greatest: d }) => {
-                match a.is(c).zip(b.is(d)) {
+                match a.is(*c).zip(b.is(*d)) {
                     Some((least, greatest)) => least && greatest,
                     None => return Difference::Unknown,
                 }
             }
-            (Self::Flips { count: n, first: a, .. }, Self::Flips { count: m, first: b, .. }) => {
-                n == m && a.zip(b).is_none_or(|(a, b)| close(a, b))
+            (Self::Flips { values: a, .. }, Self::Flips { values: b, .. }) => {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| close(*a, *b))
             }
-            _ => true,
+            (Self::Verdict(_), Self::Verdict(_))
+            | (Self::LoadFactor { .. }, Self::LoadFactor { .. }) => true,
+            _ => return Difference::Unknown,
         };
         if same { Difference::None } else { Difference::Another }
     }
@@ -179,7 +179,7 @@ mod tests {
         let end = |value| ClosedEnd { status: Outcome::Found, value: Some(value) };
         let thrust = |a, b| ClosedAnswer::Thrust { least: end(a), greatest: end(b) };
         let open = ClosedEnd { status: Outcome::Undecided, value: None };
-        let flips = |count, first, start| ClosedAnswer::Flips { count, first, start };
+        let flips = |values: &[f64], start| ClosedAnswer::Flips { values: values.to_vec(), start };
         for (closed, given, wanted) in [
             (verdict(Stable), verdict(Stable), Difference::None),
             (verdict(Stable), verdict(Unstable), Difference::Stronger),
@@ -201,13 +201,16 @@ mod tests {
                 thrust(2.0, 3.0),
                 Difference::Unknown,
             ),
-            (flips(1, Some(0.4), Stable), flips(1, Some(0.4), Stable), Difference::None),
-            (flips(1, Some(0.4), Stable), flips(1, Some(0.5), Stable), Difference::Another),
-            (flips(0, None, Stable), flips(1, Some(0.5), Stable), Difference::Another),
-            (flips(0, None, Unstable), flips(1, Some(0.5), Stable), Difference::Weaker),
-            (flips(0, None, Undecided), flips(1, Some(0.5), Stable), Difference::Unknown),
+            // One end alone is no range, and no reason to call two answers one.
+            (verdict(Stable), thrust(2.0, 3.0), Difference::Unknown),
+            (flips(&[0.4], Stable), flips(&[0.4], Stable), Difference::None),
+            (flips(&[0.4], Stable), flips(&[0.5], Stable), Difference::Another),
+            (flips(&[0.4, 0.6], Stable), flips(&[0.4, 0.7], Stable), Difference::Another),
+            (flips(&[], Stable), flips(&[0.5], Stable), Difference::Another),
+            (flips(&[], Unstable), flips(&[0.5], Stable), Difference::Weaker),
+            (flips(&[], Undecided), flips(&[0.5], Stable), Difference::Unknown),
         ] {
-            assert_eq!(closed.beside(given), wanted, "{closed:?} beside {given:?}");
+            assert_eq!(closed.beside(&given), wanted, "{closed:?} beside {given:?}");
         }
     }
 }

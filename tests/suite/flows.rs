@@ -142,7 +142,20 @@ fn tables_of_grains_that_are_none_are_refused_with_their_line() {
     assert!(said("g.csv", "x,y,z,radius\n0,0,0,-1\n").contains("must be > 0"));
     assert!(said("g.csv", "x,y,z,radius\n0,0\n").contains("expected a finite number, got \"\""));
     assert!(said("g.dump", "ITEM: TIMESTEP\n0\nITEM: ATOMS id type\n1 1\n").contains("no column"));
+    // Shares of the box are no lengths.
+    let scaled = "ITEM: TIMESTEP\n0\nITEM: ATOMS id xs ys zs radius\n1 0.5 0.5 0.5 0.005\n";
+    assert!(said("s.dump", scaled).contains("no column \"x\""));
     assert!(said("g.csv", "").contains("no blocks found"));
+}
+
+/// What a type means is a guess, and is said.
+#[test]
+fn spheres_that_are_taken_for_supports_are_told() {
+    let dump = "ITEM: ATOMS id type x y z radius\n1 1 0 0 0.015 0.005\n2 2 0 0 0.005 0.005\n";
+    let read = import_bytes("t.dump", dump.as_bytes(), &ImportOptions::default()).unwrap();
+    assert_eq!(read.scene.blocks.iter().filter(|b| b.support).count(), 1);
+    let said = |t: &str| t.contains("spheres of type 2, read as supports: 1");
+    assert!(read.findings.iter().any(|f| said(&f.text)), "{:?}", read.findings);
 }
 
 /// Grains that begin where a heap came to rest stay there; what lies outside is refused.
@@ -193,7 +206,7 @@ fn grains_follow_a_grading_curve() {
     assert!(grains.iter().all(|g| (0.006..=0.02).contains(&g.0)));
 }
 
-/// Beverloo's discharge, coarsely: few grains. The figures of large bins are in docs/grains.md.
+/// Beverloo's discharge, coarsely: few grains. That of 1,000 grains is in docs/grains.md.
 #[test]
 fn a_hopper_runs_out_as_beverloo_has_it() {
     let protocol = Protocol {

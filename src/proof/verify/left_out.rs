@@ -17,14 +17,15 @@ use crate::{
 /// The numbers of what was left out are those of the scene; the answer with it is asked again.
 pub(super) fn left_out(file: &ResultFile, scene: &Scene, model: &Model) -> Findings {
     let mut f = Findings::default();
-    let (said, here) = (file.left_out_contacts, model.interfaces.left_out);
-    let same = match (said.map(|s| s.contacts), here) {
+    let (said, here) = (&file.left_out_contacts, model.interfaces.left_out);
+    let same = match (said.as_ref().map(|s| s.contacts), here) {
         (None, None) => return f,
         (Some(said), Some(here)) => alike(said, here),
         _ => false,
     };
     require(&mut f, same, "the contacts that were left out are those of the scene");
-    let Some(closed) = said.and_then(|s| s.closed).filter(|_| same) else { return f };
+    let closed = said.as_ref().and_then(|s| s.closed.as_ref());
+    let Some(closed) = closed.filter(|_| same) else { return f };
     let given = match (file.question, file.answer.verdict(), file.answer.bound()) {
         (QuestionKind::Assess, Some(verdict), _) => {
             Some(ClosedAnswer::verdict(verdict, closed.law))
@@ -54,10 +55,10 @@ pub(super) fn left_out(file: &ResultFile, scene: &Scene, model: &Model) -> Findi
     let ok = again.map(|again| {
         again.is_some_and(|(law, answer)| {
             law == closed.law
-                && (answer == closed.answer || answer.beside(closed.answer) == Difference::None)
+                && (answer == closed.answer || answer.beside(&closed.answer) == Difference::None)
         })
     });
-    let follows = given.is_some_and(|given| closed.answer.beside(given) == closed.difference);
+    let follows = given.is_some_and(|given| closed.answer.beside(&given) == closed.difference);
     computed(&mut f, ok, "the answer with contacts closed that were left out".into());
     require(&mut f, follows, "how it differs follows from the two");
     f
@@ -67,8 +68,7 @@ pub(super) fn left_out(file: &ResultFile, scene: &Scene, model: &Model) -> Findi
 fn flips(file: &ResultFile) -> Option<ClosedAnswer> {
     let (found, c) = (file.answer.critical()?, file.critical.as_ref()?);
     let start = c.scan.first().and_then(|s| s.verdict).unwrap_or(Verdict::Undecided);
-    let first = found.first().map(|f| f.value);
-    Some(ClosedAnswer::Flips { count: found.len(), first, start })
+    Some(ClosedAnswer::Flips { values: found.iter().map(|f| f.value).collect(), start })
 }
 
 /// Counts alike, lengths up to the digits that a file keeps.

@@ -4,7 +4,7 @@ use super::{Part, Record, Section};
 use crate::{
     number::{count, short},
     proof::result::Versions,
-    report::heaps::{Figure, HeapResult, ReposeFile},
+    report::heaps::{HeapResult, ReposeFile},
     scene::ProtocolKind,
     terms::Outcome,
 };
@@ -12,7 +12,7 @@ use serde_json::Value;
 
 /// Of the values of a protocol.
 const UNITS: &str = "Diameter in m, density in kg/m³; size and rolling arm in mean diameters; rate in \
-                     √(g d), of a bed that is tilted in degrees per √(d/g).";
+                     √(g d), of what turns in degrees per √(d/g); pressure in ρ g d.";
 
 impl Record {
     /// The record of heaps: how they were made, what came of each, and the drawing of the first.
@@ -63,11 +63,8 @@ fn answer(file: &ReposeFile) -> String {
             count(file.heaps.len(), "heap")
         ),
         _ if !file.figures.is_empty() => {
-            let one = |f: &Figure| {
-                let [low, high] = f.spread.map(short);
-                format!("{} {} ({low} to {high})", f.name.replace('_', " "), short(f.mean))
-            };
-            file.figures.iter().map(one).collect::<Vec<_>>().join("; ")
+            let figures = file.figures.iter().map(|f| f.says(file.measured));
+            figures.collect::<Vec<_>>().join("; ")
         }
         _ => format!("no figure: {}", file.no_angle.as_deref().unwrap_or("not measured")),
     }

@@ -2,18 +2,18 @@
 
 use super::{
     SHOWN, TextOptions, cut,
+    left_out::left_out,
     page::{Page, Role},
     simulation,
 };
 use crate::{
-    analysis::{Closed, Difference, Law, Outcome, coulomb::Found},
-    number::{bracketed, decimals, ends, fixed, point, short},
+    analysis::{Outcome, coulomb::Found},
+    number::{bracketed, decimals, ends, fixed, point},
     proof::{
         answer::Answer,
         certificate::DryResult,
         result::{QuestionKind, ResultFile},
     },
-    terms::{ClosedAnswer, ClosedEnd},
     verdict::{Verdict, check::Claim},
 };
 
@@ -158,86 +158,6 @@ fn without_live_load(file: &ResultFile) -> Option<String> {
         Verdict::Conditional => Some(format!("{place} it stands only with a pre-stress")),
         Verdict::Unstable => Some(format!("{place} it falls")),
         Verdict::Stable | Verdict::Undecided => None,
-    }
-}
-
-/// What an answer is with contacts that were left out, where that is another one or not known.
-pub fn left_out(file: &ResultFile) -> Option<String> {
-    let said = file.left_out_contacts?;
-    // Time runs with the shapes themselves, not with these contacts.
-    if matches!(file.question, QuestionKind::Simulate | QuestionKind::Shake) {
-        return None;
-    }
-    let other = match said.closed {
-        Some(Closed { difference: Difference::None, .. }) => return None,
-        Some(closed) => format!("with them closed {}", closed_words(file, closed)),
-        None => "with them it may be another one".to_string(),
-    };
-    let l = said.contacts;
-    let overlaps = (l.overlaps > 0).then(|| {
-        format!("{} that overlap by up to {} m", pairs(l.overlaps), short(l.deepest_overlap))
-    });
-    let near = (l.near_misses > 0).then(|| {
-        format!("{} left apart by up to {} m", pairs(l.near_misses), short(l.greatest_gap))
-    });
-    let what = overlaps.into_iter().chain(near).collect::<Vec<_>>().join(" and ");
-    Some(format!("without contacts between {what}; {other}"))
-}
-
-fn pairs(n: usize) -> String {
-    if n == 1 { "1 pair of blocks".into() } else { format!("{n} pairs of blocks") }
-}
-
-fn closed_words(file: &ResultFile, closed: Closed) -> String {
-    let bound = |v: f64| match file.question {
-        QuestionKind::Tilt => format!("it falls at {:.4}°", v.atan().to_degrees()),
-        _ => format!("λ = {}", fixed(v, 6)),
-    };
-    let end = |e: ClosedEnd, none: &str| match e {
-        ClosedEnd { status: Outcome::Found, value: Some(v) } => format!("{} N", short(v)),
-        ClosedEnd { status: Outcome::Unbounded, .. } => none.into(),
-        _ => "undecided".into(),
-    };
-    let text = match closed.answer {
-        ClosedAnswer::Thrust { least, greatest } => {
-            let what = if file.answer.thrust().is_some_and(|t| t.member.is_some()) {
-                "force"
-            } else {
-                "thrust"
-            };
-            format!(
-                "the least {what} is {}, the greatest {}",
-                end(least, "without end"),
-                end(greatest, "without end")
-            )
-        }
-        ClosedAnswer::Flips { count: 0, start, .. } => {
-            return closed_words(file, Closed { answer: ClosedAnswer::Verdict(start), ..closed })
-                + " throughout";
-        }
-        ClosedAnswer::Flips { count, first, .. } => {
-            let first = short(first.unwrap_or(f64::NAN));
-            match count {
-                1 => format!("it flips at {first}"),
-                n => format!("it flips {n} times, first at {first}"),
-            }
-        }
-        ClosedAnswer::Verdict(Verdict::Stable) => "it stands".into(),
-        ClosedAnswer::Verdict(Verdict::Conditional) => "it stands only with a pre-stress".into(),
-        ClosedAnswer::Verdict(Verdict::Unstable) => "it falls".into(),
-        ClosedAnswer::LoadFactor { status: Outcome::Found, value } => {
-            bound(value.unwrap_or(f64::NAN))
-        }
-        ClosedAnswer::LoadFactor { status: Outcome::Unbounded, .. } => "there is no limit".into(),
-        ClosedAnswer::LoadFactor { status: Outcome::Impossible, .. } => "it falls".into(),
-        ClosedAnswer::Verdict(Verdict::Undecided)
-        | ClosedAnswer::LoadFactor { status: Outcome::Undecided, .. } => "it is undecided".into(),
-    };
-    // The bound of the answer itself is what it is to be held against.
-    let dry = file.dry.is_some() || file.coulomb_state.is_some();
-    match closed.law {
-        Law::Associative if dry => format!("{text} where joints open as they slide"),
-        _ => text,
     }
 }
 

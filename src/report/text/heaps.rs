@@ -4,7 +4,7 @@ use super::{Layout, Page, TextOptions, page::Role};
 use crate::{
     analysis::repose::seen::{Seen, Steady},
     number::{count, seconds, short},
-    report::heaps::{Figure, HeapResult, ReposeFile},
+    report::heaps::{HeapResult, ReposeFile},
     scene::ProtocolKind,
 };
 
@@ -30,11 +30,8 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
         }
         _ if !file.figures.is_empty() => {
             let over = count(file.measured, "run");
-            let one = |f: &Figure| {
-                let [low, high] = f.spread.map(short);
-                format!("{} {} ({low} to {high})", named(&f.name), short(f.mean))
-            };
-            let list: Vec<String> = file.figures.iter().take(2).map(one).collect();
+            let figures = file.figures.iter().take(2);
+            let list: Vec<String> = figures.map(|f| f.says(file.measured)).collect();
             page.title(&name, format!("{} over {over}", list.join(", ")), Role::Value);
         }
         _ => {
@@ -91,17 +88,6 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
         }),
     );
     page
-}
-
-/// The name of a figure in words.
-fn named(name: &str) -> String {
-    match name {
-        "dynamic_angle_deg" => "dynamic angle, °,".into(),
-        "by_centre_deg" => "by the centre of mass, °,".into(),
-        "rate_kg_per_s" => "discharge, kg/s,".into(),
-        "rate_over_beverloo" => "over Beverloo's".into(),
-        other => other.replace('_', " "),
-    }
 }
 
 /// What one run showed.

@@ -6,6 +6,7 @@ mod check;
 mod critical;
 mod heaps;
 mod kinematic;
+mod left_out;
 mod mechanism;
 mod moving;
 mod packing;
@@ -20,9 +21,9 @@ mod template;
 mod thrust;
 mod verdict;
 
-pub use answer::left_out;
 pub use check::{inspection, verification};
 pub use heaps::heaps;
+pub use left_out::left_out;
 pub use packing::packing;
 pub use page::{Layout, Page, Role, Span};
 pub use template::template;

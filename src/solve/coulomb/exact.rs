@@ -105,18 +105,15 @@ impl Exact {
                 return None;
             }
             let step = self.step(contacts, epsilon + spring, &q, &imbalance)?;
-            let mut share = 1.0;
-            let better = (0..SHARES).find_map(|_| {
-                let next: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + share * s).collect();
-                let (f, g) = self.response.forces(contacts, epsilon, FrictionLimits::Law, &next);
-                let falls = self.size(&g) < (1.0 - 0.1 * share) * size;
-                share *= 0.5;
-                falls.then_some((next, f, g))
+            let better = shortened(&q, &step, size, |next| {
+                let seen = self.response.forces(contacts, epsilon, FrictionLimits::Law, next);
+                let size = self.size(&seen.1);
+                (seen, size)
             });
             match better {
-                Some(better) => {
-                    spring = if share == 0.5 { 0.01 * spring } else { 10.0 * spring };
-                    (q, forces, imbalance) = better;
+                Some((next, seen, _, is_whole)) => {
+                    spring *= if is_whole { 0.01 } else { 10.0 };
+                    (q, (forces, imbalance)) = (next, seen);
                 }
                 None if size <= ENOUGH * allowed => {
                     return Some((Solved { forces, rates: q }, size));
@@ -189,15 +186,8 @@ impl Exact {
             }
             *left = left.checked_sub(1)?;
             let step = self.step(contacts, epsilon + drag, &q, &imbalance)?;
-            let mut share = 1.0;
-            let better = (0..SHARES).find_map(|_| {
-                let next: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + share * s).collect();
-                let (g, left) = look(self, &next);
-                let falls = left < (1.0 - 0.1 * share) * size;
-                share *= 0.5;
-                falls.then_some((next, g, left))
-            });
-            (q, imbalance, size) = better?;
+            let better = shortened(&q, &step, size, |next| look(self, next));
+            (q, imbalance, size, _) = better?;
         }
         None
     }
@@ -255,6 +245,24 @@ impl Exact {
     fn size(&self, imbalance: &[f64]) -> f64 {
         imbalance.iter().zip(&self.carried).map(|(g, c)| (g / c).powi(2)).sum::<f64>().sqrt()
     }
+}
+
+/// The longest of ever shorter steps that lowers the size of the imbalance; with what `look` saw
+/// there, that size, and whether it is the whole step.
+fn shortened<T>(
+    from: &[f64],
+    step: &[f64],
+    size: f64,
+    look: impl Fn(&[f64]) -> (T, f64),
+) -> Option<(Vec<f64>, T, f64, bool)> {
+    let mut share = 1.0;
+    (0..SHARES).find_map(|_| {
+        let next: Vec<f64> = from.iter().zip(step).map(|(q, s)| q + share * s).collect();
+        let (seen, left) = look(&next);
+        let (falls, is_whole) = (left < (1.0 - 0.1 * share) * size, share == 1.0);
+        share *= 0.5;
+        falls.then_some((next, seen, left, is_whole))
+    })
 }
 
 /// The imbalance that is none.

@@ -1,0 +1,87 @@
+//! Contacts that were left out, and what the answer is with them.
+
+use crate::{
+    number::{fixed, short},
+    proof::result::{QuestionKind, ResultFile},
+    terms::{Closed, ClosedAnswer, ClosedEnd, Difference, Law, Outcome},
+    verdict::Verdict,
+};
+
+/// What an answer is with contacts that were left out, where that is another one or not known.
+pub fn left_out(file: &ResultFile) -> Option<String> {
+    let said = file.left_out_contacts.as_ref()?;
+    // Time runs with the shapes themselves, not with these contacts.
+    if matches!(file.question, QuestionKind::Simulate | QuestionKind::Shake) {
+        return None;
+    }
+    let other = match &said.closed {
+        Some(Closed { difference: Difference::None, .. }) => return None,
+        Some(closed) => format!("with them closed {}", closed_words(file, closed)),
+        None => "with them it may be another one".to_string(),
+    };
+    let l = said.contacts;
+    let overlaps = (l.overlaps > 0).then(|| {
+        format!("{} that overlap by up to {} m", pairs(l.overlaps), short(l.deepest_overlap))
+    });
+    let near = (l.near_misses > 0).then(|| {
+        format!("{} left apart by up to {} m", pairs(l.near_misses), short(l.greatest_gap))
+    });
+    let what = overlaps.into_iter().chain(near).collect::<Vec<_>>().join(" and ");
+    Some(format!("without contacts between {what}; {other}"))
+}
+
+fn pairs(n: usize) -> String {
+    if n == 1 { "1 pair of blocks".into() } else { format!("{n} pairs of blocks") }
+}
+
+fn closed_words(file: &ResultFile, closed: &Closed) -> String {
+    let bound = |v: f64| match file.question {
+        QuestionKind::Tilt => format!("it falls at {:.4}°", v.atan().to_degrees()),
+        _ => format!("λ = {}", fixed(v, 6)),
+    };
+    let text = match &closed.answer {
+        ClosedAnswer::Thrust { least, greatest } => {
+            let member = file.answer.thrust().is_some_and(|t| t.member.is_some());
+            let what = if member { "force" } else { "thrust" };
+            // Of forces that exist, as the range beside it is.
+            return format!("the least {what} is {}, the greatest {}", end(least), end(greatest));
+        }
+        ClosedAnswer::Flips { values, start } => match &values[..] {
+            [] => format!("{} throughout", verdict(*start)),
+            values => {
+                let values: Vec<String> = values.iter().map(|v| short(*v)).collect();
+                format!("it flips at {}", values.join(", "))
+            }
+        },
+        ClosedAnswer::Verdict(v) => verdict(*v).into(),
+        ClosedAnswer::LoadFactor { status, value } => match (status, value) {
+            (Outcome::Found, Some(value)) => bound(*value),
+            (Outcome::Unbounded, _) => "there is no limit".into(),
+            (Outcome::Impossible, _) => verdict(Verdict::Unstable).into(),
+            (Outcome::Found | Outcome::Undecided, _) => verdict(Verdict::Undecided).into(),
+        },
+    };
+    // The bound of the answer itself is what it is to be held against.
+    let dry = file.dry.is_some() || file.coulomb_state.is_some();
+    match closed.law {
+        Law::Associative if dry => format!("{text} where joints open as they slide"),
+        _ => text,
+    }
+}
+
+fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Stable => "it stands",
+        Verdict::Conditional => "it stands only with a pre-stress",
+        Verdict::Unstable => "it falls",
+        Verdict::Undecided => "it is undecided",
+    }
+}
+
+fn end(end: &ClosedEnd) -> String {
+    match *end {
+        ClosedEnd { status: Outcome::Found, value: Some(v) } => format!("{} N", short(v)),
+        ClosedEnd { status: Outcome::Unbounded, .. } => "without end".into(),
+        _ => "undecided".into(),
+    }
+}
