@@ -262,13 +262,15 @@ fn start(path: &std::path::Path) -> anyhow::Result<Vec<BlockSpec>> {
     let scene = if is_scene {
         scene::read_file(path)?.0
     } else {
-        import_files(&[path], &ImportOptions::default())?.scene
+        let imported = import_files(&[path], &ImportOptions::default())?;
+        terminal::notes(&imported.findings);
+        imported.scene
     };
     let (held, free): (Vec<_>, Vec<_>) = scene.blocks.into_iter().partition(|b| b.support);
     if !held.is_empty() {
         let name = path.display();
-        super::terminal::say(&format!(
-            "note: {} of {name} are left out: the protocol brings its own",
+        terminal::say(&format!(
+            "note: left out of {name}: {}; the protocol brings its own",
             count(held.len(), "support")
         ));
     }

@@ -197,3 +197,17 @@ fn undecided_answers_say_why_and_what_next() {
         serde_json::from_str(&out(&expect(YES, voussoir(&["assess", &arch, "--json"])))).unwrap();
     assert!(json.get("doubt").is_none());
 }
+
+/// What a packing of one's own does not give to a protocol, and what was taken for granted of it.
+#[test]
+fn what_is_left_of_a_packing_of_ones_own_is_told() {
+    let desk = Desk::new();
+    let dump = "ITEM: ATOMS id type x y z radius\n1 1 9 9 9 0.005\n2 2 0 0 0.005 0.005\n";
+    fs::write(desk.path("own.dump"), dump).unwrap();
+    let start = desk.at("own.dump");
+    let run = ["repose", "drain", "grains=30", "size=[6,4]", "--question", "repose", "--start"];
+    let told = err(&expect(USAGE, voussoir(&[&run[..], &[&start]].concat())));
+    assert!(told.contains("spheres of type 2, read as supports: 1"), "{told}");
+    assert!(told.contains("own.dump: 1 support; the protocol brings its own"), "{told}");
+    assert!(told.contains("lies outside the box"), "{told}");
+}
