@@ -74,7 +74,10 @@ pub fn expand(template: &Template) -> Result<Vec<BlockSpec>, InputError> {
     for block in &mut blocks {
         block.id.insert_str(0, prefix);
         block.at = std::array::from_fn(|k| block.at[k] + at[k]);
-        block.material.clone_from(material);
+        // Backing has a material of its own.
+        if block.material.is_none() {
+            block.material.clone_from(material);
+        }
         if !is_finite(block) {
             return Err(InputError::at(
                 root,

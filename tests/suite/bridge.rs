@@ -408,6 +408,129 @@ fn backing_is_fill_of_its_own() {
     assert!(text.contains("bridge.fill.backing.passive: must be at least 0"), "{text}");
 }
 
+/// A bridge of two spans with masonry over its pier, or behind its springings as well.
+fn backed(backing: Value) -> Value {
+    let mut value = two_spans(json!({}));
+    value["materials"]["rubble"] = json!({ "density": 18e3 / 9.81 });
+    value["templates"][0]["bridge"]["fill"]["backing"] = backing;
+    value
+}
+
+/// Masonry over a pier is blocks that lie against both rings, the pier and each other; of the weight
+/// of the fill it changes none of the bridge's weight, nor of its moment; and it carries.
+#[test]
+fn backing_of_masonry_takes_part() {
+    let masonry = backed(json!({ "height": 1.0, "masonry": "rubble" }));
+    let m = model(&read(&masonry));
+    assert!(m.interfaces.left_out.is_none(), "{:?}", m.interfaces.left_out);
+    let told: Vec<&str> = m.findings().map(|f| f.text.as_str()).collect();
+    assert!(told.iter().all(|t| t.contains("touch only along an edge")), "{told:?}");
+    let courses: Vec<usize> = (0..m.assembly.blocks.len())
+        .filter(|&k| m.assembly.blocks[k].id.starts_with("backing_1_c"))
+        .collect();
+    assert!(courses.len() > 2, "{}", courses.len());
+    let beside = |k: usize, what: &str| {
+        let touching = m.interfaces.list.iter().filter_map(|f| match (f.a, f.b) {
+            (a, b) if a == k => Some(b),
+            (a, b) if b == k => Some(a),
+            _ => None,
+        });
+        touching.filter(|&j| m.assembly.blocks[j].id.starts_with(what)).count()
+    };
+    for &k in &courses {
+        assert!(beside(k, "s1_r2_") > 0 && beside(k, "s2_r2_") > 0, "{}", m.assembly.blocks[k].id);
+        assert_eq!(beside(k, "s1_r1_") + beside(k, "s2_r1_"), 0);
+    }
+    assert_eq!((beside(courses[0], "pier_1"), beside(courses[1], "backing_1_c00")), (1, 1));
+    // Weight, and its moment about the middle of the bridge.
+    let dead = |s: &Value| {
+        let m = model(&read(s));
+        let loads = m.assembly.dead_forces.iter().map(|f| {
+            let x = m.assembly.blocks[f.block].centroid.x + f.arm.x;
+            [-f.force.z, -f.force.z * x]
+        });
+        let own = m.assembly.free().map(|k| {
+            let b = &m.assembly.blocks[k];
+            [9.81 * b.mass, 9.81 * b.mass * b.centroid.x]
+        });
+        loads.chain(own).fold([0.0; 2], |sum, w| [sum[0] + w[0], sum[1] + w[1]])
+    };
+    let fill = backed(Value::Null);
+    let (with, without) = (dead(&masonry), dead(&fill));
+    close("weight", with[0], without[0], 1e-9);
+    close("moment", with[1], without[1], 1e-9);
+    // Fill without resistance holds no haunch, which masonry does.
+    let alone = |backing: Value| {
+        let mut value = backed(backing);
+        if let Some(fill) = value["templates"][0]["bridge"]["fill"].as_object_mut() {
+            fill.remove("friction_deg");
+        }
+        load_factor(&read(&value))
+    };
+    let stiff = alone(json!({ "height": 1.0, "masonry": "rubble" }));
+    assert!(stiff > 1.05 * alone(Value::Null), "{stiff}");
+    // A load over the pier presses on it.
+    let mut over = masonry.clone();
+    over["loads"]["live"][0]["road"]["x"] = json!(-0.5);
+    let m = model(&read(&over));
+    let top = *courses.last().expect("a course");
+    assert!(m.assembly.live[top].force.z < 0.0);
+}
+
+/// At the ends it stands on an abutment, and the fill resists at its back.
+#[test]
+fn backing_of_masonry_behind_the_springings() {
+    let value = |height: f64, behind: Value| {
+        let mut value = scene(PRESTWOOD, Some(1.5), 1.6375);
+        value["materials"]["rubble"] = json!({ "density": 1900 });
+        value["templates"][0]["bridge"]["fill"]["backing"] =
+            json!({ "height": height, "masonry": "rubble", "behind": behind });
+        value
+    };
+    let m = model(&read(&value(0.7, json!(0.8))));
+    assert!(m.interfaces.left_out.is_none(), "{:?}", m.interfaces.left_out);
+    let told: Vec<&str> = m.findings().map(|f| f.text.as_str()).collect();
+    assert!(told.iter().all(|t| t.contains("touch only along an edge")), "{told:?}");
+    for end in ["left", "right"] {
+        let lowest = m.assembly.find(&format!("backing_{end}_c00")).expect("a course");
+        let abutment = m.assembly.find(&format!("abutment_{end}")).expect("an abutment");
+        assert!(
+            m.interfaces
+                .list
+                .iter()
+                .any(|f| (f.a.min(f.b), f.a.max(f.b))
+                    == (lowest.min(abutment), lowest.max(abutment)))
+        );
+        let ids = m.interfaces.members.iter().map(|m| m.id.as_str());
+        assert!(ids.filter(|id| id.starts_with(&format!("soil_backing_{end}_c"))).count() > 1);
+    }
+    // The scene is its own mirror image.
+    let mut mirrored = value(0.7, json!(0.8));
+    mirrored["loads"]["live"][0]["road"]["x"] = json!(1.6375);
+    let here = load_factor(&read(&value(0.7, json!(0.8))));
+    close("mirrored", load_factor(&read(&mirrored)), here, 1e-7);
+    assert!(here > load_factor(&read(&scene(PRESTWOOD, Some(1.5), 1.6375))));
+    let told = |value: &Value| {
+        let Err(e) = voussoir::interface::prepare(&read(value)) else { panic!("no mistake") };
+        format!("{}: {}", e.path, e.message)
+    };
+    for (height, behind, wanted) in [
+        (0.7, json!(null), "backing.masonry: there is no pier"),
+        (0.7, json!(0.0), "backing.behind: must be > 0"),
+        (9.0, json!(0.8), "backing.height: as masonry it must lie between"),
+        (0.01, json!(0.8), "backing.height: as masonry it must lie between"),
+    ] {
+        let text = told(&value(height, behind));
+        assert!(text.contains(wanted), "{text}");
+    }
+    let mut both = value(0.7, json!(0.8));
+    both["templates"][0]["bridge"]["fill"]["backing"]["unit_weight"] = json!(2e4);
+    assert!(told(&both).contains("backing.unit_weight: is that of the material"));
+    let mut neither = value(0.7, json!(0.8));
+    neither["templates"][0]["bridge"]["fill"]["backing"] = json!({ "height": 0.7, "behind": 1 });
+    assert!(told(&neither).contains("behind: is how far masonry reaches"));
+}
+
 /// The pressure of an elastic half-space is steeper below the patch than at its ends; all of the load
 /// is there, about its own middle, and each share is the integral of the pressure.
 #[test]

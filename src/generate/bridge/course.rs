@@ -1,7 +1,7 @@
 //! Piers, and the course of the upper surface of a bridge: the chords of the extrados and the tops of
 //! the piers, from left to right.
 
-use super::{PierPlan, Plan, SpanPlan, voussoir};
+use super::{PierPlan, Plan, SpanPlan, backing::Masonry, voussoir};
 use crate::{
     error::InputError,
     generate::{check::Place, midline::Point},
@@ -35,10 +35,13 @@ impl Chord {
     }
 }
 
-/// The upper surface of a bridge.
-pub(super) fn chords(bridge: &Bridge, plan: &Plan) -> Vec<Chord> {
+/// The upper surface of a bridge: of the backing where it is masonry.
+pub(super) fn chords(bridge: &Bridge, plan: &Plan, masonry: Option<&Masonry>) -> Vec<Chord> {
     let mut list = Vec::new();
+    let ends = masonry.and_then(|m| m.ends.as_ref());
+    list.extend(ends.and_then(|[left, _]| left.chord()));
     for (s, span) in plan.spans.iter().enumerate() {
+        let backed = [s > 0 || ends.is_some(), s + 1 < plan.spans.len() || ends.is_some()];
         let last = span.rings.len() - 1;
         let n = span.rings[last].voussoirs.len();
         for (v, polygon) in span.rings[last].voussoirs.iter().enumerate() {
@@ -47,7 +50,15 @@ pub(super) fn chords(bridge: &Bridge, plan: &Plan) -> Vec<Chord> {
             let rise = to[1] - from[1];
             let is_level = rise.abs() <= crate::tolerance::GRID_SNAP * (to[0] - from[0]).abs();
             let towards = if is_level { 0.0 } else { rise.signum() };
-            list.push(Chord { block: voussoir(bridge, s, last, v, n), from, to, towards });
+            let chord = Chord { block: voussoir(bridge, s, last, v, n), from, to, towards };
+            match masonry {
+                Some(masonry) => list.extend(masonry.above(chord, backed)),
+                None => list.push(chord),
+            }
+        }
+        if let Some(over) = masonry.and_then(|m| m.piers.get(s)) {
+            list.extend(over.chord());
+            continue;
         }
         let Some(pier) = plan.piers.get(s) else { continue };
         let [.., right, left, _] = pier.body[..] else { continue };
@@ -56,6 +67,7 @@ pub(super) fn chords(bridge: &Bridge, plan: &Plan) -> Vec<Chord> {
             list.push(Chord { block, from: left, to: right, towards: 0.0 });
         }
     }
+    list.extend(ends.and_then(|[_, right]| right.chord()));
     list
 }
 

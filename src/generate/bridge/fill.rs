@@ -6,17 +6,19 @@
 //! side by `dispersal` (or the tangent of `dispersal_deg`) × depth, down to the extrados below its
 //! middle, and presses evenly on the length it has there; on a chord that it covers in part it acts at
 //! the middle of that part (Melbourne & Gilbert 1995 spread alike, 1 horizontally to 2 vertically); or
-//! it presses as in an elastic half-space (`pressure`). *Backing.* Below its height the strip has the
-//! backing's weight, and chords whose middle lies there its resistance.
+//! it presses as in an elastic half-space (`pressure`). *Backing.* As fill: below its height the strip
+//! has the backing's weight, and chords whose middle lies there its resistance. As masonry it is blocks
+//! (`backing`), on whose top and back the fill lies as on the extrados.
 
 use super::{
     Plan,
+    backing::{Haunching, Masonry},
     course::{Chord, chords},
     pressure::Pressure,
 };
 use crate::{
     error::InputError,
-    generate::check::Place,
+    generate::{check::Place, midline::Point},
     scene::{
         At, Load, Member, OnRoad,
         member::{Face, Near, Soil},
@@ -48,7 +50,11 @@ impl Road {
 }
 
 /// Checks the numbers of the fill, and that it lies on the arches.
-pub(super) fn check(bridge: &Bridge, plan: &Plan) -> Result<(), InputError> {
+pub(super) fn check(
+    bridge: &Bridge,
+    plan: &Plan,
+    masonry: Option<&Masonry>,
+) -> Result<(), InputError> {
     let Some(fill) = &bridge.fill else { return Ok(()) };
     let place = Place(Place::template("bridge").0.key("fill"));
     place.length("unit_weight", fill.unit_weight)?;
@@ -85,9 +91,19 @@ pub(super) fn check(bridge: &Bridge, plan: &Plan) -> Result<(), InputError> {
         }
     }
     if let Some(backing) = &fill.backing {
-        let place = Place(place.0.key("backing"));
+        let place = backing_place();
         place.length("height", backing.height)?;
-        place.length("unit_weight", backing.unit_weight)?;
+        match (&backing.masonry, backing.unit_weight) {
+            (None, weight) => place.length("unit_weight", weight.unwrap_or(f64::NAN))?,
+            (Some(name), Some(_)) => {
+                return Err(place.error(
+                    "unit_weight",
+                    format!("is that of the material {name:?}, of which the backing is"),
+                    "leave it out, or masonry",
+                ));
+            }
+            (Some(_), None) => {}
+        }
         if let Some(k) = backing.passive.filter(|k| !(k.is_finite() && *k >= 0.0)) {
             return Err(place.error(
                 "passive",
@@ -97,25 +113,39 @@ pub(super) fn check(bridge: &Bridge, plan: &Plan) -> Result<(), InputError> {
         }
     }
     let road = Road::of(bridge, fill, plan);
-    let list = chords(bridge, plan);
+    let list = chords(bridge, plan, masonry);
     let low = list.iter().flat_map(|c| [c.from, c.to]).find(|p| {
         road.height(p[0]) < p[1] - crate::tolerance::GRID_SNAP * bridge.spans[0].thickness
     });
     if let Some([x, z]) = low {
         return Err(place.error(
             "cover",
-            format!("the road is {} m high at x = {x}, the extrados {z} m", road.height(x)),
-            "a thicker cover, or a smaller gradient",
+            format!("the road is {} m high at x = {x}, what it lies on {z} m", road.height(x)),
+            "a thicker cover, a smaller gradient, or lower backing",
         ));
     }
     Ok(())
 }
 
+/// The place of the backing in errors.
+pub(super) fn backing_place() -> Place {
+    Place(Place::template("bridge").0.key("fill").key("backing"))
+}
+
+/// A bridge without mistakes in its plane, and its backing as masonry.
+fn plan(bridge: &Bridge) -> Option<(Plan, Option<Masonry>)> {
+    let plan = Plan::of(bridge).ok()?;
+    let masonry = Masonry::of(bridge, &plan).ok()?;
+    Some((plan, masonry))
+}
+
 /// The dead loads of the fill and the parapets, names and places as in the template.
 pub fn loads(bridge: &Bridge) -> Vec<Load> {
-    let (Some(fill), Ok(plan)) = (&bridge.fill, Plan::of(bridge)) else { return Vec::new() };
+    let (Some(fill), Some((plan, masonry))) = (&bridge.fill, plan(bridge)) else {
+        return Vec::new();
+    };
     let road = Road::of(bridge, fill, &plan);
-    let list = chords(bridge, &plan);
+    let list = chords(bridge, &plan, masonry.as_ref());
     let strip = |chord: &Chord| {
         let depth = [chord.from, chord.to].map(|p| (road.height(p[0]) - p[1]).max(0.0));
         let sum = depth[0] + depth[1];
@@ -126,7 +156,7 @@ pub fn loads(bridge: &Bridge) -> Vec<Load> {
     };
     let backed = |chord: &Chord| {
         let backing = fill.backing.as_ref()?;
-        let more = (backing.unit_weight - fill.unit_weight) * bridge.width;
+        let more = (backing.unit_weight? - fill.unit_weight) * bridge.width;
         let (x, area) = below(chord, &road, backing.height)?;
         down(chord, x, more * area)
     };
@@ -198,21 +228,22 @@ const USUAL_DISPERSAL: f64 = 0.5;
 
 /// The members that stand for the resistance of the fill, names and places as in the template.
 pub fn soil(bridge: &Bridge) -> Vec<Member> {
-    let (Some(fill), Ok(plan)) = (&bridge.fill, Plan::of(bridge)) else { return Vec::new() };
+    let (Some(fill), Some((plan, masonry))) = (&bridge.fill, plan(bridge)) else {
+        return Vec::new();
+    };
     let all = resistance(fill);
     let backing = fill.backing.as_ref();
     let road = Road::of(bridge, fill, &plan);
-    let resists = |chord: &Chord| {
-        let middle = [0, 1].map(|i| 0.5 * (chord.from[i] + chord.to[i]));
+    let resists = |(block, middle, towards): (String, Point, f64)| {
         let surface = road.height(middle[0]);
-        let own = backing.filter(|b| middle[1] < b.height).and_then(|b| b.passive);
-        let k = own.unwrap_or(all);
-        (chord.towards != 0.0 && surface > middle[1] && k > 0.0).then(|| Member {
-            id: format!("soil_{}", chord.block),
+        let own = backing.filter(|b| b.masonry.is_none() && middle[1] < b.height);
+        let k = own.and_then(|b| b.passive).unwrap_or(all);
+        (towards != 0.0 && surface > middle[1] && k > 0.0).then(|| Member {
+            id: format!("soil_{block}"),
             soil: Some(Soil {
-                block: chord.block.clone(),
+                block,
                 face: Face::Near(Near { near: [middle[0], 0.0, middle[1]] }),
-                direction: [chord.towards, 0.0, 0.0],
+                direction: [towards, 0.0, 0.0],
                 surface,
                 unit_weight: fill.unit_weight,
                 k,
@@ -220,7 +251,18 @@ pub fn soil(bridge: &Bridge) -> Vec<Member> {
             ..Member::default()
         })
     };
-    chords(bridge, &plan).iter().filter_map(resists).collect()
+    let chords = chords(bridge, &plan, masonry.as_ref()).into_iter().map(|c| {
+        let middle = [0, 1].map(|i| 0.5 * (c.from[i] + c.to[i]));
+        (c.block, middle, c.towards)
+    });
+    let ends = masonry.iter().flat_map(|m| &m.ends);
+    let backs = ends.flat_map(|[left, right]| {
+        let side = |of: &Haunching, k: usize, towards: f64| {
+            of.back(k).into_iter().map(move |(block, middle)| (block, middle, towards))
+        };
+        side(left, 0, 1.0).chain(side(right, 1, -1.0))
+    });
+    chords.chain(backs).filter_map(resists).collect()
 }
 
 /// What a load on the road comes to on the bridge.
@@ -244,10 +286,10 @@ pub struct Surface {
 impl Surface {
     /// Nothing where the bridge has a mistake.
     pub fn of(bridge: &Bridge) -> Option<Self> {
-        let plan = Plan::of(bridge).ok()?;
+        let (plan, masonry) = plan(bridge)?;
         let road = |f: &Fill| (Road::of(bridge, f, &plan), dispersal(f), f.distribution);
         Some(Self {
-            chords: chords(bridge, &plan),
+            chords: chords(bridge, &plan, masonry.as_ref()),
             fill: bridge.fill.as_ref().map(road),
             width: bridge.width,
         })

@@ -1,6 +1,7 @@
 //! The bridge: rings between springers and piers, and what the fill does to every chord of their
 //! extrados.
 
+mod backing;
 mod course;
 mod fill;
 mod pressure;
@@ -23,6 +24,7 @@ use crate::{
         template::{Bridge, BridgeSpan, Profile},
     },
 };
+use backing::Masonry;
 
 /// A bridge in its plane, about the origin of the template.
 struct Plan {
@@ -50,7 +52,8 @@ struct PierPlan {
 
 pub fn blocks(bridge: &Bridge) -> Result<Vec<BlockSpec>, InputError> {
     let plan = Plan::of(bridge)?;
-    fill::check(bridge, &plan)?;
+    let masonry = Masonry::of(bridge, &plan)?;
+    fill::check(bridge, &plan, masonry.as_ref())?;
     let prism = |polygon| Shape::Prism { polygon, depth: bridge.width };
     let mut blocks = Vec::new();
     for (s, span) in plan.spans.iter().enumerate() {
@@ -79,6 +82,7 @@ pub fn blocks(bridge: &Bridge) -> Result<Vec<BlockSpec>, InputError> {
             blocks.push(support(id, prism(span.placed(&ring.springers[side]))));
         }
     }
+    blocks.extend(masonry.iter().flat_map(|m| m.blocks(bridge.width)));
     Ok(blocks)
 }
 

@@ -3,7 +3,7 @@
 use super::fill::{dispersal, resistance};
 use crate::{
     number::short,
-    scene::template::{Bridge, Distribution},
+    scene::template::{Backing, Bridge, Distribution},
 };
 
 /// One line for each part of the model that can be switched, whether it is on or off.
@@ -38,9 +38,20 @@ pub fn said(bridge: &Bridge) -> Vec<String> {
         _ => "no passive pressure (neither passive nor friction_deg)".into(),
     });
     lines.push(match &fill.backing {
+        Some(Backing { masonry: Some(material), height, behind, .. }) => format!(
+            "backing of {material:?} up to {} m over the springings, as masonry in courses {}",
+            short(*height),
+            match behind {
+                Some(behind) => format!(
+                    "over the piers and, {} m wide, behind the springings of the ends",
+                    short(*behind)
+                ),
+                None => "over the piers; none at the ends of the bridge".into(),
+            }
+        ),
         Some(b) => format!(
             "backing of {} N/m³ up to {} m over the springings, passive pressure up to {} times; as fill, not as masonry",
-            short(b.unit_weight),
+            short(b.unit_weight.unwrap_or(fill.unit_weight)),
             short(b.height),
             short(b.passive.unwrap_or_else(|| resistance(fill)))
         ),

@@ -122,7 +122,7 @@ pub struct Fill {
     /// How it is distributed over the length that it spreads to.
     #[serde(default, skip_serializing_if = "super::is_default")]
     pub distribution: Distribution,
-    /// Heavier and stiffer fill over the springings.
+    /// Heavier and stiffer fill, or masonry, over the springings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub backing: Option<Backing>,
     /// Weight of both parapets per metre of the bridge, N/m.
@@ -142,19 +142,32 @@ pub enum Distribution {
     Boussinesq,
 }
 
-/// Backing over the springings, as fill of its own: it weighs and resists, and carries nothing
-/// itself.
+/// Backing over the springings: fill of its own, which weighs and resists and carries nothing itself;
+/// or masonry, which is blocks.
+///
+/// Masonry stands in level courses over the piers, between the extrados on both sides, named
+/// `backing_1_c00`, `backing_1_c01`, … over `pier_1` from below; with `behind` also at the ends, between
+/// extrados and a vertical back, as `backing_left_c00`, … and `backing_right_c00`, … on supports
+/// `abutment_left` and `abutment_right`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Backing {
-    /// Height of its level top above the springings, m; above the road nothing of it counts.
+    /// Height of its level top above the springings, m; as fill nothing of it counts above the road.
     pub height: f64,
-    /// Weight per volume, N/m³.
-    pub unit_weight: f64,
+    /// Weight per volume, N/m³, of backing as fill.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit_weight: Option<f64>,
     /// Passive coefficient of the chords whose middle lies below its top, with the unit weight of the
-    /// fill; that of the fill where absent.
+    /// fill; that of the fill where absent. Of backing as fill.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub passive: Option<f64>,
+    /// Name of a material: the backing is masonry of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub masonry: Option<String>,
+    /// How far masonry reaches behind the outer ends of the first and the last springing, m; where absent
+    /// there is none at the ends.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub behind: Option<f64>,
 }
 
 fn one() -> usize {
