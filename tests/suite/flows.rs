@@ -14,13 +14,37 @@ use voussoir::{
     assembly::{self, Solid},
     dynamics::granular::{Course, Disturbance, Moment, ROUNDS, flow},
     import::{ImportOptions, import_bytes},
-    report::grains::{GrainFormat, rows, written},
+    report::{
+        grains::{GrainFormat, rows, written},
+        heaps::{HeapResult, ReposeFile},
+        page,
+    },
     scene::{GrainKind, Protocol, ProtocolKind, Scene, Sizes},
     verdict::Verdict,
 };
 
 fn run(protocol: &Protocol, seed: u64) -> Heap {
     repose::heap(protocol, seed, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+/// The charts of the page: what was seen is drawn as it was seen, a line a seed.
+fn charts(protocol: &Protocol, heap: &Heap) -> Vec<page::Chart> {
+    let file = ReposeFile::new(protocol, vec![HeapResult::new(heap, None)]);
+    let charts = page::heaps(&file);
+    let columns: Vec<Vec<[f64; 2]>> = match heap.seen.as_ref().expect("seen") {
+        Seen::Drum { course, .. } | Seen::Hopper { course, .. } => vec![course.clone()],
+        Seen::Shear { course, .. } => {
+            [1, 2].map(|k| course.iter().map(|c| [c[0], c[k]]).collect()).to_vec()
+        }
+    };
+    assert_eq!(charts.len(), columns.len());
+    for (chart, course) in charts.iter().zip(columns) {
+        let [line] = &chart.series[..] else { panic!("one seed") };
+        assert!(line.line && line.name == format!("seed {}", heap.seed));
+        assert_eq!(line.points, course.iter().map(|c| c.map(Some)).collect::<Vec<_>>());
+        assert_eq!(line.hints.len(), line.points.len());
+    }
+    charts
 }
 
 /// Height of the centre of the only free block over the time, and where it is.
@@ -216,6 +240,7 @@ fn a_hopper_runs_out_as_beverloo_has_it() {
         ..Protocol::default()
     };
     let heap = run(&protocol, 1);
+    assert!(charts(&protocol, &heap)[0].title.contains("run out"));
     let Some(Seen::Hopper { rate, beverloo, bulk_density, course }) = &heap.seen else {
         panic!("{:?}", heap.refused)
     };
@@ -236,6 +261,7 @@ fn a_drum_carries_its_grains_up_to_a_slope() {
         ..Protocol::default()
     };
     let heap = run(&protocol, 1);
+    assert!(charts(&protocol, &heap)[0].y.label.contains("degrees"));
     let Some(Seen::Drum { angle_deg, by_centre_deg, froude, .. }) = &heap.seen else {
         panic!("{:?}", heap.refused)
     };
@@ -263,6 +289,7 @@ fn a_shear_box_tells_friction() {
             ..Protocol::default()
         };
         let heap = run(&protocol, 1);
+        charts(&protocol, &heap);
         match heap.seen.clone() {
             Some(Seen::Shear { residual, peak, normal_stress, .. }) => {
                 let lid = protocol.pressure * protocol.density * 9.81 * protocol.diameter;

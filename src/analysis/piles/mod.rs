@@ -7,7 +7,10 @@
 //!
 //! Closed chains were also tried by a few Newton steps on compliant contacts, with the ladder of
 //! `assess` only where these proved nothing: 819 piles of ten boxes a second against 859 of `assess`
-//! alone, for what falls and what slides costs a program in any case.
+//! alone, for what falls and what slides costs a program in any case. The interior-point method of this
+//! crate in place of clarabel takes a sixth less of the time and says the same. The state first, with
+//! the program only where it does not rest: what stands takes 0.77 ms in it and 2.4 ms in `assess`, but
+//! its forces are too far from balance to prove anything, and what falls takes 2.7 ms there in vain.
 
 mod margin;
 

@@ -1,7 +1,7 @@
 //! Charts as data; the page draws them, with values where one points.
 
 use crate::{
-    analysis::Attempt,
+    analysis::{Attempt, repose::seen::Seen},
     number::{seconds, short},
     proof::ResultFile,
     report::{
@@ -185,8 +185,12 @@ fn hint(a: &Attempt, spent: f64, width: f64) -> String {
     )
 }
 
-/// The angle of every heap against its seed.
-pub fn heaps(file: &ReposeFile) -> Option<Chart> {
+/// The angle of every heap, or what drums, hoppers and shear boxes show on their way.
+pub fn heaps(file: &ReposeFile) -> Vec<Chart> {
+    angles(file).into_iter().chain(flows(file)).collect()
+}
+
+fn angles(file: &ReposeFile) -> Option<Chart> {
     let there: Vec<_> = file.heaps.iter().filter_map(|h| Some((h, h.angle_deg?))).collect();
     if there.is_empty() {
         return None;
@@ -207,4 +211,76 @@ pub fn heaps(file: &ReposeFile) -> Option<Chart> {
         series: vec![series],
         ..Chart::default()
     })
+}
+
+/// The courses of what flows, a line for every seed.
+fn flows(file: &ReposeFile) -> Vec<Chart> {
+    let seen = || file.heaps.iter().filter_map(|h| Some((h.seed, h.seen.as_ref()?)));
+    // Title, axes and note of every chart of a kind, and what stands along and up in it.
+    type Course = (&'static str, [&'static str; 2], &'static str, fn(&Seen) -> Vec<[f64; 2]>);
+    let courses: &[Course] = match seen().next() {
+        None => return Vec::new(),
+        Some((_, Seen::Drum { .. })) => &[(
+            "Slope of the surface as the drum turns",
+            ["angle turned, degrees", "slope, degrees"],
+            "The mean is over all of it.",
+            |seen| match seen {
+                Seen::Drum { course, .. } => course.clone(),
+                _ => Vec::new(),
+            },
+        )],
+        Some((_, Seen::Hopper { .. })) => &[(
+            "What has run out",
+            ["time since the hole was opened, s", "kg"],
+            "The discharge is the slope between 0.1 and 0.5 of what was filled in.",
+            |seen| match seen {
+                Seen::Hopper { course, .. } => course.clone(),
+                _ => Vec::new(),
+            },
+        )],
+        Some((_, Seen::Shear { .. })) => &[
+            (
+                "Resistance to shear",
+                ["way, m", "shear over normal force"],
+                "The residual is the mean of the last two fifths of the way.",
+                |seen| match seen {
+                    Seen::Shear { course, .. } => course.iter().map(|c| [c[0], c[1]]).collect(),
+                    _ => Vec::new(),
+                },
+            ),
+            (
+                "Rise of the lid",
+                ["way, m", "m"],
+                "Where it rises most steeply is the dilatancy.",
+                |seen| match seen {
+                    Seen::Shear { course, .. } => course.iter().map(|c| [c[0], c[2]]).collect(),
+                    _ => Vec::new(),
+                },
+            ),
+        ],
+    };
+    let chart = |(title, [along, up], note, course): &Course| {
+        let line = |(seed, seen): (u64, &Seen)| {
+            let points = course(seen);
+            Series {
+                name: format!("seed {seed}"),
+                line: true,
+                hints: points
+                    .iter()
+                    .map(|p| format!("seed {seed}: {} at {}", short(p[1]), short(p[0])))
+                    .collect(),
+                points: points.into_iter().map(|p| p.map(Some)).collect(),
+                ..Series::default()
+            }
+        };
+        Chart {
+            title: (*title).into(),
+            x: Axis::new(*along, false),
+            y: Axis::new(*up, false),
+            series: seen().map(line).collect(),
+            note: (*note).into(),
+            ..Chart::default()
+        }
+    };
+    courses.iter().map(chart).collect()
 }
