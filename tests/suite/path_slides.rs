@@ -17,9 +17,8 @@ fn settled(scene: &Scene, moves: &[(&str, [f64; 3], [f64; 3])], at: &[f64]) -> R
     let moves = moves
         .iter()
         .map(|(support, way, turn_deg)| SupportMove {
-            support: (*support).into(),
-            way: *way,
             turn_deg: *turn_deg,
+            ..SupportMove::along(*support, *way)
         })
         .collect();
     let options = SettleOptions { moves, at: at.to_vec(), ..Default::default() };
